@@ -1,0 +1,118 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace clackers {
+
+/// What a code stands for: `clackers explain CODE` prints it, `explain` alone lists all.
+struct CodeEntry {
+  std::string_view name;     ///< kebab-case, never reused for another meaning
+  std::string_view kind;     ///< "refusal", "failure", "behaviour", "reason" or "verdict"
+  std::string_view meaning;  ///< what happened and what to do about it
+};
+
+// One row a code. A row is added where the message is written, never taken away.
+inline constexpr auto code_table = std::to_array<CodeEntry>({
+    // What was measured: the seven behaviours and their reasons.
+    {"exact", "behaviour",
+     "The error is at the rounding floor at every level: the method reproduces the motion itself."},
+    {"proper", "behaviour",
+     "Error against step is a straight line in logarithmic axes with the claimed order as slope, "
+     "over at least four consecutive levels above the rounding floor."},
+    {"reduced", "behaviour",
+     "The line is straight but its slope is lower than the order the method claims."},
+    {"irregular", "behaviour",
+     "The error shrinks with the step, yet scatters so much between neighbouring steps that no line "
+     "can be fitted; the order of the upper envelope over many neighbouring steps is given instead. "
+     "Usual for methods that notice an impact only at the end of a step."},
+    {"stagnating", "behaviour",
+     "The error stops shrinking above the rounding floor. The reason is given beside it."},
+    {"divergent", "behaviour",
+     "The error grows when the step is refined, or the energy of the run leaves [1/2, 2] of the "
+     "true one."},
+    {"undecided", "behaviour", "The runs do not carry a judgement; what to change is said beside it."},
+    {"contact-stiffness", "reason",
+     "The floor is the model error of a compliant contact: each impact lasts a contact time instead "
+     "of an instant. A larger contact stiffness lowers it, and needs smaller steps."},
+    {"tolerance-floor", "reason", "The floor is an iteration tolerance of the method; tighten it."},
+    {"unexplained-floor", "reason",
+     "The error stops shrinking and nothing the method states of itself explains it. Look for a "
+     "tolerance, an interpolation or single precision inside it."},
+    {"too-few-levels", "reason",
+     "Fewer than four levels lie between the coarse range, where nothing converges yet, and the "
+     "rounding floor. Use more --levels or another --coarsest."},
+    {"contact-not-resolved", "reason",
+     "Even the smallest step is longer than 1/25 of the contact time, so the penalty contact was "
+     "never integrated. Use more levels, smaller steps or a softer contact."},
+    {"no-convergence-yet", "reason",
+     "The error has not started to shrink in a regular way. Use smaller steps: more --levels or a "
+     "smaller --coarsest."},
+    {"run-failed", "reason", "Runs ended before their end time; the first failure is quoted."},
+    {"energy-growth", "reason", "The run's energy left [1/2, 2] of the true one."},
+    {"error-growth", "reason", "The error grew when the step was refined."},
+    {"diverged", "failure", "A run left the range of finite numbers, usually beyond a stability limit."},
+    {"newton-failed", "failure",
+     "Newton's iteration did not reach its tolerance within its limit of iterations in some step."},
+    {"too-many-impacts", "failure",
+     "More impacts happened inside one step than the treatment allows; impacts accumulate."},
+    {"simultaneous-contacts", "refusal",
+     "Two contacts close together; the treatment handles one at a time and has no complementarity "
+     "solver."},
+    // Verdicts: what was found against what is claimed.
+    {"agrees", "verdict", "What was measured is what the method claims."},
+    {"disagrees", "verdict", "What was measured contradicts what the method claims."},
+    {"not-claimed", "verdict", "The method claims nothing here, so nothing was compared."},
+    // Refused input.
+    {"not-a-number", "refusal", "A number was asked for and NaN, or text that is no number, was given."},
+    {"not-finite", "refusal", "An infinite value was given where only finite numbers make sense."},
+    {"out-of-range", "refusal", "A value lies outside the range that the message states."},
+    {"wrong-size", "refusal", "Matrices, vectors or lists do not fit together in size."},
+    {"not-positive-definite", "refusal", "The mass matrix is not symmetric positive definite."},
+    {"not-symmetric", "refusal", "The damping or stiffness matrix is not symmetric."},
+    {"starts-in-contact", "refusal",
+     "The initial state violates a contact: its gap is negative, or closed and closing."},
+    {"not-odd", "refusal",
+     "The frequency ratio X must be an odd whole number, or 1 over one; only then do both masses "
+     "pass equilibrium together at every collision."},
+    {"not-admissible", "refusal",
+     "The mass ratio r reaches r*(X): the masses would also touch away from equilibrium and the "
+     "closed form would not hold. The message says where and when, and what to change."},
+    {"unknown-name", "refusal", "No case, method, parameter, code or option has this name."},
+    {"bad-syntax", "refusal", "The text does not follow the grammar of the command line."},
+    {"step-not-positive", "refusal", "A step must be positive, finite and not longer than the run."},
+    {"too-many-steps", "refusal", "The run would need more than 1e9 steps and could not end."},
+    {"penalty-needs-elastic", "refusal",
+     "A linear penalty spring gives back what it takes, so it can only stand for restitution 1."},
+    {"beyond-last-impact", "refusal", "Collisions end before the index that was asked for."},
+    {"time-outside", "refusal", "A time lies outside the interval in which the motion is known."},
+    // Files and the outside world.
+    {"cannot-write", "failure", "A file could not be written; nothing half-written was left behind."},
+    {"cannot-read", "failure", "A file could not be read."},
+    {"interrupted", "failure",
+     "The run was interrupted (Ctrl-C). Finished rows were kept and the output is marked."},
+});
+
+/// The row of a code, or nullptr for an unknown one.
+constexpr const CodeEntry* find_code(std::string_view name) {
+  const auto row = std::find_if(code_table.begin(), code_table.end(),
+                                [&](const CodeEntry& entry) { return entry.name == name; });
+  return row == code_table.end() ? nullptr : &*row;
+}
+
+/// The name of a row of `code_table`. A misspelled one does not compile.
+class Code {
+ public:
+  consteval Code(const char* name) : entry_(find_code(name)) {
+    if (entry_ == nullptr) throw "no such code in code_table";
+  }
+  constexpr std::string_view name() const { return entry_->name; }
+  constexpr std::string_view meaning() const { return entry_->meaning; }
+  friend constexpr bool operator==(Code one, Code other) { return one.entry_ == other.entry_; }
+
+ private:
+  const CodeEntry* entry_;
+};
+
+}  // namespace clackers

@@ -1,0 +1,55 @@
+#include "clackers/base/judgement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "clackers/base/error.hpp"
+
+namespace clackers {
+namespace {
+
+template <class Word>
+using Spelling = std::pair<Word, std::string_view>;
+
+constexpr std::array<Spelling<Behaviour>, 7> behaviours{{{Behaviour::exact, "exact"},
+                                                         {Behaviour::proper, "proper"},
+                                                         {Behaviour::reduced, "reduced"},
+                                                         {Behaviour::irregular, "irregular"},
+                                                         {Behaviour::stagnating, "stagnating"},
+                                                         {Behaviour::divergent, "divergent"},
+                                                         {Behaviour::undecided, "undecided"}}};
+
+constexpr std::array<Spelling<Verdict>, 4> verdicts{{{Verdict::agrees, "agrees"},
+                                                     {Verdict::disagrees, "disagrees"},
+                                                     {Verdict::not_claimed, "not claimed"},
+                                                     {Verdict::undecided, "undecided"}}};
+
+template <class Table, class Word>
+std::string_view spell(const Table& table, Word word) {
+  return std::ranges::find(table, word, &Table::value_type::first)->second;
+}
+
+template <class Table>
+auto read(const Table& table, std::string_view text, std::string_view what,
+          std::string_view allowed) {
+  const auto row = std::ranges::find(table, text, &Table::value_type::second);
+  if (row == table.end()) refuse("clackers", what, text, allowed, {}, "unknown-name");
+  return row->first;
+}
+
+}  // namespace
+
+std::string_view to_string(Behaviour behaviour) { return spell(behaviours, behaviour); }
+std::string_view to_string(Verdict verdict) { return spell(verdicts, verdict); }
+
+Behaviour behaviour_from(std::string_view text) {
+  return read(behaviours, text, "behaviour",
+              "exact, proper, reduced, irregular, stagnating, divergent, undecided");
+}
+
+Verdict verdict_from(std::string_view text) {
+  return read(verdicts, text, "verdict", "agrees, disagrees, not claimed, undecided");
+}
+
+}  // namespace clackers

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string_view>
+
+namespace clackers {
+
+/// What was measured of a method on a ladder of steps; one a method. The codes of the same
+/// names (`clackers explain proper`) define each in words.
+enum class Behaviour { exact, proper, reduced, irregular, stagnating, divergent, undecided };
+
+/// What was found against what is claimed.
+enum class Verdict { agrees, disagrees, not_claimed, undecided };
+
+std::string_view to_string(Behaviour behaviour);
+std::string_view to_string(Verdict verdict);  ///< "agrees", "disagrees", "not claimed", "undecided"
+
+/// The reverse of to_string. Throws InputError for any other text.
+Behaviour behaviour_from(std::string_view text);
+Verdict verdict_from(std::string_view text);
+
+}  // namespace clackers

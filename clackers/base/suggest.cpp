@@ -1,0 +1,52 @@
+#include "clackers/base/suggest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "clackers/base/error.hpp"
+
+namespace clackers {
+namespace {
+
+// Optimal string alignment: the edit distance with swaps of neighbouring letters.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + change});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::string nearest(std::string_view given, std::span<const std::string> known) {
+  std::string best;
+  std::size_t least = given.size() / 3 + 2;
+  for (const auto& name : known) {
+    const auto far = distance(given, name);
+    if (far < least) {
+      least = far;
+      best = name;
+    }
+  }
+  return best;
+}
+
+void refuse_name(std::string_view what, std::string_view given, std::span<const std::string> known,
+                 std::string_view where_listed) {
+  const auto guess = nearest(given, known);
+  throw InputError(fmt::format("clackers: no {} \"{}\".{} All names: {}", what, given,
+                               guess.empty() ? "" : fmt::format(" Did you mean \"{}\"?", guess),
+                               where_listed),
+                   "unknown-name");
+}
+
+}  // namespace clackers

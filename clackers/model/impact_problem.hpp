@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "clackers/model/system.hpp"
+
+namespace clackers::model {
+
+/// One row of the contact condition g = b . u - gap >= 0 with Newton's law of restitution:
+/// at an impact b . v(+) = -restitution b . v(-), by an impulse along b.
+template <int Dof = any_dof>
+struct Contact {
+  Vector<Dof> direction;     ///< b, dimensionless; (1, -1) keeps mass 1 above mass 2
+  double gap = 0.0;          ///< [m]; contact happens at b . u = gap
+  double restitution = 1.0;  ///< eta in [0, 1]; 1 is elastic
+
+  /// g [m]: open where positive.
+  double opening(const Vector<Dof>& u) const { return direction.dot(u) - gap; }
+  /// dg/dt [m/s]: closing where negative.
+  double opening_rate(const Vector<Dof>& v) const { return direction.dot(v); }
+};
+
+/// All that a method sees of a task: a structure, where it may collide, how it starts, and when
+/// the run ends [s].
+template <int Dof = any_dof>
+struct ImpactProblem {
+  SmoothSystem<Dof> system;
+  std::vector<Contact<Dof>> contacts;  ///< empty: no contact anywhere
+  State<Dof> start;
+  double end = 0.0;
+
+  Eigen::Index dof() const { return system.dof(); }
+};
+
+/// Throws InputError unless sizes fit, all numbers are finite, the mass matrix is symmetric
+/// positive definite, damping and stiffness are symmetric, restitutions lie in [0, 1], no contact
+/// is violated at the start, and the end lies after the start.
+void validate(const ImpactProblem<>& problem);
+
+/// The same problem with its number of degrees of freedom known at compile time (Dof is 1, 2 or
+/// any_dof). A nonlinear force does not carry over, since its type knows the size: throws
+/// InputError if there is one and Dof is not any_dof, or if the sizes differ.
+template <int Dof>
+ImpactProblem<Dof> with_dof(const ImpactProblem<>& problem);
+
+}  // namespace clackers::model

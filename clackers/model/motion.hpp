@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <span>
+
+namespace clackers::model {
+
+/// Which of two flights is meant where they meet.
+enum class Side { left, right };
+
+/// Displacement [m], velocity [m/s] and acceleration [m/s^2] of every mass at one time. Also used
+/// for bounds and envelopes of them.
+struct Kinematics {
+  Eigen::VectorXd u, v, a;
+};
+
+/// Where `Motion::sample` writes: row-major (time, mass), each of size times x dof. `a` may be
+/// empty when accelerations are not wanted.
+struct SampleBuffers {
+  std::span<double> u, v, a;
+};
+
+/// The interval [lo, hi] in seconds that certainly holds the true instant.
+struct TimeEnclosure {
+  double lo = 0.0, hi = 0.0;
+};
+
+/// One impact of a true motion.
+struct MotionImpact {
+  long long index = 0;    ///< 1 for the first
+  double t = 0.0;         ///< the double nearest to the true instant [s]
+  TimeEnclosure when;     ///< hi - lo is the whole uncertainty
+  int contact = 0;        ///< row of ImpactProblem::contacts
+  Kinematics before;      ///< left limits
+  Kinematics after;       ///< right limits
+  double impulse = 0.0;   ///< along the contact's direction [N s]
+  double energy_before = 0.0, energy_after = 0.0;  ///< of the whole structure [J]
+};
+
+/// A true motion: what happens, to the last digit, with a proved bound on what is missing.
+/// It may have 3e8 impacts, so they are asked for one by one.
+class Motion {
+ public:
+  virtual ~Motion() = default;
+
+  virtual int dof() const = 0;
+  /// The instant up to which the motion is known [s].
+  virtual double end() const = 0;
+
+  /// The states at `times` (any order, each within [0, end()]). Where a time is the double nearest
+  /// to an impact, `side` says which of the two flights is evaluated there; everywhere else the
+  /// flight that truly holds. Throws InputError outside.
+  virtual void sample(std::span<const double> times, Side side, SampleBuffers out) const = 0;
+  /// One state; the same rules.
+  Kinematics at(double t, Side side) const;
+
+  /// The amplitude that each component has around t; for the numbers of errors relative to it.
+  virtual Kinematics envelope(double t) const = 0;
+  /// Proved bound on |computed - true| of each component at t.
+  virtual Kinematics error_bound(double t) const = 0;
+
+  /// Number of impacts in [0, t].
+  virtual long long impact_count(double t) const = 0;
+  /// Impact `index` = 1, 2, ... Throws InputError beyond impact_count(end()).
+  virtual MotionImpact impact(long long index) const = 0;
+  /// The instant up to which no impact can have been missed.
+  virtual double complete_until() const { return end(); }
+};
+
+}  // namespace clackers::model

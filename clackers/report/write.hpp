@@ -1,0 +1,42 @@
+#pragma once
+
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "clackers/study/record.hpp"
+#include "clackers/study/sheet.hpp"
+
+namespace clackers::report {
+
+enum class Format { table, csv, json };
+
+/// Throws InputError with did-you-mean for any text but table, csv, json.
+Format format_from(std::string_view text);
+
+/// How a table may look on the terminal at hand.
+struct Style {
+  bool color = false;
+  int width = 80;
+};
+
+/// Rows, one by one: a table at 80 columns, csv with a header line, or json with the schema, the
+/// columns and the rows. Numbers of csv and json read back to the same double.
+void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style = {});
+
+/// Several sheets, one below the other; json: one object whose "sheets" holds all. `schema` names it.
+void write(std::span<const study::Sheet> sheets, std::string_view schema, Format format,
+           std::ostream& out, const Style& style = {});
+
+/// A study: the verdict table with its closing lines, a csv row for every run, or its json.
+void write(const study::Record& record, Format format, std::ostream& out, const Style& style = {});
+
+/// One self-contained html page that opens without a network.
+std::string html(const study::Record& record);
+
+/// The displacements as a picture of characters, masses marked 1 and 2, collisions on the axis.
+std::string plot(const study::Curve& response, std::span<const double> impact_times,
+                 const Style& style = {});
+
+}  // namespace clackers::report

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "clackers/cases/case.hpp"
+#include "clackers/study/sheet.hpp"
+
+namespace clackers::study {
+
+/// What `clackers list KIND` shows; KIND is cases, integrators, contacts, methods, pairs or
+/// metrics. Throws InputError with did-you-mean for any other.
+Sheet list(std::string_view kind);
+
+/// What `clackers show NAME` shows of a case: parameters, derived constants, indicators, margin,
+/// first collisions.
+std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
+                             double threshold);
+
+/// What `clackers show NAME` shows of a method: its claim, parameters and card. The card is a
+/// sheet of one text column.
+std::vector<Sheet> show_method(std::string_view spelling);
+
+/// What `clackers explain [CODE]` shows; an empty code lists all.
+Sheet explain(std::string_view code);
+
+}  // namespace clackers::study

@@ -1,0 +1,45 @@
+# What all targets share, and the function that makes a folder a room.
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+add_library(clackers_options INTERFACE)
+target_compile_features(clackers_options INTERFACE cxx_std_20)
+target_include_directories(clackers_options INTERFACE ${PROJECT_SOURCE_DIR})
+if(CLACKERS_DEVELOPER)
+  target_compile_options(clackers_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+endif()
+
+# clackers_room(<name> LINK <targets>): the library clackers_<name> from clackers/<name>/**.cpp
+# and, from its *_test.cpp, the test program clackers_<name>_test.
+function(clackers_room name)
+  cmake_parse_arguments(ARG "" "" "LINK;GENERATED" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/clackers/${name}/*.cpp)
+  set(tests ${sources})
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+  list(TRANSFORM ARG_LINK REPLACE "^([a-z]+)$" "clackers_\\1")
+  if(sources OR ARG_GENERATED)
+    add_library(clackers_${name} STATIC ${sources} ${ARG_GENERATED})
+    target_link_libraries(clackers_${name} PUBLIC clackers_options ${ARG_LINK})
+  else()
+    add_library(clackers_${name} INTERFACE)
+    target_link_libraries(clackers_${name} INTERFACE clackers_options ${ARG_LINK})
+  endif()
+  add_library(clackers::${name} ALIAS clackers_${name})
+  if(CLACKERS_TESTS AND tests)
+    clackers_test(clackers_${name}_test SOURCES ${tests} LINK ${name})
+  endif()
+endfunction()
+
+# clackers_test(<name> SOURCES <files> LINK <rooms or targets>): a GoogleTest program.
+function(clackers_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  list(TRANSFORM ARG_LINK REPLACE "^([a-z]+)$" "clackers_\\1")
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} clackers_options GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60)
+endfunction()
