@@ -12,20 +12,15 @@
 namespace clackers::methods {
 
 /// What a method promises of its displacement error through impacts.
-struct Claim {
-  Behaviour behaviour = Behaviour::undecided;
-  /// Order of the error, or of its upper envelope when irregular. 0 when stagnating.
-  double order = 0.0;
-  /// Code of the reason when the behaviour needs one ("contact-stiffness"), otherwise empty.
-  std::string reason;
-};
+using Claim = clackers::Claim;
 
 /// A method's card as data: what the tests measure and the verdict compares with.
 struct Facts {
-  std::string name;              ///< as typed, with its parameters: "generalized-alpha:rho=0.8+event-driven"
-  double smooth_order = 0.0;     ///< of u and v while nothing collides
+  std::string name;  ///< as typed, with its parameters: "generalized-alpha:rho=0.8+event-driven"
+  double smooth_order = 0.0;            ///< of u and v while nothing collides
   bool unconditionally_stable = false;  ///< in smooth motion, for every step
-  double stability_limit = 0.0;  ///< largest omega h of undamped smooth motion; infinity if unconditional
+  double stability_limit =
+      0.0;  ///< largest omega h of undamped smooth motion; infinity if unconditional
   Claim through_impacts;
   bool reports_impacts = true;
 };

@@ -19,11 +19,11 @@ struct Parameter {
 
 /// What `clackers list` and `clackers show` tell of an integrator or a contact treatment.
 struct Entry {
-  std::string name;             ///< "newmark"
-  std::string kind;             ///< "integrator", "contact" or "method" (brings its own integration)
-  std::string summary;          ///< one line
+  std::string name;     ///< "newmark"
+  std::string kind;     ///< "integrator", "contact" or "method" (brings its own integration)
+  std::string summary;  ///< one line
   std::vector<Parameter> parameters;
-  std::string card;             ///< the card of its header, as text
+  std::string card;  ///< the card of its header, as text
 };
 
 /// Everything registered, integrators first, then contact treatments, then whole methods.

@@ -1,0 +1,12 @@
+# The cards of the methods' headers as a source file: ${method_cards}.
+file(GLOB card_headers CONFIGURE_DEPENDS
+  ${CMAKE_CURRENT_LIST_DIR}/integrators/*.hpp ${CMAKE_CURRENT_LIST_DIR}/contact/*.hpp)
+list(JOIN card_headers "," card_list)
+set(method_cards ${PROJECT_BINARY_DIR}/generated/method_cards.cpp)
+add_custom_command(
+  OUTPUT ${method_cards}
+  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${method_cards} -DHEADERS=${card_list}
+          -P ${PROJECT_SOURCE_DIR}/tools/embed_cards.cmake
+  DEPENDS ${card_headers} ${PROJECT_SOURCE_DIR}/tools/embed_cards.cmake
+  COMMENT "Taking the cards out of the methods' headers"
+  VERBATIM)

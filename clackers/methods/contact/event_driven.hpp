@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "clackers/methods/integrators/integrator_facts.hpp"
+#include "clackers/methods/method.hpp"
+#include "clackers/methods/parameters.hpp"
+
+namespace clackers::methods {
+
+/// Impacts located inside the step. A contact j with opening g_j and Newton's law,
+///
+///     g_j = b_j . u - gap_j >= 0,   b_j . v(+) = -eta_j b_j . v(-),   M [v(+) - v(-)] = b_j P
+///
+/// fires where the step map crosses g_j = 0 from above with b_j . v < 0; the state there is that of
+/// the integrator's partial step. The integrator is started again from v(+) and completes the
+/// rest of the step, so output stays on the grid. Crossings are looked for whenever the cubic
+/// through opening and rate at both ends of the step does not stay open, also when both ends are.
+///
+/// A contact rests, held closed by its contact force, when it is closed, its rate is 0 and the
+/// free motion would close it: after an impact with eta = 0, or from a start at rest. It lets go
+/// where the force would have to pull. One contact is handled at a time: two that share a mass and
+/// are closed together end the run, and so do more than 1000 impacts in one step.
+///
+/// Order       that of the integrator.
+/// Stability   that of the integrator.
+/// Dissipation none at impacts with eta = 1.
+/// Memory      what the integrator remembers is dropped at each impact.
+/// Cost        two products a contact and step; about ten partial steps an impact.
+/// Source      L. F. Shampine, I. Gladwell, R. W. Brankin, ACM Trans. Math. Softw. 17, 11-25
+/// (1991).
+struct EventDriven {
+  static constexpr std::string_view name = "event-driven";
+  static constexpr std::string_view summary =
+      "impacts located inside the step, the rest of the step completed after them";
+  static const std::vector<ParameterOf<EventDriven>>& parameters();
+
+  static constexpr int most_impacts = 1000;  ///< in one step
+
+  void validate() const {}
+  Claim claim(const IntegratorFacts& integrator) const;
+  std::optional<Objection> objection(const std::string& who,
+                                     const model::ImpactProblem<>& problem) const;
+  double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
+
+  template <class Integrator, int Dof>
+  class Walk;
+};
+
+}  // namespace clackers::methods

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "clackers/methods/method.hpp"
+#include "clackers/methods/parameters.hpp"
+#include "clackers/methods/recorder.hpp"
+#include "clackers/methods/step_plan.hpp"
+
+namespace clackers::methods {
+
+/// Moreau and Jean's time-stepping for M dv + (C v + K u - f(t)) dt = sum_j b_j dP_j, with
+/// x_th = theta x1 + (1 - theta) x0 for x = u, v, f:
+///
+///     M (v1 - v0) + h C v_th + h K u_th = h f_th + b P
+///     u1 = u0 + h v_th
+///     P = 0                               while g(u0 + h/2 v0) > 0
+///     0 <= b.v1 + eta b.v0 _|_ P >= 0     otherwise
+///
+/// The contact is thus decided by a predictor at half a step, and the impact happens somewhere in
+/// the step. It is reported at the end of the step. One contact is handled at a time: two whose
+/// impulses change each other's opening rate end the run where both need one in the same step.
+///
+/// Order       1 of the upper envelope; in smooth motion 2 for theta = 1/2, otherwise 1.
+/// Stability   for every h.
+/// Dissipation none in flight for theta = 1/2, C = 0; grows with theta.
+/// Memory      none.
+/// Cost        one back-substitution a step and one more an impact; one factorization.
+/// Source      J. J. Moreau, Comput. Methods Appl. Mech. Eng. 177, 329-349 (1999).
+struct MoreauJean {
+  static constexpr std::string_view name = "moreau-jean";
+  static constexpr std::string_view summary =
+      "time-stepping with velocity impulses, impacts not located inside the step";
+  static const std::vector<ParameterOf<MoreauJean>>& parameters();
+
+  double theta = 0.5;  ///< in [1/2, 1]; below 1/2 the method is unstable for every h
+
+  /// Throws InputError for theta outside [1/2, 1].
+  void validate() const;
+  Facts facts() const;
+  std::optional<Objection> objection(const model::ImpactProblem<>& problem) const;
+  double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
+
+  template <int Dof>
+  class Walk;
+};
+
+}  // namespace clackers::methods

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "clackers/model/run.hpp"
+#include "clackers/model/system.hpp"
+
+namespace clackers::methods {
+
+/// Stands between a step loop and a sink: states go out in blocks, so that a step costs no virtual
+/// call; an impact goes out at once, after the states before it. A state that is not finite ends
+/// the run as diverged; states up to it are delivered, it is not.
+template <int Dof>
+class Recorder {
+ public:
+  using State = model::State<Dof>;
+  using Vector = model::Vector<Dof>;
+
+  static constexpr std::size_t block = 256;  ///< states
+
+  /// Allocates everything the run will need.
+  explicit Recorder(Eigen::Index dof)
+      : dof_(static_cast<std::size_t>(dof)), t_(block), u_(block * dof_), v_(block * dof_) {}
+
+  /// Forgets the last run; the sink must outlive the new one.
+  void begin(model::Sink& sink) {
+    sink_ = &sink;
+    count_ = 0;
+    outcome_ = {};
+  }
+
+  /// Takes the next state. False: the run ends here.
+  bool push(const State& now) {
+    t_[count_] = now.t;
+    for (std::size_t i = 0; i < size(); ++i) {
+      u_[count_ * size() + i] = now.u[static_cast<Eigen::Index>(i)];
+      v_[count_ * size() + i] = now.v[static_cast<Eigen::Index>(i)];
+    }
+    return ++count_ < block || flush();
+  }
+
+  /// Takes an impact at `after`, the state on its later side. False: the run ends here.
+  bool impact(const State& after, int contact, const Vector& v_before, double impulse) {
+    if (!flush()) return false;
+    if (sink_->take(model::ReportedImpact{after.t, contact, span(after.u), span(v_before),
+                                          span(after.v), impulse}))
+      return true;
+    stop();
+    return false;
+  }
+
+  /// Ends the run with a failure; states taken so far are delivered. Always false, for the loop to
+  /// return.
+  bool fail(Code reason, std::string detail) {
+    if (!flush()) return false;
+    outcome_.finished = false;
+    outcome_.reason = reason;
+    outcome_.detail = std::move(detail);
+    return false;
+  }
+  bool fail_diverged(double t) {
+    return fail("diverged", fmt::format("t = {} s: the motion is no longer finite", t));
+  }
+  bool fail_newton(double t) {
+    return fail("newton-failed",
+                fmt::format("t = {} s: Newton's iteration found no solution of the step", t));
+  }
+
+  /// Delivers what is left and tells how the run ended.
+  model::Outcome finish(const model::Work& work) {
+    flush();
+    outcome_.work = work;
+    return outcome_;
+  }
+
+ private:
+  std::size_t size() const {
+    if constexpr (Dof == model::any_dof)
+      return dof_;
+    else
+      return static_cast<std::size_t>(Dof);
+  }
+
+  std::span<const double> span(const Vector& x) const { return {x.data(), size()}; }
+
+  void stop() {
+    outcome_.finished = false;
+    outcome_.stopped_by_sink = true;
+  }
+
+  bool is_finite(std::size_t k) const {
+    for (std::size_t i = k * size(); i < (k + 1) * size(); ++i)
+      if (!std::isfinite(u_[i]) || !std::isfinite(v_[i])) return false;
+    return true;
+  }
+
+  bool flush() {
+    if (!outcome_.finished) return false;
+    if (count_ == 0) return true;
+    std::size_t good = count_;
+    // What is not finite stays so: the last state speaks for its block.
+    if (!is_finite(count_ - 1))
+      for (good = 0; is_finite(good);) ++good;
+    const double bad_time = good < count_ ? t_[good] : 0.0;
+    const bool diverged = good < count_;
+    count_ = 0;
+    const std::size_t entries = good * size();
+    if (good > 0 && !sink_->take(model::SampleBlock{static_cast<int>(size()),
+                                                    {t_.data(), good},
+                                                    {u_.data(), entries},
+                                                    {v_.data(), entries}})) {
+      stop();
+      return false;
+    }
+    return !diverged || fail_diverged(bad_time);
+  }
+
+  std::size_t dof_, count_ = 0;
+  std::vector<double> t_, u_, v_;
+  model::Sink* sink_ = nullptr;
+  model::Outcome outcome_;
+};
+
+}  // namespace clackers::methods

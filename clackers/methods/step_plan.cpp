@@ -1,0 +1,45 @@
+#include "clackers/methods/step_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clackers/base/check.hpp"
+#include "clackers/base/error.hpp"
+
+namespace clackers::methods {
+namespace {
+
+constexpr double most_steps = 1e9;
+
+}  // namespace
+
+StepPlan plan_steps(std::string_view who, double start, double end, double h) {
+  require_step(who, h);
+  const double length = end - start, ratio = length / h;
+  const double nearest = std::round(ratio);
+  // h may be rounded (length / n, or a decimal fraction), so are start and end, each by half a
+  // unit of 2^-52, and so are length and ratio: less than four units together.
+  const double eps = std::numeric_limits<double>::epsilon();
+  const double scale = std::max({std::abs(start), std::abs(end), length}) / length;
+  const bool is_whole = std::abs(ratio - nearest) <= 4.0 * eps * scale * ratio && nearest >= 1.0;
+  if (!is_whole && h > length)
+    refuse(who, "h", h, fmt::format("h <= {}, the length of the run in seconds", length),
+           "Use a step that fits into the run.", "step-not-positive");
+  if (!(ratio <= most_steps))
+    refuse(who, "h", h, fmt::format("h >= {}, that is at most 1e9 steps", length / most_steps),
+           "Use a larger step or an earlier end.", "too-many-steps");
+  const double latest = std::max(std::abs(start), std::abs(end));
+  if (!(h >= 4.0 * eps * latest))
+    refuse(
+        who, "h", h,
+        fmt::format("h >= {}, or times of this size cannot tell steps apart", 4.0 * eps * latest),
+        "Let the run start nearer to time 0.", "step-not-positive");
+  StepPlan plan{start, end, h, static_cast<long long>(is_whole ? nearest : std::floor(ratio)), 0};
+  plan.total = plan.whole + (is_whole ? 0 : 1);
+  return plan;
+}
+
+}  // namespace clackers::methods

@@ -1,0 +1,74 @@
+#include "clackers/methods/step_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "clackers/base/error.hpp"
+
+namespace clackers::methods {
+namespace {
+
+std::string code_of(double start, double end, double h) {
+  try {
+    plan_steps("who", start, end, h);
+  } catch (const InputError& error) {
+    return std::string(error.code().name());
+  }
+  return {};
+}
+
+TEST(StepPlan, EndsOnTheEndToTheBitForWholeNumbersOfSteps) {
+  for (const long long n : {1LL, 3LL, 7LL, 400LL, 12345LL, 999999937LL})
+    for (const double end : {20.0, 0.3, 1.0 / 3, 1e9}) {
+      const auto plan = plan_steps("who", 0.0, end, end / double(n));
+      EXPECT_EQ(plan.whole, n) << end;
+      EXPECT_EQ(plan.total, n) << end;
+      EXPECT_EQ(plan.time(n), end);
+    }
+  EXPECT_EQ(plan_steps("who", 0.0, 20.0, 0.05).total, 400);  // a decimal fraction
+  EXPECT_EQ(plan_steps("who", 0.1, 20.3, 0.1).total, 202);   // three of them
+}
+
+TEST(StepPlan, CountsTimes) {
+  const auto plan = plan_steps("who", 1.0, 11.0, 0.1);
+  EXPECT_EQ(plan.time(0), 1.0);
+  EXPECT_EQ(plan.time(37), 1.0 + 37 * 0.1);
+}
+
+TEST(StepPlan, EndsWithAShorterStepWhereStepsDoNotFit) {
+  const auto plan = plan_steps("who", 0.0, 1.0, 0.3);
+  EXPECT_EQ(plan.whole, 3);
+  EXPECT_EQ(plan.total, 4);
+  EXPECT_EQ(plan.time(3), 3 * 0.3);
+  EXPECT_EQ(plan.time(4), 1.0);
+  // A thousandth of a step is no rounding.
+  EXPECT_EQ(plan_steps("who", 0.0, 1.0001, 0.1).total, 11);
+  EXPECT_EQ(plan_steps("who", 0.0, 0.9999, 0.1).whole, 9);
+}
+
+TEST(StepPlan, RefusesWhatCannotRun) {
+  for (const double h : {0.0, -1.0}) EXPECT_EQ(code_of(0, 20, h), "step-not-positive") << h;
+  EXPECT_EQ(code_of(0, 20, NAN), "not-a-number");
+  EXPECT_EQ(code_of(0, 20, INFINITY), "not-finite");
+  EXPECT_EQ(code_of(0, 20, 20.1), "step-not-positive");
+  EXPECT_EQ(code_of(0, 20, 20.0), "");
+  EXPECT_EQ(code_of(0, 20, 1.9e-8), "too-many-steps");
+  EXPECT_EQ(code_of(0, 20, 5e-324), "too-many-steps");
+  EXPECT_EQ(code_of(1e9, 1e9 + 1e-4, 1e-7), "step-not-positive");  // 1e-7 is lost beside 1e9
+  EXPECT_EQ(code_of(1e9, 1e9 + 1, 1e-2), "");
+}
+
+TEST(StepPlan, SaysWhoWhatAndWhatToDo) {
+  try {
+    plan_steps("rk4+event-driven", 0.0, 20.0, 30.0);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "rk4+event-driven: h = 30; allowed: h <= 20, the length of the run in seconds. Use a "
+                 "step that fits into the run.");
+  }
+}
+
+}  // namespace
+}  // namespace clackers::methods

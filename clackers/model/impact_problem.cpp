@@ -1,0 +1,126 @@
+#include "clackers/model/impact_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <limits>
+
+#include "clackers/base/check.hpp"
+#include "clackers/base/error.hpp"
+
+namespace clackers::model {
+namespace {
+
+using Eigen::Index;
+
+[[noreturn]] void refuse_size(std::string_view what, Index rows, Index columns, Index dof) {
+  throw InputError(fmt::format("problem: {} has {} x {} entries; the mass matrix has {} degrees of "
+                               "freedom. All sizes must fit together.",
+                               what, rows, columns, dof),
+                   "wrong-size");
+}
+
+void require_vector(std::string_view what, const Eigen::VectorXd& x, Index dof) {
+  if (x.size() != dof) refuse_size(what, x.rows(), x.cols(), dof);
+  for (Index i = 0; i < dof; ++i)
+    require_finite("problem", fmt::format("{}[{}]", what, i + 1), x[i]);
+}
+
+void require_symmetric(std::string_view what, const Eigen::MatrixXd& x, Index dof, Code code) {
+  if (x.rows() != dof || x.cols() != dof) refuse_size(what, x.rows(), x.cols(), dof);
+  for (Index j = 0; j < dof; ++j)
+    for (Index i = 0; i < dof; ++i)
+      require_finite("problem", fmt::format("{}({},{})", what, i + 1, j + 1), x(i, j));
+  // Two products such as S^T M S leave 2 n roundings of the largest terms; 16 is for terms that
+  // cancel. A slip of the pen is many orders larger.
+  const double allowed =
+      32.0 * double(dof) * std::numeric_limits<double>::epsilon() * x.cwiseAbs().maxCoeff();
+  for (Index j = 0; j < dof; ++j)
+    for (Index i = 0; i < j; ++i)
+      if (!(std::abs(x(i, j) - x(j, i)) <= allowed))
+        throw InputError(
+            fmt::format("problem: {0}({1},{2}) = {3} and {0}({2},{1}) = {4}; allowed: a "
+                        "symmetric matrix.",
+                        what, i + 1, j + 1, x(i, j), x(j, i)),
+            code);
+}
+
+void require_contact(const Contact<>& contact, std::size_t number, Index dof,
+                     const State<any_dof>& start) {
+  const auto who = fmt::format("contact {}", number);
+  require_vector(who + " direction", contact.direction, dof);
+  if (contact.direction.isZero(0.0))
+    throw InputError(
+        fmt::format("{}: direction = 0; allowed: a row with an entry other than 0.", who),
+        "out-of-range");
+  require_finite(who, "gap", contact.gap);
+  require_within(who, "restitution", contact.restitution, 0.0, 1.0);
+  const double g = contact.opening(start.u), rate = contact.opening_rate(start.v);
+  if (g < 0.0 || (g == 0.0 && rate < 0.0))
+    throw InputError(
+        fmt::format(
+            "{}: at the start its opening is {} m, changing by {} m/s; allowed: opening > 0, "
+            "or 0 and not closing. Start before the impact or after it.",
+            who, g, rate),
+        "starts-in-contact");
+}
+
+}  // namespace
+
+void validate(const ImpactProblem<>& problem) {
+  const auto& [mass, damping, stiffness, load, nonlinear] = problem.system;
+  const auto dof = mass.rows();
+  if (dof < 1)
+    throw InputError("problem: the mass matrix is empty; allowed: at least one degree of freedom.",
+                     "wrong-size");
+  require_symmetric("mass", mass, dof, "not-positive-definite");
+  require_symmetric("damping", damping, dof, "not-symmetric");
+  require_symmetric("stiffness", stiffness, dof, "not-symmetric");
+  if (const Eigen::LLT<Eigen::MatrixXd> factors(mass); factors.info() != Eigen::Success)
+    throw InputError(
+        "problem: the mass matrix is not positive definite; allowed: every motion has positive "
+        "kinetic energy. Remove degrees of freedom without mass.",
+        "not-positive-definite");
+  require_finite("problem", "start", problem.start.t);
+  require_vector("start u", problem.start.u, dof);
+  require_vector("start v", problem.start.v, dof);
+  require_finite("problem", "end", problem.end);
+  if (!(problem.end > problem.start.t))
+    refuse("problem", "end", problem.end,
+           fmt::format("end > start = {}, in seconds", problem.start.t));
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i)
+    require_contact(problem.contacts[i], i + 1, dof, problem.start);
+}
+
+template <int Dof>
+ImpactProblem<Dof> with_dof(const ImpactProblem<>& problem) {
+  if constexpr (Dof == any_dof) {
+    return problem;
+  } else {
+    if (problem.dof() != Dof)
+      throw InputError(fmt::format("problem: it has {} degrees of freedom; {} were expected.",
+                                   problem.dof(), Dof),
+                       "wrong-size");
+    if (problem.system.nonlinear)
+      throw InputError(
+          "problem: a nonlinear force written for any number of degrees of freedom "
+          "cannot be used with a number known at compile time. Keep it general.",
+          "wrong-size");
+    const auto& s = problem.system;
+    ImpactProblem<Dof> fixed{{s.mass, s.damping, s.stiffness, s.add_load, nullptr},
+                             {},
+                             {problem.start.t, problem.start.u, problem.start.v},
+                             problem.end};
+    for (const auto& c : problem.contacts)
+      fixed.contacts.push_back({c.direction, c.gap, c.restitution});
+    return fixed;
+  }
+}
+
+template ImpactProblem<1> with_dof<1>(const ImpactProblem<>&);
+template ImpactProblem<2> with_dof<2>(const ImpactProblem<>&);
+template ImpactProblem<any_dof> with_dof<any_dof>(const ImpactProblem<>&);
+
+}  // namespace clackers::model
