@@ -11,24 +11,24 @@ namespace clackers::assess {
 /// is one.
 struct LadderFit {
   Behaviour behaviour = Behaviour::undecided;
-  std::string reason;       ///< code, empty when the behaviour needs none
-  bool has_line = false;    ///< false: order, spread and constant mean nothing
-  bool on_envelope = false; ///< the line is that of the upper envelope of each level
+  std::string reason;        ///< code, empty when the behaviour needs none
+  bool has_line = false;     ///< false: order, spread and constant mean nothing
+  bool on_envelope = false;  ///< the line is that of the upper envelope of each level
   double order = 0.0;
-  double spread = 0.0;      ///< half width of the order's 95 % confidence interval
-  double scatter = 1.0;     ///< largest factor between raw errors and the line, over the window
+  double spread = 0.0;   ///< half width of the order's 95 % confidence interval
+  double scatter = 1.0;  ///< largest factor between raw errors and the line, over the window
   double constant = 0.0;
   int first_level = 0, last_level = 0;  ///< window of the line, zero-based, inclusive
-  double floor = 0.0;       ///< the level of stagnation or of rounding, 0 where none was seen
-  std::vector<double> steps, errors;    ///< of the upper envelope, a value a level
+  double floor = 0.0;  ///< the level of stagnation or of rounding, 0 where none was seen
+  std::vector<double> steps, errors;  ///< of the upper envelope, a value a level
 };
 
 /// The judgement on one method.
 struct Assessment {
-  LadderFit displacement;   ///< decides behaviour and verdict
+  LadderFit displacement;           ///< decides behaviour and verdict
   LadderFit velocity, impact_time;  ///< shown beside it
   Verdict verdict = Verdict::undecided;
-  std::string sentence;     ///< what was measured and how it compares with the claim, for a person
+  std::string sentence;  ///< what was measured and how it compares with the claim, for a person
 };
 
 }  // namespace clackers::assess

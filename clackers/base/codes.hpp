@@ -79,17 +79,34 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"not-admissible", "refusal",
      "The mass ratio r reaches r*(X): the masses would also touch away from equilibrium and the "
      "closed form would not hold. The message says where and when, and what to change."},
+    {"not-exact-data", "refusal",
+     "With these values some model input is not exactly a binary64 number, so a solver would not get "
+     "the true system. Use short binary fractions."},
     {"unknown-name", "refusal", "No case, method, parameter, code or option has this name."},
     {"bad-syntax", "refusal", "The text does not follow the grammar of the command line."},
     {"step-not-positive", "refusal", "A step must be positive, finite and not longer than the run."},
     {"too-many-steps", "refusal", "The run would need more than 1e9 steps and could not end."},
+    {"too-many-rows", "refusal",
+     "A response of more than 1e9 rows was asked for; use a larger step or fewer samples."},
+    {"not-a-record", "refusal",
+     "The text is no json of a verify run: broken, of another schema, or with a missing or unknown "
+     "field. The message says where."},
+    {"not-whole", "refusal", "A whole number was asked for and one with a fraction was given."},
     {"penalty-needs-elastic", "refusal",
      "A linear penalty spring gives back what it takes, so it can only stand for restitution 1."},
+    {"no-default-stiffness", "refusal",
+     "A contact touches a degree of freedom without stiffness of its own, so there is no default for "
+     "the penalty spring; give penalty:stiffness=VALUE."},
+    {"linear-only", "refusal",
+     "The problem has a nonlinear force and the method's step is one linear equation."},
     {"beyond-last-impact", "refusal", "Collisions end before the index that was asked for."},
     {"time-outside", "refusal", "A time lies outside the interval in which the motion is known."},
     // Files and the outside world.
     {"cannot-write", "failure", "A file could not be written; nothing half-written was left behind."},
     {"cannot-read", "failure", "A file could not be read."},
+    {"out-of-memory", "failure", "There was not enough memory for the request; ask for less."},
+    {"internal-error", "failure",
+     "A mistake in the program itself. Please report it with the command that led to it."},
     {"interrupted", "failure",
      "The run was interrupted (Ctrl-C). Finished rows were kept and the output is marked."},
 });

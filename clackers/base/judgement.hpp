@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace clackers {
@@ -10,6 +11,15 @@ enum class Behaviour { exact, proper, reduced, irregular, stagnating, divergent,
 
 /// What was found against what is claimed.
 enum class Verdict { agrees, disagrees, not_claimed, undecided };
+
+/// What a method promises of its displacement error through impacts.
+struct Claim {
+  Behaviour behaviour = Behaviour::undecided;  ///< undecided: nothing is claimed
+  /// Order of the error, or of its upper envelope when irregular. 0 when stagnating.
+  double order = 0.0;
+  /// Code of the reason when the behaviour needs one ("contact-stiffness"), otherwise empty.
+  std::string reason;
+};
 
 std::string_view to_string(Behaviour behaviour);
 std::string_view to_string(Verdict verdict);  ///< "agrees", "disagrees", "not claimed", "undecided"

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+
+#include "clackers/assess/score.hpp"
+#include "clackers/model/motion.hpp"
+
+namespace clackers::assess {
+
+/// Matches the impacts that a run reports, as they come, with those of the true motion.
+///
+/// - A report less than two steps after the one before it belongs to the same collision: a method
+///   that fires in adjacent steps has found one impact, timed at its first report. A chain of such
+///   reports is one collision, too.
+/// - A collision belongs to the nearest true impact if their times differ by at most a quarter of
+///   the time to that impact's nearer true neighbour (a quarter of the run if it has none). Of
+///   several collisions around one true impact the nearest is its match, the others are extra.
+/// - A true impact in the last two steps may come too late to be seen: it is expected only if
+/// found.
+class ImpactMatcher {
+ public:
+  /// `step` [s] of the run. The motion must outlive the matcher.
+  ImpactMatcher(const model::Motion& truth, double step);
+
+  /// Takes a report at time t [s]; reports come in order of time.
+  void take(double t);
+  /// The matching of a run that ended at time `end` [s]. `rounding` is the rounding error of a
+  /// displacement relative to its envelope; the matcher turns it into one of time.
+  ImpactScore score(double end, double rounding) const;
+
+ private:
+  struct Target {
+    long long index = 0;
+    double t = 0.0, reach = 0.0;  ///< true instant; how far from it a match may be
+  };
+  Target target(long long index) const;
+  void settle(ImpactScore& score) const;
+  void move_on();
+
+  const model::Motion& truth_;
+  double step_;
+  long long known_;                ///< number of true impacts
+  Target now_;                     ///< the earliest true impact that may still find a match
+  bool more_;                      ///< now_ is meaningful
+  std::optional<double> nearest_;  ///< the best collision for now_ so far
+  std::optional<double> last_report_;
+  ImpactScore sum_;  ///< of all true impacts before now_
+};
+
+}  // namespace clackers::assess

@@ -1,0 +1,62 @@
+#include "clackers/base/suggest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "clackers/base/error.hpp"
+
+namespace clackers {
+namespace {
+
+const std::vector<std::string> known{"newmark", "central-difference", "rk4", "generalized-alpha"};
+
+TEST(Suggest, FindsANameOneSlipAway) {
+  EXPECT_EQ(nearest("newmrak", known), "newmark");   // two letters swapped
+  EXPECT_EQ(nearest("newmarkk", known), "newmark");  // one too many
+  EXPECT_EQ(nearest("ewmark", known), "newmark");    // one missing
+  EXPECT_EQ(nearest("newmork", known), "newmark");   // one replaced
+  EXPECT_EQ(nearest("newmark", known), "newmark");
+  EXPECT_EQ(nearest("generalised-alpha", known), "generalized-alpha");
+}
+
+TEST(Suggest, AllowsAThirdOfTheLengthPlusOne) {
+  const std::vector<std::string> six{"abcdef"};
+  EXPECT_EQ(nearest("abcxyz", six), "abcdef");  // three of six letters wrong: 6 / 3 + 1
+  EXPECT_EQ(nearest("abwxyz", six), "");
+  const std::vector<std::string> swaps{"badcfe"};
+  EXPECT_EQ(nearest("abcdef", swaps), "badcfe");  // three swaps, not six replacements
+}
+
+TEST(Suggest, IsSilentWhereNothingIsNear) {
+  EXPECT_EQ(nearest("houbolt-wilson", known), "");
+  EXPECT_EQ(nearest("rk4", {}), "");
+}
+
+TEST(Suggest, TakesTheNearestAndOfEquallyNearTheFirst) {
+  const std::vector<std::string> names{"penalty", "penalties", "penalt"};
+  EXPECT_EQ(nearest("penalte", names), "penalty");
+  EXPECT_EQ(nearest("penal", names), "penalt");
+}
+
+std::string refused(std::string_view given) {
+  try {
+    refuse_name("integrator", given, known, "clackers list integrators");
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), Code("unknown-name"));
+    return error.what();
+  }
+}
+
+TEST(RefuseName, AsksForTheNearestAndSaysWhereAllStand) {
+  EXPECT_EQ(
+      refused("newmrak"),
+      "clackers: no integrator \"newmrak\". Did you mean \"newmark\"? All names: clackers list "
+      "integrators");
+  EXPECT_EQ(refused("houbolt-wilson"),
+            "clackers: no integrator \"houbolt-wilson\". All names: clackers list integrators");
+}
+
+}  // namespace
+}  // namespace clackers
