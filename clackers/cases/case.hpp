@@ -42,12 +42,12 @@ struct Constant {
 /// A problem together with its truth.
 struct Case {
   const CaseEntry* entry = nullptr;
-  Settings values;                                  ///< all parameters, in the entry's order
+  Settings values;  ///< all parameters, in the entry's order
   model::ImpactProblem<> problem;
   std::shared_ptr<const model::Motion> motion;
-  std::vector<Constant> constants;                  ///< derived: m2, k2, omega_D2, r*, margin, ...
-  std::vector<Constant> indicators;                 ///< I_ms, T_L, T_S, I_OC, with their threshold
-  std::vector<double> damped_periods;               ///< of the free masses [s]
+  std::vector<Constant> constants;     ///< derived: m2, k2, omega_D2, r*, margin, ...
+  std::vector<Constant> indicators;    ///< I_ms, T_L, T_S, I_OC, with their threshold
+  std::vector<double> damped_periods;  ///< of the free masses [s]
 };
 
 /// The threshold of "non-trivially contributing" in Eq. (11), of the spectral peak.

@@ -13,16 +13,16 @@ namespace clackers::study {
 
 /// A number with the words a reader needs beside it.
 struct Quantity {
-  std::string name;   ///< "omega_D1"
+  std::string name;  ///< "omega_D1"
   double value = 0.0;
-  std::string unit;   ///< "rad/s", empty when dimensionless
+  std::string unit;  ///< "rad/s", empty when dimensionless
   std::string meaning;
 };
 
 /// What was run, where and by what: enough to run it again.
 struct Provenance {
-  std::string command;   ///< as typed
-  std::string version;   ///< of clackers
+  std::string command;                             ///< as typed
+  std::string version;                             ///< of clackers
   std::string compiler, machine, processor, date;  ///< date in UTC, ISO 8601
 };
 
@@ -45,21 +45,21 @@ struct LadderPlan {
 
 /// A curve for a figure.
 struct Curve {
-  std::vector<double> t;                  ///< [s]
-  std::vector<std::vector<double>> y;     ///< one row a mass
+  std::vector<double> t;               ///< [s]
+  std::vector<std::vector<double>> y;  ///< one row a mass
 };
 
 /// One method of a study.
 struct MethodResult {
   std::string name;
   methods::Claim claim;
-  double contact_time = 0.0;      ///< [s], 0 for rigid contact
+  double contact_time = 0.0;          ///< [s], 0 for rigid contact
   std::string refusal, refusal_code;  ///< why the method cannot take the case; empty when it can
-  bool complete = true;           ///< false: interrupted before its last level
+  bool complete = true;               ///< false: interrupted before its last level
   assess::Ladder ladder;
   assess::Assessment assessment;
-  Curve error_history;            ///< |error in u| / initial envelope against time, at `history_step`
-  double history_step = 0.0;      ///< [s]
+  Curve error_history;        ///< |error in u| / initial envelope against time, at `history_step`
+  double history_step = 0.0;  ///< [s]
 };
 
 /// A study whole: what json holds, what reports show, what --baseline will read.
@@ -68,7 +68,7 @@ struct Record {
   Provenance provenance;
   CaseSummary problem;
   LadderPlan plan;
-  Curve response;                 ///< exact displacements, one row a mass [m]
+  Curve response;  ///< exact displacements, one row a mass [m]
   std::vector<MethodResult> methods;
   bool interrupted = false;
 };

@@ -10,8 +10,8 @@ namespace clackers::study {
 using Cell = std::variant<std::monostate, double, long long, std::string>;
 
 struct Column {
-  std::string name;     ///< as in csv and json: "t", "u1", "v1-"
-  std::string unit;     ///< "s", empty when dimensionless or text
+  std::string name;  ///< as in csv and json: "t", "u1", "v1-"
+  std::string unit;  ///< "s", empty when dimensionless or text
   std::string meaning;
 };
 
@@ -19,8 +19,8 @@ struct Column {
 class RowSource {
  public:
   virtual ~RowSource() = default;
-  virtual std::string schema() const = 0;              ///< "clackers/response/1"
-  virtual std::string title() const = 0;               ///< above the table, empty for none
+  virtual std::string schema() const = 0;  ///< "clackers/response/1"
+  virtual std::string title() const = 0;   ///< above the table, empty for none
   virtual const std::vector<Column>& columns() const = 0;
   /// Fills `row` (one cell a column), or returns false after the last row.
   virtual bool next(std::vector<Cell>& row) = 0;

@@ -1,0 +1,110 @@
+#include "clackers/study/verify.hpp"
+
+#include <algorithm>
+
+#include "clackers/assess/judge.hpp"
+#include "clackers/study/judged_run.hpp"
+#include "clackers/study/progress_meter.hpp"
+#include "clackers/study/provenance.hpp"
+#include "clackers/study/respond.hpp"
+#include "clackers/study/verify_plan.hpp"
+#include "clackers/study/work_queue.hpp"
+
+namespace clackers::study {
+namespace {
+
+constexpr int response_points = 1501;
+constexpr int history_bins = 400;
+
+// Method after method, so that an interrupt leaves whole rows; within one the longest runs first,
+// so that the short ones fill up the threads in the end.
+std::vector<RunTask> tasks_of(const VerifyPlan& plan) {
+  std::vector<RunTask> tasks;
+  const auto middle = plan.ladder.size() / 2;
+  for (std::size_t m = 0; m < plan.methods.size(); ++m) {
+    if (!plan.methods[m].result.refusal.empty()) continue;
+    for (auto level = plan.ladder.size(); level-- > 0;)
+      for (auto n = plan.ladder[level].steps.size(); n-- > 0;) {
+        const bool shown = level == middle && n == 0;
+        tasks.push_back({m, level, n, plan.ladder[level].steps[n], plan.ladder[level].counts[n],
+                         shown ? history_bins : 0});
+      }
+  }
+  return tasks;
+}
+
+using Results = std::vector<std::optional<JudgedRun>>;
+
+Results run_tasks(const VerifyPlan& plan, const std::vector<RunTask>& tasks, int threads,
+                  const Progress& progress, const std::atomic<bool>* interrupt) {
+  double cost = 0.0;
+  for (const auto& task : tasks) cost += task.cost();
+  ProgressMeter meter(cost, progress);
+  Results results(tasks.size());
+  run_all(tasks.size(), threads, [&](std::size_t i) {
+    TaskShare share(meter, tasks[i].cost());
+    results[i] = judge_run(plan, tasks[i], share, interrupt);
+  });
+  if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) meter.finish();
+  return results;
+}
+
+// Puts finished runs where they belong; a level that lacks one is left out.
+void collect(VerifyPlan& plan, const std::vector<RunTask>& tasks, Results& results) {
+  for (auto& planned : plan.methods)
+    if (planned.result.refusal.empty())
+      for (const auto& level : plan.ladder)
+        planned.result.ladder.push_back(
+            {level.nominal, std::vector<assess::RunScore>(level.steps.size())});
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    auto& result = plan.methods[tasks[i].method].result;
+    auto& level = result.ladder[tasks[i].level];
+    if (!results[i]) {
+      result.complete = false;
+      level.runs.clear();
+    } else if (tasks[i].neighbour < level.runs.size()) {
+      level.runs[tasks[i].neighbour] = std::move(results[i]->score);
+      if (tasks[i].history_bins > 0) {
+        result.error_history = std::move(results[i]->history);
+        result.history_step = tasks[i].step;
+      }
+    }
+  }
+  for (auto& planned : plan.methods)
+    std::erase_if(planned.result.ladder, [](const auto& level) { return level.runs.empty(); });
+}
+
+void assess_result(MethodResult& result) {
+  if (!result.refusal.empty()) return;
+  if (!result.ladder.empty()) {
+    result.assessment = assess::judge(result.ladder, result.claim, result.contact_time);
+    return;
+  }
+  result.assessment.displacement.reason = Code("interrupted").name();
+  result.assessment.sentence = "Interrupted before a level was finished.";
+}
+
+}  // namespace
+
+Record verify(const VerifyRequest& request, const Progress& progress,
+              const std::atomic<bool>* interrupt) {
+  const int threads = thread_count(request.jobs);
+  auto plan = plan_of(request);
+  const auto tasks = tasks_of(plan);
+  auto results = run_tasks(plan, tasks, threads, progress, interrupt);
+  collect(plan, tasks, results);
+
+  Record record;
+  record.provenance = provenance(request.command);
+  record.problem = std::move(plan.summary);
+  record.plan = request.plan;
+  record.response = response_curve(plan.problem, response_points);
+  for (auto& planned : plan.methods) {
+    assess_result(planned.result);
+    record.interrupted = record.interrupted || !planned.result.complete;
+    record.methods.push_back(std::move(planned.result));
+  }
+  return record;
+}
+
+}  // namespace clackers::study
