@@ -25,7 +25,8 @@ struct Style {
 /// columns and the rows. Numbers of csv and json read back to the same double.
 void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style = {});
 
-/// Several sheets, one below the other; json: one object whose "sheets" holds all. `schema` names it.
+/// Several sheets, one below the other; json: one object whose "sheets" holds all. `schema` names
+/// it.
 void write(std::span<const study::Sheet> sheets, std::string_view schema, Format format,
            std::ostream& out, const Style& style = {});
 

@@ -1,0 +1,179 @@
+"use strict";
+// Draws the figures. Colours in specifications are variables of the style sheet, so that a change
+// between light, dark and paper needs no new drawing; exports put the light values in their place.
+
+const read = (id) => JSON.parse(document.getElementById(id).textContent);
+const data = read("data");
+const specifications = read("specifications");
+data.runs = data.runs.rows.map((row) =>
+  Object.fromEntries(data.runs.columns.map((name, i) => [name, row[i]])));
+
+const embedded = {};  // name of a figure -> its Vega view
+
+function configuration(exporting) {
+  const font = getComputedStyle(document.body).fontFamily;
+  const ink = "var(--ink)", muted = "var(--muted)", line = "var(--line)";
+  return {
+    background: exporting ? "var(--paper)" : "transparent",
+    font,
+    aria: false,  // the frame around the figure carries the description
+    padding: exporting ? 16 : { left: 2, right: 22, top: 8, bottom: 4 },
+    view: { stroke: line },
+    axis: {
+      domainColor: "var(--faint)", tickColor: "var(--faint)", gridColor: "var(--grid)",
+      labelColor: muted, titleColor: ink, labelFontSize: 12, titleFontSize: 12.5,
+      titleFontWeight: "normal", titlePadding: 10, labelPadding: 5, labelFlush: false
+    },
+    title: { color: ink, fontSize: 14, fontWeight: 600, anchor: "start", offset: 12 },
+    legend: {
+      disable: !exporting, orient: "bottom", columns: 3, labelColor: ink, labelLimit: 320,
+      symbolSize: 90, symbolStrokeWidth: 2, direction: "horizontal"
+    },
+    point: { shape: "circle" }
+  };
+}
+
+// The data that a specification names, and no more.
+function datasets(specification) {
+  const names = new Set();
+  JSON.stringify(specification, (key, value) => {
+    if (key === "data" && value && value.name) names.add(value.name);
+    return value;
+  });
+  return Object.fromEntries([...names].map((name) => [name, data[name]]));
+}
+
+function complete(name) {
+  const specification = structuredClone(specifications[name]);
+  specification.datasets = structuredClone(datasets(specification));
+  return specification;
+}
+
+async function draw(name) {
+  const frame = document.querySelector(`[data-plot="${name}"]`);
+  const result = await vegaEmbed(frame, complete(name), {
+    mode: "vega-lite", renderer: "svg", actions: false, config: configuration(false),
+    tooltip: { theme: "custom", disableDefaultStyle: false }
+  });
+  embedded[name] = result.view;
+  frame.querySelector("svg").setAttribute("aria-hidden", "true");  // the frame has the description
+  frame.dataset.drawn = "yes";
+}
+
+// Signals that say what the reader has chosen to see.
+function chosen(view) {
+  return view.getState({ signals: (name) => name === "hidden" || name === "mass", data: () => false }).signals;
+}
+
+// Zooms by a factor around the middle; on a logarithmic axis in decades.
+function zoom(name, factor) {
+  const view = embedded[name];
+  for (const axis of ["x", "y"]) {
+    const scale = view.scale(axis);
+    const signal = zoomSignal(name, axis);
+    const [lo, hi] = scale.domain();
+    const bend = scale.type === "log" ? Math.log : (x) => x;
+    const back = scale.type === "log" ? Math.exp : (x) => x;
+    const middle = (bend(lo) + bend(hi)) / 2, half = (bend(hi) - bend(lo)) / 2 / factor;
+    view.signal(signal, [back(middle - half), back(middle + half)]);
+  }
+  return view.runAsync();
+}
+
+function zoomSignal(name, axis) {
+  const find = (part) => {
+    if (part.encoding && part.encoding[axis] && part.encoding[axis].field) return part.encoding[axis].field;
+    for (const layer of part.layer || []) {
+      const field = find(layer);
+      if (field) return field;
+    }
+    return null;
+  };
+  return `zoom_${find(specifications[name])}`;
+}
+
+function resetZoom(name) {
+  const view = embedded[name];
+  for (const axis of ["x", "y"]) view.signal(zoomSignal(name, axis), null);
+  return view.runAsync();
+}
+
+// The light colours, whatever is on the screen.
+function lightColors() {
+  for (const sheet of document.styleSheets)
+    for (const rule of sheet.cssRules)
+      if (rule.selectorText === ":root") 
+        return (variable) => rule.style.getPropertyValue(variable).trim().replace(/^light-dark\((.*),.*\)$/, "$1");
+  throw new Error("the style sheet has no :root");
+}
+
+function withLightColors(text) {
+  const color = lightColors();
+  return text.replace(/var\((--[\w-]+)\)/g, (all, variable) => color(variable));
+}
+
+function title(name) {
+  return document.querySelector(`[data-plot="${name}"]`).closest("figure").querySelector("h3").textContent;
+}
+
+// A specification that any Vega-Lite of version 5 draws: with its data, its legend and light colours.
+function standalone(name) {
+  const specification = complete(name);
+  const state = chosen(embedded[name]);
+  for (const parameter of specification.params || [])
+    if (parameter.name in state) parameter.value = state[parameter.name];
+  specification.width = 760;
+  specification.title = title(name);
+  specification.config = configuration(true);
+  return JSON.parse(withLightColors(JSON.stringify(specification)));
+}
+
+async function asSvg(name) {
+  const view = new vega.View(vega.parse(vegaLite.compile(standalone(name)).spec), { renderer: "none" });
+  await view.runAsync();
+  // The picture shows the stretch that is on the screen.
+  for (const axis of ["x", "y"]) {
+    const domain = embedded[name].signal(zoomSignal(name, axis));
+    if (domain) view.signal(zoomSignal(name, axis), domain);
+  }
+  await view.runAsync();
+  const text = await view.toSVG();
+  view.finalize();
+  return text;
+}
+
+async function asPng(name, scale = 2) {
+  const url = URL.createObjectURL(new Blob([await asSvg(name)], { type: "image/svg+xml" }));
+  try {
+    const image = new Image();
+    image.src = url;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    canvas.width = image.width * scale;
+    canvas.height = image.height * scale;
+    canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+    return await new Promise((done) => canvas.toBlob(done, "image/png"));
+  } finally {
+    URL.revokeObjectURL(url);
+  }
+}
+
+// Rows with lists become rows with numbers, as Vega-Lite's "flatten" does.
+function flat(rows) {
+  return rows.flatMap((row) => {
+    const lists = Object.keys(row).filter((key) => Array.isArray(row[key]));
+    if (lists.length === 0) return [row];
+    return row[lists[0]].map((_, i) =>
+      Object.fromEntries(Object.entries(row).map(([key, value]) => [key, Array.isArray(value) ? value[i] : value])));
+  });
+}
+
+function asCsv(rows) {
+  const names = Object.keys(rows[0] || {});
+  const cell = (value) => {
+    const text = value === null || value === undefined ? "" : String(value);
+    return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  };
+  return [names, ...flat(rows).map((row) => names.map((name) => row[name]))]
+    .map((cells) => cells.map(cell).join(",")).join("\n") + "\n";
+}

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <iosfwd>
+#include <span>
+#include <string_view>
+
+#include "clackers/report/write.hpp"
+
+namespace clackers::report {
+
+// The three ways to write rows. All read row by row and stop early when the stream fails; how it
+// failed is the stream's to tell.
+
+/// At most style.width characters a line: numbers to the right with at most six significant digits,
+/// units below the names, long text wrapped. The widths are those of the first 1000 rows; a later
+/// number that needs more gives up digits. Where even three digits do not fit, a row becomes a
+/// block of lines "name: value unit".
+void write_table(study::RowSource& rows, std::ostream& out, const Style& style);
+
+/// RFC 4180 with line feeds: a header line, text quoted where it must be.
+void write_csv(study::RowSource& rows, std::ostream& out);
+
+/// {"schema", "title", "columns": [{"name", "unit", "meaning"}], "rows": [[...]]}, a row a line.
+/// What is empty is null; infinities and NaN, which json does not have, are the texts "inf",
+/// "-inf", "nan".
+void write_json(study::RowSource& rows, std::ostream& out);
+
+/// {"schema", "sheets": [as above]}.
+void write_json(std::span<const study::Sheet> sheets, std::string_view schema, std::ostream& out);
+
+}  // namespace clackers::report

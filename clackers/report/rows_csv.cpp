@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "clackers/report/format.hpp"
+#include "clackers/report/rows.hpp"
+
+namespace clackers::report {
+namespace {
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out.append(c == '"' ? 2 : 1, c);
+  return out + '"';
+}
+
+struct CsvText {
+  std::string operator()(std::monostate) const { return {}; }
+  std::string operator()(double value) const { return exact_number(value); }
+  std::string operator()(long long value) const { return fmt::format("{}", value); }
+  std::string operator()(const std::string& text) const { return quoted(text); }
+};
+
+}  // namespace
+
+void write_csv(study::RowSource& rows, std::ostream& out) {
+  const char* comma = "";
+  for (const auto& column : rows.columns()) {
+    out << comma << quoted(column.name);
+    comma = ",";
+  }
+  out << '\n';
+  std::vector<study::Cell> row;
+  while (out && rows.next(row)) {
+    comma = "";
+    for (const auto& cell : row) {
+      out << comma << std::visit(CsvText{}, cell);
+      comma = ",";
+    }
+    out << '\n';
+  }
+}
+
+}  // namespace clackers::report

@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "clackers/report/format.hpp"
+#include "clackers/report/rows.hpp"
+
+namespace clackers::report {
+namespace {
+
+std::string json_text(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+struct JsonText {
+  std::string operator()(std::monostate) const { return "null"; }
+  std::string operator()(double value) const {
+    return std::isfinite(value) ? exact_number(value) : json_text(exact_number(value));
+  }
+  std::string operator()(long long value) const { return fmt::format("{}", value); }
+  std::string operator()(const std::string& text) const { return json_text(text); }
+};
+
+}  // namespace
+
+void write_json(study::RowSource& rows, std::ostream& out) {
+  out << "{\n\"schema\": " << json_text(rows.schema())
+      << ",\n\"title\": " << json_text(rows.title()) << ",\n\"columns\": [";
+  const char* comma = "\n";
+  for (const auto& column : rows.columns()) {
+    out << comma << "  {\"name\": " << json_text(column.name)
+        << ", \"unit\": " << json_text(column.unit)
+        << ", \"meaning\": " << json_text(column.meaning) << '}';
+    comma = ",\n";
+  }
+  out << "\n],\n\"rows\": [";
+  std::vector<study::Cell> row;
+  comma = "\n";
+  while (out && rows.next(row)) {
+    out << comma << "  [";
+    const char* between = "";
+    for (const auto& cell : row) {
+      out << between << std::visit(JsonText{}, cell);
+      between = ", ";
+    }
+    out << ']';
+    comma = ",\n";
+  }
+  out << "\n]\n}\n";
+}
+
+void write_json(std::span<const study::Sheet> sheets, std::string_view schema, std::ostream& out) {
+  out << "{\n\"schema\": " << json_text(schema) << ",\n\"sheets\": [";
+  const char* comma = "\n";
+  for (const auto& sheet : sheets) {
+    out << comma;
+    study::SheetRows rows(sheet);
+    write_json(rows, out);
+    comma = ",\n";
+  }
+  out << "]\n}\n";
+}
+
+}  // namespace clackers::report

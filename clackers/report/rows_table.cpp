@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "clackers/report/format.hpp"
+#include "clackers/report/layout.hpp"
+#include "clackers/report/rows.hpp"
+
+namespace clackers::report {
+namespace {
+
+using Row = std::vector<study::Cell>;
+
+constexpr std::size_t rows_measured = 1000;
+constexpr int most_digits = 6, fewest_digits = 3;
+// Text is wrapped to no less than this, so that a sentence stays readable.
+constexpr std::size_t least_text = 12;
+
+std::string text_of(const study::Cell& cell, int digits, std::size_t width) {
+  if (const auto* real = std::get_if<double>(&cell)) return short_number(*real, digits, width);
+  if (const auto* whole = std::get_if<long long>(&cell)) return fmt::format("{}", *whole);
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  return {};
+}
+
+bool is_number(const study::Cell& cell) { return cell.index() == 1 || cell.index() == 2; }
+
+std::size_t widest_line(std::string_view text) {
+  std::size_t widest = 0;
+  for (const auto& line : wrap(text, text.size() + 1))
+    widest = std::max(widest, display_width(line));
+  return widest;
+}
+
+std::size_t longest_word(std::string_view text) {
+  std::size_t longest = 0;
+  for (std::size_t from = 0; from < text.size();) {
+    const auto to = std::min(text.find_first_of(" \n_", from), text.size());
+    longest = std::max(longest, display_width(text.substr(from, to - from)) + 1);
+    from = to + 1;
+  }
+  return longest;
+}
+
+// The columns as wide as the measured rows need them when numbers have `digits` digits.
+std::vector<TextColumn> measure(const std::vector<study::Column>& columns,
+                                const std::vector<Row>& rows, int digits) {
+  std::vector<TextColumn> out;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    TextColumn column;
+    bool numbers = false, texts = false;
+    std::size_t content = 0;
+    for (const auto& row : rows) {
+      numbers = numbers || is_number(row[c]);
+      texts = texts || std::holds_alternative<std::string>(row[c]);
+      content = std::max(content, widest_line(text_of(row[c], digits, 32)));
+    }
+    const auto& name = columns[c].name;
+    const auto unit = columns[c].unit.empty() ? "" : fmt::format("[{}]", columns[c].unit);
+    column.header = unit.empty() ? name : name + '\n' + unit;
+    column.right = numbers && !texts;
+    const auto header = std::max(longest_word(name) - (name.empty() ? 0 : 1), display_width(unit));
+    column.natural = std::max({content, header, std::size_t{1}});
+    column.least =
+        column.right ? column.natural : std::min(std::max(header, least_text), column.natural);
+    out.push_back(std::move(column));
+  }
+  return out;
+}
+
+// The most digits that fit; first with two spaces between columns, then with one.
+bool choose_layout(const std::vector<study::Column>& columns, const std::vector<Row>& rows,
+                   std::size_t width, std::vector<TextColumn>& layout, int& digits,
+                   std::size_t& gap) {
+  for (digits = most_digits; digits >= fewest_digits; --digits)
+    for (gap = 2; gap >= 1; --gap) {
+      layout = measure(columns, rows, digits);
+      if (fit(layout, gap, width)) return true;
+    }
+  return false;
+}
+
+void print_block(const std::vector<study::Column>& columns, const Row& row, std::size_t width,
+                 std::ostream& out) {
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    const auto text = fmt::format("{}: {} {}", columns[c].name, text_of(row[c], most_digits, 32),
+                                  columns[c].unit);
+    for (const auto& line : wrap(text, width)) out << line << '\n';
+  }
+  out << '\n';
+}
+
+}  // namespace
+
+void write_table(study::RowSource& rows, std::ostream& out, const Style& style) {
+  const auto width = std::size_t(std::max(style.width, 1));
+  if (!rows.title().empty())
+    for (const auto& line : wrap(rows.title(), width))
+      out << painted(line, Paint::bold, style) << '\n';
+
+  const auto& columns = rows.columns();
+  std::vector<Row> first;
+  Row row;
+  while (first.size() < rows_measured && rows.next(row)) first.push_back(row);
+
+  std::vector<TextColumn> layout;
+  int digits = most_digits;
+  std::size_t gap = 2;
+  const bool fits = choose_layout(columns, first, width, layout, digits, gap);
+  const auto print = [&](const Row& cells) {
+    if (!fits) return print_block(columns, cells, width, out);
+    std::vector<TextCell> texts;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      texts.push_back({text_of(cells[c], digits, layout[c].width)});
+    print_row(layout, texts, gap, out, style);
+  };
+
+  // A single column of text is a text; its title says what it is.
+  if (fits && (layout.size() > 1 || layout[0].right)) print_header(layout, gap, out, style);
+  for (const auto& cells : first) print(cells);
+  if (first.size() == rows_measured)
+    while (out && rows.next(row)) print(row);
+}
+
+}  // namespace clackers::report

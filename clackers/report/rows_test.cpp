@@ -1,0 +1,281 @@
+#include "clackers/report/rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "clackers/base/error.hpp"
+#include "clackers/report/format.hpp"
+
+namespace clackers::report {
+namespace {
+
+using study::Sheet;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Sheet mixed_sheet() {
+  return {"clackers/things/1",
+          "Things",
+          {{"name", "", "what"}, {"value", "m/s", "how much"}, {"n", "", ""}, {"side", "", ""}},
+          {{"plain", 0.1, 7LL, "-"},
+           {"with, comma", -1e-300, -9007199254740993LL, {}},
+           {"with \"quotes\"", infinity, 0LL, "+"},
+           {"two\nlines <&>", -infinity, 0LL, ""},
+           {"naïve ±", std::nan(""), {}, {}}}};
+}
+
+std::string csv(const Sheet& sheet) {
+  study::SheetRows rows(sheet);
+  std::ostringstream out;
+  write(rows, Format::csv, out);
+  return out.str();
+}
+
+std::string json(const Sheet& sheet) {
+  study::SheetRows rows(sheet);
+  std::ostringstream out;
+  write(rows, Format::json, out);
+  return out.str();
+}
+
+std::string table(const Sheet& sheet, const Style& style = {}) {
+  study::SheetRows rows(sheet);
+  std::ostringstream out;
+  write(rows, Format::table, out, style);
+  return out.str();
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) out.push_back(line);
+  return out;
+}
+
+// Reads csv as RFC 4180 says.
+std::vector<std::vector<std::string>> parsed_csv(const std::string& text) {
+  std::vector<std::vector<std::string>> rows{{""}};
+  bool inside = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (inside && c == '"' && text[i + 1] == '"') {
+      rows.back().back() += text[++i];
+    } else if (c == '"') {
+      inside = !inside;
+    } else if (!inside && c == ',') {
+      rows.back().emplace_back();
+    } else if (!inside && c == '\n') {
+      rows.push_back({""});
+    } else {
+      rows.back().back() += c;
+    }
+  }
+  rows.pop_back();
+  return rows;
+}
+
+TEST(Csv, StartsWithTheNamesAndQuotesOnlyWhatMustBe) {
+  const auto text = csv(mixed_sheet());
+  EXPECT_EQ(text.substr(0, text.find('\n')), "name,value,n,side");
+  EXPECT_NE(text.find("\nplain,0.1,7,-\n"), std::string::npos);
+  EXPECT_NE(text.find("\"with, comma\",-1e-300,-9007199254740993,\n"), std::string::npos);
+  EXPECT_NE(text.find("\"with \"\"quotes\"\"\",inf,0,+\n"), std::string::npos);
+}
+
+TEST(Csv, ReadsBackAsItWas) {
+  const auto sheet = mixed_sheet();
+  const auto rows = parsed_csv(csv(sheet));
+  ASSERT_EQ(rows.size(), sheet.rows.size() + 1);
+  for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
+    ASSERT_EQ(rows[r + 1].size(), 4u);
+    EXPECT_EQ(rows[r + 1][0], std::get<std::string>(sheet.rows[r][0]));
+  }
+}
+
+Sheet random_doubles(std::mt19937_64& bits) {
+  Sheet sheet{"clackers/random/1", "", {{"x", "", ""}}, {}};
+  while (sheet.rows.size() < 2000) {
+    const auto value = std::bit_cast<double>(bits());
+    if (std::isfinite(value)) sheet.rows.push_back({value});
+  }
+  return sheet;
+}
+
+TEST(Csv, NumbersReadBackToTheSameDouble) {
+  std::mt19937_64 bits(7);
+  const auto sheet = random_doubles(bits);
+  const auto rows = parsed_csv(csv(sheet));
+  for (std::size_t r = 0; r < sheet.rows.size(); ++r)
+    EXPECT_EQ(std::strtod(rows[r + 1][0].c_str(), nullptr), std::get<double>(sheet.rows[r][0]));
+}
+
+TEST(Json, NumbersReadBackToTheSameDouble) {
+  std::mt19937_64 bits(8);
+  const auto sheet = random_doubles(bits);
+  const auto read = nlohmann::json::parse(json(sheet));
+  for (std::size_t r = 0; r < sheet.rows.size(); ++r)
+    EXPECT_EQ(read["rows"][r][0].get<double>(), std::get<double>(sheet.rows[r][0]));
+}
+
+TEST(Json, HoldsSchemaColumnsAndRows) {
+  const auto read = nlohmann::json::parse(json(mixed_sheet()));
+  EXPECT_EQ(read["schema"], "clackers/things/1");
+  EXPECT_EQ(read["title"], "Things");
+  EXPECT_EQ(read["columns"][1],
+            (nlohmann::json{{"name", "value"}, {"unit", "m/s"}, {"meaning", "how much"}}));
+  ASSERT_EQ(read["rows"].size(), 5u);
+  EXPECT_EQ(read["rows"][1],
+            nlohmann::json::array({"with, comma", -1e-300, -9007199254740993LL, nullptr}));
+  EXPECT_EQ(read["rows"][2][1], "inf");
+  EXPECT_EQ(read["rows"][3][1], "-inf");
+  EXPECT_EQ(read["rows"][4][1], "nan");
+  EXPECT_EQ(read["rows"][3][0], "two\nlines <&>");
+}
+
+TEST(Json, SeveralSheetsAreOneObject) {
+  const std::vector<Sheet> sheets{mixed_sheet(), {"clackers/empty/1", "", {{"x", "m", ""}}, {}}};
+  std::ostringstream out;
+  write(sheets, "clackers/show/1", Format::json, out);
+  const auto read = nlohmann::json::parse(out.str());
+  EXPECT_EQ(read["schema"], "clackers/show/1");
+  ASSERT_EQ(read["sheets"].size(), 2u);
+  EXPECT_EQ(read["sheets"][1]["schema"], "clackers/empty/1");
+  EXPECT_TRUE(read["sheets"][1]["rows"].empty());
+}
+
+TEST(Sheets, StandBelowEachOtherInTextWithAnEmptyLineBetween) {
+  const Sheet sheet{"x/1", "", {{"x", "", ""}}, {{1LL}}};
+  std::ostringstream out;
+  write(std::vector<Sheet>{sheet, sheet}, "y/1", Format::csv, out);
+  EXPECT_EQ(out.str(), "x\n1\n\nx\n1\n");
+}
+
+TEST(Table, PutsNumbersToTheRightAndUnitsBelowNames) {
+  const Sheet sheet{"x/1",
+                    "Motion",
+                    {{"t", "s", ""}, {"side", "", ""}, {"u1", "m", ""}},
+                    {{0.5, {}, -0.25}, {10.25, "-", 1e-12}}};
+  EXPECT_EQ(table(sheet),
+            "Motion\n"
+            "    t           u1\n"
+            "  [s]  side    [m]\n"
+            "──────────────────\n"
+            "  0.5        -0.25\n"
+            "10.25  -     1e-12\n");
+}
+
+Sheet wide_sheet(int columns) {
+  Sheet sheet{"x/1", "", {}, {}};
+  for (int c = 0; c < columns; ++c) sheet.columns.push_back({"energy_before", "J", ""});
+  for (int r = 0; r < 20; ++r) {
+    sheet.rows.emplace_back();
+    for (int c = 0; c < columns; ++c) sheet.rows.back().push_back(-M_PI * std::pow(10.0, c - r));
+  }
+  return sheet;
+}
+
+TEST(Table, IsNeverWiderThanAskedAndNeverEndsALineWithSpace) {
+  auto wordy = mixed_sheet();
+  wordy.rows.push_back({std::string(500, 'x') + " " + std::string(500, 'y'), 1.0, 1LL, "z"});
+  for (const int width : {40, 80, 132})
+    for (const auto& sheet :
+         {wide_sheet(1), wide_sheet(6), wide_sheet(9), wide_sheet(12), wide_sheet(40), wordy})
+      for (const auto& line : lines(table(sheet, {.color = false, .width = width}))) {
+        EXPECT_LE(display_width(line), std::size_t(width)) << line;
+        EXPECT_FALSE(line.ends_with(' ')) << line;
+      }
+}
+
+TEST(Table, FewColumnsKeepSixDigitsAndManyGiveUpSome) {
+  EXPECT_NE(table(wide_sheet(2)).find("-3.14159\n"), std::string::npos);
+  EXPECT_NE(table(wide_sheet(7)).find("-3.142e-10"), std::string::npos);
+}
+
+TEST(Table, WrapsLongTextInItsColumn) {
+  const Sheet sheet{
+      "x/1",
+      "",
+      {{"name", "", ""}, {"meaning", "", ""}},
+      {{"m1", "the mass that stands to the left of the other one and is heavier than it is"}}};
+  const auto out = lines(table(sheet, {.color = false, .width = 40}));
+  ASSERT_EQ(out.size(), 5u);
+  EXPECT_EQ(out[2], "m1    the mass that stands to the left");
+  EXPECT_EQ(out[3], "      of the other one and is heavier");
+}
+
+TEST(Table, ATextAloneStandsAsItIs) {
+  const Sheet card{"x/1", "newmark", {{"card", "", ""}}, {{"Order       2\n    u1 = u0 + h v0"}}};
+  EXPECT_EQ(table(card), "newmark\nOrder       2\n    u1 = u0 + h v0\n");
+}
+
+TEST(Table, LaterRowsKeepTheWidthsOfTheFirst) {
+  // 2000 rows are more than are measured before the first is printed.
+  Sheet sheet{"x/1", "", {{"t", "s", ""}, {"u", "m", ""}}, {}};
+  for (int i = 0; i < 2000; ++i)
+    sheet.rows.push_back({0.5 * i, i < 1000 ? 0.25 : -1.23456789e-300});
+  const auto out = lines(table(sheet));
+  ASSERT_EQ(out.size(), 2003u);
+  EXPECT_EQ(out[3], "    0  0.25");
+  EXPECT_EQ(out.back(), "999.5  -1e-300");
+}
+
+TEST(Table, ColoursOnlyWhenAsked) {
+  EXPECT_EQ(table(mixed_sheet()).find('\x1b'), std::string::npos);
+  EXPECT_NE(table(mixed_sheet(), {.color = true}).find('\x1b'), std::string::npos);
+}
+
+/// Rows without end.
+class Endless : public study::RowSource {
+ public:
+  std::string schema() const override { return "x/1"; }
+  std::string title() const override { return {}; }
+  const std::vector<study::Column>& columns() const override { return columns_; }
+  bool next(std::vector<study::Cell>& row) override {
+    row = {static_cast<long long>(++asked)};
+    return asked < 1000000;
+  }
+  int asked = 0;
+
+ private:
+  std::vector<study::Column> columns_{{"k", "", ""}};
+};
+
+TEST(Rows, WritingStopsWhenTheStreamHasFailed) {
+  for (const auto format : {Format::table, Format::csv, Format::json}) {
+    Endless rows;
+    std::ostringstream out;
+    out.setstate(std::ios::badbit);
+    write(rows, format, out);
+    EXPECT_LE(rows.asked, 1001);
+  }
+}
+
+TEST(Format, KnowsItsNamesAndRefusesOthersWithAGuess) {
+  EXPECT_EQ(format_from("table"), Format::table);
+  EXPECT_EQ(format_from("csv"), Format::csv);
+  EXPECT_EQ(format_from("json"), Format::json);
+  for (const auto text : {"jsn", "JSON", "", "xml"}) {
+    try {
+      format_from(text);
+      FAIL() << text;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.code().name(), "unknown-name");
+      EXPECT_NE(std::string(error.what()).find("table, csv, json"), std::string::npos);
+    }
+  }
+  try {
+    format_from("jsn");
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("Did you mean \"json\"?"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace clackers::report
