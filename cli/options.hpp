@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace clackers::cli {
+
+/// What every command takes.
+struct CommonOptions {
+  std::string format = "table", out;
+  bool quiet = false, no_color = false;
+};
+
+/// Adds --format, --out, --quiet and --no-color. `options` must outlive the parsing.
+void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// Adds --set, which may stand several times.
+void add_set_option(CLI::App& command, std::vector<std::string>& settings);
+
+}  // namespace clackers::cli

@@ -1,0 +1,53 @@
+#include "cli/progress_line.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace clackers::cli {
+namespace {
+
+constexpr int width = 79;
+
+// Blanks instead of an escape sequence, so that every terminal understands.
+void put(const std::string& text) {
+  std::fputs(fmt::format("\r{:<{}}\r{}", "", width, text).c_str(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+std::string spell_duration(double seconds) {
+  const auto s = static_cast<long long>(seconds + 0.5);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
+}
+
+ProgressLine::ProgressLine(std::string what, bool quiet)
+    : what_(std::move(what)),
+      visible_(!quiet && ::isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()) {}
+
+ProgressLine::~ProgressLine() {
+  if (visible_) put("");
+}
+
+void ProgressLine::tell(double share) {
+  if (!visible_) return;
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  if (now - last_ < std::chrono::milliseconds(100)) return;
+  last_ = now;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  auto line =
+      fmt::format("{} {:3.0f} %, {} elapsed", what_, 100.0 * share, spell_duration(elapsed));
+  // Before a twentieth is done the rest is anyone's guess.
+  if (share >= 0.05)
+    line += fmt::format(", about {} left", spell_duration(elapsed * (1.0 - share) / share));
+  put(line);
+}
+
+}  // namespace clackers::cli

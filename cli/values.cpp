@@ -1,0 +1,78 @@
+#include "cli/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "clackers/base/error.hpp"
+
+namespace clackers::cli {
+namespace {
+
+constexpr std::string_view number_rule = "a number with a decimal point such as 0.05, 5e-2 or 1/20";
+
+[[noreturn]] void refuse_text(std::string_view what, std::string_view text) {
+  const bool comma = text.find(',') != std::string_view::npos;
+  refuse("clackers", what, fmt::format("\"{}\"", text), number_rule,
+         comma ? "Use a point, not a comma." : "", "not-a-number");
+}
+
+double read_decimal(std::string_view what, std::string_view whole, std::string_view part) {
+  if (part.starts_with('+') && !part.starts_with("+-")) part.remove_prefix(1);
+  double value = 0.0;
+  const auto* const end = part.data() + part.size();
+  const auto [stop, error] = std::from_chars(part.data(), end, value);
+  if (error == std::errc::invalid_argument || stop != end) refuse_text(what, whole);
+  if (error == std::errc::result_out_of_range)
+    refuse("clackers", what, whole, "a number that a double can hold, 5e-324 to 1.8e308 in size",
+           {}, "not-finite");
+  return value;
+}
+
+}  // namespace
+
+double read_number(std::string_view what, std::string_view text) {
+  const auto slash = text.find('/');
+  if (slash == std::string_view::npos) return read_decimal(what, text, text);
+  const double above = read_decimal(what, text, text.substr(0, slash));
+  const double below = read_decimal(what, text, text.substr(slash + 1));
+  return above / below;
+}
+
+long long read_whole(std::string_view what, std::string_view text, long long lowest,
+                     long long highest) {
+  const double value = read_number(what, text);
+  if (std::isnan(value)) refuse("clackers", what, text, "a whole number", {}, "not-a-number");
+  if (value != std::floor(value)) refuse("clackers", what, text, "a whole number");
+  if (!(value >= double(lowest) && value <= double(highest)))
+    refuse("clackers", what, text, fmt::format("{} to {}", lowest, highest));
+  return static_cast<long long>(value);
+}
+
+cases::Settings read_settings(const std::vector<std::string>& options) {
+  cases::Settings settings;
+  for (std::string_view rest : options) {
+    for (bool more = true; more;) {
+      const auto comma = rest.find(',');
+      more = comma != std::string_view::npos;
+      const auto part = rest.substr(0, comma);
+      if (more) rest.remove_prefix(comma + 1);
+      const auto equals = part.find('=');
+      if (equals == std::string_view::npos || equals == 0)
+        refuse("clackers", "--set", fmt::format("\"{}\"", part),
+               "name=value, more of them behind commas",
+               "Numbers take a decimal point; a comma separates settings.", "bad-syntax");
+      const auto name = part.substr(0, equals);
+      if (std::ranges::find(settings, name, &cases::Settings::value_type::first) != settings.end())
+        refuse("clackers", "--set", fmt::format("\"{}\"", part), "every name once",
+               fmt::format("{} was set before.", name), "bad-syntax");
+      settings.emplace_back(name, read_number(name, part.substr(equals + 1)));
+    }
+  }
+  return settings;
+}
+
+}  // namespace clackers::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clackers/cases/case.hpp"
+
+namespace clackers::cli {
+
+/// The number that `text` spells: decimal with a point, nan, inf, or a fraction of two such numbers
+/// ("1/9"). `what` names it in messages ("--step", "xi1"). Throws InputError for anything else.
+double read_number(std::string_view what, std::string_view text);
+
+/// A whole number ("1000" or "1e3") within [lowest, highest], at most 2^53 in size so that a double
+/// holds it; throws InputError otherwise.
+long long read_whole(std::string_view what, std::string_view text, long long lowest,
+                     long long highest);
+
+/// The values of all --set options, each "name=value,...". Throws InputError for a part that is
+/// not name=value and for a name that is set twice.
+cases::Settings read_settings(const std::vector<std::string>& options);
+
+}  // namespace clackers::cli

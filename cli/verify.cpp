@@ -1,0 +1,185 @@
+#include "clackers/study/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "clackers/base/error.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/report/write.hpp"
+#include "clackers/study/listing.hpp"
+#include "cli/command.hpp"
+#include "cli/help.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/messages.hpp"
+#include "cli/options.hpp"
+#include "cli/output_file.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/results.hpp"
+#include "cli/values.hpp"
+
+namespace clackers::cli {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::vector<std::string> methods, settings;
+  std::string case_name, levels, coarsest, neighbours, jobs, report;
+  bool all = false;
+};
+
+study::VerifyRequest request_of(const Options& options, const std::string& line) {
+  constexpr auto any = std::numeric_limits<int>::max();
+  const auto whole = [](const char* name, const std::string& text, int lowest, int standard) {
+    return text.empty() ? standard : static_cast<int>(read_whole(name, text, lowest, any));
+  };
+  study::VerifyRequest request;
+  request.methods = options.methods;
+  if (options.all)
+    for (const auto& row : study::list("pairs").rows)
+      request.methods.push_back(std::get<std::string>(row.front()));
+  request.case_name = options.case_name;
+  request.settings = read_settings(options.settings);
+  auto& plan = request.plan;
+  plan.levels = whole("--levels", options.levels, 1, plan.levels);
+  plan.neighbours = whole("--neighbours", options.neighbours, 1, plan.neighbours);
+  if (!options.coarsest.empty()) plan.coarsest = read_number("--coarsest", options.coarsest);
+  request.jobs = whole("--jobs", options.jobs, 1, request.jobs);
+  request.command = line;
+  return request;
+}
+
+[[noreturn]] void refuse_usage(const std::string& sentence) {
+  throw InputError("verify " + sentence, "bad-syntax");
+}
+
+void check(const Options& options) {
+  if (options.all && !options.methods.empty())
+    refuse_usage("--all runs every method; leave " + options.methods.front() + " or --all out.");
+  for (const auto& method : options.methods)
+    for (const auto& entry : cases::entries())
+      if (entry.name == method)
+        refuse_usage(fmt::format("{0}: this is a case, not a method. Write --case {0}", method));
+  const auto absolute = [](const std::string& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+  };
+  if (!options.report.empty() && !options.common.out.empty() &&
+      absolute(options.report) == absolute(options.common.out))
+    refuse_usage("--report and --out name the same file; give each its own.");
+}
+
+study::Record run_study(const Options& options, const study::VerifyRequest& request) {
+  ProgressLine line("verify", options.common.quiet);
+  return study::verify(
+      request, [&](double share) { line.tell(share); }, &interrupt_flag());
+}
+
+// Runs `write`; a file that fails must not take the other results with it. True when written.
+template <class Write>
+bool survived(const Write& write) {
+  try {
+    write();
+    return true;
+  } catch (const FileError& error) {
+    complain(error.what(), error.code().name());
+    return false;
+  }
+}
+
+void print(const study::Record& record, Results& to) {
+  report::write(record, to.format(), to.stream(), to.style());
+  to.finish();
+}
+
+int run(const Options& options, const std::string& line) {
+  check(options);
+  const auto request = request_of(options, line);
+  // Before the work: where it cannot go must not be found out afterwards.
+  Results results(options.common, OnInterrupt::finish);
+  std::unique_ptr<OutputFile> page;
+  if (!options.report.empty())
+    page = std::make_unique<OutputFile>(options.report, OnInterrupt::finish);
+
+  const auto record = run_study(options, request);
+
+  bool written = true;
+  if (page) {
+    written = survived([&] {
+      page->stream() << report::html(record);
+      page->commit();
+      if (!options.common.quiet) note(fmt::format("Wrote {}", page->path()));
+    });
+  }
+  try {
+    if (!survived([&] { print(record, results); })) {
+      written = false;
+      // The work is done; a person may still read it.
+      CommonOptions standard;
+      standard.no_color = options.common.no_color;
+      if (results.is_file()) {
+        Results terminal(standard, OnInterrupt::finish);
+        survived([&] { print(record, terminal); });
+      }
+    }
+  } catch (const BrokenPipe&) {
+    // `verify | head`: the reader had enough, the verdict still counts.
+  }
+  if (record.interrupted) complain("interrupted; the finished rows were kept.", "interrupted");
+  if (!written) return 4;
+  return record.interrupted ? 130 : study::exit_code(record);
+}
+
+}  // namespace
+
+Command add_verify(CLI::App& root) {
+  const auto options = std::make_shared<Options>();
+  auto* app = root.add_subcommand("verify");
+  set_help(
+      *app,
+      {.examples =
+           "  clackers verify\n"
+           "  clackers verify rk4 newmark:beta=0+penalty --case symmetric-pair --levels 10\n"
+           "  clackers verify --report report.html --format json --out record.json\n",
+       .about =
+           "Judges time-integration methods: runs each over a ladder of steps on a case whose "
+           "exact motion is known, and compares what was measured with what it claims. A "
+           "method is integrator[:name=value,...][+contact[:name=value,...]]; without +contact "
+           "impacts are located as events (event-driven). Exit code 0 when all agree, 1 when "
+           "one disagrees, 3 when one stays undecided.",
+       .usage = "  clackers verify [METHOD ...|--all] [--case CASE] [--set name=value,...]\n"
+                "           [--levels n] [--coarsest h] [--neighbours n] [--jobs n]\n"
+                "           [--report FILE.html]\n"});
+  app->add_option("METHOD", options->methods,
+                  "Methods, by name (clackers list pairs). Without any, the default panel "
+                  "(clackers list methods).");
+  app->add_flag("--all", options->all, "Every integrator with every contact treatment.");
+  app->add_option("--case", options->case_name,
+                  "The case (clackers list cases). Default: three-parameter.")
+      ->option_text("CASE");
+  add_set_option(*app, options->settings);
+  app->add_option("--levels", options->levels,
+                  "Number of levels of the ladder, each with half the step of the one before. "
+                  "Default: 8.")
+      ->option_text("n");
+  app->add_option("--coarsest", options->coarsest, "Largest step, in seconds. Default: 0.05.")
+      ->option_text("h");
+  app->add_option(
+         "--neighbours", options->neighbours,
+         "Neighbouring steps a level, in the ratio 2^(1/n); they show scatter. Default: 8.")
+      ->option_text("n");
+  app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
+  app->add_option("--report", options->report,
+                  "Also write a page with verdicts, figures and provenance that opens without a "
+                  "network, whole or not at all.")
+      ->option_text("FILE.html");
+  add_common_options(*app, options->common);
+  return {app, [options](const std::string& line) { return run(*options, line); }};
+}
+
+}  // namespace clackers::cli

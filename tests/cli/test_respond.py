@@ -1,0 +1,226 @@
+"""respond: columns, times, collisions, the picture, and what it refuses."""
+import math
+import unittest
+
+from command import CommandTest, run
+
+PAIR = "t,side,u1,v1,a1,u2,v2,a2"
+CASES = {"sdof": "t,side,u1,v1,a1", "stop": "t,side,u1,v1,a1", "symmetric-pair": PAIR,
+         "one-parameter": PAIR, "two-parameter": PAIR, "three-parameter": PAIR,
+         "synchronized-pair": PAIR, "exact-data-pair": PAIR}
+
+
+class Columns(CommandTest):
+    def test_are_those_of_the_grammar_for_every_case(self):
+        for case, columns in CASES.items():
+            text = self.good("respond", case, "--samples", "5", "--format", "csv")
+            self.assertEqual(text.splitlines()[0], columns)
+        head = self.good("respond", "three-parameter", "--collisions", "--format", "csv")
+        self.assertEqual(head.splitlines()[0],
+                         "k,t,u1,v1-,v1+,v2-,v2+,impulse,energy_before,energy_after")
+        head = self.good("respond", "stop", "--collisions", "--format", "csv")
+        self.assertEqual(head.splitlines()[0],
+                         "k,t,u1,v1-,v1+,impulse,energy_before,energy_after")
+
+    def test_json_has_schema_columns_and_the_same_doubles_as_csv(self):
+        whole = self.json_of("respond", "three-parameter", "--samples", "101")
+        self.assertEqual(whole["schema"], "clackers/response/1")
+        self.assertEqual([c["name"] for c in whole["columns"]], PAIR.split(","))
+        self.assertEqual([c["unit"] for c in whole["columns"]],
+                         ["s", "", "m", "m/s", "m/s^2", "m", "m/s", "m/s^2"])
+        listed = self.rows_of("respond", "three-parameter", "--samples", "101")
+        self.assertEqual(len(listed), len(whole["rows"]))
+        for row, values in zip(listed, whole["rows"]):
+            for text, value in zip(row.values(), values):
+                self.assertEqual(float(text) if text else None, value)
+
+    def test_table_fits_80_columns(self):
+        for case in CASES:
+            for way in (("--samples", "11"), ("--collisions",)):
+                for line in self.good("respond", case, *way).splitlines():
+                    self.assertLessEqual(len(line), 80, line)
+
+
+class Times(CommandTest):
+    def times(self, *arguments, **more):
+        return [float(row["t"]) for row in self.rows_of("respond", *arguments, **more)
+                if row["side"] != "+"]
+
+    def test_of_samples_are_equally_spaced_with_both_ends(self):
+        self.assertEqual(self.times("sdof", "--samples", "8"), [k * (20 / 7) for k in range(7)] + [20])
+        self.assertEqual(len(self.times("sdof", "--samples", "1e3")), 1000)
+
+    def test_of_a_step_reach_the_end_when_it_divides_it(self):
+        self.assertEqual(self.times("sdof", "--step", "7"), [0, 7, 14])
+        self.assertEqual(self.times("sdof", "--step", "0.1"), [k * 0.1 for k in range(200)] + [20])
+        self.assertEqual(self.times("sdof", "--step", "20"), [0, 20])
+
+    def test_follow_the_end_of_the_case(self):
+        self.assertEqual(self.times("sdof", "--samples", "2", "--set", "t_end=3"), [0, 3])
+
+    def test_from_standard_input_skip_comments_and_blanks_and_keep_their_order(self):
+        text = "# times\n\n 3.5 # the later one\n%\n\t1/2\r\n0x\n".replace("0x\n", "+2e0")
+        self.assertEqual(self.times("sdof", "--times", "-", stdin=text), [3.5, 0.5, 2.0])
+
+    def test_from_a_file(self):
+        with open(self.path("times"), "w") as file:
+            file.write("1\n2\n")
+        self.assertEqual(self.times("sdof", "--times", self.path("times")), [1, 2])
+
+    def test_read_back_to_the_same_double(self):
+        given = [0.1, 1 / 3, math.pi, 5e-324, 19.999999999999996, 1e-17]
+        text = "".join(f"{t!r}\n" for t in given)
+        self.assertEqual(self.times("sdof", "--times", "-", stdin=text), given)
+
+    def test_name_the_line_that_is_wrong(self):
+        for text, code, says in (("1\n\n# x\nabc\n2", "not-a-number", ("line 4", '"abc"')),
+                                 ("1\n0,5\n", "not-a-number", ("line 2", "Use a point")),
+                                 ("1\nnan\n", "not-a-number", "line 2"),
+                                 ("inf\n", "not-finite", "line 1"),
+                                 ("1 2\n", "not-a-number", "line 1"),
+                                 ("1e999\n", "not-finite", "line 1"),
+                                 ("1\n2\n20.000000000000004\n", "time-outside", ("line 3", "0 <= t <= 20")),
+                                 ("-1e-9\n", "time-outside", "line 1"),
+                                 ("0\0\n", "not-a-number", "line 1")):
+            self.refused("respond", "sdof", "--times", "-", stdin=text, code=code, says=says)
+
+    def test_refuse_a_file_without_times(self):
+        for text in ("", "\n\n", "# none\n"):
+            self.refused("respond", "sdof", "--times", "-", stdin=text, code="bad-syntax",
+                         says="standard input has no times")
+
+    def test_refuse_a_file_that_cannot_be_read(self):
+        self.refused("respond", "sdof", "--times", self.path("none"), exit_code=4,
+                     code="cannot-read", says=(self.path("none"), "No such file"))
+        self.refused("respond", "sdof", "--times", self.folder, exit_code=4, code="cannot-read",
+                     says="directory")
+        self.refused("respond", "sdof", "--times", "/dev/zero", code="not-a-number",
+                     says="line 1 is longer than")
+
+
+class Collisions(CommandTest):
+    def test_at_the_nearest_double_give_two_rows_and_at_its_neighbours_one(self):
+        for case in ("three-parameter", "stop", "exact-data-pair"):
+            hit = self.rows_of("respond", case, "--collisions")[1]
+            t = float(hit["t"])
+            times = [math.nextafter(t, 0), t, math.nextafter(t, 30)]
+            got = self.rows_of("respond", case, "--times", "-", stdin="\n".join(map(repr, times)))
+            self.assertEqual([row["side"] for row in got], ["", "-", "+", ""])
+            self.assertEqual([float(row["t"]) for row in got], [times[0], t, t, times[2]])
+            # The collision is at the true instant, the row at the double nearest to it: half an ulp
+            # of t apart, where |a| <= E omega = 1 or less; both values are within 2 ulp of E omega.
+            for row, side in ((got[1], "v1-"), (got[2], "v1+")):
+                self.assertAlmostEqual(float(row["v1"]), float(hit[side]), delta=(t + 8) * 2**-52)
+            self.assertLess(float(got[1]["v1"]) * float(got[2]["v1"]), 0)
+
+    def test_are_numbered_from_one_and_in_order(self):
+        got = self.rows_of("respond", "three-parameter", "--collisions")
+        self.assertEqual([int(row["k"]) for row in got], list(range(1, len(got) + 1)))
+        self.assertGreater(len(got), 3)
+        times = [float(row["t"]) for row in got]
+        self.assertEqual(times, sorted(times))
+
+    def test_of_a_mass_without_stop_are_none(self):
+        self.assertEqual(self.rows_of("respond", "sdof", "--collisions"), [])
+
+
+class Picture(CommandTest):
+    def test_alone_is_drawn_without_rows(self):
+        text = self.good("respond", "three-parameter", "--plot")
+        self.assertGreater(len(text.splitlines()), 8)
+        for line in text.splitlines():
+            self.assertLessEqual(len(line), 80, line)
+
+    def test_stands_above_the_table(self):
+        picture = self.good("respond", "stop", "--plot")
+        table = self.good("respond", "stop", "--samples", "3")
+        self.assertEqual(self.good("respond", "stop", "--samples", "3", "--plot"), picture + table)
+
+    def test_is_on_the_terminal_while_rows_go_to_a_file(self):
+        done = run("respond", "stop", "--plot", "--samples", "3", "--format", "csv", "--out",
+                   self.path("rows.csv"))
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(done.stdout, self.good("respond", "stop", "--plot"))
+        with open(self.path("rows.csv")) as file:
+            self.assertEqual(len(file.readlines()), 4)
+
+    def test_is_refused_inside_rows_for_a_program(self):
+        for form in ("csv", "json"):
+            self.refused("respond", "stop", "--plot", "--samples", "3", "--format", form,
+                         code="bad-syntax", says="--out FILE")
+        self.refused("respond", "stop", "--plot", "--out", self.path("x"), code="bad-syntax",
+                     says="--out needs rows")
+        self.assertEqual(self.files(), [])
+
+
+class Refusals(CommandTest):
+    def test_of_a_request_without_or_with_too_many_ways(self):
+        self.refused("respond", code="bad-syntax", says="needs a CASE")
+        self.refused("respond", "stop", code="bad-syntax", says="--collisions")
+        self.refused("respond", "stop", "--samples", "3", "--step", "1", code="bad-syntax",
+                     says="only one of")
+
+    def test_of_unknown_names(self):
+        self.refused("respond", "three-paramter", "--samples", "3", code="unknown-name",
+                     says='Did you mean "three-parameter"?')
+        self.refused("respond", "stop", "--samples", "3", "--set", "xi=0.1", code="unknown-name",
+                     says=('"xi"', 'Did you mean "xi1"?'))
+
+    def test_of_samples_that_are_no_sensible_number(self):
+        for samples, code in (("0", "out-of-range"), ("1", "out-of-range"), ("-5", "out-of-range"),
+                              ("2.5", "out-of-range"), ("nan", "not-a-number"),
+                              ("many", "not-a-number"), ("inf", "out-of-range|not-finite"),
+                              ("1e10", "too-many-rows"), ("1e300", "out-of-range")):
+            self.refused("respond", "sdof", "--samples", samples, code=f"(?:{code})", says="samples")
+
+    def test_of_steps_that_are_zero_negative_or_not_finite(self):
+        for step, code in (("0", "step-not-positive"), ("-0.1", "step-not-positive"),
+                           ("nan", "not-a-number"), ("inf", "not-finite"), ("x", "not-a-number"),
+                           ("21", "step-not-positive"), ("1e-9", "too-many-rows"),
+                           ("1e-320", "too-many-rows")):
+            self.refused("respond", "sdof", "--step", step, code=code, says="step")
+
+    def test_of_parameters_outside_their_range(self):
+        for case, setting, code, says in (
+                ("sdof", "xi1=1", "out-of-range", ("xi1 = 1", "0 <= xi1 < 1")),
+                ("sdof", "xi1=-0.1", "out-of-range", "xi1 = -0.1"),
+                ("sdof", "xi1=nan", "not-a-number", "xi1 = nan"),
+                ("sdof", "t_end=inf", "not-finite", "t_end = inf"),
+                ("sdof", "t_end=0", "out-of-range", "t_end = 0"),
+                ("sdof", "t_end=-1", "out-of-range", "t_end = -1"),
+                ("stop", "eta=1.5", "out-of-range", ("eta = 1.5", "0 <= eta <= 1")),
+                ("stop", "eta=-0.1", "out-of-range", "eta = -0.1"),
+                ("three-parameter", "N=2.5", "not-whole", "N = 2.5"),
+                ("three-parameter", "N=-1", "out-of-range", "N = -1"),
+                ("three-parameter", "a_t=0", "out-of-range", "a_t = 0"),
+                ("synchronized-pair", "m1=-1", "out-of-range", "m1 = -1"),
+                ("synchronized-pair", "m1=0", "out-of-range", "m1 = 0"),
+                ("synchronized-pair", "k1=-1", "out-of-range", "k1 = -1"),
+                ("synchronized-pair", "X=8", "not-odd", "X = 8"),
+                ("synchronized-pair", "X=2.5", "not-odd", "X = 2.5"),
+                ("synchronized-pair", "r=-1", "[a-z-]+", "r = -1"),
+                ("synchronized-pair", "r=0", "[a-z-]+", "r = 0")):
+            self.refused("respond", case, "--samples", "3", "--set", setting, code=code, says=says)
+
+    def test_of_a_mass_ratio_beyond_r_star_say_how_far_where_when_and_what_to_change(self):
+        text = self.refused("respond", "synchronized-pair", "--samples", "3", "--set", "r=5",
+                            code="not-admissible", says=("r = 5", "4.41"))
+        self.assertRegex(text, r"t = [0-9.]+ s")
+        self.good("respond", "synchronized-pair", "--samples", "3", "--set", "r=4.41")
+
+    def test_of_settings_that_are_no_settings(self):
+        for setting, says in (("xi1", '"xi1"'), ("xi1=0,05", '"05"'), ("=3", '"=3"'),
+                              ("", "empty"), ("xi1=0.1,", '""'), ("xi1=0.1,xi1=0.2", "set before")):
+            self.refused("respond", "sdof", "--samples", "3", "--set", setting, code="bad-syntax",
+                         says=says)
+        self.refused("respond", "sdof", "--samples", "3", "--set", "xi1=0.1", "--set", "xi1=0.1",
+                     code="bad-syntax", says="set before")
+        for value in ("abc", "", "0.1x", "1/", "/2", "0x10", "1/2/3", "--1", "+-1", "1 2"):
+            self.refused("respond", "sdof", "--samples", "3", "--set", f"xi1={value}",
+                         code="not-a-number", says=f'xi1 = "{value}"')
+        self.refused("respond", "sdof", "--samples", "3", "--set", "xi1=1e-999", code="not-finite")
+        self.refused("respond", "sdof", "--samples", "3", "--set", "xi1=0/0", code="not-a-number")
+
+
+if __name__ == "__main__":
+    unittest.main()

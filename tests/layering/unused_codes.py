@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""Checks that every code of clackers/base/codes.hpp is used by the sources.
+
+    unused_codes.py ROOT      prints each unused code, exits 1 if there is one
+
+Used means: it stands as a text literal in a source that is neither the table nor a test. Verdicts
+and behaviours are also used where their words stand with blanks ("not claimed").
+"""
+import pathlib
+import re
+import sys
+
+TABLE = pathlib.PurePosixPath("clackers/base/codes.hpp")
+ROW = re.compile(r'\{"([^"]+)",\s*"(refusal|failure|behaviour|reason|verdict)",')
+LITERAL = re.compile(r'"([^"\\\n]*)"')
+FOLDERS = ["clackers", "cli", "bindings"]
+
+
+def rows(text):
+    """Names and kinds of all rows; every code_table row must be understood."""
+    body = text[text.index("code_table ="):]
+    body = body[:body.index("});")]
+    found = ROW.findall(body)
+    starts = len(re.findall(r'^\s*\{"', body, re.MULTILINE))
+    if starts != len(found):
+        raise ValueError(f"{TABLE}: {starts} rows, {len(found)} understood")
+    return found
+
+
+def literals(root):
+    found = set()
+    for folder in FOLDERS:
+        for path in sorted((root / folder).rglob("*.[ch]pp")):
+            relative = path.relative_to(root).as_posix()
+            if relative != str(TABLE) and not path.name.endswith("_test.cpp"):
+                found.update(LITERAL.findall(path.read_text(encoding="utf-8")))
+    return found
+
+
+def unused(root):
+    used = literals(root)
+    words = {"verdict", "behaviour"}
+    return [name for name, kind in rows((root / TABLE).read_text(encoding="utf-8"))
+            if name not in used and not (kind in words and name.replace("-", " ") in used)]
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    found = unused(root)
+    for name in found:
+        print(f"{TABLE}: no source uses the code {name}")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,184 @@
+// Opens the html report in headless Chromium as a reader would: node browser_test.mjs FILE.html
+// Every sentence below is a check; the program fails if one of them is false.
+import { createRequire } from "node:module";
+import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const require = createRequire(new URL("../../tools/web/package.json", import.meta.url));
+const { chromium } = require("playwright-core");
+const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+
+const file = resolve(process.argv[2]);
+const address = pathToFileURL(file).href;
+const failures = [];
+function check(sentence, holds, found = "") {
+  console.log(`${holds ? "ok  " : "FAIL"} ${sentence}${holds || found === "" ? "" : `: ${found}`}`);
+  if (!holds) failures.push(sentence);
+}
+
+const figures = ["response", "convergence", "history", "work-forces", "work-seconds"];
+const profile = mkdtempSync(join(tmpdir(), "clackers-browser-"));
+const context = await chromium.launchPersistentContext(profile, {
+  executablePath: process.env.CHROMIUM || "/usr/bin/chromium",
+  headless: true,
+  acceptDownloads: true,
+  viewport: { width: 1280, height: 900 },
+  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync"]
+});
+
+async function open(options = {}) {
+  const page = await context.newPage();
+  page.said = [];
+  page.requests = [];
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type())) page.said.push(message.text());
+  });
+  page.on("pageerror", (error) => page.said.push(String(error)));
+  page.on("request", (request) => {
+    if (request.url() !== address && !/^(data|blob):/.test(request.url())) page.requests.push(request.url());
+  });
+  await page.emulateMedia({ colorScheme: options.dark ? "dark" : "light" });
+  if (options.width) await page.setViewportSize({ width: options.width, height: 800 });
+  await page.goto(address);
+  await page.waitForFunction(() => ["drawn", "failed"].includes(document.documentElement.dataset.figures), null,
+    { timeout: 60000 });
+  return page;
+}
+
+// How many marks of a kind a figure has drawn.
+const marks = (page, name, selector) => page.locator(`[data-plot="${name}"] svg ${selector}`).count();
+
+async function violations(page) {
+  await page.evaluate(axe);
+  // The drawings are hidden from readers of the page by their frames; thousands of marks take axe minutes.
+  const result = await page.evaluate(() => window.axe.run({ exclude: [[".plot svg"]] }, { resultTypes: ["violations"] }));
+  return result.violations.filter((found) => ["serious", "critical"].includes(found.impact))
+    .map((found) => `${found.id} (${found.nodes.length}): ${found.nodes[0].html.slice(0, 160)} ${found.nodes[0].failureSummary}`);
+}
+
+async function download(page, name, label) {
+  const [saved] = await Promise.all([
+    page.waitForEvent("download"),
+    page.locator(`[data-tools="${name}"] button`, { hasText: label }).click()
+  ]);
+  return readFileSync(await saved.path());
+}
+
+try {
+  const bytes = statSync(file).size;
+  check("the page is smaller than 2 MB", bytes < 2e6, `${bytes} bytes`);
+
+  const page = await open();
+  check("all figures are drawn", await page.evaluate(() => document.documentElement.dataset.figures) === "drawn");
+  for (const name of figures)
+    check(`figure ${name} has lines`, await marks(page, name, "g.mark-line path") > 0);
+  check("the response marks six collisions",
+    await marks(page, "response", "g.mark-rule.role-mark line") === 6 && await marks(page, "response", "g.mark-symbol path[fill='var(--collision)']") === 6);
+  const methods = await page.locator('[data-legend^="convergence"] button[data-series]').count();
+  check("the convergence plot has an envelope for every method that ran", methods === 7 &&
+    await page.evaluate(() => new Set(data.levels.map((row) => row.method)).size) === methods);
+  check("the convergence plot shows every finished run",
+    await marks(page, "convergence", "g.mark-symbol path[opacity='0.38']") === await page.evaluate(
+      () => data.runs.filter((run) => run.finished === "yes").length));
+  check("three slope triangles are labelled", JSON.stringify(await page.evaluate(() => data.slopes.map((s) => s.order))) === '["1","2","4"]');
+  check("the verdict table comes first", await page.evaluate(() =>
+    Boolean(document.querySelector("table.verdicts").compareDocumentPosition(document.querySelector("figure"))
+      & Node.DOCUMENT_POSITION_FOLLOWING)));
+  check("every link within the page leads somewhere", await page.evaluate(() =>
+    [...document.querySelectorAll('a[href^="#"]')].every((link) => document.querySelector(link.getAttribute("href")))));
+
+  // What can be pressed.
+  const first = page.locator('[data-legend^="convergence"] button[data-series]').first();
+  const before = await marks(page, "convergence", "g.mark-symbol path");
+  await first.focus();
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(([was]) => document.querySelectorAll('[data-plot="convergence"] svg g.mark-symbol path').length < was, [before]);
+  check("a legend entry pressed on the keyboard hides its method",
+    await first.getAttribute("aria-pressed") === "false");
+  await first.press("Enter");
+  await page.waitForFunction(([was]) => document.querySelectorAll('[data-plot="convergence"] svg g.mark-symbol path').length === was, [before]);
+
+  const span = () => page.evaluate(() => { const [lo, hi] = embedded.convergence.scale("x").domain(); return Math.log(hi / lo); });
+  const whole = await span();
+  const tools = page.locator('[data-tools="convergence"] button');
+  await tools.nth(0).click();
+  await page.waitForTimeout(100);
+  check("the zoom button zooms by its factor in decades", Math.abs(await span() / whole - 1 / 1.5) < 1e-9, `${await span()} of ${whole}`);
+  await tools.nth(2).click();
+  await page.waitForTimeout(100);
+  check("the reset button shows everything again", Math.abs(await span() / whole - 1) < 1e-9);
+
+  const box = await page.locator('[data-plot="convergence"] svg').boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.keyboard.down("Control");
+  await page.mouse.wheel(0, -200);
+  await page.keyboard.up("Control");
+  await page.waitForTimeout(100);
+  check("Ctrl and the wheel zoom", await span() < 0.95 * whole);
+  const zoomed = await span();
+  await page.mouse.wheel(0, 50);
+  await page.waitForTimeout(100);
+  check("the wheel alone scrolls the page and does not zoom", await span() === zoomed);
+  await tools.nth(2).click();
+
+  await page.locator('[data-mass="2"]').click();
+  await page.waitForTimeout(100);
+  check("the error of mass 2 can be chosen", await page.evaluate(() => embedded.history.signal("mass")) === 2);
+
+  await page.locator('[data-plot="convergence"]').scrollIntoViewIfNeeded();
+  await page.locator('[data-plot="convergence"] g.mark-symbol path[opacity="1"]').nth(3).hover({ force: true });
+  await page.waitForSelector("#vg-tooltip-element.visible");
+  const told = await page.locator("#vg-tooltip-element").innerText();
+  check("a point tells its method and numbers", /method\s+\S+[\s\S]*step h \[s\]\s+\d[\s\S]*error in u\s+\d/.test(told), told);
+
+  // What can be saved.
+  for (const name of figures) {
+    const svg = (await download(page, name, "SVG")).toString();
+    check(`figure ${name} is saved as SVG with fixed colours`, svg.startsWith("<svg") && !svg.includes("var(") && svg.includes("mark-line"));
+  }
+  const png = await download(page, "convergence", "PNG");
+  check("a figure is saved as PNG", png.subarray(1, 4).toString() === "PNG" && png.length > 20000, `${png.length} bytes`);
+  const csv = (await download(page, "convergence", "CSV")).toString().trim().split("\n");
+  check("the data of all runs is saved as CSV", csv[0].startsWith("method,") &&
+    csv.length === 1 + await page.evaluate(() => data.runs.length), `${csv.length} lines`);
+  const specification = JSON.parse((await download(page, "history", "Vega-Lite")).toString());
+  check("a specification is saved with its data", specification.$schema.includes("vega-lite/v5") &&
+    specification.datasets.history.length > 0 && !JSON.stringify(specification).includes("var(--"));
+
+  // For everybody.
+  for (const theme of ["light", "dark"]) {
+    await page.evaluate((name) => { document.documentElement.dataset.theme = name; }, theme);
+    const found = await violations(page);
+    check(`axe finds nothing serious in the ${theme} theme`, found.length === 0, found.join("\n     "));
+  }
+  const ink = () => page.evaluate(() => getComputedStyle(document.querySelector('[data-plot="convergence"] svg .role-axis-title text')).fill);
+  await page.evaluate(() => { document.documentElement.dataset.theme = "light"; });
+  const light = await ink();
+  await page.evaluate(() => { document.documentElement.dataset.theme = "dark"; });
+  check("figures follow the theme", light !== await ink(), light);
+  await page.emulateMedia({ media: "print" });
+  check("paper is light even from the dark theme", light === await ink());
+  check("the page says nothing on the console", page.said.length === 0, page.said.join("; "));
+  check("the page asks the network for nothing", page.requests.length === 0, page.requests.join(" "));
+  await page.close();
+
+  const narrow = await open({ width: 400, dark: true });
+  const overflow = await narrow.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+  check("at 400 pixels nothing is wider than the screen", overflow <= 0, `${overflow} pixels too wide`);
+  const found = await violations(narrow);
+  check("axe finds nothing serious at 400 pixels", found.length === 0, found.join("\n     "));
+  check("the narrow page says nothing on the console", narrow.said.length === 0, narrow.said.join("; "));
+  await narrow.close();
+} catch (error) {
+  check("the test reached its end", false, error.stack || String(error));
+} finally {
+  await context.close();
+  rmSync(profile, { recursive: true, force: true });
+}
+if (failures.length > 0) {
+  console.error(`${failures.length} of the checks failed`);
+  process.exit(1);
+}
