@@ -8,15 +8,18 @@ endif()
 add_library(clackers_options INTERFACE)
 target_compile_features(clackers_options INTERFACE cxx_std_20)
 target_include_directories(clackers_options INTERFACE ${PROJECT_SOURCE_DIR})
+# Contracting a * b + c to one rounding would break the error-free sums of double_double.hpp, and
+# make results depend on the machine.
+target_compile_options(clackers_options INTERFACE -ffp-contract=off)
 if(CLACKERS_DEVELOPER)
   target_compile_options(clackers_options INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
 endif()
 
-# clackers_room(<name> LINK <targets>): the library clackers_<name> from clackers/<name>/**.cpp
-# and, from its *_test.cpp, the test program clackers_<name>_test.
+# clackers_room(<name> LINK <targets> [TEST_LINK <targets>]): the library clackers_<name> from
+# clackers/<name>/**.cpp and, from its *_test.cpp, the test program clackers_<name>_test.
 function(clackers_room name)
-  cmake_parse_arguments(ARG "" "" "LINK;GENERATED" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINK;TEST_LINK;GENERATED" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/clackers/${name}/*.cpp)
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
@@ -31,7 +34,7 @@ function(clackers_room name)
   endif()
   add_library(clackers::${name} ALIAS clackers_${name})
   if(CLACKERS_TESTS AND tests)
-    clackers_test(clackers_${name}_test SOURCES ${tests} LINK ${name})
+    clackers_test(clackers_${name}_test SOURCES ${tests} LINK ${name} ${ARG_TEST_LINK})
   endif()
 endfunction()
 

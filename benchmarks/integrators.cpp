@@ -1,0 +1,195 @@
+// Scalar step loops against Boost.odeint's runge_kutta4 on std::array<double, 4>, on the default
+// pair of masses with located impacts. Both sides see the same dense 2 x 2 right-hand side and run
+// through the same event code and the same recorder: the peer is dressed as one more integrator, so
+// the only difference is who computes a step. Prints the median of alternated runs; asserts
+// nothing.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
+#include <boost/numeric/odeint/util/copy.hpp>
+#include <ctime>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "clackers/methods/contact/event_driven_walk.hpp"
+#include "clackers/methods/integrators/newmark.hpp"
+#include "clackers/methods/integrators/rk4.hpp"
+#include "clackers/methods/pair.hpp"
+#include "clackers/methods/scheme.hpp"
+
+namespace {
+
+using namespace clackers;
+
+// The peer: (u1, u2, v1, v2)' = (v, -M^-1 C v - M^-1 K u).
+struct OdeintRk4 {
+  static constexpr std::string_view name = "odeint-rk4";
+  static const std::vector<methods::ParameterOf<OdeintRk4>>& parameters() {
+    static const std::vector<methods::ParameterOf<OdeintRk4>> none;
+    return none;
+  }
+  methods::IntegratorFacts facts() const {
+    return {std::string(name), 4.0, false, 2.0 * std::numbers::sqrt2};
+  }
+
+  template <int Dof>
+  class Stepper;
+};
+
+template <>
+class OdeintRk4::Stepper<2> {
+ public:
+  using State = model::State<2>;
+  using Array = std::array<double, 4>;
+
+  Stepper(const OdeintRk4&, const model::SmoothSystem<2>& system, double h)
+      : system_(system), h_(h) {
+    rebuild();
+  }
+  void rebuild() {
+    numerics::SpdSolver<2> mass;
+    mass.compute(system_.mass);
+    model::Matrix<2> c = system_.damping, k = system_.stiffness;
+    mass.solve_in_place(c);
+    mass.solve_in_place(k);
+    equation_ = {{k(0, 0), k(0, 1), k(1, 0), k(1, 1)}, {c(0, 0), c(0, 1), c(1, 0), c(1, 1)}};
+  }
+  void restart(const State&) {}
+  void step(State& now) { advance(now, h_); }
+  void undo() {}
+  const State& partial(const State& from, double s) {
+    to_ = from;
+    advance(to_, s);
+    return to_;
+  }
+  static constexpr bool failed() { return false; }
+  void reset() {}
+  void add_work(model::Work&) const {}
+
+ private:
+  struct Equation {
+    Array k, c;
+    void operator()(const Array& x, Array& d, double) const {
+      d[0] = x[2];
+      d[1] = x[3];
+      d[2] = -(c[0] * x[2] + c[1] * x[3]) - (k[0] * x[0] + k[1] * x[1]);
+      d[3] = -(c[2] * x[2] + c[3] * x[3]) - (k[2] * x[0] + k[3] * x[1]);
+    }
+  };
+
+  void advance(State& now, double h) {
+    Array x{now.u[0], now.u[1], now.v[0], now.v[1]};
+    odeint_.do_step(std::cref(equation_), x, now.t, h);
+    now = {now.t + h, {x[0], x[1]}, {x[2], x[3]}};
+  }
+
+  const model::SmoothSystem<2>& system_;
+  double h_;
+  Equation equation_;
+  boost::numeric::odeint::runge_kutta4<Array> odeint_;
+  State to_;
+};
+
+// m = 1, 1/3; k = 1, (0.9975 81 + 0.0025)/3; sigma = 0.05. Over 200 s the motion decays to e^-10:
+// far from denormal numbers, which would be ten times slower.
+model::ImpactProblem<> default_pair() {
+  const double sigma = 0.05, r = 3.0, x = 9.0;
+  model::ImpactProblem<> problem;
+  problem.system.mass = Eigen::Vector2d(1.0, 1.0 / r).asDiagonal();
+  problem.system.damping = 2.0 * sigma * problem.system.mass;
+  problem.system.stiffness =
+      Eigen::Vector2d(1.0, ((1.0 - sigma * sigma) * x * x + sigma * sigma) / r).asDiagonal();
+  problem.contacts.push_back({Eigen::Vector2d(1.0, -1.0), 0.0, 1.0});
+  const Eigen::Vector2d u(1.0, -r / x);
+  problem.start = {0.0, u, -sigma * u};
+  problem.end = 200.0;
+  return problem;
+}
+
+// Reads each block once, so that no side can leave its results uncomputed.
+struct ReadingSink : model::Sink {
+  double sum = 0.0;
+  long long impacts = 0;
+  bool take(const model::SampleBlock& block) override {
+    sum += block.u.back() + block.v.back();
+    return true;
+  }
+  bool take(const model::ReportedImpact&) override { return ++impacts, true; }
+};
+
+struct Side {
+  std::string name;
+  std::unique_ptr<model::Run> run;
+  std::vector<double> nanoseconds;  // a step
+  ReadingSink sink;
+};
+
+template <class Integrator>
+Side side(const model::ImpactProblem<>& problem, double h) {
+  using Scheme = methods::Pair<Integrator, methods::EventDriven>;
+  return {std::string(Integrator::name),
+          std::make_unique<methods::SchemeRun<typename Scheme::template Walk<2>, 2>>(
+              Scheme{}, problem, methods::plan_steps(Integrator::name, 0.0, problem.end, h)),
+          {},
+          {}};
+}
+
+double time_once(Side& side, long long steps) {
+  side.sink = {};
+  // Processor time: what else runs on the machine does not count.
+  const std::clock_t begin = std::clock();
+  side.run->advance(side.sink);
+  return 1e9 * double(std::clock() - begin) / CLOCKS_PER_SEC / double(steps);
+}
+
+double median(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  return x[x.size() / 2];
+}
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+}  // namespace
+
+int main() {
+  const auto problem = default_pair();
+  const long long steps = 1'000'000;
+  const double h = problem.end / double(steps);
+  constexpr int runs = 15;
+
+  std::vector<Side> sides;
+  sides.push_back(side<OdeintRk4>(problem, h));
+  sides.push_back(side<methods::Rk4>(problem, h));
+  sides.push_back(side<methods::Newmark>(problem, h));
+  for (auto& each : sides) time_once(each, steps);  // warm up
+  for (int i = 0; i < runs; ++i)
+    for (auto& each : sides) each.nanoseconds.push_back(time_once(each, steps));
+
+#if defined(__clang__)
+  const auto compiler = std::string("Clang ") + __clang_version__;
+#else
+  const auto compiler = std::string("GCC ") + __VERSION__;
+#endif
+  fmt::print("{}, {}\n", processor(), compiler);
+  fmt::print("default pair, located impacts, {} steps, median of {} alternated runs\n\n", steps,
+             runs);
+  fmt::print("{:<12} {:>10} {:>12} {:>7} {:>9} {:>9}\n", "", "ns a step", "peer, ns", "ratio",
+             "required", "impacts");
+  const double peer = median(sides[0].nanoseconds);
+  const char* required[] = {"", "<= 1.05", "<= 0.8"};
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const double own = median(sides[i].nanoseconds);
+    fmt::print("{:<12} {:>10.2f} {:>12.2f} {:>7.3f} {:>9} {:>9}\n", sides[i].name, own, peer,
+               own / peer, required[i], sides[i].sink.impacts);
+  }
+  fmt::print("\npeer: boost::numeric::odeint::runge_kutta4<std::array<double, 4>>\n");
+}
