@@ -56,6 +56,13 @@ TEST(ErrorSink, TheTruthScoresNothing) {
   EXPECT_EQ(score.seconds, 0.0);
 }
 
+TEST(ErrorSink, TheTruthAtAnImpactIsItsRightLimit) {
+  const ToyMotion truth(4.0, {1.5});
+  ErrorSink sink(truth, toy_problem(4.0), 0.1);
+  History(truth, 0.1, 40).deliver(sink);  // 15 * 0.1 is 1.5
+  EXPECT_EQ(sink.score(finished()).v_error, 0.0);
+}
+
 TEST(ErrorSink, AsksForTheTruthABlockAtATime) {
   const ToyMotion truth;
   ErrorSink sink(truth, toy_problem(), 0.01);
@@ -204,7 +211,9 @@ TEST(ErrorSink, AnAbortEndsTheRun) {
   const std::vector<double> zero{0.0, 0.0};
   EXPECT_TRUE(history.deliver(sink));
   abort = true;
+  truth.samples = 0;
   EXPECT_FALSE(history.deliver(sink));
+  EXPECT_EQ(truth.samples, 0);
   EXPECT_FALSE(sink.take(model::ReportedImpact{20.0, 0, zero, zero, zero, 0.0}));
 }
 

@@ -59,12 +59,8 @@ void ImpactMatcher::take(double t) {
 
 ImpactScore ImpactMatcher::score(double end, double rounding) const {
   ImpactMatcher rest = *this;
-  while (rest.more_ && rest.now_.t <= end) {
-    if (!rest.nearest_ && rest.now_.t > end - 2.0 * step_) break;
-    rest.move_on();
-  }
-  // Found a little before the end although truly after it.
-  if (rest.more_ && rest.nearest_) rest.settle(rest.sum_);
+  // What was found although it truly happens in the last two steps or just behind them counts.
+  while (rest.more_ && (rest.nearest_ || rest.now_.t <= end - 2.0 * step_)) rest.move_on();
   // A displacement error d of a mass that passes with amplitude times frequency moves its passage
   // by d / (A pi / T), T the time between impacts.
   const double spacing = end / double(std::max(1LL, rest.sum_.expected));

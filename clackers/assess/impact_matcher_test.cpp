@@ -74,6 +74,8 @@ TEST(ImpactMatcher, ReportsInAdjacentStepsAreOneCollisionTimedAtTheFirst) {
   const auto twice = match({2.05, 2.15, 6.0, 6.1, 6.2, 6.3, 10.0, 14.0, 18.0}, 0.1);
   EXPECT_SCORE(twice, 5, 5, 5, 0, 0);
   EXPECT_NEAR(twice.worst_time_error, 0.05, 1e-14);
+  // Located within adjacent steps they may lie almost two steps apart.
+  EXPECT_SCORE(match({2.01, 2.19, 6.0, 10.0, 14.0, 18.0}, 0.1), 5, 5, 5, 0, 0);
   // Two steps apart it has fired twice.
   EXPECT_SCORE(match({2.0, 2.2, 6.0, 10.0, 14.0, 18.0}, 0.1), 5, 6, 5, 0, 1);
 }

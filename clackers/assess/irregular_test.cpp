@@ -39,6 +39,25 @@ TEST(Irregular, OnlyTheFinestLevelsCount) {
   EXPECT_TRUE(zigzag(ladder([&](double h) { return h * (h > 0.0065 ? 1.0 : fine()); })));
 }
 
+TEST(Irregular, AFewRoughPlacesAmongManySmoothOnesDoNotCount) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Scatter scatter(10.0, seed);
+    EXPECT_FALSE(zigzag(ladder([&](double h) { return h * (h > 0.0021 ? scatter() : 1.0); })))
+        << seed;
+  }
+}
+
+TEST(Irregular, ABendThatKeepsItsSideIsNoZigzag) {
+  const auto ever_flatter = [](double h) { return std::exp(-0.4 * std::pow(std::log(h), 2)); };
+  EXPECT_FALSE(zigzag(ladder(ever_flatter, {.levels = 12, .neighbours = 1})));
+}
+
+TEST(Irregular, AFailedLevelEndsTheEnvelope) {
+  auto made = ladder([](double h) { return h; });
+  for (auto& point : made[2]) point.error = nan;
+  EXPECT_EQ(envelope(view(made), 0, 7)->first, 3);
+}
+
 TEST(Irregular, TheEnvelopeGoesThroughTheLargestErrors) {
   auto made = ladder([](double h) { return h; });
   for (auto& level : made)

@@ -108,6 +108,53 @@ TEST(Judge, AnEnvelopeOfHalfTheOrderDisagreesAndOneTooUncertainIsUndecided) {
   EXPECT_EQ(few.verdict, Verdict::undecided) << few.sentence;
 }
 
+// Rough levels whose largest errors lie at factor e^(+-0.2) around h^order, in the pattern + - - +
+// that leaves the slope as it is: residuals 0.2, standard error sqrt(4 * 0.04 / 2 / (5 ln2^2)) =
+// 0.18 and t = 4.3 give a spread of 0.78.
+Ladder uncertain(double order) {
+  auto made = scores(power(order), {.levels = 4});
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 8; ++j) {
+      auto& run = made[i].runs[j];
+      run.u_error = std::pow(made[i].step, order) * std::exp(i == 0 || i == 3 ? 0.2 : -0.2);
+      if (j > 0) run.u_error /= j % 2 == 0 ? 3.0 : 10.0;
+    }
+  return made;
+}
+
+TEST(Judge, AnEnvelopeThatMayBeAnythingIsUndecided) {
+  for (const double order : {1.0, 1.3}) {
+    const auto found = judge(uncertain(order), rough, 0.0);
+    EXPECT_EQ(found.displacement.behaviour, Behaviour::irregular);
+    EXPECT_NEAR(found.displacement.order, order, 1e-9);
+    EXPECT_NEAR(found.displacement.spread, 0.78, 0.01);
+    EXPECT_EQ(found.verdict, Verdict::undecided) << found.sentence;
+  }
+}
+
+TEST(Judge, ImpactTimesHaveNoSizeOfTheMotion) {
+  auto late = scores(power(2.0));
+  every_run(late, 0, [](RunScore& run) { run.impacts->worst_time_error = 1.5; });
+  EXPECT_EQ(judge(late, second, 0.0).impact_time.behaviour, Behaviour::stagnating);
+}
+
+TEST(Judge, WhatIsUndecidedStaysSoWhateverEnergyAndCollisions) {
+  auto unresolved = scores([](double h) { return 0.3 + h; });
+  every_run(unresolved, 0, [](RunScore& run) {
+    run.energy_ratio = 8.0;
+    run.impacts->missed = 1;
+  });
+  const auto found = judge(unresolved, floor_claim, 1e-4);
+  EXPECT_EQ(found.displacement.reason, "contact-not-resolved");
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+}
+
+TEST(Judge, AnExactMotionAtRestMayEndWithAnyEnergyRatio) {
+  auto exact = scores([](double) { return 1e-16; });
+  every_run(exact, 0, [](RunScore& run) { run.energy_ratio = 8.0; });
+  EXPECT_EQ(judge(exact, {Behaviour::exact, 0.0, ""}, 0.0).verdict, Verdict::agrees);
+}
+
 TEST(Judge, ALineWhereScatterIsClaimedDisagrees) {
   const auto found = judge(scores(power(1.0)), rough, 0.0);
   EXPECT_EQ(found.displacement.behaviour, Behaviour::proper);

@@ -36,7 +36,6 @@ void validate(const StepPlan& plan, double end) {
 double clearance(long long n, double end, std::span<const double> impact_times) {
   double least = 0.5;
   for (const double t : impact_times) {
-    if (!(t > 0.0 && t < end)) continue;
     const double steps = t / end * double(n);
     least = std::min(least, std::abs(steps - std::round(steps)));
   }
@@ -48,7 +47,10 @@ double clearance(long long n, double end, std::span<const double> impact_times) 
 std::vector<StepLevel> step_ladder(const StepPlan& plan, double end,
                                    std::span<const double> impact_times) {
   validate(plan, end);
-  const double wanted_clearance = std::min(0.05, 0.25 / std::max(1.0, double(impact_times.size())));
+  std::vector<double> inside;
+  for (const double t : impact_times)
+    if (t > 0.0 && t < end) inside.push_back(t);
+  const double wanted_clearance = std::min(0.05, 0.25 / std::max(1.0, double(inside.size())));
   // A quarter of the way to the next neighbour, so that neighbours keep their order and ratio.
   const double reach = 0.25 * (std::exp2(1.0 / plan.neighbours) - 1.0);
   // Far more numbers than are needed to find one that keeps away.
@@ -67,7 +69,7 @@ std::vector<StepLevel> step_ladder(const StepPlan& plan, double end,
       for (long long k = 0; k <= 2 * width && best_clearance < wanted_clearance; ++k) {
         const long long n = nearest + (k % 2 == 0 ? -k / 2 : (k + 1) / 2);
         if (n <= previous) continue;
-        const double found = clearance(n, end, impact_times);
+        const double found = clearance(n, end, inside);
         if (found > best_clearance) {
           best_clearance = found;
           best = n;

@@ -64,18 +64,43 @@ TEST(StepLadder, WhereNoNumberKeepsAwayTheBestIsTaken) {
       EXPECT_EQ(n % 2, 1) << n;
       EXPECT_NE(n % 3, 0) << n;
     }
-  // An impact at every possible whole step leaves nothing better, and is no reason to refuse.
-  std::vector<double> everywhere;
-  for (int n = 1; n < 30; ++n)
+}
+
+TEST(StepLadder, OfNumbersThatAllComeTooNearTheFurthestIsTaken) {
+  // 8 to 12 are within reach of 10. Impacts lie 0.001 steps behind a whole one for each, 0.004
+  // for 11.
+  const std::vector<double> impacts{3.001 / 10, 3.004 / 11, 2.001 / 9, 5.001 / 12, 5.001 / 8};
+  const auto ladder = step_ladder({.coarsest = 0.1, .levels = 1, .neighbours = 1}, 1.0, impacts);
+  EXPECT_EQ(ladder[0].counts, std::vector<long long>{11});
+}
+
+TEST(StepLadder, NoStepLeavesItsPlaceFurtherThanAQuarterOfTheWayToTheNext) {
+  std::vector<double> everywhere;  // at every whole step of every number up to 130
+  for (int n = 2; n < 130; ++n)
     for (int k = 1; k < n; ++k) everywhere.push_back(double(k) / n);
-  EXPECT_EQ(step_ladder({.coarsest = 0.1, .levels = 2, .neighbours = 2}, 1.0, everywhere).size(),
-            2u);
+  for (int neighbours : {1, 2, 5}) {
+    const double reach = 0.25 * (std::exp2(1.0 / neighbours) - 1.0);
+    const auto ladder =
+        step_ladder({.coarsest = 0.025, .levels = 2, .neighbours = neighbours}, 1.0, everywhere);
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < neighbours; ++j) {
+        const double wanted = 40.0 * std::exp2(i + double(j) / neighbours);
+        EXPECT_NEAR(double(ladder[std::size_t(i)].counts[std::size_t(j)]), wanted,
+                    reach * wanted + 0.5);
+      }
+  }
 }
 
 TEST(StepLadder, ImpactsOutsideTheRunDoNotCount) {
   const auto without = step_ladder({}, 20.0, {});
   const auto beyond = step_ladder({}, 20.0, std::vector<double>{0.0, 20.0, 25.0, -1.0});
   for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(without[i].counts, beyond[i].counts);
+  auto impacts = default_impacts();
+  const auto some = step_ladder({}, 20.0, impacts);
+  impacts.insert(impacts.end(), {0.0, 20.0, 25.0, -1.0});
+  const auto more = step_ladder({}, 20.0, impacts);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(some[i].counts, more[i].counts);
+  EXPECT_NE(some[0].counts, without[0].counts);
   EXPECT_EQ(without[0].counts.front(), 400);
   EXPECT_EQ(without[7].counts.front(), 400 * 128);
 }

@@ -85,8 +85,8 @@ void VelocityError::pass(const Jump& jump, double& from, Errors& error) {
     error = distance(jump.after, after);
     return;
   }
-  const auto now = truth_.at(std::clamp(jump.t, 0.0, truth_.end()), model::Side::right);
   const double at = std::max(from, jump.t);
+  const auto now = truth_.at(std::clamp(at, 0.0, truth_.end()), model::Side::right);
   add(at - from, error, distance(jump.before, entries(now.v)));
   from = at;
   error = distance(jump.after, entries(now.v));

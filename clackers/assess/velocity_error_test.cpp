@@ -92,11 +92,32 @@ TEST(VelocityError, AnImpactReportedAtAnOwnTimeCountsTheSameWhicheverSideIsDeliv
 }
 
 TEST(VelocityError, AnImpactReportedStepsLaterCountsAllTimesBetween) {
-  // The run bounces at 1.81 instead of 1.5708: own times 1.6, 1.7, 1.8 are off by 2 sin t. The rule
-  // counts from the middle of the step in which the true impact is, to the report.
+  // The run bounces at 1.81 instead of 1.5708: own times 1.6, 1.7, 1.8 and its left limit are off
+  // by 2 sin t, by the rule from the own time before the true impact on.
   const double when = 1.81;
   const auto found = integral(jumping(when), 0.1, 30, {{when, -std::sin(when), std::sin(when)}});
-  EXPECT_NEAR(found, 2.0 * (when - 1.55), 0.02);
+  const auto off = [](double t) { return 2.0 * std::sin(t); };
+  EXPECT_NEAR(found, 0.1 * (off(1.6) + off(1.7)) + 0.055 * off(1.8) + 0.005 * off(when), 1e-12);
+}
+
+TEST(VelocityError, BetweenOwnAndTrueImpactTheRightLimitsAreCompared) {
+  // The run comes back with 1/2 instead of 1. Late by 0.02 it is off by 2 meanwhile, early by 1.5;
+  // behind both it is off by 1/2, falling to nothing at the own time 1.6.
+  const double late = first + 0.02, early = first - 0.02;
+  EXPECT_NEAR(integral(jumping(first), 0.1, 30, {{late, -1.0, 0.5}}), 0.04 + 0.25 * (1.6 - late),
+              1e-12);
+  EXPECT_NEAR(integral(jumping(first), 0.1, 30, {{early, -1.0, 0.5}}), 0.03 + 0.25 * (1.6 - first),
+              1e-12);
+}
+
+TEST(VelocityError, ARunNeedNotStartAtZero) {
+  const ToyMotion truth;
+  VelocityError error(truth);
+  for (const double t : {0.5, 0.6, 0.7}) {
+    const std::vector<double> own{1.0, 1.0}, right{0.99, 1.0};
+    error.take(t, own, right);
+  }
+  EXPECT_NEAR(error.integral(0), 0.01 * 0.2, 1e-15);
 }
 
 TEST(VelocityError, AnImpactReportedStepsTooEarlyCountsAllTimesBetween) {
@@ -115,9 +136,19 @@ TEST(VelocityError, WithoutAReportTheOwnTimesAloneCount) {
 }
 
 TEST(VelocityError, FiringTwiceInOneStepCountsTheTimeBetweenTheShots) {
-  // Back at 1.58, forth again at 1.59: off by 2 for 0.01.
+  // Back at 1.58, forth again at 1.59: the second and third are compared with the truth of their
+  // time.
   const std::vector<Report> reports{{first, -1.0, 1.0}, {1.58, 1.0, -1.0}, {1.59, -1.0, 1.0}};
-  EXPECT_NEAR(integral(jumping(first), 0.1, 30, reports), 2.0 * 0.01, 3e-4);
+  const double a = std::sin(1.58), b = std::sin(1.59);
+  const double expected =
+      0.5 * ((1.58 - first) * (1.0 - a) + 0.01 * (1.0 + a + 1.0 + b) + 0.01 * (1.0 - b));
+  EXPECT_NEAR(integral(jumping(first), 0.1, 30, reports), expected, 1e-12);
+}
+
+TEST(VelocityError, FiringTwiceTooEarlyComparesTheSecondWithTheTruthBehindTheTrueImpact) {
+  // Back at 1.55 and, not known to the truth, once more at 1.56 with the same sense.
+  const std::vector<Report> reports{{1.55, -1.0, 1.0}, {1.56, 1.0, 1.0}};
+  EXPECT_NEAR(integral(jumping(first), 0.1, 30, reports), 2.0 * (first - 1.55), 1e-12);
 }
 
 TEST(VelocityError, EveryImpactOfALongRunIsComparedWithItsOwn) {

@@ -76,7 +76,7 @@ bool is_straight(const Window& window, const Straightness& asked) {
   if (window.far_above > above_allowed || 16 * window.far_below > window.points) return false;
   const double centre = asked.around_slope ? window.line.slope : asked.centre;
   const auto near = [&](double rate) { return std::abs(rate - centre) <= asked.rates; };
-  return near(window.line.slope) && std::ranges::all_of(window.rates, near);
+  return std::ranges::all_of(window.rates, near);
 }
 
 std::optional<Window> longest_straight(std::span<const LevelView> levels, int first, int last,

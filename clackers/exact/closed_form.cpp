@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/wide_motion.hpp"
 #include "clackers/numerics/half_turns.hpp"
 #include "clackers/numerics/power_of_two.hpp"
 

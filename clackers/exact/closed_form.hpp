@@ -6,8 +6,6 @@
 
 namespace clackers::exact {
 
-struct WideMotion;
-
 /// A motion made of flights u_i = b_i E cos(p_i theta) between collisions at t_k = (k - 1/2) T, in
 /// which all masses pass equilibrium together. The base of all motions of this room.
 ///

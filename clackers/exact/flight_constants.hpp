@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "clackers/model/impact_problem.hpp"
 #include "clackers/numerics/double_double.hpp"
 #include "clackers/numerics/triple_double.hpp"
 
@@ -38,5 +39,14 @@ struct FlightConstants {
   numerics::DoubleDouble impulse;       ///< (1 + eta) m1 |v_hit| of mass 1 [N s]
   numerics::DoubleDouble energy;        ///< sum of m v_hit^2 / 2 [J]
 };
+
+struct WideMotion;
+
+/// Each constant the nearest double, double-double or triple-double.
+FlightConstants flight_constants(const WideMotion& motion);
+
+/// The system in model terms, each number the nearest double. One mass collides with a stop below
+/// it at 0, two with each other (mass 1 above mass 2).
+model::ImpactProblem<> impact_problem(const WideMotion& motion);
 
 }  // namespace clackers::exact

@@ -3,6 +3,7 @@
 #include <boost/math/constants/constants.hpp>
 
 #include "clackers/exact/admissibility.hpp"
+#include "clackers/exact/flight_constants.hpp"
 #include "clackers/exact/wide_motion.hpp"
 
 namespace clackers::exact {

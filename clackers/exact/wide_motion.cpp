@@ -6,6 +6,7 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/exact/flight_constants.hpp"
 #include "clackers/exact/frequency_ratio.hpp"
 
 namespace clackers::exact {

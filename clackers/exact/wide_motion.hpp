@@ -1,14 +1,14 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
-#include "clackers/exact/flight_constants.hpp"
 #include "clackers/exact/wide.hpp"
-#include "clackers/model/impact_problem.hpp"
 
 namespace clackers::exact {
 
-/// A motion of this room told by few numbers of 384 bits, from which all constants follow.
+/// A motion of this room told by few numbers of 384 bits, from which flight_constants() and
+/// impact_problem() follow.
 struct WideMotion {
   struct Mass {
     Wide mass;              ///< [kg]
@@ -32,12 +32,5 @@ inline constexpr double most_half_periods = 0x1p50;
 
 /// Throws InputError unless 0 < t_end < infinity and Omega t_end / pi <= most_half_periods.
 void require_end(std::string_view who, const WideMotion& motion);
-
-/// The constants for evaluation, each the nearest double, double-double or triple-double.
-FlightConstants flight_constants(const WideMotion& motion);
-
-/// The system in model terms, each number the nearest double. One mass collides with a stop below
-/// it at 0, two with each other (mass 1 above mass 2).
-model::ImpactProblem<> impact_problem(const WideMotion& motion);
 
 }  // namespace clackers::exact

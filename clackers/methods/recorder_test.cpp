@@ -74,7 +74,8 @@ TEST(Recorder, EndsWhereTheSinkSaysSo) {
 }
 
 TEST(Recorder, EndsAsDivergedAtTheFirstStateThatIsNotFinite) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Recorder<1> recorder(1);
     model::TrajectorySink sink(true);
     recorder.begin(sink);

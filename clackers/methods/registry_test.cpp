@@ -18,7 +18,8 @@ std::string message_of(const char* spelling) {
 
 TEST(Registry, JoinsIntegratorsWithTreatments) {
   EXPECT_EQ(method("newmark")->facts().name, "newmark+event-driven");
-  EXPECT_EQ(method("newmark:beta=0.25,gamma=0.5+event-driven")->facts().name, "newmark+event-driven");
+  EXPECT_EQ(method("newmark:beta=0.25,gamma=0.5+event-driven")->facts().name,
+            "newmark+event-driven");
   EXPECT_EQ(method("generalized-alpha:rho=0.8+penalty:stiffness=1e+6")->facts().name,
             "generalized-alpha:rho=0.8+penalty:stiffness=1000000");
   EXPECT_EQ(method("moreau-jean:theta=0.5")->facts().name, "moreau-jean");
@@ -28,11 +29,13 @@ TEST(Registry, JoinsIntegratorsWithTreatments) {
 }
 
 TEST(Registry, SuggestsNamesThatAreNear) {
-  EXPECT_EQ(message_of("newmrak"),
-            "clackers: no method \"newmrak\". Did you mean \"newmark\"? All names: clackers list methods "
-            "[unknown-name]");
+  EXPECT_EQ(
+      message_of("newmrak"),
+      "clackers: no method \"newmrak\". Did you mean \"newmark\"? All names: clackers list methods "
+      "[unknown-name]");
   EXPECT_NE(message_of("newmark+penality").find("Did you mean \"penalty\"?"), std::string::npos);
-  EXPECT_NE(message_of("newmark:bta=0.25").find("no parameter of newmark \"bta\". Did you mean \"beta\"?"),
+  EXPECT_NE(message_of("newmark:bta=0.25")
+                .find("no parameter of newmark \"bta\". Did you mean \"beta\"?"),
             std::string::npos);
   EXPECT_NE(message_of("rk4:order=4").find("no parameter of rk4"), std::string::npos);
 }
@@ -42,7 +45,8 @@ TEST(Registry, RefusesParametersOutsideTheirRangeAndFalsePairs) {
   EXPECT_NE(message_of("newmark+penalty:stiffness=0").find("0 < stiffness"), std::string::npos);
   EXPECT_NE(message_of("moreau-jean:theta=0.4").find("1/2 <= theta <= 1"), std::string::npos);
   EXPECT_NE(message_of("generalized-alpha:rho=2").find("0 <= rho <= 1"), std::string::npos);
-  EXPECT_NE(message_of("moreau-jean+penalty").find("brings its own contact treatment"), std::string::npos);
+  EXPECT_NE(message_of("moreau-jean+penalty").find("brings its own contact treatment"),
+            std::string::npos);
   EXPECT_NE(message_of("event-driven").find("no method"), std::string::npos);
 }
 
@@ -53,8 +57,8 @@ TEST(Registry, ListsEveryNameWithItsCard) {
     SCOPED_TRACE(entry.name);
     EXPECT_FALSE(entry.summary.empty());
     std::size_t at = 0;
-    for (const char* part : {"Order       ", "Stability   ", "Dissipation ", "Memory      ", "Cost        ",
-                             "Source      "}) {
+    for (const char* part : {"Order       ", "Stability   ", "Dissipation ", "Memory      ",
+                             "Cost        ", "Source      "}) {
       const auto found = entry.card.find(std::string("\n") + part);
       EXPECT_NE(found, std::string::npos) << part;
       EXPECT_GE(found, at) << part;
@@ -67,8 +71,9 @@ TEST(Registry, ListsEveryNameWithItsCard) {
       EXPECT_FALSE(p.meaning.empty());
     }
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"newmark", "central-difference", "rk4", "generalized-alpha",
-                                             "event-driven", "reversal", "penalty", "moreau-jean"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"newmark", "central-difference", "rk4", "generalized-alpha",
+                                      "event-driven", "reversal", "penalty", "moreau-jean"}));
   EXPECT_EQ(entries()[0].card.substr(0, 26), "Newmark's one-step family ");
   EXPECT_EQ(entries()[0].parameters[0].standard, "0.25");
   EXPECT_EQ(entries()[6].parameters[0].standard, "1e4 k1");

@@ -64,9 +64,10 @@ TEST(StepPlan, SaysWhoWhatAndWhatToDo) {
     plan_steps("rk4+event-driven", 0.0, 20.0, 30.0);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "rk4+event-driven: h = 30; allowed: h <= 20, the length of the run in seconds. Use a "
-                 "step that fits into the run.");
+    EXPECT_STREQ(
+        error.what(),
+        "rk4+event-driven: h = 30; allowed: h <= 20, the length of the run in seconds. Use a "
+        "step that fits into the run.");
   }
 }
 

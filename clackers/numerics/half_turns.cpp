@@ -31,7 +31,6 @@ constexpr std::array<DoubleDouble, 321> make_table() {
     table[i] = table[128 - i] = s;
     table[128 + i] = table[256 - i] = -s;
   }
-  table[0] = table[128] = table[256] = {0.0, 0.0};
   for (std::size_t i = 0; i <= 64; ++i) table[256 + i] = table[i];
   return table;
 }

@@ -27,11 +27,11 @@ inline SineCosine sine_cosine_of_half_turns(const DoubleDouble& y) {
   // The difference is exact: both are multiples of ulp(y.hi) or of 1/128 and cancel.
   const auto z = quick_two_sum(y.hi - nearest * 0.0078125, y.lo) * pi;
 
-  // |z| <= pi/256. Terms left out: z^9/9! < 2^-75 and z^10/10! < 2^-85. The square is rounded to
+  // |z| <= pi/256. Terms left out: z^9/9! < 2^-75 and z^8/8! < 2^-66. The square is rounded to
   // 2^-53 z^2 < 2^-65 and drops 2 z.hi z.lo < 2^-65, half of which enters the cosine.
   const double zz = z.hi * z.hi;
   const double sine_rest = z.lo + z.hi * zz * (-1.0 / 6 + zz * (1.0 / 120 - zz * (1.0 / 5040)));
-  const double cosine_rest = zz * (-0.5 + zz * (1.0 / 24 - zz * (1.0 / 720 - zz * (1.0 / 40320))));
+  const double cosine_rest = zz * (-0.5 + zz * (1.0 / 24 - zz * (1.0 / 720)));
 
   // sin(a + z) = s + [c sin z + s (cos z - 1)], cos(a + z) = c + [-s sin z + c (cos z - 1)]; the
   // brackets are below 2^-6 and their rounded parts below 2^-13, so rounding costs below 2^-65.

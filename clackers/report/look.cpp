@@ -28,11 +28,11 @@ const std::array<std::vector<double>, 6>& dashes() {
 }  // namespace
 
 Look look(std::size_t index) {
-  // A second round of colours shifts the dashes, a third the markers as well.
+  // Every round of colours shifts dashes and markers, by amounts that do not come round at once.
   const auto round = index / colors;
   return {fmt::format("var(--m{})", index % colors + 1),
           shapes[(index + round) % shapes.size()].first,
-          dashes()[(index + round) % dashes().size()]};
+          dashes()[(index + 2 * round) % dashes().size()]};
 }
 
 std::string key_svg(const Look& look) {

@@ -157,10 +157,12 @@ std::string plot(const study::Curve& response, std::span<const double> impact_ti
     draw(canvas, response.t, response.y[mass], int(mass), across, up);
   label(canvas, response.t, response.y, across, up);
 
-  std::string out = fmt::format("{}u [m] against t [s]; 1: mass 1", std::string(margin, ' '));
-  if (response.y.size() > 1) out += ", 2: mass 2 (dotted)";
-  if (!impact_times.empty()) out += "; ▲ collision";
-  out += '\n';
+  std::string title = "u [m] against t [s]; 1: mass 1";
+  if (response.y.size() > 1) title += ", 2: mass 2 (dotted)";
+  if (!impact_times.empty()) title += "; ▲ collision";
+  std::string out;
+  for (const auto& line : wrap(title, std::size_t(columns)))
+    out += std::string(margin, ' ') + line + '\n';
   for (int row = 0; row < rows; ++row) {
     std::string number;
     if (row % 7 == 0) {

@@ -36,11 +36,8 @@ TEST(Plot, FitsItsWidthInAboutTwentyLines) {
   for (const int width : {40, 80, 132}) {
     const auto out =
         lines(plot(record.response, record.problem.impact_times, {.color = false, .width = width}));
-    EXPECT_EQ(out.size(), 18u);
-    for (const auto& line : out)
-      EXPECT_LE(display_width(line), std::size_t(std::max(width, 70))) << line;
-    for (std::size_t i = 1; i < out.size(); ++i)
-      EXPECT_LE(display_width(out[i]), std::size_t(width));
+    EXPECT_LE(out.size(), 20u);
+    for (const auto& line : out) EXPECT_LE(display_width(line), std::size_t(width)) << line;
   }
 }
 

@@ -14,6 +14,9 @@ using Row = std::vector<study::Cell>;
 
 constexpr std::size_t rows_measured = 1000;
 constexpr int most_digits = 6, fewest_digits = 3;
+// Rows that were not measured may hold any real number, for which seven characters are enough, and
+// counters that have grown.
+constexpr std::size_t any_number = 8;
 // Text is wrapped to no less than this, so that a sentence stays readable.
 constexpr std::size_t least_text = 12;
 
@@ -62,6 +65,8 @@ std::vector<TextColumn> measure(const std::vector<study::Column>& columns,
     column.right = numbers && !texts;
     const auto header = std::max(longest_word(name) - (name.empty() ? 0 : 1), display_width(unit));
     column.natural = std::max({content, header, std::size_t{1}});
+    if (column.right && rows.size() == rows_measured)
+      column.natural = std::max(column.natural, any_number);
     column.least =
         column.right ? column.natural : std::min(std::max(header, least_text), column.natural);
     out.push_back(std::move(column));
@@ -84,8 +89,9 @@ bool choose_layout(const std::vector<study::Column>& columns, const std::vector<
 void print_block(const std::vector<study::Column>& columns, const Row& row, std::size_t width,
                  std::ostream& out) {
   for (std::size_t c = 0; c < row.size(); ++c) {
-    const auto text = fmt::format("{}: {} {}", columns[c].name, text_of(row[c], most_digits, 32),
-                                  columns[c].unit);
+    auto text = columns[c].name + ": " + text_of(row[c], most_digits, 32);
+    if (!columns[c].unit.empty()) text += ' ' + columns[c].unit;
+    text.erase(text.find_last_not_of(' ') + 1);
     for (const auto& line : wrap(text, width)) out << line << '\n';
   }
   out << '\n';

@@ -222,8 +222,8 @@ TEST(Table, LaterRowsKeepTheWidthsOfTheFirst) {
     sheet.rows.push_back({0.5 * i, i < 1000 ? 0.25 : -1.23456789e-300});
   const auto out = lines(table(sheet));
   ASSERT_EQ(out.size(), 2003u);
-  EXPECT_EQ(out[3], "    0  0.25");
-  EXPECT_EQ(out.back(), "999.5  -1e-300");
+  EXPECT_EQ(out[3], "       0      0.25");
+  EXPECT_EQ(out.back(), "   999.5   -1e-300");
 }
 
 TEST(Table, ColoursOnlyWhenAsked) {

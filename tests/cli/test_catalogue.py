@@ -4,13 +4,11 @@ import io
 import json
 import unittest
 
-from command import CommandTest, rows
+from command import PANEL, CommandTest, rows
 
 KINDS = ("cases", "integrators", "contacts", "methods", "pairs", "metrics")
 CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "three-parameter",
          "synchronized-pair", "exact-data-pair")
-PANEL = ("newmark", "central-difference", "rk4", "generalized-alpha:rho=0.8", "newmark+reversal",
-         "newmark+penalty", "moreau-jean")
 
 
 class List(CommandTest):

@@ -86,6 +86,11 @@ class NotWritten(CommandTest):
         self.cannot_write(*ROWS, "--out", self.path("new/"), says=self.path("new/"))
         self.assertEqual(self.files(), [])
 
+    def test_is_noticed_before_the_work(self):
+        for path in (self.folder, self.path("x" * 300), self.path("none/x"), self.path("new/")):
+            for option in ("--out", "--report"):
+                self.cannot_write("verify", "rk4", *LONG_LADDER, option, path, says=path, timeout=10)
+
     def test_a_file_as_folder(self):
         with open(self.path("file"), "w"):
             pass
@@ -158,6 +163,13 @@ class FullDisk(CommandTest):
         done = subprocess.run(["sh", "-c", '"$0" list >&-', PROGRAM], capture_output=True, text=True)
         self.assertEqual(done.returncode, 4)
         self.assertIn("[cannot-write]", done.stderr)
+
+    def test_on_a_closed_standard_output_does_not_go_into_the_file(self):
+        done = subprocess.run(["sh", "-c", '"$0" respond stop --plot --samples 3 --out "$1" >&-', PROGRAM,
+                               self.path("rows")], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("cannot write standard output", done.stderr)
+        self.assertEqual(self.files(), [])
 
     def test_on_a_device(self):
         self.refused(*ROWS, "--out", "/dev/full", exit_code=4, code="cannot-write",

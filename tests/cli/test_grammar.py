@@ -112,7 +112,8 @@ class Syntax(CommandTest):
 
     def test_a_double_dash_ends_the_options(self):
         self.assertEqual(self.good("list", "--", "cases"), self.good("list", "cases"))
-        self.refused("list", "--", "--quiet", "cases", code="bad-syntax", says="one argument too many")
+        self.refused("list", "--", "cases", "--quiet", code="bad-syntax",
+                     says='one argument too many: "--quiet"')
 
     def test_a_command_name_as_argument_is_an_argument(self):
         self.refused("explain", "list", code="unknown-name", says='no code "list"')

@@ -89,6 +89,11 @@ class Times(CommandTest):
             self.refused("respond", "sdof", "--times", "-", stdin=text, code="bad-syntax",
                          says="standard input has no times")
 
+    def test_refuse_a_line_that_cannot_be_a_time(self):
+        self.assertEqual(self.times("sdof", "--times", "-", stdin="0" * 999 + "1"), [1])
+        self.refused("respond", "sdof", "--times", "-", stdin="\n" + "0" * 1001, code="not-a-number",
+                     says="line 2 is longer than 1000 bytes")
+
     def test_refuse_a_file_that_cannot_be_read(self):
         self.refused("respond", "sdof", "--times", self.path("none"), exit_code=4,
                      code="cannot-read", says=(self.path("none"), "No such file"))

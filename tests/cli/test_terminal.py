@@ -1,6 +1,7 @@
 """What appears only on a terminal: progress and colours."""
 import os
 import pty
+import re
 import signal
 import subprocess
 import unittest
@@ -35,7 +36,14 @@ class Progress(CommandTest):
         code, text = run_on_terminal("verify", "rk4", "--coarsest", "1e-3", "--levels", "4",
                                      stream="stderr")
         self.assertIn(code, (0, 3))
-        self.assertRegex(text, r"about \d+ (s|min \d+ s) left")
+        told = re.findall(r"(\d+) %, (\d+) s elapsed, about (\d+) s left", text)
+        self.assertTrue(told)
+        for share, elapsed, left in ([int(number) for number in line] for line in told):
+            # All three are rounded to whole numbers.
+            def rest(e, s):
+                return e * (100 - s) / s
+            self.assertGreaterEqual(left + 0.5, rest(elapsed - 0.5, share + 0.5))
+            self.assertLessEqual(left - 0.5, rest(elapsed + 0.5, share - 0.5))
         self.assertTrue(text.endswith(" " * 79 + "\r"))
         for line in text.replace("\n", "\r").split("\r"):
             self.assertLess(len(line), 80)

@@ -18,8 +18,9 @@ TEST(CentralDifference, GivesTheDisplacementsOfTheTwoStepForm) {
   double before = now.u[0] - h * now.v[0] + 0.5 * h * h * a0, u = now.u[0];
   stepper.restart(now);
   for (int i = 0; i < 50; ++i) {
-    const double next = (std::sin(1.0 + i * h) - k * u + m * (2 * u - before) / (h * h) +
-                         c * before / (2 * h)) / (m / (h * h) + c / (2 * h));
+    const double next =
+        (std::sin(1.0 + i * h) - k * u + m * (2 * u - before) / (h * h) + c * before / (2 * h)) /
+        (m / (h * h) + c / (2 * h));
     before = u;
     u = next;
     stepper.step(now);

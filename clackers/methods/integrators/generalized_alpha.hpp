@@ -63,7 +63,7 @@ class GeneralizedAlpha::Stepper {
         gamma_(method.gamma()),
         h_(require_step("generalized-alpha", h)),
         equation_(system),
-        a_(system.dof()),
+        a_(Vector::Zero(system.dof())),
         last_a_(a_),
         part_a_(a_),
         shift_(a_),

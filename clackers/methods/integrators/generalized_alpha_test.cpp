@@ -47,7 +47,8 @@ TEST(GeneralizedAlpha, StepsByItsFormula) {
   const double a0 = (load(1.0) - c * x0.v[0] - k * x0.u[0]) / m;
   // a1 from the update of v must satisfy that of u and the equation of motion.
   const double a1 = ((x1.v[0] - x0.v[0]) / h - (1 - method.gamma()) * a0) / method.gamma();
-  EXPECT_NEAR(x1.u[0], x0.u[0] + h * x0.v[0] + h * h * ((0.5 - method.beta()) * a0 + method.beta() * a1),
+  EXPECT_NEAR(x1.u[0],
+              x0.u[0] + h * x0.v[0] + h * h * ((0.5 - method.beta()) * a0 + method.beta() * a1),
               1e-14);
   EXPECT_NEAR(m * ((1 - am) * a1 + am * a0) + c * ((1 - af) * x1.v[0] + af * x0.v[0]) +
                   k * ((1 - af) * x1.u[0] + af * x0.u[0]),

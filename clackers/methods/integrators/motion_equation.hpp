@@ -37,11 +37,12 @@ class MotionEquation {
   /// The system must outlive the equation.
   explicit MotionEquation(const model::SmoothSystem<Dof>& system)
       : s_(system),
-        r_(system.dof()),
-        u_(system.dof()),
-        v_(system.dof()),
-        magnitude_(system.dof()),
-        matrix_(system.dof(), system.dof()),
+        r_(Vector::Zero(system.dof())),
+        u_(r_),
+        v_(r_),
+        magnitude_(r_),
+        term_(r_),
+        matrix_(Matrix::Zero(system.dof(), system.dof())),
         dp_du_(matrix_),
         dp_dv_(matrix_),
         tangent_(system.dof()) {
@@ -138,23 +139,23 @@ class MotionEquation {
     r_.setZero();
     if (s_.add_load)
       s_.add_load(t, std::span<double>(r_.data(), static_cast<std::size_t>(r_.size())));
-    load_ = r_;
+    term_ = r_;
     subtract_nonlinear(u_, v_, r_);  // leaves p in magnitude_
-    magnitude_ = magnitude_.cwiseAbs() + load_.cwiseAbs();
+    magnitude_ = magnitude_.cwiseAbs() + term_.cwiseAbs();
     const auto add = [this](const Matrix& matrix, const Vector& x) {
       r_.noalias() -= matrix * x;
       magnitude_.noalias() += matrix.cwiseAbs() * x.cwiseAbs();
     };
-    load_ = w.a * a;
-    add(s_.mass, load_);
+    term_ = w.a * a;
+    add(s_.mass, term_);
     if (shift != nullptr) add(s_.mass, *shift);
     add(s_.damping, v_);
     add(s_.stiffness, u_);
     // u and v are themselves rounded sums of a predictor and the part of the unknown.
-    load_ = u0.cwiseAbs() + std::abs(w.u) * a.cwiseAbs();
-    magnitude_.noalias() += (s_.stiffness.cwiseAbs() + dp_du_.cwiseAbs()) * load_;
-    load_ = v0.cwiseAbs() + std::abs(w.v) * a.cwiseAbs();
-    magnitude_.noalias() += (s_.damping.cwiseAbs() + dp_dv_.cwiseAbs()) * load_;
+    term_ = u0.cwiseAbs() + std::abs(w.u) * a.cwiseAbs();
+    magnitude_.noalias() += (s_.stiffness.cwiseAbs() + dp_du_.cwiseAbs()) * term_;
+    term_ = v0.cwiseAbs() + std::abs(w.v) * a.cwiseAbs();
+    magnitude_.noalias() += (s_.damping.cwiseAbs() + dp_dv_.cwiseAbs()) * term_;
     const double factor =
         (3.0 * double(a.size()) + 13.0) * 0.5 * std::numeric_limits<double>::epsilon();
     for (Eigen::Index i = 0; i < r_.size(); ++i)
@@ -164,7 +165,7 @@ class MotionEquation {
 
   const model::SmoothSystem<Dof>& s_;
   Solver mass_;
-  Vector r_, u_, v_, magnitude_, load_;
+  Vector r_, u_, v_, magnitude_, term_;
   Matrix matrix_, dp_du_, dp_dv_;
   Eigen::PartialPivLU<Matrix> tangent_;
   long long evaluations_ = 0, factorizations_ = 0, iterations_ = 0;

@@ -57,7 +57,7 @@ class Newmark::Stepper {
         who_(who),
         h_(require_step(who, h)),
         equation_(system),
-        a_(system.dof()),
+        a_(Vector::Zero(system.dof())),
         last_a_(a_),
         part_a_(a_) {
     rebuild();

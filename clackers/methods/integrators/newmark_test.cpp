@@ -46,7 +46,8 @@ TEST(Newmark, StepsByItsFormula) {
     system.system.add_load(x.t, {&f, 1});
     return (f - c * x.v[0] - k * x.u[0]) / m;
   };
-  EXPECT_NEAR(x1.u[0], x0.u[0] + h * x0.v[0] + h * h * ((0.5 - beta) * a(x0) + beta * a(x1)), 1e-15);
+  EXPECT_NEAR(x1.u[0], x0.u[0] + h * x0.v[0] + h * h * ((0.5 - beta) * a(x0) + beta * a(x1)),
+              1e-15);
   EXPECT_NEAR(x1.v[0], x0.v[0] + h * ((1 - gamma) * a(x0) + gamma * a(x1)), 1e-15);
 }
 
@@ -59,9 +60,10 @@ TEST(Newmark, RefusesParametersOutsideTheirRange) {
   try {
     Newmark{.beta = 0.25, .gamma = 0.4}.validate();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "newmark: gamma = 0.4; allowed: 1/2 <= gamma <= 1. Below 1/2 undamped motion grows "
-                 "at every step size; use gamma = 0.5 for no numerical dissipation.");
+    EXPECT_STREQ(
+        error.what(),
+        "newmark: gamma = 0.4; allowed: 1/2 <= gamma <= 1. Below 1/2 undamped motion grows "
+        "at every step size; use gamma = 0.5 for no numerical dissipation.");
   }
 }
 

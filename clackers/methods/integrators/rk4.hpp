@@ -51,7 +51,7 @@ class Rk4::Stepper {
         equation_(system),
         by_u_(system.stiffness),
         by_v_(system.damping),
-        k1_(system.dof()),
+        k1_(Vector::Zero(system.dof())),
         k2_(k1_),
         k3_(k1_),
         k4_(k1_),

@@ -29,9 +29,11 @@ TEST(Rk4, IsTheTableOfKuttaOnTheFirstOrderSystem) {
     auto now = x;
     stepper.restart(now);
     stepper.step(now);
-    EXPECT_LT((now.u - x.u - h / 6 * (k1.first + 2 * k2.first + 2 * k3.first + k4.first)).norm(), 1e-14);
-    EXPECT_LT((now.v - x.v - h / 6 * (k1.second + 2 * k2.second + 2 * k3.second + k4.second)).norm(),
+    EXPECT_LT((now.u - x.u - h / 6 * (k1.first + 2 * k2.first + 2 * k3.first + k4.first)).norm(),
               1e-14);
+    EXPECT_LT(
+        (now.v - x.v - h / 6 * (k1.second + 2 * k2.second + 2 * k3.second + k4.second)).norm(),
+        1e-14);
     model::Work work;
     stepper.add_work(work);
     EXPECT_EQ(work.force_evaluations, 4);

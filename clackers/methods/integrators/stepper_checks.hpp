@@ -43,8 +43,7 @@ inline Fit observed_order(const std::function<double(double)>& error, double coa
 /// u'' + c u' + u = t has the line t - c and a free oscillation, from u(0) = 1, v(0) = 1, c < 2.
 inline std::pair<double, double> ramp_exact(double c, double t) {
   const double s = -0.5 * c, w = std::sqrt(1.0 - s * s), e = (1.0 + c) * std::exp(s * t);
-  return {t - c + e * (std::cos(w * t) - s / w * std::sin(w * t)),
-          1.0 - e / w * std::sin(w * t)};
+  return {t - c + e * (std::cos(w * t) - s / w * std::sin(w * t)), 1.0 - e / w * std::sin(w * t)};
 }
 
 /// Dof such oscillators q of dampings c, c + 0.1, ..., seen through u = S q: full matrices.
@@ -55,7 +54,8 @@ struct Ramps {
   model::Matrix<Dof> s, inverse;
   model::SmoothSystem<Dof> system;
 
-  Ramps(Eigen::Index size, double damping) : n(size), c(damping), s(size, size), inverse(size, size) {
+  Ramps(Eigen::Index size, double damping)
+      : n(size), c(damping), s(size, size), inverse(size, size) {
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j) s(i, j) = i == j ? 1.5 : 0.5 / double(1 + i + 2 * j);
     inverse = Eigen::MatrixXd(s).inverse();
@@ -103,8 +103,10 @@ void converges_at_the_order_it_claims(const Method& method, double coarsest = 1.
     const Ramps<1> one(1, c);
     const Ramps<2> two(2, c);
     const Ramps<model::any_dof> three(3, c);
-    const auto fit1 = observed_order([&](double h) { return error_at_six<1>(method, one, h); }, coarsest, 4);
-    const auto fit2 = observed_order([&](double h) { return error_at_six<2>(method, two, h); }, coarsest, 4);
+    const auto fit1 =
+        observed_order([&](double h) { return error_at_six<1>(method, one, h); }, coarsest, 4);
+    const auto fit2 =
+        observed_order([&](double h) { return error_at_six<2>(method, two, h); }, coarsest, 4);
     const auto fit3 = observed_order(
         [&](double h) { return error_at_six<model::any_dof>(method, three, h); }, coarsest, 4);
     EXPECT_NEAR(fit1.order, order, 0.05) << "one, c = " << c << ", scatter " << fit1.scatter;

@@ -1,0 +1,341 @@
+#include "clackers/methods/contact/event_driven.hpp"
+
+#include "clackers/base/error.hpp"
+#include "clackers/methods/contact/runs.hpp"
+#include "clackers/methods/integrators/stepper_checks.hpp"
+
+namespace clackers::methods {
+namespace {
+
+using runs::mass_on_stop;
+using runs::RattlingMass;
+using runs::run;
+
+const auto integrators = {"newmark", "central-difference", "rk4", "generalized-alpha:rho=0.8",
+                          "generalized-alpha:rho=0"};
+
+// A mass thrown up under unit gravity, its floor at u = 0.
+model::ImpactProblem<> ball(double u, double v, double eta, double end) {
+  auto p = mass_on_stop(1.0, 0.0, 0.0, u, v, eta, end);
+  p.system.add_load = [](double, std::span<double> f) { f[0] -= 1.0; };
+  return p;
+}
+
+TEST(EventDriven, KeepsTheOrderOfTheIntegratorThroughImpacts) {
+  for (const double eta : {1.0, 0.7})
+    for (const std::string name : integrators) {
+      const RattlingMass truth{.sigma = 0.05, .eta = eta, .w = 1.3};
+      const auto claim = method(name)->facts().through_impacts;
+      EXPECT_EQ(claim.behaviour, Behaviour::proper);
+      double worst_time = 0.0;
+      const auto fit = checks::observed_order(
+          [&](double h) {
+            const auto n = std::round(11.0 / h);
+            const auto [path, outcome] = run(name, truth.problem(12.0), 11.0 / n);
+            EXPECT_EQ(path.impacts->size(), 5u);
+            double worst = 0.0;
+            for (std::size_t i = 0; i < path.t.size(); ++i)
+              worst = std::max(worst, std::abs(path.u[i] - truth.u(path.t[i])));
+            worst_time = std::abs(path.impacts->back().t - truth.impact_time(5));
+            return worst;
+          },
+          1.0 / 16, 5);
+      EXPECT_NEAR(fit.order, claim.order, 0.1 * claim.order) << name << " eta " << eta;
+      EXPECT_LT(worst_time, 1e-2 * std::pow(1.0 / 256, claim.order) * 256) << name;
+    }
+}
+
+TEST(EventDriven, FiresOnceAnImpactAndMissesNone) {
+  const RattlingMass truth{.sigma = 0.0, .eta = 1.0, .w = 1.0};
+  for (const std::string name : integrators)
+    for (const double n : {997.0, 2000.0, 6283.0}) {
+      const auto [path, outcome] = run(name, truth.problem(301.0), 300.0 / n);
+      ASSERT_TRUE(outcome.finished);
+      if (name == "rk4") {
+        EXPECT_EQ(path.impacts->size(), 95u) << n;  // odd pi/2 in (1, 301)
+      }
+      for (std::size_t k = 0; k < path.impacts->size(); ++k) {
+        const auto& impact = (*path.impacts)[k];
+        EXPECT_LT(impact.v_before[0], 0.0);
+        EXPECT_NEAR(impact.v_after[0], -impact.v_before[0], 1e-15 * 4);
+        EXPECT_NEAR(impact.impulse, 4.0 * impact.v_after[0], 1e-14);
+        EXPECT_GE(impact.u[0], 0.0);
+        if (k > 0) {
+          EXPECT_GT(impact.t - (*path.impacts)[k - 1].t, 2.5);
+        }
+      }
+      for (const double u : path.u) EXPECT_GE(u, 0.0);
+    }
+}
+
+// Newmark's method with gamma = 1/2 and RK4 are exact under a constant force, so impacts of a
+// bouncing ball are exact to rounding, also several in one step.
+TEST(EventDriven, LocatesSeveralImpactsInOneStep) {
+  const double eta = 0.5, v0 = 1.0;  // falls from the floor upwards: flights of 2, 1, 1/2, ... s
+  for (const std::string name : {"newmark", "rk4", "central-difference"}) {
+    const auto [path, outcome] = run(name, ball(0.0, v0, eta, 3.9), 3.9);
+    ASSERT_TRUE(outcome.finished) << outcome.detail;
+    ASSERT_EQ(path.impacts->size(), 5u) << name;
+    double t = 0.0, flight = 2.0, v = v0;
+    for (const auto& impact : *path.impacts) {
+      t += flight;
+      EXPECT_NEAR(impact.t, t, 1e-14) << name;
+      EXPECT_NEAR(impact.v_before[0], -v, 1e-14);
+      v *= eta;
+      EXPECT_NEAR(impact.v_after[0], v, 1e-14);
+      flight *= eta;
+    }
+    const double rest = 3.9 - t;
+    EXPECT_NEAR(path.u.back(), v * rest - rest * rest / 2, 1e-14);
+    EXPECT_NEAR(path.v.back(), v - rest, 1e-14);
+    EXPECT_EQ(path.t, (std::vector<double>{0.0, 3.9}));
+    EXPECT_EQ(outcome.work.steps, 1);
+    EXPECT_EQ(outcome.work.event_searches, 5);
+  }
+}
+
+TEST(EventDriven, GivesUpWhereImpactsAccumulate) {
+  const auto [path, outcome] = run("rk4", ball(0.0, 1.0, 0.5, 4.1), 0.1);  // they do at t = 4
+  EXPECT_TRUE(outcome.failed());
+  EXPECT_EQ(outcome.reason, Code("too-many-impacts"));
+  EXPECT_NE(outcome.detail.find("rk4+event-driven: t = "), std::string::npos) << outcome.detail;
+  EXPECT_NEAR(path.t.back(), 3.9, 0.11);
+  EXPECT_GT(path.impacts->size(), 30u);
+}
+
+// Both ends of the step are open; between them the ball is above a ceiling at `height`.
+model::ImpactProblem<> ball_below_ceiling(double height) {
+  auto p = ball(0.0, 1.0, 1.0, 1.9);  // its apex is 1/2, at t = 1
+  p.contacts[0].direction[0] = -1.0;
+  p.contacts[0].gap = -height;
+  return p;
+}
+
+TEST(EventDriven, FindsAnImpactBetweenTwoOpenEnds) {
+  for (const double dip : {0.1, 1e-3, 1e-9}) {
+    const auto [path, outcome] = run("rk4", ball_below_ceiling(0.5 - dip), 1.9);
+    ASSERT_EQ(path.impacts->size(), 1u) << dip;
+    EXPECT_NEAR((*path.impacts)[0].t, 1.0 - std::sqrt(2 * dip), 1e-15 / std::sqrt(dip) + 1e-15);
+  }
+}
+
+TEST(EventDriven, PassesAGrazeThatDoesNotTouch) {
+  for (const double margin : {0.1, 1e-9, 1e-13}) {
+    const auto [path, outcome] = run("rk4", ball_below_ceiling(0.5 + margin), 1.9);
+    EXPECT_TRUE(outcome.finished);
+    EXPECT_TRUE(path.impacts->empty()) << margin;
+    EXPECT_NEAR(path.v.back(), -0.9, 1e-15 * 4);
+  }
+}
+
+TEST(EventDriven, KeepsTheEnergyOfAnElasticImpact) {
+  const RattlingMass truth{.sigma = 0.0, .eta = 1.0, .w = 1.0};
+  const auto [path, outcome] = run("newmark", truth.problem(101.0), 0.1);
+  for (std::size_t i = 0; i < path.t.size(); ++i)
+    // Average acceleration keeps it in flight at whole steps, and 64 impacts of one partial step
+    // each likewise; a thousand steps of a few roundings remain.
+    EXPECT_NEAR(path.u[i] * path.u[i] + path.v[i] * path.v[i], 1.0, 1e-12);
+}
+
+TEST(EventDriven, KeepsTheOutputOnTheGrid) {
+  const RattlingMass truth{.sigma = 0.05, .eta = 0.9, .w = 1.0};
+  const double h = 11.0 / 230;
+  const auto [path, outcome] = run("newmark", truth.problem(12.0), h);
+  ASSERT_EQ(path.t.size(), 231u);
+  for (std::size_t k = 0; k < 230; ++k) EXPECT_EQ(path.t[k], 1.0 + double(k) * h);
+  EXPECT_EQ(path.t.back(), 12.0);
+  EXPECT_EQ(outcome.work.steps, 230);
+}
+
+TEST(EventDriven, EndsARunThatIsNoWholeNumberOfStepsWithAShorterOne) {
+  const RattlingMass truth{.sigma = 0.05, .eta = 0.9, .w = 1.0};
+  for (const double end :
+       {12.0, 1.0 + 1.5 * std::numbers::pi}) {  // the second: within the impact's step
+    const auto [path, outcome] = run("rk4", truth.problem(end), 0.013);
+    EXPECT_EQ(path.t.back(), end);
+    EXPECT_NEAR(path.u.back(), truth.u(end), 1e-9);
+    EXPECT_LT(path.t[path.t.size() - 1] - path.t[path.t.size() - 2], 0.013);
+  }
+}
+
+TEST(EventDriven, RepeatsARunToTheBit) {
+  const auto prepared = method("newmark")->prepare(ball(0.3, 1.0, 0.0, 4.0), 0.1);
+  model::TrajectorySink one(true), two(true);
+  const auto first = prepared->advance(one), second = prepared->advance(two);
+  EXPECT_EQ(one.trajectory().u, two.trajectory().u);
+  EXPECT_EQ(one.trajectory().t, two.trajectory().t);
+  EXPECT_EQ(first.work.force_evaluations, second.work.force_evaluations);
+  EXPECT_EQ(first.work.event_searches, second.work.event_searches);
+}
+
+// Resting contact.
+
+TEST(EventDriven, RestsAfterAnImpactThatGivesNothingBack) {
+  for (const std::string name : integrators) {
+    const auto [path, outcome] = run(name, ball(0.5, 0.0, 0.0, 3.0), 0.07);
+    ASSERT_TRUE(outcome.finished) << outcome.detail;
+    EXPECT_EQ(path.impacts->size(), 1u);
+    EXPECT_NEAR(path.u.back(), 0.0, 1e-15);
+    EXPECT_EQ(path.v.back(), 0.0);
+  }
+}
+
+// A mass at rest on its stop, pushed by -cos(t): it is let go at t = pi/2, and then moves as
+// u = t - pi/2 + cos(t).
+TEST(EventDriven, LetsGoWhereTheContactForceWouldHaveToPull) {
+  for (const double eta : {0.0, 1.0})
+    for (const std::string name : {"newmark", "rk4", "generalized-alpha:rho=0.8"}) {
+      auto p = mass_on_stop(1.0, 0.0, 0.0, 0.0, 0.0, eta, 4.0);
+      p.system.add_load = [](double t, std::span<double> f) { f[0] -= std::cos(t); };
+      const auto order = method(name)->facts().smooth_order;
+      const auto fit = checks::observed_order(
+          [&](double h) {
+            const auto [path, outcome] = run(name, p, 4.0 / std::round(4.0 / h));
+            EXPECT_TRUE(path.impacts->empty());
+            return std::abs(path.u.back() - (4.0 - std::numbers::pi / 2 + std::cos(4.0)));
+          },
+          1.0 / 16, 4);
+      EXPECT_NEAR(fit.order, order, 0.1 * order) << name;
+    }
+}
+
+// Mass 1, pressed down by a unit force, lands on mass 2, which hangs on a spring; the two go on as
+// one mass, u'' = -(1 + 5 u2)/3, and never part since the downward force outweighs m1 u''.
+TEST(EventDriven, HoldsTwoMassesTogetherAfterAnInelasticImpact) {
+  model::ImpactProblem<> p;
+  p.system.mass = Eigen::Vector2d(1.0, 2.0).asDiagonal();
+  p.system.damping = Eigen::Matrix2d::Zero();
+  p.system.stiffness = Eigen::Vector2d(0.0, 5.0).asDiagonal();
+  p.system.add_load = [](double, std::span<double> f) { f[0] -= 1.0; };
+  p.contacts = {{Eigen::Vector2d(1.0, -1.0), 0.0, 0.0}};
+  p.start = {0.0, Eigen::Vector2d(0.125, 0.0), Eigen::Vector2d(0.0, 0.0)};
+  p.end = 10.0;
+  // Impact at t = 1/2 with v1 = -1/2: both leave with -1/6 about the new equilibrium -1/5.
+  const double w = std::sqrt(5.0 / 3), t = 9.5;
+  const double exact = -0.2 + 0.2 * std::cos(w * t) - 1.0 / 6 / w * std::sin(w * t);
+  const auto [path, outcome] = run("rk4", p, 0.01);
+  ASSERT_TRUE(outcome.finished) << outcome.detail;
+  ASSERT_EQ(path.impacts->size(), 1u);
+  EXPECT_NEAR((*path.impacts)[0].t, 0.5, 1e-15);
+  EXPECT_NEAR(path.u[path.u.size() - 1], exact, 1e-8);  // 1000 steps, (w h)^4 / 120 each period
+  EXPECT_NEAR(path.u[path.u.size() - 2], path.u[path.u.size() - 1], 1e-13);
+}
+
+// Several contacts.
+
+model::ImpactProblem<> row_of(int n, double end) {
+  model::ImpactProblem<> p;
+  p.system.mass = Eigen::MatrixXd::Identity(n, n);
+  p.system.damping = p.system.stiffness = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i + 1 < n; ++i) {
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+    b[i] = 1.0;
+    b[i + 1] = -1.0;
+    p.contacts.push_back({b, 0.0, 1.0});
+  }
+  p.start = {0.0, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  p.end = end;
+  return p;
+}
+
+TEST(EventDriven, PassesAnImpactAlongARowOfMasses) {
+  auto p = row_of(4, 10.0);
+  p.start.u << 6.0, 4.0, 3.0, 1.0;
+  p.start.v << -1.0, 0.0, 0.0, 0.0;
+  for (const double h : {10.0, 0.1}) {
+    const auto [path, outcome] = run("rk4", p, h);
+    ASSERT_TRUE(outcome.finished) << outcome.detail;
+    ASSERT_EQ(path.impacts->size(), 3u);
+    const double times[] = {2.0, 3.0, 5.0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR((*path.impacts)[k].t, times[k], 1e-13);
+      EXPECT_EQ((*path.impacts)[k].contact, int(k));
+    }
+    EXPECT_NEAR(path.v.back(), -1.0, 1e-14);
+    EXPECT_NEAR(path.u.back(), 1.0 - 5.0, 1e-13);
+  }
+}
+
+TEST(EventDriven, EndsWhereTwoCoupledContactsAreClosedTogether) {
+  auto p = row_of(3, 10.0);
+  p.start.u << 2.0, 0.0, -2.0;
+  p.start.v << -1.0, 0.0, 1.0;
+  const auto [path, outcome] = run("newmark", p, 0.3);
+  EXPECT_TRUE(outcome.failed());
+  EXPECT_EQ(outcome.reason, Code("simultaneous-contacts"));
+  EXPECT_EQ(outcome.detail,
+            "newmark+event-driven: t = 2 s: contacts 1 and 2 share a mass and are closed together, "
+            "which needs a complementarity solver.");
+  EXPECT_LE(path.t.back(), 2.0);
+  EXPECT_GE(path.t.back(), 1.7);
+}
+
+TEST(EventDriven, HandlesContactsThatAreNotCoupledAtOneInstant) {
+  auto p = row_of(4, 10.0);
+  p.contacts.erase(p.contacts.begin() + 1);
+  p.start.u << 2.0, 1.0, 0.5, -0.5;
+  p.start.v << -1.0, 0.0, -1.0, 0.0;
+  p.contacts[0].restitution = p.contacts[1].restitution = 0.0;
+  const auto [path, outcome] = run("newmark", p, 0.3);
+  ASSERT_TRUE(outcome.finished) << outcome.detail;
+  EXPECT_EQ(path.impacts->size(), 2u);
+  EXPECT_EQ(path.v.back(), -0.5);
+}
+
+TEST(EventDriven, ObjectsToCoupledContactsClosedAtTheStart) {
+  const auto p = row_of(3, 1.0);
+  const auto no = method("rk4")->objection(p);
+  ASSERT_TRUE(no);
+  EXPECT_EQ(no->code, Code("simultaneous-contacts"));
+  EXPECT_THROW(method("rk4")->prepare(p, 0.1), InputError);
+}
+
+// How a run ends.
+
+TEST(EventDriven, EndsAsDivergedBeyondTheStabilityLimitWithFiniteStatesOnly) {
+  const RattlingMass truth{.sigma = 0.0, .eta = 1.0, .w = 1.0};
+  for (const bool has_contact : {true, false}) {
+    auto p = truth.problem(10001.0);
+    if (!has_contact) p.contacts.clear();
+    const auto [path, outcome] = run("central-difference", p, 2.5);
+    EXPECT_TRUE(outcome.failed());
+    EXPECT_EQ(outcome.reason, Code("diverged")) << outcome.detail;
+    EXPECT_LT(path.t.back(), 10001.0);
+    for (const double u : path.u) ASSERT_TRUE(std::isfinite(u));
+  }
+}
+
+struct ImpatientSink : model::Sink {
+  int impacts = 0;
+  double last = 0.0;
+  bool take(const model::SampleBlock& block) override {
+    last = block.t.back();
+    return true;
+  }
+  bool take(const model::ReportedImpact&) override { return ++impacts < 3; }
+};
+
+TEST(EventDriven, EndsAtTheImpactWhereTheSinkSaysSo) {
+  const RattlingMass truth{.sigma = 0.0, .eta = 1.0, .w = 1.0};
+  ImpatientSink sink;
+  const auto outcome = method("rk4")->prepare(truth.problem(100.0), 0.1)->advance(sink);
+  EXPECT_TRUE(outcome.stopped_by_sink);
+  EXPECT_FALSE(outcome.failed());
+  EXPECT_EQ(sink.impacts, 3);
+  EXPECT_NEAR(sink.last, truth.impact_time(3), 0.1);
+}
+
+TEST(EventDriven, RunsANonlinearForceOfAnySize) {
+  auto p = mass_on_stop(1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 30.0);
+  p.system.nonlinear = std::make_shared<checks::CubicForce<model::any_dof>>();
+  p.system.damping.setZero();
+  for (const std::string name : {"newmark", "rk4"}) {
+    const auto [path, outcome] = run(name, p, 0.01);
+    EXPECT_TRUE(outcome.finished) << outcome.detail;
+    EXPECT_GT(path.impacts->size(), 3u);
+    EXPECT_EQ(outcome.work.newton_iterations > 0, name == "newmark");
+  }
+}
+
+}  // namespace
+}  // namespace clackers::methods

@@ -1,0 +1,142 @@
+#include "clackers/methods/contact/moreau_jean.hpp"
+
+#include "clackers/base/error.hpp"
+#include "clackers/methods/contact/runs.hpp"
+#include "clackers/methods/integrators/stepper_checks.hpp"
+
+namespace clackers::methods {
+namespace {
+
+using runs::RattlingMass;
+using runs::run;
+
+TEST(MoreauJean, StepsByItsFormula) {
+  for (const double theta : {0.5, 0.8, 1.0}) {
+    auto p = RattlingMass{.sigma = 0.2, .eta = 0.6, .w = 1.3}.problem(11.0);
+    p.system.add_load = [](double t, std::span<double> f) { f[0] += std::sin(t); };
+    const double h = 0.125, m = p.system.mass(0, 0), c = p.system.damping(0, 0),
+                 k = p.system.stiffness(0, 0);
+    const auto [path, outcome] = run("moreau-jean:theta=" + std::to_string(theta), p, h);
+    std::size_t impacts = 0;
+    for (std::size_t n = 0; n + 1 < path.t.size(); ++n) {
+      const double u0 = path.u[n], v0 = path.v[n], u1 = path.u[n + 1], v1 = path.v[n + 1];
+      const double vt = theta * v1 + (1 - theta) * v0, ut = theta * u1 + (1 - theta) * u0;
+      const double ft = theta * std::sin(path.t[n + 1]) + (1 - theta) * std::sin(path.t[n]);
+      EXPECT_NEAR(u1, u0 + h * vt, 1e-15);
+      const double impulse = m * (v1 - v0) + h * (c * vt + k * ut - ft);
+      if (u0 + 0.5 * h * v0 > 0.0) {
+        EXPECT_NEAR(impulse, 0.0, 1e-14);
+        continue;
+      }
+      // 0 <= v1 + eta v0 complements P >= 0
+      EXPECT_GE(v1 + 0.6 * v0, -1e-15);
+      EXPECT_GE(impulse, -1e-14);
+      EXPECT_NEAR((v1 + 0.6 * v0) * impulse, 0.0, 1e-14);
+      if (impulse < 1e-12) continue;
+      const auto& reported = path.impacts->at(impacts++);
+      EXPECT_NEAR(reported.impulse, impulse, 1e-13);
+      EXPECT_EQ(reported.t, path.t[n + 1]);
+      EXPECT_EQ(reported.v_before[0], v0);
+      EXPECT_EQ(reported.v_after[0], v1);
+    }
+    EXPECT_EQ(impacts, path.impacts->size());
+    EXPECT_GE(impacts, 3u);
+  }
+}
+
+TEST(MoreauJean, HasTheSmoothOrderItClaims) {
+  for (const std::string name : {"moreau-jean", "moreau-jean:theta=0.75", "moreau-jean:theta=1"}) {
+    const checks::Ramps<model::any_dof> ramps(2, 0.3);
+    model::ImpactProblem<> p;
+    p.system = ramps.system;
+    p.start = ramps.exact(1.0);
+    p.end = 6.0;
+    const auto fit = checks::observed_order(
+        [&](double h) {
+          const auto path = run(name, p, 5.0 / std::round(5.0 / h)).trajectory;
+          const auto truth = ramps.exact(6.0);
+          return std::hypot(path.u.back() - truth.u[1], path.v.back() - truth.v[1]);
+        },
+        1.0 / 256, 4);
+    EXPECT_NEAR(fit.order, method(name)->facts().smooth_order, 0.05) << name;
+  }
+}
+
+TEST(MoreauJean, IsStableAtALargeStep) {
+  auto p = RattlingMass{.sigma = 0.0}.problem(100001.0);
+  p.contacts.clear();
+  for (const std::string name : {"moreau-jean", "moreau-jean:theta=0.75"}) {
+    const auto path = run(name, p, 100.0).trajectory;
+    EXPECT_LT(std::abs(path.u.back()), 1e3);
+    EXPECT_TRUE(method(name)->facts().unconditionally_stable);
+  }
+}
+
+TEST(MoreauJean, KeepsTheEnergyWithThetaOneHalfAndLosesItWithMore) {
+  const auto p = RattlingMass{.sigma = 0.0, .eta = 1.0, .w = 1.0}.problem(51.0);
+  const auto energy = [&](const std::string& name) {
+    const auto path = run(name, p, 0.01).trajectory;
+    return (path.u.back() * path.u.back() + path.v.back() * path.v.back());
+  };
+  EXPECT_NEAR(energy("moreau-jean"), 1.0,
+              0.01);  // an impact moves it by the penetration, h/2 at most
+  EXPECT_LT(energy("moreau-jean:theta=1"), 0.7);
+}
+
+TEST(MoreauJean, HasAnEnvelopeOfFirstOrder) {
+  const RattlingMass truth{.sigma = 0.05, .eta = 0.9, .w = 1.3};
+  const auto envelope = [&](double h0) {
+    double worst = 0.0;
+    for (int i = 0; i < 8; ++i) {
+      const double h = 20.0 / std::round(20.0 / (h0 * std::exp2(i / 8.0)));
+      const auto path = run("moreau-jean", truth.problem(21.0), h).trajectory;
+      for (std::size_t k = 0; k < path.t.size(); ++k)
+        worst = std::max(worst, std::abs(path.u[k] - truth.u(path.t[k])));
+    }
+    return worst;
+  };
+  EXPECT_NEAR(std::log2(envelope(0.02) / envelope(0.00125)) / 4, 1.0, 0.2);
+  EXPECT_EQ(method("moreau-jean")->facts().through_impacts.order, 1.0);
+  EXPECT_EQ(method("moreau-jean")->facts().through_impacts.behaviour, Behaviour::irregular);
+}
+
+TEST(MoreauJean, EndsARunThatIsNoWholeNumberOfStepsWithAShorterOne) {
+  const RattlingMass truth{.sigma = 0.05, .eta = 1.0, .w = 1.0};
+  const auto prepared = method("moreau-jean")->prepare(truth.problem(2.0), 0.3);
+  model::TrajectorySink one(true), two(true);
+  prepared->advance(one);
+  prepared->advance(two);  // the matrix of the last step is not that of the first
+  EXPECT_EQ(one.trajectory().t.back(), 2.0);
+  EXPECT_EQ(one.trajectory().t.size(), 5u);
+  EXPECT_EQ(one.trajectory().u, two.trajectory().u);
+  EXPECT_NEAR(one.trajectory().u[4] - one.trajectory().u[3],
+              0.05 * (one.trajectory().v[4] + one.trajectory().v[3]), 1e-15);
+}
+
+TEST(MoreauJean, RefusesWhatItCannotTake) {
+  auto p = RattlingMass{}.problem(10.0);
+  p.system.nonlinear = std::make_shared<checks::CubicForce<model::any_dof>>();
+  const auto no = method("moreau-jean")->objection(p);
+  ASSERT_TRUE(no);
+  EXPECT_EQ(no->code, Code("linear-only"));
+  for (const double theta : {0.49, 1.01, double(NAN)})
+    EXPECT_THROW(MoreauJean{theta}.validate(), InputError);
+}
+
+TEST(MoreauJean, EndsWhereTwoImpulsesChangeEachOther) {
+  model::ImpactProblem<> p;
+  p.system.mass = Eigen::Matrix3d::Identity();
+  p.system.damping = p.system.stiffness = Eigen::Matrix3d::Zero();
+  p.contacts = {{Eigen::Vector3d(1, -1, 0), 0.0, 1.0}, {Eigen::Vector3d(0, 1, -1), 0.0, 1.0}};
+  p.start = {0.0, Eigen::Vector3d(2, 0, -2), Eigen::Vector3d(-1, 0, 1)};
+  p.end = 6.0;
+  EXPECT_EQ(run("moreau-jean", p, 0.3).outcome.reason, Code("simultaneous-contacts"));
+  p.contacts[1] = {Eigen::Vector3d(0, 0, -1), 0.0,
+                   1.0};  // another stop for mass 3 at the same time
+  const auto [path, outcome] = run("moreau-jean", p, 0.3);
+  EXPECT_TRUE(outcome.finished);
+  EXPECT_EQ(path.impacts->size(), 2u);
+}
+
+}  // namespace
+}  // namespace clackers::methods

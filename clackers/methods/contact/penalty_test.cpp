@@ -1,0 +1,144 @@
+#include "clackers/methods/contact/penalty.hpp"
+
+#include "clackers/base/error.hpp"
+#include "clackers/methods/contact/runs.hpp"
+#include "clackers/methods/integrators/stepper_checks.hpp"
+
+namespace clackers::methods {
+namespace {
+
+using runs::mass_on_stop;
+using runs::RattlingMass;
+using runs::run;
+
+// A mass on a spring whose stop at equilibrium is a spring itself: half periods of two damped
+// oscillators in turn, with one decay rate. A contact lasts pi / wc.
+struct SpringStop {
+  double sigma = 0.05, w = 1.0, stiffness = 300.0, m = 2.0;
+  double wc() const { return std::sqrt(w * w + stiffness / m); }
+  double cycle() const { return std::numbers::pi * (1 / w + 1 / wc()); }
+  double touch(int k) const { return 0.5 * std::numbers::pi / w + (k - 1) * cycle(); }
+  double u(double t) const {
+    double s = t + 0.5 * std::numbers::pi / w;  // since the flight that ends at touch 1 began
+    s -= std::floor(s / cycle()) * cycle();
+    const double e = w * std::exp(-sigma * t), rest = s - std::numbers::pi / w;
+    return rest < 0 ? e * std::sin(w * s) / w : -e * std::sin(wc() * rest) / wc();
+  }
+  model::ImpactProblem<> problem() const {
+    auto p =
+        mass_on_stop(m, 2 * m * sigma, m * (w * w + sigma * sigma), std::exp(-sigma) * std::cos(w),
+                     -std::exp(-sigma) * (sigma * std::cos(w) + w * std::sin(w)), 1.0, 11.0);
+    p.start.t = 1.0;
+    return p;
+  }
+};
+
+TEST(Penalty, ConvergesToTheMotionWithSpringsAtTheOrderOfTheIntegrator) {
+  const SpringStop truth;
+  for (const std::string name : {"newmark", "central-difference", "generalized-alpha:rho=0.8"}) {
+    std::vector<model::Impact> touches;
+    const auto fit = checks::observed_order(
+        [&](double h) {
+          const auto [path, outcome] =
+              run(name + "+penalty:stiffness=300", truth.problem(), 10.0 / std::round(10.0 / h));
+          EXPECT_TRUE(outcome.finished) << outcome.detail;
+          touches = *path.impacts;
+          double worst = 0.0;
+          for (std::size_t i = 0; i < path.t.size(); ++i)
+            worst = std::max(worst, std::abs(path.u[i] - truth.u(path.t[i])));
+          return worst;
+        },
+        1.0 / 128, 4);
+    EXPECT_NEAR(fit.order, 2.0, 0.2) << name << " scatter " << fit.scatter;
+    ASSERT_EQ(touches.size(), 3u);
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+      EXPECT_NEAR(touches[k].t, truth.touch(int(k) + 1), 1e-3);  // h^2 wc^2 T at h = 1/1024
+      EXPECT_NEAR(touches[k].u[0], 0.0, 1e-12);
+      EXPECT_EQ(touches[k].v_before, touches[k].v_after);
+      EXPECT_EQ(touches[k].impulse, 0.0);
+    }
+  }
+}
+
+TEST(Penalty, RunsTwoMassesAndAnyNumberAlike) {
+  model::ImpactProblem<> two, three;
+  two.system.mass = Eigen::Vector2d(1.0, 0.5).asDiagonal();
+  two.system.damping = 0.1 * two.system.mass;
+  two.system.stiffness = Eigen::Vector2d(1.0, 4.5).asDiagonal();
+  two.contacts = {{Eigen::Vector2d(1.0, -1.0), 0.0, 1.0}};
+  two.start = {0.0, Eigen::Vector2d(1.0, -0.5), Eigen::Vector2d(0.0, 0.0)};
+  two.end = three.end = 10.0;
+  three.system.mass = three.system.damping = three.system.stiffness = Eigen::Matrix3d::Identity();
+  three.system.mass.topLeftCorner(2, 2) = two.system.mass;
+  three.system.damping.topLeftCorner(2, 2) = two.system.damping;
+  three.system.stiffness.topLeftCorner(2, 2) = two.system.stiffness;
+  three.contacts = {{Eigen::Vector3d(1.0, -1.0, 0.0), 0.0, 1.0}};
+  three.start = {0.0, Eigen::Vector3d(1.0, -0.5, 0.0), Eigen::Vector3d::Zero()};
+  const auto one = run("newmark+penalty", two, 0.001).trajectory;
+  const auto other = run("newmark+penalty", three, 0.001).trajectory;
+  EXPECT_EQ(one.impacts->size(), other.impacts->size());
+  EXPECT_GE(one.impacts->size(), 3u);
+  // Two solvers with rounding 2^-53 each, condition k h² = 0.01, 10^4 steps through four contacts.
+  EXPECT_NEAR(one.u[one.u.size() - 2], other.u[other.u.size() - 3], 1e-10);
+}
+
+TEST(Penalty, HasTheContactTimeOfAHalfPeriod) {
+  model::ImpactProblem<> p = RattlingMass{}.problem(10.0);  // m = 2, k = 2.005
+  EXPECT_NEAR(method("newmark+penalty:stiffness=50")->contact_time(p),
+              std::numbers::pi * std::sqrt(2.0 / 50), 1e-15);
+  EXPECT_NEAR(method("newmark+penalty")->contact_time(p), std::numbers::pi * std::sqrt(2.0 / 20050),
+              1e-15);
+  p.contacts.push_back({Eigen::VectorXd::Constant(1, -2.0), -9.0, 1.0});  // m_e = m / 4
+  EXPECT_NEAR(method("newmark+penalty:stiffness=50")->contact_time(p),
+              std::numbers::pi * std::sqrt(0.5 / 50), 1e-15);
+  p.contacts.clear();
+  EXPECT_EQ(method("newmark+penalty")->contact_time(p), 0.0);
+  EXPECT_EQ(method("newmark")->contact_time(p), 0.0);
+}
+
+TEST(Penalty, TakesItsDefaultStiffnessFromTheFirstMassInTheRow) {
+  model::ImpactProblem<> p;
+  p.system.mass = p.system.damping = Eigen::Matrix2d::Identity();
+  p.system.stiffness = Eigen::Vector2d(3.0, 7.0).asDiagonal();
+  p.contacts = {{Eigen::Vector2d(1.0, -1.0), 0.0, 1.0}, {Eigen::Vector2d(0.0, 1.0), -5.0, 1.0}};
+  p.start = {0.0, Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d::Zero()};
+  p.end = 1.0;
+  EXPECT_EQ(Penalty{}.stiffnesses(p), (std::vector<double>{3e4, 7e4}));
+  EXPECT_EQ(Penalty{5.0}.stiffnesses(p), (std::vector<double>{5.0, 5.0}));
+}
+
+TEST(Penalty, StandsForElasticImpactsOnly) {
+  const auto p = RattlingMass{.eta = 0.5}.problem(10.0);
+  const auto no = method("newmark+penalty")->objection(p);
+  ASSERT_TRUE(no);
+  EXPECT_EQ(no->code, Code("penalty-needs-elastic"));
+  EXPECT_EQ(
+      no->sentence,
+      "newmark+penalty with eta = 0.5: a linear penalty spring gives back what it takes, so it can "
+      "only stand for eta = 1. Use event-driven.");
+  EXPECT_THROW(method("newmark+penalty")->prepare(p, 0.1), InputError);
+}
+
+TEST(Penalty, AsksForAStiffnessWhereThereIsNoDefault) {
+  const auto p = mass_on_stop(1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0);
+  const auto no = method("rk4+penalty")->objection(p);
+  ASSERT_TRUE(no);
+  EXPECT_EQ(no->code, Code("no-default-stiffness"));
+  EXPECT_FALSE(method("rk4+penalty:stiffness=3")->objection(p));
+}
+
+TEST(Penalty, AddsToAForceThatIsThereAlready) {
+  auto p = RattlingMass{}.problem(10.0);
+  p.system.nonlinear = std::make_shared<checks::CubicForce<model::any_dof>>();
+  const auto springs = with_springs(p, {100.0});
+  const Eigen::VectorXd u = Eigen::VectorXd::Constant(1, -0.5), v = Eigen::VectorXd::Zero(1);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(1);
+  Eigen::MatrixXd du = Eigen::MatrixXd::Zero(1, 1), dv = du;
+  springs.system.nonlinear->add(u, v, force);
+  springs.system.nonlinear->add_tangent(u, v, du, dv);
+  EXPECT_NEAR(force[0], -50.0 - 0.125, 1e-14);
+  EXPECT_NEAR(du(0, 0), 100.0 + 0.75, 1e-13);
+}
+
+}  // namespace
+}  // namespace clackers::methods

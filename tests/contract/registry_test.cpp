@@ -1,0 +1,127 @@
+// Everything in the registry: every pair runs a small set of problems or refuses each with its
+// reason, and keeps the promises of the Method interface.
+
+#include "clackers/methods/registry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clackers/base/error.hpp"
+#include "clackers/methods/method.hpp"
+#include "clackers/model/trajectory.hpp"
+
+namespace clackers::methods {
+namespace {
+
+// Masses in a row on springs of their own, a load on the first, contacts between neighbours.
+model::ImpactProblem<> row_of(int n, double eta) {
+  model::ImpactProblem<> p;
+  p.system.mass = p.system.stiffness = Eigen::MatrixXd::Identity(n, n);
+  for (int i = 0; i < n; ++i) p.system.stiffness(i, i) = 1.0 + i;
+  p.system.damping = 0.05 * p.system.mass;
+  p.system.add_load = [](double t, std::span<double> f) { f[0] += 0.1 * std::sin(t); };
+  for (int i = 0; i + 1 < n; ++i) {
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+    b[i] = 1.0;
+    b[i + 1] = -1.0;
+    p.contacts.push_back({b, -0.3, eta});
+  }
+  if (n == 1) p.contacts.push_back({Eigen::VectorXd::Ones(1), -0.3, eta});
+  p.start = {0.5, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  p.start.v[0] = -1.0;
+  p.end = 10.5;
+  return p;
+}
+
+class EveryMethod : public testing::TestWithParam<std::string> {
+ protected:
+  std::shared_ptr<const Method> chosen = method(GetParam());
+};
+
+TEST_P(EveryMethod, IsSpelledAsItsFactsSay) {
+  const auto name = chosen->facts().name;
+  EXPECT_EQ(method(name)->facts().name, name);
+}
+
+TEST_P(EveryMethod, ClaimsSomethingThatCanBeMeasured) {
+  const auto facts = chosen->facts();
+  EXPECT_GE(facts.smooth_order, 1.0);
+  EXPECT_GT(facts.stability_limit, 0.0);
+  EXPECT_EQ(std::isinf(facts.stability_limit), facts.unconditionally_stable);
+  EXPECT_NE(facts.through_impacts.behaviour, Behaviour::undecided);
+  EXPECT_EQ(facts.through_impacts.order == 0.0,
+            facts.through_impacts.behaviour == Behaviour::stagnating);
+  if (!facts.through_impacts.reason.empty()) {
+    EXPECT_NE(find_code(facts.through_impacts.reason), nullptr);
+  }
+}
+
+TEST_P(EveryMethod, RefusesStepsThatAreNotPositiveAndFinite) {
+  for (const double h : {0.0, -0.1, std::numeric_limits<double>::quiet_NaN(),
+                         std::numeric_limits<double>::infinity(), 11.0, 1e-9})
+    EXPECT_THROW(chosen->prepare(row_of(2, 1.0), h), InputError) << "h = " << h;
+}
+
+TEST_P(EveryMethod, RefusesAnUnsoundProblem) {
+  auto problem = row_of(2, 1.0);
+  problem.system.mass(0, 0) = -1.0;
+  EXPECT_THROW(chosen->prepare(problem, 0.1), InputError);
+}
+
+TEST_P(EveryMethod, RunsOrRefusesWithItsReason) {
+  for (const int n : {1, 2, 3})
+    for (const double eta : {1.0, 0.5, 0.0}) {
+      SCOPED_TRACE(testing::Message() << "masses " << n << ", eta " << eta);
+      const auto problem = row_of(n, eta);
+      const auto no = chosen->objection(problem);
+      if (no) {
+        EXPECT_EQ(no->sentence.find(chosen->facts().name), 0u) << no->sentence;
+        try {
+          chosen->prepare(problem, 0.01);
+          ADD_FAILURE() << "prepared in spite of: " << no->sentence;
+        } catch (const InputError& error) {
+          EXPECT_EQ(error.what(), no->sentence);
+          EXPECT_EQ(error.code(), no->code);
+        }
+        continue;
+      }
+      model::TrajectorySink sink(true);
+      const auto outcome = chosen->prepare(problem, 0.005)->advance(sink);
+      const auto& path = sink.trajectory();
+      if (outcome.failed()) {
+        EXPECT_EQ(outcome.detail.find(chosen->facts().name + ": t = "), 0u) << outcome.detail;
+        continue;
+      }
+      ASSERT_EQ(path.t.size(), 2001u);
+      EXPECT_EQ(path.dof, n);
+      EXPECT_EQ(path.t.front(), 0.5);
+      EXPECT_EQ(path.t.back(), 10.5);
+      EXPECT_EQ(path.u[0], 0.0);
+      EXPECT_EQ(path.v[0], -1.0);
+      EXPECT_TRUE(std::is_sorted(path.t.begin(), path.t.end()));
+      EXPECT_GE(path.impacts->size(), 1u);
+      for (const double u : path.u) ASSERT_LT(std::abs(u), 5.0);
+      EXPECT_EQ(outcome.work.steps, 2000);
+      EXPECT_GT(outcome.work.force_evaluations, 0);
+      EXPECT_EQ(chosen->contact_time(problem) > 0.0,
+                GetParam().find("penalty") != std::string::npos);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, testing::ValuesIn(pairs()), [](const auto& which) {
+  std::string name = which.param;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '-' || c == '+'; }, '_');
+  return name;
+});
+
+TEST(Registry, HasMethodsForTheDefaultPanel) {
+  for (const auto& name : default_panel())
+    EXPECT_FALSE(method(name)->objection(row_of(2, 1.0))) << name;
+}
+
+}  // namespace
+}  // namespace clackers::methods
