@@ -131,8 +131,7 @@ int run(const Options& options, const std::string& line) {
     // `verify | head`: the reader had enough, the verdict still counts.
   }
   if (record.interrupted) complain("interrupted; the finished rows were kept.", "interrupted");
-  if (!written) return 4;
-  return record.interrupted ? 130 : study::exit_code(record);
+  return written ? study::exit_code(record) : 4;
 }
 
 }  // namespace

@@ -21,6 +21,13 @@ TEST(LadderFit, RoughErrorsAsLargeAsTheMotionStayOutsideTheEnvelope) {
   EXPECT_EQ(fit.first_level, 3) << told(fit);
 }
 
+TEST(LadderFit, AnEnvelopeOfTooFewTrackedLevelsIsUndecided) {
+  auto made = ladder([](double h) { return 100.0 * h; }, {.levels = 5});
+  made[4][3].error *= 3.0;
+  EXPECT_BEHAVIOUR(fit_ladder(made, {.claimed_order = 1.0}), Behaviour::undecided,
+                   "too-few-levels");
+}
+
 TEST(LadderFit, AnIrregularOrderIsAlwaysCertainToBePositive) {
   int irregular = 0;
   for (unsigned seed = 0; seed < 100; ++seed) {

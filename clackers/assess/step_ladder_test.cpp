@@ -49,6 +49,19 @@ TEST(StepLadder, ImpactsStayAwayFromWholeNumbersOfSteps) {
     for (const double h : level.steps) EXPECT_GE(clearance(h, impacts), 0.25 / 6 - 1e-9) << h;
 }
 
+TEST(StepLadder, TheNearestNumberThatKeepsAwayIsTaken) {
+  const auto impacts = default_impacts();
+  const auto ladder = step_ladder({}, 20.0, impacts);
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) {
+      const double wanted = std::round(400.0 * std::exp2(i + j / 8.0));
+      const auto taken = double(ladder[std::size_t(i)].counts[std::size_t(j)]);
+      const double away = std::abs(taken - wanted);
+      for (double n = wanted - away + 1.0; n < wanted + away; n += 1.0)
+        EXPECT_LT(clearance(20.0 / n, impacts), 0.25 / 6 + 1e-9) << n << " instead of " << taken;
+    }
+}
+
 TEST(StepLadder, ManyImpactsGetTheRoomThereIs) {
   std::vector<double> impacts;
   for (int k = 1; k <= 300; ++k) impacts.push_back((k - 0.5) * 3.1455 / 50.0);

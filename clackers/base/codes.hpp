@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace clackers {
@@ -121,14 +122,19 @@ constexpr const CodeEntry* find_code(std::string_view name) {
 /// The name of a row of `code_table`. A misspelled one does not compile.
 class Code {
  public:
-  consteval Code(const char* name) : entry_(find_code(name)) {
-    if (entry_ == nullptr) throw "no such code in code_table";
-  }
+  // By position: a pointer compared with nullptr is no constant to GCC 12 with -fsanitize=undefined.
+  consteval Code(const char* name) : entry_(&code_table[position(name)]) {}
   constexpr std::string_view name() const { return entry_->name; }
   constexpr std::string_view meaning() const { return entry_->meaning; }
   friend constexpr bool operator==(Code one, Code other) { return one.entry_ == other.entry_; }
 
  private:
+  static consteval std::size_t position(std::string_view name) {
+    for (std::size_t i = 0; i < code_table.size(); ++i)
+      if (code_table[i].name == name) return i;
+    throw "no such code in code_table";
+  }
+
   const CodeEntry* entry_;
 };
 

@@ -26,8 +26,8 @@ class ClosedForm : public model::Motion {
 
   /// 0.51 units of 2^-52 of the envelope, and one subnormal spacing (5e-324). Of the first, 1/2 is
   /// the rounding of the result, which never exceeds the envelope; the cosine and sine add
-  /// sqrt(2) 2^-63, the power 2^-66, the phase X 2^-104, all double-double steps less than 2^-98
-  /// together: below 0.503. The rest covers the rounding of the envelope itself.
+  /// sqrt(2) 2^-63, the power 2^-66, the phase at most pi X 2^-100 < 2^-68, all double-double steps
+  /// less than 2^-98 together: below 0.503. The rest covers the rounding of the envelope itself.
   model::Kinematics error_bound(double t) const override;
 
   /// The k with t_k <= t, decided for the true t_k. With eta = 0 the masses stay at rest after the

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "clackers/methods/integrators/integrator_facts.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
 #include "clackers/methods/recorder.hpp"

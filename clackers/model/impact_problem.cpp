@@ -47,6 +47,17 @@ void require_symmetric(std::string_view what, const Eigen::MatrixXd& x, Index do
             code);
 }
 
+// A pivot that is no more than the rounding of its factorization, n units of its diagonal entry,
+// says nothing of its sign.
+bool is_positive_definite(const Eigen::MatrixXd& x) {
+  const Eigen::LLT<Eigen::MatrixXd> factors(x);
+  if (factors.info() != Eigen::Success) return false;
+  const double unit = double(x.rows()) * std::numeric_limits<double>::epsilon();
+  for (Index i = 0; i < x.rows(); ++i)
+    if (!(std::pow(factors.matrixLLT()(i, i), 2) > unit * x(i, i))) return false;
+  return true;
+}
+
 void require_contact(const Contact<>& contact, std::size_t number, Index dof,
                      const State<any_dof>& start) {
   const auto who = fmt::format("contact {}", number);
@@ -78,7 +89,7 @@ void validate(const ImpactProblem<>& problem) {
   require_symmetric("mass", mass, dof, "not-positive-definite");
   require_symmetric("damping", damping, dof, "not-symmetric");
   require_symmetric("stiffness", stiffness, dof, "not-symmetric");
-  if (const Eigen::LLT<Eigen::MatrixXd> factors(mass); factors.info() != Eigen::Success)
+  if (!is_positive_definite(mass))
     throw InputError(
         "problem: the mass matrix is not positive definite; allowed: every motion has positive "
         "kinetic energy. Remove degrees of freedom without mass.",

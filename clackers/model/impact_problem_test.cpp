@@ -136,7 +136,7 @@ TEST(ImpactProblem, KeepsANonlinearForceGeneral) {
 }
 
 TEST(Contact, OpensAlongItsRow) {
-  const auto& contact = sound().contacts[0];
+  const auto contact = sound().contacts[0];
   EXPECT_EQ(contact.opening(Eigen::Vector2d(3.0, 1.0)), 1.75);
   EXPECT_EQ(contact.opening_rate(Eigen::Vector2d(3.0, 1.0)), 2.0);
 }

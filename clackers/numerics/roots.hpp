@@ -15,7 +15,8 @@ struct Bracket {
 
 /// Shrinks a bracket until it is no wider than `width` > 0, or until no double lies between its
 /// ends. Only signs decide, so a function that is noise near its root still gives a bracket of the
-/// signs it showed. Takes at most one evaluation more than bisection, few for a smooth function.
+/// signs it showed. Takes at most two evaluations more than bisection (n0, and one for the
+/// rounding of the ends), few for a smooth function.
 /// Method ITP: I. F. D. Oliveira, R. H. C. Takahashi, ACM Trans. Math. Softw. 47 (1), 5 (2020),
 /// with k1 = 0.2 / (first width), k2 = 2, n0 = 1.
 template <class Function>

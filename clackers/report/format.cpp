@@ -36,14 +36,29 @@ std::size_t break_at(std::string_view text, std::size_t width) {
   const auto whole = bytes_of(text, width);
   if (const auto space = text.rfind(' ', whole); space != std::string_view::npos && space > 0)
     return space;
-  const auto mark = text.find_last_of("_+:,/=-", whole - 1);
-  return mark == std::string_view::npos || mark == 0 ? whole : mark + 1;
+  // In a method's name the joint between integrator and contact is the best place.
+  for (const std::string_view marks : {"+", ":,", "_/=-"}) {
+    const auto mark = text.find_last_of(marks, whole - 1);
+    if (mark != std::string_view::npos && mark > 0) return mark + 1;
+  }
+  return whole;
+}
+
+// "Order    2 for gamma = 1/2": how far the lines below stand to the right, so that the word before
+// the wide space stays alone. 0 for other lines.
+std::size_t hanging_indent(std::string_view line) {
+  constexpr std::size_t longest_word = 16;
+  const auto space = line.find("  ");
+  if (space == 0 || space > longest_word) return 0;
+  const auto text = line.find_first_not_of(' ', space);
+  return text == std::string_view::npos ? 0 : display_width(line.substr(0, text));
 }
 
 void wrap_line(std::string_view line, std::size_t width, std::vector<std::string>& out) {
   const auto indent = std::min(line.find_first_not_of(' '), line.size());
-  const std::string margin(indent < width ? indent : 0, ' ');
   auto rest = line.substr(indent);
+  const auto hanging = indent + hanging_indent(rest);
+  std::string margin(indent < width ? indent : 0, ' ');
   while (display_width(rest) > width - margin.size()) {
     const auto length = break_at(rest, width - margin.size());
     auto head = rest.substr(0, length);
@@ -51,6 +66,8 @@ void wrap_line(std::string_view line, std::size_t width, std::vector<std::string
     out.push_back(margin + std::string(head));
     rest.remove_prefix(length);
     rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
+    // Where half of the width would be lost the lines below start further left.
+    if (hanging < width / 2) margin.assign(hanging, ' ');
   }
   if (!rest.empty() || indent == line.size()) out.push_back(margin + std::string(rest));
 }

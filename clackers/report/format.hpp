@@ -24,8 +24,9 @@ std::string short_count(long long value);
 /// Characters that a UTF-8 text takes on the terminal, one a code point.
 std::size_t display_width(std::string_view text);
 
-/// `text` in lines of at most `width` characters: broken at spaces, after one of "_+:,/=-" within
-/// words, and anywhere in a word that has none. Newlines stay, and so does a line's indentation.
+/// `text` in lines of at most `width` characters: broken at spaces; in a long word behind "+", else
+/// behind ":" or ",", else behind one of "_/=-", else anywhere. Newlines stay, and so does a line's
+/// indentation; a line such as "Order    2 for gamma = 1/2" goes on below its "2".
 std::vector<std::string> wrap(std::string_view text, std::size_t width);
 
 /// `text` with spaces before or behind it, `width` characters in all.

@@ -67,6 +67,7 @@ TEST(Format, WrapsAtSpacesThenAtMarksThenAnywhere) {
   using Lines = std::vector<std::string>;
   EXPECT_EQ(wrap("one two three", 7), (Lines{"one two", "three"}));
   EXPECT_EQ(wrap("generalized-alpha:rho=0.8", 13), (Lines{"generalized-", "alpha:rho=0.8"}));
+  EXPECT_EQ(wrap("newmark+event-driven", 15), (Lines{"newmark+", "event-driven"}));
   EXPECT_EQ(wrap("abcdefgh", 3), (Lines{"abc", "def", "gh"}));
   EXPECT_EQ(wrap("±±±±", 3), (Lines{"±±±", "±"}));
   EXPECT_EQ(wrap("exact", 5), (Lines{"exact"}));
@@ -77,6 +78,9 @@ TEST(Format, KeepsLinesAndTheirIndentation) {
   using Lines = std::vector<std::string>;
   EXPECT_EQ(wrap("a\n\n  u1 = u0 + h v0", 80), (Lines{"a", "", "  u1 = u0 + h v0"}));
   EXPECT_EQ(wrap("  one two", 6), (Lines{"  one", "  two"}));
+  EXPECT_EQ(wrap("Order  2 for all steps", 15),
+            (Lines{"Order  2 for", "       all", "       steps"}));
+  EXPECT_EQ(wrap("Order  2 for all steps", 14), (Lines{"Order  2 for", "all steps"}));
 }
 
 TEST(Format, NoLineIsWiderThanAsked) {

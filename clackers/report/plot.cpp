@@ -80,21 +80,18 @@ int dot_of(double value, const Range& range, int dots) {
   return int(std::lround((value - range.lo) / (range.hi - range.lo) * (dots - 1)));
 }
 
-// Mass 1 is a solid line, every other one dotted, so that the picture can be read without colour.
 void draw(Canvas& canvas, const std::vector<double>& t, const std::vector<double>& y, int mass,
           const Range& across, const Range& up) {
   const auto x_of = [&](double time) { return dot_of(time, across, canvas.dots_wide()); };
   const auto y_of = [&](double u) {
     return Canvas::dots_high() - 1 - dot_of(u, up, Canvas::dots_high());
   };
-  int travelled = 0;
   for (std::size_t next = 1; next < t.size(); ++next) {
     const auto i = next - 1;
     const int x0 = x_of(t[i]), x1 = x_of(t[next]), y0 = y_of(y[i]), y1 = y_of(y[next]);
-    const int parts = std::max(std::abs(x1 - x0), std::abs(y1 - y0));
-    for (int k = 0; k < parts; ++k, ++travelled)
-      if (mass == 0 || travelled % 3 == 0)
-        canvas.set(x0 + (x1 - x0) * k / parts, y0 + (y1 - y0) * k / parts, mass);
+    const int parts = std::max({std::abs(x1 - x0), std::abs(y1 - y0), 1});
+    for (int k = 0; k <= parts; ++k)
+      canvas.set(x0 + (x1 - x0) * k / parts, y0 + (y1 - y0) * k / parts, mass);
   }
 }
 
@@ -158,7 +155,7 @@ std::string plot(const study::Curve& response, std::span<const double> impact_ti
   label(canvas, response.t, response.y, across, up);
 
   std::string title = "u [m] against t [s]; 1: mass 1";
-  if (response.y.size() > 1) title += ", 2: mass 2 (dotted)";
+  if (response.y.size() > 1) title += ", 2: mass 2";
   if (!impact_times.empty()) title += "; ▲ collision";
   std::string out;
   for (const auto& line : wrap(title, std::size_t(columns)))

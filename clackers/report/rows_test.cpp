@@ -211,7 +211,7 @@ TEST(Table, WrapsLongTextInItsColumn) {
 }
 
 TEST(Table, ATextAloneStandsAsItIs) {
-  const Sheet card{"x/1", "newmark", {{"card", "", ""}}, {{"Order       2\n    u1 = u0 + h v0"}}};
+  const Sheet card{"x/1", "newmark", {{"card", "", ""}}, {{"Order       2\n    u1 = u0 + h v0\n"}}};
   EXPECT_EQ(table(card), "newmark\nOrder       2\n    u1 = u0 + h v0\n");
 }
 

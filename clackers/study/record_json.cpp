@@ -68,7 +68,7 @@ class Writer {
   Json object_ = Json::object();
 };
 
-/// Fills one struct from a json object; refuses missing and unknown fields.
+/// Fills one freshly made struct from a json object; refuses missing and unknown fields.
 class Reader {
  public:
   Reader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {
@@ -128,13 +128,11 @@ class Reader {
   }
   template <class T>
   static void read(const Json& json, const std::string& where, std::optional<T>& x) {
-    x.reset();
     if (!json.is_null()) read(json, where, x.emplace());
   }
   template <class T>
   static void read(const Json& json, const std::string& where, std::vector<T>& x) {
     if (!json.is_array()) refuse_record(where, "no list");
-    x.clear();
     for (std::size_t i = 0; i < json.size(); ++i)
       read(json[i], fmt::format("{}/{}", where, i), x.emplace_back());
   }
