@@ -45,6 +45,7 @@ ErrorSink::ErrorSink(const model::Motion& truth, const model::ImpactProblem<>& p
       dof_(std::size_t(truth.dof())),
       step_(require_step(who, step)),
       options_(options),
+      contacts_(problem.contacts),
       mass_(row_major(problem.system.mass)),
       stiffness_(row_major(problem.system.stiffness)),
       u_envelope_(positive_entries("initial envelope of u", truth.envelope(0.0).u)),
@@ -68,6 +69,14 @@ ErrorSink::ErrorSink(const model::Motion& truth, const model::ImpactProblem<>& p
 
 double ErrorSink::energy(const double* u, const double* v) const {
   return 0.5 * (form(mass_, v, dof_) + form(stiffness_, u, dof_));
+}
+
+bool ErrorSink::rests_in_contact(double t, int contact) const {
+  if (contact < 0 || contact >= std::ssize(contacts_))
+    refuse(who, "contact of an impact", double(contact), "a row of the problem's contacts");
+  const auto& row = contacts_[std::size_t(contact)];
+  const auto now = truth_.at(std::clamp(t, 0.0, truth_.end()), model::Side::right);
+  return row.opening(now.u) == 0.0 && row.opening_rate(now.v) == 0.0;
 }
 
 void ErrorSink::sample_truth(std::span<const double> times) {
@@ -117,7 +126,7 @@ void ErrorSink::take_part(const model::SampleBlock& block, std::size_t from, std
 
 bool ErrorSink::take(const model::ReportedImpact& impact) {
   velocity_.take(impact);
-  impacts_.take(impact.t);
+  impacts_.take(impact.t, rests_in_contact(impact.t, impact.contact));
   return goes_on();
 }
 

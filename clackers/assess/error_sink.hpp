@@ -46,6 +46,7 @@ class ErrorSink : public model::Sink {
   void take_part(const model::SampleBlock& block, std::size_t from, std::size_t count);
   void sample_truth(std::span<const double> times);
   double energy(const double* u, const double* v) const;
+  bool rests_in_contact(double t, int contact) const;
   bool goes_on() const {
     return options_.abort == nullptr || !options_.abort->load(std::memory_order_relaxed);
   }
@@ -54,6 +55,7 @@ class ErrorSink : public model::Sink {
   std::size_t dof_;
   double step_;
   ErrorSinkOptions options_;
+  std::vector<model::Contact<>> contacts_;
   std::vector<double> mass_, stiffness_;         ///< row-major
   std::vector<double> u_envelope_, v_envelope_;  ///< at t = 0
   double start_, first_energy_;

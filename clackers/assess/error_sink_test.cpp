@@ -153,6 +153,29 @@ TEST(ErrorSink, ImpactsAreMatchedAndTakePartInTheVelocity) {
   EXPECT_NEAR(score.v_error, 2.0 * 0.001 / 4.0, 1e-12);
 }
 
+TEST(ErrorSink, AMotionThatRestsInContactCollidesOnce) {
+  // Both masses stop at the first impact for ever.
+  struct Stops : ToyMotion {
+    Stops() : ToyMotion(20.0, {1.5}) {}
+    void sample(std::span<const double> times, model::Side side,
+                model::SampleBuffers out) const override {
+      ToyMotion::sample(times, side, out);
+      for (std::size_t i = 0; i < times.size(); ++i)
+        if (times[i] > 1.5 || (times[i] == 1.5 && side == model::Side::right))
+          for (const std::size_t j : {2 * i, 2 * i + 1}) out.u[j] = out.v[j] = 0.0;
+    }
+  };
+  const Stops truth;
+  ErrorSink sink(truth, toy_problem(), 0.1);
+  const std::vector<double> zero{0.0, 0.0}, before{-1.0, 0.5};
+  for (const double t : {1.51, 3.0, 7.0, 20.0})
+    EXPECT_TRUE(sink.take(model::ReportedImpact{t, 0, zero, before, zero, 1.0}));
+  const auto impacts = *sink.score(finished()).impacts;
+  EXPECT_EQ(impacts.found, 1);
+  EXPECT_EQ(impacts.extra, 0);
+  EXPECT_THROW(sink.take(model::ReportedImpact{8.0, 1, zero, before, zero, 1.0}), InputError);
+}
+
 TEST(ErrorSink, WhatIsNotReportedIsNotCounted) {
   const ToyMotion truth;
   ErrorSink sink(truth, toy_problem(), 0.1, {.impacts_are_reported = false});

@@ -42,19 +42,17 @@ void ImpactMatcher::move_on() {
   if (more_) now_ = target(now_.index + 1);
 }
 
-void ImpactMatcher::take(double t) {
+void ImpactMatcher::take(double t, bool resting) {
   // A little less than two steps, so that reports two whole steps apart stay two.
   const bool same = last_report_ && t - *last_report_ < (2.0 - 1e-6) * step_;
   last_report_ = t;
   if (same) return;
-  ++sum_.found;
   while (more_ && t > now_.t + now_.reach) move_on();
-  if (!more_ || t < now_.t - now_.reach) {
-    ++sum_.extra;
-    return;
-  }
-  if (nearest_) ++sum_.extra;
-  if (!nearest_ || std::abs(t - now_.t) < std::abs(*nearest_ - now_.t)) nearest_ = t;
+  const bool near = more_ && t >= now_.t - now_.reach;
+  if (resting && !(near && !nearest_)) return;
+  ++sum_.found;
+  if (!near || nearest_) ++sum_.extra;
+  if (near && (!nearest_ || std::abs(t - now_.t) < std::abs(*nearest_ - now_.t))) nearest_ = t;
 }
 
 ImpactScore ImpactMatcher::score(double end, double rounding) const {

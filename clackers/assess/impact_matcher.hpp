@@ -15,6 +15,9 @@ namespace clackers::assess {
 /// - A collision belongs to the nearest true impact if their times differ by at most a quarter of
 ///   the time to that impact's nearer true neighbour (a quarter of the run if it has none). Of
 ///   several collisions around one true impact the nearest is its match, the others are extra.
+/// - A report while the true motion rests in contact (after an impact without restitution) that is
+///   no match is neither found nor extra: a contact that lasts is no collision, and a method may
+///   close it again and again.
 /// - A true impact in the last two steps may come too late to be seen: it is expected only if
 /// found.
 class ImpactMatcher {
@@ -22,8 +25,9 @@ class ImpactMatcher {
   /// `step` [s] of the run. The motion must outlive the matcher.
   ImpactMatcher(const model::Motion& truth, double step);
 
-  /// Takes a report at time t [s]; reports come in order of time.
-  void take(double t);
+  /// Takes a report at time t [s]; reports come in order of time. `resting`: the true motion rests
+  /// in this contact at that time.
+  void take(double t, bool resting = false);
   /// The matching of a run that ended at time `end` [s]. `rounding` is the rounding error of a
   /// displacement relative to its envelope; the matcher turns it into one of time.
   ImpactScore score(double end, double rounding) const;

@@ -89,6 +89,17 @@ TEST(ImpactMatcher, OfSeveralAroundOneTheNearestIsItsMatch) {
   EXPECT_NEAR(earlier.worst_time_error, 0.1, 1e-14);
 }
 
+TEST(ImpactMatcher, AContactThatLastsIsOneCollision) {
+  const ToyMotion truth(20.0, {8.0});
+  ImpactMatcher matcher(truth, 0.01);
+  for (const double t : {8.02, 8.1, 9.0, 14.0}) matcher.take(t, true);
+  const auto score = matcher.score(20.0, 0.0);
+  EXPECT_SCORE(score, 1, 1, 1, 0, 0);
+  EXPECT_NEAR(score.worst_time_error, 0.02, 1e-14);
+  // Without rest the same reports are extra.
+  EXPECT_SCORE(match({8.02, 8.1, 9.0, 14.0}, 0.01, 20.0, {8.0}), 1, 4, 1, 0, 3);
+}
+
 TEST(ImpactMatcher, ExpectsOnlyWhatHappensBeforeTheEndOfTheRun) {
   EXPECT_SCORE(match({2.0, 6.0}, 0.01, 9.0), 2, 2, 2, 0, 0);
   EXPECT_SCORE(match({2.0, 6.0}, 0.01, 11.0), 3, 2, 2, 1, 0);

@@ -111,6 +111,8 @@ class Fitter {
       return true;
     }
     if (slope > 0.0 && may_still_reach(claimed, *found)) {
+      // Rates may also stray because the points scatter, still within what a line allows.
+      if (rough()) return true;
       undecided(last_rates_fit_claim() ? Code("too-few-levels") : Code("no-convergence-yet"));
       return true;
     }
@@ -132,7 +134,9 @@ class Fitter {
     const auto n = rates.size();
     const double way = claimed > found.line.slope ? 1.0 : -1.0;
     const auto short_of = [&](double rate) { return way * (claimed - rate) > 0.1 * claimed; };
-    if (!short_of(found.line.slope) || !short_of(rates[n - 1])) return true;
+    // A slope that its own uncertainty carries into the tolerance contradicts nothing.
+    if (!short_of(found.line.slope + way * found.line.slope_spread) || !short_of(rates[n - 1]))
+      return true;
     return way * (rates[n - 1] - rates[n - 2]) > least_move &&
            way * (rates[n - 2] - rates[n - 3]) > least_move;
   }

@@ -33,7 +33,8 @@ inline constexpr double steps_per_contact = 25.0;
 ///   proper      at least four levels, all rates of adjacent levels within 0.1 of the claimed order
 ///               (relative) and raw points within a factor 1.5 of the line. A straight line steeper
 ///               than claimed is proper too, with the order it has: the verdict compares;
-///   reduced     the same with a lower slope, rates within 0.2 of it; `undecided` while the finest
+///   reduced     the same with a lower slope, beyond its own spread, rates within 0.2 of it;
+///   `undecided` while the finest
 ///               rates agree with the claim or still move towards it;
 ///   stagnating  at least three finest levels flat (rates within 0.2 of 0), or rough but flat;
 ///   irregular   raw points scatter further; the line is that of the largest error of each level

@@ -21,6 +21,26 @@ TEST(LadderFit, RoughErrorsAsLargeAsTheMotionStayOutsideTheEnvelope) {
   EXPECT_EQ(fit.first_level, 3) << told(fit);
 }
 
+TEST(LadderFit, ScatterAtTheEdgeIsALineOrIrregularAndNeverAnotherOrder) {
+  int irregular = 0, proper = 0;
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Scatter scatter(2.1, seed);
+    const auto fit =
+        fit_ladder(ladder([&](double h) { return h * scatter(); }), {.claimed_order = 1.0});
+    irregular += fit.behaviour == Behaviour::irregular;
+    proper += fit.behaviour == Behaviour::proper;
+    EXPECT_NE(fit.behaviour, Behaviour::reduced) << told(fit);
+    // 32 points of deviation 0.21 leave the slope of four levels one of 0.046; four of them.
+    if (fit.has_line) {
+      EXPECT_NEAR(fit.order, 1.0, 0.19);
+    }
+  }
+  EXPECT_GT(irregular, 10);
+  EXPECT_GT(proper, 10);
+  EXPECT_GE(irregular + proper, 98);
+}
+
 TEST(LadderFit, AnEnvelopeOfTooFewTrackedLevelsIsUndecided) {
   auto made = ladder([](double h) { return 100.0 * h; }, {.levels = 5});
   made[4][3].error *= 3.0;

@@ -25,17 +25,21 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"reduced", "behaviour",
      "The line is straight but its slope is lower than the order the method claims."},
     {"irregular", "behaviour",
-     "The error shrinks with the step, yet scatters so much between neighbouring steps that no line "
-     "can be fitted; the order of the upper envelope over many neighbouring steps is given instead. "
+     "The error shrinks with the step, yet scatters so much between neighbouring steps that no "
+     "line "
+     "can be fitted; the order of the upper envelope over many neighbouring steps is given "
+     "instead. "
      "Usual for methods that notice an impact only at the end of a step."},
     {"stagnating", "behaviour",
      "The error stops shrinking above the rounding floor. The reason is given beside it."},
     {"divergent", "behaviour",
      "The error grows when the step is refined, or the energy of the run leaves [1/2, 2] of the "
      "true one."},
-    {"undecided", "behaviour", "The runs do not carry a judgement; what to change is said beside it."},
+    {"undecided", "behaviour",
+     "The runs do not carry a judgement; what to change is said beside it."},
     {"contact-stiffness", "reason",
-     "The floor is the model error of a compliant contact: each impact lasts a contact time instead "
+     "The floor is the model error of a compliant contact: each impact lasts a contact time "
+     "instead "
      "of an instant. A larger contact stiffness lowers it, and needs smaller steps."},
     {"tolerance-floor", "reason", "The floor is an iteration tolerance of the method; tighten it."},
     {"unexplained-floor", "reason",
@@ -53,7 +57,8 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"run-failed", "reason", "Runs ended before their end time; the first failure is quoted."},
     {"energy-growth", "reason", "The run's energy left [1/2, 2] of the true one."},
     {"error-growth", "reason", "The error grew when the step was refined."},
-    {"diverged", "failure", "A run left the range of finite numbers, usually beyond a stability limit."},
+    {"diverged", "failure",
+     "A run left the range of finite numbers, usually beyond a stability limit."},
     {"newton-failed", "failure",
      "Newton's iteration did not reach its tolerance within its limit of iterations in some step."},
     {"too-many-impacts", "failure",
@@ -66,7 +71,8 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"disagrees", "verdict", "What was measured contradicts what the method claims."},
     {"not-claimed", "verdict", "The method claims nothing here, so nothing was compared."},
     // Refused input.
-    {"not-a-number", "refusal", "A number was asked for and NaN, or text that is no number, was given."},
+    {"not-a-number", "refusal",
+     "A number was asked for and NaN, or text that is no number, was given."},
     {"not-finite", "refusal", "An infinite value was given where only finite numbers make sense."},
     {"out-of-range", "refusal", "A value lies outside the range that the message states."},
     {"wrong-size", "refusal", "Matrices, vectors or lists do not fit together in size."},
@@ -81,11 +87,13 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
      "The mass ratio r reaches r*(X): the masses would also touch away from equilibrium and the "
      "closed form would not hold. The message says where and when, and what to change."},
     {"not-exact-data", "refusal",
-     "With these values some model input is not exactly a binary64 number, so a solver would not get "
+     "With these values some model input is not exactly a binary64 number, so a solver would not "
+     "get "
      "the true system. Use short binary fractions."},
     {"unknown-name", "refusal", "No case, method, parameter, code or option has this name."},
     {"bad-syntax", "refusal", "The text does not follow the grammar of the command line."},
-    {"step-not-positive", "refusal", "A step must be positive, finite and not longer than the run."},
+    {"step-not-positive", "refusal",
+     "A step must be positive, finite and not longer than the run."},
     {"too-many-steps", "refusal", "The run would need more than 1e9 steps and could not end."},
     {"too-many-rows", "refusal",
      "A response of more than 1e9 rows was asked for; use a larger step or fewer samples."},
@@ -96,14 +104,16 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"penalty-needs-elastic", "refusal",
      "A linear penalty spring gives back what it takes, so it can only stand for restitution 1."},
     {"no-default-stiffness", "refusal",
-     "A contact touches a degree of freedom without stiffness of its own, so there is no default for "
+     "A contact touches a degree of freedom without stiffness of its own, so there is no default "
+     "for "
      "the penalty spring; give penalty:stiffness=VALUE."},
     {"linear-only", "refusal",
      "The problem has a nonlinear force and the method's step is one linear equation."},
     {"beyond-last-impact", "refusal", "Collisions end before the index that was asked for."},
     {"time-outside", "refusal", "A time lies outside the interval in which the motion is known."},
     // Files and the outside world.
-    {"cannot-write", "failure", "A file could not be written; nothing half-written was left behind."},
+    {"cannot-write", "failure",
+     "A file could not be written; nothing half-written was left behind."},
     {"cannot-read", "failure", "A file could not be read."},
     {"out-of-memory", "failure", "There was not enough memory for the request; ask for less."},
     {"internal-error", "failure",
@@ -122,7 +132,7 @@ constexpr const CodeEntry* find_code(std::string_view name) {
 /// The name of a row of `code_table`. A misspelled one does not compile.
 class Code {
  public:
-  // By position: a pointer compared with nullptr is no constant to GCC 12 with -fsanitize=undefined.
+  // By position: to GCC 12 with -fsanitize=undefined, comparing with nullptr is not constant.
   consteval Code(const char* name) : entry_(&code_table[position(name)]) {}
   constexpr std::string_view name() const { return entry_->name; }
   constexpr std::string_view meaning() const { return entry_->meaning; }

@@ -43,10 +43,10 @@ std::string nearest(std::string_view given, std::span<const std::string> known) 
 void refuse_name(std::string_view what, std::string_view given, std::span<const std::string> known,
                  std::string_view where_listed) {
   const auto guess = nearest(given, known);
-  throw InputError(fmt::format("clackers: no {} \"{}\".{} All names: {}", what, given,
-                               guess.empty() ? "" : fmt::format(" Did you mean \"{}\"?", guess),
-                               where_listed),
-                   "unknown-name");
+  throw InputError(
+      fmt::format("clackers: no {} \"{}\".{} All names: {}", what, given,
+                  guess.empty() ? "" : fmt::format(" Did you mean \"{}\"?", guess), where_listed),
+      "unknown-name");
 }
 
 }  // namespace clackers

@@ -277,6 +277,8 @@ TEST(Cases, ExchangedRolesAreAskedForByOneOverAnOddNumber) {
   EXPECT_EQ(constant(which.constants, "r*"), 4.0);
   EXPECT_EQ(constant(which.constants, "margin"), 0.5);
   EXPECT_EQ(constant(which.indicators, "I_ms"), 5.0);
+  // The slow mass, here the second, makes the longest period.
+  expect_near(constant(which.indicators, "T_L"), 5.0 * std::numbers::pi / std::sqrt(0.9975), "T_L");
 }
 
 TEST(Cases, ExactDataPairHasTheExactInputsOfItsFormulas) {

@@ -258,6 +258,20 @@ TEST(ClosedForm, ImpactsAreTrueAndTheirTimesEnclosed) {
   }
 }
 
+TEST(ClosedForm, EarlyCollisionsAreCountedOnTheRightSideOfTheirInstants) {
+  // There the phase of a neighbouring double is a half to the last bit, and its low part decides.
+  constexpr unsigned seed = 20260107;
+  Box box(seed);
+  for (int i = 0; i < trials(100); ++i) {
+    const RigidStop motion({.xi1 = box.uniform(0.0, 0.9), .t_end = 100.0});
+    for (long long k = 1; k <= 5; ++k) {
+      const auto when = motion.impact(k).when;
+      EXPECT_EQ(motion.impact_count(when.lo), k - 1) << motion.parameters().xi1 << " seed " << seed;
+      EXPECT_EQ(motion.impact_count(when.hi), k) << motion.parameters().xi1 << " seed " << seed;
+    }
+  }
+}
+
 TEST(ClosedForm, CollisionsAreCountedByTheTrueInstantUpToTheLast) {
   const SynchronizedPair motion({});
   EXPECT_EQ(motion.impact_count(0.0), 0);

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -46,31 +43,13 @@ class Recorder {
   }
 
   /// Takes an impact at `after`, the state on its later side. False: the run ends here.
-  bool impact(const State& after, int contact, const Vector& v_before, double impulse) {
-    if (!flush()) return false;
-    if (sink_->take(model::ReportedImpact{after.t, contact, span(after.u), span(v_before),
-                                          span(after.v), impulse}))
-      return true;
-    stop();
-    return false;
-  }
+  bool impact(const State& after, int contact, const Vector& v_before, double impulse);
 
   /// Ends the run with a failure; states taken so far are delivered. Always false, for the loop to
   /// return.
-  bool fail(Code reason, std::string detail) {
-    if (!flush()) return false;
-    outcome_.finished = false;
-    outcome_.reason = reason;
-    outcome_.detail = std::move(detail);
-    return false;
-  }
-  bool fail_diverged(double t) {
-    return fail("diverged", fmt::format("t = {} s: the motion is no longer finite", t));
-  }
-  bool fail_newton(double t) {
-    return fail("newton-failed",
-                fmt::format("t = {} s: Newton's iteration found no solution of the step", t));
-  }
+  bool fail(Code reason, std::string detail);
+  bool fail_diverged(double t);
+  bool fail_newton(double t);
 
   /// Delivers what is left and tells how the run ended.
   model::Outcome finish(const model::Work& work) {
@@ -94,37 +73,17 @@ class Recorder {
     outcome_.stopped_by_sink = true;
   }
 
-  bool is_finite(std::size_t k) const {
-    for (std::size_t i = k * size(); i < (k + 1) * size(); ++i)
-      if (!std::isfinite(u_[i]) || !std::isfinite(v_[i])) return false;
-    return true;
-  }
-
-  bool flush() {
-    if (!outcome_.finished) return false;
-    if (count_ == 0) return true;
-    std::size_t good = count_;
-    // What is not finite stays so: the last state speaks for its block.
-    if (!is_finite(count_ - 1))
-      for (good = 0; is_finite(good);) ++good;
-    const double bad_time = good < count_ ? t_[good] : 0.0;
-    const bool diverged = good < count_;
-    count_ = 0;
-    const std::size_t entries = good * size();
-    if (good > 0 && !sink_->take(model::SampleBlock{static_cast<int>(size()),
-                                                    {t_.data(), good},
-                                                    {u_.data(), entries},
-                                                    {v_.data(), entries}})) {
-      stop();
-      return false;
-    }
-    return !diverged || fail_diverged(bad_time);
-  }
+  bool is_finite(std::size_t k) const;
+  bool flush();
 
   std::size_t dof_, count_ = 0;
   std::vector<double> t_, u_, v_;
   model::Sink* sink_ = nullptr;
   model::Outcome outcome_;
 };
+
+extern template class Recorder<1>;
+extern template class Recorder<2>;
+extern template class Recorder<model::any_dof>;
 
 }  // namespace clackers::methods

@@ -56,7 +56,7 @@ TEST(Recorder, SendsAllStatesBeforeAnImpactFirst) {
 }
 
 TEST(Recorder, EndsWhereTheSinkSaysSo) {
-  for (const std::size_t allowed : {1, 2}) {
+  for (const std::size_t allowed : {std::size_t{1}, std::size_t{2}}) {
     Recorder<1> recorder(1);
     Log log;
     log.allowed = allowed;

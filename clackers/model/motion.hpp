@@ -28,13 +28,13 @@ struct TimeEnclosure {
 
 /// One impact of a true motion.
 struct MotionImpact {
-  long long index = 0;    ///< 1 for the first
-  double t = 0.0;         ///< the double nearest to the true instant [s]
-  TimeEnclosure when;     ///< hi - lo is the whole uncertainty
-  int contact = 0;        ///< row of ImpactProblem::contacts
-  Kinematics before;      ///< left limits
-  Kinematics after;       ///< right limits
-  double impulse = 0.0;   ///< along the contact's direction [N s]
+  long long index = 0;                             ///< 1 for the first
+  double t = 0.0;                                  ///< the double nearest to the true instant [s]
+  TimeEnclosure when;                              ///< hi - lo is the whole uncertainty
+  int contact = 0;                                 ///< row of ImpactProblem::contacts
+  Kinematics before;                               ///< left limits
+  Kinematics after;                                ///< right limits
+  double impulse = 0.0;                            ///< along the contact's direction [N s]
   double energy_before = 0.0, energy_after = 0.0;  ///< of the whole structure [J]
 };
 

@@ -10,15 +10,15 @@ namespace clackers::model {
 /// What a run cost, counted and not timed, so that it is the same on every machine.
 struct Work {
   long long steps = 0;
-  long long force_evaluations = 0;   ///< of C v + K u + p - f
+  long long force_evaluations = 0;  ///< of C v + K u + p - f
   long long factorizations = 0;
   long long newton_iterations = 0;
-  long long event_searches = 0;      ///< impacts located inside a step
+  long long event_searches = 0;  ///< impacts located inside a step
 };
 
 /// How a run ended.
 struct Outcome {
-  bool finished = true;        ///< false: failed, or the sink ended it
+  bool finished = true;  ///< false: failed, or the sink ended it
   bool stopped_by_sink = false;
   Code reason = "run-failed";  ///< meaningful only for a failure
   std::string detail;          ///< the failure in a sentence, with its time; empty otherwise

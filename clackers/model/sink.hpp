@@ -13,10 +13,10 @@ struct SampleBlock {
 
 /// One impact as a run reports it. Valid only during the call.
 struct ReportedImpact {
-  double t = 0.0;                                 ///< [s]
-  int contact = 0;                                ///< row of ImpactProblem::contacts
-  std::span<const double> u, v_before, v_after;   ///< one entry a degree of freedom
-  double impulse = 0.0;                           ///< along the contact's direction [N s]
+  double t = 0.0;                                ///< [s]
+  int contact = 0;                               ///< row of ImpactProblem::contacts
+  std::span<const double> u, v_before, v_after;  ///< one entry a degree of freedom
+  double impulse = 0.0;                          ///< along the contact's direction [N s]
 };
 
 /// Receives a run as it happens: stores it, streams it or reduces it. States and impacts come in

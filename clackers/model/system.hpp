@@ -43,7 +43,7 @@ class NonlinearForce {
 template <int Dof = any_dof>
 struct SmoothSystem {
   Matrix<Dof> mass, damping, stiffness;
-  Load add_load{};                                        ///< empty: no load
+  Load add_load{};                                         ///< empty: no load
   std::shared_ptr<const NonlinearForce<Dof>> nonlinear{};  ///< empty: linear
 
   Eigen::Index dof() const { return mass.rows(); }

@@ -149,8 +149,7 @@ study::Curve reduced(const study::Curve& curve, std::size_t most) {
     }
   }
   std::ranges::sort(kept);
-  const auto repeated = std::ranges::unique(kept);
-  kept.erase(repeated.begin(), repeated.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   study::Curve out;
   out.y.resize(curve.y.size());
   for (const auto i : kept) {

@@ -67,7 +67,7 @@ void wrap_line(std::string_view line, std::size_t width, std::vector<std::string
     rest.remove_prefix(length);
     rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
     // Where half of the width would be lost the lines below start further left.
-    if (hanging < width / 2) margin.assign(hanging, ' ');
+    if (2 * hanging < width) margin.assign(hanging, ' ');
   }
   if (!rest.empty() || indent == line.size()) out.push_back(margin + std::string(rest));
 }

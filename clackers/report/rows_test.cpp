@@ -124,6 +124,11 @@ TEST(Json, NumbersReadBackToTheSameDouble) {
     EXPECT_EQ(read["rows"][r][0].get<double>(), std::get<double>(sheet.rows[r][0]));
 }
 
+TEST(Json, WritesTheShortestOfTheTextsThatReadBack) {
+  const Sheet sheet{"x/1", "", {{"x", "", ""}}, {{0.1}}};
+  EXPECT_NE(json(sheet).find("[0.1]"), std::string::npos);
+}
+
 TEST(Json, HoldsSchemaColumnsAndRows) {
   const auto read = nlohmann::json::parse(json(mixed_sheet()));
   EXPECT_EQ(read["schema"], "clackers/things/1");
@@ -208,6 +213,21 @@ TEST(Table, WrapsLongTextInItsColumn) {
   ASSERT_EQ(out.size(), 5u);
   EXPECT_EQ(out[2], "m1    the mass that stands to the left");
   EXPECT_EQ(out[3], "      of the other one and is heavier");
+}
+
+TEST(Table, TakesTheWidthFromTheWidestColumn) {
+  const Sheet sheet{
+      "x/1",
+      "",
+      {{"name", "", ""}, {"meaning", "", ""}},
+      {{"generalized-alpha", "a sentence that is much longer than the name before it"}}};
+  EXPECT_EQ(lines(table(sheet, {.color = false, .width = 40}))[2],
+            "generalized-alpha  a sentence that is");
+}
+
+TEST(Table, PutsAColumnOfNumbersAndTextToTheLeft) {
+  const Sheet sheet{"x/1", "", {{"value", "", ""}, {"n", "", ""}}, {{2.0, 1LL}, {"proper", 2LL}}};
+  EXPECT_EQ(lines(table(sheet))[2], "2       1");
 }
 
 TEST(Table, ATextAloneStandsAsItIs) {

@@ -321,8 +321,9 @@ TEST(Verify, EndsSoonAfterAnInterrupt) {
   const auto record = verify(request, {}, &interrupt);
   const auto waited = std::chrono::steady_clock::now() - asked;
   EXPECT_TRUE(record.interrupted);
-  // 50 ms were asked for; a loaded machine under a sanitizer may be ten times slower.
-  EXPECT_LT(std::chrono::duration<double>(waited).count(), 0.5);
+  // It takes a block of states, microseconds; the rest is left to a loaded machine under a
+  // sanitizer. The run itself would take minutes.
+  EXPECT_LT(std::chrono::duration<double>(waited).count(), 2.0);
 }
 
 }  // namespace

@@ -48,11 +48,11 @@ TEST(Penalty, ConvergesToTheMotionWithSpringsAtTheOrderOfTheIntegrator) {
             worst = std::max(worst, std::abs(path.u[i] - truth.u(path.t[i])));
           return worst;
         },
-        1.0 / 128, 4);
+        1.0 / 128, 6);
     EXPECT_NEAR(fit.order, 2.0, 0.2) << name << " scatter " << fit.scatter;
     ASSERT_EQ(touches.size(), 3u);
     for (std::size_t k = 0; k < touches.size(); ++k) {
-      EXPECT_NEAR(touches[k].t, truth.touch(int(k) + 1), 1e-3);  // h^2 wc^2 T at h = 1/1024
+      EXPECT_NEAR(touches[k].t, truth.touch(int(k) + 1), 1e-3);  // h^2 wc^2 T at h = 1/4096
       EXPECT_NEAR(touches[k].u[0], 0.0, 1e-12);
       EXPECT_EQ(touches[k].v_before, touches[k].v_after);
       EXPECT_EQ(touches[k].impulse, 0.0);

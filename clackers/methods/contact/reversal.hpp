@@ -21,10 +21,13 @@ namespace clackers::methods {
 /// fire in the same step end the run.
 ///
 /// Order       1 of the upper envelope whatever the integrator's; errors of neighbouring steps
-/// scatter. Stability   that of the integrator. Dissipation none in kinetic energy with eta = 1;
-/// the energy of the penetration is wrong at random. Memory      what the integrator remembers is
-/// dropped at each impact. Cost        two products a contact and step. Source      common
-/// practice; the order is the position of the impact in its step, known to h.
+///             scatter.
+/// Stability   that of the integrator.
+/// Dissipation none in kinetic energy with eta = 1; the energy of the penetration is wrong at
+///             random.
+/// Memory      what the integrator remembers is dropped at each impact.
+/// Cost        two products a contact and step.
+/// Source      common practice; the order is the position of the impact in its step, known to h.
 struct Reversal {
   static constexpr std::string_view name = "reversal";
   static constexpr std::string_view summary =

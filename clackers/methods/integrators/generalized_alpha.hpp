@@ -19,10 +19,12 @@ namespace clackers::methods {
 ///     alpha_m = (2 rho - 1)/(rho + 1), alpha_f = rho/(rho + 1),
 ///     gamma = 1/2 - alpha_m + alpha_f, beta = (1 - alpha_m + alpha_f)²/4
 ///
-/// Order       2 in u and v; the stored a is of order 1 at t, of order 2 at t + (alpha_m - alpha_f)
-/// h. Stability   for every h. Dissipation none for rho = 1, C = 0; grows as rho falls, for high
-/// frequencies first. Memory      a0, taken from the last step; computed anew from equilibrium by
-/// restart(). Cost        one back-substitution a step; one factorization for each (system, h).
+/// Order       2 in u and v; the stored a is of order 1 at t, of order 2 at
+///             t + (alpha_m - alpha_f) h.
+/// Stability   for every h.
+/// Dissipation none for rho = 1, C = 0; grows as rho falls, for high frequencies first.
+/// Memory      a0, taken from the last step; computed anew from equilibrium by restart().
+/// Cost        one back-substitution a step; one factorization for each (system, h).
 /// Source      J. Chung, G. M. Hulbert, J. Appl. Mech. 60, 371-375 (1993).
 struct GeneralizedAlpha {
   static constexpr std::string_view name = "generalized-alpha";

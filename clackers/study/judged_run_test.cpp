@@ -1,0 +1,121 @@
+#include "clackers/study/judged_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "clackers/study/processor_time.hpp"
+#include "clackers/study/toy_motion.hpp"
+
+namespace clackers::study {
+namespace {
+
+// A method whose runs deliver one state and then do what a test wants, told how often they ran.
+class ScriptedMethod : public methods::Method {
+ public:
+  using Script = std::function<bool(int runs)>;
+  explicit ScriptedMethod(Script script) : script_(std::move(script)) {}
+
+  methods::Facts facts() const override { return {}; }
+  std::optional<methods::Objection> objection(const model::ImpactProblem<>&) const override {
+    return {};
+  }
+  std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>&, double) const override {
+    ++prepared;
+    return std::make_unique<ScriptedRun>(script_);
+  }
+
+  mutable int prepared = 0;
+
+ private:
+  class ScriptedRun : public model::Run {
+   public:
+    explicit ScriptedRun(const Script& script) : script_(script) {}
+    model::Outcome advance(model::Sink& sink) override {
+      const std::vector<double> zero{0.0}, one{1.0};
+      const bool goes_well = script_(++runs_);
+      model::Outcome outcome;
+      outcome.finished = goes_well;
+      if (!sink.take(model::SampleBlock{1, zero, zero, one})) {
+        outcome.finished = false;
+        outcome.stopped_by_sink = true;
+      }
+      return outcome;
+    }
+
+   private:
+    const Script& script_;
+    int runs_ = 0;
+  };
+
+  Script script_;
+};
+
+class JudgedRuns : public testing::Test {
+ protected:
+  std::optional<JudgedRun> judge(ScriptedMethod::Script script) {
+    method_ = std::make_shared<ScriptedMethod>(std::move(script));
+    VerifyPlan plan;
+    plan.problem.motion = std::make_shared<ToyMotion>(1, 8.0, std::vector<double>{});
+    auto& problem = plan.problem.problem;
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(1, 1);
+    problem.system = {unit, unit, unit};
+    problem.start = {0.0, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)};
+    problem.end = 8.0;
+    plan.methods.emplace_back();
+    plan.methods[0].method = method_;
+    ProgressMeter meter(1.0, {});
+    TaskShare share(meter, 1.0);
+    return judge_run(plan, {0, 0, 0, 4.0, 2, 0}, share, &interrupt_);
+  }
+
+  std::shared_ptr<ScriptedMethod> method_;
+  std::atomic<bool> interrupt_ = false;
+};
+
+TEST_F(JudgedRuns, AreTimedUntilTheClockCanTell) {
+  int runs = 0;
+  const auto result = judge([&](int count) {
+    runs = count;
+    const double start = thread_processor_time();
+    while (thread_processor_time() < start + 2e-4) {
+    }
+    return true;
+  });
+  ASSERT_TRUE(result.has_value());
+  // One under judgement; the others together fill a millisecond, so that each counts for less.
+  EXPECT_GE(runs, 3);
+  EXPECT_GE(result->score.seconds, 2e-4);
+  EXPECT_LT(result->score.seconds, 1e-3);
+}
+
+TEST_F(JudgedRuns, AreNotTimedWhenTheyFailed) {
+  int runs = 0;
+  const auto result = judge([&](int count) {
+    runs = count;
+    return false;
+  });
+  ASSERT_TRUE(result.has_value());
+  EXPECT_FALSE(result->score.finished);
+  EXPECT_EQ(result->score.seconds, 0.0);
+  EXPECT_EQ(runs, 1);
+}
+
+TEST_F(JudgedRuns, AreNothingWhenInterruptedUnderJudgementOrWhileTimed) {
+  for (const int when : {1, 2}) {
+    interrupt_ = false;
+    EXPECT_FALSE(judge([&](int count) {
+      interrupt_ = count == when;
+      return true;
+    }));
+  }
+}
+
+TEST_F(JudgedRuns, AreNotEvenPreparedAfterAnInterrupt) {
+  interrupt_ = true;
+  EXPECT_FALSE(judge([](int) { return true; }));
+  EXPECT_EQ(method_->prepared, 0);
+}
+
+}  // namespace
+}  // namespace clackers::study
