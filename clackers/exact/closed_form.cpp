@@ -79,7 +79,7 @@ ClosedForm::Phase ClosedForm::flight_at(double t, Side side) const {
   const double y = phase.half_turns.hi;
   if (0.5 - std::abs(y) <= (natural + 1.0) * two_to_minus_52) {
     const double k = y > 0.0 ? natural + 1.0 : natural;
-    if (k >= 1.0 && instant(k).nearest == t) {
+    if (instant(k).nearest == t) {
       phase.flight = side == Side::left ? k - 1.0 : k;
       phase.half_turns = phase.half_turns + DoubleDouble{natural - phase.flight, 0.0};
     }

@@ -63,8 +63,8 @@ FlightConstants flight_constants(const WideMotion& motion) {
     m.a_envelope = to_double(abs(b) * square);
     c.masses.push_back(m);
     energy += mass.mass * v_hit * v_hit / 2;
-    if (c.masses.size() == 1)
-      c.impulse = to_double_double((1 + Wide(motion.eta)) * mass.mass * abs(v_hit));
+    // The momenta of two masses are opposite, so either tells the impulse.
+    c.impulse = to_double_double((1 + Wide(motion.eta)) * mass.mass * abs(v_hit));
   }
   c.energy = to_double_double(energy);
   return c;

@@ -60,6 +60,13 @@ Digest digest(const study::MethodResult& method) {
   return d;
 }
 
+std::string typed_name(const study::MethodResult& method) {
+  constexpr std::string_view understood = "+event-driven";
+  const std::string_view name = method.name;
+  return std::string(name.ends_with(understood) ? name.substr(0, name.size() - understood.size())
+                                                : name);
+}
+
 std::string order_text(const assess::LadderFit& fit, std::string_view between) {
   if (!fit.has_line) return {};
   return fmt::format("{:.2f}{}±{:.{}f}", fit.order, between, fit.spread, fit.spread < 9.95 ? 2 : 0);

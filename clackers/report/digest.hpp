@@ -20,6 +20,10 @@ struct Digest {
 };
 Digest digest(const study::MethodResult& method);
 
+/// The name as one would type it: "newmark" for "newmark+event-driven", since event-driven is what a
+/// name without "+contact" means.
+std::string typed_name(const study::MethodResult& method);
+
 /// "2.00 ±0.01", or an empty text where there is no line.
 std::string order_text(const assess::LadderFit& fit, std::string_view between = " ");
 

@@ -116,6 +116,21 @@ std::vector<std::string> wrap(std::string_view text, std::size_t width) {
   return lines;
 }
 
+std::string rejoin(std::string_view text) {
+  std::string joined;
+  bool prose = false;  // whether the line before can go on
+  for (std::size_t from = 0; from <= text.size();) {
+    const auto to = std::min(text.find('\n', from), text.size());
+    const auto line = text.substr(from, to - from);
+    const bool starts_left = !line.empty() && line.front() != ' ';
+    if (from > 0) joined += prose && starts_left && hanging_indent(line) == 0 ? ' ' : '\n';
+    joined += line;
+    prose = starts_left;
+    from = to + 1;
+  }
+  return joined;
+}
+
 std::string pad(std::string_view text, std::size_t width, bool to_the_right) {
   const auto used = display_width(text);
   const std::string space(width > used ? width - used : 0, ' ');

@@ -29,6 +29,10 @@ std::size_t display_width(std::string_view text);
 /// indentation; a line such as "Order    2 for gamma = 1/2" goes on below its "2".
 std::vector<std::string> wrap(std::string_view text, std::size_t width);
 
+/// Prose that was broken to the width of its source, with the lines of each paragraph joined again.
+/// An empty or indented line (a formula), and one such as "Order    2", begin anew.
+std::string rejoin(std::string_view text);
+
 /// `text` with spaces before or behind it, `width` characters in all.
 std::string pad(std::string_view text, std::size_t width, bool to_the_right);
 

@@ -83,6 +83,14 @@ TEST(Format, KeepsLinesAndTheirIndentation) {
   EXPECT_EQ(wrap("Order  2 for all steps", 14), (Lines{"Order  2 for", "all steps"}));
 }
 
+TEST(Format, RejoinsTheLinesOfAParagraphAndNoOthers) {
+  EXPECT_EQ(rejoin("one\ntwo\nthree"), "one two three");
+  EXPECT_EQ(rejoin("one\n\ntwo"), "one\n\ntwo");
+  EXPECT_EQ(rejoin("one\n    u = v\n    v = a\ntwo"), "one\n    u = v\n    v = a\ntwo");
+  EXPECT_EQ(rejoin("Order    2\nSource   a book\n(1991)."), "Order    2\nSource   a book (1991).");
+  EXPECT_EQ(rejoin(""), "");
+}
+
 TEST(Format, NoLineIsWiderThanAsked) {
   const std::string text =
       "A sentence, with words such as generalized-alpha:rho=0.8+event-driven and ±±±±±±±±±±±±±±.";

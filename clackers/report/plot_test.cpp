@@ -54,6 +54,12 @@ TEST(Plot, PutsHighAboveLowAndEarlyBeforeLate) {
   EXPECT_TRUE(out.back().ends_with("1 s"));
 }
 
+TEST(Plot, DrawsASteepFallAsOneColumnOfDots) {
+  const auto out = lines(plot({{0.0, 1e-9, 1.0}, {{1.0, -1.0, -1.0}}}, {}));
+  for (std::size_t row = 1; row <= 14; ++row) EXPECT_EQ(at(out[row], 10), "⡇") << row;
+  EXPECT_EQ(at(out[15], 10), "⣇");
+}
+
 TEST(Plot, MarksCollisionsOnTheAxis) {
   const auto record = sample_record();
   const auto text = plot(record.response, record.problem.impact_times);
@@ -63,6 +69,7 @@ TEST(Plot, MarksCollisionsOnTheAxis) {
   EXPECT_EQ(marks, 6u);
   // pi/2 of 20 s over 70 columns, the first of which is at place 10.
   EXPECT_EQ(at(axis, 10 + 5), "▲");
+  EXPECT_EQ(at(axis, 10 + 60), "▲");  // 5.5 pi
   EXPECT_EQ(plot(record.response, {}).find("▲"), std::string::npos);
 }
 

@@ -24,7 +24,7 @@ std::string text_of(const study::Cell& cell, int digits, std::size_t width) {
   if (const auto* real = std::get_if<double>(&cell)) return short_number(*real, digits, width);
   if (const auto* whole = std::get_if<long long>(&cell)) return fmt::format("{}", *whole);
   if (const auto* text = std::get_if<std::string>(&cell))
-    return text->substr(0, text->find_last_not_of(" \n") + 1);
+    return rejoin(std::string_view(*text).substr(0, text->find_last_not_of(" \n") + 1));
   return {};
 }
 

@@ -235,6 +235,11 @@ TEST(Table, ATextAloneStandsAsItIs) {
   EXPECT_EQ(table(card), "newmark\nOrder       2\n    u1 = u0 + h v0\n");
 }
 
+TEST(Table, ATextAloneIsBrokenAnewToTheWidth) {
+  const Sheet card{"x/1", "", {{"card", "", ""}}, {{"So short\na line.\n\n    u = 1\nwhere u\n"}}};
+  EXPECT_EQ(table(card), "So short a line.\n\n    u = 1\nwhere u\n");
+}
+
 TEST(Table, LaterRowsKeepTheWidthsOfTheFirst) {
   // 2000 rows are more than are measured before the first is printed.
   Sheet sheet{"x/1", "", {{"t", "s", ""}, {"u", "m", ""}}, {}};

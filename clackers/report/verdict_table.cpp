@@ -31,7 +31,7 @@ std::vector<TextCell> cells_of(const study::MethodResult& method) {
   const bool judged = method.refusal.empty();
   const auto dash = [](std::string text) { return text.empty() ? "-" : text; };
   const auto& fit = method.assessment.displacement;
-  return {{method.name, Paint::bold},
+  return {{typed_name(method), Paint::bold},
           {scientific(d.u_error)},
           {dash(judged ? order_text(fit, "") : "")},
           {d.impacts ? fmt::format("{}/{}", d.impacts->found, d.impacts->expected) : "-"},
@@ -98,8 +98,8 @@ void write_verdict_table(const study::Record& record, std::ostream& out, const S
     if (const auto said = remark(method)) {
       if (first) out << '\n';
       first = false;
-      print_wrapped(fmt::format("{}: {} [{}]", method.name, said->sentence, said->code), "", out,
-                    style);
+      print_wrapped(fmt::format("{}: {} [{}]", typed_name(method), said->sentence, said->code), "",
+                    out, style);
     }
   const auto end = closing(record);
   out << '\n';

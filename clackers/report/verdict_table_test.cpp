@@ -64,6 +64,13 @@ TEST(VerdictTable, ShowsOfAMethodErrorOrderCollisionsCostBehaviourAndVerdict) {
       << table(sample_record());
 }
 
+TEST(VerdictTable, NamesMethodsAsTheyAreTyped) {
+  auto record = sample_record();
+  const auto plain = table(record);
+  record.methods[0].name = "newmark+event-driven";
+  EXPECT_EQ(table(record), plain);
+}
+
 TEST(VerdictTable, SaysStepsPerFastPeriodAndTheCase) {
   const auto text = table(sample_record());
   EXPECT_NE(text.find("three-parameter (N = 2, xi1 = 0.05, a_t = 1 m)"), std::string::npos);
@@ -134,12 +141,14 @@ TEST(Digest, IsTheWorstOfTheFinestLevelThatRan) {
   runs[6].finished = false;
   runs[6].u_error = 99.0;
   runs[1].work.force_evaluations = 123456789;
+  runs[0].seconds = 0.75;
   const auto d = digest(method);
   EXPECT_EQ(d.step, 0.05 / 128);
   EXPECT_EQ(d.u_error, 0.7);
   EXPECT_EQ(d.impacts->found, 8);
   EXPECT_EQ(d.impacts->worst_time_error, 0.5);
   EXPECT_EQ(d.force_evaluations, 123456789);
+  EXPECT_EQ(d.seconds, 0.75);
   EXPECT_EQ(d.failed_runs, 1);
   EXPECT_EQ(d.runs, 64);
 
