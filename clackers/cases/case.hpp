@@ -24,7 +24,7 @@ struct CaseParameter {
 /// What is known of a case before its parameters are.
 struct CaseEntry {
   std::string name;       ///< never changes its meaning
-  std::string summary;    ///< one line
+  std::string summary;    ///< one sentence, with its full stop
   std::string equations;  ///< of the paper: "Eq. (25)-(26)"
   std::vector<CaseParameter> parameters;
 };

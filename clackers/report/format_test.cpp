@@ -88,6 +88,8 @@ TEST(Format, RejoinsTheLinesOfAParagraphAndNoOthers) {
   EXPECT_EQ(rejoin("one\n\ntwo"), "one\n\ntwo");
   EXPECT_EQ(rejoin("one\n    u = v\n    v = a\ntwo"), "one\n    u = v\n    v = a\ntwo");
   EXPECT_EQ(rejoin("Order    2\nSource   a book\n(1991)."), "Order    2\nSource   a book (1991).");
+  EXPECT_EQ(rejoin("Order       2\nDissipation none\nMemory      a0"),
+            "Order       2\nDissipation none\nMemory      a0");
   EXPECT_EQ(rejoin(""), "");
 }
 

@@ -15,7 +15,7 @@ std::string html(const study::Record& record) {
   const auto& problem = record.problem;
   const auto& from = record.provenance;
   const auto lead =
-      fmt::format("{}. {} s with {} collisions; fast period {} s. {}.", escape(problem.summary),
+      fmt::format("{} {} s with {} collisions; fast period {} s. {}.", escape(problem.summary),
                   html_number(problem.end, 6), html_count(problem.impact_count),
                   html_number(problem.fast_period, 4), escape(ladder_text(record)));
   return fill(assets::page_html,

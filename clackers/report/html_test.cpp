@@ -27,6 +27,11 @@ nlohmann::json block(const std::string& page, const std::string& id) {
   return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
+TEST(Html, TheLeadIsMadeOfWholeSentences) {
+  const auto page = html(sample_record());
+  EXPECT_NE(page.find("and amplitude. 20 s with"), std::string::npos);
+}
+
 TEST(Markup, EscapesWhatHtmlWouldTakeForItsOwn) {
   EXPECT_EQ(escape("<a href=\"x\">'&'</a>"),
             "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");

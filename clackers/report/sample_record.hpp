@@ -24,7 +24,7 @@ struct SampleMethod {
 inline study::CaseSummary sample_case() {
   study::CaseSummary problem;
   problem.name = "three-parameter";
-  problem.summary = "Two masses that collide at equilibrium, given by N, damping and amplitude";
+  problem.summary = "Two masses that collide at equilibrium, given by N, damping and amplitude.";
   problem.equations = "Eq. (25)-(26)";
   problem.parameters = {{"N", 2, "", "half of X - 1"},
                         {"xi1", 0.05, "", "damping ratio of mass 1"},
