@@ -76,6 +76,11 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"not-finite", "refusal", "An infinite value was given where only finite numbers make sense."},
     {"out-of-range", "refusal", "A value lies outside the range that the message states."},
     {"wrong-size", "refusal", "Matrices, vectors or lists do not fit together in size."},
+    {"null-pointer", "refusal",
+     "A caller from C gave a null pointer where a value is needed. The message says which."},
+    {"wrong-struct-size", "refusal",
+     "The struct_size of a structure is unset, too small, or of a newer header whose additions "
+     "this library does not know."},
     {"not-positive-definite", "refusal", "The mass matrix is not symmetric positive definite."},
     {"not-symmetric", "refusal", "The damping or stiffness matrix is not symmetric."},
     {"starts-in-contact", "refusal",
@@ -110,6 +115,17 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"linear-only", "refusal",
      "The problem has a nonlinear force and the method's step is one linear equation."},
     {"beyond-last-impact", "refusal", "Collisions end before the index that was asked for."},
+    {"no-closed-form", "refusal",
+     "Energies, sensitivities and spectra are known for motions in closed form only."},
+    {"no-derivative", "refusal",
+     "The motion does not depend smoothly on this parameter here: a whole number, the end of the "
+     "run, or restitution 0. The message says why and what to do."},
+    {"needs-arb", "refusal",
+     "Digits beyond double precision were asked of a program that was built without Arb (Debian: "
+     "libflint-arb-dev). Install it, configure and build again."},
+    {"no-enclosure", "refusal",
+     "More digits than a double has were asked of a motion that is known to double precision "
+     "only."},
     {"time-outside", "refusal", "A time lies outside the interval in which the motion is known."},
     // Files and the outside world.
     {"cannot-write", "failure",

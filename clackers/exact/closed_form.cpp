@@ -34,12 +34,6 @@ Kinematics make_kinematics(int n) {
 
 }  // namespace
 
-// Flight k, counted as a double to avoid conversions, and theta / pi in it.
-struct ClosedForm::Phase {
-  double flight = 0.0;
-  DoubleDouble half_turns;
-};
-
 ClosedForm::ClosedForm(const WideMotion& motion)
     : c_(flight_constants(motion)), problem_(impact_problem(motion)) {}
 
@@ -85,6 +79,11 @@ ClosedForm::Phase ClosedForm::flight_at(double t, Side side) const {
     }
   }
   return phase;
+}
+
+ClosedForm::Phase ClosedForm::phase(double t, Side side) const {
+  require_inside(t);
+  return flight_at(t, side);
 }
 
 void ClosedForm::require_inside(double t) const {

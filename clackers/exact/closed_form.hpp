@@ -42,11 +42,23 @@ class ClosedForm : public model::Motion {
   /// What a method is given: the system and its start, each number the nearest double.
   model::ImpactProblem<> problem() const { return problem_; }
 
+  /// What evaluating it needs; PairBatch takes them.
+  const FlightConstants& flight() const { return c_; }
+
+  /// Flight k, counted as a double to avoid conversions, and theta / pi in it.
+  struct Phase {
+    double flight = 0.0;
+    numerics::DoubleDouble half_turns;
+  };
+  /// The flight that holds at t, or that `side` means where t is the double nearest to a collision.
+  /// theta / pi lies in [-1/2, 1/2], without a stop in [-1, 1]. Throws InputError outside
+  /// [0, end()].
+  Phase phase(double t, model::Side side) const;
+
  protected:
   explicit ClosedForm(const WideMotion& motion);
 
  private:
-  struct Phase;
   Phase phase_at(double t) const;
   Phase flight_at(double t, model::Side side) const;
   numerics::Neighbour instant(double k) const;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "clackers/base/error.hpp"
+
 namespace clackers::exact {
 namespace {
 
@@ -105,6 +107,75 @@ TEST(Conditioning, NamesTheKind) {
   EXPECT_EQ(conditioning(ninth, 0.5, 1.0), Conditioning::detuning_fragile);
   EXPECT_EQ(conditioning(ninth, 2.0, 1.0), Conditioning::neutral);
   EXPECT_EQ(detuning_rate(ninth, 0.25), detuning_rate(nine, 4.0));
+}
+
+// The first collision after which a simulation's spacing is off by a tenth.
+double lost_after(double X, double r, double eps, int most) {
+  const auto list = spacings(X, r, eps, most);
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (std::abs(list[k] / std::numbers::pi - 1.0) > lost_synchrony) return double(k + 1);
+  return INFINITY;
+}
+
+TEST(Conditioning, DetuningLosesSynchronyAboutWhenItSays) {
+  // Nothing but detuning, from an undisturbed start: ratios seen, to 1 %.
+  const struct {
+    double X, r, eps, seen;
+  } table[] = {{9.0, 3.0, -8.225e-3, 1.677}, {9.0, 3.0, -5.14e-4, 1.328},
+               {9.0, 3.0, 5.14e-4, 1.318},   {5.0, 2.0, 1e-3, 1.414},
+               {13.0, 4.0, 1e-3, 1.345},     {3.0, 2.0, 1e-3, 1.533},
+               {9.0, 1.5, 1e-3, 1.212}};
+  for (const auto& [X, r, eps, seen] : table) {
+    const double told = collisions_until_detuning({X, false}, r, 1.0, eps);
+    const double lost = lost_after(X, r, eps, static_cast<int>(3.0 * told));
+    EXPECT_NEAR(lost / told, seen, 0.01) << X << " " << r << " " << eps << " told " << told;
+  }
+  EXPECT_EQ(lost_after(9.0, 0.5, 1e-3, 20000), INFINITY);
+  EXPECT_EQ(collisions_until_detuning({9.0, false}, 0.5, 1.0, 1e-3), INFINITY);
+}
+
+TEST(Conditioning, DispersionLosesSynchronyWhenASolverWasSeenToLoseIt) {
+  // mathematics.md, section 3: average-acceleration Newmark, X = 9, r = 3, steps a fast period. Its
+  // frequency is (2/h) atan(omega h/2).
+  for (const auto& [steps, seen] :
+       {std::pair{20.0, 64.0}, {40.0, 396.0}, {80.0, 2152.0}, {160.0, 10920.0}}) {
+    const auto factor = [&](double angle) { return std::atan(angle) / angle; };
+    const double angle = std::numbers::pi / steps;
+    const double eps = factor(angle) / factor(angle / 9.0) - 1.0;
+    EXPECT_NEAR(collisions_until_detuning({9.0, false}, 3.0, 1.0, eps) / seen, 1.0, 0.05) << steps;
+  }
+}
+
+TEST(Conditioning, APerturbationReachesATenthWhenEtaHasMultipliedItThere) {
+  // 0.1/1e-6 = 1e5 lies between 2^16 and 2^17.
+  EXPECT_EQ(collisions_until_perturbation(0.5, 1e-6), 17.0);
+  EXPECT_EQ(collisions_until_perturbation(1.0, 1e-6), INFINITY);
+  EXPECT_EQ(collisions_until_perturbation(0.0, 1e-6), 0.0);
+  EXPECT_EQ(collisions_until_perturbation(1.0, 0.1), 0.0);
+  // A simulation whose first mass is pushed by 1e-6 after a collision.
+  const auto run = simulate(5.0, 0.5, 0.5, 0.0, 1e-6, 20);
+  double spacing = 0.0;
+  int lost = 0;
+  for (int k = 0; k < 20 && lost == 0; ++k) {
+    spacing = run[std::size_t(k)].spacing;
+    const double momentum =
+        std::abs((0.5 * run[std::size_t(k)].v1 + run[std::size_t(k)].v2) / run[std::size_t(k)].v1);
+    // A push of 1e-6 is half of that in momentum.
+    if (momentum > 0.5 * lost_synchrony ||
+        std::abs(spacing / std::numbers::pi - 1.0) > lost_synchrony)
+      lost = k + 1;
+  }
+  EXPECT_NEAR(lost, 17, 1);
+  // Each collision adds the detuning anew, each multiplies it by 1/eta.
+  EXPECT_EQ(collisions_until_detuning({9.0, false}, 0.5, 0.5, -1e-6), 17.0);
+}
+
+TEST(Conditioning, RefusesSizesThatAreNone) {
+  for (const double size : {0.0, 1.0, -2.0, double(NAN)}) {
+    EXPECT_THROW(collisions_until_perturbation(0.5, size), InputError);
+    EXPECT_THROW(collisions_until_detuning({9.0, false}, 3.0, 1.0, size), InputError);
+  }
+  EXPECT_THROW(collisions_until_perturbation(0.5, -1e-3), InputError);
 }
 
 TEST(Conditioning, RateOfThePapersPairIsThreeHalvesPi) {

@@ -13,7 +13,7 @@ namespace clackers::study {
 Sheet list(std::string_view kind);
 
 /// What `clackers show NAME` shows of a case: parameters, derived constants, indicators, margin,
-/// first collisions.
+/// first collisions, and of a pair the harmonics and when disturbances make it lose synchrony.
 std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
                              double threshold);
 

@@ -107,7 +107,7 @@ TEST(Explain, RefusesUnknownCodesWithASuggestion) {
 
 TEST(ShowCase, TellsParametersConstantsIndicatorsAndCollisions) {
   const auto sheets = show_case("three-parameter", {{"N", 5.0}}, 0.2);
-  ASSERT_EQ(sheets.size(), 4u);
+  ASSERT_EQ(sheets.size(), 6u);
   EXPECT_EQ(cell(sheets[0], "N", "value"), Cell{5.0});
   EXPECT_EQ(cell(sheets[0], "xi1", "value"), Cell{0.05});
   EXPECT_EQ(cell(sheets[0], "xi1", "allowed"), Cell{std::string("0 <= xi1 < 1")});

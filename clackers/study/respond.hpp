@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "clackers/cases/case.hpp"
@@ -38,6 +39,24 @@ std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& gri
 /// All collisions up to the case's end:
 /// k,t,u1,v1-,v1+[,v2-,v2+],impulse,energy_before,energy_after. The case must outlive the rows.
 std::unique_ptr<RowSource> collisions(const cases::Case& which);
+
+/// Where the energy is: t,side,kinetic,potential,dissipated,lost,total,momentum at the times of
+/// respond(), with its two rows at collisions. The case must outlive the rows. Throws InputError as
+/// respond() does, and for a motion without closed form (no-closed-form).
+std::unique_ptr<RowSource> energies(const cases::Case& which, const TimeGrid& grid);
+
+/// The columns of respond() differentiated: t,side,du1,dv1,da1[,du2,dv2,da2]. `name` is a raw
+/// parameter (m1 m2 k1 k2 c1 c2 eta gap u10 u20 v10 v20, all else fixed) or one of the case, what
+/// follows from it following; class:m1 is that of the case where both have the name. Throws
+/// InputError as energies() does, for unknown names (with did-you-mean), and where there is no
+/// derivative (no-derivative: whole numbers, the end of the run, eta = 0).
+std::unique_ptr<RowSource> sensitivity(const cases::Case& which, const TimeGrid& grid,
+                                       std::string_view name);
+
+/// The Fourier transform of the displacements over the run, omega,re1,im1[,re2,im2], at `n` equally
+/// spaced frequencies from 0 to `highest` [rad/s]. The case must outlive the rows. Throws InputError
+/// unless 2 <= n <= 1e9 and 0 < highest, its phase over the run being certain.
+std::unique_ptr<RowSource> spectrum(const cases::Case& which, long long n, double highest);
 
 /// Exact displacements at `n` equally spaced times, for a picture. Throws InputError for n < 2.
 Curve response_curve(const cases::Case& which, int n);

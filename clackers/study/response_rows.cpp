@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/base/error.hpp"
 #include "clackers/study/impact_finder.hpp"
 #include "clackers/study/respond.hpp"
+#include "clackers/study/timed_rows.hpp"
 
 namespace clackers::study {
 namespace {
@@ -91,15 +91,7 @@ class ResponseRows : public RowSource {
 }  // namespace
 
 std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& grid) {
-  const double end = which.motion->end();
-  const auto require_inside = [&](double t) {
-    if (!(t >= 0.0 && t <= end))
-      refuse("respond", "t", t,
-             fmt::format("0 <= t <= {} s, the run of {}", end, which.entry->name),
-             "A longer run is another value of t_end or a_t.", "time-outside");
-  };
-  for (const double t : grid.times) require_inside(t);
-  if (grid.size() > 0) require_inside(grid.at(grid.size() - 1));
+  require_inside(which, grid);
   return std::make_unique<ResponseRows>(which, grid);
 }
 

@@ -5,6 +5,7 @@
 #include "clackers/methods/registry.hpp"
 #include "clackers/study/listing.hpp"
 #include "clackers/study/respond.hpp"
+#include "clackers/study/show_sheets.hpp"
 
 namespace clackers::study {
 namespace {
@@ -119,10 +120,14 @@ std::vector<std::string> parts(std::string_view full_name) {
 std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
                              double threshold) {
   const auto which = cases::make(name, settings, threshold);
-  return {parameter_sheet(which),
-          constant_sheet("clackers/constants/1", "Derived constants", which.constants),
-          constant_sheet("clackers/indicators/1", "Indicators", which.indicators),
-          collision_sheet(which)};
+  std::vector<Sheet> sheets{
+      parameter_sheet(which),
+      constant_sheet("clackers/constants/1", "Derived constants", which.constants),
+      constant_sheet("clackers/indicators/1", "Indicators", which.indicators),
+      collision_sheet(which)};
+  for (auto& more : {harmonic_sheet(which, threshold), conditioning_sheet(which)})
+    if (more) sheets.push_back(*more);
+  return sheets;
 }
 
 std::vector<Sheet> show_method(std::string_view spelling) {

@@ -24,7 +24,8 @@ class Help(CommandTest):
     def test_describes_every_option_of_the_grammar(self):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
         own = {"list": [], "explain": [], "show": ["--set", "--threshold"],
-               "respond": ["--set", "--samples", "--step", "--times", "--collisions", "--plot"],
+               "respond": ["--set", "--samples", "--step", "--times", "--collisions", "--plot",
+                           "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--set", "--levels", "--coarsest", "--neighbours",
                           "--jobs", "--report"]}
         for command, options in own.items():
@@ -78,8 +79,7 @@ class Names(CommandTest):
                          says=('Did you mean "json"?', "table, csv, json"))
 
     def test_of_options_still_to_come_are_unknown(self):
-        for command, option in (("respond", "--spectrum"), ("respond", "--sensitivity"),
-                                ("respond", "--digits"), ("verify", "--baseline")):
+        for command, option in (("verify", "--baseline"), ("verify", "--expect")):
             self.refused(command, option, "stop", code="unknown-name", says=f'no option "{option}"')
 
 

@@ -129,6 +129,98 @@ class Collisions(CommandTest):
         self.assertEqual(self.rows_of("respond", "sdof", "--collisions"), [])
 
 
+class Quantities(CommandTest):
+    WAYS = (("--energy", "--samples", "11"), ("--sensitivity", "m1", "--samples", "11"),
+            ("--spectrum", "--samples", "11", "--highest", "20"))
+
+    def test_have_their_columns_for_every_case_and_fit_80_columns(self):
+        for case, response in CASES.items():
+            two = response == PAIR
+            heads = ("t,side,kinetic,potential,dissipated,lost,total,momentum",
+                     "t,side,du1,dv1,da1" + (",du2,dv2,da2" if two else ""),
+                     "omega,re1,im1" + (",re2,im2" if two else ""))
+            for way, head in zip(self.WAYS, heads):
+                text = self.good("respond", case, *way, "--format", "csv")
+                self.assertEqual(text.splitlines()[0], head)
+                for line in self.good("respond", case, *way).splitlines():
+                    self.assertLessEqual(len(line), 80, line)
+
+    def test_name_their_schema(self):
+        for way, name in zip(self.WAYS, ("energy", "sensitivity", "spectrum")):
+            self.assertEqual(self.json_of("respond", "stop", *way)["schema"], f"clackers/{name}/1")
+
+    def test_energy_is_complete_at_every_time_and_jumps_where_the_collision_takes_it(self):
+        hit = self.rows_of("respond", "stop", "--set", "eta=0.5", "--collisions")[0]
+        got = self.rows_of("respond", "stop", "--set", "eta=0.5", "--energy", "--times", "-",
+                           stdin=f"0\n{hit['t']}\n15\n")
+        self.assertEqual([row["side"] for row in got], ["", "-", "+", ""])
+        for row in got:
+            # 64 units of 2^-52 in all.
+            self.assertAlmostEqual(float(row["total"]), float(got[0]["total"]), delta=1.5e-14)
+        taken = float(hit["energy_before"]) - float(hit["energy_after"])
+        self.assertAlmostEqual(float(got[2]["lost"]) - float(got[1]["lost"]), taken, delta=1e-14)
+
+    def test_sensitivity_is_what_a_small_change_of_the_parameter_makes(self):
+        for name, setting in (("xi1", "xi1"), ("class:k1", "k1"), ("A", "A"), ("r", "r"),
+                              ("eta", "eta")):
+            base = {"xi1": 0.05, "k1": 1.0, "A": 1.0, "r": 0.5, "eta": 0.9}
+            def at(change):
+                values = {**base, setting: base[setting] + change}
+                given = ",".join(f"{key}={value!r}" for key, value in values.items())
+                return self.rows_of("respond", "synchronized-pair", "--set", given, "--times", "-",
+                                    stdin="8.5\n")[0]
+            up, down = at(1e-5), at(-1e-5)
+            given = ",".join(f"{key}={value!r}" for key, value in base.items())
+            got = self.rows_of("respond", "synchronized-pair", "--set", given, "--sensitivity", name,
+                               "--times", "-", stdin="8.5\n")[0]
+            for column in ("u1", "v1", "a1", "u2", "v2", "a2"):
+                slope = (float(up[column]) - float(down[column])) / 2e-5
+                # The third derivative grows with (X omega t)^2 = 6e3, times 1e-10.
+                self.assertAlmostEqual(float(got["d" + column]), slope, delta=1e-4 * (1 + abs(slope)))
+
+    def test_spectrum_at_zero_is_the_mean(self):
+        got = self.rows_of("respond", "sdof", "--set", "xi1=0", "--spectrum", "--samples", "3",
+                           "--highest", "2")
+        self.assertEqual([float(row["omega"]) for row in got], [0, 1, 2])
+        # The integrals of cos t and, at resonance, of cos t exp(-it) over 20 s.
+        self.assertAlmostEqual(float(got[0]["re1"]), math.sin(20), delta=1e-13)
+        self.assertAlmostEqual(float(got[1]["re1"]), 10 + math.sin(40) / 4, delta=1e-12)
+
+    def test_of_an_unknown_parameter_are_refused_with_a_suggestion(self):
+        self.refused("respond", "three-parameter", "--sensitivity", "u01", "--samples", "3",
+                     code="unknown-name", says=("Did you mean", "u10 u20"))
+        self.refused("respond", "sdof", "--sensitivity", "m2", "--samples", "3", code="unknown-name")
+        self.refused("respond", "sdof", "--sensitivity", "", "--samples", "3", code="bad-syntax")
+
+    def test_without_a_derivative_are_refused_with_the_reason(self):
+        for case, name, settings, says in (
+                ("synchronized-pair", "k2", ("--set", "eta=0"), "eta = 0"),
+                ("stop", "eta", ("--set", "eta=0"), "eta = 0"),
+                ("three-parameter", "N", (), "whole number"),
+                ("synchronized-pair", "X", (), "whole number"),
+                ("three-parameter", "a_t", (), "where the run ends"),
+                ("sdof", "t_end", (), "where the run ends")):
+            self.refused("respond", case, "--sensitivity", name, "--samples", "3", *settings,
+                         code="no-derivative", says=says)
+
+    def test_asked_for_in_contradiction_are_refused(self):
+        for arguments, says in (
+                (("--energy", "--spectrum", "--samples", "3"), "only one of"),
+                (("--energy", "--sensitivity", "m1", "--samples", "3"), "only one of"),
+                (("--energy",), "needs times"), (("--sensitivity", "m1"), "needs times"),
+                (("--spectrum",), "needs --samples"),
+                (("--spectrum", "--samples", "3"), "needs --highest"),
+                (("--spectrum", "--step", "1", "--highest", "3"), "frequencies, not times"),
+                (("--samples", "3", "--highest", "3"), "--spectrum; add it"),
+                (("--energy", "--collisions"), "rows of its own"),
+                (("--energy", "--samples", "3", "--digits", "5"), "takes no --digits")):
+            self.refused("respond", "stop", *arguments, code="bad-syntax", says=says)
+        for highest, code in (("0", "out-of-range"), ("-1", "out-of-range"), ("inf", "not-finite"),
+                              ("1e300", "out-of-range"), ("x", "not-a-number")):
+            self.refused("respond", "stop", "--spectrum", "--samples", "3", "--highest", highest,
+                         code=code, says="highest")
+
+
 class Picture(CommandTest):
     def test_alone_is_drawn_without_rows(self):
         text = self.good("respond", "three-parameter", "--plot")

@@ -1,0 +1,198 @@
+#pragma once
+
+#include <array>
+#include <boost/multiprecision/mpfr.hpp>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+// For tests: two damped oscillators that collide, simulated from one impact to the next with 90
+// digits. It knows masses, springs, dashpots and a start, and nothing of synchrony, admissibility
+// or any closed form.
+namespace clackers::exact::testing_oracle {
+
+using Real = boost::multiprecision::number<
+    boost::multiprecision::mpfr_float_backend<90, boost::multiprecision::allocate_stack>,
+    boost::multiprecision::et_off>;
+
+/// The twelve numbers of the model. The masses may not pass: u1 - u2 >= -gap.
+struct RawPair {
+  Real m1, m2, k1, k2, c1, c2;  ///< SI; c^2 < 4 m k for each mass
+  Real eta;                     ///< restitution, 0 to 1
+  Real gap;                     ///< may be negative: masses that press when at rest
+  Real u10, u20, v10, v20;      ///< at t = 0, where u1 - u2 >= -gap
+};
+
+/// Displacement, velocity and acceleration of both masses at t.
+struct RawState {
+  Real t;
+  std::array<Real, 2> u, v, a;
+};
+
+struct RawCollision {
+  RawState before, after;  ///< at the same t
+  Real impulse;            ///< on mass 1, upward [N s]
+  Real energy_before, energy_after;
+};
+
+/// One mass on its spring and dashpot from a given state: u = e^(-sigma s) (p cos w s + q sin w s).
+class FreeMass90 {
+ public:
+  FreeMass90(const Real& m, const Real& c, const Real& k)
+      : m_(m), c_(c), k_(k), sigma_(c / (2 * m)) {
+    const Real square = k / m - sigma_ * sigma_;
+    if (!(square > 0)) throw std::domain_error("simulator: c^2 < 4 m k is needed");
+    w_ = sqrt(square);
+  }
+  void start(const Real& u, const Real& v) {
+    p_ = u;
+    q_ = (v + sigma_ * u) / w_;
+    amplitude_ = sqrt(p_ * p_ + q_ * q_);
+  }
+  /// State `s` seconds after start(), into the arrays' entry i.
+  void put(const Real& s, RawState& to, std::size_t i) const {
+    const Real e = exp(-sigma_ * s), phase = w_ * s;
+    Real sine, cosine;
+    mpfr_sin_cos(sine.backend().data(), cosine.backend().data(), phase.backend().data(), MPFR_RNDN);
+    const Real x = e * (p_ * cosine + q_ * sine), y = e * (q_ * cosine - p_ * sine);
+    to.u[i] = x;
+    to.v[i] = w_ * y - sigma_ * x;
+    to.a[i] = -(c_ * to.v[i] + k_ * to.u[i]) / m_;
+  }
+  const Real& mass() const { return m_; }
+  const Real& sigma() const { return sigma_; }
+  /// sqrt(p^2 + q^2): |u| <= amplitude e^(-sigma s).
+  const Real& amplitude() const { return amplitude_; }
+  /// The factor by which each derivative of e^(shift s) u may grow: |-(sigma - shift) + i w|.
+  Real rate(const Real& shift) const {
+    const Real rest = sigma_ - shift;
+    return sqrt(rest * rest + w_ * w_);
+  }
+  Real energy(const RawState& x, std::size_t i) const {
+    return (m_ * x.v[i] * x.v[i] + k_ * x.u[i] * x.u[i]) / 2;
+  }
+
+ private:
+  Real m_, c_, k_, sigma_, w_, p_ = 0, q_ = 0, amplitude_ = 0;
+};
+
+/// Goes from impact to impact. The first contact of a flight cannot be missed: with a number `rate`
+/// that both masses decay at least with, G(s) = e^(rate s) (u1 - u2 + gap) has the zeros of the
+/// opening, and |G''| <= M from s on (M below). From a known s it stays positive as long as
+/// G + G' x - M x^2 / 2 does, so s moves to the zero x of that parabola, again and again. Near a
+/// crossing these steps are Newton's, from the safe side, and converge as fast. No sampling.
+class ImpactSimulator {
+ public:
+  explicit ImpactSimulator(const RawPair& p)
+      : masses_{FreeMass90(p.m1, p.c1, p.k1), FreeMass90(p.m2, p.c2, p.k2)},
+        eta_(p.eta),
+        gap_(p.gap) {
+    // Nearly critical masses decay to e^(-1e9) between impacts.
+    mpfr_set_emin(mpfr_get_emin_min());
+    mpfr_set_emax(mpfr_get_emax_max());
+    fly_from({Real(0), {p.u10, p.u20}, {p.v10, p.v20}, {}});
+    // Allowed to start touching, as after an impact.
+    if (opening(start_) < -tiny())
+      throw std::domain_error("simulator: the masses overlap at t = 0");
+  }
+
+  /// The state at t, within the present flight: t >= flight_start(), and no contact before t.
+  RawState at(const Real& t) const {
+    RawState x;
+    x.t = t;
+    const Real s = t - start_.t;
+    for (std::size_t i = 0; i < 2; ++i) masses_[i].put(s, x, i);
+    return x;
+  }
+  const Real& flight_start() const { return start_.t; }
+  Real energy(const RawState& x) const { return masses_[0].energy(x, 0) + masses_[1].energy(x, 1); }
+
+  /// Goes through the next contact if it is not later than `until`; otherwise stays where it is and
+  /// returns nothing. Throws std::domain_error for a graze, where the opening comes within 1e-70 of
+  /// the amplitudes and nothing proves a crossing, and for what follows an impact with eta = 0.
+  std::optional<RawCollision> next(const Real& until) {
+    if (eta_ == 0 && hits_ > 0) throw std::domain_error("simulator: the masses may stick");
+    const auto t = first_contact(until);
+    if (!t) return std::nullopt;
+    RawCollision hit;
+    hit.before = hit.after = at(*t);
+    hit.energy_before = energy(hit.before);
+    // Newton's law, u1' - u2' -> -eta (u1' - u2'), and conserved momentum.
+    const Real closing = hit.before.v[0] - hit.before.v[1];
+    const Real &m1 = masses_[0].mass(), &m2 = masses_[1].mass();
+    hit.impulse = -(1 + eta_) * closing * m1 * m2 / (m1 + m2);
+    hit.after.v[0] += hit.impulse / m1;
+    hit.after.v[1] -= hit.impulse / m2;
+    ++hits_;
+    fly_from(hit.after);
+    hit.after = at(*t);  // with its acceleration
+    hit.energy_after = energy(hit.after);
+    return hit;
+  }
+
+ private:
+  void fly_from(const RawState& x) {
+    start_ = x;
+    for (std::size_t i = 0; i < 2; ++i) masses_[i].start(x.u[i], x.v[i]);
+    // With a gap G'' has a growing part, so nothing is factored out.
+    shift_ = gap_ == 0 ? std::min(masses_[0].sigma(), masses_[1].sigma()) : Real(0);
+    bound_ = 0;
+    for (const auto& mass : masses_) {
+      const Real rate = mass.rate(shift_);
+      bound_ += mass.amplitude() * rate * rate;
+    }
+  }
+  Real opening(const RawState& x) const { return x.u[0] - x.u[1] + gap_; }
+  // What rounding may do to an opening: amplitudes times 2^-300, and 20 decades of care.
+  Real tiny() const {
+    static const Real care("1e-70");
+    return (masses_[0].amplitude() + masses_[1].amplitude() + abs(gap_)) * care;
+  }
+
+  std::optional<Real> first_contact(const Real& until) const {
+    // Where a flight starts touching and opening, the first step is over 0 by its slope alone.
+    Real s = 0, value = opening(start_), slope = start_.v[0] - start_.v[1] + shift_ * value;
+    const bool touching = value < tiny();
+    if (touching) value = 0;
+    const Real span = until - start_.t;
+    for (int steps = 0;; ++steps) {
+      if (steps > 1000000 || !isfinite(value)) throw std::domain_error("simulator: undecided");
+      if ((steps > 0 || (touching && slope <= 0)) && value < tiny()) {
+        // G + G' x + M x^2 / 2 < 0 for some x proves that the masses meet at all.
+        if (!(slope < 0 && slope * slope > 4 * bound_ * tiny()))
+          throw std::domain_error("simulator: the masses graze");
+        // One plain Newton step over what is left, too small to be proven and to matter.
+        s += value / -slope;
+        return s <= span ? std::optional<Real>(start_.t + s) : std::nullopt;
+      }
+      const Real root = sqrt(slope * slope + 2 * bound_ * value);
+      // Both forms of the parabola's zero; neither subtracts.
+      s += slope > 0 ? (slope + root) / bound_ : 2 * value / (root - slope);
+      if (s > span) return std::nullopt;
+      const RawState x = at(start_.t + s);
+      const Real scale = shift_ == 0 ? Real(1) : exp(shift_ * s), g = opening(x);
+      value = scale * g;
+      slope = scale * (x.v[0] - x.v[1] + shift_ * g);
+    }
+  }
+
+  std::array<FreeMass90, 2> masses_;
+  Real eta_, gap_, shift_, bound_;
+  RawState start_;
+  int hits_ = 0;
+};
+
+/// The states at `times` (rising; at an impact the state after it).
+inline std::vector<RawState> simulate(const RawPair& pair, std::span<const Real> times) {
+  ImpactSimulator simulator(pair);
+  std::vector<RawState> states;
+  for (const auto& t : times) {
+    while (simulator.next(t)) {
+    }
+    states.push_back(simulator.at(t));
+  }
+  return states;
+}
+
+}  // namespace clackers::exact::testing_oracle
