@@ -7,13 +7,15 @@ endif()
 
 add_library(clackers_options INTERFACE)
 target_compile_features(clackers_options INTERFACE cxx_std_20)
-target_include_directories(clackers_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(clackers_options INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
 # Contracting a * b + c to one rounding would break the error-free sums of double_double.hpp, and
 # make results depend on the machine.
 target_compile_options(clackers_options INTERFACE -ffp-contract=off)
 if(CLACKERS_DEVELOPER)
+  # Never in an installed package: the next compiler may know a new warning.
   target_compile_options(clackers_options INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+    "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Werror>")
 endif()
 
 # clackers_room(<name> LINK <targets> [TEST_LINK <targets>]): the library clackers_<name> from
@@ -28,14 +30,28 @@ function(clackers_room name)
   if(sources OR ARG_GENERATED)
     add_library(clackers_${name} STATIC ${sources} ${ARG_GENERATED})
     target_link_libraries(clackers_${name} PUBLIC clackers_options ${ARG_LINK})
+    # The rooms go into shared libraries, ours for C and those of consumers. Hidden, their functions
+    # can still be inlined there and never meet another copy of themselves at run time.
+    set_target_properties(clackers_${name} PROPERTIES
+      POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   else()
     add_library(clackers_${name} INTERFACE)
     target_link_libraries(clackers_${name} INTERFACE clackers_options ${ARG_LINK})
   endif()
   add_library(clackers::${name} ALIAS clackers_${name})
+  set_property(GLOBAL APPEND PROPERTY CLACKERS_ROOMS ${name})
   if(CLACKERS_TESTS AND tests)
     clackers_test(clackers_${name}_test SOURCES ${tests} LINK ${name} ${ARG_TEST_LINK})
   endif()
+endfunction()
+
+# clackers_all_rooms(): clackers::clackers, all rooms that were made until here.
+function(clackers_all_rooms)
+  get_property(rooms GLOBAL PROPERTY CLACKERS_ROOMS)
+  list(TRANSFORM rooms PREPEND clackers_)
+  add_library(clackers_clackers INTERFACE)
+  add_library(clackers::clackers ALIAS clackers_clackers)
+  target_link_libraries(clackers_clackers INTERFACE ${rooms})
 endfunction()
 
 # clackers_test(<name> SOURCES <files> LINK <rooms or targets>): a GoogleTest program.

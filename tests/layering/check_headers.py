@@ -15,7 +15,8 @@ def errors_of(header, command, root):
 
 def main(root, compiler, flags):
     root = pathlib.Path(root).resolve()
-    headers = sorted(p for top in ["clackers", "cli"] for p in (root / top).rglob("*.hpp"))
+    rooms = [root / top for top in ("clackers", "cli", "bindings")]
+    headers = sorted(p for room in rooms for p in room.rglob("*") if p.suffix in (".h", ".hpp"))
     if len(headers) < 20:
         sys.exit(f"found only {len(headers)} headers below {root}")
     command = [compiler, *flags, "-std=c++20", "-I.", "-fsyntax-only", "-x", "c++", "-"]

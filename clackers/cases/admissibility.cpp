@@ -1,0 +1,14 @@
+#include "clackers/cases/admissibility.hpp"
+
+#include "clackers/exact/admissibility.hpp"
+#include "clackers/exact/parameter_ranges.hpp"
+
+namespace clackers::cases {
+
+Admissibility admissibility(double X, double r) {
+  const auto ratio = exact::frequency_ratio("admissibility", X);
+  exact::require_scale("admissibility", "r", r);
+  return {exact::r_star(ratio.odd), exact::admissibility_margin(ratio, r)};
+}
+
+}  // namespace clackers::cases

@@ -1,0 +1,61 @@
+# What `cmake --install` puts where, in three components that are also the Debian packages:
+#   command      the program clackers
+#   library      libclackers.so.0 for programs in C
+#   development  headers, the rooms as static libraries, find_package and pkg-config files
+# Included after all targets exist.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/clackers)
+get_property(rooms GLOBAL PROPERTY CLACKERS_ROOMS)
+
+install(TARGETS clackers_cli RUNTIME COMPONENT command)
+
+# For C. Its targets stand in a file of their own: they need neither C++ nor the libraries below it.
+install(TARGETS clackers_c EXPORT clackers-c
+  LIBRARY COMPONENT library NAMELINK_COMPONENT development)
+install(FILES bindings/c/clackers.h TYPE INCLUDE COMPONENT development)
+install(EXPORT clackers-c NAMESPACE clackers:: DESTINATION ${package_dir} COMPONENT development
+  FILE clackers-c-targets.cmake)
+
+# For C++: clackers::clackers is all rooms, clackers::<room> one of them.
+foreach(room IN ITEMS clackers options ${rooms})
+  set_target_properties(clackers_${room} PROPERTIES EXPORT_NAME ${room})
+  install(TARGETS clackers_${room} EXPORT clackers-cpp ARCHIVE COMPONENT development)
+endforeach()
+install(EXPORT clackers-cpp NAMESPACE clackers:: DESTINATION ${package_dir} COMPONENT development
+  FILE clackers-cpp-targets.cmake)
+
+# Headers that only tests of this project include stay here; tests/package finds any that is not
+# named.
+set(test_headers test_[a-z_]* toy_motion sample_record record_fingerprint synthetic_ladder
+  expect_behaviour impact_simulator stepper_checks contact/runs)
+list(JOIN test_headers "|" test_headers)
+foreach(room IN LISTS rooms)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+    ${PROJECT_SOURCE_DIR}/clackers/${room}/*.hpp)
+  list(FILTER headers EXCLUDE REGEX "/(${test_headers})\\.hpp$")
+  foreach(header IN LISTS headers)
+    get_filename_component(folder ${header} DIRECTORY)
+    install(FILES ${PROJECT_SOURCE_DIR}/${header} COMPONENT development
+      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+  endforeach()
+endforeach()
+
+configure_package_config_file(cmake/clackers-config.cmake.in
+  ${PROJECT_BINARY_DIR}/clackers-config.cmake INSTALL_DESTINATION ${package_dir}
+  NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a minor version may change the C++ interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/clackers-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/clackers-config.cmake
+  ${PROJECT_BINARY_DIR}/clackers-config-version.cmake
+  DESTINATION ${package_dir} COMPONENT development)
+
+# The prefix is told from where clackers.pc lies, so an installed tree may be moved.
+file(RELATIVE_PATH pc_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+configure_file(cmake/clackers.pc.in ${PROJECT_BINARY_DIR}/clackers.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/clackers.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+  COMPONENT development)
+
+include(ClackersPackage)

@@ -1,0 +1,82 @@
+"""The C library as a program in C finds it."""
+import re
+import unittest
+
+import installed
+
+HEADER = installed.ROOT / "bindings/c/clackers.h"
+STRICT = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror"]
+
+
+def setUpModule():
+    global tree
+    tree = installed.Tree()
+
+
+def tearDownModule():
+    tree.close()
+
+
+def declared():
+    return sorted(re.findall(r"(\bclackers_\w+)\(", "".join(re.findall(r"^CLACKERS_API[^;]*;", HEADER.read_text(), re.MULTILINE))))
+
+
+class CLibrary(unittest.TestCase):
+    def check(self, text):
+        lines = text.splitlines()
+        self.assertRegex(lines[0], r"^Clackers \d+\.\d+\.\d+$")
+        # X = 5, xi1 = 0.05: t_k = (k - 1/2) pi / sqrt(1 - xi1^2), six of them before 20 s.
+        self.assertEqual(len(lines), 7)
+        for k, line in enumerate(lines[1:], 1):
+            t = (k - 0.5) * 3.141592653589793 / 0.9987492177719089
+            found = re.match(rf"{k}  t = (\S+) s  v1 = (\S+) -> (\S+) m/s  v2 = (\S+) -> (\S+) m/s$", line)
+            self.assertTrue(found, line)
+            self.assertAlmostEqual(float(found[1]), t, delta=1e-13)  # printed to 17 digits, t rounded thrice here
+            before, after = float(found[2]) - float(found[4]), float(found[3]) - float(found[5])
+            self.assertLess(before, 0.0)
+            self.assertAlmostEqual(after, -0.75 * before, delta=2e-6)  # four numbers printed to 0.5e-6
+
+    def test_the_example_finds_it_through_pkg_config(self):
+        environment = tree.environment()
+        flags = installed.run("sh", "-c", 'eval "set -- $(pkg-config --cflags --libs clackers)"; printf "%s\\n" "$@"',
+                              env=environment).split("\n")
+        program = tree.folder / "collisions"
+        installed.run(installed.CC, *STRICT, installed.ROOT / "examples/c/collisions.c", *filter(None, flags), "-o", program)
+        self.check(installed.run(program, env=environment))
+
+    def test_the_example_finds_it_through_cmake(self):
+        source = tree.folder / "with_cmake"
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(it LANGUAGES C)\n"
+            "find_package(clackers 0.1 REQUIRED COMPONENTS c)\n"
+            f"add_executable(collisions {installed.ROOT}/examples/c/collisions.c)\n"
+            "target_link_libraries(collisions PRIVATE clackers::c)\n")
+        build = tree.configure(source, "with_cmake_build")
+        installed.run(installed.CMAKE, "--build", build)
+        self.check(installed.run(build / "collisions"))
+
+    def test_pkg_config_tells_the_version_of_the_command(self):
+        told = installed.run("pkg-config", "--modversion", "clackers", env=tree.environment()).strip()
+        self.assertIn(told, installed.run(tree.prefix / "bin/clackers", "--version"))
+
+    def test_the_library_has_a_soname(self):
+        self.assertIn("Library soname: [libclackers.so.0]", installed.run("readelf", "-d", tree.lib / "libclackers.so"))
+
+    def test_it_shows_exactly_the_functions_of_its_header_with_their_version(self):
+        shown = re.findall(r" T (\S+)$", installed.run("nm", "-D", "--defined-only", tree.lib / "libclackers.so"), re.MULTILINE)
+        self.assertGreater(len(shown), 15)
+        self.assertEqual(sorted(shown), [name + "@@CLACKERS_0.1" for name in declared()])
+
+    def test_nothing_but_functions_is_shown(self):
+        kinds = set(re.findall(r" (\w) \S+$", installed.run("nm", "-D", "--defined-only", tree.lib / "libclackers.so"), re.MULTILINE))
+        self.assertLessEqual(kinds, {"T", "A"})
+
+    def test_the_header_is_c99_and_cxx(self):
+        for language in (["-x", "c", "-std=c99"], ["-x", "c++", "-std=c++98", "-Wno-long-long"]):
+            installed.run(installed.CC, "-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only", *language,
+                          tree.prefix / "include/clackers.h")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,130 @@
+"""The Debian packages: made from the built tree, installed, used and removed.
+
+dpkg works on a copy of this machine's list of packages and unpacks into a temporary folder, so that
+dependencies are checked against what is really installed while the machine stays as it is. The
+packages' own scripts meet an ldconfig that only notes its calls.
+"""
+import os
+import pathlib
+import re
+import shutil
+import tempfile
+import unittest
+
+import installed
+
+ADMIN = pathlib.Path("/var/lib/dpkg")
+
+
+def why_not():
+    """What keeps these tests from running here, or nothing."""
+    for tool in ["dpkg", "dpkg-shlibdeps", "file"]:
+        if not shutil.which(tool):
+            return f"there is no {tool} (packages dpkg-dev and file)"
+    if os.geteuid() != 0:
+        return "dpkg installs for root only"
+    if not (ADMIN / "status").exists():
+        return f"{ADMIN} holds no list of packages"
+    return None
+
+
+def setUpModule():
+    global folder, debs
+    if why_not():
+        raise unittest.SkipTest(why_not())
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="clackers-debian-"))
+    cpack = pathlib.Path(installed.CMAKE).with_name("cpack")
+    installed.run(cpack, "-G", "DEB", "--config", installed.BUILD / "CPackConfig.cmake", "-B", folder / "made")
+    debs = {p.name.split("_")[0]: p for p in (folder / "made").glob("*.deb")}
+
+
+def tearDownModule():
+    shutil.rmtree(folder)
+
+
+def field(package, name):
+    return installed.run("dpkg-deb", "-f", debs[package], name).strip()
+
+
+class Packages(unittest.TestCase):
+    def test_there_are_three(self):
+        self.assertEqual(sorted(debs), ["clackers", "libclackers-dev", "libclackers0"])
+
+    def test_programs_depend_on_the_libraries_they_load(self):
+        for package, file in [("clackers", "usr/bin/clackers"), ("libclackers0", "libclackers.so.0")]:
+            self.assertRegex(field(package, "Depends"), r"\blibc6 \(>= ")
+            self.assertRegex(field(package, "Depends"), r"\blibfmt\d+ \(>= ")
+            self.assertIn(file, installed.run("dpkg-deb", "-c", debs[package]))
+
+    def test_development_needs_the_same_library_and_what_the_rooms_leave_open(self):
+        depends = field("libclackers-dev", "Depends")
+        self.assertIn(f"libclackers0 (= {field('libclackers0', 'Version')})", depends)
+        for name in ["libeigen3-dev", "libfmt-dev", "nlohmann-json3-dev", "libboost-dev", "libhwy-dev"]:
+            self.assertIn(name, depends)
+
+    def test_the_library_tells_what_its_users_depend_on(self):
+        control = folder / "control"
+        installed.run("dpkg-deb", "-e", debs["libclackers0"], control)
+        version = re.escape(field("libclackers0", "Version"))
+        self.assertRegex((control / "shlibs").read_text(), rf"^libclackers 0 libclackers0 \(>= {version}\)")
+
+    def test_the_command_comes_without_development_files(self):
+        contents = installed.run("dpkg-deb", "-c", debs["clackers"]) + installed.run("dpkg-deb", "-c", debs["libclackers0"])
+        self.assertNotRegex(contents, r"\.hpp|\.a\b|\.cmake|libclackers\.so ")
+
+    def test_everything_belongs_to_root_and_is_below_usr(self):
+        for deb in debs.values():
+            for line in installed.run("dpkg-deb", "-c", deb).splitlines():
+                self.assertRegex(line, r"^\S+ root/root .* \./(usr/.*)?", line)
+
+
+class InstalledUsedAndRemoved(unittest.TestCase):
+    def dpkg(self, root, *arguments):
+        path = f"{folder / 'bin'}:/usr/sbin:/usr/bin:/sbin:/bin"
+        return installed.run("dpkg", f"--root={root}", "--force-script-chrootless", "--no-triggers",
+                             f"--log={folder / 'log'}", *arguments, env={**os.environ, "PATH": path})
+
+    def note_calls_of_ldconfig(self):
+        """A file that gets a line at each call."""
+        calls = folder / "calls"
+        calls.touch()
+        (folder / "bin").mkdir()
+        (folder / "bin/ldconfig").write_text(f"#!/bin/sh\necho called >> {calls}\n")
+        (folder / "bin/ldconfig").chmod(0o755)
+        return calls
+
+    def test_the_packages_live_a_whole_life(self):
+        root = folder / "root"
+        admin = root / "var/lib/dpkg"
+        admin.parent.mkdir(parents=True)
+        shutil.copytree(ADMIN, admin, symlinks=True)
+        calls = self.note_calls_of_ldconfig()
+        before = (ADMIN / "status").read_bytes()
+
+        self.dpkg(root, "-i", *debs.values())
+        listed = installed.run("dpkg-query", f"--admindir={admin}", "-W", "-f=${Package} ${db:Status-Status}\n", *debs)
+        self.assertEqual(sorted(listed.split()), sorted([*debs, *["installed"] * 3]))
+        self.assertEqual(calls.read_text(), "called\n")
+
+        self.use(root)
+
+        self.dpkg(root, "-r", *debs)
+        self.assertEqual(calls.read_text(), "called\ncalled\n")
+        self.assertEqual([p for p in root.rglob("*") if not p.is_dir() and admin not in p.parents], [])
+        self.assertEqual((ADMIN / "status").read_bytes(), before)
+
+    def use(self, root):
+        version = installed.run(root / "usr/bin/clackers", "--version")
+        self.assertIn(field("clackers", "Version").split("-")[0], version)
+        rows = installed.run(root / "usr/bin/clackers", "respond", "three-parameter", "--collisions", "--format", "csv")
+        self.assertEqual(len(re.findall(r"^\d", rows, re.MULTILINE)), 6)
+
+        lib = next(root.glob("usr/lib/**/libclackers.so")).parent
+        environment = {**os.environ, "PKG_CONFIG_PATH": str(lib / "pkgconfig"), "LD_LIBRARY_PATH": str(lib)}
+        flags = installed.run("pkg-config", "--cflags", "--libs", "clackers", env=environment).split()
+        installed.run(installed.CC, installed.ROOT / "examples/c/collisions.c", *flags, "-o", folder / "collisions")
+        self.assertEqual(len(installed.run(folder / "collisions", env=environment).splitlines()), 7)
+
+
+if __name__ == "__main__":
+    unittest.main()
