@@ -1,0 +1,201 @@
+// The pieces that kernels are made of, on every target.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "clackers/numerics/half_turns.hpp"
+#include "clackers/numerics/power_of_two.hpp"
+#include "clackers/numerics/simd/target.hpp"
+#include "clackers/numerics/simd/wanted.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "clackers/numerics/simd/kernels_test.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "clackers/numerics/simd/half_turns-inl.hpp"
+#include "clackers/numerics/simd/power_of_two-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace clackers::numerics::simd::HWY_NAMESPACE {
+
+inline double first(Vector x) { return hn::GetLane(x); }
+
+// Each function does one thing in all lanes and returns those of the first.
+void product_of_factor(double f, double x, double* out) {
+  const auto p = two_product(Factor(f), multiplicand(constant(x)));
+  out[0] = first(p.hi), out[1] = first(p.lo);
+}
+void product(double x, double y, double* out) {
+  const auto p = two_product(constant(x), constant(y));
+  out[0] = first(p.hi), out[1] = first(p.lo);
+}
+void sum(double x, double y, double* out) {
+  const auto p = two_sum(constant(x), constant(y));
+  out[0] = first(p.hi), out[1] = first(p.lo);
+}
+void long_product(double x, double x_lo, double y, double y_lo, double* out) {
+  const auto p = multiply({constant(x), constant(x_lo)}, {constant(y), constant(y_lo)});
+  out[0] = first(p.hi), out[1] = first(p.lo);
+}
+void long_dot(double x, double x_lo, double y, double y_lo, double* out) {
+  const Pair a{constant(x), constant(x_lo)}, b{constant(y), constant(y_lo)};
+  const auto p = dot(a, a, b, {Neg(a.hi), Neg(a.lo)});
+  out[0] = first(p.hi), out[1] = first(p.lo);
+}
+void nearest(double x, double* out) { out[0] = first(nearest_whole(constant(x))); }
+void quarter(double hi, double lo, double* out) {
+  const Vectors<1> x = {constant(hi)}, low = {constant(lo)};
+  Vectors<1> sine, cosine;
+  sine_cosine_of_quarter<1>(x, low, sine, cosine);
+  out[0] = first(sine[0]), out[1] = first(cosine[0]);
+}
+void turned(double quarters, double* out) {
+  Vector sine = constant(0.25), cosine = constant(0.5);
+  turn_by_quarters(constant(quarters + 0x1.8p52), sine, cosine);
+  out[0] = first(sine), out[1] = first(cosine);
+}
+void power(double hi, double lo, double* out) {
+  const Vectors<1> x = {constant(hi)}, low = {constant(lo)};
+  Vectors<1> value, rest;
+  power_of_two<1>(x, low, value, rest);
+  out[0] = first(value[0]), out[1] = first(rest[0]);
+}
+void whole_power(double n, double* out) {
+  out[0] = first(whole_power_of_two(BitCast(Words(), constant(n + 0x1.8p52))));
+}
+
+}  // namespace clackers::numerics::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clackers::numerics::simd {
+namespace {
+
+HWY_EXPORT(product_of_factor);
+HWY_EXPORT(product);
+HWY_EXPORT(sum);
+HWY_EXPORT(long_product);
+HWY_EXPORT(long_dot);
+HWY_EXPORT(nearest);
+HWY_EXPORT(quarter);
+HWY_EXPORT(turned);
+HWY_EXPORT(power);
+HWY_EXPORT(whole_power);
+
+class Kernels : public testing::TestWithParam<Target> {
+ protected:
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double any() { return std::ldexp(uniform(-1.0, 1.0), int(uniform(-60.0, 60.0))); }
+
+ private:
+  ForcedTarget forced_{GetParam()};
+  std::mt19937_64 random_{3};
+};
+
+TEST_P(Kernels, SplitSumsAndProductsWithoutError) {
+  for (int i = 0; i < 3000; ++i) {
+    const double x = any(), y = any();
+    double found[2];
+    HWY_DYNAMIC_DISPATCH(product)(x, y, found);
+    const auto p = two_product(x, y);
+    EXPECT_EQ(found[0], p.hi);
+    // Of cut factors the last product is rounded.
+    EXPECT_NEAR(found[1], p.lo, GetParam().has_fma() ? 0.0 : std::abs(p.hi) * 0x1p-104);
+    HWY_DYNAMIC_DISPATCH(product_of_factor)(x, y, found);
+    EXPECT_EQ(found[0], p.hi);
+    EXPECT_EQ(found[1], p.lo);
+    HWY_DYNAMIC_DISPATCH(sum)(x, y, found);
+    const auto s = two_sum(x, y);
+    EXPECT_EQ(found[0], s.hi);
+    EXPECT_EQ(found[1], s.lo);
+  }
+}
+
+TEST_P(Kernels, KeepLongNumbersTo102Bits) {
+  for (int i = 0; i < 3000; ++i) {
+    const double x = any(), y = any();
+    const double x_lo = uniform(-0x1p-54, 0x1p-54) * x, y_lo = uniform(-0x1p-54, 0x1p-54) * y;
+    const auto off = [](const double* found, const DoubleDouble& truth) {
+      return std::abs((found[0] - truth.hi) + (found[1] - truth.lo));
+    };
+    double found[2];
+    HWY_DYNAMIC_DISPATCH(long_product)(x, x_lo, y, y_lo, found);
+    const auto p = DoubleDouble{x, x_lo} * DoubleDouble{y, y_lo};
+    EXPECT_LE(off(found, p), 0x1p-102 * std::abs(p.hi));
+    HWY_DYNAMIC_DISPATCH(long_dot)(x, x_lo, y, y_lo, found);
+    const DoubleDouble a{x, x_lo}, b{y, y_lo};
+    EXPECT_LE(off(found, a * a - b * a), 0x1p-102 * (x * x + std::abs(x * y)));
+  }
+}
+
+TEST_P(Kernels, RoundToTheNearestWholeNumberTiesToEven) {
+  for (const double x : {0.0, 0.5, 1.5, -0.5, -1.5, -2.5, 0.49999999999999994, 0x1p50 + 0.75,
+                         0x1p51 - 0.5, -0x1p50 - 0.25}) {
+    double found;
+    HWY_DYNAMIC_DISPATCH(nearest)(x, &found);
+    EXPECT_EQ(found, std::nearbyint(x)) << x;
+  }
+}
+
+TEST_P(Kernels, KeepTheBoundsOfSineAndCosine) {
+  double sine = 0.0, cosine = 0.0;
+  for (int i = 0; i < 40000; ++i) {
+    const double hi = i == 0       ? 0.25
+                      : i == 1     ? -0.25
+                      : i % 3 == 0 ? any() * 0x1p-62
+                                   : uniform(-0.25, 0.25);
+    const double lo = uniform(-0.5, 0.5) * (std::nextafter(std::abs(hi), 1.0) - std::abs(hi));
+    double found[2];
+    HWY_DYNAMIC_DISPATCH(quarter)(hi, lo, found);
+    const auto truth = sine_cosine_of_half_turns({hi, lo});
+    sine = std::max(sine, std::abs(found[0] - truth.sine.hi - truth.sine.lo));
+    cosine = std::max(cosine, std::abs(found[1] - truth.cosine.hi - truth.cosine.lo));
+  }
+  EXPECT_LE(sine, 0.4 * 0x1p-52);
+  EXPECT_LE(cosine, 0.75 * 0x1p-52);
+}
+
+TEST_P(Kernels, TurnByQuartersAsSineAndCosineDo) {
+  const double s = 0.25, c = 0.5;
+  const double expected[4][2] = {{s, c}, {c, -s}, {-s, -c}, {-c, s}};
+  for (const int m : {0, 1, 2, 3, 4, 7, 1000001, -1, -2, -3, -4, -1000002}) {
+    double found[2];
+    HWY_DYNAMIC_DISPATCH(turned)(m, found);
+    EXPECT_EQ(found[0], expected[m & 3][0]) << m;
+    EXPECT_EQ(found[1], expected[m & 3][1]) << m;
+  }
+}
+
+TEST_P(Kernels, KeepTheBoundOfPowersOfTwo) {
+  double worst = 0.0;
+  for (int i = 0; i < 40000; ++i) {
+    const double hi = i == 0 ? 0.5 : i == 1 ? -0.5 : uniform(-0.5, 0.5);
+    const double lo = uniform(-0x1p-55, 0x1p-55);
+    double found[2];
+    HWY_DYNAMIC_DISPATCH(power)(hi, lo, found);
+    const auto [e, exponent] = power_of_two({hi, lo});
+    const double scale = std::ldexp(1.0, exponent);
+    const double truth = e.hi * scale;
+    worst = std::max(worst, std::abs((found[0] - truth) + (found[1] - e.lo * scale)) / truth);
+  }
+  EXPECT_LE(worst, (GetParam().has_fma() ? 0.37 : 0.55) * 0x1p-52);
+}
+
+TEST_P(Kernels, BuildWholePowersOfTwo) {
+  for (const int n : {-1022, -1, 0, 1, 1023}) {
+    double found;
+    HWY_DYNAMIC_DISPATCH(whole_power)(n, &found);
+    EXPECT_EQ(found, std::ldexp(1.0, n));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryTarget, Kernels, testing::ValuesIn(available_targets()),
+                         [](const auto& each) { return std::string(each.param.name()); });
+
+}  // namespace
+}  // namespace clackers::numerics::simd
+#endif
