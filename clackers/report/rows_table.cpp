@@ -110,6 +110,7 @@ void write_table(study::RowSource& rows, std::ostream& out, const Style& style) 
   std::vector<Row> first;
   Row row;
   while (first.size() < rows_measured && rows.next(row)) first.push_back(row);
+  if (first.empty() && !rows.title().empty()) return;  // names of columns above nothing say nothing
 
   std::vector<TextColumn> layout;
   int digits = most_digits;

@@ -30,7 +30,10 @@ class CollisionRows : public RowSource {
         columns_(collision_columns(motion_.dof())) {}
 
   std::string schema() const override { return "clackers/collisions/1"; }
-  std::string title() const override { return "Collisions of " + name_; }
+  std::string title() const override {
+    if (total_ > 0) return "Collisions of " + name_;
+    return fmt::format("Collisions of {}: none until the end of its run, {} s", name_, motion_.end());
+  }
   const std::vector<Column>& columns() const override { return columns_; }
 
   bool next(std::vector<Cell>& row) override {

@@ -127,6 +127,9 @@ class Collisions(CommandTest):
 
     def test_of_a_mass_without_stop_are_none(self):
         self.assertEqual(self.rows_of("respond", "sdof", "--collisions"), [])
+        for case, end in (("sdof", "20"), ("stop", "0.5")):
+            self.assertEqual(self.good("respond", case, "--set", f"t_end={end}", "--collisions"),
+                             f"Collisions of {case}: none until the end of its run, {end} s\n")
 
 
 class Quantities(CommandTest):
