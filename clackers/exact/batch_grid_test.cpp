@@ -154,7 +154,7 @@ TEST(Grid, StreamsLargeOutputsWhateverTheirPlaces) {
   while (reinterpret_cast<std::uintptr_t>(base) % 64 != 0) ++base;
   const std::size_t apart = (count + 31) / 8 * 8;
   for (const auto& target : available_targets())
-    for (const std::size_t odd : {0, 3, 11}) {  // the last: one array out of line
+    for (const std::size_t odd : {0u, 3u, 11u}) {  // the last: one array out of line
       const ForcedTarget forced(target);
       double* to[4];
       for (std::size_t i = 0; i < 4; ++i)
