@@ -39,12 +39,12 @@ struct HalfReducer {
       : u_from(u_given), v_from(v_given) {}
   template <int n, int i = 0>
   HWY_INLINE void take(std::size_t at, const Vector (&x)[n], const Vector (&y)[n]) {
-    u.add<i>(rest(u_from + at, x[i]));
-    v.add<i>(rest(v_from + at, y[i]));
+    u.add<i>(rest(u_from, at, x[i]));
+    v.add<i>(rest(v_from, at, y[i]));
     if constexpr (i + 1 < n) take<n, i + 1>(at + hn::Lanes(Doubles()), x, y);
   }
-  static HWY_INLINE Vector rest(const double* from, Vector x) {
-    if constexpr (given) return Sub(x, hn::LoadU(Doubles(), from));
+  static HWY_INLINE Vector rest(const double* from, std::size_t at, Vector x) {
+    if constexpr (given) return Sub(x, hn::LoadU(Doubles(), from + at));
     return x;
   }
 };
