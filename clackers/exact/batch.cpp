@@ -8,9 +8,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/batch_flight-inl.hpp"
+#include "clackers/exact/batch_stage-inl.hpp"
 #include "clackers/numerics/half_turns.hpp"
 #include "clackers/numerics/power_of_two.hpp"
 
@@ -19,105 +21,125 @@ namespace clackers::exact::HWY_NAMESPACE {
 
 inline constexpr std::size_t most_lanes = hn::MaxLanes(Doubles());
 
-template <int n>
-HWY_INLINE void store(const States<n>& s, const PairBuffers& out, std::size_t at) {
-  const Doubles d;
-  for (int i = 0; i < n; ++i, at += hn::Lanes(d)) {
-    hn::StoreU(s.u[0][i], d, out.u1.data() + at);
-    hn::StoreU(s.u[1][i], d, out.u2.data() + at);
-    hn::StoreU(s.v[0][i], d, out.v1.data() + at);
-    hn::StoreU(s.v[1][i], d, out.v2.data() + at);
-  }
-}
+// Where a batch writes, in the kernel's order: u of the slow and of the fast mass, v of both.
+using Places = double* const[4];
 
 // Some times are outside, in decayed motion or next to a collision: all by the path for any E,
 // then one by one those whose flight is not certain. Rare, so it must not be inlined.
 template <class Kind>
 HWY_NOINLINE void sample_rare(const PairBatch& batch, model::Side side, const double* times,
-                              const PairBuffers& out, std::size_t at) {
+                              std::size_t at, const Places& to) {
   const Doubles d;
   const auto& c = batch.constants();
-  States<1> s;
+  Stage stage;
   Vector y;
-  deep_states_at<Kind>(c, {simd::multiplicand(hn::LoadU(d, times)), hn::Zero(d)}, s, y);
-  store<1>(s, out, at);
+  Vectors<2> scale;
+  start_deep<Kind>(c, {simd::multiplicand(hn::LoadU(d, times + at)), hn::Zero(d)}, stage, 0, y,
+                   scale);
+  Vectors<1> u[2], v[2];
+  finish<0, 1>(c.slow, stage, 0, u[0], v[0]);
+  finish<1, 1>(c.fast, stage, 0, u[1], v[1]);
+  for (int m = 0; m < 2; ++m) {
+    hn::StoreU(lower(u[m][0], scale), d, to[m] + at);
+    hn::StoreU(lower(v[m][0], scale), d, to[2 + m] + at);
+  }
   HWY_ALIGN double phase[most_lanes];
   hn::Store(y, d, phase);
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-    const double t = times[i];
+    const double t = times[at + i];
     if (!(t >= 0.0 && t <= c.end))
       refuse("motion", "t", t, fmt::format("0 <= t <= {} (the end of the motion, in s)", c.end), {},
              "time-outside");
     if (c.eta > 0.0 && phase[i] < c.certain && phase[i] > -c.certain) continue;
     const auto [u1, u2, v1, v2] =
         pair_state(batch.flight(), {t, 0.0}, flight_phase(batch.flight(), t, side));
-    out.u1[at + i] = c.exchanged ? u2 : u1;
-    out.u2[at + i] = c.exchanged ? u1 : u2;
-    out.v1[at + i] = c.exchanged ? v2 : v1;
-    out.v2[at + i] = c.exchanged ? v1 : v2;
+    to[0][at + i] = c.exchanged ? u2 : u1;
+    to[1][at + i] = c.exchanged ? u1 : u2;
+    to[2][at + i] = c.exchanged ? v2 : v1;
+    to[3][at + i] = c.exchanged ? v1 : v2;
   }
 }
 
+// The first step for n vectors. Returns where `plain` holds and these times are plain as well.
 template <class Kind, int n>
-HWY_INLINE void sample_some(const PairBatch& batch, model::Side side, const double* times,
-                            const PairBuffers& out, std::size_t at) {
-  const auto& c = batch.constants();
+HWY_INLINE hn::Mask<Doubles> start_some(const BatchConstants& c, const double* times,
+                                        std::size_t at, Stage& stage, hn::Mask<Doubles> plain) {
   const Doubles d;
-  const auto lanes = hn::Lanes(d);
-  Times t[n];
+  Times time[n];
   for (int i = 0; i < n; ++i) {
-    const Vector x = hn::LoadU(d, times + std::size_t(i) * lanes);
-    t[i] = {simd::multiplicand(x), x};
+    const Vector t = hn::LoadU(d, times + at + std::size_t(i) * hn::Lanes(d));
+    time[i] = {simd::multiplicand(t), hn::Zero(d)};
   }
-  States<n> s;
   Vectors<n> y;
-  states_at<Kind, n>(c, t, s, y);
-  store<n>(s, out, at);
-  // Written so that NaN is not plain.
-  auto plain = hn::Lt(hn::Abs(y[0]), constant(c.certain));
+  start<Kind, n>(c, time, stage, at, y);
   for (int i = 0; i < n; ++i) {
-    if (i > 0) plain = hn::And(plain, hn::Lt(hn::Abs(y[i]), constant(c.certain)));
-    plain = hn::And(plain, hn::Ge(t[i].t.x, hn::Zero(d)));
-    plain = hn::And(plain, hn::Le(t[i].t.x, constant(c.plain_end)));
+    // Written so that NaN is not plain.
+    plain = hn::And(plain, hn::Lt(hn::Abs(y[i]), constant(c.certain)));
+    plain = hn::And(plain, hn::Ge(time[i].t.x, hn::Zero(d)));
+    plain = hn::And(plain, hn::Le(time[i].t.x, constant(c.plain_end)));
   }
-  if (HWY_LIKELY(hn::AllTrue(d, plain))) return;
-  for (std::size_t i = 0; i < n; ++i)
-    sample_rare<Kind>(batch, side, times + i * lanes, out, at + i * lanes);
+  return plain;
+}
+
+// The first step for `count` times, whole vectors. False unless all are plain.
+template <class Kind>
+HWY_NOINLINE bool start_all(const BatchConstants& c, const double* times, std::size_t count,
+                            Stage& stage) {
+  const Doubles d;
+  const std::size_t lanes = hn::Lanes(d);
+  auto plain = hn::Eq(hn::Zero(d), hn::Zero(d));
+  std::size_t at = 0;
+  CLACKERS_ROLLED
+  for (; at + in_step * lanes <= count; at += in_step * lanes)
+    plain = start_some<Kind, in_step>(c, times, at, stage, plain);
+  CLACKERS_ROLLED
+  for (; at < count; at += lanes) plain = start_some<Kind, 1>(c, times, at, stage, plain);
+  return hn::AllTrue(d, plain);
+}
+
+// At most as many times as a stage holds, whole vectors.
+template <class Kind>
+void sample_some(const PairBatch& batch, model::Side side, const double* times, std::size_t count,
+                 const Places& to) {
+  const auto& c = batch.constants();
+  Stage stage;
+  if (HWY_LIKELY(start_all<Kind>(c, times, count, stage))) {
+    finish_all<0>(c.slow, stage, count, to[0], to[2]);
+    finish_all<1>(c.fast, stage, count, to[1], to[3]);
+    return;
+  }
+  for (std::size_t i = 0; i < count; i += hn::Lanes(Doubles()))
+    sample_rare<Kind>(batch, side, times, i, to);
 }
 
 template <bool long_phase, bool elastic>
 void sample_all(const PairBatch& batch, model::Side side, const double* times, std::size_t count,
-                const PairBuffers& out) {
+                const Places& to) {
   using Plain = Kind<long_phase, elastic, false>;
-  const Doubles d;
-  const std::size_t lanes = hn::Lanes(d);
-  std::size_t i = 0;
-  for (; i + 2 * lanes <= count; i += 2 * lanes)
-    sample_some<Plain, 2>(batch, side, times + i, out, i);
-  for (; i + lanes <= count; i += lanes) sample_some<Plain, 1>(batch, side, times + i, out, i);
-  if (i == count) return;
+  const std::size_t lanes = hn::Lanes(Doubles()), whole = count - count % lanes;
+  for (std::size_t i = 0; i < whole; i += stage_size)
+    sample_some<Plain>(batch, side, times + i, std::min(stage_size, whole - i),
+                       {to[0] + i, to[1] + i, to[2] + i, to[3] + i});
+  if (whole == count) return;
   // The rest, filled up with its first time.
-  HWY_ALIGN double t[most_lanes], values[4][most_lanes];
-  for (std::size_t j = 0; j < lanes; ++j) t[j] = times[i + j < count ? i + j : i];
-  const PairBuffers part{values[0], values[1], values[2], values[3]};
-  sample_some<Plain, 1>(batch, side, t, part, 0);
-  for (std::size_t j = 0; i + j < count; ++j) {
-    out.u1[i + j] = values[0][j];
-    out.u2[i + j] = values[1][j];
-    out.v1[i + j] = values[2][j];
-    out.v2[i + j] = values[3][j];
-  }
+  double t[most_lanes], values[4][most_lanes];
+  for (std::size_t j = 0; j < lanes; ++j) t[j] = times[whole + j < count ? whole + j : whole];
+  sample_some<Plain>(batch, side, t, lanes, {values[0], values[1], values[2], values[3]});
+  for (int i = 0; i < 4; ++i) std::copy_n(values[i], count - whole, to[i] + whole);
 }
 
 std::int64_t sample_batch(const PairBatch& batch, model::Side side, const double* times,
                           std::size_t count, const PairBuffers& out) {
-  const bool elastic = batch.constants().log2_eta.hi == 0.0;
-  if (batch.constants().long_phase)
-    elastic ? sample_all<true, true>(batch, side, times, count, out)
-            : sample_all<true, false>(batch, side, times, count, out);
+  const auto& c = batch.constants();
+  const bool elastic = c.log2_eta.hi == 0.0, swap = c.exchanged;
+  const Places to = {(swap ? out.u2 : out.u1).data(), (swap ? out.u1 : out.u2).data(),
+                     (swap ? out.v2 : out.v1).data(), (swap ? out.v1 : out.v2).data()};
+  if (c.long_phase)
+    elastic ? sample_all<true, true>(batch, side, times, count, to)
+            : sample_all<true, false>(batch, side, times, count, to);
   else
-    elastic ? sample_all<false, true>(batch, side, times, count, out)
-            : sample_all<false, false>(batch, side, times, count, out);
+    elastic ? sample_all<false, true>(batch, side, times, count, to)
+            : sample_all<false, false>(batch, side, times, count, to);
   return HWY_TARGET;
 }
 
@@ -184,12 +206,7 @@ PairBatch::PairBatch(const FlightConstants& constants)
 numerics::simd::Target PairBatch::sample(std::span<const double> times, model::Side side,
                                          const PairBuffers& out) const {
   require_size(out, times.size());
-  PairBuffers slow_first = out;
-  if (constants_.exchanged) {
-    std::swap(slow_first.u1, slow_first.u2);
-    std::swap(slow_first.v1, slow_first.v2);
-  }
-  return {HWY_DYNAMIC_DISPATCH(sample_batch)(*this, side, times.data(), times.size(), slow_first)};
+  return {HWY_DYNAMIC_DISPATCH(sample_batch)(*this, side, times.data(), times.size(), out)};
 }
 
 }  // namespace clackers::exact

@@ -33,6 +33,9 @@ struct Block {
 struct Anchors {
   static constexpr std::size_t most = 2 * hn::MaxLanes(Doubles());
   HWY_ALIGN double uc[2][most], us[2][most], vc[2][most], vs[2][most];
+  // Where the slow mass is nearer to 0 the flight is not certain. Within a block E falls by 2^14 at
+  // most, so |cos theta| >= 2^-32 is certain and more than 2^-18 never called uncertain.
+  HWY_ALIGN double certain[most];
 };
 
 HWY_INLINE Pair all_lanes(const Factor& f) { return {constant(f.hi), constant(f.lo)}; }
@@ -47,8 +50,11 @@ HWY_NOINLINE inline void make_anchors(const BatchConstants& c, const Turns (&now
     for (std::size_t g = 0; g < 2; ++g) {
       const Pair &cosine = now[g].cosine[m], &sine = now[g].sine[m];
       const std::size_t at = g * hn::Lanes(d);
-      hn::Store(simd::multiply(b, cosine).hi, d, a.uc[m] + at);
-      hn::Store(Neg(simd::multiply(b, sine).hi), d, a.us[m] + at);
+      const Vector uc = simd::multiply(b, cosine).hi, us = simd::multiply(b, sine).hi;
+      hn::Store(uc, d, a.uc[m] + at);
+      hn::Store(Neg(us), d, a.us[m] + at);
+      if (m == 0)
+        hn::Store(Mul(constant(0x1p-32), Add(hn::Abs(uc), hn::Abs(us))), d, a.certain + at);
       hn::Store(simd::dot(v_cos, cosine, v_sin, sine).hi, d, a.vc[m] + at);
       hn::Store(simd::dot(v_sin, cosine, minus(v_cos), sine).hi, d, a.vs[m] + at);
     }
@@ -105,7 +111,7 @@ HWY_INLINE void run_line(const TurnTable& table, const Anchor& a, std::size_t j,
   half.template take<line>(j, u, v);
 }
 
-/// All samples of a block, for sinks that need the registers one mass after the other.
+/// All samples of a block; for sinks that are `apart` one mass after the other.
 template <class Sink, class Slow, class Fast>
 HWY_INLINE void run_lines(const TurnTable& table, const Anchors& anchors, std::size_t lane,
                           SlowMass& state, Slow& slow, Fast& fast) {
@@ -148,9 +154,7 @@ HWY_NOINLINE bool run_block(const TurnTable& table, const Anchors& a, std::size_
   auto slow = sink.template half<0>(at);
   auto fast = sink.template half<1>(at);
   run_lines<Sink>(table, a, lane, state, slow, fast);
-  // Within the block E falls by 2^14 at most, so |cos theta| >= 2^-32 is certain and more than
-  // 2^-18 never called uncertain.
-  const Vector certain = constant(0x1p-32 * (std::abs(a.uc[0][lane]) + std::abs(a.us[0][lane])));
+  const Vector certain = constant(a.certain[lane]);
   if (HWY_UNLIKELY(!hn::AllTrue(Doubles(), hn::Gt(state.least, certain)))) return false;
   sink.template keep<0>(slow);
   sink.template keep<1>(fast);

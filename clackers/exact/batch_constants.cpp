@@ -34,7 +34,8 @@ BatchConstants batch_constants(const FlightConstants& flight) {
   double smallest = 1.0;
   for (const auto& mass : flight.masses)
     smallest = std::min({smallest, mass.u_envelope, mass.v_envelope});
-  const double room = 959.0 + std::log2(smallest) + 0.5 * flight.log2_eta.hi;
+  // ilogb rounds a logarithm down, in a tenth of its time.
+  const double room = 959.0 + std::ilogb(smallest) + 0.5 * flight.log2_eta.hi;
   c.plain_end = flight.end;
   if (halvings * flight.end > room) c.plain_end = std::max(0.0, room / halvings);
   if (flight.eta == 0.0) c.plain_end = std::min(c.plain_end, 0.499 * flight.period.hi);

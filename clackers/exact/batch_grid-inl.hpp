@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "clackers/exact/batch_block-inl.hpp"
+#include "clackers/exact/batch_stage-inl.hpp"
 
 #if defined(CLACKERS_BATCH_GRID) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLACKERS_BATCH_GRID
@@ -41,9 +42,8 @@ HWY_NOINLINE inline void careful_block(const PairBatch& batch, const UniformGrid
   auto slow = writer.half<0>(0);
   auto fast = writer.half<1>(0);
   run_lines<BlockWriter>(table, a, lane, state, slow, fast);
-  const double certain = 0x1p-32 * (std::abs(a.uc[0][lane]) + std::abs(a.us[0][lane]));
   for (std::size_t i = 0; i < count; ++i)
-    if (!(std::abs(block.values[0][i]) > certain))
+    if (!(std::abs(block.values[0][i]) > a.certain[lane]))
       exact_state(batch, instant(grid, double(first + i)), block, i);
 }
 
@@ -56,37 +56,54 @@ HWY_INLINE Times instants(const UniformGrid& grid, std::size_t first) {
   return {simd::multiplicand(t.hi), t.lo};
 }
 
+/// What direct_block knows of its samples besides their stage.
+struct Direct {
+  bool plain;  ///< otherwise the results are to be multiplied by `scale` (see start_deep)
+  HWY_ALIGN double phase[block_size], scale[2][block_size];
+};
+
+template <class Kind>
+HWY_NOINLINE void start_block(const BatchConstants& c, const UniformGrid& grid, std::size_t first,
+                              std::size_t count, Stage& stage, Direct& direct) {
+  const Doubles d;
+  for (std::size_t j = 0; j < count; j += hn::Lanes(d)) {
+    const Times t[1] = {instants(grid, first + j)};
+    Vectors<1> y;
+    if (direct.plain) {
+      start<Kind, 1>(c, t, stage, j, y);
+    } else {
+      Vectors<2> scale;
+      start_deep<Kind>(c, t[0], stage, j, y[0], scale);
+      for (int i = 0; i < 2; ++i) hn::Store(scale[i], d, direct.scale[i] + j);
+    }
+    hn::Store(y[0], d, direct.phase + j);
+  }
+}
+
 /// A block of samples, each from its own phase.
 template <class Kind>
 void direct_block(const PairBatch& batch, const UniformGrid& grid, std::size_t first,
                   std::size_t count, Block& block) {
   const Doubles d;
-  const std::size_t lanes = hn::Lanes(d);
+  const std::size_t lanes = hn::Lanes(d), whole = (count + lanes - 1) / lanes * lanes;
   const auto& c = batch.constants();
+  Stage stage;
+  Direct direct;
   // A step more, for what the product rounds.
-  const bool plain = grid.start + double(first + block_size + 1) * grid.step <= c.plain_end;
-  for (std::size_t j = 0; j < count; j += 2 * lanes) {
-    const Times t[2] = {instants(grid, first + j), instants(grid, first + j + lanes)};
-    States<2> s;
-    Vectors<2> y;
-    if (plain) {
-      states_at<Kind, 2>(c, t, s, y);
-    } else {
-      for (int i = 0; i < 2; ++i) {
-        States<1> one;
-        deep_states_at<Kind>(c, t[i], one, y[i]);
-        for (int m = 0; m < 2; ++m) s.u[m][i] = one.u[m][0], s.v[m][i] = one.v[m][0];
+  direct.plain = grid.start + double(first + block_size + 1) * grid.step <= c.plain_end;
+  start_block<Kind>(c, grid, first, count, stage, direct);
+  finish_all<0>(c.slow, stage, whole, block.values[0], block.values[2]);
+  finish_all<1>(c.fast, stage, whole, block.values[1], block.values[3]);
+  if (!direct.plain)
+    for (auto& values : block.values)
+      for (std::size_t j = 0; j < whole; j += lanes) {
+        const Vectors<2> scale = {hn::Load(d, direct.scale[0] + j),
+                                  hn::Load(d, direct.scale[1] + j)};
+        hn::Store(lower(hn::Load(d, values + j), scale), d, values + j);
       }
-    }
-    const BlockWriter writer{&block};
-    writer.half<0>(j).take(0, s.u[0], s.v[0]);
-    writer.half<1>(j).take(0, s.u[1], s.v[1]);
-    HWY_ALIGN double phase[2 * hn::MaxLanes(Doubles())];
-    for (int i = 0; i < 2; ++i) hn::Store(y[i], d, phase + std::size_t(i) * lanes);
-    for (std::size_t i = 0; i < 2 * lanes && j + i < count; ++i)
-      if (!(std::abs(phase[i]) < c.certain) || c.eta == 0.0)
-        exact_state(batch, instant(grid, double(first + j + i)), block, j + i);
-  }
+  for (std::size_t i = 0; i < count; ++i)
+    if (!(std::abs(direct.phase[i]) < c.certain) || c.eta == 0.0)
+      exact_state(batch, instant(grid, double(first + i)), block, i);
 }
 
 /// Samples `first` to `last` of a grid one by one.

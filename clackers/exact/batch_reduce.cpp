@@ -11,21 +11,20 @@
 HWY_BEFORE_NAMESPACE();
 namespace clackers::exact::HWY_NAMESPACE {
 
-/// The largest magnitude and the sum of squares of one component. Two sums, since one would wait for
-/// itself.
+/// The largest magnitude and the sum of squares of one component.
 struct Component {
-  Vector largest, even, odd;
+  Vector largest, squares;
 
   // Written out, so that it is compiled for the target.
-  HWY_INLINE Component() : largest(constant(0.0)), even(largest), odd(largest) {}
-  template <int i>
-  HWY_INLINE void add(Vector x) {
-    largest = hn::Max(largest, hn::Abs(x));
+  HWY_INLINE Component() : largest(constant(0.0)), squares(largest) {}
+  /// Squares of a line are summed apart: the running sum then waits once a line for itself.
+  template <int n>
+  HWY_INLINE void add(const Vector (&x)[n]) {
+    Vector line_squares = Mul(x[0], x[0]);
+    for (int i = 1; i < n; ++i) line_squares = MulAdd(x[i], x[i], line_squares);
     // NaN stays in the sum, while the largest forgets it.
-    if constexpr (i % 2 == 0)
-      even = MulAdd(x, x, even);
-    else
-      odd = MulAdd(x, x, odd);
+    squares = Add(squares, line_squares);
+    for (int i = 0; i < n; ++i) largest = hn::Max(largest, hn::Abs(x[i]));
   }
 };
 
@@ -37,15 +36,17 @@ struct HalfReducer {
 
   HWY_INLINE HalfReducer(const double* u_given, const double* v_given)
       : u_from(u_given), v_from(v_given) {}
-  template <int n, int i = 0>
-  HWY_INLINE void take(std::size_t at, const Vector (&x)[n], const Vector (&y)[n]) {
-    u.add<i>(rest(u_from, at, x[i]));
-    v.add<i>(rest(v_from, at, y[i]));
-    if constexpr (i + 1 < n) take<n, i + 1>(at + hn::Lanes(Doubles()), x, y);
+  template <int n>
+  HWY_INLINE void take(std::size_t at, Vector (&x)[n], Vector (&y)[n]) {
+    if constexpr (given) subtract(u_from + at, x), subtract(v_from + at, y);
+    u.add(x);
+    v.add(y);
   }
-  static HWY_INLINE Vector rest(const double* from, std::size_t at, Vector x) {
-    if constexpr (given) return Sub(x, hn::LoadU(Doubles(), from + at));
-    return x;
+  template <int n>
+  static HWY_INLINE void subtract(const double* from, Vector (&x)[n]) {
+    const Doubles d;
+    for (std::size_t i = 0; i < std::size_t(n); ++i)
+      x[i] = Sub(x[i], hn::LoadU(d, from + i * hn::Lanes(d)));
   }
 };
 
@@ -75,7 +76,7 @@ struct Reducer {
   }
   HWY_INLINE void keep(int i, const Component& part) {
     largest[i] = hn::Max(largest[i], part.largest);
-    squares[i] = Add(squares[i], Add(part.even, part.odd));
+    squares[i] = Add(squares[i], part.squares);
   }
   void take_some(std::size_t at, const Block& block, std::size_t count) {
     const Doubles d;
@@ -89,7 +90,8 @@ struct Reducer {
           if constexpr (given)
             if (in) x[j] -= from[c][at + i + j];
         }
-        own.add<0>(hn::Load(d, x));
+        const Vectors<1> one = {hn::Load(d, x)};
+        own.add(one);
       }
       keep(c, own);
     }

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "clackers/base/error.hpp"
+#include "clackers/exact/frequency_ratio.hpp"
 #include "clackers/exact/single_mass.hpp"
 #include "clackers/exact/test_batch.hpp"
 
@@ -70,6 +71,33 @@ TEST(PairBatch, IsWithinItsBoundOverTheWholeBoxOnEveryTarget) {
       EXPECT_LE(worst_units(batch, times, Side::right, target), bound_at_times(p.eta))
           << target.name();
   }
+}
+
+TEST(PairBatch, KeepsItsBoundUpToTheLargestRatio) {
+  // A whole number of 30 bits: halves of 26 bits, of which a product consists without FMA, are not
+  // enough for it. Phases need the long sums from the second end on.
+  Box box(10);
+  for (const double end : {1e4, 1e7})
+    for (const double X : {largest_ratio - 1.0, 1.0 / (largest_ratio - 1.0)}) {
+      const SynchronizedPair truth(
+          {.xi1 = 1e-8, .X = X, .r = X > 1.0 ? 0.5 : 2.0, .t_end = X > 1.0 ? end : end * 1e9});
+      const PairBatch batch(truth.flight());
+      const auto times = some_times(box, truth.end());
+      const UniformGrid grid{0.0, truth.end() / 1000.0, 1000};
+      for (const auto& target : available_targets()) {
+        EXPECT_LE(worst_units(batch, times, Side::right, target), bound_at_times(1.0))
+            << target.name() << ", X " << X << ", end " << end;
+        const ForcedTarget forced(target);
+        Arrays found(grid.count);
+        batch.sample(grid, found.buffers());
+        for (std::size_t i = 0; i < grid.count; ++i) {
+          const auto t = instant(grid, double(i));
+          const auto phase = flight_phase(batch.flight(), t);
+          ASSERT_LE(units(found.at(i), unrounded_state(batch.flight(), t, phase)), bound_on_grids)
+              << target.name() << ", X " << X << ", sample " << i;
+        }
+      }
+    }
 }
 
 TEST(PairBatch, TakesTheTrueFlightAtTheDoublesNextToCollisions) {

@@ -55,7 +55,7 @@ HWY_NOINLINE inline Turns lane_turns(Turns& step) {
   Turns result = all_lanes({{{1.0, 0.0}, {1.0, 0.0}}, {{0.0, 0.0}, {0.0, 0.0}}});
   for (std::size_t bit = 1; bit < hn::Lanes(d); bit *= 2) {
     const auto chosen = hn::RebindMask(d, hn::TestBit(number, hn::Set(di, std::int64_t(bit))));
-    const Turns turned = multiply(result, step);
+    const Turns turned = bit == 1 ? step : multiply(result, step);
     for (int m = 0; m < 2; ++m) {
       const auto choose = [&](Pair& old, const Pair& now) HWY_ATTR {
         old.hi = hn::IfThenElse(chosen, now.hi, old.hi);

@@ -35,6 +35,11 @@ using Vectors = Vector[n];
 /// All lanes x.
 HWY_INLINE Vector constant(double x) { return hn::Set(Doubles(), x); }
 
+/// Two terms of a polynomial, high x + low. Not a lambda in the loops over n: GCC 12 fails on it.
+HWY_INLINE Vector terms(double high, Vector x, double low) {
+  return MulAdd(constant(high), x, constant(low));
+}
+
 }  // namespace clackers::numerics::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
