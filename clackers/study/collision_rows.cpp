@@ -32,7 +32,8 @@ class CollisionRows : public RowSource {
   std::string schema() const override { return "clackers/collisions/1"; }
   std::string title() const override {
     if (total_ > 0) return "Collisions of " + name_;
-    return fmt::format("Collisions of {}: none until the end of its run, {} s", name_, motion_.end());
+    return fmt::format("Collisions of {}: none until the end of its run, {} s", name_,
+                       motion_.end());
   }
   const std::vector<Column>& columns() const override { return columns_; }
 
