@@ -1,7 +1,6 @@
 // Blocks of samples on a uniform grid. Compiled once for every target.
 #include <hwy/highway.h>
 
-#include <cmath>
 #include <cstddef>
 
 #include "clackers/exact/batch_turns-inl.hpp"

@@ -86,6 +86,28 @@ TEST(Grid, TakesTheTrueFlightAtInstantsBesideCollisions) {
             << target.name() << ", step " << step << ", start " << start;
 }
 
+TEST(Grid, TakesTheTrueFlightWhereCollisionsLieWithinBlocks) {
+  // There a displacement is the sum of two that are not small, and its sign may be wrong.
+  Box box(18);
+  for (int i = 0; i < trials(300); ++i) {
+    const SynchronizedPair truth({.k1 = box.decades(-0.1, 0.1), .xi1 = 0.0, .t_end = 30.0});
+    const PairBatch batch(truth.flight());
+    const double step = truth.flight().period.hi / 64.0;
+    const UniformGrid grid{truth.impact(1).t - 17.0 * step, step, 256};
+    for (const auto& target : available_targets()) {
+      const ForcedTarget forced(target);
+      Arrays found(grid.count);
+      batch.sample(grid, found.buffers());
+      for (std::size_t k = 17; k < grid.count; k += 64) {
+        const auto t = instant(grid, double(k));
+        const auto state = unrounded_state(batch.flight(), t, flight_phase(batch.flight(), t));
+        EXPECT_LE(units(found.at(k), state), bound_on_grids)
+            << target.name() << ", seed 18, member " << i << ", sample " << k;
+      }
+    }
+  }
+}
+
 TEST(Grid, AgreesWithTheOracleWhereItsInstantsAreDoubles) {
   Box box(19);
   for (int i = 0; i < trials(6); ++i) {

@@ -100,12 +100,11 @@ HWY_INLINE void start_deep(const BatchConstants& c, const Times& time, Stage& st
   start_phases<Kind, 1>(c, {time}, stage, at, y, k);
   phase = y[0];
   const auto full = halvings<Kind>(c, time, k[0]);
-  // Below 2^-4080 every product with a constant is nearer to 0 than to the smallest subnormal.
-  const auto in_range = Lt(full.hi, constant(4080.0));
+  // Below 2^-4080 every product with a constant is nearer to 0 than to the smallest subnormal, and
+  // all that matters is that r stays finite: w is below 2^80 in a motion of 2^50 half periods.
   const Vector w = Min(full.hi, constant(4080.0));
   const Vector back = simd::nearest_whole(w);
-  // Out of range the low part may be any number.
-  const Vectors<1> r = {Sub(Sub(back, w), IfThenElse(in_range, full.lo, constant(0.0)))};
+  const Vectors<1> r = {Sub(Sub(back, w), full.lo)};
   Vectors<1> e, low;
   simd::power_of_two<1>(r, e, low);
   hn::Store(e[0], d, stage.e + at);
