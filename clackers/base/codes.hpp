@@ -54,6 +54,18 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"no-convergence-yet", "reason",
      "The error has not started to shrink in a regular way. Use smaller steps: more --levels or a "
      "smaller --coarsest."},
+    {"no-fixed-order", "reason",
+     "The error falls faster with every refinement, beyond the claimed order, and no power of the "
+     "step describes it: exponential convergence, or a bend before a line of higher order."},
+    {"wrong-limit", "reason",
+     "The runs converge to a limit that is not the true motion. Differences between runs cannot see "
+     "that; only a true motion or a second model can."},
+    {"improper-convergence", "reason",
+     "The differences between runs at successive steps do not fall as the claimed order asks, so "
+     "nothing bounds the error of an extrapolated value."},
+    {"differences-turn", "reason",
+     "The differences between runs at successive steps change sign or direction, so they are not "
+     "the terms of one expansion and nothing bounds the error of an extrapolated value."},
     {"run-failed", "reason", "Runs ended before their end time; the first failure is quoted."},
     {"energy-growth", "reason", "The run's energy left [1/2, 2] of the true one."},
     {"error-growth", "reason", "The error grew when the step was refined."},
@@ -105,6 +117,9 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"not-a-record", "refusal",
      "The text is no json of a verify run: broken, of another schema, or with a missing or unknown "
      "field. The message says where."},
+    {"other-study", "refusal",
+     "The record given as --baseline is of another case, other parameters or another ladder of "
+     "steps. The message says which, with the options of both."},
     {"not-whole", "refusal", "A whole number was asked for and one with a fraction was given."},
     {"penalty-needs-elastic", "refusal",
      "A linear penalty spring gives back what it takes, so it can only stand for restitution 1."},
@@ -127,6 +142,33 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
      "More digits than a double has were asked of a motion that is known to double precision "
      "only."},
     {"time-outside", "refusal", "A time lies outside the interval in which the motion is known."},
+    {"three-limits", "refusal",
+     "Three or more rows of a history share one time. A jump has two limits: keep the row before it "
+     "and the row after it."},
+    {"too-few-times", "refusal", "A history needs at least two different times to be judged."},
+    // Files of other programs.
+    {"not-text", "refusal",
+     "A history must be rows of numbers as text in ASCII or UTF-8; the file is binary, UTF-16, or "
+     "has a line of more than 65536 bytes."},
+    {"no-column", "refusal",
+     "A column that is needed is missing or stands twice, or the columns have no names. Name them "
+     "in a header line or with --columns t,u1,v1,...; an underscore leaves one out."},
+    {"ragged-row", "refusal", "A row has more or fewer fields than the header or the first row."},
+    {"decimal-comma", "refusal",
+     "Numbers take a decimal point. A file with decimal commas must be written anew, for example "
+     "with  tr , .  where commas separate nothing."},
+    {"not-sorted", "refusal",
+     "Times must not descend, and at most two rows may have the same time: the left and the right "
+     "limit of a jump. Sort the rows, or print times with more digits."},
+    {"too-short", "refusal", "A history needs at least two different times."},
+    {"not-this-case", "refusal",
+     "The history starts from another state than the case. The message says which value differs "
+     "and, where one parameter can mend it, its value for --set."},
+    {"printed-digits", "reason",
+     "The floor is the rounding of the printed numbers. Print more digits: 17 keep a double whole."},
+    {"sparse-rows", "reason",
+     "The rows of the history lie too far apart to find collisions in them. Print more rows, or "
+     "give the collisions with --events."},
     // Files and the outside world.
     {"cannot-write", "failure",
      "A file could not be written; nothing half-written was left behind."},
