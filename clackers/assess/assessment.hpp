@@ -15,7 +15,9 @@ struct LadderFit {
   bool has_line = false;     ///< false: order, spread and constant mean nothing
   bool on_envelope = false;  ///< the line is that of the upper envelope of each level
   double order = 0.0;
-  double spread = 0.0;   ///< half width of the order's 95 % confidence interval
+  double spread =
+      0.0;  ///< half width of the order's 95 % confidence interval, or how far the finest
+            ///< rate lies from it where the rates move one way and that is more
   double scatter = 1.0;  ///< largest factor between raw errors and the line, over the window
   double constant = 0.0;
   int first_level = 0, last_level = 0;  ///< window of the line, zero-based, inclusive

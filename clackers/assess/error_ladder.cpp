@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
@@ -21,12 +22,13 @@ LevelView view_level(ErrorLevel level) {
   LevelView seen;
   seen.error = -1.0;
   if (!level.empty()) seen.step = level.front().step;
-  std::size_t finite = 0, rounding = 0;
+  std::size_t finite = 0, rounding = 0, bending = 0;
   for (const auto& point : level) {
     validate(point);
     if (!std::isfinite(point.error)) continue;
     ++finite;
     rounding += point.error <= rounding_slack * point.floor;
+    bending += point.error <= bending_slack * point.floor;
     if (point.error > seen.error) {
       seen.error = point.error;
       seen.step = point.step;
@@ -39,6 +41,7 @@ LevelView view_level(ErrorLevel level) {
   seen.usable = finite > 0 && 2 * finite >= level.size();
   seen.at_floor = seen.usable && rounding == finite;
   seen.near_floor = seen.usable && 4 * rounding >= finite;
+  seen.may_bend = seen.usable && 4 * bending >= finite;
   if (!seen.usable) seen.error = std::numeric_limits<double>::quiet_NaN();
   return seen;
 }
@@ -47,7 +50,15 @@ LevelView view_level(ErrorLevel level) {
 
 std::vector<LevelView> view(std::span<const ErrorLevel> ladder) {
   std::vector<LevelView> levels;
-  for (const auto& level : ladder) levels.push_back(view_level(level));
+  double before = std::numeric_limits<double>::infinity();
+  for (const auto& level : ladder) {
+    levels.push_back(view_level(level));
+    for (const auto& point : level)
+      if (!(point.step < before))
+        refuse("ladder fit", "a step of level " + std::to_string(levels.size()), point.step,
+               "below every step of the level before it", "Give the levels coarsest first.");
+    for (const auto& point : level) before = std::min(before, point.step);
+  }
   return levels;
 }
 

@@ -19,6 +19,10 @@ using ErrorLevel = std::vector<ErrorPoint>;
 /// (steps times 2^-52) knows nothing of how a motion magnifies a rounding error.
 inline constexpr double rounding_slack = 10.0;
 
+/// Rounding at its worst, `rounding_slack` floors, bends a line by less than a tenth only where errors
+/// are this many floors. Between the two, levels that leave a line may do so by rounding.
+inline constexpr double bending_slack = rounding_slack * rounding_slack;
+
 /// A level as the fit sees it, in logarithmic axes.
 struct LevelView {
   std::vector<double> x, y;  ///< ln step descending, ln error; failed runs and zero errors left out
@@ -27,10 +31,13 @@ struct LevelView {
   bool usable = false;       ///< at least half of its runs came to an end with a finite error
   bool at_floor = false;     ///< usable, and no error above rounding_slack times its floor
   bool near_floor = false;   ///< usable, and at least a quarter of the errors is not above it
+  bool may_bend = false;     ///< the same with bending_slack
 };
 
-/// Throws InputError unless every step is positive and finite, every error >= 0 or not finite, and
-/// every floor >= 0.
+/// Throws InputError unless every step is positive and finite, every error >= 0 or not finite, every
+/// floor >= 0, and every step of a level is smaller than all steps of the levels before it. A ladder
+/// given finest first is refused and not turned round: whoever gave it may have meant other errors
+/// with it. A step may stand twice in one level.
 std::vector<LevelView> view(std::span<const ErrorLevel> ladder);
 
 }  // namespace clackers::assess

@@ -34,7 +34,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Whether the coarsest level lies more than a factor 4 off the line of medians (Theil and Sen), to
+// Whether the coarsest level lies more than a factor `leading_level` off the line of medians (Theil and Sen), to
 // which two levels of eight that lie elsewhere do nothing.
 bool first_lies_off(std::span<const LevelView> levels, int first, int last) {
   std::vector<double> x, y, slopes, heights;
@@ -46,28 +46,49 @@ bool first_lies_off(std::span<const LevelView> levels, int first, int last) {
     for (std::size_t j = 0; j < i; ++j) slopes.push_back((y[i] - y[j]) / (x[i] - x[j]));
   const double slope = median(slopes);
   for (std::size_t i = 0; i < x.size(); ++i) heights.push_back(y[i] - slope * x[i]);
-  return std::abs(heights.front() - median(heights)) > std::log(4.0);
+  return std::abs(heights.front() - median(heights)) > std::log(leading_level);
 }
 
 }  // namespace
 
 bool zigzags(std::span<const LevelView> levels, int first, int last) {
-  constexpr std::size_t enough_points = 10;
   std::vector<double> x, y;
-  for (int i = last; i >= first && (last - i < shortest_window || x.size() < enough_points); --i) {
+  for (int i = last; i >= first && (last - i < shortest_window || std::ssize(x) < enough_points);
+       --i) {
     const auto& level = levels[std::size_t(i)];
     x.insert(x.begin(), level.x.begin(), level.x.end());
     y.insert(y.begin(), level.y.begin(), level.y.end());
   }
   const auto bend = bends(x, y);
-  const double least = std::log(1.1);
+  const double least = std::log(zigzag_bend);
   int places = 0, zigs = 0;
   for (std::size_t i = 1; i < bend.size(); ++i) {
     ++places;
     zigs +=
         bend[i] * bend[i - 1] < 0.0 && std::min(std::abs(bend[i]), std::abs(bend[i - 1])) > least;
   }
-  return zigs >= 4 && 4 * zigs > places;
+  return zigs >= least_turns && zigs > zigzag_share * places;
+}
+
+bool swings(std::span<const LevelView> levels, int first, int last) {
+  std::vector<double> x, y;
+  for (int i = first; i <= last; ++i) {
+    const auto& level = levels[std::size_t(i)];
+    x.insert(x.end(), level.x.begin(), level.x.end());
+    y.insert(y.end(), level.y.begin(), level.y.end());
+  }
+  if (std::ssize(x) < enough_points) return false;
+  const auto line = numerics::fit_line(x, y);
+  const double least = 0.5 * std::log(straight_scatter);
+  int turns = 0;
+  double side = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double residual = y[i] - line.at(x[i]);
+    if (std::abs(residual) <= least) continue;
+    turns += side * residual < 0.0;
+    side = residual;
+  }
+  return turns >= least_turns;
 }
 
 std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, int last) {

@@ -40,7 +40,8 @@ bool energy_left(const Ladder& ladder) {
   if (ladder.size() < 2) return false;
   return std::all_of(ladder.end() - 2, ladder.end(), [](const Level& level) {
     const auto wrong = [](const RunScore& run) {
-      return run.finished && (run.energy_ratio < 0.5 || run.energy_ratio > 2.0);
+      return run.finished &&
+             (run.energy_ratio < least_energy_ratio || run.energy_ratio > largest_energy_ratio);
     };
     return 2 * std::ranges::count_if(level.runs, wrong) > std::ssize(level.runs);
   });
@@ -88,7 +89,8 @@ Verdict compare(const LadderFit& fit, const Claim& claim) {
     case Behaviour::irregular:
       if (off > fit.spread && off > envelope_order_tolerance * claim.order)
         return Verdict::disagrees;
-      return off > envelope_order_tolerance * claim.order || fit.spread > 0.5 * claim.order
+      return off > envelope_order_tolerance * claim.order ||
+                     fit.spread > envelope_spread * claim.order
                  ? Verdict::undecided
                  : Verdict::agrees;
     case Behaviour::stagnating:
@@ -107,7 +109,9 @@ std::string conclusion(const Assessment& found, const Claim& claim) {
     return claimed + "; more levels are needed to tell.";
   if (found.displacement.behaviour == Behaviour::proper && found.displacement.order > claim.order &&
       found.verdict == Verdict::disagrees && claim.behaviour == Behaviour::proper)
-    return claimed + "; it converges faster, so the claim is too low or errors cancel here.";
+    return claimed +
+           "; it converges faster, better than claimed: the claim is too low or errors "
+           "cancel here.";
   return claimed + ".";
 }
 

@@ -13,6 +13,14 @@ namespace clackers::assess {
 inline constexpr double order_tolerance = 0.1;
 inline constexpr double envelope_order_tolerance = 0.25;
 
+/// A run that ends with less or more than these shares of the true energy has not followed the
+/// motion, whatever its error relative to an envelope: beyond a factor 2 amplitudes are off by 0.29
+/// of themselves at least.
+inline constexpr double least_energy_ratio = 0.5, largest_energy_ratio = 2.0;
+
+/// An envelope whose order is uncertain by more than this share of the claim decides nothing.
+inline constexpr double envelope_spread = 0.5;
+
 /// Judges a method by its ladder, coarsest level first, against its claim through impacts
 /// (`undecided` claims nothing). `contact_time` [s] is that of a compliant contact, 0 for a rigid
 /// one.

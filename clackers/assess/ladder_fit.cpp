@@ -6,13 +6,12 @@
 #include <numeric>
 
 #include "clackers/assess/irregular.hpp"
+#include "clackers/assess/rate_trend.hpp"
 #include "clackers/assess/window.hpp"
 #include "clackers/base/codes.hpp"
 
 namespace clackers::assess {
 namespace {
-
-constexpr int shortest_plateau = 3;
 
 /// One pass over one ladder. `finest` is its last level, `clear` the last one well above the
 /// rounding floor, `first` the start of the usable levels that lead there without a gap, `tracked`
@@ -46,8 +45,10 @@ class Fitter {
     if (!level(finest_).usable) return finest_failed();
     find_range();
     if (clear_ < 0) return at_floor_throughout();
-    if (proper() || floor_too_near()) return;
-    if (straight() || plateau() || rough() || growth() || outliers()) return;
+    if (proper(clear_) || floor_too_near()) return;
+    if (straight() || plateau() || rough() || growth() || outliers() || swinging()) return;
+    if (bent_by_rounding()) return;
+    if (rising()) return undecided("no-fixed-order");
     undecided(last_rates_fit_claim() ? Code("too-few-levels") : Code("no-convergence-yet"));
   }
 
@@ -80,19 +81,27 @@ class Fitter {
     undecided("run-failed");
   }
 
-  // The claimed line, as far towards the rounding floor as it goes.
-  bool proper() {
+  // The claimed line, as far towards the rounding floor as it goes, but to level `least` at least.
+  bool proper(int least) {
     if (!(context_.claimed_order > 0.0)) return false;
     const Straightness asked{.rates = 0.1 * context_.claimed_order,
                              .around_slope = false,
                              .centre = context_.claimed_order};
-    for (int last = finest_; last >= std::max(clear_, first_); --last)
+    for (int last = finest_; last >= std::max(least, first_); --last)
       if (const auto found = longest_straight(levels_, first_, last, asked)) {
         line(*found);
         behave(Behaviour::proper);
         return true;
       }
     return false;
+  }
+
+  // Where nothing else explains them, up to two levels in front of the floor may be bent by it: that
+  // many lie between the two slacks when an error of order one meets a rounding that grows.
+  bool bent_by_rounding() {
+    int least = clear_;
+    while (least > clear_ - 2 && least > first_ && level(least).may_bend) --least;
+    return above_ < finest_ && least < clear_ && proper(least);
   }
 
   bool floor_too_near() {
@@ -112,7 +121,7 @@ class Fitter {
     }
     if (slope > 0.0 && may_still_reach(claimed, *found)) {
       // Rates may also stray because the points scatter, still within what a line allows.
-      if (rough()) return true;
+      if (rough() || bent_by_rounding()) return true;
       undecided(last_rates_fit_claim() ? Code("too-few-levels") : Code("no-convergence-yet"));
       return true;
     }
@@ -122,23 +131,6 @@ class Fitter {
     else
       behave(claimed > 0.0 && slope < claimed ? Behaviour::reduced : Behaviour::proper);
     return true;
-  }
-
-  // Whether a line of another slope than claimed might be the bend in front of the claimed one: its
-  // slope or its finest rate lies within the tolerance, or its last three rates move towards the
-  // claim by more than scatter would.
-  static bool may_still_reach(double claimed, const Window& found) {
-    constexpr double least_move = 0.04;
-    if (!(claimed > 0.0)) return false;
-    const auto& rates = found.rates;
-    const auto n = rates.size();
-    const double way = claimed > found.line.slope ? 1.0 : -1.0;
-    const auto short_of = [&](double rate) { return way * (claimed - rate) > 0.1 * claimed; };
-    // A slope that its own uncertainty carries into the tolerance contradicts nothing.
-    if (!short_of(found.line.slope + way * found.line.slope_spread) || !short_of(rates[n - 1]))
-      return true;
-    return way * (rates[n - 1] - rates[n - 2]) > least_move &&
-           way * (rates[n - 2] - rates[n - 3]) > least_move;
   }
 
   bool plateau() {
@@ -158,9 +150,21 @@ class Fitter {
 
   // A line but for a few raw points far above it: too wide for a line.
   bool outliers() {
-    if (!longest_straight(levels_, first_, clear_, {.outliers_of = 16})) return false;
+    if (!longest_straight(levels_, first_, clear_, {.outliers_of = luck_share})) return false;
     envelope_decides();
     return true;
+  }
+
+  // Stairs, and errors that oscillate over whole levels, converge without a line.
+  bool swinging() {
+    if (clear_ - tracked_ + 1 < shortest_window || !swings(levels_, tracked_, clear_)) return false;
+    envelope_decides();
+    return true;
+  }
+
+  bool rising() const {
+    const auto tail = window(levels_, clear_ - shortest_window + 1, clear_);
+    return tail && rates_rise(context_.claimed_order, *tail);
   }
 
   void envelope_decides() {
@@ -169,8 +173,8 @@ class Fitter {
     const double slope = upper->line.slope, spread = upper->line.slope_spread;
     // Rough and flat at the end: all raw points of the last levels together know the trend best.
     const auto tail = window(levels_, clear_ - shortest_window + 1, clear_);
-    if (tail && tail->line.slope + tail->line.slope_spread < 0.3 &&
-        tail->line.slope - tail->line.slope_spread > -0.5)
+    if (tail && tail->line.slope + tail->line.slope_spread < highest_flat_slope &&
+        tail->line.slope - tail->line.slope_spread > lowest_flat_slope)
       return stagnate(*tail);
     if (slope > straight_rates && slope > spread) {
       fit_.has_line = fit_.on_envelope = true;
@@ -193,7 +197,7 @@ class Fitter {
     if (!tail) return false;
     const auto grows = [](double rate) { return rate < -straight_rates; };
     if (!std::ranges::all_of(tail->rates, grows)) return false;
-    if (tail->rates.back() > 0.5 * tail->rates.front()) return false;
+    if (tail->rates.back() > settling_share * tail->rates.front()) return false;
     behave(Behaviour::divergent, "error-growth");
     return true;
   }
@@ -223,7 +227,7 @@ class Fitter {
   void line(const Window& found) {
     fit_.has_line = true;
     fit_.order = found.line.slope;
-    fit_.spread = found.line.slope_spread;
+    fit_.spread = std::max(found.line.slope_spread, drift(found));
     fit_.scatter = found.scatter;
     fit_.constant = std::exp(found.line.intercept);
     fit_.first_level = found.first;

@@ -24,6 +24,18 @@ struct FitContext {
 /// Steps that resolve a compliant contact divide its duration at least by this.
 inline constexpr double steps_per_contact = 25.0;
 
+/// A floor needs this many flat levels: two alone are what an error that passes through a minimum
+/// shows.
+inline constexpr int shortest_plateau = 3;
+
+/// Rough levels are flat when their slope, with its uncertainty, lies between these. 32 points of a
+/// scatter of 3 leave a slope a deviation of 0.07; the lower bound is wide since the scatter of a
+/// chaotic floor may well rise.
+inline constexpr double highest_flat_slope = 0.3, lowest_flat_slope = -0.5;
+
+/// Growth whose finest rate is less than this share of the first one of its window settles.
+inline constexpr double settling_share = 0.5;
+
 /// What a ladder of errors says. The levels come coarsest first; the finest ones decide.
 ///
 /// Levels in which most runs failed are left out at the coarse end (a stability limit) and make the
@@ -37,13 +49,14 @@ inline constexpr double steps_per_contact = 25.0;
 ///   `undecided` while the finest
 ///               rates agree with the claim or still move towards it;
 ///   stagnating  at least three finest levels flat (rates within 0.2 of 0), or rough but flat;
-///   irregular   raw points scatter further; the line is that of the largest error of each level
-///               (leading levels with errors as large as the motion left out), and its slope is
-///               positive beyond its own spread;
+///   irregular   raw points scatter further, from step to step or in swings over whole levels; the
+///               line is that of the largest error of each level (leading levels with errors as
+///               large as the motion left out), and its slope is positive beyond its own spread;
 ///   divergent   errors grow over the finest levels, without settling;
 ///   undecided   anything else, with the reason.
 ///
-/// Throws InputError for steps that are not positive and for negative errors.
+/// Throws InputError for steps that are not positive, for negative errors and for levels that do
+/// not descend (view() of error_ladder.hpp says how).
 LadderFit fit_ladder(std::span<const ErrorLevel> ladder, const FitContext& context);
 
 }  // namespace clackers::assess

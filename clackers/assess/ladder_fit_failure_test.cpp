@@ -41,6 +41,29 @@ TEST(LadderFit, ALineThroughTheEstimatedFloorIsFollowedToItsEnd) {
   EXPECT_EQ(fit.last_level, 7);
 }
 
+TEST(LadderFit, LevelsBentByRoundingAreLeftOutWhereTheFloorIsSeenAndFollowsThem) {
+  const auto bent = [](int levels) {
+    return ladder([](double h) { return 1e-5 * h * h + 6.0 * 2.2e-16 * 20.0 / h; },
+                  {.levels = levels});
+  };
+  const auto fit = fit_ladder(bent(8), {.claimed_order = 2.0});
+  EXPECT_BEHAVIOUR(fit, Behaviour::proper, "");
+  EXPECT_EQ(fit.last_level, 3);
+  // Without a level at the floor nothing shows that it is rounding which bends the line.
+  EXPECT_EQ(fit_ladder(bent(5), {.claimed_order = 2.0}).behaviour, Behaviour::undecided);
+}
+
+TEST(LadderFit, ThreeLevelsBentByRoundingAreTooManyToLeaveOut) {
+  std::vector<ErrorLevel> made;
+  double h = 0.1;
+  for (const double floors : {4000.0, 2000.0, 1000.0, 500.0, 90.0, 60.0, 30.0, 5.0})
+    made.push_back({{h /= 2.0, 1e-6 * floors, 1e-6}});
+  EXPECT_BEHAVIOUR(fit_ladder(made, {.claimed_order = 1.0}), Behaviour::undecided,
+                   "too-few-levels");
+  made.erase(made.begin() + 6);
+  EXPECT_BEHAVIOUR(fit_ladder(made, {.claimed_order = 1.0}), Behaviour::proper, "");
+}
+
 TEST(LadderFit, GrowthUntilRunsFailIsDivergent) {
   const auto fit = fit_ladder(ladder([](double h) { return h < 0.0008 ? nan : 1e-6 / (h * h); }),
                               {.claimed_order = 2.0});

@@ -23,21 +23,20 @@ std::string because(const std::string& reason) {
 
 }  // namespace
 
-std::string describe(const LadderFit& fit) {
+std::string describe(const LadderFit& fit, std::string_view what) {
   switch (fit.behaviour) {
     case Behaviour::exact:
-      return "The displacement error lies at the rounding floor at every level.";
+      return fmt::format("The {} lies at the rounding floor at every level.", what);
     case Behaviour::proper:
     case Behaviour::reduced:
-      return fmt::format("The displacement error falls as {} {}.", order(fit), range(fit));
+      return fmt::format("The {} falls as {} {}.", what, order(fit), range(fit));
     case Behaviour::irregular:
       return fmt::format(
-          "The displacement error scatters by a factor of {:.2g} between neighbouring steps; its "
-          "upper "
-          "envelope falls as {} {}.",
-          fit.scatter, order(fit), range(fit));
+          "The {} scatters by a factor of {:.2g} between neighbouring steps; its upper envelope "
+          "falls as {} {}.",
+          what, fit.scatter, order(fit), range(fit));
     case Behaviour::stagnating:
-      return fmt::format("The displacement error stays at {:.2g} {}.{}", fit.floor, range(fit),
+      return fmt::format("The {} stays at {:.2g} {}.{}", what, fit.floor, range(fit),
                          because(fit.reason));
     case Behaviour::divergent:
       return fmt::format("The method diverges.{}", because(fit.reason));

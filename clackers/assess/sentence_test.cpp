@@ -38,6 +38,15 @@ TEST(Sentence, SaysWhatWasMeasuredWithItsNumbers) {
             "Nothing can be said. Runs ended before their end time; the first failure is quoted.");
 }
 
+TEST(Sentence, NamesTheQuantityOfTheLadder) {
+  EXPECT_EQ(describe(fit(Behaviour::exact), "difference between runs"),
+            "The difference between runs lies at the rounding floor at every level.");
+  EXPECT_EQ(describe(fit(Behaviour::proper), "velocity error"),
+            "The velocity error falls as h^1.04 (+- 0.07) from h = 0.05 s to 0.025 s.");
+  EXPECT_EQ(describe(fit(Behaviour::irregular), "velocity error").find("The velocity error"), 0u);
+  EXPECT_EQ(describe(fit(Behaviour::stagnating), "velocity error").find("The velocity error"), 0u);
+}
+
 TEST(Sentence, SaysWhatIsClaimed) {
   EXPECT_EQ(describe(Claim{Behaviour::proper, 2.0, ""}), "proper of order 2");
   EXPECT_EQ(describe(Claim{Behaviour::reduced, 1.5, ""}), "reduced of order 1.5");

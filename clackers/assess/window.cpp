@@ -50,9 +50,9 @@ std::optional<Window> window(std::span<const LevelView> levels, int first, int l
   for (int i = first; i <= last; ++i)
     if (i < 0 || !levels[std::size_t(i)].usable) return {};
   const auto all = gather(levels, first, last);
-  const auto line = line_without_luck(all, all.x.size() / 16);
+  const auto line = line_without_luck(all, all.x.size() / luck_share);
   if (!line) return {};
-  Window found{.first = first, .last = last, .line = *line, .rates = {}};
+  Window found{.first = first, .last = last, .line = *line, .rates = {}, .rate_errors = {}};
   found.points = int(all.x.size());
   double furthest = 0.0;
   for (std::size_t i = 0; i < all.x.size(); ++i) {
@@ -64,16 +64,18 @@ std::optional<Window> window(std::span<const LevelView> levels, int first, int l
   found.scatter = std::exp(furthest);
   for (int i = first; i < last; ++i) {
     const auto two = gather(levels, i, i + 1);
-    const auto rate = line_without_luck(two, two.x.size() / 16);
+    const auto rate = line_without_luck(two, two.x.size() / luck_share);
     if (!rate) return {};
     found.rates.push_back(rate->slope);
+    found.rate_errors.push_back(rate->slope_error);
   }
   return found;
 }
 
 bool is_straight(const Window& window, const Straightness& asked) {
   const int above_allowed = asked.outliers_of > 0 ? window.points / asked.outliers_of : 0;
-  if (window.far_above > above_allowed || 16 * window.far_below > window.points) return false;
+  if (window.far_above > above_allowed || luck_share * window.far_below > window.points)
+    return false;
   const double centre = asked.around_slope ? window.line.slope : asked.centre;
   const auto near = [&](double rate) { return std::abs(rate - centre) <= asked.rates; };
   return std::ranges::all_of(window.rates, near);

@@ -10,12 +10,13 @@
 namespace clackers::assess {
 
 /// Consecutive levels [first, last] of a ladder, zero-based, and the line through their raw points
-/// in logarithmic axes. Up to one point in sixteen that lies far below all others does not pull
+/// in logarithmic axes. Up to one point in `luck_share` that lies far below all others does not pull
 /// at the line: an error that passes through zero is luck, one that is too large is not.
 struct Window {
   int first = 0, last = 0;
   numerics::LineFit line;
-  std::vector<double> rates;  ///< slope of the raw points of each two adjacent levels
+  std::vector<double> rates;        ///< slope of the raw points of each two adjacent levels
+  std::vector<double> rate_errors;  ///< their standard errors, infinite for two points alone
   int points = 0;
   int far_above = 0, far_below = 0;  ///< raw points further from the line than `straight_scatter`
   double scatter =
@@ -28,6 +29,9 @@ struct Window {
 /// impacts were measured to stay within 1.05 in their asymptotic range, those that do not to
 /// scatter by 10 to 30.
 inline constexpr double straight_scatter = 1.5;
+/// One raw point in this many may lie far below a line, and few enough far above leave its order
+/// readable though no longer straight: half a point a level of the default eight.
+inline constexpr int luck_share = 16;
 /// A line needs this many consecutive levels.
 inline constexpr int shortest_window = 4;
 /// Rates of a straight line lie this close to its slope: a factor 2^0.2 = 1.15 for a halved step.
@@ -44,7 +48,7 @@ struct Straightness {
   int outliers_of = 0;  ///< when positive, one point in this many may lie far above
 };
 
-/// Whether the rates are as asked, at most one raw point in sixteen lies far below the line, and
+/// Whether the rates are as asked, at most one raw point in `luck_share` lies far below the line, and
 /// none (or as few as asked) far above.
 bool is_straight(const Window& window, const Straightness& asked);
 

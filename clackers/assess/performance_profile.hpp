@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace clackers::assess {
+
+/// What each method costs for each task, a task being a case with a metric and an error to reach.
+struct CostTable {
+  std::vector<std::string> methods, tasks;
+  /// A row a method, a column a task: above 0; NaN or infinite where the method failed.
+  std::vector<std::vector<double>> costs;
+};
+
+/// From this ratio on, this share of all tasks is solved.
+struct ProfileStep {
+  double ratio = 1.0;  ///< 1 or more
+  double share = 0.0;  ///< in (0, 1]
+};
+
+/// One method's line of a performance profile.
+struct MethodProfile {
+  std::string method;
+  std::vector<double> ratios;      ///< a task each: cost over the best cost; infinite for a failure
+  std::vector<ProfileStep> steps;  ///< ascending, one for each different finite ratio
+  int best = 0;                    ///< tasks at which no method costs less
+  int failed = 0;                  ///< tasks that it does not solve
+};
+
+/// All methods, in the order of the table.
+struct PerformanceProfile {
+  std::vector<MethodProfile> methods;
+  std::vector<std::string> unsolved;  ///< tasks that no method solves; they count in all shares
+};
+
+/// The performance profile of E. D. Dolan and J. J. More, Math. Program. 91, 201-213 (2002). A
+/// failure is an infinite ratio: it lowers the share that a line reaches and is never left out.
+/// Throws InputError for rows or columns that do not fit the names, no tasks, and costs of 0 or
+/// less, to which there is no ratio.
+PerformanceProfile performance_profile(const CostTable& table);
+
+/// The share of all tasks solved within `ratio` times the best cost; infinity asks for all that are
+/// solved. Throws InputError for a ratio below 1.
+double share_within(const MethodProfile& profile, double ratio);
+
+}  // namespace clackers::assess
