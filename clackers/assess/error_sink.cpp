@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/assess/contact_rest.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
@@ -13,28 +14,10 @@ constexpr auto who = "error sink";
 constexpr std::size_t block_size = 256;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::vector<double> row_major(const Eigen::MatrixXd& matrix) {
-  std::vector<double> entries;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) entries.push_back(matrix(i, j));
-  return entries;
-}
-
 std::vector<double> positive_entries(std::string_view name, const Eigen::VectorXd& vector) {
   std::vector<double> entries;
   for (const double entry : vector) entries.push_back(require_positive(who, name, entry));
   return entries;
-}
-
-// x' A y, A row-major.
-double form(const std::vector<double>& matrix, const double* x, std::size_t n) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    double row = 0.0;
-    for (std::size_t j = 0; j < n; ++j) row += matrix[i * n + j] * x[j];
-    sum += x[i] * row;
-  }
-  return sum;
 }
 
 }  // namespace
@@ -46,8 +29,7 @@ ErrorSink::ErrorSink(const model::Motion& truth, const model::ImpactProblem<>& p
       step_(require_step(who, step)),
       options_(options),
       contacts_(problem.contacts),
-      mass_(row_major(problem.system.mass)),
-      stiffness_(row_major(problem.system.stiffness)),
+      energy_(problem.system),
       u_envelope_(positive_entries("initial envelope of u", truth.envelope(0.0).u)),
       v_envelope_(positive_entries("initial envelope of v", truth.envelope(0.0).v)),
       start_(problem.start.t),
@@ -64,19 +46,7 @@ ErrorSink::ErrorSink(const model::Motion& truth, const model::ImpactProblem<>& p
            {}, "wrong-size");
   const auto at_start = truth.at(start_, model::Side::right);
   first_energy_ = require_positive(who, "true energy at the start",
-                                   energy(at_start.u.data(), at_start.v.data()));
-}
-
-double ErrorSink::energy(const double* u, const double* v) const {
-  return 0.5 * (form(mass_, v, dof_) + form(stiffness_, u, dof_));
-}
-
-bool ErrorSink::rests_in_contact(double t, int contact) const {
-  if (contact < 0 || contact >= std::ssize(contacts_))
-    refuse(who, "contact of an impact", double(contact), "a row of the problem's contacts");
-  const auto& row = contacts_[std::size_t(contact)];
-  const auto now = truth_.at(std::clamp(t, 0.0, truth_.end()), model::Side::right);
-  return row.opening(now.u) == 0.0 && row.opening_rate(now.v) == 0.0;
+                                   energy_.total(at_start.u.data(), at_start.v.data()));
 }
 
 void ErrorSink::sample_truth(std::span<const double> times) {
@@ -116,7 +86,7 @@ void ErrorSink::take_part(const model::SampleBlock& block, std::size_t from, std
       finite_ = finite_ && std::isfinite(error) && std::isfinite(v[j]);
     }
     velocity_.take(last_, {v, dof_}, {v_true, dof_});
-    const double found = energy(u, v), expected = energy(u_true, v_true);
+    const double found = energy_.total(u, v), expected = energy_.total(u_true, v_true);
     energy_error_ = std::max(energy_error_, std::abs(found - expected) / first_energy_);
     energy_ratio_ = expected > 0.0 ? found / expected : std::numeric_limits<double>::quiet_NaN();
     history_.take(last_, relative_);
@@ -126,7 +96,7 @@ void ErrorSink::take_part(const model::SampleBlock& block, std::size_t from, std
 
 bool ErrorSink::take(const model::ReportedImpact& impact) {
   velocity_.take(impact);
-  impacts_.take(impact.t, rests_in_contact(impact.t, impact.contact));
+  impacts_.take(impact.t, rests_in_contact(truth_, contacts_, impact.contact, impact.t));
   return goes_on();
 }
 

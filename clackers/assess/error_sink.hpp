@@ -6,6 +6,7 @@
 
 #include "clackers/assess/error_history.hpp"
 #include "clackers/assess/impact_matcher.hpp"
+#include "clackers/assess/mechanical_energy.hpp"
 #include "clackers/assess/score.hpp"
 #include "clackers/assess/velocity_error.hpp"
 #include "clackers/model/impact_problem.hpp"
@@ -45,8 +46,6 @@ class ErrorSink : public model::Sink {
  private:
   void take_part(const model::SampleBlock& block, std::size_t from, std::size_t count);
   void sample_truth(std::span<const double> times);
-  double energy(const double* u, const double* v) const;
-  bool rests_in_contact(double t, int contact) const;
   bool goes_on() const {
     return options_.abort == nullptr || !options_.abort->load(std::memory_order_relaxed);
   }
@@ -56,7 +55,7 @@ class ErrorSink : public model::Sink {
   double step_;
   ErrorSinkOptions options_;
   std::vector<model::Contact<>> contacts_;
-  std::vector<double> mass_, stiffness_;         ///< row-major
+  MechanicalEnergy energy_;
   std::vector<double> u_envelope_, v_envelope_;  ///< at t = 0
   double start_, first_energy_;
   std::vector<double> times_, u_true_, v_true_, relative_;  ///< of one block

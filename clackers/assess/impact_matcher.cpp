@@ -8,12 +8,14 @@
 
 namespace clackers::assess {
 
-ImpactMatcher::ImpactMatcher(const model::Motion& truth, double step)
+ImpactMatcher::ImpactMatcher(const model::Motion& truth, double step, double start)
     : truth_(truth),
       step_(require_step("impact matcher", step)),
+      start_(start),
       known_(truth.impact_count(truth.end())),
       more_(known_ > 0) {
-  if (more_) now_ = target(1);
+  // The impact before the start may still be found late.
+  if (more_) now_ = target(start > 0.0 ? std::max(1LL, truth.impact_count(start)) : 1);
 }
 
 ImpactMatcher::Target ImpactMatcher::target(long long index) const {
@@ -25,24 +27,27 @@ ImpactMatcher::Target ImpactMatcher::target(long long index) const {
 }
 
 // Books the true impact `now_` with what was found for it.
-void ImpactMatcher::settle(ImpactScore& score) const {
-  ++score.expected;
+void ImpactMatcher::settle() {
+  if (!nearest_ && now_.t <= start_) return;
+  ++sum_.expected;
   if (!nearest_) {
-    ++score.missed;
+    ++sum_.missed;
     return;
   }
-  ++score.matched;
-  score.worst_time_error = std::max(score.worst_time_error, std::abs(*nearest_ - now_.t));
+  ++sum_.matched;
+  sum_.worst_time_error = std::max(sum_.worst_time_error, std::abs(nearest_->t - now_.t));
+  if (keeps_pairs_) pairs_.push_back({now_.index, nearest_->number});
 }
 
 void ImpactMatcher::move_on() {
-  settle(sum_);
+  settle();
   nearest_.reset();
   more_ = now_.index < known_;
   if (more_) now_ = target(now_.index + 1);
 }
 
 void ImpactMatcher::take(double t, bool resting) {
+  const auto number = reports_++;
   // A little less than two steps, so that reports two whole steps apart stay two.
   const bool same = last_report_ && t - *last_report_ < (2.0 - 1e-6) * step_;
   last_report_ = t;
@@ -52,18 +57,27 @@ void ImpactMatcher::take(double t, bool resting) {
   if (resting && !(near && !nearest_)) return;
   ++sum_.found;
   if (!near || nearest_) ++sum_.extra;
-  if (near && (!nearest_ || std::abs(t - now_.t) < std::abs(*nearest_ - now_.t))) nearest_ = t;
+  if (near && (!nearest_ || std::abs(t - now_.t) < std::abs(nearest_->t - now_.t)))
+    nearest_ = Report{t, number};
 }
 
-ImpactScore ImpactMatcher::score(double end, double rounding) const {
+// The matcher after the last report it will get.
+ImpactMatcher ImpactMatcher::ended(double end) const {
   ImpactMatcher rest = *this;
   // What was found although it truly happens in the last two steps or just behind them counts.
   while (rest.more_ && (rest.nearest_ || rest.now_.t <= end - 2.0 * step_)) rest.move_on();
+  return rest;
+}
+
+ImpactScore ImpactMatcher::score(double end, double rounding) const {
+  auto score = ended(end).sum_;
   // A displacement error d of a mass that passes with amplitude times frequency moves its passage
   // by d / (A pi / T), T the time between impacts.
-  const double spacing = end / double(std::max(1LL, rest.sum_.expected));
-  rest.sum_.rounding_floor = rounding * spacing / std::numbers::pi;
-  return rest.sum_;
+  const double spacing = end / double(std::max(1LL, score.expected));
+  score.rounding_floor = rounding * spacing / std::numbers::pi;
+  return score;
 }
+
+std::vector<ImpactPair> ImpactMatcher::pairs(double end) const { return ended(end).pairs_; }
 
 }  // namespace clackers::assess

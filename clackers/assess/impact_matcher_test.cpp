@@ -148,6 +148,44 @@ TEST(ImpactMatcher, AtRandomTheSumsAlwaysClose) {
   }
 }
 
+TEST(ImpactMatcher, NamesItsPairsByTrueImpactAndReport) {
+  const ToyMotion truth(20.0, regular);
+  ImpactMatcher matcher(truth, 0.1);
+  matcher.keep_pairs();
+  // Two reports of one collision, an extra one, the better of two, one missed (14), one last.
+  for (const double t : {2.05, 2.15, 4.0, 5.5, 6.1, 10.0, 18.2}) matcher.take(t);
+  const auto pairs = matcher.pairs(20.0);
+  ASSERT_EQ(pairs.size(), 4u);
+  const long long indices[] = {1, 2, 3, 5};
+  const std::size_t reports[] = {0, 4, 5, 6};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(pairs[i].truth, indices[i]);
+    EXPECT_EQ(pairs[i].report, reports[i]);
+  }
+  EXPECT_EQ(matcher.pairs(20.0).size(), 4u);
+  EXPECT_SCORE(matcher.score(20.0, 0.0), 5, 6, 4, 1, 2);
+}
+
+TEST(ImpactMatcher, KeepsNoPairsUnlessAskedTo) {
+  const ToyMotion truth(20.0, regular);
+  ImpactMatcher matcher(truth, 0.1);
+  matcher.take(2.0);
+  EXPECT_TRUE(matcher.pairs(20.0).empty());
+}
+
+TEST(ImpactMatcher, ARunThatStartsLateOwesNothingBefore) {
+  const ToyMotion truth(20.0, regular);
+  for (const double start : {6.0, 6.5, 9.9}) {
+    ImpactMatcher matcher(truth, 0.1, start);
+    for (const double t : {10.0, 14.0, 18.0}) matcher.take(t);
+    EXPECT_SCORE(matcher.score(20.0, 0.0), 3, 3, 3, 0, 0);
+  }
+  // What is late itself still finds its impact.
+  ImpactMatcher matcher(truth, 0.1, 6.5);
+  for (const double t : {6.6, 10.0, 14.0, 18.0}) matcher.take(t);
+  EXPECT_SCORE(matcher.score(20.0, 0.0), 4, 4, 4, 0, 0);
+}
+
 TEST(ImpactMatcher, RefusesAStepThatIsNotPositive) {
   const ToyMotion truth;
   EXPECT_THROW(ImpactMatcher(truth, 0.0), InputError);

@@ -66,6 +66,7 @@ class ToyMotion : public model::Motion {
     found.when = {t, t};
     found.before = at(t, model::Side::left);
     found.after = at(t, model::Side::right);
+    found.impulse = 2.0;  // what turns the velocity of mass 1 from -1 to +1
     found.energy_before = found.energy_after = 0.75;
     return found;
   }

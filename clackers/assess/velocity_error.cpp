@@ -20,13 +20,19 @@ std::span<const double> entries(const Eigen::VectorXd& v) {
 
 }  // namespace
 
-VelocityError::VelocityError(const model::Motion& truth)
+VelocityError::VelocityError(const model::Motion& truth, JumpingQuantity quantity)
     : truth_(truth),
+      quantity_(quantity),
       dof_(std::size_t(truth.dof())),
       known_(truth.impact_count(truth.end())),
       from_error_(dof_),
       to_error_(dof_),
-      sum_(dof_) {}
+      sum_(dof_),
+      squares_(dof_) {}
+
+std::span<const double> VelocityError::part(const model::Kinematics& now) const {
+  return entries(quantity_ == JumpingQuantity::velocity ? now.v : now.a);
+}
 
 void VelocityError::take(double t, std::span<const double> v, std::span<const double> v_true) {
   if (taken_ > 0) {
@@ -51,8 +57,17 @@ double VelocityError::integral(int mass) const {
   return whole.sum_[std::size_t(mass)];
 }
 
+double VelocityError::integral_of_square(int mass) const {
+  VelocityError whole = *this;
+  whole.close();
+  return whole.squares_[std::size_t(mass)];
+}
+
 void VelocityError::add(double length, const Errors& left, const Errors& right) {
-  for (std::size_t i = 0; i < dof_; ++i) sum_[i] += 0.5 * length * (left[i] + right[i]);
+  for (std::size_t i = 0; i < dof_; ++i) {
+    sum_[i] += 0.5 * length * (left[i] + right[i]);
+    squares_[i] += 0.5 * length * (left[i] * left[i] + right[i] * right[i]);
+  }
 }
 
 // Integrates over the open interval and leaves the error after its end in from_error_.
@@ -74,7 +89,7 @@ void VelocityError::close() {
 // Integrates from `from` over one reported jump; `from` and `error` come back as what follows it.
 void VelocityError::pass(const Jump& jump, double& from, Errors& error) {
   if (const auto* impact = join(from)) {
-    const auto before = entries(impact->before.v), after = entries(impact->after.v);
+    const auto before = part(impact->before), after = part(impact->after);
     const double first = std::max(from, std::min(jump.t, impact->t));
     const double second = std::max(first, std::max(jump.t, impact->t));
     add(first - from, error, distance(jump.before, before));
@@ -87,9 +102,9 @@ void VelocityError::pass(const Jump& jump, double& from, Errors& error) {
   }
   const double at = std::max(from, jump.t);
   const auto now = truth_.at(std::clamp(at, 0.0, truth_.end()), model::Side::right);
-  add(at - from, error, distance(jump.before, entries(now.v)));
+  add(at - from, error, distance(jump.before, part(now)));
   from = at;
-  error = distance(jump.after, entries(now.v));
+  error = distance(jump.after, part(now));
 }
 
 // The first true impact in [from, to_] that has not been joined yet, or nothing.

@@ -8,7 +8,10 @@
 
 namespace clackers::assess {
 
-/// The integral over time of |v - v true|, mass by mass, by the trapezoidal rule over a run's own
+/// What jumps at an impact.
+enum class JumpingQuantity { velocity, acceleration };
+
+/// The integral over time of |v - v true|, or of its square, mass by mass, by the trapezoidal rule over a run's own
 /// times and, on both sides of them, its reported impacts. Valid across jumps.
 ///
 /// - True velocities at own times are right limits.
@@ -21,10 +24,13 @@ namespace clackers::assess {
 /// - An interval with a true impact and no reported one contributes by the rule over own times.
 /// - Where an impact is reported at an own time, its limits stand for the state delivered there,
 ///   which may be of either side.
+///
+/// The same rule serves accelerations, which take the place of velocities in all calls then.
 class VelocityError {
  public:
   /// The motion must outlive this.
-  explicit VelocityError(const model::Motion& truth);
+  explicit VelocityError(const model::Motion& truth,
+                         JumpingQuantity quantity = JumpingQuantity::velocity);
 
   /// Takes the state at an own time with the true velocity, right limit. Times ascend.
   void take(double t, std::span<const double> v, std::span<const double> v_true);
@@ -32,6 +38,8 @@ class VelocityError {
   void take(const model::ReportedImpact& impact);
   /// The integral [m] of one mass up to the last own time.
   double integral(int mass) const;
+  /// The integral of the square [m^2/s].
+  double integral_of_square(int mass) const;
 
  private:
   struct Jump {
@@ -43,9 +51,11 @@ class VelocityError {
   void close();
   void pass(const Jump& jump, double& from, Errors& error);
   const model::MotionImpact* join(double from);
+  std::span<const double> part(const model::Kinematics& now) const;
   void add(double length, const Errors& left, const Errors& right);
 
   const model::Motion& truth_;
+  JumpingQuantity quantity_;
   std::size_t dof_;
   long long known_;                  ///< number of true impacts
   int taken_ = 0;                    ///< own times so far, counted up to 2
@@ -54,7 +64,7 @@ class VelocityError {
   std::vector<Jump> jumps_, later_;  ///< reported within (from_, to_], and after to_
   long long next_true_ = 1;          ///< no true impact before this one can be joined any more
   model::MotionImpact true_impact_;  ///< the one numbered next_true_, when fetched
-  Errors sum_;
+  Errors sum_, squares_;
 };
 
 }  // namespace clackers::assess

@@ -1,0 +1,101 @@
+#include "clackers/assess/metrics/synchrony.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clackers/assess/metrics/collision_period.hpp"
+#include "clackers/assess/metrics/value.hpp"
+#include "clackers/base/check.hpp"
+#include "clackers/base/error.hpp"
+
+namespace clackers::assess {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double visible = 0.025;  // relative momentum from which on growth is fitted
+constexpr double fewest = 3.0;     // points of a fit
+
+}  // namespace
+
+SynchronyWatch::SynchronyWatch(double period, double start)
+    : period_(require_positive("synchrony", "period", period)), found_(start), truth_(start) {}
+
+void SynchronyWatch::take(double found, double truth, double momentum) {
+  if (lost_) return;
+  ++count_;
+  const double error = std::abs((found - found_) - (truth - truth_)) / period_;
+  found_ = found;
+  truth_ = truth;
+  worst_ = std::max(worst_, error);
+  if (error > lost_synchrony) {
+    lost_ = count_;
+    return;
+  }
+  const double size = std::abs(momentum);
+  if (!(size > visible)) {
+    n_ = k_ = kk_ = y_ = ky_ = 0.0;
+    return;
+  }
+  // Counted from the first one of the fit, so that the sums keep their digits.
+  const double k = n_, y = std::log(size);
+  n_ += 1.0;
+  k_ += k;
+  kk_ += k * k;
+  y_ += y;
+  ky_ += k * y;
+}
+
+SynchronyLoss SynchronyWatch::loss() const {
+  const double spread = n_ * kk_ - k_ * k_;
+  return {.collisions = count_,
+          .lost = lost_,
+          .worst = worst_,
+          .growth = n_ >= fewest ? (n_ * ky_ - k_ * y_) / spread : nan};
+}
+
+double relative_momentum(const model::SmoothSystem<>& system, std::span<const double> v) {
+  if (v.size() < 2) return nan;
+  const Eigen::Map<const Eigen::VectorXd> velocity(v.data(), static_cast<Eigen::Index>(v.size()));
+  const Eigen::VectorXd momenta = system.mass * velocity;
+  return momenta.sum() / momenta.cwiseAbs().sum();
+}
+
+SynchronyLoss synchrony_loss(const Comparison& comparison) {
+  const auto& truth = comparison.truth();
+  const auto& t = comparison.history().t;
+  const auto first = truth.impact_count(t.front());
+  const auto known = truth.impact_count(truth.end());
+  SynchronyWatch watch(collision_period(truth), t.front());
+  for (std::size_t k = 0; k < comparison.impacts().size(); ++k) {
+    const auto index = first + static_cast<long long>(k) + 1;
+    if (index > known) break;
+    const auto& impact = comparison.impacts()[k];
+    watch.take(impact.t, truth.impact(index).t,
+               impact.v_after.empty()
+                   ? nan
+                   : relative_momentum(comparison.problem().system, impact.v_after));
+  }
+  return watch.loss();
+}
+
+DetuningPart explained_by_detuning(const SynchronyLoss& loss, const DetuningFacts& facts) {
+  require_within("detuning", "rate", facts.rate, 0.0, std::numeric_limits<double>::max());
+  const double size = std::abs(facts.eps);
+  if (!(size > 0.0 && size < 1.0)) refuse("detuning", "eps", facts.eps, "0 < |eps| < 1");
+  if (!(facts.eta > 0.0 && facts.eta <= 1.0)) refuse("detuning", "eta", facts.eta, "0 < eta <= 1");
+  DetuningPart part;
+  part.growth = facts.eta < 1.0 ? -std::log(facts.eta) : facts.rate * size;
+  part.collision =
+      size >= lost_synchrony ? 0.0 : std::ceil(std::log(lost_synchrony / size) / part.growth);
+  part.share = part.growth / loss.growth;
+  return part;
+}
+
+MetricValue measure_spacing_error(const Comparison& comparison) {
+  const auto loss = synchrony_loss(comparison);
+  if (loss.collisions == 0) return not_measured("The history or the truth has no collisions.");
+  return measured(loss.worst);
+}
+
+}  // namespace clackers::assess
