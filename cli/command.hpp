@@ -21,6 +21,7 @@ Command add_list(CLI::App& root);
 Command add_show(CLI::App& root);
 Command add_respond(CLI::App& root);
 Command add_verify(CLI::App& root);
+Command add_check(CLI::App& root);
 Command add_explain(CLI::App& root);
 
 }  // namespace clackers::cli

@@ -26,6 +26,7 @@ const HelpPage overall_page{
         "  clackers show     CASE|METHOD      one of them in full\n"
         "  clackers respond  CASE ...         the exact motion of a case\n"
         "  clackers verify   [METHOD ...]     judge methods on a ladder of steps\n"
+        "  clackers check    FILE ...         judge time histories of any program\n"
         "  clackers explain  [CODE]           what a code in [brackets] means\n"
         "\n"
         "  clackers COMMAND --help tells the rest. Quantities are in SI units.\n"
@@ -122,8 +123,8 @@ int run_command_line(const std::vector<std::string>& arguments) {
   root.set_version_flag("--version", "clackers " CLACKERS_VERSION, "The version.");
   root.require_subcommand(0, 1);  // so that `clackers explain list` is not two commands
   root.allow_extras();
-  const std::vector<Command> commands{add_list(root), add_show(root), add_respond(root),
-                                      add_verify(root), add_explain(root)};
+  const std::vector<Command> commands{add_list(root),   add_show(root),  add_respond(root),
+                                      add_verify(root), add_check(root), add_explain(root)};
   for (const auto& command : commands) {
     command.app->set_help_flag("-h,--help", "This help.");
     command.app->allow_extras();

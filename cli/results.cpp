@@ -28,8 +28,8 @@ bool is_set(const char* variable) {
 
 }  // namespace
 
-Results::Results(const CommonOptions& options, OnInterrupt on_interrupt)
-    : format_(report::format_from(options.format)),
+Results::Results(const CommonOptions& options, OnInterrupt on_interrupt, report::Content content)
+    : format_(report::format_from(options.format, content)),
       quiet_(options.quiet),
       file_(file_of(options.out, on_interrupt)) {
   if (file_) return;

@@ -13,9 +13,10 @@ namespace clackers::cli {
 /// Where the result of a command goes and how it looks: standard output, or the file of --out.
 class Results {
  public:
-  /// Throws InputError for an unknown format and FileError when the file of --out cannot be
-  /// written, so construct it before long work.
-  Results(const CommonOptions& options, OnInterrupt on_interrupt);
+  /// Throws InputError for a format that the content does not have, and FileError when the file of
+  /// --out cannot be written, so construct it before long work.
+  Results(const CommonOptions& options, OnInterrupt on_interrupt,
+          report::Content content = report::Content::rows);
 
   std::ostream& stream();
   report::Format format() const { return format_; }

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "clackers/model/trajectory.hpp"
+
+namespace clackers::exchange {
+
+/// What is known of a file before it is read.
+struct HistoryOptions {
+  int dof = 1;                         ///< masses; columns of others are left out
+  std::vector<std::string> columns{};  ///< names that replace or stand for a header; "_" skips one
+  /// Of a file without a time column [s]: row n = 0, 1, ... is at n step. 0: there must be one.
+  double step = 0.0;
+  const std::atomic<bool>* interrupt = nullptr;  ///< ends the reading with Error (interrupted)
+};
+
+/// How the numbers of one column are printed.
+struct ColumnPrint {
+  std::string name;
+  int digits = 0;          ///< the most significant digits of any of its numbers
+  bool single = false;     ///< more than nine digits, yet all are single-precision numbers
+  double half_unit = 0.0;  ///< largest rounding error by printing, in the column's unit; 0: none
+};
+
+/// A time history as a file tells it.
+struct History {
+  /// Masses without a column u: their u is 0 and means nothing. v and a are empty unless there is a
+  /// column for every mass. Impacts are not reported.
+  model::Trajectory motion;
+  std::vector<bool> has_u;           ///< one entry a mass
+  bool has_time = true;              ///< false: times are n step
+  std::vector<ColumnPrint> columns;  ///< those that were used, time first if there is one
+  /// Rounding error of the times by printing [s]; 0 when they are equally spaced to the last digit,
+  /// since such times were hardly rounded.
+  double time_half_unit = 0.0;
+  double spacing = 0.0;            ///< median time between rows [s]
+  std::vector<std::string> notes;  ///< what a reader must know, sentences
+};
+
+/// Reads a history: fields separated by commas, semicolons, tabs or blanks; columns t (or time), u1,
+/// v1, a1, u2, ... (u, v, a alone for one mass), in any order and case, others left out; names from
+/// a header, from a comment above the rows, or from the options; comments behind # or %. Two rows of
+/// one time are the left and right limits of a jump.
+///
+/// Throws InputError with file, line and column for what is no number, not finite or has a decimal
+/// comma, rows of another length, times that descend or stand more than twice, missing columns (t
+/// unless options.step is given, and one u), and fewer than two different times; FileError when the
+/// file cannot be read.
+History read_history(const std::string& path, const HistoryOptions& options);
+
+}  // namespace clackers::exchange

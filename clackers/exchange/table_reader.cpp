@@ -1,0 +1,140 @@
+#include "clackers/exchange/table_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "clackers/exchange/number.hpp"
+
+namespace clackers::exchange {
+namespace {
+
+constexpr auto decimal_comma_hint =
+    "Are the commas decimal? Numbers take a decimal point; write the file anew with points.";
+
+// "U1 [m]" is u1.
+std::string plain_name(std::string_view text) {
+  const auto bracket = text.find_first_of("[(");
+  if (bracket != std::string_view::npos && bracket > 0) text = text.substr(0, bracket);
+  std::string name(trimmed(text));
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name;
+}
+
+std::vector<std::string> plain_names(const Separation& separation, std::string_view line) {
+  std::vector<std::string_view> fields;
+  separation.split(line, fields);
+  std::vector<std::string> names;
+  for (const auto field : fields) names.push_back(plain_name(field));
+  return names;
+}
+
+bool has_a_number(std::string_view line) {
+  std::vector<std::string_view> fields;
+  Separation::of(line).split(line, fields);
+  return std::ranges::any_of(fields, looks_numeric);
+}
+
+// A row of decimal commas separated by blanks is taken for fields such as "05 1" between commas.
+bool has_inner_blank(std::string_view field) {
+  return field.find_first_of(" \t") != std::string_view::npos;
+}
+
+}  // namespace
+
+TableReader::TableReader(const std::string& path, const std::vector<std::string>& names,
+                         TableKind kind, const std::atomic<bool>* interrupt)
+    : path_(path), kind_(kind), lines_(path, interrupt), separation_(Separation::of("")) {
+  std::optional<std::string> header;
+  row_is_waiting_ = next_content();
+  if (row_is_waiting_ && !has_a_number(lines_.text())) {
+    header = lines_.text();
+    row_is_waiting_ = next_content();
+  }
+  if (!row_is_waiting_ && (!header || kind == TableKind::history))
+    throw InputError(path_ + (header ? " has a header and no rows" : " is empty") +
+                         "; allowed: rows of numbers.",
+                     "too-short");
+  separation_ = Separation::of(row_is_waiting_ ? lines_.text() : std::string_view(*header));
+  separation_.split(lines_.text(), fields_);
+  name_columns(names, header);
+  if (row_is_waiting_) require_fields();
+}
+
+// The next line with something on it; remembers the last comment until the first row.
+bool TableReader::next_content() {
+  while (lines_.next()) {
+    if (!trimmed(lines_.text()).empty()) return true;
+    if (names_.empty() && !trimmed(lines_.comment()).empty()) comment_ = lines_.comment();
+  }
+  return false;
+}
+
+bool TableReader::comment_names_columns() {
+  names_ = plain_names(separation_, comment_);
+  const auto is_known = [](const std::string& name) {
+    return name == "t" || name == "time" || name == "u1" || name == "u";
+  };
+  from_comment_ = names_.size() == fields_.size() && std::ranges::any_of(names_, is_known);
+  return from_comment_;
+}
+
+void TableReader::name_columns(const std::vector<std::string>& given,
+                               const std::optional<std::string>& header) {
+  const bool events = kind_ == TableKind::events;
+  if (!given.empty()) {
+    for (const auto& name : given) names_.push_back(plain_name(name));
+  } else if (header) {
+    names_ = plain_names(separation_, *header);
+  } else if (!comment_names_columns()) {
+    names_.clear();
+    if (events && fields_.size() == 1) names_.emplace_back("t");
+  }
+  if (names_.empty())
+    throw InputError(
+        fmt::format("{}: {} columns of numbers have no names; {}.", place(), fields_.size(),
+                    events ? "name them in a header line such as t,impulse"
+                           : "name them in a header line or with --columns, for example "
+                             "--columns t,u1,v1 (_ skips one)"),
+        "no-column");
+}
+
+void TableReader::require_fields() const {
+  if (fields_.size() == names_.size()) return;
+  throw InputError(
+      fmt::format("{} has {} fields; allowed: {}, one for each named column.{}{}", place(),
+                  fields_.size(), names_.size(), separation_.is_comma() ? " " : "",
+                  separation_.is_comma() ? decimal_comma_hint : ""),
+      "ragged-row");
+}
+
+bool TableReader::next() {
+  if (row_is_waiting_) {
+    row_is_waiting_ = false;
+    return true;
+  }
+  if (!next_content()) return false;
+  separation_.split(lines_.text(), fields_);
+  require_fields();
+  return true;
+}
+
+void TableReader::read_number(std::size_t column, Number& number) const {
+  const auto text = fields_[column];
+  const auto trouble = read(text, number);
+  if (trouble == NumberTrouble::none) return;
+  const auto who = place();
+  const auto quoted = fmt::format("\"{}\"", text);
+  if (trouble == NumberTrouble::decimal_comma || (separation_.is_comma() && has_inner_blank(text)))
+    refuse(who, names_[column], quoted, "a number with a decimal point", decimal_comma_hint,
+           "decimal-comma");
+  if (trouble == NumberTrouble::not_finite)
+    refuse(who, names_[column], quoted, "a finite number that a double can hold",
+           "The run that wrote it may have left the range of finite numbers.", "not-finite");
+  refuse(who, names_[column], quoted, "a number with a decimal point such as 0.05 or 5e-2", {},
+         "not-a-number");
+}
+
+}  // namespace clackers::exchange
