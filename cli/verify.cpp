@@ -6,14 +6,19 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/report/changes.hpp"
 #include "clackers/report/write.hpp"
+#include "clackers/study/baseline.hpp"
 #include "clackers/study/listing.hpp"
+#include "cli/baseline_file.hpp"
 #include "cli/command.hpp"
 #include "cli/help.hpp"
 #include "cli/interrupt.hpp"
@@ -30,7 +35,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> methods, settings;
-  std::string case_name, levels, coarsest, neighbours, jobs, report;
+  std::string case_name, levels, coarsest, neighbours, jobs, report, baseline;
   bool all = false;
 };
 
@@ -92,44 +97,72 @@ bool survived(const Write& write) {
   }
 }
 
-void print(const study::Record& record, Results& to) {
-  report::write(record, to.format(), to.stream(), to.style());
+using Changes = std::optional<study::BaselineComparison>;
+
+const study::BaselineComparison* pointer(const Changes& changes) {
+  return changes ? &*changes : nullptr;
+}
+
+void print(const study::Record& record, const Changes& changes, Results& to) {
+  report::write(record, to.format(), to.stream(), to.style(), pointer(changes));
   to.finish();
+}
+
+// A format without a place for changes leaves them to standard error.
+void note_changes(const study::BaselineComparison& changes) {
+  std::ostringstream text;
+  report::write_changes(changes, text, {});
+  std::istringstream lines(text.str());
+  for (std::string line; std::getline(lines, line);) note(line);
+}
+
+// Before the work: what cannot be compared must not be found out afterwards.
+std::optional<study::Record> baseline_of(const Options& options,
+                                         const study::VerifyRequest& request) {
+  if (options.baseline.empty()) return {};
+  auto baseline = read_baseline(options.baseline);
+  study::require_same_study(request, baseline);
+  return baseline;
 }
 
 int run(const Options& options, const std::string& line) {
   check(options);
   const auto request = request_of(options, line);
   // Before the work: where it cannot go must not be found out afterwards.
-  Results results(options.common, OnInterrupt::finish);
+  Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
+  const auto baseline = baseline_of(options, request);
   std::unique_ptr<OutputFile> page;
   if (!options.report.empty())
     page = std::make_unique<OutputFile>(options.report, OnInterrupt::finish);
 
   const auto record = run_study(options, request);
+  Changes changes;
+  if (baseline) changes = study::compare(record, *baseline);
 
   bool written = true;
   if (page) {
     written = survived([&] {
-      page->stream() << report::html(record);
+      page->stream() << report::html(record, pointer(changes));
       page->commit();
       if (!options.common.quiet) note(fmt::format("Wrote {}", page->path()));
     });
   }
   try {
-    if (!survived([&] { print(record, results); })) {
+    if (!survived([&] { print(record, changes, results); })) {
       written = false;
       // The work is done; a person may still read it.
       CommonOptions standard;
       standard.no_color = options.common.no_color;
       if (results.is_file()) {
         Results terminal(standard, OnInterrupt::finish);
-        survived([&] { print(record, terminal); });
+        survived([&] { print(record, changes, terminal); });
       }
     }
   } catch (const BrokenPipe&) {
     // `verify | head`: the reader had enough, the verdict still counts.
   }
+  if (changes && !report::tells_changes(results.format()) && !options.common.quiet)
+    note_changes(*changes);
   if (record.interrupted) complain("interrupted; the finished rows were kept.", "interrupted");
   return written ? study::exit_code(record) : 4;
 }
@@ -144,7 +177,8 @@ Command add_verify(CLI::App& root) {
       {.examples =
            "  clackers verify\n"
            "  clackers verify rk4 newmark:beta=0+penalty --case symmetric-pair --levels 10\n"
-           "  clackers verify --report report.html --format json --out record.json\n",
+           "  clackers verify --report report.html --format json --out record.json\n"
+           "  clackers verify --baseline record.json\n",
        .about =
            "Judges time-integration methods: runs each over a ladder of steps on a case whose "
            "exact motion is known, and compares what was measured with what it claims. A "
@@ -153,7 +187,7 @@ Command add_verify(CLI::App& root) {
            "one disagrees, 3 when one stays undecided.",
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--neighbours n] [--jobs n]\n"
-                "           [--report FILE.html]\n"});
+                "           [--baseline FILE.json] [--report FILE.html]\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods).");
@@ -177,7 +211,18 @@ Command add_verify(CLI::App& root) {
                   "Also write a page with verdicts, figures and provenance that opens without a "
                   "network, whole or not at all.")
       ->option_text("FILE.html");
+  app->add_option(
+         "--baseline", options->baseline,
+         "An earlier record (--format json) of the same case and steps, - for standard "
+         "input: says in words what changed since. The exit code stays that of the verdicts.")
+      ->option_text("FILE.json");
   add_common_options(*app, options->common);
+  app->get_option("--format")
+      ->description(
+          "table (for people, 80 columns), csv or json (for programs; numbers read back to the "
+          "same double), junit (xml for continuous integration) or latex (a table). Default: "
+          "table.")
+      ->option_text("table|csv|json|junit|latex");
   return {app, [options](const std::string& line) { return run(*options, line); }};
 }
 

@@ -37,6 +37,12 @@ void substitute(Json& json, const Json& values) {
   }
 }
 
+// Of a long curve a marker at every sixtieth point, at other points for every method.
+std::string marker_rows(const Json& names) {
+  const auto list = names.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return "datum.row % 60 === (7 * indexof(" + list + ", datum.method) + 15) % 60";
+}
+
 Json method_scales(const study::Record& record) {
   Json names = Json::array(), colors = Json::array(), shapes = Json::array(),
        dashes = Json::array();
@@ -51,6 +57,7 @@ Json method_scales(const study::Record& record) {
           {"colors", colors},
           {"shapes", shapes},
           {"dashes", dashes},
+          {"marker_rows", marker_rows(names)},
           {"x_power", power_label("x")},
           {"y_power", power_label("y")}};
 }

@@ -11,7 +11,7 @@
 
 namespace clackers::report {
 
-std::string html(const study::Record& record) {
+std::string html(const study::Record& record, const study::BaselineComparison* changes) {
   const auto& problem = record.problem;
   const auto& from = record.provenance;
   const auto lead =
@@ -27,6 +27,8 @@ std::string html(const study::Record& record) {
                {"style", std::string(assets::page_css)},
                {"overall", overall_html(record)},
                {"verdicts", verdicts_html(record)},
+               {"changes", changes == nullptr ? "" : changes_html(record, *changes)},
+               {"changes_link", changes == nullptr ? "" : "<a href=\"#changes\">Changes</a>"},
                {"figures", figures_html(record)},
                {"methods", methods_html(record)},
                {"case", case_html(problem)},

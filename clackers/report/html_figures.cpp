@@ -143,16 +143,18 @@ std::string figures_html(const study::Record& record) {
           "Faint points are single runs; the line joins the worst run of each level (the upper "
           "envelope). A method of order p follows a straight line as steep as the side of the "
           "triangle with p beside it. Scatter of the points is irregularity, a line that levels "
-          "out is a floor." +
+          "out is a floor. Point at a curve, or at its name above, to pick the method out in every "
+          "figure." +
               missing,
           {}});
   out += figure(
-      3, {"history", "history", "Error against time",
-          "Displacement error divided by the initial envelope of the mass against time in "
-          "seconds, one run a method. The error axis is logarithmic.",
-          "Steps up at collisions are errors that collisions bring in; the downward spikes are "
-          "changes of sign. Point at a curve for its step h.",
-          mass_choice(record)});
+      3,
+      {"history", "history", "Error against time",
+       "Displacement error divided by the initial envelope of the mass against time in "
+       "seconds, one run a method. The error axis is logarithmic.",
+       "Steps up at collisions are errors that collisions bring in; the downward spikes are "
+       "changes of sign. The markers only tell the curves apart. Point at a curve for its step h.",
+       mass_choice(record)});
   out += "<div class=\"pair\">\n";
   out +=
       figure(4, {"work-forces",

@@ -74,9 +74,11 @@ std::string section(const study::MethodResult& method, std::size_t index, double
   const auto said = remark(method);
   const auto& assessment = method.assessment;
   const bool judged = method.refusal.empty();
-  std::string out =
-      fmt::format("<article class=\"method\" id=\"{}\"><h3>{}{} {}</h3>\n", anchor(index),
-                  key_svg(look(index)), escape(method.name), badge(verdict_word(method)));
+  std::string out = fmt::format(
+      "<article class=\"method\" id=\"{0}\" aria-labelledby=\"{0}-title\"><h3 "
+      "id=\"{0}-title\">{1}{2} {3}</h3>\n<p class=\"back\"><a href=\"#verdicts\">Back to "
+      "the verdicts</a></p>\n",
+      anchor(index), key_svg(look(index)), escape(method.name), badge(verdict_word(method)));
   if (said)
     out += fmt::format("<p>{} <span class=\"code\">[{}]</span></p>\n", escape(said->sentence),
                        escape(said->code));

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "clackers/study/baseline.hpp"
 #include "clackers/study/record.hpp"
 
 namespace clackers::report {
@@ -10,8 +11,10 @@ namespace clackers::report {
 
 std::string overall_html(const study::Record& record);   ///< the verdict on the record, notices
 std::string verdicts_html(const study::Record& record);  ///< the table and the remarks below it
-std::string figures_html(const study::Record& record);   ///< frames, captions, legends
-std::string methods_html(const study::Record& record);   ///< a section a method
+/// What changed since a baseline: a section of its own.
+std::string changes_html(const study::Record& record, const study::BaselineComparison& changes);
+std::string figures_html(const study::Record& record);  ///< frames, captions, legends
+std::string methods_html(const study::Record& record);  ///< a section a method
 std::string case_html(const study::CaseSummary& problem);
 std::string again_html(const study::Provenance& provenance);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "clackers/report/changes.hpp"
 #include "clackers/report/digest.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/layout.hpp"
@@ -75,7 +76,8 @@ void print_table(const study::Record& record, std::ostream& out, const Style& st
 
 }  // namespace
 
-void write_verdict_table(const study::Record& record, std::ostream& out, const Style& style) {
+void write_verdict_table(const study::Record& record, std::ostream& out, const Style& style,
+                         const study::BaselineComparison* changes) {
   const auto& problem = record.problem;
   print_wrapped(case_text(problem), "", out, style);
   print_wrapped(fmt::format("{} s with {} collisions; fast period {} s", short_number(problem.end),
@@ -101,6 +103,10 @@ void write_verdict_table(const study::Record& record, std::ostream& out, const S
       print_wrapped(fmt::format("{}: {} [{}]", typed_name(method), said->sentence, said->code), "",
                     out, style);
     }
+  if (changes != nullptr) {
+    out << '\n';
+    write_changes(*changes, out, style);
+  }
   const auto end = closing(record);
   out << '\n';
   print_wrapped(fmt::format("Of {} methods: {}.", record.methods.size(), end.sentence), "", out,

@@ -1,9 +1,17 @@
 #include "clackers/report/write.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <ostream>
+#include <span>
+#include <stdexcept>
+#include <string>
 
 #include "clackers/base/suggest.hpp"
+#include "clackers/report/junit.hpp"
+#include "clackers/report/latex.hpp"
 #include "clackers/report/rows.hpp"
 #include "clackers/report/runs.hpp"
 #include "clackers/report/verdict_table.hpp"
@@ -11,12 +19,20 @@
 
 namespace clackers::report {
 
-Format format_from(std::string_view text) {
-  if (text == "table") return Format::table;
-  if (text == "csv") return Format::csv;
-  if (text == "json") return Format::json;
-  static const std::array<std::string, 3> names{"table", "csv", "json"};
-  refuse_name("format", text, names, "table, csv, json");
+namespace {
+
+[[noreturn]] void refuse_rows() {
+  throw std::logic_error("rows have no format for verdicts; format_from(text) gives none");
+}
+
+}  // namespace
+
+Format format_from(std::string_view text, Content content) {
+  static const std::array<std::string, 5> names{"table", "csv", "json", "junit", "latex"};
+  const std::span known(names.data(), content == Content::rows ? 3 : names.size());
+  const auto found = std::ranges::find(known, text);
+  if (found != known.end()) return static_cast<Format>(found - known.begin());
+  refuse_name("format", text, known, fmt::format("{}", fmt::join(known, ", ")));
 }
 
 void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style) {
@@ -27,6 +43,9 @@ void write(study::RowSource& rows, Format format, std::ostream& out, const Style
       return write_csv(rows, out);
     case Format::json:
       return write_json(rows, out);
+    case Format::junit:
+    case Format::latex:
+      refuse_rows();
   }
 }
 
@@ -42,10 +61,11 @@ void write(std::span<const study::Sheet> sheets, std::string_view schema, Format
   }
 }
 
-void write(const study::Record& record, Format format, std::ostream& out, const Style& style) {
+void write(const study::Record& record, Format format, std::ostream& out, const Style& style,
+           const study::BaselineComparison* changes) {
   switch (format) {
     case Format::table:
-      return write_verdict_table(record, out, style);
+      return write_verdict_table(record, out, style, changes);
     case Format::json:
       out << study::to_json(record) << '\n';
       return;
@@ -54,6 +74,10 @@ void write(const study::Record& record, Format format, std::ostream& out, const 
       study::SheetRows rows(sheet);
       return write_csv(rows, out);
     }
+    case Format::junit:
+      return write_junit(record, out, changes);
+    case Format::latex:
+      return write_latex(record, out);
   }
 }
 

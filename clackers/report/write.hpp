@@ -5,15 +5,19 @@
 #include <string>
 #include <string_view>
 
+#include "clackers/study/baseline.hpp"
 #include "clackers/study/record.hpp"
 #include "clackers/study/sheet.hpp"
 
 namespace clackers::report {
 
-enum class Format { table, csv, json };
+enum class Format { table, csv, json, junit, latex };
 
-/// Throws InputError with did-you-mean for any text but table, csv, json.
-Format format_from(std::string_view text);
+/// What there is to write. Rows know the first three formats only.
+enum class Content { rows, verdicts };
+
+/// Throws InputError with did-you-mean for any text but the formats of the content.
+Format format_from(std::string_view text, Content content = Content::rows);
 
 /// How a table may look on the terminal at hand.
 struct Style {
@@ -30,11 +34,17 @@ void write(study::RowSource& rows, Format format, std::ostream& out, const Style
 void write(std::span<const study::Sheet> sheets, std::string_view schema, Format format,
            std::ostream& out, const Style& style = {});
 
-/// A study: the verdict table with its closing lines, a csv row for every run, or its json.
-void write(const study::Record& record, Format format, std::ostream& out, const Style& style = {});
+/// A study: the verdict table with its closing lines, a csv row for every run, its json, JUnit XML
+/// or a LaTeX table. What changed since a baseline stands in the table and in JUnit's output; the
+/// other formats have no place for it.
+void write(const study::Record& record, Format format, std::ostream& out, const Style& style = {},
+           const study::BaselineComparison* changes = nullptr);
+constexpr bool tells_changes(Format format) {
+  return format == Format::table || format == Format::junit;
+}
 
 /// One self-contained html page that opens without a network.
-std::string html(const study::Record& record);
+std::string html(const study::Record& record, const study::BaselineComparison* changes = nullptr);
 
 /// The displacements as a picture of characters, masses marked 1 and 2, collisions on the axis.
 std::string plot(const study::Curve& response, std::span<const double> impact_times,

@@ -27,26 +27,6 @@ void require_ladder(const LadderPlan& plan, double end) {
 
 Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
 
-CaseSummary summary_of(const cases::Case& which) {
-  CaseSummary summary;
-  summary.name = which.entry->name;
-  summary.summary = which.entry->summary;
-  summary.equations = which.entry->equations;
-  for (std::size_t i = 0; i < which.values.size(); ++i) {
-    const auto& parameter = which.entry->parameters[i];
-    summary.parameters.push_back(
-        {parameter.name, which.values[i].second, parameter.unit, parameter.meaning});
-  }
-  for (const auto& c : which.constants) summary.constants.push_back(quantity(c));
-  for (const auto& c : which.indicators) summary.constants.push_back(quantity(c));
-  summary.end = which.motion->end();
-  summary.fast_period = *std::ranges::min_element(which.damped_periods);
-  summary.impact_count = which.motion->impact_count(summary.end);
-  for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k)
-    summary.impact_times.push_back(which.motion->impact(k).t);
-  return summary;
-}
-
 // While nothing collides a method is held to its smooth order, not to what it does at impacts.
 methods::Claim claim_of(const methods::Facts& facts, bool collides) {
   if (collides) return facts.through_impacts;
@@ -80,6 +60,26 @@ void require_some_method(const std::vector<PlannedMethod>& all,
 }
 
 }  // namespace
+
+CaseSummary summary_of(const cases::Case& which) {
+  CaseSummary summary;
+  summary.name = which.entry->name;
+  summary.summary = which.entry->summary;
+  summary.equations = which.entry->equations;
+  for (std::size_t i = 0; i < which.values.size(); ++i) {
+    const auto& parameter = which.entry->parameters[i];
+    summary.parameters.push_back(
+        {parameter.name, which.values[i].second, parameter.unit, parameter.meaning});
+  }
+  for (const auto& c : which.constants) summary.constants.push_back(quantity(c));
+  for (const auto& c : which.indicators) summary.constants.push_back(quantity(c));
+  summary.end = which.motion->end();
+  summary.fast_period = *std::ranges::min_element(which.damped_periods);
+  summary.impact_count = which.motion->impact_count(summary.end);
+  for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k)
+    summary.impact_times.push_back(which.motion->impact(k).t);
+  return summary;
+}
 
 VerifyPlan plan_of(const VerifyRequest& request) {
   VerifyPlan plan;

@@ -24,6 +24,9 @@ struct VerifyPlan {
   std::vector<assess::StepLevel> ladder;
 };
 
+/// What a record tells of a case.
+CaseSummary summary_of(const cases::Case& which);
+
 /// Throws InputError for whatever cannot be run: unknown names, values outside their range, a
 /// ladder of too many steps, a method named twice, or no method left that takes the case.
 VerifyPlan plan_of(const VerifyRequest& request);

@@ -4,7 +4,7 @@ import unittest
 
 from command import CommandTest, run
 
-COMMANDS = ("list", "show", "respond", "verify", "explain")
+COMMANDS = ("list", "show", "respond", "verify", "check", "explain")
 
 
 class Help(CommandTest):
@@ -24,10 +24,12 @@ class Help(CommandTest):
     def test_describes_every_option_of_the_grammar(self):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
         own = {"list": [], "explain": [], "show": ["--set", "--threshold"],
+               "check": ["--case", "--set", "--columns", "--events", "--steps", "--expect",
+                         "--tolerance"],
                "respond": ["--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--set", "--levels", "--coarsest", "--neighbours",
-                          "--jobs", "--report"]}
+                          "--jobs", "--baseline", "--report"]}
         for command, options in own.items():
             text = self.good(command, "--help").split("\nOptions\n")[1]
             named = re.findall(r"^  (?:-h,)?(--[a-z-]+)", text, re.M)
@@ -79,7 +81,7 @@ class Names(CommandTest):
                          says=('Did you mean "json"?', "table, csv, json"))
 
     def test_of_options_still_to_come_are_unknown(self):
-        for command, option in (("verify", "--baseline"), ("verify", "--expect")):
+        for command, option in (("verify", "--expect"), ("respond", "--baseline")):
             self.refused(command, option, "stop", code="unknown-name", says=f'no option "{option}"')
 
 

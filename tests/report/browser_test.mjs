@@ -134,6 +134,48 @@ try {
   const told = await page.locator("#vg-tooltip-element").innerText();
   check("a point tells its method and numbers", /method\s+\S+[\s\S]*step h \[s\]\s+\d[\s\S]*error in u\s+\d/.test(told), told);
 
+  // What is pointed at stands out everywhere.
+  const linked = figures.filter((name) => name !== "response");
+  const standing = (name) => page.evaluate((figure) => {
+    // Opacity of the curves of a figure, one an svg path.
+    const paths = document.querySelectorAll(`[data-plot="${figure}"] svg g.mark-line path`);
+    return [...paths].map((path) => Number(path.getAttribute("opacity") ?? 1)).filter((value) => value < 1).length;
+  }, name);
+  const fadedEverywhere = async () => (await Promise.all(linked.map(standing)));
+  await page.mouse.move(2, 2);
+  await page.waitForFunction(() => pointed === null);
+  check("no curve is faded while nothing is pointed at", (await fadedEverywhere()).every((count) => count === 0), await fadedEverywhere());
+  await page.locator('[data-plot="convergence"] g.mark-symbol path[opacity="1"]').nth(3).hover({ force: true });
+  await page.waitForFunction(() => pointed !== null);
+  await page.waitForTimeout(100);
+  check("a method pointed at in one figure stands out in all",
+    JSON.stringify(await fadedEverywhere()) === JSON.stringify(linked.map(() => methods - 1)), await fadedEverywhere());
+  check("its name is marked in the legend", await page.evaluate(() =>
+    [...document.querySelectorAll("button.pointed")].map((toggle) => toggle.dataset.series).join() === pointed));
+  await page.mouse.move(2, 2);
+  await page.waitForFunction(() => pointed === null);
+  await first.focus();
+  await page.waitForTimeout(100);
+  check("a legend entry with the keyboard's focus picks its method out", await standing("history") === methods - 1
+    && await page.evaluate(() => pointed) === await first.getAttribute("data-series"));
+  await first.press("Enter");
+  await page.waitForTimeout(100);
+  check("a method that is hidden fades no other", await page.evaluate(() => pointed) === null && await standing("history") === 0);
+  await first.press("Enter");
+  await page.evaluate(() => document.activeElement.blur());
+  await page.waitForTimeout(100);
+  // By colour alone some readers cannot tell methods apart.
+  const curves = (name) => page.evaluate((figure) => [...document.querySelectorAll(`[data-plot="${figure}"] svg g.mark-line path`)]
+    .filter((path) => path.getAttribute("stroke") !== "var(--faint)")  // the slope triangles
+    .map((path) => `${path.getAttribute("stroke")} ${path.getAttribute("stroke-dasharray")}`), name);
+  const markers = (name) => page.evaluate((figure) => [...document.querySelectorAll(`[data-plot="${figure}"] svg g.mark-symbol path[opacity="1"]`)]
+    .map((path) => `${path.getAttribute("fill")} ${path.getAttribute("d")}`), name);
+  for (const name of linked) {
+    const lines = await curves(name), points = new Set(await markers(name));
+    check(`figure ${name} draws every method with its own colour and dash`, lines.length === methods && new Set(lines).size === methods, lines);
+    check(`figure ${name} draws every method with its own marker`, points.size === methods, [...points]);
+  }
+
   // What can be saved.
   for (const name of figures) {
     const svg = (await download(page, name, "SVG")).toString();
@@ -144,9 +186,35 @@ try {
   const csv = (await download(page, "convergence", "CSV")).toString().trim().split("\n");
   check("the data of all runs is saved as CSV", csv[0].startsWith("method,") &&
     csv.length === 1 + await page.evaluate(() => data.runs.length), `${csv.length} lines`);
+  for (const name of figures) {
+    const rows = (await download(page, name, "CSV")).toString().trim().split("\n");
+    check(`the data behind figure ${name} is saved as CSV`, rows.length > 10 &&
+      rows.every((row) => row.split(",").length >= rows[0].split(",").length), rows[0]);
+  }
   const specification = JSON.parse((await download(page, "history", "Vega-Lite")).toString());
   check("a specification is saved with its data", specification.$schema.includes("vega-lite/v5") &&
     specification.datasets.history.length > 0 && !JSON.stringify(specification).includes("var(--"));
+
+  // With the keyboard alone: Tab reaches all that can be pressed, in the order of the page.
+  await page.evaluate(() => { document.activeElement.blur(); scrollTo(0, 0); });
+  const pressable = await page.evaluate(() => {
+    const all = [...document.querySelectorAll("a[href], button, summary, [tabindex='0']")]
+      .filter((element) => element.checkVisibility());
+    all.forEach((element, i) => { element.dataset.order = i; });
+    all[0].focus();
+    return all.length;
+  });
+  const reached = [0];
+  for (let i = 1; i < pressable + 5; ++i) {
+    await page.keyboard.press("Tab");
+    const order = await page.evaluate(() => document.activeElement.dataset.order ?? null);
+    if (order === null) break;
+    reached.push(Number(order));
+  }
+  check("Tab reaches every link, button and table in the order of the page",
+    reached.length === pressable && reached.every((order, i) => order === i), `${reached.length} of ${pressable}: ${reached}`);
+  await page.evaluate(() => { document.activeElement.blur(); scrollTo(0, 0); });
+  await page.waitForTimeout(50);
 
   // For everybody.
   for (const theme of ["light", "dark"]) {

@@ -48,8 +48,10 @@ for (const legend of document.querySelectorAll("[data-legend]")) {
   };
   for (const toggle of toggles)
     toggle.addEventListener("click", () => {
-      toggle.setAttribute("aria-pressed", String(toggle.getAttribute("aria-pressed") !== "true"));
+      const shown = toggle.getAttribute("aria-pressed") !== "true";
+      toggle.setAttribute("aria-pressed", String(shown));
       apply();
+      point(shown && toggle.closest(".all") ? toggle.dataset.series : null);
     });
   const every = legend.querySelector(".every");
   if (every)
@@ -58,6 +60,28 @@ for (const legend of document.querySelectorAll("[data-legend]")) {
       for (const toggle of toggles) toggle.setAttribute("aria-pressed", pressed);
       apply();
     });
+}
+
+// A method that is pointed at, in a figure or in the legend, stands out in all figures.
+let pointed = null;
+function point(method) {
+  const hidden = document.querySelector(`[data-series="${CSS.escape(method || "")}"][aria-pressed="false"]`);
+  const next = hidden ? null : method;
+  if (next === pointed) return;
+  pointed = next;
+  for (const name of Object.keys(embedded))
+    if (specifications[name].params.some((parameter) => parameter.name === "hovered"))
+      embedded[name].signal("hovered", pointed).runAsync();
+  for (const toggle of document.querySelectorAll("[data-legend] button[data-series]"))
+    toggle.classList.toggle("pointed", toggle.dataset.series === pointed);
+}
+function followPointer(name) {
+  embedded[name].addEventListener("mouseover", (event, item) => point((item && item.datum && item.datum.method) || null));
+  embedded[name].addEventListener("mouseout", () => point(null));
+}
+for (const toggle of document.querySelectorAll(".legend.all button[data-series]")) {
+  for (const event of ["mouseenter", "focus"]) toggle.addEventListener(event, () => point(toggle.dataset.series));
+  for (const event of ["mouseleave", "blur"]) toggle.addEventListener(event, () => point(null));
 }
 
 // Which mass a figure shows.
@@ -98,7 +122,10 @@ for (const copy of document.querySelectorAll("[data-copy]"))
 
 document.documentElement.dataset.figures = "drawing";
 Promise.all(Object.keys(specifications).map(draw)).then(
-  () => { document.documentElement.dataset.figures = "drawn"; },
+  () => {
+    Object.keys(embedded).forEach(followPointer);
+    document.documentElement.dataset.figures = "drawn";
+  },
   (error) => {
     document.documentElement.dataset.figures = "failed";
     console.error(error);

@@ -1,0 +1,161 @@
+"""The json of verify is what docs/schemas/verify-1.json says, and nothing else is."""
+import copy
+import json
+import os
+import unittest
+
+import jsonschema  # Debian: python3-jsonschema
+
+from command import CommandTest, run
+
+SCHEMA = os.path.join(os.path.dirname(__file__), "../../docs/schemas/verify-1.json")
+
+# Values that some other field might have; of them a bent record is made.
+OTHERS = (None, True, 7, 0.5, "text", [], {})
+
+
+def places(value, path=()):
+    """The paths of all values inside json, of each list the first item only."""
+    yield path
+    if isinstance(value, dict):
+        for key in value:
+            yield from places(value[key], path + (key,))
+    elif isinstance(value, list):
+        if value:
+            yield from places(value[0], path + (0,))
+
+
+def holder(record, path):
+    for key in path[:-1]:
+        record = record[key]
+    return record
+
+
+class Schema(CommandTest):
+    @classmethod
+    def setUpClass(cls):
+        with open(SCHEMA) as file:
+            schema = json.load(file)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        cls.validator = jsonschema.Draft202012Validator(schema)
+        # A method that refuses the case, one that does not finish its coarse runs, one that reports
+        # no collisions in full.
+        done = run("verify", "rk4", "newmark+penalty", "moreau-jean", "--case", "symmetric-pair",
+                   "--set", "eta=0.5", "--levels", "2", "--neighbours", "2", "--format", "json")
+        cls.record = json.loads(done.stdout)
+        # Small, so that it can be bent in every place: one method that ran, one that refused.
+        cls.whole = copy.deepcopy(cls.record)
+        del cls.record["methods"][-1]
+        del cls.record["case"]["constants"][1:]
+        for method in cls.record["methods"]:
+            method["ladder"] = method["ladder"][:1]
+            for level in method["ladder"]:
+                del level["runs"][1:]
+            method["error_history"] = {name: rows[:2] for name, rows in method["error_history"].items()}
+        cls.record["response"] = {"t": [0.0, 1.0], "y": [[1.0, "nan"], ["inf", "-inf"]]}
+
+    def good_record(self):
+        return copy.deepcopy(self.record)
+
+    def is_valid(self, record):
+        return self.validator.is_valid(record)
+
+    def test_takes_what_verify_writes(self):
+        self.validator.validate(self.whole)
+        self.validator.validate(self.record)
+        self.assertTrue(any(method["refusal"] for method in self.record["methods"]))
+
+    def test_takes_the_default_panel_and_every_pair(self):
+        for methods in ((), ("--all",)):
+            done = run("verify", *methods, "--coarsest", "0.5", "--levels", "1", "--neighbours", "1",
+                       "--format", "json")
+            self.validator.validate(json.loads(done.stdout))
+
+    def test_takes_a_run_that_reports_no_collisions(self):
+        record = self.good_record()
+        record["methods"][0]["ladder"][0]["runs"][0]["impacts"] = None
+        self.assertTrue(self.is_valid(record))
+
+    def test_refuses_a_record_without_any_one_of_its_fields(self):
+        for path in places(self.record):
+            if path and isinstance(path[-1], str):
+                bent = self.good_record()
+                del holder(bent, path)[path[-1]]
+                self.assertFalse(self.is_valid(bent), path)
+
+    def test_refuses_a_field_that_is_not_known_in_every_object(self):
+        for path in places(self.record):
+            bent = self.good_record()
+            target = holder(bent, path)[path[-1]] if path else bent
+            if isinstance(target, dict):
+                target["unheard_of"] = 1
+                self.assertFalse(self.is_valid(bent), path)
+
+    def test_refuses_a_value_of_another_kind_in_every_place(self):
+        for path in places(self.record):
+            if not path:
+                continue
+            was = holder(self.record, path)[path[-1]]
+            for other in OTHERS:
+                number = isinstance(was, (int, float)) and not isinstance(was, bool)
+                number = number or was in ("nan", "inf", "-inf")
+                same = type(other) is type(was) or (number and type(other) in (int, float))
+                if path[-1] == "impacts":
+                    same = same or other is None
+                # A count is whole; the other numbers need not be.
+                if same and not isinstance(other, (list, dict)) and not path[-1] == "schema":
+                    continue
+                if isinstance(other, list) and isinstance(was, list):
+                    continue  # an empty list is a list
+                bent = self.good_record()
+                holder(bent, path)[path[-1]] = other
+                self.assertFalse(self.is_valid(bent), (path, other))
+
+    def test_takes_every_behaviour_and_verdict(self):
+        for name in ("exact", "proper", "reduced", "irregular", "stagnating", "divergent", "undecided"):
+            record = self.good_record()
+            record["methods"][0]["claim"]["behaviour"] = name
+            record["methods"][0]["assessment"]["impact_time"]["behaviour"] = name
+            self.assertTrue(self.is_valid(record), name)
+        for name in ("agrees", "disagrees", "not claimed", "undecided"):
+            record = self.good_record()
+            record["methods"][0]["assessment"]["verdict"] = name
+            self.assertTrue(self.is_valid(record), name)
+
+    def test_refuses_other_words_and_counts_that_are_not_whole(self):
+        for path, value in ((("schema",), "clackers/verify/2"),
+                            (("methods", 0, "assessment", "verdict"), "maybe"),
+                            (("methods", 0, "claim", "behaviour"), "fine"),
+                            (("methods", 0, "assessment", "velocity", "behaviour"), "agrees"),
+                            (("plan", "levels"), 7.5),
+                            (("plan", "levels"), 0),
+                            (("plan", "neighbours"), 65),
+                            (("case", "impact_count"), -1),
+                            (("case", "end"), "NaN"),
+                            (("methods", 0, "ladder", 0, "runs", 0, "work", "steps"), 1.5),
+                            (("methods", 0, "ladder", 0, "runs", 0, "impacts", "missed"), -1),
+                            (("response", "y", 0, 0), None)):
+            bent = self.good_record()
+            holder(bent, path)[path[-1]] = value
+            self.assertFalse(self.is_valid(bent), (path, value))
+
+    def test_what_it_refuses_verify_refuses_as_baseline(self):
+        for change in ("missing", "unknown", "kind", "schema"):
+            bent = self.good_record()
+            if change == "missing":
+                del bent["methods"][0]["claim"]["order"]
+            elif change == "unknown":
+                bent["case"]["extra"] = 1
+            elif change == "kind":
+                bent["methods"][0]["ladder"][0]["runs"][0]["seconds"] = [1]
+            else:
+                bent["schema"] = "clackers/check/1"
+            self.assertFalse(self.is_valid(bent))
+            with open(self.path("bent.json"), "w") as file:
+                json.dump(bent, file)
+            self.refused("verify", "--baseline", self.path("bent.json"), code="not-a-record",
+                         says=("baseline", "bent.json"))
+
+
+if __name__ == "__main__":
+    unittest.main()
