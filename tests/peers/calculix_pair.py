@@ -1,0 +1,80 @@
+"""Two masses on springs with a compression-only penalty spring between them, for CalculiX."""
+import os
+import subprocess
+
+
+def deck(pair, stiffness, step, end):
+    """The input of an implicit direct dynamic run without damping, Newmark's average acceleration."""
+    # A whole number without a point is not read as a stiffness.
+    pair = {name: float(value) for name, value in pair.items() if isinstance(value, (int, float))}
+    return f"""** Mass 1 at x = 1, mass 2 at x = 0: the spring between them is shortened by u2 - u1.
+*NODE, NSET=BOTH
+1, 1., 0., 0.
+2, 0., 0., 0.
+*ELEMENT, TYPE=MASS, ELSET=MASS1
+1, 1
+*MASS, ELSET=MASS1
+{pair["m1"]!r}
+*ELEMENT, TYPE=MASS, ELSET=MASS2
+2, 2
+*MASS, ELSET=MASS2
+{pair["m2"]!r}
+*ELEMENT, TYPE=SPRING1, ELSET=SPRING1
+3, 1
+*SPRING, ELSET=SPRING1
+1
+{pair["k1"]!r}
+*ELEMENT, TYPE=SPRING1, ELSET=SPRING2
+4, 2
+*SPRING, ELSET=SPRING2
+1
+{pair["k2"]!r}
+*ELEMENT, TYPE=SPRINGA, ELSET=CONTACT
+5, 2, 1
+*SPRING, ELSET=CONTACT, NONLINEAR
+{-float(stiffness)!r}, -1.
+0., 0.
+0., 10.
+*BOUNDARY
+1, 2, 3
+2, 2, 3
+*INITIAL CONDITIONS, TYPE=DISPLACEMENT
+1, 1, {pair["u1(0)"]!r}
+2, 1, {pair["d2"]!r}
+*STEP, NLGEOM, INC=10000000
+*DYNAMIC, DIRECT, ALPHA=0.
+{step!r}, {end!r}
+*NODE PRINT, NSET=BOTH
+U, V
+*END STEP
+"""
+
+
+def rows_of(text):
+    """(t, u1, v1, u2, v2) as printed, from the text of a .dat file."""
+    rows, kind = {}, ""
+    for line in text.splitlines():
+        words = line.split()
+        if not words:
+            continue
+        if words[0] in ("displacements", "velocities"):
+            kind, time = words[0][0], words[-1]
+            rows.setdefault(time, {})
+        else:
+            rows[time][kind + words[0]] = words[1]
+    return [(t, row["d1"], row["v1"], row["d2"], row["v2"]) for t, row in rows.items()]
+
+
+def run(folder, pair, stiffness, step, end, history):
+    """Writes the history of a run, with the digits that CalculiX prints."""
+    name = os.path.join(folder, "pair")
+    with open(name + ".inp", "w") as file:
+        file.write(deck(pair, stiffness, step, end))
+    environment = dict(os.environ, OMP_NUM_THREADS="1")
+    subprocess.run(["ccx", "-i", "pair"], cwd=folder, env=environment, check=True,
+                   stdout=subprocess.DEVNULL)
+    with open(name + ".dat") as file:
+        rows = rows_of(file.read())
+    with open(history, "w") as file:
+        file.write("t u1 v1 u2 v2\n")
+        file.writelines("  ".join(row) + "\n" for row in rows)

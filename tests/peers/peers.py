@@ -1,0 +1,51 @@
+"""What the tests beside this file share: the pair's numbers, a folder, and the command."""
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CLACKERS"]
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def clackers(*arguments):
+    """The finished process, with its texts."""
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120)
+
+
+def pair(*settings):
+    """All constants of the default case by name: m1, k1, c1, "u1(0)", "d2", "v1(0)", eta, t_end, ..."""
+    options = ["--set", ",".join(settings)] if settings else []
+    shown = clackers("show", "three-parameter", *options, "--format", "json")
+    constants = {}
+    for sheet in json.loads(shown.stdout)["sheets"]:
+        names = [column["name"] for column in sheet["columns"]]
+        if "name" in names and "value" in names:
+            for row in sheet["rows"]:
+                constants[row[names.index("name")]] = row[names.index("value")]
+    return constants
+
+
+class PeerTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def checked(self, *arguments, exit_code=0):
+        """The record of a check that must end with that exit code."""
+        done = clackers("check", *arguments, "--format", "json")
+        self.assertEqual((done.returncode, done.stderr), (exit_code, ""),
+                         clackers("check", *arguments).stdout)
+        return json.loads(done.stdout)
+
+    def assert_collides_as_it_should(self, file, time_error):
+        """A file of a record has all six collisions and no other, each within `time_error` [s]."""
+        impacts = file["score"]["impacts"]
+        self.assertEqual((impacts["expected"], impacts["matched"], impacts["missed"],
+                          impacts["extra"]), (6, 6, 0, 0), file["notes"])
+        self.assertLess(impacts["worst_time_error"], time_error)
