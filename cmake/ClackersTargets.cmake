@@ -2,7 +2,9 @@
 
 find_program(CCACHE ccache)
 if(CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  # Precompiled headers are kept apart by their content, not by their time.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+    CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
 add_library(clackers_options INTERFACE)
@@ -54,15 +56,35 @@ function(clackers_all_rooms)
   target_link_libraries(clackers_clackers INTERFACE ${rooms})
 endfunction()
 
+# clackers_test_headers: what nearly every test includes, compiled once. It halves the time that
+# tests take to compile. Rooms have none, so that their build sees each header alone.
+function(clackers_test_headers)
+  file(WRITE ${PROJECT_BINARY_DIR}/test_headers.cpp "")
+  add_library(clackers_test_headers OBJECT ${PROJECT_BINARY_DIR}/test_headers.cpp)
+  target_link_libraries(clackers_test_headers PRIVATE clackers_options Eigen3::Eigen GTest::gtest)
+  target_compile_options(clackers_test_headers PRIVATE ${ARGN})
+  target_precompile_headers(clackers_test_headers PRIVATE <gtest/gtest.h> <Eigen/Dense>)
+endfunction()
+
 # clackers_test(<name> SOURCES <files> LINK <rooms or targets>): a GoogleTest program.
 function(clackers_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   list(TRANSFORM ARG_LINK REPLACE "^([a-z]+)$" "clackers_\\1")
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} clackers_options GTest::gtest_main)
+  set(flags "")
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     # Half the time to compile; what takes time to run is in the rooms.
-    target_compile_options(${name} PRIVATE -O0)
+    set(flags -O0)
+  endif()
+  target_compile_options(${name} PRIVATE ${flags})
+  if(CLACKERS_DEVELOPER)
+    if(NOT TARGET clackers_test_headers)
+      clackers_test_headers(${flags})
+    endif()
+    target_precompile_headers(${name} REUSE_FROM clackers_test_headers)
+    # Without it ccache does not keep what was compiled with GCC's precompiled headers.
+    target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS unit)
 endfunction()

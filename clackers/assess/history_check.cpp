@@ -42,7 +42,7 @@ void require_times(const std::vector<double>& t, const model::Motion& truth) {
              "Keep the two limits of the jump.", "three-limits");
   }
   if (t.empty() || t.front() == t.back())
-    refuse(who, "different times", t.empty() ? 0.0 : 1.0, "at least 2", {}, "too-few-times");
+    refuse(who, "different times", t.empty() ? 0.0 : 1.0, "at least 2", {}, "too-short");
 }
 
 void require_impacts(const std::vector<model::Impact>& impacts, std::size_t dof,

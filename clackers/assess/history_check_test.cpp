@@ -81,7 +81,7 @@ TEST(HistoryCheck, AsksForTwoDifferentTimes) {
       require_comparable(true_history(truth, times), truth, problem);
       ADD_FAILURE() << times.size();
     } catch (const InputError& error) {
-      EXPECT_EQ(error.code().name(), "too-few-times") << error.what();
+      EXPECT_EQ(error.code().name(), "too-short") << error.what();
     }
   }
 }

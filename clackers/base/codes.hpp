@@ -52,14 +52,14 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
      "Even the smallest step is longer than 1/25 of the contact time, so the penalty contact was "
      "never integrated. Use more levels, smaller steps or a softer contact."},
     {"no-convergence-yet", "reason",
-     "The error has not started to shrink in a regular way. Use smaller steps: more --levels or a "
-     "smaller --coarsest."},
+     "The error has not started to shrink in a regular way. Use smaller steps; of verify: more "
+     "--levels or a smaller --coarsest."},
     {"no-fixed-order", "reason",
      "The error falls faster with every refinement, beyond the claimed order, and no power of the "
      "step describes it: exponential convergence, or a bend before a line of higher order."},
     {"wrong-limit", "reason",
-     "The runs converge to a limit that is not the true motion. Differences between runs cannot see "
-     "that; only a true motion or a second model can."},
+     "The runs converge to a limit that is not the true motion. Differences between runs do not "
+     "show that; only a true motion or a second model can."},
     {"improper-convergence", "reason",
      "The differences between runs at successive steps do not fall as the claimed order asks, so "
      "nothing bounds the error of an extrapolated value."},
@@ -143,9 +143,8 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
      "only."},
     {"time-outside", "refusal", "A time lies outside the interval in which the motion is known."},
     {"three-limits", "refusal",
-     "Three or more rows of a history share one time. A jump has two limits: keep the row before it "
-     "and the row after it."},
-    {"too-few-times", "refusal", "A history needs at least two different times to be judged."},
+     "Three or more rows of a history share one time. A jump has two limits: keep the last row "
+     "before it and the first row after it."},
     // Files of other programs.
     {"not-text", "refusal",
      "A history must be rows of numbers as text in ASCII or UTF-8; the file is binary, UTF-16, or "
@@ -156,7 +155,7 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"ragged-row", "refusal", "A row has more or fewer fields than the header or the first row."},
     {"decimal-comma", "refusal",
      "Numbers take a decimal point. A file with decimal commas must be written anew, for example "
-     "with  tr , .  where commas separate nothing."},
+     "with tr where commas separate nothing."},
     {"not-sorted", "refusal",
      "Times must not descend, and at most two rows may have the same time: the left and the right "
      "limit of a jump. Sort the rows, or print times with more digits."},
@@ -165,7 +164,8 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
      "The history starts from another state than the case. The message says which value differs "
      "and, where one parameter can mend it, its value for --set."},
     {"printed-digits", "reason",
-     "The floor is the rounding of the printed numbers. Print more digits: 17 keep a double whole."},
+     "The floor is the rounding of the printed numbers. Print more digits: 17 keep a double "
+     "whole."},
     {"sparse-rows", "reason",
      "The rows of the history lie too far apart to find collisions in them. Print more rows, or "
      "give the collisions with --events."},
@@ -173,6 +173,15 @@ inline constexpr auto code_table = std::to_array<CodeEntry>({
     {"cannot-write", "failure",
      "A file could not be written; nothing half-written was left behind."},
     {"cannot-read", "failure", "A file could not be read."},
+    {"no-renderer", "failure",
+     "The program node or rsvg-convert, which draw the figures of `clackers paper`, is not "
+     "installed. Their numbers (csv) and specifications (vl.json) were written all the same."},
+    {"render-failed", "failure",
+     "The program node or rsvg-convert was found and failed to draw a figure. Numbers (csv) and "
+     "specifications (vl.json) were written all the same."},
+    {"foreign-folder", "refusal",
+     "The folder of --out holds files that the command did not write. It is replaced as a whole, "
+     "so give another name, or move them away."},
     {"out-of-memory", "failure", "There was not enough memory for the request; ask for less."},
     {"internal-error", "failure",
      "A mistake in the program itself. Please report it with the command that led to it."},
