@@ -14,6 +14,7 @@
 #include "cli/help.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
+#include "cli/report_page.hpp"
 #include "cli/results.hpp"
 #include "cli/values.hpp"
 
@@ -23,7 +24,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> files, settings, events;
-  std::string case_name, columns, steps, expect, tolerance;
+  std::string case_name, columns, steps, expect, tolerance, report;
 };
 
 // The parts between commas. Throws InputError for an empty one.
@@ -58,16 +59,19 @@ study::CheckRequest request_of(const Options& options, const std::string& line) 
 
 int run(const Options& options, const std::string& line) {
   const auto request = request_of(options, line);
-  Results results(options.common, OnInterrupt::stop);
+  ReportPage page("check", options.report, options.common, OnInterrupt::stop);
+  Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
   try {
     const auto record = study::check(request, &interrupt_flag());
+    bool written = true;
+    if (page.wanted()) written = page.write(report::check_html(record));
     report::write(record, results.format(), results.stream(), results.style());
     try {
       results.finish();
     } catch (const BrokenPipe&) {
       // `check | head`: the reader had enough, the verdict still counts.
     }
-    return study::exit_code(record);
+    return written ? study::exit_code(record) : 4;
   } catch (const Error& error) {
     if (error.code() == Code("interrupted")) throw Interrupted();
     throw;
@@ -95,7 +99,7 @@ Command add_check(CLI::App& root) {
            "3 when undecided.",
        .usage = "  clackers check FILE ... [--case CASE] [--set name=value,...]\n"
                 "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...]\n"
-                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x]\n"});
+                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--report FILE.html]\n"});
   app->add_option("FILE", options->files, "Time histories, text.");
   app->add_option("--case", options->case_name,
                   "The case (clackers list cases). Default: three-parameter.")
@@ -122,7 +126,9 @@ Command add_check(CLI::App& root) {
   app->add_option("--tolerance", options->tolerance,
                   "Largest error in u, relative to the initial envelope, of the finest history.")
       ->option_text("x");
+  add_report_option(*app, options->report);
   add_common_options(*app, options->common);
+  add_verdict_formats(*app);
   return {app, [options](const std::string& line) { return run(*options, line); }};
 }
 

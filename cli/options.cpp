@@ -29,4 +29,21 @@ void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
       ->allow_extra_args(false);
 }
 
+void add_report_option(CLI::App& command, std::string& path) {
+  command
+      .add_option("--report", path,
+                  "Also write a page with verdicts, figures and provenance that opens without a "
+                  "network, whole or not at all.")
+      ->option_text("FILE.html");
+}
+
+void add_verdict_formats(CLI::App& command) {
+  command.get_option("--format")
+      ->description(
+          "table (for people, 80 columns), csv or json (for programs; numbers read back to the "
+          "same double), junit (xml for continuous integration) or latex (a table). Default: "
+          "table.")
+      ->option_text("table|csv|json|junit|latex");
+}
+
 }  // namespace clackers::cli

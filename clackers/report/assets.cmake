@@ -17,13 +17,16 @@ endforeach()
 
 set(page
   ${report_dir}/page/page.html
+  ${report_dir}/page/check.html
   ${report_dir}/page/page.css
   ${report_dir}/page/page.js
   ${report_dir}/page/figures.js
   ${report_dir}/page/response.vl.json
+  ${report_dir}/page/history_rows.vl.json
   ${report_dir}/page/convergence.vl.json
   ${report_dir}/page/history.vl.json
-  ${report_dir}/page/work.vl.json)
+  ${report_dir}/page/work.vl.json
+  ${report_dir}/page/profile.vl.json)
 
 set(CLACKERS_REPORT_ASSETS ${PROJECT_BINARY_DIR}/clackers_report_assets.cpp)
 add_custom_command(

@@ -5,12 +5,14 @@
 /// The files that the html page is made of, embedded by embed.cmake.
 namespace clackers::report::assets {
 
-extern const std::string_view page_html;  ///< with {{slots}}
+extern const std::string_view page_html, check_html;  ///< with {{slots}}
 extern const std::string_view page_css;
 extern const std::string_view page_js, figures_js;
 
 /// Vega-Lite specifications with "$placeholders".
-extern const std::string_view response_vl_json, convergence_vl_json, history_vl_json, work_vl_json;
+extern const std::string_view response_vl_json, convergence_vl_json, history_vl_json, work_vl_json,
+    profile_vl_json;
+extern const std::string_view history_rows_vl_json;  ///< a layer for response_vl_json
 
 extern const std::string_view vega_min_js, vega_lite_min_js, vega_embed_min_js;
 extern const std::string_view licences;  ///< of the three and what is in them

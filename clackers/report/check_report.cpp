@@ -1,9 +1,10 @@
 #include "clackers/report/check_report.hpp"
 
 #include <ostream>
-#include <stdexcept>
 
 #include "clackers/report/check_json.hpp"
+#include "clackers/report/check_junit.hpp"
+#include "clackers/report/check_latex.hpp"
 #include "clackers/report/check_rows.hpp"
 #include "clackers/report/check_table.hpp"
 #include "clackers/report/rows.hpp"
@@ -23,8 +24,9 @@ void write(const study::CheckRecord& record, Format format, std::ostream& out, c
       return write_csv(rows, out);
     }
     case Format::junit:
+      return write_check_junit(record, out);
     case Format::latex:
-      throw std::logic_error("histories have no format for verdicts; format_from(text) gives none");
+      return write_check_latex(record, out);
   }
 }
 

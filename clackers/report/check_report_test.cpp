@@ -2,61 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "clackers/report/format.hpp"
+#include "clackers/report/sample_check.hpp"
 
 namespace clackers::report {
 namespace {
 
 using nlohmann::json;
 
-study::CheckedFile file(const std::string& name, double step) {
-  study::CheckedFile made;
-  made.file = name;
-  made.rows = 2001;
-  made.spacing = step;
-  made.last = 20.0;
-  made.columns = {{"t", 17, false, 0.0}, {"u1", 6, false, 5e-6}};
-  made.printed_floor = 5e-6;
-  made.printed_by = "u1";
-  made.has_u = {true, true};
-  made.collisions = study::CollisionSource::history;
-  made.score.step = step;
-  made.score.finished = true;
-  made.score.u_error = 0.1 * step;
-  made.score.v_error = std::nan("");
-  made.score.impacts = assess::ImpactScore{6, 5, 4, 2, 1, 0.125, 0.0};
-  made.metrics = {{"u-max", "m", 0.25, {0.25, 0.125}, "", true},
-                  {"v-max", "m/s", 2.0, {}, "", false},
-                  {"a-max", "m/s2", std::nan(""), {}, "There are no accelerations.", true},
-                  {"impacts-missed", "1", 2.0, {}, "", true}};
-  made.notes = {"No events file: they were found in the history itself."};
-  return made;
-}
-
-study::CheckRecord record() {
-  study::CheckRecord made;
-  made.problem.name = "three-parameter";
-  made.problem.end = 20.0;
-  made.problem.fast_period = 0.7;
-  made.problem.impact_count = 6;
-  made.files = {file("/a/long/way/to/coarse.csv", 0.02), file("fine.csv", 0.01)};
-  made.files.front().notes.push_back("The first row is at 0.02 s, not at the start.");
-  auto& fit = made.assessment.displacement;
-  fit.behaviour = Behaviour::undecided;
-  fit.reason = "too-few-levels";
-  made.verdict = Verdict::disagrees;
-  made.sentence = "It finds 4 of 6 collisions.";
-  made.reason = "too-few-levels";
-  made.next = "clackers explain too-few-levels";
-  return made;
-}
-
-std::string written(Format format, const study::CheckRecord& what = record(), Style style = {}) {
+std::string written(Format format, const study::CheckRecord& what = sample_check(),
+                    Style style = {}) {
   std::ostringstream out;
   write(what, format, out, style);
   return out.str();
@@ -67,7 +26,7 @@ bool has(const std::string& text, const std::string& part) {
 }
 
 TEST(CheckTable, FitsItsWidth) {
-  auto longest = record();
+  auto longest = sample_check();
   longest.files.front().file = std::string(100, 'x') + ".csv";
   longest.next = std::string(100, 'y');
   for (const int width : {40, 80, 120}) {
@@ -108,7 +67,7 @@ TEST(CheckTable, EndsWithTheVerdictAndTheNextCommand) {
   EXPECT_TRUE(has(text, "It finds 4 of 6 collisions. [too-few-levels]\n"));
   EXPECT_TRUE(text.ends_with("Verdict: disagrees. Next: clackers explain too-few-levels\n"))
       << text;
-  const auto painted = written(Format::table, record(), {.color = true, .width = 80});
+  const auto painted = written(Format::table, sample_check(), {.color = true, .width = 80});
   EXPECT_TRUE(has(painted, "\x1b["));
 }
 
@@ -128,7 +87,7 @@ TEST(CheckCsv, HasARowAFileAndAColumnAMetric) {
 }
 
 TEST(CheckCsv, LeavesEmptyWhatWasNotJudged) {
-  auto partial = record();
+  auto partial = sample_check();
   partial.files.pop_back();
   partial.files[0].score.impacts.reset();
   partial.files[0].metrics.clear();
@@ -137,7 +96,7 @@ TEST(CheckCsv, LeavesEmptyWhatWasNotJudged) {
 }
 
 TEST(CheckJson, HoldsEverythingUnderItsSchema) {
-  auto full = record();
+  auto full = sample_check();
   full.expect = Claim{Behaviour::proper, 2.0, {}};
   full.files[0].score.u_error = std::numeric_limits<double>::infinity();
   const auto read = json::parse(written(Format::json, full));

@@ -80,7 +80,11 @@ Json levels(const study::Record& record) {
                      {"step", worst->step},
                      {"steps_per_fast_period", rounded(record.problem.fast_period / worst->step)},
                      {"u_error", worst->u_error},
+                     {"steps", worst->work.steps},
                      {"force_evaluations", worst->work.force_evaluations},
+                     {"factorizations", worst->work.factorizations},
+                     {"newton_iterations", worst->work.newton_iterations},
+                     {"event_searches", worst->work.event_searches},
                      {"seconds", worst->seconds}});
     }
   return out;
@@ -130,34 +134,43 @@ Json history(const study::Record& record) {
   return out;
 }
 
-}  // namespace
+bool is_refused(const study::Record& record, const std::string& name) {
+  const auto method = std::ranges::find(record.methods, name, &study::MethodResult::name);
+  return method != record.methods.end() && !method->refusal.empty();
+}
 
-study::Curve reduced(const study::Curve& curve, std::size_t most) {
-  const auto n = curve.t.size();
-  if (n <= most) return curve;
-  // Each stretch gives the lowest and the highest point of every row, in order of time.
-  const auto kept_per_stretch = 2 * std::max<std::size_t>(curve.y.size(), 1);
-  const auto stretches = std::max<std::size_t>(most / kept_per_stretch, 1);
-  std::vector<std::size_t> kept;
-  for (std::size_t s = 0; s < stretches; ++s) {
-    const auto from = n * s / stretches, to = n * (s + 1) / stretches;
-    for (const auto& y : curve.y) {
-      const auto [lo, hi] =
-          std::minmax_element(y.begin() + std::ptrdiff_t(from), y.begin() + std::ptrdiff_t(to));
-      kept.push_back(std::size_t(lo - y.begin()));
-      kept.push_back(std::size_t(hi - y.begin()));
+// Lines from ratio 1 to a common end, so that the height at which a line stays can be seen.
+Json profile(const study::Record& record) {
+  Json out = Json::array();
+  for (const auto& profile : record.profiles) {
+    double end = 2.0;
+    for (const auto& method : profile.methods)
+      if (!method.steps.empty()) end = std::max(end, 1.25 * method.steps.back().ratio);
+    for (const auto& method : profile.methods) {
+      std::vector<assess::ProfileStep> line;
+      if (method.steps.empty() || method.steps.front().ratio > 1.0) line.push_back({1.0, 0.0});
+      line.insert(line.end(), method.steps.begin(), method.steps.end());
+      line.push_back({end, line.back().share});
+      Json ratio = Json::array(), share = Json::array(), solved = Json::array();
+      for (const auto& step : line) {
+        ratio.push_back(step.ratio);
+        share.push_back(step.share);
+        solved.push_back(std::llround(step.share * double(profile.tasks.size())));
+      }
+      // A method that never ran has no entry in the legend; the text beside the figure names it.
+      if (is_refused(record, method.method)) continue;
+      out.push_back({{"counter", profile.counter},
+                     {"method", method.method},
+                     {"failed", method.failed},
+                     {"ratio", ratio},
+                     {"share", share},
+                     {"solved", solved}});
     }
-  }
-  std::ranges::sort(kept);
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-  study::Curve out;
-  out.y.resize(curve.y.size());
-  for (const auto i : kept) {
-    out.t.push_back(curve.t[i]);
-    for (std::size_t row = 0; row < curve.y.size(); ++row) out.y[row].push_back(curve.y[row][i]);
   }
   return out;
 }
+
+}  // namespace
 
 nlohmann::ordered_json figure_data(const study::Record& record) {
   return {{"response", response(record.response)},
@@ -165,7 +178,8 @@ nlohmann::ordered_json figure_data(const study::Record& record) {
           {"runs", all_runs(record)},
           {"levels", levels(record)},
           {"slopes", slopes(record)},
-          {"history", history(record)}};
+          {"history", history(record)},
+          {"profile", profile(record)}};
 }
 
 }  // namespace clackers::report

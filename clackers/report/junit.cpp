@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -11,22 +10,12 @@
 #include "clackers/report/changes.hpp"
 #include "clackers/report/digest.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/report/xml.hpp"
+#include "clackers/report/junit_suite.hpp"
 
 namespace clackers::report {
 namespace {
 
-struct Property {
-  std::string name, value;
-};
-
-std::string properties(const std::vector<Property>& all, std::string_view margin) {
-  auto out = fmt::format("{}<properties>\n", margin);
-  for (const auto& [name, value] : all)
-    out += fmt::format("{}  <property{}{}/>\n", margin, xml_attribute("name", name),
-                       xml_attribute("value", value));
-  return out + fmt::format("{}</properties>\n", margin);
-}
+using Property = JunitProperty;
 
 double seconds(const study::MethodResult& method) {
   double sum = 0.0;
@@ -34,9 +23,6 @@ double seconds(const study::MethodResult& method) {
     for (const auto& run : level.runs) sum += run.seconds;
   return sum;
 }
-
-// Milliseconds as JUnit's writers print them; the properties hold what was measured.
-std::string time_text(double s) { return fmt::format("{:.3f}", s); }
 
 // The word of the element that tells of trouble; empty for a test that passes.
 std::string_view trouble(const study::MethodResult& method) {
@@ -62,20 +48,6 @@ std::string levels_text(const study::MethodResult& method) {
     out += '\n';
   }
   return out;
-}
-
-std::string trouble_element(const study::MethodResult& method) {
-  const auto kind = trouble(method);
-  if (kind.empty()) return {};
-  const auto said = remark(method).value_or(Remark{});
-  const auto message = fmt::format("{} [{}]", said.sentence, said.code);
-  const auto start = fmt::format("      <{}{}{}", kind, xml_attribute("message", message),
-                                 kind == "skipped" ? "" : xml_attribute("type", said.code));
-  if (kind == "skipped") return start + "/>\n";
-  const auto body =
-      fmt::format("claimed: {}\nfound: {}\n{}", claim_text(method.claim),
-                  to_string(method.assessment.displacement.behaviour), levels_text(method));
-  return fmt::format("{}>{}</{}>\n", start, xml_text(body), kind);
 }
 
 std::vector<Property> measured(const study::MethodResult& method) {
@@ -106,44 +78,47 @@ std::vector<Property> measured(const study::MethodResult& method) {
 }
 
 std::vector<Property> of_study(const study::Record& record) {
-  const auto& from = record.provenance;
-  std::vector<Property> all{{"command", from.command},     {"version", from.version},
-                            {"compiler", from.compiler},   {"machine", from.machine},
-                            {"processor", from.processor}, {"ladder", ladder_text(record)}};
-  for (const auto& parameter : record.problem.parameters)
-    all.push_back({parameter.name, exact_number(parameter.value)});
+  auto all = junit_properties(record.provenance, record.problem);
+  all.push_back({"ladder", ladder_text(record)});
   return all;
+}
+
+JunitTest test_of(const study::MethodResult& method, const std::string& problem) {
+  JunitTest test{.name = typed_name(method),
+                 .class_name = "clackers.verify." + problem,
+                 .seconds = seconds(method),
+                 .properties = measured(method),
+                 .trouble = std::string(trouble(method)),
+                 .message = {},
+                 .type = {},
+                 .body = {}};
+  if (test.trouble.empty()) return test;
+  const auto said = remark(method).value_or(Remark{});
+  test.message = fmt::format("{} [{}]", said.sentence, said.code);
+  test.type = said.code;
+  test.body = fmt::format("claimed: {}\nfound: {}\n{}", claim_text(method.claim),
+                          to_string(method.assessment.displacement.behaviour), levels_text(method));
+  return test;
 }
 
 }  // namespace
 
 void write_junit(const study::Record& record, std::ostream& out,
                  const study::BaselineComparison* changes) {
-  const auto count = [&](std::string_view kind) {
-    return std::ranges::count(record.methods, kind, trouble);
-  };
-  double all_seconds = 0.0;
-  for (const auto& method : record.methods) all_seconds += seconds(method);
-  const auto totals =
-      fmt::format(" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{}\"",
-                  record.methods.size(), count("failure"), count("error"), count("skipped"),
-                  time_text(all_seconds));
-  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites"
-      << xml_attribute("name", "clackers verify") << totals << ">\n  <testsuite"
-      << xml_attribute("name", case_text(record.problem)) << totals
-      << xml_attribute("timestamp", record.provenance.date) << ">\n"
-      << properties(of_study(record), "    ");
+  JunitSuite suite{.command = "clackers verify",
+                   .name = case_text(record.problem),
+                   .timestamp = record.provenance.date,
+                   .properties = of_study(record),
+                   .tests = {},
+                   .output = {}};
   for (const auto& method : record.methods)
-    out << "    <testcase" << xml_attribute("name", typed_name(method))
-        << xml_attribute("classname", "clackers.verify." + record.problem.name)
-        << xml_attribute("time", time_text(seconds(method))) << ">\n"
-        << properties(measured(method), "      ") << trouble_element(method) << "    </testcase>\n";
+    suite.tests.push_back(test_of(method, record.problem.name));
   if (changes != nullptr) {
     std::ostringstream text;
     write_changes(*changes, text, {.color = false, .width = 100});
-    out << "    <system-out>" << xml_text(text.str()) << "</system-out>\n";
+    suite.output = text.str();
   }
-  out << "  </testsuite>\n</testsuites>\n";
+  write_junit_suite(suite, out);
 }
 
 }  // namespace clackers::report

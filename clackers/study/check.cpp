@@ -10,6 +10,8 @@
 #include "clackers/study/check_file.hpp"
 #include "clackers/study/check_verdict.hpp"
 #include "clackers/study/provenance.hpp"
+#include "clackers/study/reduced_curve.hpp"
+#include "clackers/study/respond.hpp"
 #include "clackers/study/verify_plan.hpp"
 
 namespace clackers::study {
@@ -46,6 +48,7 @@ CheckRecord check(const CheckRequest& request, const std::atomic<bool>* interrup
   CheckRecord record;
   record.provenance = provenance(request.command);
   record.problem = summary_of(which);
+  record.response = reduced(response_curve(which, response_points));
   record.expect = request.expect;
   record.tolerance = request.tolerance;
   for (std::size_t i = 0; i < request.files.size(); ++i) {

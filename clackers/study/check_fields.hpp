@@ -17,20 +17,10 @@ void fields(Archive& archive, Like<PrintedColumn> auto& x) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<MetricResult> auto& x) {
-  auto& [name, unit, value, masses, reason, across_jumps] = x;
-  archive("name", name);
-  archive("unit", unit);
-  archive("value", value);
-  archive("masses", masses);
-  archive("reason", reason);
-  archive("across_jumps", across_jumps);
-}
-
-template <class Archive>
 void fields(Archive& archive, Like<CheckedFile> auto& x) {
   auto& [file, rows, rows_beyond, first, last, spacing, step_source, columns, floor, by, bend,
-         has_v, has_u, start, collisions, resolved, contact, score, metrics, notes] = x;
+         has_v, has_u, start, collisions, resolved, contact, score, metrics, notes, history,
+         error_history] = x;
   archive("file", file);
   archive("rows", rows);
   archive("rows_beyond_end", rows_beyond);
@@ -51,14 +41,17 @@ void fields(Archive& archive, Like<CheckedFile> auto& x) {
   archive("score", score);
   archive("metrics", metrics);
   archive("notes", notes);
+  archive("history", history);
+  archive("error_history", error_history);
 }
 
 template <class Archive>
 void fields(Archive& archive, Like<CheckRecord> auto& x) {
-  auto& [provenance, problem, expect, tolerance, files, assessment, verdict, sentence, reason,
-         next] = x;
+  auto& [provenance, problem, response, expect, tolerance, files, assessment, verdict, sentence,
+         reason, next] = x;
   archive("provenance", provenance);
   archive("case", problem);
+  archive("response", response);
   archive("expect", expect);
   archive("tolerance", tolerance);
   archive("files", files);

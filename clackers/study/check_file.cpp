@@ -12,6 +12,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/exchange/events.hpp"
 #include "clackers/exchange/history.hpp"
+#include "clackers/study/check_curves.hpp"
 #include "clackers/study/check_notes.hpp"
 #include "clackers/study/check_score.hpp"
 #include "clackers/study/check_start.hpp"
@@ -191,6 +192,8 @@ class Check {
                               std::move(value.masses), std::move(value.reason),
                               metric.across_jumps});
     }
+    out_.history = displacement_curve(comparison);
+    out_.error_history = error_curve(comparison);
   }
 
   // A contact of fewer rows than four is an impact whose limits are rows apart.

@@ -8,6 +8,7 @@
 #include "clackers/assess/assessment.hpp"
 #include "clackers/assess/score.hpp"
 #include "clackers/base/judgement.hpp"
+#include "clackers/study/metric_result.hpp"
 #include "clackers/study/record.hpp"
 
 namespace clackers::study {
@@ -18,16 +19,6 @@ struct PrintedColumn {
   int digits = 0;
   bool single = false;     ///< numbers of single precision
   double half_unit = 0.0;  ///< largest rounding error of printing, in the column's unit
-};
-
-/// A metric of one history.
-struct MetricResult {
-  std::string name, unit;
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> masses;  ///< mass by mass, empty for a metric of the whole structure
-  std::string reason;          ///< why it was not measured
-  /// false: it need not tend to zero for a history that converges, since its velocities jump.
-  bool across_jumps = true;
 };
 
 /// Where a level's step comes from.
@@ -63,6 +54,9 @@ struct CheckedFile {
   assess::RunScore score;     ///< NaN where the history lacks what an error needs
   std::vector<MetricResult> metrics;
   std::vector<std::string> notes;  ///< sentences
+  /// For figures, at no more than most_points rows, one entry a mass: the displacements [m] and
+  /// their |errors| / initial envelope. Empty without the displacements of all masses.
+  Curve history, error_history;
 };
 
 /// What `clackers check` found.
@@ -70,6 +64,7 @@ struct CheckRecord {
   static constexpr auto schema = "clackers/check/1";
   Provenance provenance;
   CaseSummary problem;
+  Curve response;  ///< exact displacements, one row a mass [m]
   std::optional<Claim> expect;
   std::optional<double> tolerance;  ///< of u_error
   std::vector<CheckedFile> files;   ///< coarsest step first

@@ -78,10 +78,10 @@ class NearestParameter {
     };
     for (const double candidate : candidates(best))
       if (attempt(candidate)) reach = 0.5 * std::abs(candidate);
-    // To seven digits, one more than are told.
+    // To seven digits, one more than are told. The candidates are a factor of two apart, so a few
+    // moves of each reach suffice; where more would help, the error falls towards infinity.
     for (int halvings = 0; halvings < 24 && least > 0.0; ++halvings, reach *= 0.5)
-      while (attempt(best + reach) || attempt(best - reach)) {
-      }
+      for (int moves = 0; moves < 4 && (attempt(best + reach) || attempt(best - reach));) ++moves;
     const double rounded = std::stod(fmt::format("{:.6g}", best));
     return error(parameter, rounded) <= start_tolerance ? rounded : best;
   }

@@ -58,6 +58,9 @@ std::unique_ptr<RowSource> sensitivity(const cases::Case& which, const TimeGrid&
 /// unless 2 <= n <= 1e9 and 0 < highest, its phase over the run being certain.
 std::unique_ptr<RowSource> spectrum(const cases::Case& which, long long n, double highest);
 
+/// Times of the response in a report.
+inline constexpr int response_points = 1501;
+
 /// Exact displacements at `n` equally spaced times, for a picture. Throws InputError for n < 2.
 Curve response_curve(const cases::Case& which, int n);
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "clackers/study/record.hpp"
+
+namespace clackers::study {
+
+/// The most points of a curve in a figure.
+inline constexpr std::size_t most_points = 1000;
+
+/// The points 0, ..., n-1 that a figure of `rows` curves needs, ascending: all of them, or at most
+/// `most`, of every stretch the lowest and the highest point of each curve. `value(row, point)`.
+template <class Value>
+std::vector<std::size_t> kept_points(std::size_t n, std::size_t rows, const Value& value,
+                                     std::size_t most = most_points) {
+  std::vector<std::size_t> kept;
+  const bool all = n <= most;
+  const auto stretches =
+      all ? n : std::max<std::size_t>(most / (2 * std::max<std::size_t>(rows, 1)), 1);
+  for (std::size_t s = 0; s < stretches; ++s) {
+    const auto from = n * s / stretches, to = n * (s + 1) / stretches;
+    if (all) kept.push_back(from);
+    for (std::size_t row = 0; row < rows && !all; ++row) {
+      auto lowest = from, highest = from;
+      for (auto i = from; i < to; ++i) {
+        if (value(row, i) < value(row, lowest)) lowest = i;
+        if (!(value(row, i) < value(row, highest))) highest = i;
+      }
+      kept.push_back(lowest);
+      kept.push_back(highest);
+    }
+  }
+  std::ranges::sort(kept);
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  return kept;
+}
+
+/// The curve with at most `most` points, kept_points says which.
+Curve reduced(const Curve& curve, std::size_t most = most_points);
+
+}  // namespace clackers::study

@@ -1,0 +1,118 @@
+"""check: what is refused, and what is said of a history that limits its own judgement."""
+import math
+import os
+import signal
+import struct
+import subprocess
+import unittest
+
+from command import run, start
+from histories import CheckTest
+
+
+class BadInput(CheckTest):
+    def test_is_refused_with_its_line(self):
+        for text, code, says in (
+                ("", "too-short", "is empty"),
+                ("t,u1,u2\n", "too-short", "no rows"),
+                ("t,u1,u2\n0,1,-0.3333333333333333\n", "too-short", "two different times"),
+                ("t,u1,u2\n0,1,2\n2,1,2\n1,1,2\n", "not-sorted", "line 4"),
+                ("t,u1,u2\n0,1,2\n1,1,2\n1,1,2\n1,1,2\n", "not-sorted", "line 5"),
+                ("t,u1,u2\n0,1,2\n1,nan,2\n", "not-finite", "line 3"),
+                ("t,u1,u2\n0,1,2\n1,inf,2\n", "not-finite", "line 3"),
+                ("t,u1,u2\n0,1,2\n1,1\n", "ragged-row", "line 3"),
+                ("t;u1;u2\n0;1;2\n0,5;1;2\n", "decimal-comma", "line 3"),
+                ("t,x1,u2x\n0,1,2\n1,1,1\n", "no-column", "no column u1"),
+                ("t,u1,u2\n0,1,x\n1,1,1\n", "not-a-number", "line 2")):
+            self.refused("check", self.write("bad.csv", text), code=code, says=says)
+        binary = self.write("b.bin", bytes(range(256)), "wb")
+        self.refused("check", binary, code="not-text", says="byte 0")
+
+    def test_that_cannot_be_read_is_a_failure(self):
+        self.refused("check", self.path("none.csv"), code="cannot-read", exit_code=4,
+                     says="No such file")
+        self.refused("check", self.folder, code="cannot-read", exit_code=4, says="directory")
+        if os.geteuid() != 0:
+            path = self.history("secret.csv")
+            os.chmod(path, 0)
+            self.refused("check", path, code="cannot-read", exit_code=4, says="Permission")
+
+    def test_from_another_state_names_the_parameter(self):
+        other = run("respond", "three-parameter", "--set", "N=3", "--step", "0.01", "--format",
+                    "csv").stdout
+        self.refused("check", self.write("n3.csv", other), code="not-this-case",
+                     says=("n3.csv: ", "--set N=3 "))
+        other = run("respond", "synchronized-pair", "--set", "A=2", "--step", "0.01", "--format",
+                    "csv").stdout
+        self.refused("check", self.write("a2.csv", other), "--case", "synchronized-pair",
+                     code="not-this-case", says=("u1 starts at 2", "--set A=2 "))
+        def still(row):
+            row["v1"] += 0.05 * (row["t"] == 0)
+            return row
+        self.refused("check", self.history("still.csv", change=still), code="not-this-case",
+                     says="v1 starts at 0")
+
+    def test_a_little_beside_the_initial_state_is_said(self):
+        def off(row):
+            row["u2"] += 1e-5
+            return row
+        self.assertIn("initial state is off by 3e-05", self.notes(self.checked(
+            self.history("off.csv", change=off))))
+
+    def test_that_ends_early_or_late_is_said(self):
+        early = self.checked(self.history("early.csv", until=10.005))
+        self.assertIn("ends at 10 s, the case at 20 s", self.notes(early))
+        self.assertEqual(early["files"][0]["score"]["impacts"]["expected"], 3)
+        late = self.checked(self.history("late.csv"), "--set", "a_t=0.5")
+        self.assertIn("1000 rows lie after the case's end, 10 s", self.notes(late))
+        self.assertEqual(late["files"][0]["rows"], 1001)
+        before = self.checked(self.history("before.csv", until=1.0))
+        self.assertIn("nothing is said of impacts", self.notes(before))
+        self.refused("check", self.write("beyond.csv", "t,u1,u2\n30,1,1\n31,1,1\n"),
+                     code="too-short", says="t_end")
+
+    def test_that_is_sampled_too_coarsely_is_said(self):
+        record = self.checked(self.history("coarse.csv", every=50))
+        self.assertEqual(record["reason"], "sparse-rows")
+        self.assertIn("rows a fast period", self.notes(record))
+        self.assertFalse(record["files"][0]["rows_resolve_collisions"])
+
+    def test_with_few_digits_is_said(self):
+        notes = self.notes(self.checked(self.history("six.csv", digits=6)))
+        self.assertIn("u1 is printed with 6 digits", notes)
+        def single_precision(row):
+            for name in ("u1", "u2"):
+                row[name], = struct.unpack("f", struct.pack("f", row[name]))
+            return row
+        single = self.history("single.csv", change=single_precision)
+        self.assertIn("single precision", self.notes(self.checked(single)))
+
+    def test_options_that_make_no_sense_are_refused(self):
+        path = self.history("exact.csv")
+        self.refused("check", code="bad-syntax", says="needs a FILE")
+        for expect in ("proper", "exact:2", "proper:", "proper:x", "undecided", "proper:-1",
+                       "proper:99"):
+            self.refused("check", path, "--expect", expect,
+                         code="(?:bad-syntax|out-of-range|unknown-name)", says="--expect")
+        self.refused("check", path, "--expect", "propre:2", code="unknown-name", says="proper")
+        for tolerance in ("0", "-1", "inf", "nan"):
+            self.refused("check", path, "--tolerance", tolerance,
+                         code="(?:out-of-range|not-a-number|not-finite)", says="--tolerance")
+        self.refused("check", path, "--case", "three-paramter", code="unknown-name",
+                     says='"three-parameter"')
+        self.refused("check", path, "--columns", "t,,u1", code="bad-syntax", says="--columns")
+
+    def test_that_never_ends_can_be_interrupted(self):
+        os.mkfifo(self.path("pipe"))
+        with start("check", self.path("pipe"), stdout=subprocess.PIPE,
+                   stderr=subprocess.PIPE) as process:
+            with open(self.path("pipe"), "w") as pipe:
+                pipe.write("t,u1,u2\n0,1,-0.3\n")
+                pipe.flush()
+                process.send_signal(signal.SIGINT)
+                out, error = process.communicate(timeout=20)
+        self.assertEqual((process.returncode, out), (130, b""), error)
+
+
+if __name__ == "__main__":
+    unittest.main()
