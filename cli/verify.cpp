@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -14,9 +13,11 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/report/case_studies.hpp"
 #include "clackers/report/changes.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/baseline.hpp"
+#include "clackers/study/case_studies.hpp"
 #include "clackers/study/listing.hpp"
 #include "cli/baseline_file.hpp"
 #include "cli/command.hpp"
@@ -24,9 +25,10 @@
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
-#include "cli/output_file.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/report_page.hpp"
 #include "cli/results.hpp"
+#include "cli/survived.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
@@ -34,8 +36,8 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::vector<std::string> methods, settings;
-  std::string case_name, levels, coarsest, neighbours, jobs, report, baseline;
+  std::vector<std::string> methods, cases, settings;
+  std::string levels, coarsest, neighbours, jobs, report, baseline;
   bool all = false;
 };
 
@@ -49,7 +51,7 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
   if (options.all)
     for (const auto& row : study::list("pairs").rows)
       request.methods.push_back(std::get<std::string>(row.front()));
-  request.case_name = options.case_name;
+  if (!options.cases.empty()) request.case_name = options.cases.front();
   request.settings = read_settings(options.settings);
   auto& plan = request.plan;
   plan.levels = whole("--levels", options.levels, 1, plan.levels);
@@ -71,30 +73,12 @@ void check(const Options& options) {
     for (const auto& entry : cases::entries())
       if (entry.name == method)
         refuse_usage(fmt::format("{0}: this is a case, not a method. Write --case {0}", method));
-  const auto absolute = [](const std::string& path) {
-    return std::filesystem::absolute(path).lexically_normal();
-  };
-  if (!options.report.empty() && !options.common.out.empty() &&
-      absolute(options.report) == absolute(options.common.out))
-    refuse_usage("--report and --out name the same file; give each its own.");
 }
 
 study::Record run_study(const Options& options, const study::VerifyRequest& request) {
   ProgressLine line("verify", options.common.quiet);
   return study::verify(
       request, [&](double share) { line.tell(share); }, &interrupt_flag());
-}
-
-// Runs `write`; a file that fails must not take the other results with it. True when written.
-template <class Write>
-bool survived(const Write& write) {
-  try {
-    write();
-    return true;
-  } catch (const FileError& error) {
-    complain(error.what(), error.code().name());
-    return false;
-  }
 }
 
 using Changes = std::optional<study::BaselineComparison>;
@@ -125,28 +109,52 @@ std::optional<study::Record> baseline_of(const Options& options,
   return baseline;
 }
 
+void check_several(const Options& options, report::Format format) {
+  const std::string hint = "leave one --case, or take --format json.";
+  if (!options.baseline.empty())
+    refuse_usage("--baseline compares studies of one case; leave one --case.");
+  if (!options.report.empty()) refuse_usage("--report shows one case; " + hint);
+  if (!report::takes_several_cases(format))
+    refuse_usage("--format " + options.common.format + " has no place for several cases; " + hint);
+}
+
+int run_several(const Options& options, const study::VerifyRequest& request) {
+  check_several(options, report::format_from(options.common.format, report::Content::verdicts));
+  Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
+  const auto studies = [&] {
+    ProgressLine line("verify", options.common.quiet);
+    return study::verify_cases(
+        request, options.cases, [&](double share) { line.tell(share); }, &interrupt_flag());
+  }();
+  bool written = true;
+  try {
+    written = survived([&] {
+      report::write(studies, results.format(), results.stream(), results.style());
+      results.finish();
+    });
+  } catch (const BrokenPipe&) {
+    // `verify | head`: the reader had enough, the verdict still counts.
+  }
+  const int code = study::exit_code(studies);
+  if (code == 130) complain("interrupted; the finished rows were kept.", "interrupted");
+  return written ? code : 4;
+}
+
 int run(const Options& options, const std::string& line) {
   check(options);
   const auto request = request_of(options, line);
+  if (options.cases.size() > 1) return run_several(options, request);
   // Before the work: where it cannot go must not be found out afterwards.
   Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
   const auto baseline = baseline_of(options, request);
-  std::unique_ptr<OutputFile> page;
-  if (!options.report.empty())
-    page = std::make_unique<OutputFile>(options.report, OnInterrupt::finish);
+  ReportPage page("verify", options.report, options.common, OnInterrupt::finish);
 
   const auto record = run_study(options, request);
   Changes changes;
   if (baseline) changes = study::compare(record, *baseline);
 
   bool written = true;
-  if (page) {
-    written = survived([&] {
-      page->stream() << report::html(record, pointer(changes));
-      page->commit();
-      if (!options.common.quiet) note(fmt::format("Wrote {}", page->path()));
-    });
-  }
+  if (page.wanted()) written = page.write(report::html(record, pointer(changes)));
   try {
     if (!survived([&] { print(record, changes, results); })) {
       written = false;
@@ -178,23 +186,27 @@ Command add_verify(CLI::App& root) {
            "  clackers verify\n"
            "  clackers verify rk4 newmark:beta=0+penalty --case symmetric-pair --levels 10\n"
            "  clackers verify --report report.html --format json --out record.json\n"
-           "  clackers verify --baseline record.json\n",
+           "  clackers verify --baseline record.json\n"
+           "  clackers verify rk4 newmark --case stop --case symmetric-pair\n",
        .about =
            "Judges time-integration methods: runs each over a ladder of steps on a case whose "
            "exact motion is known, and compares what was measured with what it claims. A "
            "method is integrator[:name=value,...][+contact[:name=value,...]]; without +contact "
            "impacts are located as events (event-driven). Exit code 0 when all agree, 1 when "
            "one disagrees, 3 when one stays undecided.",
-       .usage = "  clackers verify [METHOD ...|--all] [--case CASE] [--set name=value,...]\n"
+       .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--neighbours n] [--jobs n]\n"
                 "           [--baseline FILE.json] [--report FILE.html]\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods).");
   app->add_flag("--all", options->all, "Every integrator with every contact treatment.");
-  app->add_option("--case", options->case_name,
-                  "The case (clackers list cases). Default: three-parameter.")
-      ->option_text("CASE");
+  app->add_option(
+         "--case", options->cases,
+         "The case (clackers list cases). Default: three-parameter. Several, each with its "
+         "own --case, are judged in turn and compared in a performance profile.")
+      ->option_text("CASE")
+      ->allow_extra_args(false);
   add_set_option(*app, options->settings);
   app->add_option("--levels", options->levels,
                   "Number of levels of the ladder, each with half the step of the one before. "
@@ -207,22 +219,14 @@ Command add_verify(CLI::App& root) {
          "Neighbouring steps a level, in the ratio 2^(1/n); they show scatter. Default: 8.")
       ->option_text("n");
   app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
-  app->add_option("--report", options->report,
-                  "Also write a page with verdicts, figures and provenance that opens without a "
-                  "network, whole or not at all.")
-      ->option_text("FILE.html");
+  add_report_option(*app, options->report);
   app->add_option(
          "--baseline", options->baseline,
          "An earlier record (--format json) of the same case and steps, - for standard "
          "input: says in words what changed since. The exit code stays that of the verdicts.")
       ->option_text("FILE.json");
   add_common_options(*app, options->common);
-  app->get_option("--format")
-      ->description(
-          "table (for people, 80 columns), csv or json (for programs; numbers read back to the "
-          "same double), junit (xml for continuous integration) or latex (a table). Default: "
-          "table.")
-      ->option_text("table|csv|json|junit|latex");
+  add_verdict_formats(*app);
   return {app, [options](const std::string& line) { return run(*options, line); }};
 }
 

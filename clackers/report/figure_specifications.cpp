@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clackers/report/assets.hpp"
+#include "clackers/report/counters.hpp"
 #include "clackers/report/figure_data.hpp"
 #include "clackers/report/look.hpp"
 
@@ -22,6 +23,13 @@ std::string power_label(const std::string& axis) {
                      digit("(" + size + " % 10)");
   return "abs(log(datum.value) / LN10 - " + exponent + ") < 1e-9 ? " + power + " : domain('" +
          axis + "')[1] / domain('" + axis + "')[0] < 30 ? format(datum.value, '.2~e') : ''";
+}
+
+// A tick of an axis of ratios from 1: 1, 2, 5, 10, 20, 50, ...
+std::string ratio_label() {
+  const std::string power = "pow(10, floor(log(datum.value) / LN10 + 1e-9))";
+  return "datum.value > 0.999 && indexof([1, 2, 5], round(datum.value / " + power +
+         ")) >= 0 ? format(datum.value, '.3~g') : ''";
 }
 
 // Replaces every text "$name" by its value.
@@ -59,6 +67,7 @@ Json method_scales(const study::Record& record) {
           {"dashes", dashes},
           {"marker_rows", marker_rows(names)},
           {"x_power", power_label("x")},
+          {"x_ratio", ratio_label()},
           {"y_power", power_label("y")}};
 }
 
@@ -71,17 +80,26 @@ nlohmann::ordered_json figure_specifications(const study::Record& record) {
     substitute(specification, values);
     return specification;
   };
-  const auto work = [&](const std::string& cost, std::string_view title) {
-    const auto drawable = "datum.u_error > 0 && isFinite(datum.u_error) && datum." + cost +
-                          " > 0 && indexof(hidden, datum.method) < 0";
-    return read(assets::work_vl_json,
-                {{"cost", cost}, {"cost_title", title}, {"drawable", drawable}});
+  const auto counted = [&](std::string_view text, const std::vector<ShownCounter>& counters,
+                           const std::string& before) {
+    Json titles = Json::object();
+    for (const auto& [field, title] : counters) titles[std::string(field)] = before + title;
+    const auto first = std::string(first_shown(counters).field);
+    return read(text, {{"counter", first},
+                       {"titles", {{"counters", titles}}},
+                       {"x_title", titles[first]},
+                       {"drawable",
+                        "datum.u_error > 0 && isFinite(datum.u_error) && datum.cost > 0 && "
+                        "indexof(hidden, datum.method) < 0"}});
   };
-  return {{"response", read(assets::response_vl_json, Json::object())},
-          {"convergence", read(assets::convergence_vl_json, Json::object())},
-          {"history", read(assets::history_vl_json, Json::object())},
-          {"work-forces", work("force_evaluations", "force evaluations")},
-          {"work-seconds", work("seconds", "processor time [s]")}};
+  Json all{{"response", read(assets::response_vl_json, Json::object())},
+           {"convergence", read(assets::convergence_vl_json, Json::object())},
+           {"history", read(assets::history_vl_json, Json::object())}};
+  if (const auto counters = counters_of(record); !counters.empty())
+    all["work"] = counted(assets::work_vl_json, counters, "");
+  if (const auto counters = counters_of(record.profiles); !counters.empty())
+    all["profile"] = counted(assets::profile_vl_json, counters, "times the least ");
+  return all;
 }
 
 }  // namespace clackers::report

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include "clackers/report/counters.hpp"
 #include "clackers/report/digest.hpp"
 #include "clackers/report/figure_data.hpp"
 #include "clackers/report/format.hpp"
+#include "clackers/report/html_frame.hpp"
 #include "clackers/report/html_parts.hpp"
 #include "clackers/report/look.hpp"
 #include "clackers/report/markup.hpp"
@@ -10,79 +12,15 @@
 namespace clackers::report {
 namespace {
 
-struct FigureText {
-  std::string name, rows, title, caption, reading;
-  std::string choices;  ///< buttons of its own, before the tools
-};
-
-std::string figure(int number, const FigureText& text) {
-  return fmt::format(
-      R"(<figure class="figure" id="figure-{name}" aria-labelledby="figure-{name}-title">
-<h3 id="figure-{name}-title">Figure {number}. {title}</h3>
-<p class="caption">{caption}</p>
-{choices}<div class="plot" data-plot="{name}" role="img" aria-label="{title}. {described}"></div>
-<div class="tools" role="group" aria-label="Tools of figure {number}" data-tools="{name}" data-rows="{rows}"></div>
-<figcaption class="reading"><strong>How to read.</strong> {reading}</figcaption>
-</figure>
-)",
-      fmt::arg("name", text.name), fmt::arg("number", number), fmt::arg("title", text.title),
-      fmt::arg("caption", text.caption), fmt::arg("choices", text.choices),
-      fmt::arg("rows", text.rows), fmt::arg("reading", text.reading),
-      fmt::arg("described", "The numbers stand in the tables of section Methods."));
-}
-
-std::string toggle(const std::string& series, const std::string& key, const std::string& text) {
-  return fmt::format(
-      "<button type=\"button\" data-series=\"{}\" aria-pressed=\"true\">{}{}</button>\n",
-      escape(series), key, escape(text));
-}
-
-std::string response_legend(const study::Record& record) {
-  std::string out =
-      "<div class=\"legend\" role=\"group\" aria-label=\"Shown in the response\" "
-      "data-legend=\"response\">\n";
-  for (std::size_t mass = 0; mass < record.response.y.size(); ++mass) {
-    const auto name = fmt::format("mass {}", mass + 1);
-    const auto key = fmt::format(
-        "<svg class=\"key\" width=\"34\" height=\"12\" viewBox=\"-17 -6 34 12\" "
-        "aria-hidden=\"true\" "
-        "focusable=\"false\" style=\"color:var(--m{})\"><path d=\"M-17,0H17\" "
-        "stroke=\"currentColor\" "
-        "stroke-width=\"2\" stroke-dasharray=\"{}\"/></svg>",
-        mass + 1, mass == 0 ? "1 0" : "5 2");
-    out += toggle(name, key, name);
-  }
-  if (!record.problem.impact_times.empty())
-    out += toggle("collisions",
-                  "<svg class=\"key\" width=\"12\" height=\"12\" viewBox=\"-6 -6 12 12\" "
-                  "aria-hidden=\"true\" focusable=\"false\" style=\"color:var(--collision)\"><path "
-                  "d=\"M0,-5L5,4H-5Z\" fill=\"currentColor\"/></svg>",
-                  "collisions");
-  return out + "</div>\n";
-}
-
 std::string method_legend(const study::Record& record) {
   std::string out =
       "<div class=\"legend all\" role=\"group\" aria-label=\"Methods shown in the figures below\" "
-      "data-legend=\"convergence history work-forces work-seconds\">\n";
+      "data-legend=\"convergence history work profile\">\n";
   for (std::size_t i = 0; i < record.methods.size(); ++i) {
     const auto& method = record.methods[i];
     if (digest(method).runs > 0) out += toggle(method.name, key_svg(look(i)), method.name);
   }
   return out + "<button type=\"button\" class=\"every quiet\">all / none</button>\n</div>\n";
-}
-
-std::string mass_choice(const study::Record& record) {
-  const auto masses = record.response.y.size();
-  if (masses < 2) return {};
-  std::string out =
-      "<div class=\"tools\" role=\"group\" aria-label=\"Mass shown in the figure\">\n";
-  for (std::size_t mass = 1; mass <= masses; ++mass)
-    out += fmt::format(
-        "<button type=\"button\" data-mass=\"{0}\" data-of=\"history\" aria-pressed=\"{1}\">mass "
-        "{0}</button>\n",
-        mass, mass == 1 ? "true" : "false");
-  return out + "</div>\n";
 }
 
 // What a logarithmic axis cannot show is said.
@@ -122,15 +60,58 @@ FigureText response_text(const study::Record& record) {
               "collisions.",
               html_number(problem.end, 6), html_count(problem.impact_count)),
           reading + " Drag to move, pinch or hold Ctrl and turn the wheel to zoom.",
-          response_legend(record)};
+          response_legend(record.response.y.size(), !record.problem.impact_times.empty())};
+}
+
+FigureText work_text(const std::vector<ShownCounter>& counters) {
+  return {"work",
+          "runs",
+          "Work and precision",
+          "The same error against what the run cost: counted, and therefore the same on every "
+          "machine, or as processor time in seconds on the machine named below.",
+          "Lower is more accurate, further left is cheaper: at a given error the leftmost curve "
+          "wins. A method that makes none of what is counted has no place on a logarithmic axis. "
+          "Times of short runs are dominated by the clock's resolution.",
+          counter_choice(counters, "work")};
+}
+
+// What failed is told in words too: a line that stays low is easily overlooked.
+std::string failed_tasks(const study::Profile& profile) {
+  std::string list;
+  for (const auto& method : profile.methods)
+    if (method.failed > 0)
+      list +=
+          fmt::format("{}{} {}", list.empty() ? "" : ", ", escape(method.method), method.failed);
+  return list.empty() ? " Every method solves all." : " Not solved: " + list + ".";
+}
+
+FigureText profile_text(const study::Record& record, const std::vector<ShownCounter>& counters) {
+  const auto& profile = record.profiles.front();
+  return {"profile",
+          "profile",
+          "Performance profile",
+          fmt::format("Share of {} tasks that a method solves at no more than so many times the "
+                      "least cost. A task is an error in u to reach on this case: 0.1, 0.01, ... "
+                      "down to the smallest that some method reaches.",
+                      profile.tasks.size()),
+          "At the left edge stands how often a method is the cheapest, at the right edge how many "
+          "tasks it solves at all. Refusals and failures stay in the shares." +
+              failed_tasks(profile) + " One case says little of others.",
+          counter_choice(counters, "profile")};
+}
+
+std::string work_figures(const study::Record& record) {
+  const auto counters = counters_of(record), profiled = counters_of(record.profiles);
+  std::string out;
+  if (!counters.empty()) out += figure(4, work_text(counters));
+  if (!profiled.empty()) out += figure(5, profile_text(record, profiled));
+  return out.empty() ? out : "<div class=\"pair\">\n" + out + "</div>\n";
 }
 
 }  // namespace
 
 std::string figures_html(const study::Record& record) {
   const auto missing = not_drawn(record);
-  const std::string cost_reading =
-      "Lower is more accurate, further left is cheaper: at a given error the leftmost curve wins.";
   std::string out = figure(1, response_text(record));
   out += method_legend(record);
   out += figure(
@@ -154,25 +135,8 @@ std::string figures_html(const study::Record& record) {
        "seconds, one run a method. The error axis is logarithmic.",
        "Steps up at collisions are errors that collisions bring in; the downward spikes are "
        "changes of sign. The markers only tell the curves apart. Point at a curve for its step h.",
-       mass_choice(record)});
-  out += "<div class=\"pair\">\n";
-  out +=
-      figure(4, {"work-forces",
-                 "runs",
-                 "Work and precision: force evaluations",
-                 "The same error against the number of force evaluations of the run, counted and "
-                 "therefore the same on every machine.",
-                 cost_reading,
-                 {}});
-  out +=
-      figure(5, {"work-seconds",
-                 "runs",
-                 "Work and precision: time",
-                 "The same error against the processor time of the run in seconds, on the machine "
-                 "named below.",
-                 cost_reading + " Short runs are dominated by the clock's resolution.",
-                 {}});
-  return out + "</div>\n";
+       mass_choice(record.response.y.size())});
+  return out + work_figures(record);
 }
 
 }  // namespace clackers::report

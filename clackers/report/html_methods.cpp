@@ -99,7 +99,8 @@ std::string section(const study::MethodResult& method, std::size_t index, double
   if (method.contact_time > 0.0)
     out += fact("Contact time", html_number(method.contact_time, 3) + " s");
   out += fact("Failed runs", failures(method));
-  return out + "</dl>\n" + ladder_table(method, fast_period) + "</article>\n";
+  out += "</dl>\n" + ladder_table(method, fast_period);
+  return out + self_html(method) + metrics_html(method) + "</article>\n";
 }
 
 std::string quantities(const std::string& caption, const std::vector<study::Quantity>& rows) {

@@ -15,6 +15,10 @@ std::string verdicts_html(const study::Record& record);  ///< the table and the 
 std::string changes_html(const study::Record& record, const study::BaselineComparison& changes);
 std::string figures_html(const study::Record& record);  ///< frames, captions, legends
 std::string methods_html(const study::Record& record);  ///< a section a method
+/// What one would have concluded without the exact solution, beside what is true.
+std::string self_html(const study::MethodResult& method);
+/// All metrics of the finest level, collapsed.
+std::string metrics_html(const study::MethodResult& method);
 std::string case_html(const study::CaseSummary& problem);
 std::string again_html(const study::Provenance& provenance);
 

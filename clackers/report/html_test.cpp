@@ -126,12 +126,19 @@ TEST(Html, LetsNoTextOfTheRecordBecomeMarkup) {
     method.assessment.sentence = evil;
     method.assessment.displacement.reason = evil;
     method.claim.reason = evil;
+    method.self_convergence.emplace();
+    method.self_convergence->against_truth = {true, evil, 0.0, evil};
+    method.self_convergence->extrapolation.reason = evil;
+    method.self_convergence->extrapolation.sentence = evil;
+    for (auto& metric : method.metrics) metric = {evil, evil, 1.0, {}, evil, true};
     for (auto& level : method.ladder) {
       level.runs[0].finished = false;
       level.runs[0].failure = level.runs[0].failure_code = evil;
     }
   }
   record.methods.back().refusal = record.methods.back().refusal_code = evil;
+  for (auto& profile : record.profiles)
+    for (auto& method : profile.methods) method.method = evil;
   const auto page = html(record);
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
   EXPECT_EQ(page.find("<b x="), std::string::npos);
@@ -155,12 +162,14 @@ TEST(FigureData, LevelsAreTheWorstRunOfEachThatFinished) {
   runs[1].u_error = 5.0;
   runs[1].work.force_evaluations = 4321;
   runs[1].seconds = 0.125;
+  runs[1].work.newton_iterations = 17;
   runs[0].finished = false;
   runs[0].u_error = 50.0;
   const auto level = figure_data(record)["levels"][2];
   EXPECT_EQ(level["u_error"], 5.0);
   EXPECT_EQ(level["force_evaluations"], 4321);
   EXPECT_EQ(level["seconds"], 0.125);
+  EXPECT_EQ(level["newton_iterations"], 17);
   EXPECT_EQ(level["step"], runs[1].step);
   EXPECT_EQ(level["level"], 3);
 }

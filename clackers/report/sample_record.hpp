@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "clackers/assess/metric.hpp"
 #include "clackers/study/record.hpp"
 
 namespace clackers::report {
@@ -75,6 +77,47 @@ inline assess::RunScore sample_run(const SampleMethod& method, double step, int 
   return run;
 }
 
+inline study::SelfResult sample_self(const SampleMethod& method) {
+  study::SelfResult result;
+  result.order = method.order;
+  auto& seen = result.self.differences;
+  seen.behaviour = Behaviour::proper;
+  seen.has_line = result.self.proper = true;
+  seen.order = method.order + 0.0042;
+  seen.spread = 0.011;
+  result.self.estimate = 1.5e-7;
+  result.self.sentence = "The runs converge properly.";
+  result.errors = seen;
+  result.against_truth = {false, "", 1.02, "Without the true motion: proper. With it: proper."};
+  result.extrapolation = {true, "", "Extrapolated.", {0.25, -0.125}, 1.5e-7, {}, 7};
+  result.extrapolation_error = 3.5e-9;
+  if (method.behaviour != Behaviour::stagnating) return result;
+  result.errors = {};
+  result.errors.behaviour = Behaviour::stagnating;
+  result.against_truth = {
+      true, "wrong-limit", 2.1e4,
+      "Without the true motion: proper. With it: a floor. Self-convergence would "
+      "have lied: the runs converge to a limit 0.0031 away from the true motion."};
+  result.extrapolation_error = 0.0031;
+  return result;
+}
+
+inline std::vector<study::MetricResult> sample_metrics() {
+  std::vector<study::MetricResult> list;
+  for (const auto& metric : assess::metrics()) {
+    const double value = 1e-6 * double(list.size() + 1);
+    list.push_back({std::string(metric.name),
+                    std::string(metric.unit),
+                    value,
+                    {value, value / 2},
+                    "",
+                    metric.across_jumps});
+  }
+  list.back().reason = "There are no collisions.";
+  list.back().value = std::numeric_limits<double>::quiet_NaN();
+  return list;
+}
+
 inline study::MethodResult sample_method(const SampleMethod& method, int levels) {
   study::MethodResult result;
   result.name = method.name;
@@ -102,6 +145,9 @@ inline study::MethodResult sample_method(const SampleMethod& method, int levels)
   fit.last_level = levels - 1;
   result.assessment.verdict = method.verdict;
   result.assessment.sentence = method.sentence;
+  result.self_convergence = sample_self(method);
+  result.metrics = sample_metrics();
+  result.metrics_step = 0.05 / double(1 << (levels - 1));
   result.history_step = 0.05 / 16;
   const auto shape = sample_response(900);
   result.error_history.t = shape.t;
@@ -200,7 +246,6 @@ inline study::Record sample_record() {
   for (const auto& method : methods)
     record.methods.push_back(sample_method(method, method.name == "moreau-jean" ? 3 : 8));
   record.methods.back().complete = false;
-  record.interrupted = true;
 
   study::MethodResult refused;
   refused.name = "newmark+penalty:stiffness=1e6";
@@ -211,6 +256,8 @@ inline study::Record sample_record() {
   refused.refusal_code = "penalty-needs-elastic";
   refused.ladder.clear();
   record.methods.push_back(refused);
+  record.profiles = study::profiles_of({&record, 1});
+  record.interrupted = true;
   return record;
 }
 

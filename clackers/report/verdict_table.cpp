@@ -9,6 +9,7 @@
 #include "clackers/report/digest.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/layout.hpp"
+#include "clackers/report/self_words.hpp"
 
 namespace clackers::report {
 namespace {
@@ -102,6 +103,15 @@ void write_verdict_table(const study::Record& record, std::ostream& out, const S
       first = false;
       print_wrapped(fmt::format("{}: {} [{}]", typed_name(method), said->sentence, said->code), "",
                     out, style);
+    }
+  first = true;
+  for (const auto& method : record.methods)
+    if (const auto said = lie(method)) {
+      if (first) out << '\n';
+      first = false;
+      const auto code = said->code.empty() ? "" : fmt::format(" [{}]", said->code);
+      print_wrapped(fmt::format("{}: {}{}", typed_name(method), said->sentence, code), "", out,
+                    style);
     }
   if (changes != nullptr) {
     out << '\n';

@@ -41,6 +41,23 @@ TEST(VerdictTable, FitsIntoEightyColumns) {
   }
 }
 
+TEST(VerdictTable, SaysWhereSelfConvergenceWouldHaveLied) {
+  auto record = sample_record();
+  const auto text = table(record);
+  EXPECT_NE(
+      text.find("\n\nnewmark+penalty: Self-convergence would have lied: the runs converge to a"
+                " limit\n0.0031 away from the true motion. [wrong-limit]\n"),
+      std::string::npos)
+      << text;
+  auto& both = record.methods[5].self_convergence->against_truth;
+  both.reason.clear();
+  EXPECT_NE(table(record).find("0.0031 away from the true motion.\n"), std::string::npos);
+  both.sentence = "Told in another way.";
+  EXPECT_NE(table(record).find("newmark+penalty: Told in another way.\n"), std::string::npos);
+  both.would_have_lied = false;
+  EXPECT_EQ(table(record).find("would have lied"), std::string::npos);
+}
+
 TEST(VerdictTable, StaysWithinEightyColumnsWithThousandsOfCollisionsAndLongNames) {
   auto record = sample_record();
   record.provenance.command = "clackers verify " + std::string(100, 'n');

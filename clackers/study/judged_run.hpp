@@ -14,6 +14,7 @@ struct RunTask {
   double step = 0.0;  ///< [s]
   long long steps = 0;
   int history_bins = 0;  ///< of the error against time, 0 for none
+  bool metrics = false;  ///< measure all of them: the run is stored whole
 
   /// Work to expect, in judged states.
   double cost() const;
@@ -23,6 +24,9 @@ struct RunTask {
 struct JudgedRun {
   assess::RunScore score;
   Curve history;  ///< empty without bins
+  /// Displacements at the end over the initial envelopes; empty for a run that failed.
+  std::vector<double> end_u;
+  std::vector<MetricResult> metrics;  ///< empty where not asked for, and for a run that failed
 };
 
 /// Runs a method once under judgement and, if it finished, again without it for its processor time

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
+#include "clackers/assess/metric.hpp"
 #include "clackers/study/processor_time.hpp"
 #include "clackers/study/toy_motion.hpp"
 
@@ -32,11 +34,11 @@ class ScriptedMethod : public methods::Method {
    public:
     explicit ScriptedRun(const Script& script) : script_(script) {}
     model::Outcome advance(model::Sink& sink) override {
-      const std::vector<double> zero{0.0}, one{1.0};
+      const std::vector<double> times{0.0, 4.0}, u{0.0, 3.0}, ones{1.0, 1.0};
       const bool goes_well = script_(++runs_);
       model::Outcome outcome;
       outcome.finished = goes_well;
-      if (!sink.take(model::SampleBlock{1, zero, zero, one})) {
+      if (!sink.take(model::SampleBlock{1, times, u, ones})) {
         outcome.finished = false;
         outcome.stopped_by_sink = true;
       }
@@ -53,7 +55,7 @@ class ScriptedMethod : public methods::Method {
 
 class JudgedRuns : public testing::Test {
  protected:
-  std::optional<JudgedRun> judge(ScriptedMethod::Script script) {
+  std::optional<JudgedRun> judge(ScriptedMethod::Script script, bool metrics = false) {
     method_ = std::make_shared<ScriptedMethod>(std::move(script));
     VerifyPlan plan;
     plan.problem.motion = std::make_shared<ToyMotion>(1, 8.0, std::vector<double>{});
@@ -66,7 +68,7 @@ class JudgedRuns : public testing::Test {
     plan.methods[0].method = method_;
     ProgressMeter meter(1.0, {});
     TaskShare share(meter, 1.0);
-    return judge_run(plan, {0, 0, 0, 4.0, 2, 0}, share, &interrupt_);
+    return judge_run(plan, {0, 0, 0, 4.0, 2, 0, metrics}, share, &interrupt_);
   }
 
   std::shared_ptr<ScriptedMethod> method_;
@@ -99,6 +101,35 @@ TEST_F(JudgedRuns, AreNotTimedWhenTheyFailed) {
   EXPECT_FALSE(result->score.finished);
   EXPECT_EQ(result->score.seconds, 0.0);
   EXPECT_EQ(runs, 1);
+}
+
+TEST_F(JudgedRuns, TellWhereTheyEndedOverTheInitialEnvelope) {
+  // The envelope of the toy's mass 1 is 4 m.
+  EXPECT_EQ(judge([](int) { return true; })->end_u, (std::vector<double>{0.75}));
+  EXPECT_TRUE(judge([](int) { return false; })->end_u.empty());
+}
+
+TEST_F(JudgedRuns, AreMeasuredByAllMetricsWhereThatIsAskedFor) {
+  const auto result = judge([](int) { return true; }, true);
+  ASSERT_EQ(result->metrics.size(), assess::metrics().size());
+  EXPECT_EQ(result->metrics[0].name, "u-max");
+  EXPECT_EQ(result->metrics[0].value, 1.0);  // 3 m where the truth is at 4 m
+  EXPECT_EQ(result->metrics[0].masses, (std::vector<double>{1.0}));
+  EXPECT_EQ(result->metrics[0].unit, "m");
+  for (std::size_t i = 0; i < result->metrics.size(); ++i) {
+    const auto& metric = result->metrics[i];
+    EXPECT_EQ(metric.across_jumps, assess::metrics()[i].across_jumps);
+    EXPECT_EQ(std::isnan(metric.value), !metric.reason.empty()) << metric.name;
+  }
+  EXPECT_TRUE(judge([](int) { return true; }, false)->metrics.empty());
+  EXPECT_TRUE(judge([](int) { return false; }, true)->metrics.empty());
+}
+
+TEST_F(JudgedRuns, CostMoreWhereMetricsAreMeasured) {
+  RunTask task{0, 0, 0, 0.1, 100, 0, false};
+  const double plain = task.cost();
+  task.metrics = true;
+  EXPECT_GT(task.cost(), plain);
 }
 
 TEST_F(JudgedRuns, AreNothingWhenInterruptedUnderJudgementOrWhileTimed) {

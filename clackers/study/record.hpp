@@ -8,6 +8,9 @@
 #include "clackers/assess/assessment.hpp"
 #include "clackers/assess/score.hpp"
 #include "clackers/methods/method.hpp"
+#include "clackers/study/metric_result.hpp"
+#include "clackers/study/profile.hpp"
+#include "clackers/study/self_result.hpp"
 
 namespace clackers::study {
 
@@ -49,6 +52,9 @@ struct Curve {
   std::vector<std::vector<double>> y;  ///< one row a mass
 };
 
+/// The longest run that metrics are measured on; a stored row takes some 50 bytes.
+inline constexpr long long most_metric_rows = 262144;
+
 /// One method of a study.
 struct MethodResult {
   std::string name;
@@ -60,6 +66,13 @@ struct MethodResult {
   assess::Assessment assessment;
   Curve error_history;        ///< |error in u| / initial envelope against time, at `history_step`
   double history_step = 0.0;  ///< [s]
+  /// Without the true motion; nothing where no level was finished, or where the method claims no
+  /// order that differences could be held to.
+  std::optional<SelfResult> self_convergence;
+  /// All metrics of the run with step `metrics_step`: the first of the finest level whose first run
+  /// has fewer than `most_metric_rows` steps. Empty where that run failed or there is none.
+  std::vector<MetricResult> metrics;
+  double metrics_step = 0.0;  ///< [s], 0 without metrics
 };
 
 /// A study whole: what json holds, what reports show, what --baseline will read.
@@ -71,6 +84,7 @@ struct Record {
   Curve response;  ///< exact displacements, one row a mass [m]
   std::vector<MethodResult> methods;
   bool interrupted = false;
+  std::vector<Profile> profiles = {};  ///< over the errors to reach on this case; profiles_of
 };
 
 }  // namespace clackers::study

@@ -13,7 +13,8 @@ concept Like = std::same_as<std::remove_const_t<T>, Base>;
 
 // Every struct of a record and the names of its fields in json. `fields(archive, x)` calls
 // archive(name, member) for each. The structured binding at the head of each function names all
-// members, so that a member added to a struct and forgotten here does not compile.
+// members, so that a member added to a struct and forgotten here does not compile. A field that
+// records of earlier versions lack is told by archive.added(name, member).
 
 template <class Archive>
 void fields(Archive& archive, Like<Quantity> auto& x) {
@@ -150,9 +151,61 @@ void fields(Archive& archive, Like<assess::Assessment> auto& x) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Like<MetricResult> auto& x) {
+  auto& [name, unit, value, masses, reason, across_jumps] = x;
+  archive("name", name);
+  archive("unit", unit);
+  archive("value", value);
+  archive("masses", masses);
+  archive("reason", reason);
+  archive("across_jumps", across_jumps);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::SelfConvergence> auto& x) {
+  auto& [differences, proper, estimate, sentence] = x;
+  archive("differences", differences);
+  archive("proper", proper);
+  archive("estimate", estimate);
+  archive("sentence", sentence);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::SelfAgainstTruth> auto& x) {
+  auto& [would_have_lied, reason, error_ratio, sentence] = x;
+  archive("would_have_lied", would_have_lied);
+  archive("reason", reason);
+  archive("error_ratio", error_ratio);
+  archive("sentence", sentence);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::Richardson> auto& x) {
+  auto& [bounded, reason, sentence, value, bound, estimate, level] = x;
+  archive("bounded", bounded);
+  archive("reason", reason);
+  archive("sentence", sentence);
+  archive("value", value);
+  archive("bound", bound);
+  archive("estimate", estimate);
+  archive("level", level);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<SelfResult> auto& x) {
+  auto& [order, self, errors, against_truth, extrapolation, extrapolation_error] = x;
+  archive("order", order);
+  archive("without_truth", self);
+  archive("errors", errors);
+  archive("against_truth", against_truth);
+  archive("extrapolation", extrapolation);
+  archive("extrapolation_error", extrapolation_error);
+}
+
+template <class Archive>
 void fields(Archive& archive, Like<MethodResult> auto& x) {
   auto& [name, claim, contact_time, refusal, refusal_code, complete, ladder, assessment, history,
-         history_step] = x;
+         history_step, self_convergence, metrics, metrics_step] = x;
   archive("name", name);
   archive("claim", claim);
   archive("contact_time", contact_time);
@@ -163,17 +216,46 @@ void fields(Archive& archive, Like<MethodResult> auto& x) {
   archive("assessment", assessment);
   archive("error_history", history);
   archive("history_step", history_step);
+  archive.added("self_convergence", self_convergence);
+  archive.added("metrics", metrics);
+  archive.added("metrics_step", metrics_step);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::ProfileStep> auto& x) {
+  auto& [ratio, share] = x;
+  archive("ratio", ratio);
+  archive("share", share);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::MethodProfile> auto& x) {
+  auto& [method, ratios, steps, best, failed] = x;
+  archive("method", method);
+  archive("ratios", ratios);
+  archive("steps", steps);
+  archive("best", best);
+  archive("failed", failed);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Profile> auto& x) {
+  auto& [counter, tasks, methods] = x;
+  archive("counter", counter);
+  archive("tasks", tasks);
+  archive("methods", methods);
 }
 
 template <class Archive>
 void fields(Archive& archive, Like<Record> auto& x) {
-  auto& [provenance, problem, plan, response, results, interrupted] = x;
+  auto& [provenance, problem, plan, response, results, interrupted, profiles] = x;
   archive("provenance", provenance);
   archive("case", problem);
   archive("plan", plan);
   archive("response", response);
   archive("methods", results);
   archive("interrupted", interrupted);
+  archive.added("profiles", profiles);
 }
 
 }  // namespace clackers::study

@@ -15,6 +15,10 @@ class Fingerprint {
     text += name;
     add(x);
   }
+  template <class T>
+  void added(const char* name, const T& x) {
+    (*this)(name, x);
+  }
   std::string text;
 
  private:

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "clackers/base/error.hpp"
+#include "clackers/study/case_studies.hpp"
 #include "clackers/study/record_fields.hpp"
 #include "clackers/study/verify.hpp"
 
@@ -32,6 +33,10 @@ class Writer {
   template <class T>
   void operator()(const char* name, const T& x) {
     object_[name] = written(x);
+  }
+  template <class T>
+  void added(const char* name, const T& x) {
+    (*this)(name, x);
   }
   const Json& object() const { return object_; }
 
@@ -80,6 +85,11 @@ class Reader {
     if (field == object_.end()) refuse_record(where_, fmt::format("no field \"{}\"", name));
     read(*field, where_ + "/" + name, x);
     ++known_;
+  }
+  /// A field that records of earlier versions lack: what it stands for is left as it is then.
+  template <class T>
+  void added(const char* name, T& x) {
+    if (object_.contains(name)) (*this)(name, x);
   }
   /// Call after the last field.
   void finish() const {
@@ -148,13 +158,29 @@ class Reader {
   std::size_t known_ = 0;
 };
 
-}  // namespace
-
-std::string to_json(const Record& record) {
+Json json_of(const Record& record) {
   Writer writer;
   writer("schema", std::string(Record::schema));
   fields(writer, record);
-  return writer.object().dump(1, ' ', false, Json::error_handler_t::replace);
+  return writer.object();
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string to_json(const Record& record) { return text_of(json_of(record)); }
+
+std::string to_json(const CaseStudies& studies) {
+  Writer writer;
+  writer("profiles", studies.profiles);
+  Json records = Json::array();
+  for (const auto& record : studies.records) records.push_back(json_of(record));
+  return text_of({{"schema", CaseStudies::schema},
+                  {"records", std::move(records)},
+                  {"profiles", writer.object()["profiles"]}});
 }
 
 Record record_from_json(const std::string& text) {

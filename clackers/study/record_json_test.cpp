@@ -28,6 +28,21 @@ TEST(RecordJson, ReadsBackToTheSameRecordBitByBit) {
   EXPECT_EQ(fingerprint(record_from_json(to_json(Record{}))), fingerprint(Record{}));
 }
 
+TEST(RecordJson, ReadsRecordsOfEarlierVersionsThatLackWhatWasAddedLater) {
+  auto json = nlohmann::ordered_json::parse(to_json(sample_record()));
+  for (const auto* added : {"self_convergence", "metrics", "metrics_step"}) {
+    EXPECT_TRUE(json["methods"][0].contains(added)) << added;
+    json["methods"][0].erase(added);
+  }
+  json.erase("profiles");
+  auto expected = sample_record();
+  expected.profiles.clear();
+  expected.methods[0].self_convergence.reset();
+  expected.methods[0].metrics.clear();
+  expected.methods[0].metrics_step = 0.0;
+  EXPECT_EQ(fingerprint(record_from_json(json.dump())), fingerprint(expected));
+}
+
 TEST(RecordJson, ReadsEveryDoubleBack) {
   std::mt19937_64 random(20240611);
   Record record;
@@ -66,6 +81,12 @@ TEST(RecordJson, RefusesWhatIsNoRecordAndSaysWhere) {
             "not-a-record: record: schema \"clackers/verify/2\" at /schema" + hint);
   EXPECT_EQ(changed("/methods/0/ladder/1/runs/0/u_error", "big"),
             "not-a-record: record: no number at /methods/0/ladder/1/runs/0/u_error" + hint);
+  EXPECT_EQ(changed("/methods/0/self_convergence/without_truth/proper", "yes"),
+            "not-a-record: record: neither true nor false at "
+            "/methods/0/self_convergence/without_truth/proper" +
+                hint);
+  EXPECT_EQ(changed("/methods/0/metrics/1/value", "much"),
+            "not-a-record: record: no number at /methods/0/metrics/1/value" + hint);
   EXPECT_EQ(changed("/plan/levels", 7.5),
             "not-a-record: record: no whole number, or one too large, at /plan/levels" + hint);
   EXPECT_EQ(changed("/plan/levels", 3'000'000'000),

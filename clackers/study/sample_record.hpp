@@ -55,6 +55,16 @@ inline Record sample_record() {
   method.assessment = {fit, second, third, Verdict::not_claimed, "a sentence"};
   method.error_history = {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}};
   method.history_step = 0.003125;
+  auto& without = method.self_convergence.emplace();
+  without.order = 1.5;
+  without.self = {second, true, 0.1234, "alone"};
+  without.errors = third;
+  without.against_truth = {true, "wrong-limit", 7.25, "both"};
+  without.extrapolation = {true, "differences-turn", "so far", {0.3, -tiny}, 1e-9, 2e-10, 6};
+  without.extrapolation_error = 3e-9;
+  method.metrics = {{"u-max", "m", 0.1 + 0.7, {tiny, huge}, "", true},
+                    {"v-max", "m/s", -0.0, {}, "no velocities", false}};
+  method.metrics_step = 0.0125;
   Record record;
   record.provenance = {"clackers verify", "9.8.7", "GCC 12",
                        "Linux",           "EPYC",  "2030-01-02T03:04:05Z"};
@@ -71,6 +81,10 @@ inline Record sample_record() {
   record.response = {{0.0, 1.0}, {{1.0, 0.5}, {-0.3, 0.2}}};
   record.methods = {method};
   record.interrupted = true;
+  record.profiles = {
+      {"steps",
+       {"stop: error in u <= 1e-01"},
+       {{"newmark", {1.5, std::numeric_limits<double>::infinity()}, {{1.5, 0.5}}, 0, 1}}}};
   return record;
 }
 

@@ -14,6 +14,7 @@ struct PlannedMethod {
   std::shared_ptr<const methods::Method> method;
   MethodResult result;  ///< name, claim, contact time and refusal are known already
   bool reports_impacts = true;
+  std::vector<assess::ResponseLevel> ends;  ///< displacements at the end, once they were run
 };
 
 /// A request made ready to run.

@@ -281,6 +281,8 @@ TEST(Verify, LeavesNothingUnmarkedWhenInterruptedBeforeItBegan) {
     EXPECT_EQ(method.assessment.verdict, Verdict::undecided);
     EXPECT_EQ(method.assessment.displacement.reason, "interrupted");
     EXPECT_EQ(method.assessment.sentence, "Interrupted before a level was finished.");
+    EXPECT_FALSE(method.self_convergence.has_value());
+    EXPECT_TRUE(method.metrics.empty());
   }
   EXPECT_FALSE(record.response.t.empty());
 }

@@ -13,6 +13,14 @@ SCHEMA = os.path.join(os.path.dirname(__file__), "../../docs/schemas/verify-1.js
 # Values that some other field might have; of them a bent record is made.
 OTHERS = (None, True, 7, 0.5, "text", [], {})
 
+# Fields of a method that records of earlier versions lack.
+LATER = (("self_convergence",), ("metrics",), ("metrics_step",))
+
+
+def is_later(path):
+    """Whether records of earlier versions lack the field."""
+    return path == ("profiles",) or (path[0] == "methods" and path[2:] in LATER)
+
 
 def places(value, path=()):
     """The paths of all values inside json, of each list the first item only."""
@@ -51,7 +59,9 @@ class Schema(CommandTest):
             method["ladder"] = method["ladder"][:1]
             for level in method["ladder"]:
                 del level["runs"][1:]
+            method["metrics"] = method["metrics"][:1]
             method["error_history"] = {name: rows[:2] for name, rows in method["error_history"].items()}
+        del cls.record["profiles"][1:]
         cls.record["response"] = {"t": [0.0, 1.0], "y": [[1.0, "nan"], ["inf", "-inf"]]}
 
     def good_record(self):
@@ -76,9 +86,27 @@ class Schema(CommandTest):
         record["methods"][0]["ladder"][0]["runs"][0]["impacts"] = None
         self.assertTrue(self.is_valid(record))
 
+    def test_takes_a_record_of_an_earlier_version(self):
+        record = self.good_record()
+        for method in record["methods"]:
+            for (field,) in LATER:
+                del method[field]
+        del record["profiles"]
+        self.assertTrue(self.is_valid(record))
+
+    def test_tells_metrics_and_what_the_runs_say_of_themselves(self):
+        method = self.whole["methods"][0]
+        listed = {row[0] for row in json.loads(
+            run("list", "metrics", "--format", "json").stdout)["rows"]}
+        names = [metric["name"] for metric in method["metrics"]]
+        self.assertEqual(len(names), 48)
+        self.assertLessEqual(set(names), listed)
+        self.assertEqual(method["metrics_step"], method["ladder"][-1]["runs"][0]["step"])
+        self.assertIsNotNone(method["self_convergence"])
+
     def test_refuses_a_record_without_any_one_of_its_fields(self):
         for path in places(self.record):
-            if path and isinstance(path[-1], str):
+            if path and isinstance(path[-1], str) and not is_later(path):
                 bent = self.good_record()
                 del holder(bent, path)[path[-1]]
                 self.assertFalse(self.is_valid(bent), path)
@@ -99,8 +127,11 @@ class Schema(CommandTest):
             for other in OTHERS:
                 number = isinstance(was, (int, float)) and not isinstance(was, bool)
                 number = number or was in ("nan", "inf", "-inf")
+                # No estimate is made of an extrapolation; a number may stand there as well.
+                open_estimate = path[-2:] == ("extrapolation", "estimate")
+                number = number or open_estimate
                 same = type(other) is type(was) or (number and type(other) in (int, float))
-                if path[-1] == "impacts":
+                if path[-1] in ("impacts", "self_convergence") or open_estimate:
                     same = same or other is None
                 # A count is whole; the other numbers need not be.
                 if same and not isinstance(other, (list, dict)) and not path[-1] == "schema":

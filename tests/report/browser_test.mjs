@@ -18,7 +18,7 @@ function check(sentence, holds, found = "") {
   if (!holds) failures.push(sentence);
 }
 
-const figures = ["response", "convergence", "history", "work-forces", "work-seconds"];
+const figures = ["response", "convergence", "history", "work", "profile"];
 const profile = mkdtempSync(join(tmpdir(), "clackers-browser-"));
 const context = await chromium.launchPersistentContext(profile, {
   executablePath: process.env.CHROMIUM || "/usr/bin/chromium",
@@ -128,6 +128,38 @@ try {
   await page.waitForTimeout(100);
   check("the error of mass 2 can be chosen", await page.evaluate(() => embedded.history.signal("mass")) === 2);
 
+  // What is counted, chosen on the keyboard.
+  const axisTitle = (name) => page.locator(`[data-plot="${name}"] svg .role-axis-title text`).first().innerHTML();
+  check("work is shown by force evaluations first", await axisTitle("work") === "force evaluations", await axisTitle("work"));
+  const spread = () => page.evaluate(() => embedded.work.scale("x").domain().map(Math.log10));
+  const forces = await spread();
+  await page.locator('[data-counter="seconds"][data-of="work"]').focus();
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => embedded.work.signal("counter") === "seconds");
+  await page.waitForTimeout(100);
+  check("a counter pressed on the keyboard is the axis of work", await axisTitle("work") === "processor time [s]"
+    && (await spread())[1] < 1 && forces[1] > 3, `${await axisTitle("work")} ${await spread()}`);
+  check("the pressed counter is marked as such, and no other", JSON.stringify(await page.locator('[data-of="work"][aria-pressed="true"]').allInnerTexts()) === '["processor time [s]"]');
+  const timed = JSON.parse((await download(page, "work", "Vega-Lite")).toString());
+  check("work is saved by the counter on the screen", timed.params.find((parameter) => parameter.name === "counter").value === "seconds"
+    && timed.layer[0].encoding.x.axis.title === "processor time [s]" && timed.usermeta === undefined);
+  await page.locator('[data-counter="steps"][data-of="profile"]').press("Space");
+  await page.waitForTimeout(100);
+  check("the profile follows its own counter", await axisTitle("profile") === "times the least steps"
+    && await axisTitle("work") === "processor time [s]", await axisTitle("profile"));
+  check("the lines of a profile end at one ratio", await page.evaluate(() => new Set(
+    data.profile.filter((row) => row.counter === "steps").map((row) => row.ratio.at(-1))).size) === 1);
+  await page.locator('[data-counter="force_evaluations"][data-of="work"]').click();
+
+  // All metrics of a method, on the keyboard.
+  const summary = page.locator("details.metrics summary").first();
+  check("metrics are folded away", !(await page.locator("details.metrics table").first().isVisible()));
+  await summary.focus();
+  await page.keyboard.press("Enter");
+  check("Enter unfolds the metrics of a method", await page.locator("details.metrics table").first().isVisible()
+    && await page.locator("details.metrics table").first().locator("tbody tr").count() === 47);
+  await page.keyboard.press("Enter");
+
   await page.locator('[data-plot="convergence"]').scrollIntoViewIfNeeded();
   await page.locator('[data-plot="convergence"] g.mark-symbol path[opacity="1"]').nth(3).hover({ force: true });
   await page.waitForSelector("#vg-tooltip-element.visible");
@@ -216,7 +248,9 @@ try {
   await page.evaluate(() => { document.activeElement.blur(); scrollTo(0, 0); });
   await page.waitForTimeout(50);
 
-  // For everybody.
+  // For everybody, with everything unfolded.
+  const unfold = (on) => on.evaluate(() => { for (const one of document.querySelectorAll("details.metrics")) one.open = true; });
+  await unfold(page);
   for (const theme of ["light", "dark"]) {
     await page.evaluate((name) => { document.documentElement.dataset.theme = name; }, theme);
     const found = await violations(page);
@@ -234,6 +268,7 @@ try {
   await page.close();
 
   const narrow = await open({ width: 400, dark: true });
+  await unfold(narrow);
   const overflow = await narrow.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
   check("at 400 pixels nothing is wider than the screen", overflow <= 0, `${overflow} pixels too wide`);
   const found = await violations(narrow);

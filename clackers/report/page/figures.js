@@ -33,6 +33,17 @@ function configuration(exporting) {
   };
 }
 
+// The title of the x axis follows the counter that the reader has chosen. Vega-Lite takes a fixed
+// title alone, so that the compiled specification is given one that follows.
+function followCounter(name) {
+  const titles = (specifications[name].usermeta || {}).counters;
+  return (compiled) => {
+    for (const axis of titles ? compiled.axes : [])
+      if (Object.values(titles).includes(axis.title)) axis.title = { signal: `${JSON.stringify(titles)}[counter]` };
+    return compiled;
+  };
+}
+
 // The data that a specification names, and no more.
 function datasets(specification) {
   const names = new Set();
@@ -52,7 +63,7 @@ function complete(name) {
 async function draw(name) {
   const frame = document.querySelector(`[data-plot="${name}"]`);
   const result = await vegaEmbed(frame, complete(name), {
-    mode: "vega-lite", renderer: "svg", actions: false, config: configuration(false),
+    mode: "vega-lite", renderer: "svg", actions: false, patch: followCounter(name), config: configuration(false),
     tooltip: { theme: "custom", disableDefaultStyle: false }
   });
   embedded[name] = result.view;
@@ -62,7 +73,7 @@ async function draw(name) {
 
 // Signals that say what the reader has chosen to see.
 function chosen(view) {
-  return view.getState({ signals: (name) => name === "hidden" || name === "mass", data: () => false }).signals;
+  return view.getState({ signals: (name) => ["hidden", "mass", "counter"].includes(name), data: () => false }).signals;
 }
 
 // Zooms by a factor around the middle; on a logarithmic axis in decades.
@@ -122,6 +133,13 @@ function standalone(name) {
   const state = chosen(embedded[name]);
   for (const parameter of specification.params || [])
     if (parameter.name in state) parameter.value = state[parameter.name];
+  const titles = (specification.usermeta || {}).counters;
+  if (titles)
+    JSON.stringify(specification, (key, value) => {
+      if (value && Object.values(titles).includes(value.title) && value.labelExpr) value.title = titles[state.counter];
+      return value;
+    });
+  delete specification.usermeta;
   specification.width = 760;
   specification.title = title(name);
   specification.config = configuration(true);

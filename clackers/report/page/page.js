@@ -92,6 +92,15 @@ for (const choice of document.querySelectorAll("[data-mass]"))
     embedded[choice.dataset.of].signal("mass", Number(choice.dataset.mass)).runAsync();
   });
 
+// What a figure counts. Another counter is another axis, so that the old stretch of it means nothing.
+for (const choice of document.querySelectorAll("[data-counter]"))
+  choice.addEventListener("click", () => {
+    for (const other of choice.parentElement.querySelectorAll("[data-counter]"))
+      other.setAttribute("aria-pressed", String(other === choice));
+    embedded[choice.dataset.of].signal("counter", choice.dataset.counter);
+    resetZoom(choice.dataset.of);
+  });
+
 // Theme: as the system has it, light, dark.
 const themes = ["auto", "light", "dark"];
 const themeButton = document.getElementById("theme");
