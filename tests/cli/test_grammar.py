@@ -4,7 +4,7 @@ import unittest
 
 from command import CommandTest, run
 
-COMMANDS = ("list", "show", "respond", "verify", "check", "explain")
+COMMANDS = ("list", "show", "respond", "verify", "check", "paper", "explain")
 
 
 class Help(CommandTest):
@@ -25,7 +25,8 @@ class Help(CommandTest):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
         own = {"list": [], "explain": [], "show": ["--set", "--threshold"],
                "check": ["--case", "--set", "--columns", "--events", "--steps", "--expect",
-                         "--tolerance"],
+                         "--tolerance", "--report"],
+               "paper": [],
                "respond": ["--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--set", "--levels", "--coarsest", "--neighbours",

@@ -1,0 +1,132 @@
+"""clackers paper: the folder it writes, and what it does without the programs that draw."""
+import csv
+import json
+import os
+import shutil
+import signal
+import subprocess
+import unittest
+import xml.etree.ElementTree
+
+from command import PROGRAM, CommandTest, environment, run, start
+
+CAN_DRAW = shutil.which("node") and shutil.which("rsvg-convert")
+FILES = ["fig12.csv", "fig12.pdf", "fig12.svg", "fig12.vl.json", "index.html", "paper.json"]
+
+
+def run_with_path(path, *arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=60,
+                          env=environment(PATH=path))
+
+
+class Folder(CommandTest):
+    def written(self, name="figures"):
+        return sorted(os.listdir(self.path(name)))
+
+    def read(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return file.read()
+
+    @unittest.skipUnless(CAN_DRAW, "node and rsvg-convert draw")
+    def test_one_figure_is_written_whole_with_page_numbers_and_pictures(self):
+        done = run("paper", "fig12", "--out", self.path("figures"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr, f"Wrote {self.path('figures')}\n")
+        self.assertEqual(self.written(), FILES)
+        self.assertEqual(self.files(), ["figures"])
+        root = xml.etree.ElementTree.fromstring(self.read("figures/fig12.svg"))
+        self.assertTrue(root.tag.endswith("svg"))
+        texts = "".join(root.itertext())
+        for text in ("(a)  the first mass", "time t [s]", "displacement u [m]", "without collisions"):
+            self.assertIn(text, texts)
+        with open(self.path("figures/fig12.pdf"), "rb") as file:
+            self.assertEqual(file.read(5), b"%PDF-")
+        self.assertIn("data:image/svg+xml;base64,", self.read("figures/index.html"))
+
+    @unittest.skipUnless(CAN_DRAW, "node and rsvg-convert draw")
+    def test_every_figure_but_the_validation_is_drawn_and_every_claim_holds(self):
+        listed = [row["name"] for row in json_rows(self.good("list", "figures", "--format", "json"))]
+        self.assertEqual(len(listed), 16)
+        names = [name for name in listed if name != "validation"]
+        done = run("paper", *names, "--out", self.path("figures"), "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in names:
+            self.assertIn(f"{name}.pdf", self.written())
+        claims = json_rows(done.stdout)
+        self.assertGreater(len(claims), 20)
+        self.assertEqual([c for c in claims if c["verdict"] != "holds"], [])
+
+    def test_curves_of_fig_12_coincide_in_the_csv(self):
+        run_with_path("", "paper", "fig12", "--out", self.path("figures"))
+        table = list(csv.DictReader(self.read("figures/fig12.csv").splitlines()))
+        self.assertEqual({row["panel"] for row in table}, {"a", "b"})
+        for panel in ("a", "b"):
+            curves = {}
+            for row in table:
+                if row["panel"] == panel:
+                    curves.setdefault(row["series"], {})[row["x"]] = float(row["y"])
+            ghost = curves.pop("without collisions")
+            points = curves.pop("coincidence")
+            (actual,) = curves.values()
+            self.assertEqual(len(points), 3)
+            for t, u in points.items():
+                near = min(actual, key=lambda x: abs(float(x) - float(t)))
+                self.assertAlmostEqual(actual[near], u, 12)
+                self.assertAlmostEqual(ghost[near], u, 12)
+
+    def test_without_node_numbers_specifications_and_page_are_written(self):
+        done = run_with_path("", "paper", "fig12", "--out", self.path("figures"))
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("no program node on the PATH", done.stderr.replace("\n", " "))
+        self.assertIn("[no-renderer]", done.stderr)
+        self.assertEqual(self.written(), ["fig12.csv", "fig12.vl.json", "index.html", "paper.json"])
+
+    def test_an_earlier_folder_is_replaced_and_a_foreign_one_refused(self):
+        for names in (("fig12", "fig2"), ("fig2",)):
+            done = run_with_path("", "paper", *names, "--out", self.path("figures"))
+            self.assertEqual(done.returncode, 4)
+        self.assertEqual(self.written(), ["fig2.csv", "fig2.vl.json", "index.html", "paper.json"])
+        with open(self.path("figures/mine.txt"), "w"):
+            pass
+        self.refused("paper", "fig2", "--out", self.path("figures"), code="foreign-folder",
+                     says="mine.txt")
+        self.assertIn("mine.txt", self.written())
+
+    def test_an_empty_folder_is_filled_and_a_file_refused(self):
+        os.mkdir(self.path("figures"))
+        self.assertEqual(run_with_path("", "paper", "fig2", "--out", self.path("figures/")).returncode, 4)
+        self.assertIn("fig2.csv", self.written())
+        with open(self.path("file"), "w") as file:
+            file.write("mine")
+        self.refused("paper", "fig2", "--out", self.path("file"), code="cannot-write", exit_code=4)
+        self.assertEqual(self.read("file"), "mine")
+        self.refused("paper", "fig2", "--out", self.path("nowhere/figures"), code="cannot-write",
+                     exit_code=4)
+        self.assertEqual(self.files(), ["figures", "file"])
+
+    def test_refusals_in_words(self):
+        out = ("--out", self.path("x"))
+        self.refused("paper", "figure99", *out, code="unknown-name", says='no figure "figure99"')
+        self.refused("paper", "figA", *out, code="unknown-name", says="Did you mean")
+        self.refused("paper", "fig1", code="bad-syntax", says="--out FOLDER")
+        self.refused("list", "figurs", code="unknown-name", says='Did you mean "figures"?')
+        self.assertEqual(self.files(), [])
+
+    def test_ctrl_c_leaves_nothing(self):
+        process = start("paper", "--out", self.path("figures"), stdout=subprocess.DEVNULL,
+                        stderr=subprocess.DEVNULL)
+        self.wait_for(self.files)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 130)
+        self.assertEqual(self.files(), [])
+
+
+def json_rows(text):
+    """The rows of a json answer as dictionaries."""
+    answer = json.loads(text)
+    names = [column["name"] for column in answer["columns"]]
+    return [dict(zip(names, row)) for row in answer["rows"]]
+
+
+if __name__ == "__main__":
+    unittest.main()
