@@ -22,6 +22,7 @@ Command add_show(CLI::App& root);
 Command add_respond(CLI::App& root);
 Command add_verify(CLI::App& root);
 Command add_check(CLI::App& root);
+Command add_paper(CLI::App& root);
 Command add_explain(CLI::App& root);
 
 }  // namespace clackers::cli

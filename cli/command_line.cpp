@@ -8,8 +8,10 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
 #include "cli/command.hpp"
+#include "cli/generate.hpp"
 #include "cli/help.hpp"
 #include "cli/output_stream.hpp"
+#include "cli/reference.hpp"
 #include "cli/text.hpp"
 
 namespace clackers::cli {
@@ -23,10 +25,11 @@ const HelpPage overall_page{
     .about = "Exact motions of colliding structures, and verdicts on time-integration methods.",
     .usage =
         "  clackers list     [KIND]           what there is: cases, methods, metrics\n"
-        "  clackers show     CASE|METHOD      one of them in full\n"
+        "  clackers show     CASE|METHOD      one case or method in full\n"
         "  clackers respond  CASE ...         the exact motion of a case\n"
         "  clackers verify   [METHOD ...]     judge methods on a ladder of steps\n"
         "  clackers check    FILE ...         judge time histories of any program\n"
+        "  clackers paper    [FIGURE ...]     the paper's figures and claims, reproduced\n"
         "  clackers explain  [CODE]           what a code in [brackets] means\n"
         "\n"
         "  clackers COMMAND --help tells the rest. Quantities are in SI units.\n"
@@ -124,12 +127,20 @@ int run_command_line(const std::vector<std::string>& arguments) {
   root.require_subcommand(0, 1);  // so that `clackers explain list` is not two commands
   root.allow_extras();
   const std::vector<Command> commands{add_list(root),   add_show(root),  add_respond(root),
-                                      add_verify(root), add_check(root), add_explain(root)};
+                                      add_verify(root), add_check(root), add_paper(root),
+                                      add_explain(root)};
   for (const auto& command : commands) {
     command.app->set_help_flag("-h,--help", "This help.");
     command.app->allow_extras();
     for (auto* option : command.app->get_options())
       if (option->get_items_expected_max() == 0) option->disable_flag_override();
+  }
+  // Unlisted: the build calls it, with everything above as its source.
+  if (arguments.size() == 2 && arguments.front() == "--generate") {
+    std::vector<Reference> references{reference_of(root)};
+    for (const auto& command : commands) references.push_back(reference_of(*command.app));
+    generate_shell_files(references, arguments.back());
+    return 0;
   }
   const auto chosen = [&] {
     return std::ranges::find_if(commands, [](const Command& it) { return it.app->parsed(); });

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "cli/text.hpp"
 
@@ -24,6 +25,9 @@ std::string described(const std::string& name, const std::string& description) {
 
 class Formatter : public CLI::Formatter {
  public:
+  explicit Formatter(HelpPage page) : page_(std::move(page)) {}
+  const HelpPage& page() const { return page_; }
+
   std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
     std::string arguments, options;
     for (const auto* option : app->get_options()) {
@@ -36,6 +40,9 @@ class Formatter : public CLI::Formatter {
     return app->get_description() + (arguments.empty() ? "" : "\nArguments\n" + arguments) +
            "\nOptions\n" + options;
   }
+
+ private:
+  HelpPage page_;
 };
 
 }  // namespace
@@ -51,7 +58,11 @@ void set_help(CLI::App& command, const HelpPage& page) {
     if (text.back() != '\n') text += "\n";
   }
   command.description(text);
-  command.formatter(std::make_shared<Formatter>());
+  command.formatter(std::make_shared<Formatter>(page));
+}
+
+const HelpPage& help_page(const CLI::App& command) {
+  return dynamic_cast<const Formatter&>(*command.get_formatter()).page();
 }
 
 }  // namespace clackers::cli

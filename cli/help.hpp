@@ -19,4 +19,7 @@ struct HelpPage {
 /// arguments and options.
 void set_help(CLI::App& command, const HelpPage& page);
 
+/// The page that set_help() was given for this command.
+const HelpPage& help_page(const CLI::App& command);
+
 }  // namespace clackers::cli

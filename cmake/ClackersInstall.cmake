@@ -10,6 +10,10 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/clackers)
 get_property(rooms GLOBAL PROPERTY CLACKERS_ROOMS)
 
 install(TARGETS clackers_cli RUNTIME COMPONENT command)
+if(NOT CMAKE_CROSSCOMPILING)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/share/ COMPONENT command
+    DESTINATION ${CMAKE_INSTALL_DATAROOTDIR})
+endif()
 
 # For C. Its targets stand in a file of their own: they need neither C++ nor the libraries below it.
 install(TARGETS clackers_c EXPORT clackers-c

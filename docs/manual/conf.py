@@ -1,0 +1,48 @@
+"""Sphinx configuration. `scripts/docs` assembles the sources and runs Sphinx on them."""
+import os
+import pathlib
+
+project = "Clackers"
+author = "The Clackers developers"
+copyright = "The Clackers developers. Licence: Apache-2.0"
+version = release = os.environ["CLACKERS_VERSION"]
+
+extensions = ["myst_parser", "sphinx.ext.mathjax", "breathe"]
+source_suffix = {".md": "markdown"}
+nitpicky = False
+
+myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", "deflist"]
+myst_heading_anchors = 4
+
+# The copy of Debian's libjs-mathjax that scripts/docs lays beside the pages. SVG output: its fonts
+# are scripts, which a browser also loads from a page opened as a file.
+mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
+mathjax2_config = {
+    "showMathMenu": False,
+    "messageStyle": "none",
+    "SVG": {"font": "TeX", "scale": 95},
+    "tex2jax": {"processClass": "math|mathjax_process", "ignoreClass": "document"},
+}
+# The first speaks of version 3 of MathJax, the second of sections that begin at a lower level.
+suppress_warnings = ["myst.mathjax", "myst.header"]
+
+breathe_projects = {"clackers": os.environ["CLACKERS_DOXYGEN_XML"]}
+breathe_default_project = "clackers"
+breathe_default_members = ("members",)
+breathe_domain_by_extension = {"h": "c", "hpp": "cpp"}
+cpp_id_attributes = ["CLACKERS_API"]
+c_id_attributes = ["CLACKERS_API"]
+primary_domain = "cpp"
+highlight_language = "none"
+
+html_theme = "furo"
+html_title = f"Clackers {release}"
+html_static_path = ["_static"]
+html_css_files = ["manual.css"]
+html_extra_path = [name for name in ("files",) if pathlib.Path(name).is_dir()]
+html_show_sphinx = False
+html_copy_source = False
+html_theme_options = {
+    "light_css_variables": {"color-brand-primary": "#1b5e8c", "color-brand-content": "#1b5e8c"},
+    "dark_css_variables": {"color-brand-primary": "#7db8e0", "color-brand-content": "#7db8e0"},
+}

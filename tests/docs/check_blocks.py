@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+"""Runs the code blocks of documents and compares their outputs with what the documents show.
+
+    CLACKERS=build/dev/cli/clackers CLACKERS_BUILD=build/dev check_blocks.py README.md ...
+
+Each document has a folder of its own, in which its blocks run in order:
+
+sh        every line is a command that must succeed
+console   "$ command" and its output; a line "..." stands for any lines. A command that does not succeed
+          is followed by "$ echo $?"
+c, cpp, python   begins with a comment that names a file, which is written; a C or C++ program is also built
+          under the name without its extension. Without a name C++ is a fragment, compiled behind PREAMBLE
+(none)    an output: TABLES says of which command
+text, json, csv, math, {directive}   to be read only
+"""
+import functools
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import blocks
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Run elsewhere, because it installs packages or takes minutes: the command, and the test that does it.
+ELSEWHERE = {
+    r"scripts/demo": "cli.test_verify runs the command; continuous integration runs the script",
+    r"scripts/test": "continuous integration",
+    r"scripts/setup( \w+)?": "scripts/test begins with it",
+    r"scripts/docs.*": "docs.manual",
+    r"scripts/bench.*": "by hand: benchmarks/README.md",
+    r"cmake --preset dev && .*": "scripts/test",
+    r"cc examples/c/collisions.c .*": "package.test_c",
+    r"scripts/package && apt install .*": "package.test_debian",
+    r"clackers paper .*": "cli.test_paper",
+    r"find_package\(.*": "package.test_cpp",
+    r"target_link_libraries\(.*": "package.test_cpp",
+}
+# Outputs without their command: the document and how the block begins.
+TABLES = {("README.md", "three-parameter (N = 2, xi1 = 0.05, a_t = 1)"): "clackers verify --report page.html 2>/dev/null"}
+TO_READ = {"text", "json", "csv", "math", "xml", "latex"}
+NAME = re.compile(r"(?://|#|/\*) ([\w.-]+\.(?:c|cpp|py|sh))\b")
+# What a fragment of C++ stands behind.
+PREAMBLE = """#include "clackers/cases/case.hpp"
+#include "clackers/methods/registry.hpp"
+#include "clackers/model/run.hpp"
+[[maybe_unused]] static void fragment() {
+"""
+
+
+@functools.cache
+def python_with_numpy():
+    for program in (sys.executable, "/usr/bin/python3"):
+        if os.path.exists(program) and not subprocess.run([program, "-c", "import numpy"], capture_output=True).returncode:
+            return program
+    return sys.executable
+
+
+class Document:
+    def __init__(self, path, folder, used=None):
+        self.path, self.folder, self.problems = path, pathlib.Path(folder), []
+        self.name = path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else path.name
+        self.used = used if used is not None else set()
+        self.last_code = 0
+        tools = self.folder / ".tools"
+        tools.mkdir()
+        (tools / "clackers").symlink_to(pathlib.Path(os.environ["CLACKERS"]).resolve())
+        (tools / "python3").symlink_to(python_with_numpy())
+        self.build = pathlib.Path(os.environ.get("CLACKERS_BUILD", "build/dev")).resolve()
+        kept = {k: v for k, v in os.environ.items() if k not in ("COLUMNS", "NO_COLOR")}
+        self.environment = {**kept, "PATH": f"{tools}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8",
+                            "LD_LIBRARY_PATH": str(self.build / "bindings/c"), "PYTHONDONTWRITEBYTECODE": "1"}
+
+    def run(self, command):
+        """The output of a command, both streams; its exit code is kept."""
+        done = subprocess.run(["bash", "-c", f"(exit {self.last_code}); {command}"], cwd=self.folder,
+                              env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, timeout=120)
+        self.last_code = done.returncode
+        return done.stdout
+
+    def problem(self, block, text):
+        self.problems.append(f"{self.name}:{block.line}: {text}")
+
+    def elsewhere(self, command):
+        for pattern in ELSEWHERE:
+            if re.fullmatch(pattern, command):
+                self.used.add(pattern)
+                return True
+        return False
+
+    def check(self):
+        try:
+            found = blocks.blocks_of(self.path.read_text())
+        except ValueError as problem:
+            self.problems.append(f"{self.name}: {problem}")
+            return self.problems
+        for block in found:
+            self.check_block(block)
+        return self.problems
+
+    def check_block(self, block):
+        language = block.language
+        if language in TO_READ or language.startswith("{"):
+            return
+        if language in ("sh", "cmake"):
+            self.check_commands(block)
+        elif language == "console":
+            self.check_console(block)
+        elif language in ("c", "cpp", "python"):
+            self.check_source(block)
+        elif not language:
+            self.check_table(block)
+        else:
+            self.problem(block, f"no rule for blocks of {language}")
+
+    def check_commands(self, block):
+        for command in blocks.commands_of(block.text):
+            if self.elsewhere(command):
+                continue
+            if block.language == "cmake":
+                self.problem(block, f"nothing runs this: {command}")
+                continue
+            self.last_code = 0
+            output = self.run(command)
+            if self.last_code:
+                self.problem(block, f"{command}: exit code {self.last_code}\n{output}")
+
+    def check_console(self, block):
+        try:
+            steps = blocks.steps_of(block.text)
+        except ValueError as problem:
+            self.problem(block, str(problem))
+            return
+        self.last_code = 0
+        for number, step in enumerate(steps):
+            output = self.run(step.command)
+            if not blocks.matches(step.expected, output):
+                self.problem(block, f"$ {step.command}\nshows\n{step.expected}\nand prints\n{output}")
+            shown = number + 1 < len(steps) and steps[number + 1].command == "echo $?"
+            if self.last_code and not shown:
+                self.problem(block, f"{step.command}: exit code {self.last_code}, which is not shown")
+
+    def check_table(self, block):
+        for (name, beginning), command in TABLES.items():
+            if self.name == name and block.text.startswith(beginning):
+                self.used.add((name, beginning))
+                self.last_code = 0
+                output = self.run(command)
+                if not blocks.matches(block.text, output):
+                    self.problem(block, f"shows\n{block.text}\nand {command} prints\n{output}")
+                return
+        self.problem(block, "a block without language that no command of TABLES prints")
+
+    def check_source(self, block):
+        named = NAME.match(block.text)
+        if not named:
+            if block.language != "cpp":
+                self.problem(block, f"{block.language} without a comment that names its file")
+                return
+            self.compile(block, PREAMBLE + block.text + "}\n", ["c++", "-std=c++20", "-fsyntax-only", "-x", "c++", "-"])
+            return
+        path = self.folder / named[1]
+        path.write_text(block.text)
+        if path.suffix == ".c":
+            self.compile(block, "", ["cc", "-std=c99", "-pedantic", "-I", ROOT / "bindings/c", path, "-L", self.build / "bindings/c",
+                                     "-lclackers", "-lm", "-o", path.with_suffix("")])
+        elif path.suffix == ".cpp":
+            rooms = sorted(self.build.glob("libclackers_*.a"))
+            if not rooms:
+                self.problem(block, f"no libraries in CLACKERS_BUILD, {self.build}")
+                return
+            self.compile(block, "", ["c++", "-std=c++20", path, "-Wl,--start-group", *rooms, "-Wl,--end-group", "-lfmt",
+                                     "-lhwy", "-o", path.with_suffix("")])
+
+    def compile(self, block, text, command):
+        words = [str(word) for word in command]
+        words[1:1] = [] if words[0] == "cc" else ["-Wall", "-Wextra", "-Werror", "-I", str(ROOT), "-isystem", "/usr/include/eigen3"]
+        done = subprocess.run(words, input=text, capture_output=True, text=True, cwd=self.folder)
+        if done.returncode:
+            self.problem(block, f"does not compile:\n{done.stderr}")
+
+
+def main():
+    problems, used = [], set()
+    paths = [pathlib.Path(name).resolve() for name in sys.argv[1:]]
+    for path in paths:
+        with tempfile.TemporaryDirectory(prefix="clackers-blocks-") as folder:
+            problems += Document(path, folder, used).check()
+    print("\n\n".join(problems))
+    return 1 if problems or not paths else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,205 @@
+#!/usr/bin/env python3
+"""Man pages and completions as the built command writes them: CLACKERS=build/dev/cli/clackers."""
+import os
+import pathlib
+import pty
+import re
+import select
+import shutil
+import subprocess
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.path.abspath(os.environ["CLACKERS"])
+
+
+def run(*words, **more):
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, **more)
+
+
+def setUpModule():
+    global folder, share, commands
+    folder = tempfile.TemporaryDirectory()
+    share = pathlib.Path(folder.name) / "share"
+    done = run(PROGRAM, "--generate", share)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", ""), done
+    usage = run(PROGRAM, "--help").stdout.split("\nUsage\n")[1]
+    commands = re.findall(r"^  clackers ([a-z]+) ", usage, re.MULTILINE)
+
+
+def tearDownModule():
+    folder.cleanup()
+
+
+def help_of(command):
+    return run(PROGRAM, command, "--help").stdout
+
+
+def options_of(command):
+    return re.findall(r"^  (?:-h,)?(--[a-z-]+)", help_of(command).split("\nOptions\n")[1], re.MULTILINE)
+
+
+def words(text):
+    """Without what a formatter may change: breaks of lines and the width of gaps."""
+    return " ".join(text.split())
+
+
+class ManualPages(unittest.TestCase):
+    def page(self, name):
+        return share / "man/man1" / f"{name}.1"
+
+    def rendered(self, name):
+        done = run("groff", "-ww", "-b", "-man", "-Tutf8", "-P-c", "-K", "utf8", self.page(name))
+        self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+        return re.sub(r".\x08", "", done.stdout)
+
+    def test_exist_for_the_program_and_each_command(self):
+        self.assertEqual(sorted(path.name for path in (share / "man/man1").iterdir()),
+                         sorted(["clackers.1", *(f"clackers-{name}.1" for name in commands)]))
+        self.assertGreater(len(commands), 5)
+
+    @unittest.skipUnless(shutil.which("groff"), "needs groff")
+    def test_have_no_warnings_and_the_usual_sections(self):
+        for name in ["clackers", *(f"clackers-{command}" for command in commands)]:
+            text = self.rendered(name)
+            heads = re.findall(r"^[A-Z][A-Z ]+$", text, re.MULTILINE)
+            for head in ("NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "EXIT STATUS", "EXAMPLES", "SEE ALSO"):
+                self.assertIn(head, heads, name)
+            self.assertRegex(text, rf"NAME\n +{name} - \S+ \S+")
+
+    @unittest.skipUnless(shutil.which("groff"), "needs groff")
+    def test_say_what_help_says(self):
+        for command in commands:
+            text = words(self.rendered(f"clackers-{command}"))
+            page = self.page(f"clackers-{command}").read_text()
+            for part in re.split(r"\n\n|^  (?:-h,)?--[a-z-]+.*?(?:\n|   )|^(?:Options|Examples|Usage|Arguments)\n", help_of(command),
+                                 flags=re.MULTILINE):
+                for line in (part or "").splitlines():
+                    self.assertIn(words(line), text, (command, line))
+            for option in options_of(command):
+                self.assertIn(option.replace("-", r"\-"), page)
+
+    def test_begin_no_line_with_a_request_of_their_own(self):
+        for path in (share / "man/man1").iterdir():
+            for line in path.read_text().splitlines():
+                self.assertRegex(line, r"\A(?:[^.']|\.(?:TH|SH|TP|BR|nf|fi|nh|ad)\b)|\A\Z", path.name)
+
+
+class Bash(unittest.TestCase):
+    def completed(self, line):
+        """What bash offers where `line` ends; words are split as readline splits them."""
+        parts = [part for part in re.split(r"\s+|(=)", line) if part]
+        if line.endswith((" ", "=")) or not parts:
+            parts.append("")
+        script = (f"source {share}/bash-completion/completions/clackers\n"
+                  f"COMP_WORDS=({' '.join(repr(part) for part in parts)}); COMP_CWORD={len(parts) - 1}\n"
+                  "_clackers\nprintf '%s\\n' \"${COMPREPLY[@]}\"")
+        done = run("bash", "--norc", "-eu", "-c", script, cwd=folder.name)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), line)
+        return [word for word in done.stdout.splitlines() if word]
+
+    def test_completes_commands(self):
+        self.assertEqual(self.completed("clackers ver"), ["verify"])
+        self.assertEqual(sorted(self.completed("clackers ")), sorted([*commands, "-h", "--help", "--version"]))
+
+    def test_completes_the_options_of_each_command(self):
+        for command in commands:
+            self.assertEqual(sorted(self.completed(f"clackers {command} --")), sorted(options_of(command)), command)
+        self.assertEqual(self.completed("clackers verify --lev"), ["--levels"])
+
+    def test_goes_on_behind_an_option_without_a_value(self):
+        self.assertEqual(self.completed("clackers verify --quiet --lev"), ["--levels"])
+        self.assertEqual(self.completed("clackers verify --quiet mor"), ["moreau-jean"])
+
+    def test_completes_cases(self):
+        self.assertEqual(self.completed("clackers respond sto"), ["stop"])
+        self.assertEqual(self.completed("clackers verify --case three"), ["three-parameter"])
+        self.assertEqual(self.completed("clackers verify --case=three"), ["three-parameter"])
+        self.assertIn("sdof", self.completed("clackers verify --case="))
+
+    def test_completes_methods_and_their_pairs(self):
+        self.assertEqual(self.completed("clackers verify newmark+rev"), ["newmark+reversal"])
+        self.assertEqual(self.completed("clackers verify newmark mor"), ["moreau-jean"])
+        shown = self.completed("clackers show ")
+        for name in ("stop", "rk4", "newmark+penalty"):
+            self.assertIn(name, shown)
+
+    def test_completes_words_codes_and_kinds(self):
+        self.assertEqual(self.completed("clackers list metr"), ["metrics"])
+        self.assertEqual(self.completed("clackers explain stagn"), ["stagnating"])
+        self.assertEqual(self.completed("clackers verify --format js"), ["json"])
+        self.assertEqual(self.completed("clackers check x.csv --expect prop"), ["proper"])
+
+    def test_completes_parameters_of_the_case_on_the_line(self):
+        self.assertEqual(self.completed("clackers show --set "), ["N=", "xi1=", "a_t="])
+        self.assertEqual(self.completed("clackers show stop --set et"), ["eta="])
+        self.assertEqual(self.completed("clackers show stop --set xi1=0.1,et"), [])  # '=' splits the word
+        self.assertEqual(self.completed("clackers verify --set N"), ["N="])
+
+    def test_completes_files(self):
+        (pathlib.Path(folder.name) / "history.csv").touch()
+        self.assertEqual(self.completed("clackers check hist"), ["history.csv"])
+        self.assertEqual(self.completed("clackers verify --report hist"), ["history.csv"])
+
+    def test_offers_nothing_for_numbers(self):
+        for line in ("clackers verify --levels ", "clackers respond stop --step ", "clackers show stop --threshold "):
+            self.assertEqual(self.completed(line), [], line)
+
+
+@unittest.skipUnless(shutil.which("zsh"), "needs zsh")
+class Zsh(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.terminal, theirs = pty.openpty()
+        home = pathlib.Path(folder.name) / "home"
+        home.mkdir()
+        (home / ".zshrc").write_text(
+            f"fpath=({share}/zsh/site-functions $fpath)\nautoload -U compinit\ncompinit -u -D\nPS1='ready> '\n"
+            "unsetopt zle_bracketed_paste prompt_sp\nLISTMAX=1000\nclackers() { print -r -- \"got:[$*]\"; }\n")
+        cls.shell = subprocess.Popen(["zsh", "-i"], stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True,
+                                     cwd=folder.name, env={**os.environ, "ZDOTDIR": str(home), "TERM": "dumb", "HOME": str(home)})
+        os.close(theirs)
+        cls.read("ready> ")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.shell.kill()
+        cls.shell.wait()
+        os.close(cls.terminal)
+
+    def completed(self, line):
+        """What a zsh on a terminal makes of `line` and a tab: the arguments that the command receives."""
+        os.write(self.terminal, f"{line}\t".encode())
+        self.read(None)
+        os.write(self.terminal, b"\n")
+        seen = self.read("ready> ")
+        return re.findall(r"got:\[(.*?)\]", seen)
+
+    @classmethod
+    def read(cls, until, seconds=30):
+        """What comes, to a text or until a second of silence."""
+        text, end = "", time.monotonic() + seconds
+        while time.monotonic() < end and (until is None or until not in text):
+            if not select.select([cls.terminal], [], [], 1.0 if until is None else 0.2)[0]:
+                if until is None:
+                    break
+                continue
+            text += os.read(cls.terminal, 65536).decode(errors="replace")
+        return text
+
+    def test_is_sound_zsh(self):
+        done = run("zsh", "-n", share / "zsh/site-functions/_clackers")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_completes_commands_options_cases_and_methods(self):
+        for line, made in (("clackers ver", "verify"), ("clackers verify --lev", "verify --levels"),
+                           ("clackers verify --case three", "verify --case three-parameter"),
+                           ("clackers respond sto", "respond stop"), ("clackers verify newmark+rev", "verify newmark+reversal"),
+                           ("clackers explain stagn", "explain stagnating"), ("clackers show stop --set et", "show stop --set eta="),
+                           ("clackers show stop --set xi1=0 --set et", "show stop --set xi1=0 --set eta=")):
+            self.assertEqual(self.completed(line), [made], line)
+
+
+if __name__ == "__main__":
+    unittest.main()
