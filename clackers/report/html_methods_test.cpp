@@ -107,12 +107,12 @@ TEST(FigureData, ProfilesBeginAtTheLeastCostAndEndTogether) {
                        {"never", {INFINITY, INFINITY}, {}, 0, 2}}}};
   const auto rows = figure_data(record)["profile"];
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0]["ratio"], (nlohmann::json{1.0, 5.0}));
-  EXPECT_EQ(rows[0]["share"], (nlohmann::json{1.0, 1.0}));
-  EXPECT_EQ(rows[1]["ratio"], (nlohmann::json{1.0, 4.0, 5.0}));
-  EXPECT_EQ(rows[1]["share"], (nlohmann::json{0.0, 0.5, 0.5}));
-  EXPECT_EQ(rows[1]["solved"], (nlohmann::json{0, 1, 1}));
-  EXPECT_EQ(rows[2]["share"], (nlohmann::json{0.0, 0.0}));
+  EXPECT_EQ(rows[0]["ratio"], (nlohmann::ordered_json{1.0, 5.0}));
+  EXPECT_EQ(rows[0]["share"], (nlohmann::ordered_json{1.0, 1.0}));
+  EXPECT_EQ(rows[1]["ratio"], (nlohmann::ordered_json{1.0, 4.0, 5.0}));
+  EXPECT_EQ(rows[1]["share"], (nlohmann::ordered_json{0.0, 0.5, 0.5}));
+  EXPECT_EQ(rows[1]["solved"], (nlohmann::ordered_json{0, 1, 1}));
+  EXPECT_EQ(rows[2]["share"], (nlohmann::ordered_json{0.0, 0.0}));
   EXPECT_EQ(rows[2]["failed"], 2);
 }
 
