@@ -32,8 +32,7 @@ class PaperSystems : public testing::TestWithParam<PaperSystem> {};
 TEST_P(PaperSystems, Rk4WithLocatedImpactsIsProperAtFour) {
   const auto [N, xi1] = GetParam();
   const auto record = verify(request(N, xi1, {"rk4"}, 20.0, {.levels = 5, .neighbours = 3}));
-  const auto& [name, claim, contact_time, refusal, code, complete, ladder, assessment, history, h] =
-      record.methods[0];
+  const auto& assessment = record.methods[0].assessment;
   EXPECT_EQ(assessment.displacement.behaviour, Behaviour::proper) << assessment.sentence;
   EXPECT_NEAR(assessment.displacement.order, 4.0, 0.4) << assessment.sentence;
   EXPECT_EQ(assessment.verdict, Verdict::agrees) << assessment.sentence;
@@ -42,7 +41,7 @@ TEST_P(PaperSystems, Rk4WithLocatedImpactsIsProperAtFour) {
   const auto expected =
       std::llround(std::floor(20.0 * std::sqrt(1.0 - xi1 * xi1) / std::numbers::pi + 0.5));
   EXPECT_EQ(record.problem.impact_count, expected);
-  for (const auto& run : ladder.back().runs) {
+  for (const auto& run : record.methods[0].ladder.back().runs) {
     ASSERT_TRUE(run.impacts.has_value());
     EXPECT_EQ(run.impacts->found, expected);
     EXPECT_EQ(run.impacts->matched, expected);
