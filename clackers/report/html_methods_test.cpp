@@ -63,7 +63,10 @@ TEST(Html, HasAllMetricsOfEachMethodThatRan) {
   EXPECT_EQ(occurrences(page, "<details class=\"metrics\">"), 7u);
   EXPECT_EQ(occurrences(page, "<code>u-max</code></th>"), 7u);
   EXPECT_EQ(occurrences(page, "<code>v-max</code> *</th>"), 7u);
-  EXPECT_EQ(occurrences(page, "<p>There are no collisions. Not measured: <code>"), 7u);
+  EXPECT_EQ(occurrences(page,
+                        "<p>There are no collisions. Not measured: <code>decay-error</code>, "
+                        "<code>collision-spacing</code>.</p>"),
+            7u);
   EXPECT_NE(page.find("max |u - u*| over the history&#39;s times"), std::string::npos);
   EXPECT_NE(page.find("All 48 metrics at h = 0.0003906 s"), std::string::npos);
   record.methods[0].metrics.clear();

@@ -113,8 +113,10 @@ inline std::vector<study::MetricResult> sample_metrics() {
                     "",
                     metric.across_jumps});
   }
-  list.back().reason = "There are no collisions.";
-  list.back().value = std::numeric_limits<double>::quiet_NaN();
+  for (auto last = list.end() - 2; last != list.end(); ++last) {
+    last->reason = "There are no collisions.";
+    last->value = std::numeric_limits<double>::quiet_NaN();
+  }
   return list;
 }
 

@@ -53,8 +53,8 @@ TEST(SelfResult, NamesALimitThatIsNotTheTrueMotion) {
 TEST(SelfResult, TakesTheLargestDistanceOfAllMasses) {
   auto runs = runs_of([](double h) { return exact + 3.0 * h * h; });
   for (auto& level : runs)
-    for (auto& run : level) run.values.push_back(0.07);
-  const auto result = self_result(runs, Values{exact, 0.06}, second_order);
+    for (auto& run : level) run.values.insert(run.values.end(), {0.07, 0.03});
+  const auto result = self_result(runs, Values{exact, 0.06, 0.03}, second_order);
   EXPECT_NEAR(result.extrapolation_error, 0.01, 1e-12);
 }
 

@@ -157,7 +157,7 @@ try {
   await summary.focus();
   await page.keyboard.press("Enter");
   check("Enter unfolds the metrics of a method", await page.locator("details.metrics table").first().isVisible()
-    && await page.locator("details.metrics table").first().locator("tbody tr").count() === 47);
+    && await page.locator("details.metrics table").first().locator("tbody tr").count() === 46);
   await page.keyboard.press("Enter");
 
   await page.locator('[data-plot="convergence"]').scrollIntoViewIfNeeded();
