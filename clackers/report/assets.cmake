@@ -17,7 +17,6 @@ endforeach()
 
 set(page
   ${report_dir}/page/page.html
-  ${report_dir}/page/check.html
   ${report_dir}/page/page.css
   ${report_dir}/page/page.js
   ${report_dir}/page/figures.js

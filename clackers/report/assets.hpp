@@ -5,7 +5,7 @@
 /// The files that the html page is made of, embedded by embed.cmake.
 namespace clackers::report::assets {
 
-extern const std::string_view page_html, check_html;  ///< with {{slots}}
+extern const std::string_view page_html;  ///< with {{slots}}
 extern const std::string_view page_css;
 extern const std::string_view page_js, figures_js;
 

@@ -10,6 +10,7 @@
 #include "clackers/report/digest.hpp"
 #include "clackers/report/figure_data.hpp"
 #include "clackers/report/html_frame.hpp"
+#include "clackers/report/html_page.hpp"
 #include "clackers/report/html_parts.hpp"
 #include "clackers/report/markup.hpp"
 
@@ -95,34 +96,22 @@ std::string overall(const study::CheckRecord& record) {
 
 std::string check_html(const study::CheckRecord& record) {
   const auto study = as_study(record);
-  const auto& problem = record.problem;
-  auto data = figure_data(study);
-  data["history_rows"] = history_rows(record);
-  return fill(
-      assets::check_html,
-      {{"title", escape(fmt::format("clackers: {}, {}", to_string(record.verdict),
-                                    record.files.back().file))},
-       {"heading", escape(case_text(problem, "\u00a0"))},
-       {"lead", fmt::format("{} {} s with {} collisions; fast period {} s.",
-                            escape(problem.summary), html_number(problem.end, 6),
-                            html_count(problem.impact_count), html_number(problem.fast_period, 4))},
-       {"version", escape(record.provenance.version)},
-       {"date", escape(record.provenance.date)},
-       {"style", std::string(assets::page_css)},
-       {"overall", overall(record)},
-       {"histories", histories_html(record)},
-       {"figures", figures(record)},
-       {"metrics", metrics_html(record)},
-       {"case", case_html(problem)},
-       {"again", again_html(record.provenance)},
-       {"licences", escape(assets::licences)},
-       {"data", script_json(data)},
-       {"specifications", script_json(specifications(study, record))},
-       {"vega", std::string(assets::vega_min_js)},
-       {"vega_lite", std::string(assets::vega_lite_min_js)},
-       {"vega_embed", std::string(assets::vega_embed_min_js)},
-       {"figures_script", std::string(assets::figures_js)},
-       {"page_script", std::string(assets::page_js)}});
+  Page page{
+      .command = "check",
+      .title = fmt::format("clackers: {}, {}", to_string(record.verdict), record.files.back().file),
+      .heading = escape(case_text(record.problem, "\u00a0")),
+      .lead = lead_html(record.problem),
+      .overall = overall(record),
+      .sections = {{"histories", "Histories", "Histories", histories_html(record)},
+                   figures_section(figures(record)),
+                   {"metrics", "Metrics", "Metrics of the finest history", metrics_html(record)},
+                   {"case", "Case", "The case", case_html(record.problem)},
+                   {"again", "Run again", "Run it again", again_html(record.provenance)}},
+      .data = figure_data(study),
+      .specifications = specifications(study, record),
+  };
+  page.data["history_rows"] = history_rows(record);
+  return page_html(page, record.provenance);
 }
 
 }  // namespace clackers::report

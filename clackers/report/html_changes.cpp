@@ -20,10 +20,7 @@ std::string linked(const study::Record& record, const std::string& name) {
 }  // namespace
 
 std::string changes_html(const study::Record& record, const study::BaselineComparison& changes) {
-  auto out = fmt::format(
-      "<section id=\"changes\" aria-labelledby=\"changes-title\">\n<h2 "
-      "id=\"changes-title\">Changes</h2>\n<p>{}</p>\n",
-      escape(change_summary(changes)));
+  auto out = fmt::format("<p>{}</p>\n", escape(change_summary(changes)));
   std::string rows;
   for (const auto& text : change_texts(changes)) {
     rows += fmt::format("<dt>{}</dt><dd><ul>", linked(record, text.method));
@@ -32,7 +29,7 @@ std::string changes_html(const study::Record& record, const study::BaselineCompa
     rows += "</ul></dd>\n";
   }
   if (!rows.empty()) out += "<dl class=\"changes\">\n" + rows + "</dl>\n";
-  return out + "</section>\n";
+  return out;
 }
 
 }  // namespace clackers::report

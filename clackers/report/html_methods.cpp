@@ -129,6 +129,12 @@ std::string methods_html(const study::Record& record) {
   return out;
 }
 
+std::string lead_html(const study::CaseSummary& problem) {
+  return fmt::format("{} {} s with {} collisions; fast period {} s.", escape(problem.summary),
+                     html_number(problem.end, 6), html_count(problem.impact_count),
+                     html_number(problem.fast_period, 4));
+}
+
 std::string case_html(const study::CaseSummary& problem) {
   return fmt::format("<p><strong>{}</strong>, {}: {}</p>\n", escape(problem.name),
                      escape(problem.equations), escape(problem.summary)) +

@@ -11,7 +11,7 @@ namespace clackers::report {
 
 std::string overall_html(const study::Record& record);   ///< the verdict on the record, notices
 std::string verdicts_html(const study::Record& record);  ///< the table and the remarks below it
-/// What changed since a baseline: a section of its own.
+/// What changed since a baseline: the content of a section.
 std::string changes_html(const study::Record& record, const study::BaselineComparison& changes);
 std::string figures_html(const study::Record& record);  ///< frames, captions, legends
 std::string methods_html(const study::Record& record);  ///< a section a method
@@ -19,6 +19,8 @@ std::string methods_html(const study::Record& record);  ///< a section a method
 std::string self_html(const study::MethodResult& method);
 /// All metrics of the finest level, collapsed.
 std::string metrics_html(const study::MethodResult& method);
+/// The first sentences of a page: the case, its length and its collisions.
+std::string lead_html(const study::CaseSummary& problem);
 std::string case_html(const study::CaseSummary& problem);
 std::string again_html(const study::Provenance& provenance);
 

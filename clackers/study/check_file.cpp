@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "clackers/assess/comparison.hpp"
-#include "clackers/assess/metric.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exchange/events.hpp"
 #include "clackers/exchange/history.hpp"
@@ -186,12 +185,7 @@ class Check {
     }
     const assess::Comparison comparison(m, *which_.motion, which_.problem);
     take_collisions(comparison);
-    for (const auto& metric : assess::metrics()) {
-      auto value = metric.measure(comparison);
-      out_.metrics.push_back({std::string(metric.name), std::string(metric.unit), value.value,
-                              std::move(value.masses), std::move(value.reason),
-                              metric.across_jumps});
-    }
+    out_.metrics = metric_results(comparison);
     out_.history = displacement_curve(comparison);
     out_.error_history = error_curve(comparison);
   }

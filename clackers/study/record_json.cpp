@@ -9,6 +9,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/study/case_studies.hpp"
+#include "clackers/study/json_writer.hpp"
 #include "clackers/study/record_fields.hpp"
 #include "clackers/study/verify.hpp"
 
@@ -17,61 +18,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Json has no numbers for these three, so that they are written as text.
-constexpr auto infinity_text = "inf", minus_infinity_text = "-inf", nan_text = "nan";
-
 [[noreturn]] void refuse_record(const std::string& where, std::string_view what) {
   throw InputError(fmt::format("record: {} at {}; allowed: json of schema {}, as written by "
                                "clackers verify --format json.",
                                what, where.empty() ? "the top" : where, Record::schema),
                    "not-a-record");
 }
-
-/// Collects the fields of one struct as a json object.
-class Writer {
- public:
-  template <class T>
-  void operator()(const char* name, const T& x) {
-    object_[name] = written(x);
-  }
-  template <class T>
-  void added(const char* name, const T& x) {
-    (*this)(name, x);
-  }
-  const Json& object() const { return object_; }
-
- private:
-  static Json written(double x) {
-    if (std::isnan(x)) return nan_text;
-    if (std::isinf(x)) return x > 0.0 ? infinity_text : minus_infinity_text;
-    return x;
-  }
-  static Json written(const std::string& x) { return x; }
-  static Json written(bool x) { return x; }
-  static Json written(int x) { return x; }
-  static Json written(long long x) { return x; }
-  static Json written(Behaviour x) { return to_string(x); }
-  static Json written(Verdict x) { return to_string(x); }
-
-  template <class T>
-  static Json written(const std::optional<T>& x) {
-    return x ? written(*x) : Json(nullptr);
-  }
-  template <class T>
-  static Json written(const std::vector<T>& x) {
-    Json list = Json::array();
-    for (const auto& item : x) list.push_back(written(item));
-    return list;
-  }
-  template <class T>
-  static Json written(const T& x) {
-    Writer writer;
-    fields(writer, x);
-    return writer.object_;
-  }
-
-  Json object_ = Json::object();
-};
 
 /// Fills one freshly made struct from a json object; refuses missing and unknown fields.
 class Reader {
@@ -100,11 +52,11 @@ class Reader {
   static void read(const Json& json, const std::string& where, double& x) {
     if (json.is_number())
       x = json.get<double>();
-    else if (json == infinity_text)
+    else if (json == JsonWriter::infinity)
       x = std::numeric_limits<double>::infinity();
-    else if (json == minus_infinity_text)
+    else if (json == JsonWriter::minus_infinity)
       x = -std::numeric_limits<double>::infinity();
-    else if (json == nan_text)
+    else if (json == JsonWriter::not_a_number)
       x = std::numeric_limits<double>::quiet_NaN();
     else
       refuse_record(where, "no number");
@@ -159,7 +111,7 @@ class Reader {
 };
 
 Json json_of(const Record& record) {
-  Writer writer;
+  JsonWriter writer;
   writer("schema", std::string(Record::schema));
   fields(writer, record);
   return writer.object();
@@ -174,7 +126,7 @@ std::string text_of(const Json& json) {
 std::string to_json(const Record& record) { return text_of(json_of(record)); }
 
 std::string to_json(const CaseStudies& studies) {
-  Writer writer;
+  JsonWriter writer;
   writer("profiles", studies.profiles);
   Json records = Json::array();
   for (const auto& record : studies.records) records.push_back(json_of(record));
