@@ -29,8 +29,8 @@ constexpr auto shown_together = {"cases", "methods", "metrics"};
 // Figures lie in a room above the one that lists the rest.
 study::Sheet list(const std::string& kind) {
   if (kind == "figures") return paper::list_figures();
-  const std::vector<std::string> kinds{"cases", "integrators", "contacts", "methods",
-                                       "pairs", "metrics",     "figures"};
+  auto kinds = study::list_kinds();
+  kinds.emplace_back("figures");
   if (std::ranges::find(kinds, kind) == kinds.end())
     refuse_name("list", kind, kinds, fmt::format("{}", fmt::join(kinds, ", ")));
   return study::list(kind);

@@ -140,12 +140,16 @@ const auto& listers() {
 
 }  // namespace
 
-Sheet list(std::string_view kind) {
+std::vector<std::string> list_kinds() {
   std::vector<std::string> kinds;
-  for (const auto& [name, lister] : listers()) {
+  for (const auto& [name, lister] : listers()) kinds.push_back(name);
+  return kinds;
+}
+
+Sheet list(std::string_view kind) {
+  for (const auto& [name, lister] : listers())
     if (name == kind) return lister();
-    kinds.push_back(name);
-  }
+  const auto kinds = list_kinds();
   refuse_name("list", kind, kinds, fmt::format("{}", fmt::join(kinds, ", ")));
 }
 

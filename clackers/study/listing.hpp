@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace clackers::study {
 /// What `clackers list KIND` shows; KIND is cases, integrators, contacts, methods, pairs or
 /// metrics. Throws InputError with did-you-mean for any other.
 Sheet list(std::string_view kind);
+
+/// What `kind` may be, in the order of the help.
+std::vector<std::string> list_kinds();
 
 /// What `clackers show NAME` shows of a case: parameters, derived constants, indicators, margin,
 /// first collisions, and of a pair the harmonics and when disturbances make it lose synchrony.
