@@ -9,18 +9,23 @@
 #include "clackers/assess/metric.hpp"
 #include "clackers/report/html_parts.hpp"
 #include "clackers/report/markup.hpp"
+#include "clackers/study/cause_metrics.hpp"
 
 namespace clackers::report {
 namespace {
 
 // A record of another version may know metrics that this one does not.
 std::string definition_of(const std::string& name) {
-  const auto all = assess::metrics();
-  const auto row = std::ranges::find(all, name, &assess::Metric::name);
-  if (row == all.end()) return "–";
-  const auto source =
-      row->source == "common" ? "" : fmt::format(" <small>{}</small>", escape(row->source));
-  return escape(row->definition) + source;
+  const auto told = [&](const auto& row) {
+    const auto source =
+        row.source == "common" ? "" : fmt::format(" <small>{}</small>", escape(row.source));
+    return escape(row.definition) + source;
+  };
+  for (const auto& row : assess::metrics())
+    if (row.name == name) return told(row);
+  for (const auto& row : study::cause_metrics())
+    if (row.name == name) return told(row);
+  return "–";
 }
 
 std::string row_of(const study::MetricResult& metric) {

@@ -11,6 +11,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/exchange/events.hpp"
 #include "clackers/exchange/history.hpp"
+#include "clackers/study/cause_metrics.hpp"
 #include "clackers/study/check_curves.hpp"
 #include "clackers/study/check_notes.hpp"
 #include "clackers/study/check_score.hpp"
@@ -185,7 +186,7 @@ class Check {
     }
     const assess::Comparison comparison(m, *which_.motion, which_.problem);
     take_collisions(comparison);
-    out_.metrics = metric_results(comparison);
+    out_.metrics = all_metrics(comparison, facts_of(summary_, 0.0));
     out_.history = displacement_curve(comparison);
     out_.error_history = error_curve(comparison);
   }

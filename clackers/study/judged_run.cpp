@@ -5,6 +5,7 @@
 #include "clackers/assess/comparison.hpp"
 #include "clackers/assess/error_sink.hpp"
 #include "clackers/model/trajectory.hpp"
+#include "clackers/study/cause_metrics.hpp"
 #include "clackers/study/processor_time.hpp"
 #include "clackers/study/run_recorder.hpp"
 #include "clackers/study/watched_sink.hpp"
@@ -72,7 +73,8 @@ std::optional<JudgedRun> judge_run(const VerifyPlan& plan, const RunTask& task, 
   result.end_u = relative(recorder.last_u(), motion);
   // A state that is not finite is no row of a history.
   if (task.metrics && std::isfinite(result.score.u_error))
-    result.metrics = metric_results({stored.trajectory(), motion, plan.problem.problem});
+    result.metrics = all_metrics({stored.trajectory(), motion, plan.problem.problem},
+                                 facts_of(plan.summary, method.result.contact_time));
   WatchedSink timed(nullptr, share, timed_state, interrupt);
   const auto seconds = time_of(*run, timed);
   if (!seconds) return {};

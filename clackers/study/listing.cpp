@@ -9,6 +9,7 @@
 #include "clackers/base/codes.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/methods/registry.hpp"
+#include "clackers/study/cause_metrics.hpp"
 
 namespace clackers::study {
 namespace {
@@ -118,6 +119,9 @@ Sheet list_metrics() {
     sheet.rows.push_back({std::string(metric.name),
                           std::string(metric.unit == "1" ? "" : metric.unit),
                           metric.across_jumps ? "yes" : "no", std::string(metric.definition),
+                          std::string(metric.source)});
+  for (const auto& metric : cause_metrics())
+    sheet.rows.push_back({std::string(metric.name), "", "yes", std::string(metric.definition),
                           std::string(metric.source)});
   return sheet;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clackers/assess/metric.hpp"
+#include "clackers/study/cause_metrics.hpp"
 #include "clackers/study/verify.hpp"
 
 // What a study measures beside its ladders: metrics, and what the runs say without the truth.
@@ -24,7 +25,7 @@ TEST(Verify, MeasuresAllMetricsOfTheFirstRunOfTheFinestLevel) {
   const auto& method = record.methods[0];
   const auto& finest = method.ladder[4].runs[0];
   EXPECT_EQ(method.metrics_step, finest.step);
-  ASSERT_EQ(method.metrics.size(), assess::metrics().size());
+  ASSERT_EQ(method.metrics.size(), assess::metrics().size() + cause_metrics().size());
   const auto found = std::ranges::find(method.metrics, "u-max-relative", &MetricResult::name);
   EXPECT_EQ(found->value, finest.u_error);  // the same definition, measured twice
 }

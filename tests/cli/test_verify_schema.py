@@ -99,7 +99,7 @@ class Schema(CommandTest):
         listed = {row[0] for row in json.loads(
             run("list", "metrics", "--format", "json").stdout)["rows"]}
         names = [metric["name"] for metric in method["metrics"]]
-        self.assertEqual(len(names), 48)
+        self.assertEqual(len(names), 57)
         self.assertLessEqual(set(names), listed)
         self.assertEqual(method["metrics_step"], method["ladder"][-1]["runs"][0]["step"])
         self.assertIsNotNone(method["self_convergence"])

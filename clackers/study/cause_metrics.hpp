@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "clackers/assess/comparison.hpp"
+#include "clackers/study/metric_result.hpp"
+#include "clackers/study/record.hpp"
+
+namespace clackers::study {
+
+/// A number that tells why a run errs. Unlike assess::Metric it needs more than history and truth.
+struct CauseMetric {
+  std::string_view name, unit, definition, source;
+};
+
+/// All of them, in the order of cause_results().
+std::span<const CauseMetric> cause_metrics();
+
+/// What is known of a case, and of the method on it.
+struct RunFacts {
+  /// Growth of a disturbance per collision and unit of detuning; 0 where none grows or the case is
+  /// no pair. The constant "detuning_rate" of the case.
+  double detuning_rate = 0.0;
+  double contact_time = 0.0;  ///< half a period of the contact spring [s], 0 for rigid or unknown
+};
+
+RunFacts facts_of(const CaseSummary& problem, double contact_time);
+
+/// Where synchrony is lost and what part of it the method's own frequencies explain; what part of an
+/// error is the contact spring's and what part the integration's.
+std::vector<MetricResult> cause_results(const assess::Comparison& comparison,
+                                        const RunFacts& facts);
+
+/// metric_results(), then cause_results().
+std::vector<MetricResult> all_metrics(const assess::Comparison& comparison, const RunFacts& facts);
+
+}  // namespace clackers::study
