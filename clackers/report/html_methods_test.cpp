@@ -94,7 +94,8 @@ TEST(Html, TellsWhoSolvesWhichTasksAndHasNoProfileWithoutOne) {
             std::string::npos);
   const auto all = "newmark+penalty:stiffness=1e6 " + std::to_string(profile.tasks.size()) + ".";
   EXPECT_NE(page.find(all), std::string::npos) << "the refused method solves none";
-  for (const auto& row : figure_data(record)["profile"])
+  const auto data = figure_data(record);
+  for (const auto& row : data["profile"])
     EXPECT_NE(row["method"], "newmark+penalty:stiffness=1e6") << "it has no place in the legend";
   record.profiles.clear();
   EXPECT_EQ(html(record).find("Performance profile"), std::string::npos);
