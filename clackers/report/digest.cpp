@@ -149,6 +149,11 @@ Closing closing(const study::Record& record) {
   return out;
 }
 
+std::string counted_methods(const study::Record& record) {
+  const auto n = record.methods.size();
+  return fmt::format("{} method{}", n, n == 1 ? "" : "s");
+}
+
 std::string case_text(const study::CaseSummary& problem, std::string_view space) {
   std::string parameters;
   for (const auto& p : problem.parameters)

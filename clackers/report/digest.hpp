@@ -50,6 +50,9 @@ struct Closing {
 };
 Closing closing(const study::Record& record);
 
+/// "1 method", "7 methods".
+std::string counted_methods(const study::Record& record);
+
 /// "three-parameter (N = 2, xi1 = 0.05, a_t = 1 m)"; `space` stands around "=" and before units.
 std::string case_text(const study::CaseSummary& problem, std::string_view space = " ");
 

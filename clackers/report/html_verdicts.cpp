@@ -92,8 +92,8 @@ std::string badge(const std::string& word) {
 
 std::string overall_html(const study::Record& record) {
   const auto end = closing(record);
-  auto out = fmt::format("<p class=\"overall\">{} <span>Of {} methods: {}.</span></p>\n",
-                         badge(end.word), record.methods.size(), escape(end.sentence));
+  auto out = fmt::format("<p class=\"overall\">{} <span>Of {}: {}.</span></p>\n", badge(end.word),
+                         counted_methods(record), escape(end.sentence));
   if (record.interrupted)
     out +=
         "<p class=\"notice\" role=\"note\"><strong>Interrupted.</strong> The run was stopped "

@@ -119,8 +119,7 @@ void write_verdict_table(const study::Record& record, std::ostream& out, const S
   }
   const auto end = closing(record);
   out << '\n';
-  print_wrapped(fmt::format("Of {} methods: {}.", record.methods.size(), end.sentence), "", out,
-                style);
+  print_wrapped(fmt::format("Of {}: {}.", counted_methods(record), end.sentence), "", out, style);
   // A command is for copying, so it is not broken; one that is too long is only referred to.
   auto last = fmt::format("Verdict: {}. Next: {}", end.word, end.next);
   if (display_width(last) > std::size_t(std::max(style.width, 20)))

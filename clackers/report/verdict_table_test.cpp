@@ -197,5 +197,12 @@ TEST(Digest, WordsOfVerdictsAndClaims) {
   EXPECT_EQ(order_text(fit), "2.00 ±12");
 }
 
+TEST(VerdictTable, CountsOneMethodAsOne) {
+  auto record = sample_record();
+  EXPECT_EQ(counted_methods(record), std::to_string(record.methods.size()) + " methods");
+  record.methods.resize(1);
+  EXPECT_EQ(counted_methods(record), "1 method");
+}
+
 }  // namespace
 }  // namespace clackers::report
