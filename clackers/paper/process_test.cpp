@@ -7,25 +7,15 @@
 #include <fstream>
 
 #include "clackers/paper/render.hpp"
+#include "clackers/paper/test_folder.hpp"
 
 namespace clackers::paper {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A folder of its own for each test, gone afterwards, and a PATH that can be changed.
-class Programs : public testing::Test {
+class Programs : public FolderTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "clackers-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    if (const char* path = std::getenv("PATH")) old_path_ = path;
-  }
-  void TearDown() override {
-    ::setenv("PATH", old_path_.c_str(), 1);
-    fs::remove_all(folder_);
-  }
   std::string messages() const { return (folder_ / "messages").string(); }
 
   // A program of this name, the only one of our PATH besides the shell's own.
@@ -36,9 +26,6 @@ class Programs : public testing::Test {
     fs::permissions(file, fs::perms::owner_all);
     ::setenv("PATH", (folder_ / "bin").c_str(), 1);
   }
-
-  fs::path folder_;
-  std::string old_path_;
 };
 
 TEST_F(Programs, TellTheirExitCodeAndWhatTheySaid) {

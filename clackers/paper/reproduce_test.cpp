@@ -8,6 +8,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/paper/files.hpp"
+#include "clackers/paper/test_folder.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -15,18 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // Without programs to draw with, so that the test needs none.
-class Reproduced : public testing::Test {
+class Reproduced : public FolderTest {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "clackers-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    if (const char* path = std::getenv("PATH")) old_path_ = path;
+    FolderTest::SetUp();
     ::setenv("PATH", "", 1);
-  }
-  void TearDown() override {
-    ::setenv("PATH", old_path_.c_str(), 1);
-    fs::remove_all(folder_);
   }
   std::vector<std::string> names() const {
     std::vector<std::string> out;
@@ -34,9 +28,6 @@ class Reproduced : public testing::Test {
     std::ranges::sort(out);
     return out;
   }
-
-  fs::path folder_;
-  std::string old_path_;
 };
 
 TEST_F(Reproduced, WithoutProgramsToDrawHoldsNumbersSpecificationsAndPage) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "clackers/report/check_words.hpp"
 #include "clackers/report/digest.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/html_metrics.hpp"
@@ -31,24 +32,13 @@ constexpr Heading headings[] = {{"Rows", "judged", true},
                                 {"Collision time", "worst error [s]", true},
                                 {"Collisions", "from", false}};
 
-std::string digits(const study::CheckedFile& file) {
-  int most = 0;
-  bool single = false;
-  for (const auto& column : file.columns) {
-    if (!column.name.starts_with('u')) continue;
-    most = std::max(most, column.digits);
-    single = single || column.single;
-  }
-  return single ? "single" : fmt::format("{}", most);
-}
-
 std::string row(const study::CheckedFile& file) {
   const auto& found = file.score.impacts;
   const bool wrong = found && found->missed + found->extra > 0;
   const std::string cells[] = {
       html_count(file.rows),
       html_number(file.score.step, 4),
-      digits(file),
+      digits_text(file),
       html_scientific(file.score.u_error),
       html_scientific(file.printed_floor),
       html_scientific(file.score.v_error),

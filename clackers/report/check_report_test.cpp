@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "clackers/report/check_words.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/sample_check.hpp"
 
@@ -114,6 +115,17 @@ TEST(CheckJson, HoldsEverythingUnderItsSchema) {
   EXPECT_EQ(one["metrics"][0]["masses"][1], 0.125);
   EXPECT_EQ(one["metrics"][2]["reason"], "There are no accelerations.");
   EXPECT_EQ(one["has_displacement"], json({true, true}));
+}
+
+TEST(CheckWords, TellDigitsOfDisplacementsAndSinglePrecision) {
+  study::CheckedFile file;
+  EXPECT_EQ(digits_text(file), "0");
+  file.columns = {
+      {"t", 17, true, 0.0}, {"u1", 6, false, 0.0}, {"v1", 12, true, 0.0}, {"u2", 9, false, 0.0}};
+  EXPECT_EQ(most_digits(file), 9);
+  EXPECT_EQ(digits_text(file), "9") << "t and v do not count";
+  file.columns[1].single = true;
+  EXPECT_EQ(digits_text(file), "single");
 }
 
 }  // namespace

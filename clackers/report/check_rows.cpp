@@ -1,7 +1,8 @@
 #include "clackers/report/check_rows.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "clackers/report/check_words.hpp"
 
 namespace clackers::report {
 namespace {
@@ -9,13 +10,6 @@ namespace {
 using study::Cell;
 
 Cell number(double value) { return std::isnan(value) ? Cell() : Cell(value); }
-
-int most_digits(const study::CheckedFile& file) {
-  int digits = 0;
-  for (const auto& column : file.columns)
-    if (column.name.starts_with('u')) digits = std::max(digits, column.digits);
-  return digits;
-}
 
 std::vector<study::Column> columns(const study::CheckRecord& record) {
   std::vector<study::Column> list{

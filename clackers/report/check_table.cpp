@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "clackers/report/check_words.hpp"
 #include "clackers/report/digest.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/layout.hpp"
@@ -55,17 +56,6 @@ void print_table(std::vector<TextColumn> layout, const Rows& rows, std::ostream&
 
 std::string base_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
-std::string digits_of(const study::CheckedFile& file) {
-  int digits = 0;
-  bool single = false;
-  for (const auto& column : file.columns)
-    if (column.name.starts_with('u')) {
-      digits = std::max(digits, column.digits);
-      single = single || column.single;
-    }
-  return single ? "single" : fmt::format("{}", digits);
-}
-
 void print_files(const study::CheckRecord& record, std::ostream& out, const Style& style) {
   Rows rows;
   for (const auto& file : record.files) {
@@ -73,7 +63,7 @@ void print_files(const study::CheckRecord& record, std::ostream& out, const Styl
     rows.push_back({{base_name(file.file), Paint::bold},
                     {short_count(file.rows)},
                     {short_number(file.score.step, 3, 8)},
-                    {digits_of(file)},
+                    {digits_text(file)},
                     {scientific(file.score.u_error)},
                     {scientific(file.score.v_error)},
                     {found ? fmt::format("{}/{}", found->found, found->expected) : "-"},
