@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "benchmarks/naive_pair.hpp"
-#include "clackers/exact/batch.hpp"
+#include "clackers/exact/batch/batch.hpp"
 
 namespace clackers::benchmarks {
 

@@ -16,8 +16,8 @@
 #include "benchmarks/numpy_process.hpp"
 #include "benchmarks/race.hpp"
 #include "benchmarks/store_bandwidth.hpp"
-#include "clackers/exact/batch.hpp"
-#include "clackers/exact/synchronized_pair.hpp"
+#include "clackers/exact/batch/batch.hpp"
+#include "clackers/exact/pair/synchronized_pair.hpp"
 
 namespace {
 
@@ -36,13 +36,13 @@ std::string ours(const numerics::simd::Target& target) {
 }
 
 // The largest error in units of 2^-52 of the envelope, against the scalar closed form (0.51).
-double units(const exact::SynchronizedPair& truth, const std::vector<double>& times,
+double units(const exact::SynchronizedPair& reference, const std::vector<double>& times,
              const exact::PairBuffers& found) {
   double worst = 0.0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     double u[2], v[2];
-    truth.sample({&times[i], 1}, model::Side::right, {u, v, {}});
-    const auto envelope = truth.envelope(times[i]);
+    reference.sample({&times[i], 1}, model::Side::right, {u, v, {}});
+    const auto envelope = reference.envelope(times[i]);
     const double error[4] = {found.u1[i] - u[0], found.u2[i] - u[1], found.v1[i] - v[0],
                              found.v2[i] - v[1]};
     for (int c = 0; c < 4; ++c)
@@ -54,8 +54,8 @@ double units(const exact::SynchronizedPair& truth, const std::vector<double>& ti
 
 void race_times(const NaivePair& p, double end, double wanted, NumpyProcess& numpy) {
   constexpr std::size_t count = 4096;
-  const auto truth = pair_of(p, end);
-  const PairBatch batch(truth.flight());
+  const auto reference = pair_of(p, end);
+  const PairBatch batch(reference.flight());
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(0.0, end);
   std::vector<double> times(count);
@@ -93,14 +93,14 @@ void race_times(const NaivePair& p, double end, double wanted, NumpyProcess& num
   for (const auto& target : available_targets()) {
     const ForcedTarget forced(target);
     sample();
-    fmt::print(" {} {:.2f}", target.name(), units(truth, times, arrays.buffers()));
+    fmt::print(" {} {:.2f}", target.name(), units(reference, times, arrays.buffers()));
   }
   fmt::print("\n");
 }
 
 void race_grid(const NaivePair& p, double end, std::size_t count) {
-  const auto truth = pair_of(p, end);
-  const PairBatch batch(truth.flight());
+  const auto reference = pair_of(p, end);
+  const PairBatch batch(reference.flight());
   const exact::UniformGrid grid{0.0, end / double(count), count};
   const AlignedArrays arrays(count), other(count);
   const std::string about = fmt::format("X = {}, xi1 = {}, t <= {}, {} samples on {}", p.X, p.xi1,
@@ -137,9 +137,9 @@ void race_grid(const NaivePair& p, double end, std::size_t count) {
   const auto samples = [&] { return double(few) * storing.time("ours"); };
   Race start(
       fmt::format("Set-up of a motion's grid on {}, without its samples", Race::best().name()), 1);
-  start.add("PairBatch", [&] { kept += PairBatch(truth.flight()).constants().end; });
+  start.add("PairBatch", [&] { kept += PairBatch(reference.flight()).constants().end; });
   start.add_timed("PairBatch and grid", [&] {
-    const auto both = [&] { PairBatch(truth.flight()).sample(shortest, small.buffers()); };
+    const auto both = [&] { PairBatch(reference.flight()).sample(shortest, small.buffers()); };
     return time_of(both, 1000) - samples();
   });
   start.run();
@@ -148,8 +148,8 @@ void race_grid(const NaivePair& p, double end, std::size_t count) {
 }
 
 void race_stream(const NaivePair& p, double end, std::size_t count) {
-  const auto truth = pair_of(p, end);
-  const PairBatch batch(truth.flight());
+  const auto reference = pair_of(p, end);
+  const PairBatch batch(reference.flight());
   const exact::UniformGrid grid{0.0, end / double(count), count};
   const AlignedArrays arrays(count);
   Race race(fmt::format("Uniform grid into memory: X = {}, xi1 = {}, t <= {}, {} MiB", p.X, p.xi1,

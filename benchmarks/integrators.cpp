@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "benchmarks/measure.hpp"
-#include "clackers/methods/contact/event_driven_walk.hpp"
+#include "clackers/methods/contact/event_driven_loop.hpp"
 #include "clackers/methods/integrators/newmark.hpp"
 #include "clackers/methods/integrators/rk4.hpp"
 #include "clackers/methods/pair.hpp"
@@ -131,7 +131,7 @@ template <class Integrator>
 Side side(const model::ImpactProblem<>& problem, double h) {
   using Scheme = methods::Pair<Integrator, methods::EventDriven>;
   return {std::string(Integrator::name),
-          std::make_unique<methods::SchemeRun<typename Scheme::template Walk<2>, 2>>(
+          std::make_unique<methods::SchemeRun<typename Scheme::template TimeLoop<2>, 2>>(
               Scheme{}, problem, methods::plan_steps(Integrator::name, 0.0, problem.end, h)),
           {},
           {}};

@@ -8,10 +8,10 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
 #include "cli/command.hpp"
-#include "cli/generate.hpp"
-#include "cli/help.hpp"
-#include "cli/output_stream.hpp"
-#include "cli/reference.hpp"
+#include "cli/commands/generate.hpp"
+#include "cli/files/output_stream.hpp"
+#include "cli/help/help.hpp"
+#include "cli/help/reference.hpp"
 #include "cli/text.hpp"
 
 namespace clackers::cli {

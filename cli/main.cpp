@@ -9,9 +9,9 @@
 
 #include "clackers/base/error.hpp"
 #include "cli/command_line.hpp"
+#include "cli/files/output_stream.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
-#include "cli/output_stream.hpp"
 
 namespace clackers::cli {
 namespace {

@@ -1,13 +1,13 @@
 # What `cmake --install` puts where, in three components that are also the Debian packages:
 #   command      the program clackers
 #   library      libclackers.so.0 for programs in C
-#   development  headers, the rooms as static libraries, find_package and pkg-config files
+#   development  headers, the modules as static libraries, find_package and pkg-config files
 # Included after all targets exist.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/clackers)
-get_property(rooms GLOBAL PROPERTY CLACKERS_ROOMS)
+get_property(modules GLOBAL PROPERTY CLACKERS_MODULES)
 
 install(TARGETS clackers_cli RUNTIME COMPONENT command)
 if(NOT CMAKE_CROSSCOMPILING)
@@ -22,10 +22,10 @@ install(FILES bindings/c/clackers.h TYPE INCLUDE COMPONENT development)
 install(EXPORT clackers-c NAMESPACE clackers:: DESTINATION ${package_dir} COMPONENT development
   FILE clackers-c-targets.cmake)
 
-# For C++: clackers::clackers is all rooms, clackers::<room> one of them.
-foreach(room IN ITEMS clackers options ${rooms})
-  set_target_properties(clackers_${room} PROPERTIES EXPORT_NAME ${room})
-  install(TARGETS clackers_${room} EXPORT clackers-cpp ARCHIVE COMPONENT development)
+# For C++: clackers::clackers is all modules, clackers::<module> one of them.
+foreach(module IN ITEMS clackers options ${modules})
+  set_target_properties(clackers_${module} PROPERTIES EXPORT_NAME ${module})
+  install(TARGETS clackers_${module} EXPORT clackers-cpp ARCHIVE COMPONENT development)
 endforeach()
 install(EXPORT clackers-cpp NAMESPACE clackers:: DESTINATION ${package_dir} COMPONENT development
   FILE clackers-cpp-targets.cmake)
@@ -36,9 +36,9 @@ set(test_headers test_[a-z_]* toy_motion sample_record record_fingerprint synthe
   expect_behaviour impact_simulator stepper_checks contact/runs toy_history sampled_motion
   shifted_history synthetic_runs true_history verdict_sequence sample_check)
 list(JOIN test_headers "|" test_headers)
-foreach(room IN LISTS rooms)
+foreach(module IN LISTS modules)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-    ${PROJECT_SOURCE_DIR}/clackers/${room}/*.hpp)
+    ${PROJECT_SOURCE_DIR}/clackers/${module}/*.hpp)
   list(FILTER headers EXCLUDE REGEX "/(${test_headers})\\.hpp$")
   foreach(header IN LISTS headers)
     get_filename_component(folder ${header} DIRECTORY)

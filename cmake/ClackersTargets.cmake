@@ -1,4 +1,4 @@
-# What all targets share, and the function that makes a folder a room.
+# What all targets share, and the function that makes a folder a module.
 
 find_program(CCACHE ccache)
 if(CCACHE)
@@ -20,9 +20,9 @@ if(CLACKERS_DEVELOPER)
     "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Werror>")
 endif()
 
-# clackers_room(<name> LINK <targets> [TEST_LINK <targets>]): the library clackers_<name> from
+# clackers_module(<name> LINK <targets> [TEST_LINK <targets>]): the library clackers_<name> from
 # clackers/<name>/**.cpp and, from its *_test.cpp, the test program clackers_<name>_test.
-function(clackers_room name)
+function(clackers_module name)
   cmake_parse_arguments(ARG "" "" "LINK;TEST_LINK;GENERATED" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/clackers/${name}/*.cpp)
   set(tests ${sources})
@@ -32,41 +32,50 @@ function(clackers_room name)
   if(sources OR ARG_GENERATED)
     add_library(clackers_${name} STATIC ${sources} ${ARG_GENERATED})
     target_link_libraries(clackers_${name} PUBLIC clackers_options ${ARG_LINK})
-    # The rooms go into shared libraries, ours for C and those of consumers. Hidden, their functions
+    # The modules go into shared libraries, ours for C and those of consumers. Hidden, their functions
     # can still be inlined there and never meet another copy of themselves at run time.
     set_target_properties(clackers_${name} PROPERTIES
       POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    clackers_precompile(clackers_${name} modules)
   else()
     add_library(clackers_${name} INTERFACE)
     target_link_libraries(clackers_${name} INTERFACE clackers_options ${ARG_LINK})
   endif()
   add_library(clackers::${name} ALIAS clackers_${name})
-  set_property(GLOBAL APPEND PROPERTY CLACKERS_ROOMS ${name})
+  set_property(GLOBAL APPEND PROPERTY CLACKERS_MODULES ${name})
   if(CLACKERS_TESTS AND tests)
     clackers_test(clackers_${name}_test SOURCES ${tests} LINK ${name} ${ARG_TEST_LINK})
   endif()
 endfunction()
 
-# clackers_all_rooms(): clackers::clackers, all rooms that were made until here.
-function(clackers_all_rooms)
-  get_property(rooms GLOBAL PROPERTY CLACKERS_ROOMS)
-  list(TRANSFORM rooms PREPEND clackers_)
+# clackers_all_modules(): clackers::clackers, all modules that were made until here.
+function(clackers_all_modules)
+  get_property(modules GLOBAL PROPERTY CLACKERS_MODULES)
+  list(TRANSFORM modules PREPEND clackers_)
   add_library(clackers_clackers INTERFACE)
   add_library(clackers::clackers ALIAS clackers_clackers)
-  target_link_libraries(clackers_clackers INTERFACE ${rooms})
+  target_link_libraries(clackers_clackers INTERFACE ${modules})
 endfunction()
 
-# clackers_test_headers: what nearly every test includes, compiled once. It halves the time that
-# tests take to compile. Rooms have none, so that their build sees each header alone.
-function(clackers_test_headers)
-  file(WRITE ${PROJECT_BINARY_DIR}/test_headers.cpp "")
-  add_library(clackers_test_headers OBJECT ${PROJECT_BINARY_DIR}/test_headers.cpp)
-  target_link_libraries(clackers_test_headers PRIVATE clackers_options Eigen3::Eigen GTest::gtest)
-  target_compile_options(clackers_test_headers PRIVATE ${ARGN})
-  target_precompile_headers(clackers_test_headers PRIVATE <gtest/gtest.h> <Eigen/Dense>)
+# clackers_headers(<set> HEADERS <headers> OPTIONS <flags> LINK <targets>): headers that are compiled
+# once, for all targets that name the set in clackers_precompile. tests/layering compiles each header
+# of ours without them.
+function(clackers_headers set)
+  cmake_parse_arguments(ARG "" "" "HEADERS;OPTIONS;LINK" ${ARGN})
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/headers/${set}.cpp CONTENT "")
+  add_library(clackers_${set}_headers OBJECT ${PROJECT_BINARY_DIR}/headers/${set}.cpp)
+  target_link_libraries(clackers_${set}_headers PRIVATE clackers_options ${ARG_LINK})
+  target_compile_options(clackers_${set}_headers PRIVATE ${ARG_OPTIONS})
+  target_precompile_headers(clackers_${set}_headers PRIVATE ${ARG_HEADERS})
 endfunction()
 
-# clackers_test(<name> SOURCES <files> LINK <rooms or targets>): a GoogleTest program.
+function(clackers_precompile target set)
+  target_precompile_headers(${target} REUSE_FROM clackers_${set}_headers)
+  # Without it ccache does not keep what was compiled with GCC's precompiled headers.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
+
+# clackers_test(<name> SOURCES <files> LINK <modules or targets>): a GoogleTest program.
 function(clackers_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   list(TRANSFORM ARG_LINK REPLACE "^([a-z]+)$" "clackers_\\1")
@@ -74,17 +83,13 @@ function(clackers_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} clackers_options GTest::gtest_main)
   set(flags "")
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
-    # Half the time to compile; what takes time to run is in the rooms.
+    # Half the time to compile; what takes time to run is in the modules.
     set(flags -O0)
   endif()
   target_compile_options(${name} PRIVATE ${flags})
-  if(CLACKERS_DEVELOPER)
-    if(NOT TARGET clackers_test_headers)
-      clackers_test_headers(${flags})
-    endif()
-    target_precompile_headers(${name} REUSE_FROM clackers_test_headers)
-    # Without it ccache does not keep what was compiled with GCC's precompiled headers.
-    target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  if(NOT TARGET clackers_tests_headers)
+    clackers_headers(tests HEADERS <gtest/gtest.h> <Eigen/Dense> OPTIONS ${flags} LINK Eigen3::Eigen GTest::gtest)
   endif()
+  clackers_precompile(${name} tests)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS unit)
 endfunction()

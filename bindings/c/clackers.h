@@ -76,7 +76,7 @@ typedef struct clackers_setting {
   double value;
 } clackers_setting;
 
-/** Sets every member after struct_size to its standard value. */
+/** Sets every member after struct_size to its default. */
 CLACKERS_API clackers_status clackers_pair_defaults(clackers_pair* pair);
 
 /** Creates the motion of a pair in *motion; end it with clackers_motion_destroy(). */
@@ -85,7 +85,7 @@ CLACKERS_API clackers_status clackers_pair_create(const clackers_pair* pair,
 
 /**
  * Creates the motion of a named case ("three-parameter") in *motion. Parameters that `settings` does
- * not name keep their standard value; `settings` may be null when `count` is 0.
+ * not name keep their default; `settings` may be null when `count` is 0.
  */
 CLACKERS_API clackers_status clackers_case_create(const char* name,
                                                   const clackers_setting* settings, size_t count,

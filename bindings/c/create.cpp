@@ -52,7 +52,7 @@ clackers_status clackers_pair_defaults(clackers_pair* pair) {
     clackers_pair standard{};
     for (const auto& parameter : cases::entry(pair_case).parameters)
       for (const auto& member : members)
-        if (parameter.name == member.name) standard.*member.place = parameter.standard;
+        if (parameter.name == member.name) standard.*member.place = parameter.default_value;
     write_versioned(*pair, standard);
   });
 }

@@ -8,9 +8,9 @@ using namespace clackers::c_api;
 clackers_status clackers_motion_impact_count(const clackers_motion* motion, double t,
                                              int64_t* count) {
   return guarded([&] {
-    const auto& truth = motion_of("clackers_motion_impact_count", motion);
+    const auto& reference = motion_of("clackers_motion_impact_count", motion);
     require_pointer("clackers_motion_impact_count", "count", count);
-    *count = truth.impact_count(t);
+    *count = reference.impact_count(t);
   });
 }
 
@@ -19,15 +19,15 @@ clackers_status clackers_motion_impact(const clackers_motion* motion, int64_t in
                                        const clackers_buffers* after) {
   return guarded([&] {
     constexpr auto who = "clackers_motion_impact";
-    const auto& truth = motion_of(who, motion);
+    const auto& reference = motion_of(who, motion);
     require_pointer(who, "impact", impact);
     require_size(who, *impact);
     const auto arrays = [&](const char* name, const clackers_buffers* given) {
       return given == nullptr ? model::SampleBuffers{}
-                              : read_buffers(who, name, given, 1, truth.dof());
+                              : read_buffers(who, name, given, 1, reference.dof());
     };
     const auto left = arrays("before", before), right = arrays("after", after);
-    const auto hit = truth.impact(index);
+    const auto hit = reference.impact(index);
     write_versioned(*impact, {.struct_size = 0,  // the caller's stays
                               .index = hit.index,
                               .contact = hit.contact,

@@ -5,17 +5,17 @@ using namespace clackers::c_api;
 
 clackers_status clackers_motion_dof(const clackers_motion* motion, int32_t* dof) {
   return guarded([&] {
-    const auto& truth = motion_of("clackers_motion_dof", motion);
+    const auto& reference = motion_of("clackers_motion_dof", motion);
     require_pointer("clackers_motion_dof", "dof", dof);
-    *dof = truth.dof();
+    *dof = reference.dof();
   });
 }
 
 clackers_status clackers_motion_end(const clackers_motion* motion, double* end) {
   return guarded([&] {
-    const auto& truth = motion_of("clackers_motion_end", motion);
+    const auto& reference = motion_of("clackers_motion_end", motion);
     require_pointer("clackers_motion_end", "end", end);
-    *end = truth.end();
+    *end = reference.end();
   });
 }
 
@@ -24,10 +24,10 @@ clackers_status clackers_motion_sample(const clackers_motion* motion, const doub
                                        const clackers_buffers* out) {
   return guarded([&] {
     constexpr auto who = "clackers_motion_sample";
-    const auto& truth = motion_of(who, motion);
+    const auto& reference = motion_of(who, motion);
     if (count > 0) require_pointer(who, "times", times);
     const auto which = read_side(who, side);
-    truth.sample({times, count}, which, read_buffers(who, "out", out, count, truth.dof()));
+    reference.sample({times, count}, which, read_buffers(who, "out", out, count, reference.dof()));
   });
 }
 
@@ -35,9 +35,9 @@ clackers_status clackers_motion_envelope(const clackers_motion* motion, double t
                                          const clackers_buffers* out) {
   return guarded([&] {
     constexpr auto who = "clackers_motion_envelope";
-    const auto& truth = motion_of(who, motion);
-    const auto arrays = read_buffers(who, "out", out, 1, truth.dof());
-    write_state(truth.envelope(t), arrays);
+    const auto& reference = motion_of(who, motion);
+    const auto arrays = read_buffers(who, "out", out, 1, reference.dof());
+    write_state(reference.envelope(t), arrays);
   });
 }
 
@@ -45,8 +45,8 @@ clackers_status clackers_motion_error_bound(const clackers_motion* motion, doubl
                                             const clackers_buffers* out) {
   return guarded([&] {
     constexpr auto who = "clackers_motion_error_bound";
-    const auto& truth = motion_of(who, motion);
-    const auto arrays = read_buffers(who, "out", out, 1, truth.dof());
-    write_state(truth.error_bound(t), arrays);
+    const auto& reference = motion_of(who, motion);
+    const auto arrays = read_buffers(who, "out", out, 1, reference.dof());
+    write_state(reference.error_bound(t), arrays);
   });
 }

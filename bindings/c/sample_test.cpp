@@ -15,7 +15,7 @@ namespace {
 const cases::Settings settings{{"X", 5.0}, {"eta", 0.875}};
 
 ScopedMotion pair() { return make_case("synchronized-pair", {{"X", 5.0}, {"eta", 0.875}}); }
-const model::Motion& truth() {
+const model::Motion& reference() {
   static const auto which = cases::make("synchronized-pair", settings);
   return *which.motion;
 }
@@ -32,14 +32,14 @@ TEST(CSample, SizesAreThoseOfTheMotion) {
 }
 
 TEST(CSample, StatesAreThoseOfTheLibraryOnBothSidesOfAnImpact) {
-  const std::array times{3.0, truth().impact(2).t, 0.0};
+  const std::array times{3.0, reference().impact(2).t, 0.0};
   for (const auto side : {CLACKERS_LEFT, CLACKERS_RIGHT}) {
     Arrays arrays(6);
     ASSERT_EQ(clackers_motion_sample(pair().get(), times.data(), 3, side, &arrays.out), CLACKERS_OK)
         << clackers_last_error();
     for (std::size_t i = 0; i < 3; ++i) {
       const auto now =
-          truth().at(times[i], side == CLACKERS_LEFT ? model::Side::left : model::Side::right);
+          reference().at(times[i], side == CLACKERS_LEFT ? model::Side::left : model::Side::right);
       for (int j = 0; j < 2; ++j) {
         const auto at = 2 * i + std::size_t(j);
         EXPECT_EQ(arrays.u[at], now.u[j]);
@@ -55,7 +55,7 @@ TEST(CSample, AccelerationMayBeLeftOut) {
   Arrays arrays(2);
   arrays.out.a = nullptr;
   EXPECT_EQ(clackers_motion_sample(pair().get(), &t, 1, CLACKERS_LEFT, &arrays.out), CLACKERS_OK);
-  EXPECT_EQ(arrays.v[1], truth().at(t, model::Side::left).v[1]);
+  EXPECT_EQ(arrays.v[1], reference().at(t, model::Side::left).v[1]);
   EXPECT_EQ(clackers_motion_envelope(pair().get(), t, &arrays.out), CLACKERS_OK);
   EXPECT_EQ(arrays.a[0], 7.0);
 }
@@ -82,12 +82,12 @@ TEST(CSample, EnvelopeAndBoundAreThoseOfTheLibrary) {
   ASSERT_EQ(clackers_motion_error_bound(pair().get(), 3.0, &bound.out), CLACKERS_OK);
   for (int j = 0; j < 2; ++j) {
     const auto at = std::size_t(j);
-    EXPECT_EQ(envelope.u[at], truth().envelope(3.0).u[j]);
-    EXPECT_EQ(envelope.v[at], truth().envelope(3.0).v[j]);
-    EXPECT_EQ(envelope.a[at], truth().envelope(3.0).a[j]);
-    EXPECT_EQ(bound.u[at], truth().error_bound(3.0).u[j]);
-    EXPECT_EQ(bound.v[at], truth().error_bound(3.0).v[j]);
-    EXPECT_EQ(bound.a[at], truth().error_bound(3.0).a[j]);
+    EXPECT_EQ(envelope.u[at], reference().envelope(3.0).u[j]);
+    EXPECT_EQ(envelope.v[at], reference().envelope(3.0).v[j]);
+    EXPECT_EQ(envelope.a[at], reference().envelope(3.0).a[j]);
+    EXPECT_EQ(bound.u[at], reference().error_bound(3.0).u[j]);
+    EXPECT_EQ(bound.v[at], reference().error_bound(3.0).v[j]);
+    EXPECT_EQ(bound.a[at], reference().error_bound(3.0).a[j]);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 namespace clackers {
@@ -14,205 +15,49 @@ struct CodeEntry {
   std::string_view meaning;  ///< what happened and what to do about it
 };
 
-// One row a code. A row is added where the message is written, never taken away.
-inline constexpr auto code_table = std::to_array<CodeEntry>({
-    // What was measured: the seven behaviours and their reasons.
-    {"exact", "behaviour",
-     "The error is at the rounding floor at every level: the method reproduces the motion itself."},
-    {"proper", "behaviour",
-     "Error against step is a straight line in logarithmic axes with the claimed order as slope, "
-     "over at least four consecutive levels above the rounding floor."},
-    {"reduced", "behaviour",
-     "The line is straight but its slope is lower than the order the method claims."},
-    {"irregular", "behaviour",
-     "The error shrinks with the step, yet scatters so much between neighbouring steps that no "
-     "line "
-     "can be fitted; the order of the upper envelope over many neighbouring steps is given "
-     "instead. "
-     "Usual for methods that notice an impact only at the end of a step."},
-    {"stagnating", "behaviour",
-     "The error stops shrinking above the rounding floor. The reason is given beside it."},
-    {"divergent", "behaviour",
-     "The error grows when the step is refined, or the energy of the run leaves [1/2, 2] of the "
-     "true one."},
-    {"undecided", "behaviour",
-     "The runs do not carry a judgement; what to change is said beside it."},
-    {"contact-stiffness", "reason",
-     "The floor is the model error of a compliant contact: each impact lasts a contact time "
-     "instead "
-     "of an instant. A larger contact stiffness lowers it, and needs smaller steps."},
-    {"tolerance-floor", "reason", "The floor is an iteration tolerance of the method; tighten it."},
-    {"unexplained-floor", "reason",
-     "The error stops shrinking and nothing the method states of itself explains it. Look for a "
-     "tolerance, an interpolation or single precision inside it."},
-    {"too-few-levels", "reason",
-     "Fewer than four levels lie between the coarse range, where nothing converges yet, and the "
-     "rounding floor. Use more --levels or another --coarsest."},
-    {"contact-not-resolved", "reason",
-     "Even the smallest step is longer than 1/25 of the contact time, so the penalty contact was "
-     "never integrated. Use more levels, smaller steps or a softer contact."},
-    {"no-convergence-yet", "reason",
-     "The error has not started to shrink in a regular way. Use smaller steps; of verify: more "
-     "--levels or a smaller --coarsest."},
-    {"no-fixed-order", "reason",
-     "The error falls faster with every refinement, beyond the claimed order, and no power of the "
-     "step describes it: exponential convergence, or a bend before a line of higher order."},
-    {"wrong-limit", "reason",
-     "The runs converge to a limit that is not the true motion. Differences between runs do not "
-     "show that; only a true motion or a second model can."},
-    {"improper-convergence", "reason",
-     "The differences between runs at successive steps do not fall as the claimed order asks, so "
-     "nothing bounds the error of an extrapolated value."},
-    {"differences-turn", "reason",
-     "The differences between runs at successive steps change sign or direction, so they are not "
-     "the terms of one expansion and nothing bounds the error of an extrapolated value."},
-    {"run-failed", "reason", "Runs ended before their end time; the first failure is quoted."},
-    {"energy-growth", "reason", "The run's energy left [1/2, 2] of the true one."},
-    {"error-growth", "reason", "The error grew when the step was refined."},
-    {"diverged", "failure",
-     "A run left the range of finite numbers, usually beyond a stability limit."},
-    {"newton-failed", "failure",
-     "Newton's iteration did not reach its tolerance within its limit of iterations in some step."},
-    {"too-many-impacts", "failure",
-     "More impacts happened inside one step than the treatment allows; impacts accumulate."},
-    {"simultaneous-contacts", "refusal",
-     "Two contacts close together; the treatment handles one at a time and has no complementarity "
-     "solver."},
-    // Verdicts: what was found against what is claimed.
-    {"agrees", "verdict", "What was measured is what the method claims."},
-    {"disagrees", "verdict", "What was measured contradicts what the method claims."},
-    {"not-claimed", "verdict", "The method claims nothing here, so nothing was compared."},
-    // Refused input.
-    {"not-a-number", "refusal",
-     "A number was asked for and NaN, or text that is no number, was given."},
-    {"not-finite", "refusal", "An infinite value was given where only finite numbers make sense."},
-    {"out-of-range", "refusal", "A value lies outside the range that the message states."},
-    {"wrong-size", "refusal", "Matrices, vectors or lists do not fit together in size."},
-    {"null-pointer", "refusal",
-     "A caller from C gave a null pointer where a value is needed. The message says which."},
-    {"wrong-struct-size", "refusal",
-     "The struct_size of a structure is unset, too small, or of a newer header whose additions "
-     "this library does not know."},
-    {"not-positive-definite", "refusal", "The mass matrix is not symmetric positive definite."},
-    {"not-symmetric", "refusal", "The damping or stiffness matrix is not symmetric."},
-    {"starts-in-contact", "refusal",
-     "The initial state violates a contact: its gap is negative, or closed and closing."},
-    {"not-odd", "refusal",
-     "The frequency ratio X must be an odd whole number, or 1 over one; only then do both masses "
-     "pass equilibrium together at every collision."},
-    {"not-admissible", "refusal",
-     "The mass ratio r reaches r*(X): the masses would also touch away from equilibrium and the "
-     "closed form would not hold. The message says where and when, and what to change."},
-    {"not-exact-data", "refusal",
-     "With these values some model input is not exactly a binary64 number, so a solver would not "
-     "get "
-     "the true system. Use short binary fractions."},
-    {"unknown-name", "refusal", "No case, method, parameter, code or option has this name."},
-    {"bad-syntax", "refusal", "The text does not follow the grammar of the command line."},
-    {"step-not-positive", "refusal",
-     "A step must be positive, finite and not longer than the run."},
-    {"too-many-steps", "refusal", "The run would need more than 1e9 steps and could not end."},
-    {"too-many-rows", "refusal",
-     "A response of more than 1e9 rows was asked for; use a larger step or fewer samples."},
-    {"not-a-record", "refusal",
-     "The text is no json of a verify run: broken, of another schema, or with a missing or unknown "
-     "field. The message says where."},
-    {"other-study", "refusal",
-     "The record given as --baseline is of another case, other parameters or another ladder of "
-     "steps. The message says which, with the options of both."},
-    {"not-whole", "refusal", "A whole number was asked for and one with a fraction was given."},
-    {"penalty-needs-elastic", "refusal",
-     "A linear penalty spring gives back what it takes, so it can only stand for restitution 1."},
-    {"no-default-stiffness", "refusal",
-     "A contact touches a degree of freedom without stiffness of its own, so there is no default "
-     "for "
-     "the penalty spring; give penalty:stiffness=VALUE."},
-    {"linear-only", "refusal",
-     "The problem has a nonlinear force and the method's step is one linear equation."},
-    {"beyond-last-impact", "refusal", "Collisions end before the index that was asked for."},
-    {"no-closed-form", "refusal",
-     "Energies, sensitivities and spectra are known for motions in closed form only."},
-    {"no-derivative", "refusal",
-     "The motion does not depend smoothly on this parameter here: a whole number, the end of the "
-     "run, or restitution 0. The message says why and what to do."},
-    {"needs-arb", "refusal",
-     "Digits beyond double precision were asked of a program that was built without Arb (Debian: "
-     "libflint-arb-dev). Install it, configure and build again."},
-    {"no-enclosure", "refusal",
-     "More digits than a double has were asked of a motion that is known to double precision "
-     "only."},
-    {"time-outside", "refusal", "A time lies outside the interval in which the motion is known."},
-    {"three-limits", "refusal",
-     "Three or more rows of a history share one time. A jump has two limits: keep the last row "
-     "before it and the first row after it."},
-    // Files of other programs.
-    {"not-text", "refusal",
-     "A history must be rows of numbers as text in ASCII or UTF-8; the file is binary, UTF-16, or "
-     "has a line of more than 65536 bytes."},
-    {"no-column", "refusal",
-     "A column that is needed is missing or stands twice, or the columns have no names. Name them "
-     "in a header line or with --columns t,u1,v1,...; an underscore leaves one out."},
-    {"ragged-row", "refusal", "A row has more or fewer fields than the header or the first row."},
-    {"decimal-comma", "refusal",
-     "Numbers take a decimal point. A file with decimal commas must be written anew, for example "
-     "with tr where commas separate nothing."},
-    {"not-sorted", "refusal",
-     "Times must not descend, and at most two rows may have the same time: the left and the right "
-     "limit of a jump. Sort the rows, or print times with more digits."},
-    {"too-short", "refusal", "A history needs at least two different times."},
-    {"not-this-case", "refusal",
-     "The history starts from another state than the case. The message says which value differs "
-     "and, where one parameter can mend it, its value for --set."},
-    {"printed-digits", "reason",
-     "The floor is the rounding of the printed numbers. Print more digits: 17 keep a double "
-     "whole."},
-    {"sparse-rows", "reason",
-     "The rows of the history lie too far apart to find collisions in them. Print more rows, or "
-     "give the collisions with --events."},
-    // Files and the outside world.
-    {"cannot-write", "failure",
-     "A file could not be written; nothing half-written was left behind."},
-    {"cannot-read", "failure", "A file could not be read."},
-    {"no-renderer", "failure",
-     "The program node or rsvg-convert, which draw the figures of `clackers paper`, is not "
-     "installed. Their numbers (csv) and specifications (vl.json) were written all the same."},
-    {"render-failed", "failure",
-     "The program node or rsvg-convert was found and failed to draw a figure. Numbers (csv) and "
-     "specifications (vl.json) were written all the same."},
-    {"foreign-folder", "refusal",
-     "The folder of --out holds files that the command did not write. It is replaced as a whole, "
-     "so give another name, or move them away."},
-    {"out-of-memory", "failure", "There was not enough memory for the request; ask for less."},
-    {"internal-error", "failure",
-     "A mistake in the program itself. Please report it with the command that led to it."},
-    {"interrupted", "failure",
-     "The run was interrupted (Ctrl-C). Finished rows were kept and the output is marked."},
+// clang-format off
+/// Every code, in the order of the rows of codes.cpp, which have the meanings. Names are never
+/// reused for another meaning.
+inline constexpr auto code_names = std::to_array<std::string_view>({
+    "exact", "proper", "reduced", "irregular", "stagnating", "divergent", "undecided",
+    "contact-stiffness", "tolerance-floor", "unexplained-floor", "too-few-levels",
+    "contact-not-resolved", "no-convergence-yet", "no-fixed-order", "wrong-limit",
+    "improper-convergence", "differences-turn", "run-failed", "energy-growth", "error-growth",
+    "diverged", "newton-failed", "too-many-impacts", "simultaneous-contacts", "agrees", "disagrees",
+    "not-claimed", "not-a-number", "not-finite", "out-of-range", "wrong-size", "null-pointer",
+    "wrong-struct-size", "not-positive-definite", "not-symmetric", "starts-in-contact", "not-odd",
+    "not-admissible", "not-exact-data", "unknown-name", "bad-syntax", "step-not-positive",
+    "too-many-steps", "too-many-rows", "not-a-record", "other-study", "not-whole",
+    "penalty-needs-elastic", "no-default-stiffness", "linear-only", "beyond-last-impact",
+    "no-closed-form", "no-derivative", "needs-arb", "no-enclosure", "time-outside", "three-limits",
+    "not-text", "no-column", "ragged-row", "decimal-comma", "not-sorted", "too-short",
+    "not-this-case", "printed-digits", "sparse-rows", "cannot-write", "cannot-read", "no-renderer",
+    "render-failed", "foreign-folder", "out-of-memory", "internal-error", "interrupted",
 });
+// clang-format on
+
+/// All rows, in the order of `code_names`.
+std::span<const CodeEntry> code_table();
 
 /// The row of a code, or nullptr for an unknown one.
-constexpr const CodeEntry* find_code(std::string_view name) {
-  const auto row = std::find_if(code_table.begin(), code_table.end(),
-                                [&](const CodeEntry& entry) { return entry.name == name; });
-  return row == code_table.end() ? nullptr : &*row;
-}
+const CodeEntry* find_code(std::string_view name);
 
-/// The name of a row of `code_table`. A misspelled one does not compile.
+/// A name of `code_names`. A misspelled one does not compile.
 class Code {
  public:
-  // By position: to GCC 12 with -fsanitize=undefined, comparing with nullptr is not constant.
-  consteval Code(const char* name) : entry_(&code_table[position(name)]) {}
-  constexpr std::string_view name() const { return entry_->name; }
-  constexpr std::string_view meaning() const { return entry_->meaning; }
-  friend constexpr bool operator==(Code one, Code other) { return one.entry_ == other.entry_; }
+  consteval Code(const char* name) : name_(code_names[position(name)]) {}
+  constexpr std::string_view name() const { return name_; }
+  std::string_view meaning() const { return find_code(name_)->meaning; }
+  friend constexpr bool operator==(Code a, Code b) { return a.name_ == b.name_; }
 
  private:
   static consteval std::size_t position(std::string_view name) {
-    for (std::size_t i = 0; i < code_table.size(); ++i)
-      if (code_table[i].name == name) return i;
-    throw "no such code in code_table";
+    for (std::size_t i = 0; i < code_names.size(); ++i)
+      if (code_names[i] == name) return i;
+    throw "no such code in code_names";
   }
 
-  const CodeEntry* entry_;
+  std::string_view name_;
 };
 
 }  // namespace clackers

@@ -10,20 +10,22 @@ namespace clackers {
 namespace {
 
 template <class Word>
-using Spelling = std::pair<Word, std::string_view>;
+using MethodSpecification = std::pair<Word, std::string_view>;
 
-constexpr std::array<Spelling<Behaviour>, 7> behaviours{{{Behaviour::exact, "exact"},
-                                                         {Behaviour::proper, "proper"},
-                                                         {Behaviour::reduced, "reduced"},
-                                                         {Behaviour::irregular, "irregular"},
-                                                         {Behaviour::stagnating, "stagnating"},
-                                                         {Behaviour::divergent, "divergent"},
-                                                         {Behaviour::undecided, "undecided"}}};
+constexpr std::array<MethodSpecification<Behaviour>, 7> behaviours{
+    {{Behaviour::exact, "exact"},
+     {Behaviour::proper, "proper"},
+     {Behaviour::reduced, "reduced"},
+     {Behaviour::irregular, "irregular"},
+     {Behaviour::stagnating, "stagnating"},
+     {Behaviour::divergent, "divergent"},
+     {Behaviour::undecided, "undecided"}}};
 
-constexpr std::array<Spelling<Verdict>, 4> verdicts{{{Verdict::agrees, "agrees"},
-                                                     {Verdict::disagrees, "disagrees"},
-                                                     {Verdict::not_claimed, "not claimed"},
-                                                     {Verdict::undecided, "undecided"}}};
+constexpr std::array<MethodSpecification<Verdict>, 4> verdicts{
+    {{Verdict::agrees, "agrees"},
+     {Verdict::disagrees, "disagrees"},
+     {Verdict::not_claimed, "not claimed"},
+     {Verdict::undecided, "undecided"}}};
 
 template <class Table, class Word>
 std::string_view spell(const Table& table, Word word) {

@@ -1,7 +1,7 @@
 #include "clackers/cases/admissibility.hpp"
 
-#include "clackers/exact/admissibility.hpp"
-#include "clackers/exact/parameter_ranges.hpp"
+#include "clackers/exact/pair/admissibility.hpp"
+#include "clackers/exact/pair/parameter_ranges.hpp"
 
 namespace clackers::cases {
 

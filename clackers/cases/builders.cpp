@@ -5,9 +5,9 @@
 
 #include "clackers/cases/constants.hpp"
 #include "clackers/cases/parameters.hpp"
-#include "clackers/exact/exact_data_pair.hpp"
-#include "clackers/exact/single_mass.hpp"
-#include "clackers/exact/synchronized_pair.hpp"
+#include "clackers/exact/pair/exact_data_pair.hpp"
+#include "clackers/exact/pair/single_mass.hpp"
+#include "clackers/exact/pair/synchronized_pair.hpp"
 
 namespace clackers::cases {
 namespace {

@@ -15,9 +15,9 @@ namespace clackers::cases {
 /// One parameter of a named case.
 struct CaseParameter {
   std::string name;
-  double standard = 0.0;  ///< used when not set
-  std::string unit;       ///< empty when dimensionless
-  std::string allowed;    ///< "0 <= xi1 < 1"
+  double default_value = 0.0;  ///< used when not set
+  std::string unit;            ///< empty when dimensionless
+  std::string allowed;         ///< "0 <= xi1 < 1"
   std::string meaning;
 };
 
@@ -39,7 +39,7 @@ struct Constant {
   std::string unit, meaning;
 };
 
-/// A problem together with its truth.
+/// A problem together with its reference.
 struct Case {
   const CaseEntry* entry = nullptr;
   Settings values;  ///< all parameters, in the entry's order

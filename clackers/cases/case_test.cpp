@@ -71,7 +71,7 @@ TEST(Cases, HaveTheDocumentedParametersAndDefaults) {
   for (const auto& [name, values] : documented) EXPECT_EQ(make(name).values, values) << name;
 }
 
-TEST(Cases, BuildAProblemAndItsTruthThatFitTogether) {
+TEST(Cases, BuildAProblemAndItsReferenceThatFitTogether) {
   for (const auto& entry : entries()) {
     SCOPED_TRACE(entry.name);
     const auto which = make(entry.name);
@@ -85,7 +85,7 @@ TEST(Cases, BuildAProblemAndItsTruthThatFitTogether) {
     EXPECT_EQ(which.problem.start.u, start.u);
     EXPECT_EQ(which.problem.start.v, start.v);
     // The equation of motion at the start, with the problem's own numbers; each of the three terms
-    // carries three roundings, and the truth another.
+    // carries three roundings, and the reference another.
     const auto& s = which.problem.system;
     const Eigen::VectorXd rest = s.mass * start.a + s.damping * start.v + s.stiffness * start.u;
     const Eigen::VectorXd size = (s.stiffness * start.u).cwiseAbs();

@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "clackers/exact/conditioning.hpp"
-#include "clackers/exact/indicators.hpp"
+#include "clackers/exact/quantities/conditioning.hpp"
+#include "clackers/exact/quantities/indicators.hpp"
 
 namespace clackers::cases {
 namespace {

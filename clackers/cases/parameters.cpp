@@ -16,7 +16,7 @@ Settings complete(const CaseEntry& entry, const Settings& given) {
   Settings values;
   for (const auto& parameter : entry.parameters) {
     names.push_back(parameter.name);
-    values.emplace_back(parameter.name, parameter.standard);
+    values.emplace_back(parameter.name, parameter.default_value);
   }
   std::vector<std::string> seen;
   for (const auto& [name, value] : given) {

@@ -21,7 +21,7 @@ class Values {
   const Settings& values_;
 };
 
-/// The largest N whose X = 4N + 1 is within the ratios that the truth takes.
+/// The largest N whose X = 4N + 1 is within the ratios that the reference takes.
 inline constexpr double largest_N = 249'999'999;
 
 /// X = 4N + 1 of Eq. (9). Throws InputError unless N is a whole number from 0 to largest_N.

@@ -8,7 +8,7 @@
 
 namespace clackers::certified {
 
-/// A motion of the room exact to any number of digits: each value is enclosed with more and more
+/// A motion of the module exact to any number of digits: each value is enclosed with more and more
 /// bits until its decimals are certain, and then correctly rounded. One thread at a time.
 class Digits {
  public:

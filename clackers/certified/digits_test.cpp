@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/test_oracle.hpp"
+#include "clackers/exact/testing/test_oracle.hpp"
 
 namespace clackers::certified {
 namespace {
@@ -39,16 +39,16 @@ TEST(Digits, AreThoseOfTheFormulaInMpfr) {
     Digits digits(motion, 70);
     for (const double t : {0.1, 1.0, 13.37, 19.0}) {
       const auto texts = digits.at(t, Side::right);
-      const auto truth = oracle.state(t, Side::right);
+      const auto reference = oracle.state(t, Side::right);
       const auto near = [&](const std::string& text, const Real& value) {
         EXPECT_LE(abs(Real(text) / value - 1), Real("5e-70")) << text;
         EXPECT_EQ(text.substr(text.find_first_of("123456789")).find_first_not_of(".0123456789e-+"),
                   std::string::npos);
       };
       for (std::size_t i = 0; i < 2; ++i) {
-        near(texts.u[i], truth.u[i]);
-        near(texts.v[i], truth.v[i]);
-        near(texts.a[i], truth.a[i]);
+        near(texts.u[i], reference.u[i]);
+        near(texts.v[i], reference.v[i]);
+        near(texts.a[i], reference.a[i]);
       }
     }
     for (const long long k : {1LL, 2LL, 6LL}) {

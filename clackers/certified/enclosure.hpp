@@ -22,7 +22,7 @@ struct ImpactBalls {
   Ball energy_before, energy_after;
 };
 
-/// One motion of the room exact, as balls that certainly hold it for the binary64 values of its
+/// One motion of the module exact, as balls that certainly hold it for the binary64 values of its
 /// free parameters. It is the second way to the same motion: Eq. (22) as the paper writes it, sign
 /// function, large phases and all, where ClosedForm reduces phases. Not to be shared by threads.
 class Enclosure {

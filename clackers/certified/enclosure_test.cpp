@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/exact/test_oracle.hpp"
+#include "clackers/exact/testing/test_oracle.hpp"
 
 namespace clackers::certified {
 namespace {
@@ -34,16 +34,16 @@ double own_bound(double value) { return std::ldexp(std::abs(value) * 0.52, -52) 
 
 void expect_enclosed(const exact::ClosedForm& motion, double t, Side side) {
   Enclosure enclosure{Inputs(motion)};
-  const auto truth = enclosure.at(t, side, bits);
+  const auto reference = enclosure.at(t, side, bits);
   const auto now = motion.at(t, side);
   const auto bound = motion.error_bound(t);
-  ASSERT_EQ(truth.u.size(), std::size_t(motion.dof()));
-  for (std::size_t i = 0; i < truth.u.size(); ++i) {
+  ASSERT_EQ(reference.u.size(), std::size_t(motion.dof()));
+  for (std::size_t i = 0; i < reference.u.size(); ++i) {
     const auto m = static_cast<Eigen::Index>(i);
-    EXPECT_TRUE(is_within(truth.u[i], now.u[m], bound.u[m])) << "t = " << t;
-    EXPECT_TRUE(is_within(truth.v[i], now.v[m], bound.v[m])) << "t = " << t;
-    EXPECT_TRUE(is_within(truth.a[i], now.a[m], bound.a[m])) << "t = " << t;
-    for (const auto* value : {&truth.u[i], &truth.v[i], &truth.a[i]})
+    EXPECT_TRUE(is_within(reference.u[i], now.u[m], bound.u[m])) << "t = " << t;
+    EXPECT_TRUE(is_within(reference.v[i], now.v[m], bound.v[m])) << "t = " << t;
+    EXPECT_TRUE(is_within(reference.a[i], now.a[m], bound.a[m])) << "t = " << t;
+    for (const auto* value : {&reference.u[i], &reference.v[i], &reference.a[i]})
       EXPECT_TRUE(value->is_zero() || value->accuracy() >= bits);
   }
   EXPECT_EQ(enclosure.impact_count(t), motion.impact_count(t));
@@ -51,25 +51,25 @@ void expect_enclosed(const exact::ClosedForm& motion, double t, Side side) {
 
 void expect_impact_enclosed(const exact::ClosedForm& motion, long long k) {
   Enclosure enclosure{Inputs(motion)};
-  const auto truth = enclosure.impact(k, bits);
+  const auto reference = enclosure.impact(k, bits);
   const auto hit = motion.impact(k);
-  EXPECT_TRUE(Ball(hit.when.lo) < truth.t && truth.t < Ball(hit.when.hi));
-  EXPECT_EQ(truth.t.middle(), hit.t);
-  EXPECT_GE(truth.t.accuracy(), bits);
+  EXPECT_TRUE(Ball(hit.when.lo) < reference.t && reference.t < Ball(hit.when.hi));
+  EXPECT_EQ(reference.t.middle(), hit.t);
+  EXPECT_GE(reference.t.accuracy(), bits);
   const auto near = [&](const Ball& ball, double value) {
     EXPECT_TRUE(is_within(ball, value, own_bound(value))) << "k = " << k << " value " << value;
   };
-  for (std::size_t i = 0; i < truth.before.v.size(); ++i) {
+  for (std::size_t i = 0; i < reference.before.v.size(); ++i) {
     const auto m = static_cast<Eigen::Index>(i);
-    EXPECT_TRUE(truth.before.u[i].is_zero() && truth.after.u[i].is_zero());
-    near(truth.before.v[i], hit.before.v[m]);
-    near(truth.before.a[i], hit.before.a[m]);
-    near(truth.after.v[i], hit.after.v[m]);
-    near(truth.after.a[i], hit.after.a[m]);
+    EXPECT_TRUE(reference.before.u[i].is_zero() && reference.after.u[i].is_zero());
+    near(reference.before.v[i], hit.before.v[m]);
+    near(reference.before.a[i], hit.before.a[m]);
+    near(reference.after.v[i], hit.after.v[m]);
+    near(reference.after.a[i], hit.after.a[m]);
   }
-  near(truth.impulse, hit.impulse);
-  near(truth.energy_before, hit.energy_before);
-  near(truth.energy_after, hit.energy_after);
+  near(reference.impulse, hit.impulse);
+  near(reference.energy_before, hit.energy_before);
+  near(reference.energy_after, hit.energy_after);
 }
 
 void expect_all_enclosed(const exact::ClosedForm& motion, Box& box) {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "clackers/exact/exact_data_pair.hpp"
-#include "clackers/exact/single_mass.hpp"
-#include "clackers/exact/synchronized_pair.hpp"
+#include "clackers/exact/pair/exact_data_pair.hpp"
+#include "clackers/exact/pair/single_mass.hpp"
+#include "clackers/exact/pair/synchronized_pair.hpp"
 
 namespace clackers::certified {
 
@@ -12,7 +12,7 @@ struct Inputs {
   explicit Inputs(const exact::ExactDataParameters& parameters);
   explicit Inputs(const exact::RigidStopParameters& parameters);
   explicit Inputs(const exact::FreeMassParameters& parameters);
-  /// Those of a motion of the room exact; throws InputError (no-enclosure) for any other.
+  /// Those of a motion of the module exact; throws InputError (no-enclosure) for any other.
   explicit Inputs(const model::Motion& motion);
 
   /// Damped frequency of mass i (0 or 1) over Omega.

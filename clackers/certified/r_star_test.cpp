@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/exact/admissibility.hpp"
+#include "clackers/exact/pair/admissibility.hpp"
 
 namespace clackers::certified {
 namespace {
@@ -83,7 +83,7 @@ TEST(RStar, Equation18IsProvedAndStrictFromXOf5On) {
   for (double odd = 5.0; odd <= largest; odd += 2.0) {
     SCOPED_TRACE(testing::Message() << "X = " << odd);
     const WorkingBits scope(64);
-    // Without any word of r*: r = 3 leaves room everywhere, smaller ratios leave more.
+    // Without any word of r*: r = 3 leaves module everywhere, smaller ratios leave more.
     EXPECT_TRUE(is_apart_around(odd, 3.0, 4.5, 4.5));
   }
 }

@@ -20,10 +20,10 @@ class Finder {
   Finder(const std::string& path, const std::vector<std::string>& names)
       : path_(path), names_(names), used_(names.size()) {}
 
-  HistoryColumns::Column find(std::initializer_list<std::string> spellings) {
+  HistoryColumns::Column find(std::initializer_list<std::string> specifications) {
     HistoryColumns::Column found;
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (std::ranges::find(spellings, names_[i]) == spellings.end()) continue;
+      if (std::ranges::find(specifications, names_[i]) == specifications.end()) continue;
       if (found)
         throw InputError(fmt::format("{}: column {} stands twice; name the other one _ with "
                                      "--columns.",

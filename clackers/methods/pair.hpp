@@ -40,10 +40,10 @@ struct Pair {
   }
 
   template <int Dof>
-  struct Walk : Treatment::template Walk<Integrator, Dof> {
-    Walk(const Pair& pair, model::ImpactProblem<Dof> problem, const StepPlan& plan)
-        : Treatment::template Walk<Integrator, Dof>(pair.integrator, pair.treatment,
-                                                    std::move(problem), plan) {}
+  struct TimeLoop : Treatment::template TimeLoop<Integrator, Dof> {
+    TimeLoop(const Pair& pair, model::ImpactProblem<Dof> problem, const StepPlan& plan)
+        : Treatment::template TimeLoop<Integrator, Dof>(pair.integrator, pair.treatment,
+                                                        std::move(problem), plan) {}
   };
 };
 

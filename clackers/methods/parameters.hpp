@@ -23,7 +23,7 @@ struct ParameterOf {
   std::string_view name, allowed, meaning;
   std::optional<double> (*get)(const T&);  ///< empty: left to the method
   void (*set)(T&, double);
-  std::string_view standard{};  ///< in words, where T{} leaves it empty
+  std::string_view default_value{};  ///< in words, where T{} leaves it empty
 };
 
 /// The parameter that is a plain member.
@@ -76,9 +76,9 @@ Entry entry_of(std::string_view kind, std::string_view card) {
   Entry entry{
       std::string(T::name), std::string(kind), std::string(T::summary), {}, std::string(card)};
   for (const ParameterOf<T>& p : T::parameters()) {
-    const auto standard = p.get(T{});
+    const auto given = p.get(T{});
     entry.parameters.push_back({std::string(p.name),
-                                standard ? fmt::format("{}", *standard) : std::string(p.standard),
+                                given ? fmt::format("{}", *given) : std::string(p.default_value),
                                 std::string(p.allowed), std::string(p.meaning)});
   }
   return entry;

@@ -13,8 +13,8 @@
 #include "clackers/methods/integrators/generalized_alpha.hpp"
 #include "clackers/methods/integrators/newmark.hpp"
 #include "clackers/methods/integrators/rk4.hpp"
+#include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/rows.hpp"
-#include "clackers/methods/spelling.hpp"
 
 namespace clackers::methods {
 
@@ -59,8 +59,8 @@ std::vector<std::string> names(std::string_view kind, std::string_view or_kind =
   return all;
 }
 
-std::string_view contact_or_default(const Spelling& spelling) {
-  return spelling.contact ? std::string_view(spelling.contact->name) : "event-driven";
+std::string_view contact_or_default(const MethodSpecification& specification) {
+  return specification.contact ? std::string_view(specification.contact->name) : "event-driven";
 }
 
 }  // namespace
@@ -71,11 +71,11 @@ std::span<const Entry> entries() {
 }
 
 std::shared_ptr<const Method> method(std::string_view text) {
-  const Spelling spelling = parse_spelling(text);
-  const auto& first = spelling.first;
+  const MethodSpecification specification = parse_specification(text);
+  const auto& first = specification.first;
   for (const auto& row : methods_alone()) {
     if (row.name != first.name) continue;
-    if (spelling.contact)
+    if (specification.contact)
       throw InputError(
           fmt::format("clackers: method \"{}\": {} brings its own contact treatment; allowed: "
                       "{} alone.",
@@ -85,8 +85,8 @@ std::shared_ptr<const Method> method(std::string_view text) {
   }
   for (const auto& row : integrators()) {
     if (row.name != first.name) continue;
-    const auto treatment = contact_or_default(spelling);
-    const auto settings = spelling.contact ? spelling.contact->settings : Settings{};
+    const auto treatment = contact_or_default(specification);
+    const auto settings = specification.contact ? specification.contact->settings : Settings{};
     if (auto joined = row.join(first.settings, treatment, settings)) return joined;
     refuse_name("contact treatment", treatment, names("contact"), "clackers list contacts");
   }

@@ -10,11 +10,11 @@
 
 namespace clackers::methods {
 
-/// One `name=value` that a method's spelling may carry.
+/// One `name=value` that a method's specification may carry.
 struct Parameter {
-  std::string name, standard;  ///< the default, as it would be typed
-  std::string allowed;         ///< "0 <= rho <= 1"
-  std::string meaning;         ///< with its unit
+  std::string name, default_value;  ///< the default, as it would be typed
+  std::string allowed;              ///< "0 <= rho <= 1"
+  std::string meaning;              ///< with its unit
 };
 
 /// What `clackers list` and `clackers show` tell of an integrator or a contact treatment.
@@ -29,16 +29,16 @@ struct Entry {
 /// Everything registered, integrators first, then contact treatments, then whole methods.
 std::span<const Entry> entries();
 
-/// The method of a spelling such as "newmark:beta=0.25+penalty:stiffness=1e6"; the grammar is the
+/// The method of a specification such as "newmark:beta=0.25+penalty:stiffness=1e6"; the grammar is the
 /// command line's. Without "+contact" the treatment is event-driven. Throws InputError with
 /// did-you-mean for names, and for parameters outside their range.
-std::shared_ptr<const Method> method(std::string_view spelling);
+std::shared_ptr<const Method> method(std::string_view specification);
 
 /// Every integrator joined with every treatment that takes it, and the methods that stand alone,
-/// all with default parameters: the spellings.
+/// all with default parameters: the specifications.
 std::vector<std::string> pairs();
 
-/// The spellings judged when none is named: one of each kind.
+/// The specifications judged when none is named: one of each kind.
 std::vector<std::string> default_panel();
 
 }  // namespace clackers::methods

@@ -7,9 +7,9 @@
 namespace clackers::methods {
 namespace {
 
-std::string message_of(const char* spelling) {
+std::string message_of(const char* specification) {
   try {
-    method(spelling);
+    method(specification);
   } catch (const InputError& error) {
     return std::string(error.what()) + " [" + std::string(error.code().name()) + "]";
   }
@@ -66,7 +66,7 @@ TEST(Registry, ListsEveryNameWithItsCard) {
     }
     EXPECT_EQ(entry.card.find("///"), std::string::npos);
     for (const auto& p : entry.parameters) {
-      EXPECT_FALSE(p.standard.empty());
+      EXPECT_FALSE(p.default_value.empty());
       EXPECT_NE(p.allowed.find(p.name), std::string::npos);
       EXPECT_FALSE(p.meaning.empty());
     }
@@ -75,8 +75,8 @@ TEST(Registry, ListsEveryNameWithItsCard) {
             (std::vector<std::string>{"newmark", "central-difference", "rk4", "generalized-alpha",
                                       "event-driven", "reversal", "penalty", "moreau-jean"}));
   EXPECT_EQ(entries()[0].card.substr(0, 26), "Newmark's one-step family ");
-  EXPECT_EQ(entries()[0].parameters[0].standard, "0.25");
-  EXPECT_EQ(entries()[6].parameters[0].standard, "1e4 k1");
+  EXPECT_EQ(entries()[0].parameters[0].default_value, "0.25");
+  EXPECT_EQ(entries()[6].parameters[0].default_value, "1e4 k1");
 }
 
 TEST(Registry, PairsAndPanelAreMethods) {

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "clackers/methods/contact/event_driven_walk.hpp"
+#include "clackers/methods/contact/event_driven_loop.hpp"
 #include "clackers/methods/contact/penalty.hpp"
 #include "clackers/methods/contact/reversal.hpp"
 #include "clackers/methods/pair.hpp"

@@ -12,9 +12,9 @@
 
 namespace clackers::methods {
 
-/// A run of a scheme with its number of degrees of freedom known to the compiler. `Walk` is the
+/// A run of a scheme with its number of degrees of freedom known to the compiler. `TimeLoop` is the
 /// scheme's step loop: advance(Recorder&) and work().
-template <class Walk, int Dof>
+template <class TimeLoop, int Dof>
 class SchemeRun final : public model::Run {
  public:
   template <class Scheme>
@@ -33,12 +33,12 @@ class SchemeRun final : public model::Run {
 
  private:
   Recorder<Dof> recorder_;
-  Walk walk_;
+  TimeLoop walk_;
   std::string name_;
 };
 
 /// Makes a Method of a scheme: a value with facts(), objection(problem), contact_time(problem) and
-/// the template Walk<Dof>. Everything that does not depend on the number of degrees of freedom
+/// the template TimeLoop<Dof>. Everything that does not depend on the number of degrees of freedom
 /// happens here once.
 template <class Scheme>
 class SchemeMethod final : public Method {
@@ -73,8 +73,8 @@ class SchemeMethod final : public Method {
   template <int Dof>
   std::unique_ptr<model::Run> run(const model::ImpactProblem<>& problem,
                                   const StepPlan& plan) const {
-    using Walk = typename Scheme::template Walk<Dof>;
-    return std::make_unique<SchemeRun<Walk, Dof>>(scheme_, problem, plan);
+    using TimeLoop = typename Scheme::template TimeLoop<Dof>;
+    return std::make_unique<SchemeRun<TimeLoop, Dof>>(scheme_, problem, plan);
   }
 
   Scheme scheme_;

@@ -68,7 +68,7 @@ void require_contact(const Contact<>& contact, std::size_t number, Index dof,
         "out-of-range");
   require_finite(who, "gap", contact.gap);
   require_within(who, "restitution", contact.restitution, 0.0, 1.0);
-  const double g = contact.opening(start.u), rate = contact.opening_rate(start.v);
+  const double g = contact.gap_at(start.u), rate = contact.gap_rate(start.v);
   if (g < 0.0 || (g == 0.0 && rate < 0.0))
     throw InputError(
         fmt::format(

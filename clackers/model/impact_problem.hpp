@@ -15,9 +15,9 @@ struct Contact {
   double restitution = 1.0;  ///< eta in [0, 1]; 1 is elastic
 
   /// g [m]: open where positive.
-  double opening(const Vector<Dof>& u) const { return direction.dot(u) - gap; }
+  double gap_at(const Vector<Dof>& u) const { return direction.dot(u) - gap; }
   /// dg/dt [m/s]: closing where negative.
-  double opening_rate(const Vector<Dof>& v) const { return direction.dot(v); }
+  double gap_rate(const Vector<Dof>& v) const { return direction.dot(v); }
 };
 
 /// All that a method sees of a task: a structure, where it may collide, how it starts, and when

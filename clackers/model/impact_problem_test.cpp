@@ -137,8 +137,8 @@ TEST(ImpactProblem, KeepsANonlinearForceGeneral) {
 
 TEST(Contact, OpensAlongItsRow) {
   const auto contact = sound().contacts[0];
-  EXPECT_EQ(contact.opening(Eigen::Vector2d(3.0, 1.0)), 1.75);
-  EXPECT_EQ(contact.opening_rate(Eigen::Vector2d(3.0, 1.0)), 2.0);
+  EXPECT_EQ(contact.gap_at(Eigen::Vector2d(3.0, 1.0)), 1.75);
+  EXPECT_EQ(contact.gap_rate(Eigen::Vector2d(3.0, 1.0)), 2.0);
 }
 
 }  // namespace

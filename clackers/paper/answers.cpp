@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "clackers/cases/admissibility.hpp"
-#include "clackers/exact/indicators.hpp"
+#include "clackers/exact/quantities/indicators.hpp"
 
 namespace clackers::paper {
 namespace {

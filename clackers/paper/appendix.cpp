@@ -33,7 +33,7 @@ Minimum least_relative(double X) {
 }
 
 // The curvature of the ratio is below r = 3 times (1 + small): a scan by 1e-3 is at most 3/2 (5e-4)^2
-// above the minimum; 1e-6 leaves room for rounding.
+// above the minimum; 1e-6 leaves module for rounding.
 constexpr double scan_error = 1e-6;
 
 Claim positive(int N) {

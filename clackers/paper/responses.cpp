@@ -19,7 +19,7 @@ constexpr double step = 0.001;  // [s]
 double plain_precision(double X, double end) { return 0x1p-52 * (X * end + 4.0); }
 
 // rk4 at 0.001 s of a motion that is 20 s long: X h = 0.005 to the fourth power, times X t / 120, is
-// 5e-10 for X = 5; 1e-8 leaves room for what the impacts add.
+// 5e-10 for X = 5; 1e-8 leaves module for what the impacts add.
 constexpr double most_integration_error = 1e-8;
 
 Claim integrated(const std::string& says, const std::string& name,

@@ -112,7 +112,7 @@ class PanelView {
         lines_(figure, Kind::line),
         points_(figure, Kind::points),
         drawing_(figure.drawing) {
-    // Room for labels such as "1.36".
+    // Module for labels such as "1.36".
     if (!drawing_ && !panel.x.logarithmic)
       x_["axis"]["tickCount"] = std::floor(figure.width / 50.0);
   }

@@ -6,7 +6,7 @@
 #include <complex>
 #include <numbers>
 
-#include "clackers/exact/spectrum.hpp"
+#include "clackers/exact/quantities/spectrum.hpp"
 #include "clackers/paper/catalogue.hpp"
 #include "clackers/paper/curves.hpp"
 #include "clackers/paper/measure.hpp"

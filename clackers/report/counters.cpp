@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "clackers/assess/work_precision.hpp"
+#include "clackers/assess/cost/work_precision.hpp"
 
 namespace clackers::report {
 namespace {

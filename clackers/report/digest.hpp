@@ -27,7 +27,7 @@ std::string typed_name(const study::MethodResult& method);
 /// "2.00 ±0.01", or an empty text where there is no line.
 std::string order_text(const assess::LadderFit& fit, std::string_view between = " ");
 
-/// "proper, order 2", "stagnating [contact-stiffness]"; without the code where there is no room.
+/// "proper, order 2", "stagnating [contact-stiffness]"; without the code where there is no module.
 std::string claim_text(const Claim& claim, bool with_code = true);
 
 /// The word of the verdict column: the verdict, "refused" or "interrupted".
@@ -46,7 +46,7 @@ struct Closing {
   std::string word;      ///< "agrees", "disagrees", "undecided", "not claimed" or "interrupted"
   std::string sentence;  ///< how many methods got which verdict
   std::string next;      ///< the command to type next
-  std::string next_in_words;  ///< the same where there is no room for a long command
+  std::string next_in_words;  ///< the same where there is no module for a long command
 };
 Closing closing(const study::Record& record);
 

@@ -44,10 +44,11 @@ TEST(Html, ExtrapolatesWithABoundOrTellsWhyNot) {
   auto page = html(record);
   EXPECT_NE(
       page.find("at the end = 0.25, −0.125, within 1.5\u202f×\u202f10<sup>−7</sup> of the limit "
-                "of the runs; in truth 3.5\u202f×\u202f10<sup>−9</sup> off</dd>"),
+                "of the runs; in reference 3.5\u202f×\u202f10<sup>−9</sup> off</dd>"),
       std::string::npos);
   EXPECT_NE(
-      page.find("in truth 3.1\u202f×\u202f10<sup>−3</sup> off: the limit is not the true motion"),
+      page.find(
+          "in reference 3.1\u202f×\u202f10<sup>−3</sup> off: the limit is not the true motion"),
       std::string::npos);
   auto& found = record.methods[0].self_convergence->extrapolation;
   found.bounded = false;

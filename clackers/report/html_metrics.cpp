@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/report/html_parts.hpp"
 #include "clackers/report/markup.hpp"
 #include "clackers/study/cause_metrics.hpp"

@@ -32,14 +32,14 @@ std::string extrapolation(const study::SelfResult& result) {
   for (const double value : found.value)
     values += (values.empty() ? "" : ", ") + html_number(value, 10);
   return fmt::format(
-      "u / initial envelope at the end = {}, within {} of the limit of the runs; in truth {} off{}",
+      "u / initial envelope at the end = {}, within {} of the limit of the runs; in reference {} off{}",
       values, html_scientific(found.bound), html_scientific(result.extrapolation_error),
       result.extrapolation_error > found.bound ? ": the limit is not the true motion" : "");
 }
 
-// What is found with and without the truth; where it ends with a warning, that stands above.
+// What is found with and without the reference; where it ends with a warning, that stands above.
 std::string findings(const study::MethodResult& method) {
-  const auto& whole = method.self_convergence->against_truth.sentence;
+  const auto& whole = method.self_convergence->against_reference.sentence;
   const auto said = lie(method);
   if (!said || !whole.ends_with(said->sentence)) return whole;
   return whole.substr(0, whole.size() - said->sentence.size());
@@ -67,7 +67,7 @@ std::string self_html(const study::MethodResult& method) {
               fmt::format("{}; held to {}", order_cell(result.self.differences),
                           html_number(result.order, 3)));
   out += fact("Order of the same runs' errors", order_cell(result.errors));
-  const double ratio = result.against_truth.error_ratio;
+  const double ratio = result.against_reference.error_ratio;
   if (!std::isnan(ratio))
     out += fact("Error over its estimate", html_number(ratio, 3) + " at the finest pair of runs");
   out += fact("Extrapolated", extrapolation(result));

@@ -127,7 +127,7 @@ TEST(Html, LetsNoTextOfTheRecordBecomeMarkup) {
     method.assessment.displacement.reason = evil;
     method.claim.reason = evil;
     method.self_convergence.emplace();
-    method.self_convergence->against_truth = {true, evil, 0.0, evil};
+    method.self_convergence->against_reference = {true, evil, 0.0, evil};
     method.self_convergence->extrapolation.reason = evil;
     method.self_convergence->extrapolation.sentence = evil;
     for (auto& metric : method.metrics) metric = {evil, evil, 1.0, {}, evil, true};

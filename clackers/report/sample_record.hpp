@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/study/record.hpp"
 
 namespace clackers::report {
@@ -88,13 +88,13 @@ inline study::SelfResult sample_self(const SampleMethod& method) {
   result.self.estimate = 1.5e-7;
   result.self.sentence = "The runs converge properly.";
   result.errors = seen;
-  result.against_truth = {false, "", 1.02, "Without the true motion: proper. With it: proper."};
+  result.against_reference = {false, "", 1.02, "Without the true motion: proper. With it: proper."};
   result.extrapolation = {true, "", "Extrapolated.", {0.25, -0.125}, 1.5e-7, {}, 7};
   result.extrapolation_error = 3.5e-9;
   if (method.behaviour != Behaviour::stagnating) return result;
   result.errors = {};
   result.errors.behaviour = Behaviour::stagnating;
-  result.against_truth = {
+  result.against_reference = {
       true, "wrong-limit", 2.1e4,
       "Without the true motion: proper. With it: a floor. Self-convergence would "
       "have lied: the runs converge to a limit 0.0031 away from the true motion."};

@@ -49,7 +49,7 @@ TEST(VerdictTable, SaysWhereSelfConvergenceWouldHaveLied) {
                 " limit\n0.0031 away from the true motion. [wrong-limit]\n"),
       std::string::npos)
       << text;
-  auto& both = record.methods[5].self_convergence->against_truth;
+  auto& both = record.methods[5].self_convergence->against_reference;
   both.reason.clear();
   EXPECT_NE(table(record).find("0.0031 away from the true motion.\n"), std::string::npos);
   both.sentence = "Told in another way.";

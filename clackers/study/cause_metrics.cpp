@@ -15,7 +15,7 @@
 #include "clackers/assess/metrics/synchrony.hpp"
 #include "clackers/assess/metrics/value.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/penalised_motion.hpp"
+#include "clackers/exact/penalized/penalized_motion.hpp"
 
 namespace clackers::study {
 namespace {
@@ -41,11 +41,11 @@ constexpr auto table = std::to_array<CauseMetric>({
      "saltation matrices of the pair"},
     {"penalty-model-u", "1",
      "max |u of the exact motion with the run's contact spring - u*| / U: no step makes it smaller",
-     "common; the exact penalised motion is ours"},
+     "common; the exact penalized motion is ours"},
     {"penalty-integration-u", "1",
      "max |u - u of the exact motion with the run's contact spring| / U: what the step is to blame "
      "for",
-     "common; the exact penalised motion is ours"},
+     "common; the exact penalized motion is ours"},
     {"penalty-model-v", "1", "the same for v, integral over time / length / V", "common"},
     {"penalty-integration-v", "1", "the same for v, integral over time / length / V", "common"},
 });
@@ -72,7 +72,7 @@ Synchrony synchrony(const assess::Comparison& comparison, double rate) {
   const auto loss = assess::synchrony_loss(comparison);
   Synchrony out;
   if (loss.collisions == 0)
-    out.lost = not_measured("The history or the truth has no collisions.");
+    out.lost = not_measured("The history or the reference has no collisions.");
   else if (!loss.lost)
     out.lost =
         not_measured(fmt::format("Synchrony is kept over all {} collisions.", loss.collisions));
@@ -113,8 +113,8 @@ assess::PenaltySplit split(const assess::Comparison& comparison, double contact_
   if (!(contact_time > 0.0) || problem.contacts.size() != 1)
     return none("No contact spring of the run is known.");
   try {
-    const exact::PenalisedMotion penalised(problem, stiffness_of(problem, contact_time));
-    return assess::penalty_split(comparison, penalised);
+    const exact::PenalizedMotion penalized(problem, stiffness_of(problem, contact_time));
+    return assess::penalty_split(comparison, penalized);
   } catch (const InputError& error) {
     return none(error.what());
   }

@@ -4,13 +4,13 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/assess/comparison.hpp"
+#include "clackers/assess/errors/comparison.hpp"
 #include "clackers/study/metric_result.hpp"
 #include "clackers/study/record.hpp"
 
 namespace clackers::study {
 
-/// A number that tells why a run errs. Unlike assess::Metric it needs more than history and truth.
+/// A number that tells why a run errs. Unlike assess::Metric it needs more than history and reference.
 struct CauseMetric {
   std::string_view name, unit, definition, source;
 };

@@ -85,7 +85,7 @@ TEST(CauseMetrics, SeparateTheErrorOfASpringFromThatOfTheStep) {
             "No contact spring of the run is known.");
 }
 
-TEST(CauseMetrics, TellWhyThePenalisedMotionIsNotKnown) {
+TEST(CauseMetrics, TellWhyThePenalizedMotionIsNotKnown) {
   const auto which = cases::make("three-parameter", {});
   auto problem = which.problem;
   problem.contacts[0].restitution = 0.5;

@@ -34,7 +34,7 @@ struct CheckRequest {
 /// Verdict: with `expect` that of assess::judge, `undecided` where printed digits hide the errors;
 /// with `tolerance` whether the finest history's u_error is within it, `undecided` where the printed
 /// digits do not tell; the worse of both. Without either `not claimed`, unless the finest history
-/// misses a collision, has one too many, or begins far from the truth: that `disagrees`.
+/// misses a collision, has one too many, or begins far from the reference: that `disagrees`.
 ///
 /// Throws InputError for what read_history refuses, a history that starts from another state than
 /// the case (not-this-case), and options that do not fit the files; FileError for files that cannot

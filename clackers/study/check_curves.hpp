@@ -1,6 +1,6 @@
 #pragma once
 
-#include "clackers/assess/comparison.hpp"
+#include "clackers/assess/errors/comparison.hpp"
 #include "clackers/study/record.hpp"
 
 namespace clackers::study {

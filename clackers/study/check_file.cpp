@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "clackers/assess/comparison.hpp"
+#include "clackers/assess/errors/comparison.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exchange/events.hpp"
 #include "clackers/exchange/history.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "clackers/assess/assessment.hpp"
-#include "clackers/assess/score.hpp"
+#include "clackers/assess/convergence/assessment.hpp"
+#include "clackers/assess/errors/score.hpp"
 #include "clackers/base/judgement.hpp"
 #include "clackers/study/metric_result.hpp"
 #include "clackers/study/record.hpp"
@@ -29,7 +29,7 @@ enum class CollisionSource { events, history, unknown };
 std::string_view to_string(StepSource source);       ///< "data", "name", "option"
 std::string_view to_string(CollisionSource source);  ///< "events", "history", "unknown"
 
-/// One history against the truth.
+/// One history against the reference.
 struct CheckedFile {
   std::string file;
   long long rows = 0;              ///< judged
@@ -45,7 +45,7 @@ struct CheckedFile {
   double unseen_bend = 0.0;
   bool has_velocities = false;
   std::vector<bool> has_u;  ///< one entry a mass
-  /// Largest distance of the first row from the truth, relative to envelopes of u and v; a row at
+  /// Largest distance of the first row from the reference, relative to envelopes of u and v; a row at
   /// the start is the initial state.
   double start_error = 0.0;
   CollisionSource collisions = CollisionSource::unknown;

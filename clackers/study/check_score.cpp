@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/assess/error_sink.hpp"
+#include "clackers/assess/errors/error_sink.hpp"
 
 namespace clackers::study {
 namespace {
@@ -20,13 +20,13 @@ bool all_finite(const std::vector<double>& values, std::size_t size) {
 class Feeder {
  public:
   Feeder(const model::Trajectory& history, const std::vector<bool>& has_u,
-         const model::Motion& truth, assess::ErrorSink& sink)
+         const model::Motion& reference, assess::ErrorSink& sink)
       : h_(history),
         has_u_(has_u),
         whole_(!history.v.empty() && std::ranges::find(has_u, false) == has_u.end()),
         dof_(std::size_t(history.dof)),
-        truth_(truth),
-        envelope_(truth.envelope(0.0).u),
+        reference_(reference),
+        envelope_(reference.envelope(0.0).u),
         sink_(sink) {}
 
   void run() {
@@ -81,7 +81,7 @@ class Feeder {
         model::ReportedImpact{h_.t[i], 0, row(h_.u, i), row(h_.v, i), row(h_.v, i + 1), unknown});
     const bool at_an_end = i == 0 || i + 2 == h_.t.size();
     if (at_an_end) return i + 1;
-    const auto now = truth_.at(std::min(h_.t[i], truth_.end()), model::Side::right);
+    const auto now = reference_.at(std::min(h_.t[i], reference_.end()), model::Side::right);
     for (const std::size_t k : {i, i + 1})
       for (std::size_t j = 0; j < dof_; ++j) {
         if (!has_u_[j]) continue;
@@ -112,20 +112,20 @@ class Feeder {
     }
   }
 
-  // The truth stands in for what is not known, so that it adds no error.
+  // The reference stands in for what is not known, so that it adds no error.
   void fill(std::span<const double> t) {
     u_.resize(t.size() * dof_);
     v_.resize(t.size() * dof_);
     times_.assign(t.begin(), t.end());
-    for (double& time : times_) time = std::min(time, truth_.end());
-    truth_.sample(times_, model::Side::right, {u_, v_, {}});
+    for (double& time : times_) time = std::min(time, reference_.end());
+    reference_.sample(times_, model::Side::right, {u_, v_, {}});
   }
 
   const model::Trajectory& h_;
   const std::vector<bool>& has_u_;
   bool whole_;
   std::size_t dof_;
-  const model::Motion& truth_;
+  const model::Motion& reference_;
   Eigen::VectorXd envelope_;
   double u_absolute_ = 0.0, u_relative_ = 0.0;
   assess::ErrorSink& sink_;
@@ -135,10 +135,10 @@ class Feeder {
 }  // namespace
 
 assess::RunScore score_history(const model::Trajectory& history, const std::vector<bool>& has_u,
-                               double step, const model::Motion& truth,
+                               double step, const model::Motion& reference,
                                const model::ImpactProblem<>& problem) {
-  assess::ErrorSink sink(truth, problem, step, {.impacts_are_reported = false});
-  Feeder feeder(history, has_u, truth, sink);
+  assess::ErrorSink sink(reference, problem, step, {.impacts_are_reported = false});
+  Feeder feeder(history, has_u, reference, sink);
   feeder.run();
   auto score = sink.score({});
   score.u_error = std::max(score.u_error, feeder.u_relative());

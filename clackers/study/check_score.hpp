@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "clackers/assess/score.hpp"
+#include "clackers/assess/errors/score.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
 #include "clackers/model/trajectory.hpp"
@@ -14,7 +14,7 @@ namespace clackers::study {
 /// velocities, leave no trace in the errors of the others; what needs them is NaN. Impacts are not
 /// matched. `step` [s] is the level's.
 assess::RunScore score_history(const model::Trajectory& history, const std::vector<bool>& has_u,
-                               double step, const model::Motion& truth,
+                               double step, const model::Motion& reference,
                                const model::ImpactProblem<>& problem);
 
 }  // namespace clackers::study

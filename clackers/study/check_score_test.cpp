@@ -38,7 +38,7 @@ assess::RunScore score(const model::Trajectory& h, const cases::Case& which,
   return score_history(h, has_u, 0.01, *which.motion, which.problem);
 }
 
-TEST(CheckScore, OfTheTruthIsRounding) {
+TEST(CheckScore, OfTheReferenceIsRounding) {
   const auto which = pair();
   const auto found = score(exact_history(which, 0.01, true), which);
   // The sixth collision's time is off by half of 3.6e-15 s, and mass 2 moves nine envelopes a second.

@@ -28,11 +28,11 @@ void add(std::vector<Difference>& all, const char* letter, const std::vector<dou
 
 std::vector<Difference> differences(const FirstRow& row, const cases::Case& which) {
   const auto& motion = *which.motion;
-  const auto truth = motion.at(std::clamp(row.t, 0.0, motion.end()), model::Side::right);
+  const auto reference = motion.at(std::clamp(row.t, 0.0, motion.end()), model::Side::right);
   const auto envelope = motion.envelope(0.0);
   std::vector<Difference> all;
-  add(all, "u", row.u, truth.u, envelope.u);
-  add(all, "v", row.v, truth.v, envelope.v);
+  add(all, "u", row.u, reference.u, envelope.u);
+  add(all, "v", row.v, reference.v, envelope.v);
   return all;
 }
 

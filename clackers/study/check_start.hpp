@@ -13,7 +13,7 @@ struct FirstRow {
   std::vector<double> u, v;  ///< one entry a mass
 };
 
-/// Largest distance of the row from the truth at its time, relative to the initial envelopes of u
+/// Largest distance of the row from the reference at its time, relative to the initial envelopes of u
 /// and v.
 double start_error(const FirstRow& row, const cases::Case& which);
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/error_ladder.hpp"
-#include "clackers/assess/judge.hpp"
-#include "clackers/assess/sentence.hpp"
+#include "clackers/assess/convergence/error_ladder.hpp"
+#include "clackers/assess/convergence/judge.hpp"
+#include "clackers/assess/convergence/sentence.hpp"
 #include "clackers/base/codes.hpp"
 
 namespace clackers::study {

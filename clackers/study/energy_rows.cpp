@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "clackers/exact/energy.hpp"
+#include "clackers/exact/quantities/energy.hpp"
 #include "clackers/study/timed_rows.hpp"
 
 namespace clackers::study {

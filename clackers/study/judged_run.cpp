@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "clackers/assess/comparison.hpp"
-#include "clackers/assess/error_sink.hpp"
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/assess/errors/error_sink.hpp"
 #include "clackers/model/trajectory.hpp"
 #include "clackers/study/cause_metrics.hpp"
 #include "clackers/study/processor_time.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/study/cause_metrics.hpp"
 #include "clackers/study/processor_time.hpp"
 #include "clackers/study/toy_motion.hpp"
@@ -115,7 +115,7 @@ TEST_F(JudgedRuns, AreMeasuredByAllMetricsWhereThatIsAskedFor) {
   const auto of_history = assess::metrics().size();
   ASSERT_EQ(result->metrics.size(), of_history + cause_metrics().size());
   EXPECT_EQ(result->metrics[0].name, "u-max");
-  EXPECT_EQ(result->metrics[0].value, 1.0);  // 3 m where the truth is at 4 m
+  EXPECT_EQ(result->metrics[0].value, 1.0);  // 3 m where the reference is at 4 m
   EXPECT_EQ(result->metrics[0].masses, (std::vector<double>{1.0}));
   EXPECT_EQ(result->metrics[0].unit, "m");
   for (std::size_t i = 0; i < result->metrics.size(); ++i) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <functional>
 
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/base/codes.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/methods/registry.hpp"
@@ -21,7 +21,7 @@ template <class Parameters>
 std::string with_defaults(const Parameters& parameters) {
   std::string text;
   for (const auto& p : parameters)
-    text += fmt::format("{}{}={}", text.empty() ? "" : " ", p.name, p.standard);
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", p.name, p.default_value);
   return text;
 }
 
@@ -52,7 +52,7 @@ Sheet list_entries(std::string_view title, std::string_view schema, std::string_
   return sheet;
 }
 
-// All that a spelling can begin with or name behind its "+".
+// All that a specification can begin with or name behind its "+".
 Sheet list_methods() {
   Sheet sheet{
       "clackers/methods/1",
@@ -77,11 +77,12 @@ Sheet list_pairs() {
                {"claim", "", "behaviour through impacts"},
                {"order", "", "order through impacts, of the upper envelope when irregular"}},
               {}};
-  for (const auto& spelling : methods::pairs()) {
-    const auto facts = methods::method(spelling)->facts();
+  for (const auto& specification : methods::pairs()) {
+    const auto facts = methods::method(specification)->facts();
     const auto& claim = facts.through_impacts;
     const bool has_order = claim.order > 0.0;
-    sheet.rows.push_back({spelling, facts.smooth_order, std::string(to_string(claim.behaviour)),
+    sheet.rows.push_back({specification, facts.smooth_order,
+                          std::string(to_string(claim.behaviour)),
                           has_order ? Cell{claim.order} : Cell{}});
   }
   return sheet;
@@ -165,7 +166,7 @@ Sheet explain(std::string_view code) {
                {"meaning", "", "what happened and what to do about it"}},
               {}};
   std::vector<std::string> known;
-  for (const auto& entry : code_table) {
+  for (const auto& entry : code_table()) {
     known.emplace_back(entry.name);
     if (code.empty() || code == entry.name)
       sheet.rows.push_back(

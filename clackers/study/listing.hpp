@@ -23,7 +23,7 @@ std::vector<Sheet> show_case(std::string_view name, const cases::Settings& setti
 
 /// What `clackers show NAME` shows of a method: its claim, parameters and card. The card is a
 /// sheet of one text column.
-std::vector<Sheet> show_method(std::string_view spelling);
+std::vector<Sheet> show_method(std::string_view specification);
 
 /// What `clackers explain [CODE]` shows; an empty code lists all.
 Sheet explain(std::string_view code);

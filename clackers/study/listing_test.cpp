@@ -93,8 +93,8 @@ TEST(Listing, RefusesUnknownKindsWithASuggestion) {
 
 TEST(Explain, TellsOneCodeOrAll) {
   const auto all = explain("");
-  EXPECT_EQ(all.rows.size(), code_table.size());
-  for (const auto& entry : code_table) {
+  EXPECT_EQ(all.rows.size(), code_table().size());
+  for (const auto& entry : code_table()) {
     const auto one = explain(entry.name);
     ASSERT_EQ(one.rows.size(), 1u) << entry.name;
     EXPECT_EQ(one.rows[0][0], Cell{std::string(entry.name)});
@@ -164,7 +164,8 @@ TEST(ShowMethod, ShowsEverythingRegistered) {
     });
     EXPECT_TRUE(found) << entry.name << card.title;
   }
-  for (const auto& spelling : methods::pairs()) EXPECT_FALSE(show_method(spelling).empty());
+  for (const auto& specification : methods::pairs())
+    EXPECT_FALSE(show_method(specification).empty());
 }
 
 TEST(ShowMethod, RefusesUnknownNames) {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "clackers/assess/comparison.hpp"
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::study {
 

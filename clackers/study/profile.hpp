@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/assess/performance_profile.hpp"
-#include "clackers/assess/work_precision.hpp"
+#include "clackers/assess/cost/performance_profile.hpp"
+#include "clackers/assess/cost/work_precision.hpp"
 
 namespace clackers::study {
 

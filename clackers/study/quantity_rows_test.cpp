@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/energy.hpp"
-#include "clackers/exact/sensitivity.hpp"
-#include "clackers/exact/spectrum.hpp"
+#include "clackers/exact/quantities/energy.hpp"
+#include "clackers/exact/quantities/sensitivity.hpp"
+#include "clackers/exact/quantities/spectrum.hpp"
 #include "clackers/study/respond.hpp"
 #include "clackers/study/show_sheets.hpp"
 #include "clackers/study/timed_rows.hpp"

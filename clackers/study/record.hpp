@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "clackers/assess/assessment.hpp"
-#include "clackers/assess/score.hpp"
+#include "clackers/assess/convergence/assessment.hpp"
+#include "clackers/assess/errors/score.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/study/metric_result.hpp"
 #include "clackers/study/profile.hpp"

@@ -171,7 +171,7 @@ void fields(Archive& archive, Like<assess::SelfConvergence> auto& x) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::SelfAgainstTruth> auto& x) {
+void fields(Archive& archive, Like<assess::SelfAgainstReference> auto& x) {
   auto& [would_have_lied, reason, error_ratio, sentence] = x;
   archive("would_have_lied", would_have_lied);
   archive("reason", reason);
@@ -193,11 +193,11 @@ void fields(Archive& archive, Like<assess::Richardson> auto& x) {
 
 template <class Archive>
 void fields(Archive& archive, Like<SelfResult> auto& x) {
-  auto& [order, self, errors, against_truth, extrapolation, extrapolation_error] = x;
+  auto& [order, self, errors, against_reference, extrapolation, extrapolation_error] = x;
   archive("order", order);
-  archive("without_truth", self);
+  archive("without_reference", self);
   archive("errors", errors);
-  archive("against_truth", against_truth);
+  archive("against_reference", against_reference);
   archive("extrapolation", extrapolation);
   archive("extrapolation_error", extrapolation_error);
 }

@@ -81,9 +81,9 @@ TEST(RecordJson, RefusesWhatIsNoRecordAndSaysWhere) {
             "not-a-record: record: schema \"clackers/verify/2\" at /schema" + hint);
   EXPECT_EQ(changed("/methods/0/ladder/1/runs/0/u_error", "big"),
             "not-a-record: record: no number at /methods/0/ladder/1/runs/0/u_error" + hint);
-  EXPECT_EQ(changed("/methods/0/self_convergence/without_truth/proper", "yes"),
+  EXPECT_EQ(changed("/methods/0/self_convergence/without_reference/proper", "yes"),
             "not-a-record: record: neither true nor false at "
-            "/methods/0/self_convergence/without_truth/proper" +
+            "/methods/0/self_convergence/without_reference/proper" +
                 hint);
   EXPECT_EQ(changed("/methods/0/metrics/1/value", "much"),
             "not-a-record: record: no number at /methods/0/metrics/1/value" + hint);

@@ -59,7 +59,7 @@ inline Record sample_record() {
   without.order = 1.5;
   without.self = {second, true, 0.1234, "alone"};
   without.errors = third;
-  without.against_truth = {true, "wrong-limit", 7.25, "both"};
+  without.against_reference = {true, "wrong-limit", 7.25, "both"};
   without.extrapolation = {true, "differences-turn", "so far", {0.3, -tiny}, 1e-9, 2e-10, 6};
   without.extrapolation_error = 3e-9;
   method.metrics = {{"u-max", "m", 0.1 + 0.7, {tiny, huge}, "", true},

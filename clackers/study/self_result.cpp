@@ -15,7 +15,7 @@ SelfResult self_result(std::vector<assess::ResponseLevel> runs, std::span<const 
   std::erase_if(runs, [&](const auto& level) { return level.size() < whole; });
   result.self = assess::self_convergence(runs, context);
   result.errors = assess::true_convergence(runs, exact, context);
-  result.against_truth = assess::compare(result.self, result.errors);
+  result.against_reference = assess::compare(result.self, result.errors);
   std::vector<assess::Response> first;
   for (const auto& level : runs)
     if (!level.empty()) first.push_back(level.front());

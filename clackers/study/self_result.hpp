@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "clackers/assess/richardson.hpp"
-#include "clackers/assess/self_convergence.hpp"
+#include "clackers/assess/convergence/richardson.hpp"
+#include "clackers/assess/convergence/self_convergence.hpp"
 
 namespace clackers::study {
 
@@ -16,7 +16,7 @@ struct SelfResult {
   double order = 0.0;            ///< q that the differences are held to
   assess::SelfConvergence self;  ///< by differences between runs at successive steps
   assess::LadderFit errors;      ///< of the same values against the true ones
-  assess::SelfAgainstTruth against_truth;
+  assess::SelfAgainstReference against_reference;
   /// From the first run of each level.
   assess::Richardson extrapolation;
   /// Largest distance of the extrapolated values from the true ones; NaN where there is no bound.

@@ -26,15 +26,15 @@ std::vector<assess::ResponseLevel> runs_of(const Value& value) {
 constexpr double exact = 0.25;
 const assess::SelfContext second_order{.claimed_order = 2.0};
 
-TEST(SelfResult, TellsTheTruthOfRunsThatConvergeToTheTrueMotion) {
+TEST(SelfResult, TellsTheReferenceOfRunsThatConvergeToTheTrueMotion) {
   const auto result = self_result(runs_of([](double h) { return exact + 3.0 * h * h; }),
                                   Values{exact}, second_order);
   EXPECT_EQ(result.order, 2.0);
   EXPECT_TRUE(result.self.proper);
-  EXPECT_FALSE(result.against_truth.would_have_lied);
+  EXPECT_FALSE(result.against_reference.would_have_lied);
   EXPECT_EQ(result.errors.behaviour, Behaviour::proper);
   // The pseudo error of C h^2 is the error of the finer run.
-  EXPECT_NEAR(result.against_truth.error_ratio, 1.0, 1e-6);
+  EXPECT_NEAR(result.against_reference.error_ratio, 1.0, 1e-6);
   ASSERT_TRUE(result.extrapolation.bounded);
   EXPECT_EQ(result.extrapolation.level, 5);
   // Six digits of h^2 at h = 0.1 / 32, of which the extrapolation leaves rounding alone.
@@ -44,7 +44,7 @@ TEST(SelfResult, TellsTheTruthOfRunsThatConvergeToTheTrueMotion) {
 TEST(SelfResult, NamesALimitThatIsNotTheTrueMotion) {
   const auto result = self_result(runs_of([](double h) { return exact + 0.05 + 3.0 * h * h; }),
                                   Values{exact}, second_order);
-  EXPECT_TRUE(result.against_truth.would_have_lied);
+  EXPECT_TRUE(result.against_reference.would_have_lied);
   ASSERT_TRUE(result.extrapolation.bounded);
   EXPECT_NEAR(result.extrapolation_error, 0.05, 1e-12);
   EXPECT_GT(result.extrapolation_error, 1e3 * result.extrapolation.bound);

@@ -6,7 +6,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
-#include "clackers/exact/sensitivity.hpp"
+#include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/study/timed_rows.hpp"
 
 namespace clackers::study {

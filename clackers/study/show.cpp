@@ -87,7 +87,7 @@ void add_entry(std::vector<Sheet>& sheets, const methods::Entry& entry) {
                     {"meaning", "", "with its unit"}},
                    {}};
   for (const auto& p : entry.parameters)
-    parameters.rows.push_back({p.name, p.standard, p.allowed, p.meaning});
+    parameters.rows.push_back({p.name, p.default_value, p.allowed, p.meaning});
   if (!parameters.rows.empty()) sheets.push_back(std::move(parameters));
   sheets.push_back({"clackers/card/1",
                     fmt::format("{} ({}): {}", entry.name, entry.kind, entry.summary),
@@ -95,7 +95,7 @@ void add_entry(std::vector<Sheet>& sheets, const methods::Entry& entry) {
                     {{entry.card}}});
 }
 
-// The registered names of which a spelling is made: "newmark:beta=0+penalty" has two.
+// The registered names of which a specification is made: "newmark:beta=0+penalty" has two.
 std::vector<std::string> parts(std::string_view full_name) {
   std::vector<std::string> names;
   for (const auto& entry : methods::entries()) {
@@ -130,9 +130,9 @@ std::vector<Sheet> show_case(std::string_view name, const cases::Settings& setti
   return sheets;
 }
 
-std::vector<Sheet> show_method(std::string_view spelling) {
+std::vector<Sheet> show_method(std::string_view specification) {
   const auto is_contact = [&](const methods::Entry& entry) {
-    return entry.kind == "contact" && entry.name == spelling;
+    return entry.kind == "contact" && entry.name == specification;
   };
   std::vector<Sheet> sheets;
   // A contact treatment alone is no method, yet it has a card to show.
@@ -140,7 +140,7 @@ std::vector<Sheet> show_method(std::string_view spelling) {
     add_entry(sheets, *std::ranges::find_if(entries, is_contact));
     return sheets;
   }
-  const auto facts = methods::method(spelling)->facts();
+  const auto facts = methods::method(specification)->facts();
   sheets.push_back(claim_sheet(facts));
   for (const auto& name : parts(facts.name)) {
     const auto entries = methods::entries();

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "clackers/exact/conditioning.hpp"
-#include "clackers/exact/exact_data_pair.hpp"
-#include "clackers/exact/harmonics.hpp"
-#include "clackers/exact/indicators.hpp"
-#include "clackers/exact/synchronized_pair.hpp"
+#include "clackers/exact/pair/exact_data_pair.hpp"
+#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/quantities/conditioning.hpp"
+#include "clackers/exact/quantities/harmonics.hpp"
+#include "clackers/exact/quantities/indicators.hpp"
 
 namespace clackers::study {
 namespace {

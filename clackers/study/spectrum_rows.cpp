@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/spectrum.hpp"
+#include "clackers/exact/quantities/spectrum.hpp"
 #include "clackers/study/timed_rows.hpp"
 
 namespace clackers::study {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/exact/closed_form.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/study/impact_finder.hpp"
 #include "clackers/study/respond.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "clackers/assess/judge.hpp"
+#include "clackers/assess/convergence/judge.hpp"
 #include "clackers/study/judged_run.hpp"
 #include "clackers/study/progress_meter.hpp"
 #include "clackers/study/provenance.hpp"
@@ -114,7 +114,7 @@ std::vector<double> true_end(const model::Motion& motion) {
 }
 
 // Without a claim through impacts a user expects the order of smooth motion.
-void judge_without_truth(PlannedMethod& planned, std::span<const double> exact) {
+void judge_without_reference(PlannedMethod& planned, std::span<const double> exact) {
   auto& result = planned.result;
   const double order =
       result.claim.order > 0.0 ? result.claim.order : planned.method->facts().smooth_order;
@@ -142,7 +142,7 @@ Record verify(const VerifyRequest& request, const Progress& progress,
   const auto exact = true_end(*plan.problem.motion);
   for (auto& planned : plan.methods) {
     assess_result(planned.result);
-    judge_without_truth(planned, exact);
+    judge_without_reference(planned, exact);
     record.interrupted = record.interrupted || !planned.result.complete;
     record.methods.push_back(std::move(planned.result));
   }

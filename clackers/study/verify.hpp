@@ -12,7 +12,7 @@ namespace clackers::study {
 
 /// What `clackers verify` is asked for.
 struct VerifyRequest {
-  std::vector<std::string> methods;  ///< spellings; empty: the default panel
+  std::vector<std::string> methods;  ///< specifications; empty: the default panel
   std::string case_name;             ///< empty: the default case
   cases::Settings settings;
   LadderPlan plan;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/study/cause_metrics.hpp"
 #include "clackers/study/verify.hpp"
 
-// What a study measures beside its ladders: metrics, and what the runs say without the truth.
+// What a study measures beside its ladders: metrics, and what the runs say without the reference.
 namespace clackers::study {
 namespace {
 
@@ -52,20 +52,20 @@ TEST(Verify, MeasuresNoMetricsOfARunThatFailed) {
   EXPECT_EQ(method.metrics_step, 0.0);
 }
 
-TEST(Verify, SetsWhatTheRunsSayOfThemselvesBesideTheTruth) {
+TEST(Verify, SetsWhatTheRunsSayOfThemselvesBesideTheReference) {
   auto request = small({"rk4", "newmark+penalty"});
   request.plan = {0.005, 6, 2};  // the contact is resolved from the first level on
   request.settings = {{"t_end", 6.0}};
   const auto record = verify(request);
   const auto& rk4 = *record.methods[0].self_convergence;
   EXPECT_EQ(rk4.order, 4.0);
-  EXPECT_FALSE(rk4.against_truth.would_have_lied) << rk4.against_truth.sentence;
+  EXPECT_FALSE(rk4.against_reference.would_have_lied) << rk4.against_reference.sentence;
   // A penalty spring claims a floor and no order: its integrator's is expected.
   const auto& penalty = *record.methods[1].self_convergence;
   EXPECT_EQ(record.methods[1].claim.order, 0.0);
   EXPECT_EQ(penalty.order, 2.0);
-  EXPECT_TRUE(penalty.against_truth.would_have_lied) << penalty.against_truth.sentence;
-  EXPECT_EQ(penalty.against_truth.reason, "wrong-limit");
+  EXPECT_TRUE(penalty.against_reference.would_have_lied) << penalty.against_reference.sentence;
+  EXPECT_EQ(penalty.against_reference.reason, "wrong-limit");
 }
 
 TEST(Verify, HoldsDifferencesToTheClaimThroughImpactsBeforeTheSmoothOrder) {

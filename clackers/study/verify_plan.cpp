@@ -33,10 +33,10 @@ methods::Claim claim_of(const methods::Facts& facts, bool collides) {
   return {Behaviour::proper, facts.smooth_order, {}};
 }
 
-PlannedMethod planned(const std::string& spelling, const model::ImpactProblem<>& problem,
+PlannedMethod planned(const std::string& specification, const model::ImpactProblem<>& problem,
                       bool collides) {
   PlannedMethod planned;
-  planned.method = methods::method(spelling);
+  planned.method = methods::method(specification);
   const auto facts = planned.method->facts();
   planned.reports_impacts = facts.reports_impacts;
   planned.result.name = facts.name;
@@ -87,12 +87,13 @@ VerifyPlan plan_of(const VerifyRequest& request) {
                              request.settings);
   plan.summary = summary_of(plan.problem);
   require_ladder(request.plan, plan.summary.end);
-  for (const auto& spelling :
+  for (const auto& specification :
        request.methods.empty() ? methods::default_panel() : request.methods) {
-    plan.methods.push_back(planned(spelling, plan.problem.problem, plan.summary.impact_count > 0));
+    plan.methods.push_back(
+        planned(specification, plan.problem.problem, plan.summary.impact_count > 0));
     const auto& name = plan.methods.back().result.name;
     if (std::ranges::count(plan.methods, name, [](const auto& one) { return one.result.name; }) > 1)
-      refuse("verify", "method", spelling, "each method once",
+      refuse("verify", "method", specification, "each method once",
              fmt::format("{} was named before.", name), "bad-syntax");
   }
   require_some_method(plan.methods, plan.problem.problem);

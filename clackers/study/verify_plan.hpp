@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "clackers/assess/step_ladder.hpp"
+#include "clackers/assess/convergence/step_ladder.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/study/verify.hpp"
 

@@ -10,14 +10,14 @@
 
 namespace {
 
-// Compares every state of a run with the truth while it happens; stores nothing.
+// Compares every state of a run with the reference while it happens; stores nothing.
 class LargestError : public clackers::model::Sink {
  public:
-  explicit LargestError(const clackers::model::Motion& truth) : truth_(truth) {}
+  explicit LargestError(const clackers::model::Motion& reference) : reference_(reference) {}
 
   bool take(const clackers::model::SampleBlock& block) override {
     for (std::size_t i = 0; i < block.t.size(); ++i) {
-      const auto exact = truth_.at(block.t[i], clackers::model::Side::left);
+      const auto exact = reference_.at(block.t[i], clackers::model::Side::left);
       const auto u1 = block.u[i * static_cast<std::size_t>(block.dof)];
       largest_ = std::max(largest_, std::abs(u1 - exact.u[0]));
     }
@@ -28,7 +28,7 @@ class LargestError : public clackers::model::Sink {
   double largest() const { return largest_; }
 
  private:
-  const clackers::model::Motion& truth_;
+  const clackers::model::Motion& reference_;
   double largest_ = 0.0;
 };
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "clackers/assess/error_sink.hpp"
+#include "clackers/assess/errors/error_sink.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/methods/registry.hpp"
 

@@ -169,11 +169,11 @@ class Document:
             self.compile(block, "", ["cc", "-std=c99", "-pedantic", "-I", ROOT / "bindings/c", path, "-L", self.build / "bindings/c",
                                      "-lclackers", "-lm", "-o", path.with_suffix("")])
         elif path.suffix == ".cpp":
-            rooms = sorted(self.build.glob("libclackers_*.a"))
-            if not rooms:
+            modules = sorted(self.build.glob("libclackers_*.a"))
+            if not modules:
                 self.problem(block, f"no libraries in CLACKERS_BUILD, {self.build}")
                 return
-            self.compile(block, "", ["c++", "-std=c++20", path, "-Wl,--start-group", *rooms, "-Wl,--end-group", "-lfmt",
+            self.compile(block, "", ["c++", "-std=c++20", path, "-Wl,--start-group", *modules, "-Wl,--end-group", "-lfmt",
                                      "-lhwy", "-o", path.with_suffix("")])
 
     def compile(self, block, text, command):

@@ -31,11 +31,11 @@ def errors_of(header, command, root):
 
 def main(root, compiler, flags):
     root = pathlib.Path(root).resolve()
-    rooms = [root / top for top in ("clackers", "cli", "bindings")]
-    headers = sorted(p for room in rooms for p in room.rglob("*") if p.suffix in (".h", ".hpp"))
+    modules = [root / top for top in ("clackers", "cli", "bindings")]
+    headers = sorted(p for module in modules for p in module.rglob("*") if p.suffix in (".h", ".hpp"))
     if len(headers) < 20:
         sys.exit(f"found only {len(headers)} headers below {root}")
-    built = compiled_first(p for room in rooms for p in room.rglob("*.cpp"))
+    built = compiled_first(p for module in modules for p in module.rglob("*.cpp"))
     alone = [h for h in headers if str(h.relative_to(root)) not in built]
     command = [compiler, *flags, "-std=c++20", "-I.", "-fsyntax-only", "-x", "c++", "-"]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

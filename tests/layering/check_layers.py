@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Checks every include of the project against the table of rooms in layers.txt.
+"""Checks every include of the project against the table of modules in layers.txt.
 
     check_layers.py ROOT      prints each violation, exits 1 if there is one
 
-A room may include itself and the rooms its row names; a row can only name rooms above it, so a
-cycle cannot be written down. Tests (*_test.cpp) may include any room, except that nothing under
-methods/, tests included, may include exact/ or cases/: the judged never sees the judge. The
-CMake target of a room may link what its row names and no other room.
+A module may include itself and the modules its row names; a row can only name modules above it, so a
+cycle cannot be written down. Tests (*_test.cpp) may include any module, except that nothing under
+methods/, tests included, may include exact/ or cases/: methods never include the reference. The
+CMake target of a module may link what its row names and no other module.
 """
 import pathlib
 import re
@@ -18,7 +18,7 @@ FORBIDDEN_FOR_THE_JUDGED = {"exact", "certified", "cases"}
 
 
 def read_table(text):
-    """Rooms in order with the rooms each may include, and the errors of the table itself."""
+    """Modules in order with the modules each may include, and the errors of the table itself."""
     table, errors = {}, []
     for number, line in enumerate(text.splitlines(), 1):
         line = line.split("#")[0].strip()
@@ -26,19 +26,19 @@ def read_table(text):
             continue
         name, colon, allowed = line.partition(":")
         if not colon or not name.strip():
-            errors.append(f"layers.txt:{number}: expected `room: rooms`, found `{line}`")
+            errors.append(f"layers.txt:{number}: expected `module: modules`, found `{line}`")
             continue
-        for room in allowed.split():
-            if room not in table:
-                errors.append(f"layers.txt:{number}: {name} names {room}, which does not stand above it")
+        for module in allowed.split():
+            if module not in table:
+                errors.append(f"layers.txt:{number}: {name} names {module}, which does not stand above it")
         if name.strip() in table:
             errors.append(f"layers.txt:{number}: {name} stands twice")
         table[name.strip()] = set(allowed.split())
     return table, errors
 
 
-def room_of(path, table):
-    """The room a path (relative to the root) lies in, or None."""
+def module_of(path, table):
+    """The module a path (relative to the root) lies in, or None."""
     parts = path.parts
     if len(parts) > 2 and parts[0] == "clackers":
         return parts[1]
@@ -65,20 +65,20 @@ def check_includes(root, table):
              if p.suffix in SOURCES and p.is_file()]
     for file in dict.fromkeys(files):
         here = file.relative_to(root)
-        room = room_of(here, table)
-        if room not in table:
-            errors.append(f"{here}: lies in no room of layers.txt")
+        module = module_of(here, table)
+        if module not in table:
+            errors.append(f"{here}: lies in no module of layers.txt")
             continue
         is_test = file.stem.endswith("_test")
         for include in INCLUDE.findall(file.read_text(encoding="utf-8", errors="replace")):
             target = target_of(include, here, root)
-            other = room_of(target, table) if target else None
-            if other is None or other == room:
+            other = module_of(target, table) if target else None
+            if other is None or other == module:
                 continue
-            if room == "methods" and other in FORBIDDEN_FOR_THE_JUDGED:
-                errors.append(f"{here}: includes {include}: the judged never sees the judge")
-            elif not is_test and other not in table[room]:
-                errors.append(f"{here}: includes {include}: {room} may not include {other}")
+            if module == "methods" and other in FORBIDDEN_FOR_THE_JUDGED:
+                errors.append(f"{here}: includes {include}: methods never include the reference")
+            elif not is_test and other not in table[module]:
+                errors.append(f"{here}: includes {include}: {module} may not include {other}")
     return errors
 
 
@@ -87,11 +87,11 @@ def check_targets(root, table):
     if not cmake.exists():
         return []
     errors = []
-    for room, arguments in re.findall(r"^clackers_room\((\w+)\s+([^)]*)\)", cmake.read_text(), re.MULTILINE):
+    for module, arguments in re.findall(r"^clackers_module\((\w+)\s+([^)]*)\)", cmake.read_text(), re.MULTILINE):
         linked = re.search(r"\bLINK\b(.*?)(\bTEST_LINK\b|\bGENERATED\b|$)", arguments, re.DOTALL)
         for other in re.findall(r"\b[a-z]+\b(?!::|_)", linked.group(1) if linked else ""):
-            if other in table and other != room and other not in table.get(room, set()):
-                errors.append(f"CMakeLists.txt: room {room} links {other}, which its row does not name")
+            if other in table and other != module and other not in table.get(module, set()):
+                errors.append(f"CMakeLists.txt: module {module} links {other}, which its row does not name")
     return errors
 
 

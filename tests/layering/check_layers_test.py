@@ -49,23 +49,23 @@ class Layers(unittest.TestCase):
         self.assert_refused({"cli/main.cpp": '#include "clackers/methods/rk4.hpp"'}, "cli may not include methods")
 
     def test_the_judged_never_sees_the_judge_not_even_in_a_test(self):
-        for room in ["exact/pair.hpp", "cases/case.hpp"]:
+        for module in ["exact/pair.hpp", "cases/case.hpp"]:
             for name in ["rk4.cpp", "integrators/rk4.hpp", "integrators/rk4_test.cpp"]:
-                self.assert_refused({"clackers/methods/" + name: f'#include "clackers/{room}"'}, "the judged never sees")
+                self.assert_refused({"clackers/methods/" + name: f'#include "clackers/{module}"'}, "the judged never sees")
 
     def test_other_tests_may_include_any_room(self):
         self.assertEqual(self.errors({"clackers/model/a_test.cpp": '#include "clackers/exact/pair.hpp"'}), [])
 
     def test_a_file_outside_every_room_is_refused(self):
-        self.assert_refused({"clackers/attic/a.cpp": ""}, "lies in no room")
+        self.assert_refused({"clackers/attic/a.cpp": ""}, "lies in no module")
 
     def test_a_row_cannot_name_a_room_below_it(self):
         self.assertIn("does not stand above it", self.errors({}, TABLE.replace("base:\n", "base: model\n"))[0])
 
     def test_a_target_links_only_what_its_row_names(self):
-        self.assert_refused({"CMakeLists.txt": "clackers_room(model LINK exact base Eigen3::Eigen)\n"},
-                            "room model links exact")
-        self.assertEqual(self.errors({"CMakeLists.txt": "clackers_room(exact LINK model\n base fmt::fmt TEST_LINK mpfr)\n"}), [])
+        self.assert_refused({"CMakeLists.txt": "clackers_module(model LINK exact base Eigen3::Eigen)\n"},
+                            "module model links exact")
+        self.assertEqual(self.errors({"CMakeLists.txt": "clackers_module(exact LINK model\n base fmt::fmt TEST_LINK mpfr)\n"}), [])
 
     def test_the_project_keeps_its_own_table(self):
         self.assertEqual(check_layers.check(ROOT), [])

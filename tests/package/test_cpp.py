@@ -1,4 +1,4 @@
-"""The C++ rooms as a program finds them through CMake."""
+"""The C++ modules as a program finds them through CMake."""
 import re
 import unittest
 
@@ -14,7 +14,7 @@ def tearDownModule():
     tree.close()
 
 
-class Rooms(unittest.TestCase):
+class Modules(unittest.TestCase):
     def test_the_example_is_built_and_sees_second_order(self):
         build = tree.configure(installed.ROOT / "examples/cpp", "cpp", f"-DCMAKE_CXX_COMPILER={installed.CXX}")
         installed.run(installed.CMAKE, "--build", build)
@@ -28,14 +28,14 @@ class Rooms(unittest.TestCase):
             self.assertLess(coarse / fine, 4.6)
 
     def test_every_room_is_a_target_with_a_library(self):
-        source = tree.folder / "rooms"
+        source = tree.folder / "modules"
         source.mkdir()
-        rooms = re.findall(r"^clackers_room\((\w+)", (installed.ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)
-        self.assertGreater(len(rooms), 8)
+        modules = re.findall(r"^clackers_module\((\w+)", (installed.ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)
+        self.assertGreater(len(modules), 8)
         (source / "CMakeLists.txt").write_text(
             "cmake_minimum_required(VERSION 3.25)\nproject(it LANGUAGES CXX)\nfind_package(clackers REQUIRED)\n"
-            + "".join(f"if(NOT TARGET clackers::{room})\n  message(FATAL_ERROR {room})\nendif()\n"
-                      for room in rooms + ["clackers", "c"]))
+            + "".join(f"if(NOT TARGET clackers::{module})\n  message(FATAL_ERROR {module})\nendif()\n"
+                      for module in modules + ["clackers", "c"]))
         tree.configure(source, "rooms_build")
 
 

@@ -2,9 +2,9 @@
 
 namespace clackers::assess {
 
-double collision_period(const model::Motion& truth) {
-  if (truth.impact_count(truth.end()) < 2) return truth.end();
-  return truth.impact(2).t - truth.impact(1).t;
+double collision_period(const model::Motion& reference) {
+  if (reference.impact_count(reference.end()) < 2) return reference.end();
+  return reference.impact(2).t - reference.impact(1).t;
 }
 
 }  // namespace clackers::assess

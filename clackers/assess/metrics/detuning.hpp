@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/assess/comparison.hpp"
+#include "clackers/assess/errors/comparison.hpp"
 
 namespace clackers::assess {
 

@@ -4,20 +4,20 @@
 
 #include <cmath>
 
-#include "clackers/assess/metrics/toy_history.hpp"
+#include "clackers/assess/testing/toy_history.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/synchronized_pair.hpp"
+#include "clackers/exact/pair/synchronized_pair.hpp"
 #include "clackers/methods/registry.hpp"
 
 namespace clackers::assess {
 namespace {
 
 TEST(Detuning, OfAHistoryWithTheTrueFrequenciesIsZero) {
-  const ToyMotion truth;
+  const ToyMotion reference;
   const auto problem = toy_problem();
   for (const bool knows_limits : {true, false}) {
     const auto history = toy_history({.h = 0.1, .knows_limits = knows_limits});
-    const Comparison comparison(history, truth, problem);
+    const Comparison comparison(history, reference, problem);
     const auto found = flight_frequencies(comparison);
     ASSERT_EQ(found.errors.size(), 2u);
     EXPECT_NEAR(found.errors[0], 0.0, 1e-14);
@@ -27,12 +27,12 @@ TEST(Detuning, OfAHistoryWithTheTrueFrequenciesIsZero) {
 
 TEST(Detuning, IsThatOfTheMethodThroughImpacts) {
   // Average acceleration turns a mass by 2 atan(W/2) a step, W = omega h, undamped.
-  const exact::SynchronizedPair truth({.xi1 = 0.0, .X = 9.0, .r = 0.5, .t_end = 20.0});
-  const auto problem = truth.problem();
+  const exact::SynchronizedPair reference({.xi1 = 0.0, .X = 9.0, .r = 0.5, .t_end = 20.0});
+  const auto problem = reference.problem();
   const double h = 20.0 / 1600;
   model::TrajectorySink sink(true);
   methods::method("newmark")->prepare(problem, h)->advance(sink);
-  const Comparison comparison(sink.trajectory(), truth, problem);
+  const Comparison comparison(sink.trajectory(), reference, problem);
   const auto found = flight_frequencies(comparison);
   const auto own = [&](double omega) { return 2.0 * std::atan(0.5 * omega * h) / (omega * h) - 1; };
   ASSERT_EQ(found.errors.size(), 2u) << found.reason;
@@ -43,10 +43,10 @@ TEST(Detuning, IsThatOfTheMethodThroughImpacts) {
 }
 
 TEST(Detuning, SaysWhyFrequenciesWereNotMeasured) {
-  const ToyMotion truth;
+  const ToyMotion reference;
   auto problem = toy_problem();
   const auto reason = [&](const model::Trajectory& history) {
-    const auto found = flight_frequencies(Comparison(history, truth, problem));
+    const auto found = flight_frequencies(Comparison(history, reference, problem));
     EXPECT_TRUE(found.errors.empty());
     return found.reason;
   };
@@ -63,21 +63,23 @@ TEST(Detuning, SaysWhyFrequenciesWereNotMeasured) {
   problem = good;
   problem.system.add_load = [](double, std::span<double>) {};
   EXPECT_EQ(reason(toy_history({})), "The system has a load or a nonlinear force.");
-  const Comparison comparison(history, truth, good);
+  const Comparison comparison(history, reference, good);
   EXPECT_THROW(detuning(comparison, {.errors = {0.1}, .reason = {}}), InputError);
 }
 
 TEST(Detuning, IsWhatTheFasterMassTurnsBeyondTheSlowerOne) {
-  const ToyMotion truth;
+  const ToyMotion reference;
   auto problem = toy_problem();
   problem.system.stiffness(0, 0) = 4.0;
   const auto history = toy_history({});
-  EXPECT_NEAR(detuning(Comparison(history, truth, problem), {.errors = {0.1, 0.01}, .reason = {}}),
-              1.1 / 1.01 - 1.0, 1e-15);
+  EXPECT_NEAR(
+      detuning(Comparison(history, reference, problem), {.errors = {0.1, 0.01}, .reason = {}}),
+      1.1 / 1.01 - 1.0, 1e-15);
   problem = toy_problem();
   problem.system.stiffness(1, 1) = 8.0;
-  EXPECT_NEAR(detuning(Comparison(history, truth, problem), {.errors = {0.1, 0.01}, .reason = {}}),
-              1.01 / 1.1 - 1.0, 1e-15);
+  EXPECT_NEAR(
+      detuning(Comparison(history, reference, problem), {.errors = {0.1, 0.01}, .reason = {}}),
+      1.01 / 1.1 - 1.0, 1e-15);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/mechanical_energy.hpp"
+#include "clackers/assess/errors/mechanical_energy.hpp"
 #include "clackers/assess/metrics/value.hpp"
 
 namespace clackers::assess {
@@ -15,7 +15,7 @@ MetricValue energy_error(const Comparison& comparison, Energy energy) {
   if (energy != Energy::potential && !comparison.has_velocities())
     return not_measured("The history has no velocities.");
   const MechanicalEnergy of(system);
-  const auto start = comparison.truth().at(0.0, model::Side::right);
+  const auto start = comparison.reference().at(0.0, model::Side::right);
   const double scale = of.total(start.u.data(), start.v.data());
   if (!(scale > 0.0)) return not_measured("The true motion starts without energy.");
 

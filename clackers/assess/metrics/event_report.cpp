@@ -8,10 +8,10 @@
 namespace clackers::assess {
 namespace {
 
-std::vector<double> distance(const std::vector<double>& found, const Eigen::VectorXd& truth) {
+std::vector<double> distance(const std::vector<double>& found, const Eigen::VectorXd& reference) {
   std::vector<double> errors(found.size());
   for (std::size_t i = 0; i < errors.size(); ++i)
-    errors[i] = std::abs(found[i] - truth[Eigen::Index(i)]);
+    errors[i] = std::abs(found[i] - reference[Eigen::Index(i)]);
   return errors;
 }
 
@@ -45,16 +45,16 @@ EventReport event_report(const Comparison& comparison) {
   report.matched = score.matched;
   report.missed = score.missed;
   report.extra = score.extra;
-  for (const auto& [number, truth] : comparison.matches()) {
+  for (const auto& [number, reference] : comparison.matches()) {
     const auto& impact = comparison.impacts()[number];
     CollisionError error;
-    error.index = truth.index;
+    error.index = reference.index;
     error.found = number;
     error.t = impact.t;
-    error.time_error = impact.t - truth.t;
-    error.before = distance(impact.v_before, truth.before.v);
-    error.after = distance(impact.v_after, truth.after.v);
-    error.impulse = std::abs(impact.impulse - truth.impulse);
+    error.time_error = impact.t - reference.t;
+    error.before = distance(impact.v_before, reference.before.v);
+    error.after = distance(impact.v_after, reference.after.v);
+    error.impulse = std::abs(impact.impulse - reference.impulse);
     error.late = error.time_error > comparison.step();
     report.late += error.late;
     report.collisions.push_back(std::move(error));

@@ -3,8 +3,8 @@
 #include <limits>
 #include <vector>
 
-#include "clackers/assess/comparison.hpp"
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::assess {
 

@@ -21,7 +21,7 @@ struct Flight {
 std::vector<Flight> flights(const Comparison& comparison) {
   const auto& impacts = comparison.impacts();
   const auto start = comparison.history().t.front();
-  const auto first = start > 0.0 ? comparison.truth().impact_count(start) : 0;
+  const auto first = start > 0.0 ? comparison.reference().impact_count(start) : 0;
   std::vector<Flight> all{{-infinity, infinity, first, 0.0}};
   auto match = comparison.matches().begin();
   for (std::size_t k = 0; k < impacts.size(); ++k) {
@@ -29,17 +29,17 @@ std::vector<Flight> flights(const Comparison& comparison) {
     all.back().to = impacts[k].t;
     all.push_back({end, infinity, -1, 0.0});
     if (match == comparison.matches().end() || match->found != k) continue;
-    all.back().after = match->truth.index;
-    all.back().shift = end - match->truth.t;
+    all.back().after = match->reference.index;
+    all.back().shift = end - match->reference.t;
     ++match;
   }
   return all;
 }
 
 // Compares flights one by one; rows and flights are both walked once.
-class Walk {
+class TimeLoop {
  public:
-  explicit Walk(const Comparison& comparison)
+  explicit TimeLoop(const Comparison& comparison)
       : c_(comparison), t_(c_.history().t), dof_(c_.dof()) {}
 
   void add(const Flight& flight, std::vector<FlightError>& errors) {
@@ -49,11 +49,11 @@ class Walk {
     const auto first = row_;
     while (row_ < t_.size() && precedes(row_, flight.to)) ++row_;
     if (flight.after < 0) return;
-    const auto last_impact = c_.truth().impact_count(c_.truth().end());
+    const auto last_impact = c_.reference().impact_count(c_.reference().end());
     const bool struck = flight.after > 0;
-    const auto begin = struck ? c_.truth().impact(flight.after) : model::MotionImpact{};
-    const double until =
-        flight.after < last_impact ? c_.truth().impact(flight.after + 1).t : c_.truth().end();
+    const auto begin = struck ? c_.reference().impact(flight.after) : model::MotionImpact{};
+    const double until = flight.after < last_impact ? c_.reference().impact(flight.after + 1).t
+                                                    : c_.reference().end();
     FlightError error{flight.after, flight.shift, 0, std::vector<double>(dof_), {}};
     if (c_.has_velocities()) error.v.resize(dof_);
     for (auto i = first; i < row_; ++i) {
@@ -108,8 +108,9 @@ class Walk {
     v_.resize(block * dof_);
     for (std::size_t from = 0; from < times_.size(); from += block) {
       const auto count = std::min(block, times_.size() - from);
-      c_.truth().sample(std::span(times_).subspan(from, count), model::Side::left,
-                        {std::span(u_).first(count * dof_), std::span(v_).first(count * dof_), {}});
+      c_.reference().sample(
+          std::span(times_).subspan(from, count), model::Side::left,
+          {std::span(u_).first(count * dof_), std::span(v_).first(count * dof_), {}});
       for (std::size_t i = 0; i < count; ++i)
         take(error, rows_[from + i], &u_[i * dof_], &v_[i * dof_]);
     }
@@ -139,7 +140,7 @@ MetricValue worst(const Comparison& comparison, std::vector<double> FlightError:
 
 std::vector<FlightError> flight_errors(const Comparison& comparison) {
   std::vector<FlightError> errors;
-  Walk walk(comparison);
+  TimeLoop walk(comparison);
   for (const auto& flight : flights(comparison)) walk.add(flight, errors);
   return errors;
 }

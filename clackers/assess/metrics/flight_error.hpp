@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "clackers/assess/comparison.hpp"
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::assess {
 
-/// The history against the truth in one flight, shifted so that both start together.
+/// The history against the reference in one flight, shifted so that both start together.
 struct FlightError {
   long long after = 0;       ///< the true impact it starts with; 0: the start of the motion
   double shift = 0.0;        ///< what was taken from the history's times [s]
@@ -19,7 +19,7 @@ struct FlightError {
 ///
 /// A flight of the history lasts from the end of one of its collisions to the start of the next.
 /// If the collision belongs to the true impact at t*, then d = end of the collision - t*, and the
-/// history at t is compared with the truth at t - d, as long as t - d lies in the true flight that
+/// history at t is compared with the reference at t - d, as long as t - d lies in the true flight that
 /// starts at t*: in (t*, next impact]. The flight before the first collision is not shifted.
 /// Flights after an extra collision are not compared: nothing says with what. Of two rows with one
 /// time the first closes a flight and the second opens the next; a row alone at the very time of a

@@ -2,14 +2,14 @@
 
 #include <cmath>
 
+#include "clackers/assess/errors/velocity_error.hpp"
 #include "clackers/assess/metrics/value.hpp"
-#include "clackers/assess/velocity_error.hpp"
 
 namespace clackers::assess {
 namespace {
 
 struct Pair {
-  std::span<const double> found, truth;
+  std::span<const double> found, reference;
 };
 
 Pair columns(const Comparison& comparison, Quantity quantity) {
@@ -28,7 +28,7 @@ std::vector<double> largest(const Pair& pair, std::size_t dof) {
   std::vector<double> errors(dof);
   for (std::size_t i = 0; i < pair.found.size(); i += dof)
     for (std::size_t j = 0; j < dof; ++j)
-      errors[j] = std::max(errors[j], std::abs(pair.found[i + j] - pair.truth[i + j]));
+      errors[j] = std::max(errors[j], std::abs(pair.found[i + j] - pair.reference[i + j]));
   return errors;
 }
 
@@ -36,7 +36,7 @@ std::vector<double> last(const Pair& pair, std::size_t dof) {
   std::vector<double> errors(dof);
   const auto row = pair.found.size() - dof;
   for (std::size_t j = 0; j < dof; ++j)
-    errors[j] = std::abs(pair.found[row + j] - pair.truth[row + j]);
+    errors[j] = std::abs(pair.found[row + j] - pair.reference[row + j]);
   return errors;
 }
 
@@ -46,7 +46,7 @@ std::vector<double> integral(const Comparison& comparison, const Pair& pair, Nor
   const auto dof = comparison.dof();
   std::vector<double> sum(dof);
   const auto height = [&](std::size_t at) {
-    const double error = std::abs(pair.found[at] - pair.truth[at]);
+    const double error = std::abs(pair.found[at] - pair.reference[at]);
     return norm == Norm::l1 ? error : error * error;
   };
   for (std::size_t i = 1; i < t.size(); ++i)
@@ -60,21 +60,23 @@ std::vector<double> integral_across_jumps(const Comparison& comparison, const Pa
                                           Quantity quantity, Norm norm) {
   const auto& t = comparison.history().t;
   const auto dof = comparison.dof();
-  VelocityError error(comparison.truth(), quantity == Quantity::v ? JumpingQuantity::velocity
-                                                                  : JumpingQuantity::acceleration);
+  VelocityError error(comparison.reference(), quantity == Quantity::v
+                                                  ? JumpingQuantity::velocity
+                                                  : JumpingQuantity::acceleration);
   for (std::size_t i = 0; i < t.size(); ++i) {
-    const auto found = pair.found.subspan(i * dof, dof), truth = pair.truth.subspan(i * dof, dof);
+    const auto found = pair.found.subspan(i * dof, dof),
+               reference = pair.reference.subspan(i * dof, dof);
     if (!comparison.is_left_limit(i)) {
-      error.take(t[i], found, truth);
+      error.take(t[i], found, reference);
       continue;
     }
     // A jump is an instant of its own between own times. At the ends of the history there is
     // nothing beyond, so that it is an own time as well.
     const auto after = pair.found.subspan((i + 1) * dof, dof);
-    if (i == 0) error.take(t[i], found, truth);
+    if (i == 0) error.take(t[i], found, reference);
     error.take(model::ReportedImpact{t[i], 0, {}, found, after, 0.0});
     ++i;
-    if (i + 1 == t.size()) error.take(t[i], after, pair.truth.subspan(i * dof, dof));
+    if (i + 1 == t.size()) error.take(t[i], after, pair.reference.subspan(i * dof, dof));
   }
   std::vector<double> sum(dof);
   for (std::size_t j = 0; j < dof; ++j)

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "clackers/assess/comparison.hpp"
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::assess {
 

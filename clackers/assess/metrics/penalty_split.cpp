@@ -43,19 +43,19 @@ class Distances {
 
 }  // namespace
 
-PenaltySplit penalty_split(const Comparison& comparison, const model::Motion& penalised) {
+PenaltySplit penalty_split(const Comparison& comparison, const model::Motion& penalized) {
   const auto n = comparison.dof();
-  if (penalised.dof() != static_cast<int>(n))
-    refuse("penalty split", "masses of the penalised motion", penalised.dof(),
+  if (penalized.dof() != static_cast<int>(n))
+    refuse("penalty split", "masses of the penalized motion", penalized.dof(),
            "as many as the history has", {}, "wrong-size");
   const auto& history = comparison.history();
   auto times = history.t;
   // A count of steps times h may pass the end by a rounding; more is refused by sample().
-  const double slack = 0x1p-50 * penalised.end();
+  const double slack = 0x1p-50 * penalized.end();
   for (double& t : times)
-    if (t > penalised.end() && t <= penalised.end() + slack) t = penalised.end();
+    if (t > penalized.end() && t <= penalized.end() + slack) t = penalized.end();
   std::vector<double> u(times.size() * n), v(times.size() * n);
-  penalised.sample(times, model::Side::right, {u, v, {}});
+  penalized.sample(times, model::Side::right, {u, v, {}});
 
   const Distances distances(comparison);
   PenaltySplit split;

@@ -4,16 +4,16 @@
 
 #include <cmath>
 
-#include "clackers/assess/metrics/toy_history.hpp"
+#include "clackers/assess/testing/toy_history.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/penalised_motion.hpp"
-#include "clackers/exact/synchronized_pair.hpp"
+#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/penalized/penalized_motion.hpp"
 #include "clackers/methods/registry.hpp"
 
 namespace clackers::assess {
 namespace {
 
-// Stands for a penalised motion: ToyMotion with u greater by 0.1 and v by 0.2 t, in mass 1; mass 2
+// Stands for a penalized motion: ToyMotion with u greater by 0.1 and v by 0.2 t, in mass 1; mass 2
 // is as it was.
 class Shifted : public ToyMotion {
  public:
@@ -30,12 +30,12 @@ class Shifted : public ToyMotion {
 
 TEST(PenaltySplit, MeasuresBothPartsOverTheHistorysRows) {
   const ToyMotion rigid;
-  const Shifted penalised;
+  const Shifted penalized;
   const auto problem = toy_problem();
   auto history = toy_history({.end = 1.5, .h = 0.1});  // the rigid one, before its first impact
   for (std::size_t i = 0; i < history.t.size(); ++i) history.u[2 * i + 1] += 0.05;
   const Comparison comparison(history, rigid, problem);
-  const auto split = penalty_split(comparison, penalised);
+  const auto split = penalty_split(comparison, penalized);
   EXPECT_NEAR(split.model_u.masses[0], 0.1, 1e-15);
   EXPECT_EQ(split.model_u.masses[1], 0.0);
   EXPECT_NEAR(split.integration_u.masses[0], 0.1, 1e-15);
@@ -53,11 +53,11 @@ TEST(PenaltySplit, SeparatesStiffnessFromStep) {
     double model, integration;
   };
   const auto measure = [&](const char* method, double stiffness, double h) {
-    const exact::PenalisedMotion penalised(problem, stiffness);
+    const exact::PenalizedMotion penalized(problem, stiffness);
     model::TrajectorySink sink(true);
     methods::method(method)->prepare(problem, h)->advance(sink);
     const Comparison comparison(sink.trajectory(), rigid, problem);
-    const auto split = penalty_split(comparison, penalised);
+    const auto split = penalty_split(comparison, penalized);
     return Parts{split.model_u.value, split.integration_u.value};
   };
   const auto coarse = measure("rk4+penalty:stiffness=1e4", 1e4, 8.0 / 8000);
@@ -66,7 +66,7 @@ TEST(PenaltySplit, SeparatesStiffnessFromStep) {
   // The step does not touch the model's error, and the spring decides over it: k^(-1/2).
   EXPECT_NEAR(fine.model, coarse.model, 1e-3 * fine.model);
   EXPECT_NEAR(fine.model / stiff.model, 10.0, 1.0);
-  // The integration converges against the penalised motion, though not against the rigid one; a
+  // The integration converges against the penalized motion, though not against the rigid one; a
   // force with a kink leaves at least order 2.
   EXPECT_LT(fine.integration, coarse.integration / 14.0);
   EXPECT_LT(fine.integration, 1e-4 * fine.model);
@@ -86,16 +86,16 @@ TEST(PenaltySplit, RefusesAMotionOfAnotherSizeOrLength) {
   one.contacts.push_back({Eigen::VectorXd::Ones(1), 0.0, 1.0});
   one.start = {0.0, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
   one.end = 10.0;
-  EXPECT_THROW(penalty_split(comparison, exact::PenalisedMotion(one, 1e3)), InputError);
+  EXPECT_THROW(penalty_split(comparison, exact::PenalizedMotion(one, 1e3)), InputError);
 }
 
 TEST(PenaltySplit, WithoutVelocitiesMeasuresDisplacements) {
   const ToyMotion rigid;
-  const Shifted penalised;
+  const Shifted penalized;
   const auto problem = toy_problem();
   auto history = toy_history({.end = 1.5, .h = 0.1});
   history.v.clear();
-  const auto split = penalty_split(Comparison(history, rigid, problem), penalised);
+  const auto split = penalty_split(Comparison(history, rigid, problem), penalized);
   EXPECT_NEAR(split.integration_u.masses[0], 0.1, 1e-15);
   EXPECT_EQ(split.integration_v.reason, "The history has no velocities.");
 }

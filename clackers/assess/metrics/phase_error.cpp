@@ -45,33 +45,33 @@ std::vector<Crossing> crossings(const Comparison& comparison, std::size_t mass,
 PhaseMarks crossing_marks(const Comparison& comparison, std::size_t mass) {
   const auto& history = comparison.history();
   const auto found = crossings(comparison, mass, history.u, history.v);
-  const auto truth = crossings(comparison, mass, comparison.true_u(), comparison.true_v());
+  const auto reference = crossings(comparison, mass, comparison.true_u(), comparison.true_v());
   PhaseMarks marks{.index = {},
                    .found = {},
-                   .truth = {},
+                   .reference = {},
                    .speed_found = {},
                    .speed_true = {},
                    .per_period = 2.0,
                    .reason = {}};
-  const auto count = std::min(found.size(), truth.size());
+  const auto count = std::min(found.size(), reference.size());
   for (std::size_t k = 0; k < count; ++k) {
-    // Nearer to another mark of the truth: one is missing, or there is one too many.
-    const double spacing = k > 0              ? truth[k].t - truth[k - 1].t
-                           : truth.size() > 1 ? truth[1].t - truth[0].t
-                                              : INFINITY;
-    if (std::abs(found[k].t - truth[k].t) > 0.5 * spacing) {
+    // Nearer to another mark of the reference: one is missing, or there is one too many.
+    const double spacing = k > 0                  ? reference[k].t - reference[k - 1].t
+                           : reference.size() > 1 ? reference[1].t - reference[0].t
+                                                  : INFINITY;
+    if (std::abs(found[k].t - reference[k].t) > 0.5 * spacing) {
       marks = {};
       marks.reason = fmt::format(
           "The zero crossings of mass {} do not follow the true ones: number {} is at {:.6g} s "
           "instead of {:.6g} s.",
-          mass + 1, k + 1, found[k].t, truth[k].t);
+          mass + 1, k + 1, found[k].t, reference[k].t);
       return marks;
     }
     marks.index.push_back(static_cast<double>(k));
     marks.found.push_back(found[k].t);
-    marks.truth.push_back(truth[k].t);
+    marks.reference.push_back(reference[k].t);
     marks.speed_found.push_back(found[k].speed);
-    marks.speed_true.push_back(truth[k].speed);
+    marks.speed_true.push_back(reference[k].speed);
   }
   if (count < 2) marks.reason = fmt::format("Mass {} crosses zero less than twice.", mass + 1);
   return marks;
@@ -81,11 +81,11 @@ PhaseMarks collision_marks(const Comparison& comparison, std::size_t mass) {
   PhaseMarks marks;
   for (const auto& match : comparison.matches()) {
     const auto& impact = comparison.impacts()[match.found];
-    marks.index.push_back(static_cast<double>(match.truth.index));
+    marks.index.push_back(static_cast<double>(match.reference.index));
     marks.found.push_back(impact.t);
-    marks.truth.push_back(match.truth.t);
+    marks.reference.push_back(match.reference.t);
     marks.speed_found.push_back(impact.v_before.empty() ? nan : std::abs(impact.v_before[mass]));
-    marks.speed_true.push_back(std::abs(match.truth.before.v[static_cast<Eigen::Index>(mass)]));
+    marks.speed_true.push_back(std::abs(match.reference.before.v[static_cast<Eigen::Index>(mass)]));
   }
   if (marks.index.size() < 2) marks.reason = "Fewer than two collisions are matched.";
   return marks;
@@ -113,8 +113,9 @@ struct Lag {
 
 Lag lag(const PhaseMarks& marks) {
   std::vector<double> lag(marks.index.size());
-  for (std::size_t i = 0; i < lag.size(); ++i) lag[i] = marks.found[i] - marks.truth[i];
-  return {numerics::fit_line(marks.index, lag), numerics::fit_line(marks.index, marks.truth).slope};
+  for (std::size_t i = 0; i < lag.size(); ++i) lag[i] = marks.found[i] - marks.reference[i];
+  return {numerics::fit_line(marks.index, lag),
+          numerics::fit_line(marks.index, marks.reference).slope};
 }
 
 // 1 - exp(slope of ln speed a period); NaN where a speed is not known or 0.
@@ -131,9 +132,9 @@ double decay(const PhaseMarks& marks, const std::vector<double>& speed) {
 
 PhaseMarks phase_marks(const Comparison& comparison, std::size_t mass) {
   const auto& t = comparison.history().t;
-  const auto& truth = comparison.truth();
-  const auto impacts =
-      truth.impact_count(std::min(t.back(), truth.end())) - truth.impact_count(t.front());
+  const auto& reference = comparison.reference();
+  const auto impacts = reference.impact_count(std::min(t.back(), reference.end())) -
+                       reference.impact_count(t.front());
   return impacts >= 2 ? collision_marks(comparison, mass) : crossing_marks(comparison, mass);
 }
 

@@ -3,25 +3,25 @@
 #include <string>
 #include <vector>
 
-#include "clackers/assess/comparison.hpp"
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::assess {
 
-/// Instants that come once or twice a period, in the history and in the truth, with the speed of a
+/// Instants that come once or twice a period, in the history and in the reference, with the speed of a
 /// mass there.
 struct PhaseMarks {
   std::vector<double> index;                    ///< number of the mark, ascending
-  std::vector<double> found, truth;             ///< [s]
+  std::vector<double> found, reference;         ///< [s]
   std::vector<double> speed_found, speed_true;  ///< [m/s]; NaN where not known
   double per_period = 1.0;                      ///< marks in a period
   std::string reason;                           ///< why there are none, a sentence
 };
 
-/// The marks of one mass. Where the truth collides at least twice: matched collisions, a period is
+/// The marks of one mass. Where the reference collides at least twice: matched collisions, a period is
 /// the time T between collisions, the speed is that before impact. Otherwise zero crossings of the
 /// displacement, two a period, interpolated linearly between rows in the history and, at the same
-/// rows, in the truth, so that the interpolation hardly differs; speeds likewise.
+/// rows, in the reference, so that the interpolation hardly differs; speeds likewise.
 PhaseMarks phase_marks(const Comparison& comparison, std::size_t mass);
 
 /// Rows of the table of metrics. The numbers of single masses are signed, the value is their largest

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/assess/metrics/toy_history.hpp"
-#include "clackers/exact/single_mass.hpp"
+#include "clackers/assess/testing/toy_history.hpp"
+#include "clackers/exact/pair/single_mass.hpp"
 
 namespace clackers::assess {
 namespace {
@@ -14,13 +14,13 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 MetricValue of_toy(const ToyFlaws& flaws, MetricValue (*metric)(const Comparison&)) {
-  const ToyMotion truth;
+  const ToyMotion reference;
   const auto problem = toy_problem();
   const auto history = toy_history(flaws);
-  return metric(Comparison(history, truth, problem));
+  return metric(Comparison(history, reference, problem));
 }
 
-// The free mass of the truth with its frequency and its decay changed.
+// The free mass of the reference with its frequency and its decay changed.
 model::Trajectory free_history(double frequency, double decay, double end = 20.0, double h = 0.01) {
   const double sigma = 0.05 * decay, omega = std::sqrt(1.0 - 0.05 * 0.05) * frequency;
   model::Trajectory made;
@@ -35,9 +35,9 @@ model::Trajectory free_history(double frequency, double decay, double end = 20.0
 }
 
 MetricValue of_free(const model::Trajectory& history, MetricValue (*metric)(const Comparison&)) {
-  const exact::FreeMass truth({.xi1 = 0.05, .t_end = 20.0});
-  const auto problem = truth.problem();
-  return metric(Comparison(history, truth, problem));
+  const exact::FreeMass reference({.xi1 = 0.05, .t_end = 20.0});
+  const auto problem = reference.problem();
+  return metric(Comparison(history, reference, problem));
 }
 
 TEST(PhaseError, OfCollisionsThatAreALittleFartherApart) {
@@ -87,9 +87,9 @@ TEST(PhaseError, DecayThroughCollisionsIsThatOfTheSpeedBeforeThem) {
     impact.v_before[0] *= factor;
     factor *= 0.9;
   }
-  const ToyMotion truth;
+  const ToyMotion reference;
   const auto problem = toy_problem();
-  const auto found = measure_decay_error(Comparison(history, truth, problem));
+  const auto found = measure_decay_error(Comparison(history, reference, problem));
   EXPECT_NEAR(found.masses[0], 0.1, 1e-12);
   EXPECT_NEAR(found.masses[1], 0.0, 1e-12);
   EXPECT_EQ(found.value, found.masses[0]);
@@ -102,9 +102,9 @@ TEST(PhaseError, TheLargestSizeStandsForAllMasses) {
     impact.v_before[0] *= factor;
     factor *= 1.1;
   }
-  const ToyMotion truth;
+  const ToyMotion reference;
   const auto problem = toy_problem();
-  const auto found = measure_decay_error(Comparison(history, truth, problem));
+  const auto found = measure_decay_error(Comparison(history, reference, problem));
   EXPECT_NEAR(found.masses[0], -0.1, 1e-12);
   EXPECT_NEAR(found.value, 0.1, 1e-12);
 }
@@ -120,9 +120,9 @@ TEST(PhaseError, SaysWhyItIsNotMeasured) {
             std::string::npos);
   auto silent = toy_history({});
   silent.impacts.emplace();
-  const ToyMotion truth;
+  const ToyMotion reference;
   const auto problem = toy_problem();
-  EXPECT_EQ(measure_period_error(Comparison(silent, truth, problem)).reason,
+  EXPECT_EQ(measure_period_error(Comparison(silent, reference, problem)).reason,
             "Fewer than two collisions are matched.");
 }
 

@@ -19,14 +19,14 @@ constexpr double fewest = 3.0;     // points of a fit
 }  // namespace
 
 SynchronyWatch::SynchronyWatch(double period, double start)
-    : period_(require_positive("synchrony", "period", period)), found_(start), truth_(start) {}
+    : period_(require_positive("synchrony", "period", period)), found_(start), reference_(start) {}
 
-void SynchronyWatch::take(double found, double truth, double momentum) {
+void SynchronyWatch::take(double found, double reference, double momentum) {
   if (lost_) return;
   ++count_;
-  const double error = std::abs((found - found_) - (truth - truth_)) / period_;
+  const double error = std::abs((found - found_) - (reference - reference_)) / period_;
   found_ = found;
-  truth_ = truth;
+  reference_ = reference;
   worst_ = std::max(worst_, error);
   if (error > lost_synchrony) {
     lost_ = count_;
@@ -62,16 +62,16 @@ double relative_momentum(const model::SmoothSystem<>& system, std::span<const do
 }
 
 SynchronyLoss synchrony_loss(const Comparison& comparison) {
-  const auto& truth = comparison.truth();
+  const auto& reference = comparison.reference();
   const auto& t = comparison.history().t;
-  const auto first = truth.impact_count(t.front());
-  const auto known = truth.impact_count(truth.end());
-  SynchronyWatch watch(collision_period(truth), t.front());
+  const auto first = reference.impact_count(t.front());
+  const auto known = reference.impact_count(reference.end());
+  SynchronyWatch watch(collision_period(reference), t.front());
   for (std::size_t k = 0; k < comparison.impacts().size(); ++k) {
     const auto index = first + static_cast<long long>(k) + 1;
     if (index > known) break;
     const auto& impact = comparison.impacts()[k];
-    watch.take(impact.t, truth.impact(index).t,
+    watch.take(impact.t, reference.impact(index).t,
                impact.v_after.empty()
                    ? nan
                    : relative_momentum(comparison.problem().system, impact.v_after));
@@ -94,7 +94,7 @@ DetuningPart explained_by_detuning(const SynchronyLoss& loss, const DetuningFact
 
 MetricValue measure_spacing_error(const Comparison& comparison) {
   const auto loss = synchrony_loss(comparison);
-  if (loss.collisions == 0) return not_measured("The history or the truth has no collisions.");
+  if (loss.collisions == 0) return not_measured("The history or the reference has no collisions.");
   return measured(loss.worst);
 }
 

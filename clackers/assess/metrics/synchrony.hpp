@@ -3,8 +3,8 @@
 #include <optional>
 #include <span>
 
-#include "clackers/assess/comparison.hpp"
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::assess {
 
@@ -33,11 +33,11 @@ class SynchronyWatch {
 
   /// The next collision of the history and the true one with the same number [s], with p after it;
   /// NaN: not known. Those after the loss are ignored.
-  void take(double found, double truth, double momentum);
+  void take(double found, double reference, double momentum);
   SynchronyLoss loss() const;
 
  private:
-  double period_, found_, truth_, worst_ = 0.0;
+  double period_, found_, reference_, worst_ = 0.0;
   long long count_ = 0;
   std::optional<long long> lost_;
   double n_ = 0.0, k_ = 0.0, kk_ = 0.0, y_ = 0.0, ky_ = 0.0;  // sums of the line fit
@@ -69,7 +69,7 @@ struct DetuningPart {
 };
 
 /// Throws InputError unless rate >= 0, 0 < eta <= 1 and 0 < |eps| < 1.
-/// Source: to first order in eps, from the saltation matrices of the pair; exact/conditioning.hpp.
+/// Source: to first order in eps, from the saltation matrices of the pair; exact/quantities/conditioning.hpp.
 DetuningPart explained_by_detuning(const SynchronyLoss& loss, const DetuningFacts& facts);
 
 /// Row of the table of metrics: the largest error of a spacing over T, to the loss if there is one.

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/assess/metrics/toy_history.hpp"
+#include "clackers/assess/testing/toy_history.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/conditioning.hpp"
+#include "clackers/exact/quantities/conditioning.hpp"
 #include "clackers/methods/registry.hpp"
 
 namespace clackers::assess {
@@ -107,14 +107,14 @@ TEST(Synchrony, MomentumIsRelativeToThatOfTheMasses) {
 
 class SynchronyOfAHistory : public testing::Test {
  protected:
-  ToyMotion truth_;
+  ToyMotion reference_;
   model::ImpactProblem<> problem_ = toy_problem();
   SynchronyLoss loss(const model::Trajectory& history) {
-    return synchrony_loss(Comparison(history, truth_, problem_));
+    return synchrony_loss(Comparison(history, reference_, problem_));
   }
   MetricValue spacing(const ToyFlaws& flaws) {
     const auto history = toy_history(flaws);
-    return measure_spacing_error(Comparison(history, truth_, problem_));
+    return measure_spacing_error(Comparison(history, reference_, problem_));
   }
 };
 
@@ -127,7 +127,7 @@ TEST_F(SynchronyOfAHistory, IsFoundNumberByNumber) {
   EXPECT_EQ(loss(toy_history({.end = 10.0, .stretch = 1.25})).lost, 1);
   EXPECT_NEAR(spacing({.end = 10.0, .stretch = 1.05}).value, 0.05, 1e-12);
   EXPECT_NEAR(spacing({.end = 10.0, .stretch = 0.95}).value, 0.05, 1e-12);
-  EXPECT_EQ(spacing({.end = 1.0}).reason, "The history or the truth has no collisions.");
+  EXPECT_EQ(spacing({.end = 1.0}).reason, "The history or the reference has no collisions.");
 }
 
 TEST_F(SynchronyOfAHistory, TakesMomentaAfterImpacts) {
@@ -140,7 +140,7 @@ TEST_F(SynchronyOfAHistory, TakesMomentaAfterImpacts) {
   EXPECT_TRUE(std::isnan(loss(history).growth));
 }
 
-TEST(Synchrony, PredictsFromDetuningWhatTheRoomOfTruthPredicts) {
+TEST(Synchrony, PredictsFromDetuningWhatTheRoomOfReferencePredicts) {
   const SynchronyLoss loss{.collisions = 64, .lost = 64, .worst = 0.9, .growth = 0.08};
   for (const double eps : {-0.01, 1e-4, 0.2}) {
     const exact::FrequencyRatio ratio{.odd = 9.0};

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "clackers/assess/metric.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 // How a metric makes its MetricValue.
 namespace clackers::assess {

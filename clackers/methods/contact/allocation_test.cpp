@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "clackers/methods/contact/runs.hpp"
+#include "clackers/methods/testing/runs.hpp"
 
 namespace {
 

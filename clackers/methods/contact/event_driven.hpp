@@ -46,7 +46,7 @@ struct EventDriven {
   double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
 
   template <class Integrator, int Dof>
-  class Walk;
+  class TimeLoop;
 };
 
 }  // namespace clackers::methods

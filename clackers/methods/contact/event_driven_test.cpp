@@ -1,8 +1,8 @@
 #include "clackers/methods/contact/event_driven.hpp"
 
 #include "clackers/base/error.hpp"
-#include "clackers/methods/contact/runs.hpp"
-#include "clackers/methods/integrators/stepper_checks.hpp"
+#include "clackers/methods/testing/runs.hpp"
+#include "clackers/methods/testing/stepper_checks.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -24,19 +24,19 @@ model::ImpactProblem<> ball(double u, double v, double eta, double end) {
 TEST(EventDriven, KeepsTheOrderOfTheIntegratorThroughImpacts) {
   for (const double eta : {1.0, 0.7})
     for (const std::string name : integrators) {
-      const RattlingMass truth{.sigma = 0.05, .eta = eta, .w = 1.3};
+      const RattlingMass reference{.sigma = 0.05, .eta = eta, .w = 1.3};
       const auto claim = method(name)->facts().through_impacts;
       EXPECT_EQ(claim.behaviour, Behaviour::proper);
       double worst_time = 0.0;
       const auto fit = checks::observed_order(
           [&](double h) {
             const auto n = std::round(11.0 / h);
-            const auto [path, outcome] = run(name, truth.problem(12.0), 11.0 / n);
+            const auto [path, outcome] = run(name, reference.problem(12.0), 11.0 / n);
             EXPECT_EQ(path.impacts->size(), 5u);
             double worst = 0.0;
             for (std::size_t i = 0; i < path.t.size(); ++i)
-              worst = std::max(worst, std::abs(path.u[i] - truth.u(path.t[i])));
-            worst_time = std::abs(path.impacts->back().t - truth.impact_time(5));
+              worst = std::max(worst, std::abs(path.u[i] - reference.u(path.t[i])));
+            worst_time = std::abs(path.impacts->back().t - reference.impact_time(5));
             return worst;
           },
           1.0 / 16, 5);
@@ -47,10 +47,10 @@ TEST(EventDriven, KeepsTheOrderOfTheIntegratorThroughImpacts) {
 }
 
 TEST(EventDriven, FiresOnceAnImpactAndMissesNone) {
-  const RattlingMass truth{.sigma = 0.0, .eta = 1.0, .w = 1.0};
+  const RattlingMass reference{.sigma = 0.0, .eta = 1.0, .w = 1.0};
   for (const std::string name : integrators)
     for (const double n : {997.0, 2000.0, 6283.0}) {
-      const auto [path, outcome] = run(name, truth.problem(301.0), 300.0 / n);
+      const auto [path, outcome] = run(name, reference.problem(301.0), 300.0 / n);
       ASSERT_TRUE(outcome.finished);
       if (name == "rk4") {
         EXPECT_EQ(path.impacts->size(), 96u) << n;  // (2 k - 1) pi/2 in (1, 301)
@@ -130,8 +130,8 @@ TEST(EventDriven, PassesAGrazeThatDoesNotTouch) {
 }
 
 TEST(EventDriven, KeepsTheEnergyOfAnElasticImpact) {
-  const RattlingMass truth{.sigma = 0.0, .eta = 1.0, .w = 1.0};
-  const auto [path, outcome] = run("newmark", truth.problem(101.0), 0.1);
+  const RattlingMass reference{.sigma = 0.0, .eta = 1.0, .w = 1.0};
+  const auto [path, outcome] = run("newmark", reference.problem(101.0), 0.1);
   for (std::size_t i = 0; i < path.t.size(); ++i)
     // Average acceleration keeps it in flight at whole steps, and 64 impacts of one partial step
     // each likewise; a thousand steps of a few roundings remain.
@@ -139,9 +139,9 @@ TEST(EventDriven, KeepsTheEnergyOfAnElasticImpact) {
 }
 
 TEST(EventDriven, KeepsTheOutputOnTheGrid) {
-  const RattlingMass truth{.sigma = 0.05, .eta = 0.9, .w = 1.0};
+  const RattlingMass reference{.sigma = 0.05, .eta = 0.9, .w = 1.0};
   const double h = 11.0 / 230;
-  const auto [path, outcome] = run("newmark", truth.problem(12.0), h);
+  const auto [path, outcome] = run("newmark", reference.problem(12.0), h);
   ASSERT_EQ(path.t.size(), 231u);
   for (std::size_t k = 0; k < 230; ++k) EXPECT_EQ(path.t[k], 1.0 + double(k) * h);
   EXPECT_EQ(path.t.back(), 12.0);
@@ -149,12 +149,12 @@ TEST(EventDriven, KeepsTheOutputOnTheGrid) {
 }
 
 TEST(EventDriven, EndsARunThatIsNoWholeNumberOfStepsWithAShorterOne) {
-  const RattlingMass truth{.sigma = 0.05, .eta = 0.9, .w = 1.0};
+  const RattlingMass reference{.sigma = 0.05, .eta = 0.9, .w = 1.0};
   for (const double end :
        {12.0, 1.0 + 1.5 * std::numbers::pi}) {  // the second: within the impact's step
-    const auto [path, outcome] = run("rk4", truth.problem(end), 0.013);
+    const auto [path, outcome] = run("rk4", reference.problem(end), 0.013);
     EXPECT_EQ(path.t.back(), end);
-    EXPECT_NEAR(path.u.back(), truth.u(end), 1e-9);
+    EXPECT_NEAR(path.u.back(), reference.u(end), 1e-9);
     EXPECT_LT(path.t[path.t.size() - 1] - path.t[path.t.size() - 2], 0.013);
   }
 }
@@ -295,9 +295,9 @@ TEST(EventDriven, ObjectsToCoupledContactsClosedAtTheStart) {
 // How a run ends.
 
 TEST(EventDriven, EndsAsDivergedBeyondTheStabilityLimitWithFiniteStatesOnly) {
-  const RattlingMass truth{.sigma = 0.0, .eta = 1.0, .w = 1.0};
+  const RattlingMass reference{.sigma = 0.0, .eta = 1.0, .w = 1.0};
   for (const bool has_contact : {true, false}) {
-    auto p = truth.problem(10001.0);
+    auto p = reference.problem(10001.0);
     if (!has_contact) p.contacts.clear();
     const auto [path, outcome] = run("central-difference", p, 2.5);
     // Impacts cut the steps short, and with them this run stays bounded.
@@ -321,13 +321,13 @@ struct ImpatientSink : model::Sink {
 };
 
 TEST(EventDriven, EndsAtTheImpactWhereTheSinkSaysSo) {
-  const RattlingMass truth{.sigma = 0.0, .eta = 1.0, .w = 1.0};
+  const RattlingMass reference{.sigma = 0.0, .eta = 1.0, .w = 1.0};
   ImpatientSink sink;
-  const auto outcome = method("rk4")->prepare(truth.problem(100.0), 0.1)->advance(sink);
+  const auto outcome = method("rk4")->prepare(reference.problem(100.0), 0.1)->advance(sink);
   EXPECT_TRUE(outcome.stopped_by_sink);
   EXPECT_FALSE(outcome.failed());
   EXPECT_EQ(sink.impacts, 3);
-  EXPECT_NEAR(sink.last, truth.impact_time(3), 0.1);
+  EXPECT_NEAR(sink.last, reference.impact_time(3), 0.1);
 }
 
 TEST(EventDriven, RunsANonlinearForceOfAnySize) {

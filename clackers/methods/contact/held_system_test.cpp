@@ -42,14 +42,14 @@ void moves_as_one_mass() {
                                      f[0] += std::sin(t) - 2.0 * t - 4.0 * 0.3;  // k1 (u2 + gap)
                                    }};
   Rk4::Stepper<Dof> stepper({}, held.system(), 0.01);
-  Rk4::Stepper<1> truth({}, one, 0.01);
+  Rk4::Stepper<1> reference({}, one, 0.01);
   auto now = problem.start;
   model::State<1> other{1.0, model::Vector<1>(0.4), model::Vector<1>(-0.5)};
   stepper.restart(now);
-  truth.restart(other);
+  reference.restart(other);
   for (int i = 0; i < 200; ++i) {
     stepper.step(now);
-    truth.step(other);
+    reference.step(other);
   }
   // 200 steps of some ten roundings of numbers below 4.
   EXPECT_NEAR(now.u[0] - now.u[1], 0.3, 1e-13);

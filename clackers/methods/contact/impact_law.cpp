@@ -43,7 +43,7 @@ std::optional<Objection> objection_to_closed_contacts(const std::string& who,
                                                       const model::ImpactProblem<>& problem) {
   const auto laws = impact_laws(problem);
   const auto is_closed = [&](const auto& law) {
-    return law.contact.opening(problem.start.u) <= law.rounding(problem.start.u);
+    return law.contact.gap_at(problem.start.u) <= law.rounding(problem.start.u);
   };
   for (std::size_t i = 0; i < laws.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)

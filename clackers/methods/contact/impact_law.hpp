@@ -23,7 +23,7 @@ struct ImpactLaw {
 
   /// Turns the velocity before an impact into the one after it. Returns the impulse along b [N s].
   double apply(Vector& v) const {
-    const double impulse = -(1.0 + contact.restitution) * contact.opening_rate(v) / mobility;
+    const double impulse = -(1.0 + contact.restitution) * contact.gap_rate(v) / mobility;
     v += impulse * push;
     return impulse;
   }

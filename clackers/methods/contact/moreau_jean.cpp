@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "clackers/base/error.hpp"
-#include "clackers/methods/contact/moreau_jean_walk.hpp"
+#include "clackers/methods/contact/moreau_jean_loop.hpp"
 #include "clackers/methods/rows.hpp"
 
 namespace clackers::methods {

@@ -44,7 +44,7 @@ struct MoreauJean {
   double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
 
   template <int Dof>
-  class Walk;
+  class TimeLoop;
 };
 
 }  // namespace clackers::methods

@@ -1,8 +1,8 @@
 #include "clackers/methods/contact/moreau_jean.hpp"
 
 #include "clackers/base/error.hpp"
-#include "clackers/methods/contact/runs.hpp"
-#include "clackers/methods/integrators/stepper_checks.hpp"
+#include "clackers/methods/testing/runs.hpp"
+#include "clackers/methods/testing/stepper_checks.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -54,8 +54,8 @@ TEST(MoreauJean, HasTheSmoothOrderItClaims) {
     const auto fit = checks::observed_order(
         [&](double h) {
           const auto path = run(name, p, 5.0 / std::round(5.0 / h)).trajectory;
-          const auto truth = ramps.exact(6.0);
-          return std::hypot(path.u.back() - truth.u[1], path.v.back() - truth.v[1]);
+          const auto reference = ramps.exact(6.0);
+          return std::hypot(path.u.back() - reference.u[1], path.v.back() - reference.v[1]);
         },
         1.0 / 256, 4);
     EXPECT_NEAR(fit.order, method(name)->facts().smooth_order, 0.05) << name;
@@ -84,14 +84,14 @@ TEST(MoreauJean, KeepsTheEnergyWithThetaOneHalfAndLosesItWithMore) {
 }
 
 TEST(MoreauJean, HasAnEnvelopeOfFirstOrder) {
-  const RattlingMass truth{.sigma = 0.05, .eta = 0.9, .w = 1.3};
+  const RattlingMass reference{.sigma = 0.05, .eta = 0.9, .w = 1.3};
   const auto envelope = [&](double h0) {
     double worst = 0.0;
     for (int i = 0; i < 8; ++i) {
       const double h = 20.0 / std::round(20.0 / (h0 * std::exp2(i / 8.0)));
-      const auto path = run("moreau-jean", truth.problem(21.0), h).trajectory;
+      const auto path = run("moreau-jean", reference.problem(21.0), h).trajectory;
       for (std::size_t k = 0; k < path.t.size(); ++k)
-        worst = std::max(worst, std::abs(path.u[k] - truth.u(path.t[k])));
+        worst = std::max(worst, std::abs(path.u[k] - reference.u(path.t[k])));
     }
     return worst;
   };
@@ -101,8 +101,8 @@ TEST(MoreauJean, HasAnEnvelopeOfFirstOrder) {
 }
 
 TEST(MoreauJean, EndsARunThatIsNoWholeNumberOfStepsWithAShorterOne) {
-  const RattlingMass truth{.sigma = 0.05, .eta = 1.0, .w = 1.0};
-  const auto prepared = method("moreau-jean")->prepare(truth.problem(2.0), 0.3);
+  const RattlingMass reference{.sigma = 0.05, .eta = 1.0, .w = 1.0};
+  const auto prepared = method("moreau-jean")->prepare(reference.problem(2.0), 0.3);
   model::TrajectorySink one(true), two(true);
   prepared->advance(one);
   prepared->advance(two);  // the matrix of the last step is not that of the first

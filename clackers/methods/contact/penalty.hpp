@@ -9,8 +9,8 @@
 #include "clackers/methods/contact/impact_law.hpp"
 #include "clackers/methods/contact/penalty_force.hpp"
 #include "clackers/methods/integrators/integrator_facts.hpp"
-#include "clackers/methods/march.hpp"
 #include "clackers/methods/parameters.hpp"
+#include "clackers/methods/time_loop.hpp"
 #include "clackers/numerics/roots.hpp"
 
 namespace clackers::methods {
@@ -53,34 +53,34 @@ struct Penalty {
   std::vector<double> stiffnesses(const model::ImpactProblem<Dof>& problem) const;
 
   template <class Integrator, int Dof>
-  class Walk;
+  class TimeLoop;
 };
 
 /// A run with penalty springs.
 template <class Integrator, int Dof>
-class Penalty::Walk {
+class Penalty::TimeLoop {
  public:
   using Stepper = typename Integrator::template Stepper<Dof>;
   using State = model::State<Dof>;
 
-  Walk(const Integrator& integrator, const Penalty& penalty, const model::ImpactProblem<Dof>& rigid,
-       const StepPlan& plan)
+  TimeLoop(const Integrator& integrator, const Penalty& penalty,
+           const model::ImpactProblem<Dof>& rigid, const StepPlan& plan)
       : problem_(with_springs(rigid, penalty.stiffnesses(rigid))),
         plan_(plan),
         stepper_(integrator, problem_.system, plan.h),
         at_(problem_.start) {
     touches_.reserve(problem_.contacts.size());
   }
-  Walk(const Walk&) = delete;
-  Walk& operator=(const Walk&) = delete;
+  TimeLoop(const TimeLoop&) = delete;
+  TimeLoop& operator=(const TimeLoop&) = delete;
 
   void advance(Recorder<Dof>& out) {
     stepper_.reset();
     searches_ = 0;
-    steps_ = march(stepper_, plan_, problem_.start, out,
-                   [&](const State& before, State& now, bool is_stepped) {
-                     return report(before, now, is_stepped, out);
-                   });
+    steps_ = time_loop(stepper_, plan_, problem_.start, out,
+                       [&](const State& before, State& now, bool is_stepped) {
+                         return report(before, now, is_stepped, out);
+                       });
   }
 
   model::Work work() const {
@@ -102,13 +102,13 @@ class Penalty::Walk {
     touches_.clear();
     for (std::size_t i = 0; i < problem_.contacts.size(); ++i) {
       const auto& contact = problem_.contacts[i];
-      const double g0 = contact.opening(before.u), g1 = contact.opening(now.u);
+      const double g0 = contact.gap_at(before.u), g1 = contact.gap_at(now.u);
       if (!(g0 >= 0.0 && g1 < 0.0)) continue;
       // The step is looked into from its start, and taken again below as it was.
       if (touches_.empty() && is_stepped) stepper_.undo();
       const double length = now.t - before.t;
       const auto bracket =
-          numerics::shrink([&](double s) { return contact.opening(stepper_.partial(before, s).u); },
+          numerics::shrink([&](double s) { return contact.gap_at(stepper_.partial(before, s).u); },
                            {0.0, g0, length, g1}, std::numeric_limits<double>::epsilon() * length);
       touches_.push_back({bracket.a, static_cast<int>(i)});
       ++searches_;

@@ -6,7 +6,7 @@ template <int Dof>
 void PenaltyForce<Dof>::add(const Vector& u, const Vector& v, Vector& p) const {
   if (beside_) beside_->add(u, v, p);
   for (std::size_t j = 0; j < contacts_.size(); ++j)
-    if (const double g = contacts_[j].opening(u); g < 0.0)
+    if (const double g = contacts_[j].gap_at(u); g < 0.0)
       p += stiffnesses_[j] * g * contacts_[j].direction;
 }
 
@@ -15,7 +15,7 @@ void PenaltyForce<Dof>::add_tangent(const Vector& u, const Vector& v, Matrix& dp
                                     Matrix& dp_dv) const {
   if (beside_) beside_->add_tangent(u, v, dp_du, dp_dv);
   for (std::size_t j = 0; j < contacts_.size(); ++j)
-    if (contacts_[j].opening(u) < 0.0)
+    if (contacts_[j].gap_at(u) < 0.0)
       dp_du += stiffnesses_[j] * contacts_[j].direction * contacts_[j].direction.transpose();
 }
 

@@ -1,8 +1,8 @@
 #include "clackers/methods/contact/penalty.hpp"
 
 #include "clackers/base/error.hpp"
-#include "clackers/methods/contact/runs.hpp"
-#include "clackers/methods/integrators/stepper_checks.hpp"
+#include "clackers/methods/testing/runs.hpp"
+#include "clackers/methods/testing/stepper_checks.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -34,25 +34,25 @@ struct SpringStop {
 };
 
 TEST(Penalty, ConvergesToTheMotionWithSpringsAtTheOrderOfTheIntegrator) {
-  const SpringStop truth;
+  const SpringStop reference;
   for (const std::string name : {"newmark", "central-difference", "generalized-alpha:rho=0.8"}) {
     std::vector<model::Impact> touches;
     const auto fit = checks::observed_order(
         [&](double h) {
-          const auto [path, outcome] =
-              run(name + "+penalty:stiffness=300", truth.problem(), 10.0 / std::round(10.0 / h));
+          const auto [path, outcome] = run(name + "+penalty:stiffness=300", reference.problem(),
+                                           10.0 / std::round(10.0 / h));
           EXPECT_TRUE(outcome.finished) << outcome.detail;
           touches = *path.impacts;
           double worst = 0.0;
           for (std::size_t i = 0; i < path.t.size(); ++i)
-            worst = std::max(worst, std::abs(path.u[i] - truth.u(path.t[i])));
+            worst = std::max(worst, std::abs(path.u[i] - reference.u(path.t[i])));
           return worst;
         },
         1.0 / 128, 6);
     EXPECT_NEAR(fit.order, 2.0, 0.2) << name << " scatter " << fit.scatter;
     ASSERT_EQ(touches.size(), 3u);
     for (std::size_t k = 0; k < touches.size(); ++k) {
-      EXPECT_NEAR(touches[k].t, truth.touch(int(k) + 1), 1e-3);  // h^2 wc^2 T at h = 1/4096
+      EXPECT_NEAR(touches[k].t, reference.touch(int(k) + 1), 1e-3);  // h^2 wc^2 T at h = 1/4096
       EXPECT_NEAR(touches[k].u[0], 0.0, 1e-12);
       EXPECT_EQ(touches[k].v_before, touches[k].v_after);
       EXPECT_EQ(touches[k].impulse, 0.0);

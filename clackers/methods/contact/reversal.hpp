@@ -7,8 +7,8 @@
 
 #include "clackers/methods/contact/impact_law.hpp"
 #include "clackers/methods/integrators/integrator_facts.hpp"
-#include "clackers/methods/march.hpp"
 #include "clackers/methods/parameters.hpp"
+#include "clackers/methods/time_loop.hpp"
 
 namespace clackers::methods {
 
@@ -41,30 +41,30 @@ struct Reversal {
   double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
 
   template <class Integrator, int Dof>
-  class Walk;
+  class TimeLoop;
 };
 
 /// A run with end-of-step reversal.
 template <class Integrator, int Dof>
-class Reversal::Walk {
+class Reversal::TimeLoop {
  public:
   using Stepper = typename Integrator::template Stepper<Dof>;
   using State = model::State<Dof>;
 
-  Walk(const Integrator& integrator, const Reversal&, model::ImpactProblem<Dof> problem,
-       const StepPlan& plan)
+  TimeLoop(const Integrator& integrator, const Reversal&, model::ImpactProblem<Dof> problem,
+           const StepPlan& plan)
       : problem_(std::move(problem)),
         plan_(plan),
         laws_(impact_laws(problem_)),
         stepper_(integrator, problem_.system, plan.h),
         v_before_(problem_.start.v) {}
-  Walk(const Walk&) = delete;
-  Walk& operator=(const Walk&) = delete;
+  TimeLoop(const TimeLoop&) = delete;
+  TimeLoop& operator=(const TimeLoop&) = delete;
 
   void advance(Recorder<Dof>& out) {
     stepper_.reset();
-    steps_ = march(stepper_, plan_, problem_.start, out,
-                   [&](const State&, State& now, bool) { return reverse(now, out); });
+    steps_ = time_loop(stepper_, plan_, problem_.start, out,
+                       [&](const State&, State& now, bool) { return reverse(now, out); });
   }
 
   model::Work work() const {
@@ -77,7 +77,7 @@ class Reversal::Walk {
  private:
   bool fires(std::size_t i, const State& now) const {
     const auto& contact = laws_[i].contact;
-    return contact.opening(now.u) < 0.0 && contact.opening_rate(now.v) < 0.0;
+    return contact.gap_at(now.u) < 0.0 && contact.gap_rate(now.v) < 0.0;
   }
 
   bool reverse(State& now, Recorder<Dof>& out) {

@@ -1,7 +1,7 @@
 #include "clackers/methods/contact/reversal.hpp"
 
-#include "clackers/methods/contact/runs.hpp"
 #include "clackers/methods/integrators/newmark.hpp"
+#include "clackers/methods/testing/runs.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -10,8 +10,8 @@ using runs::RattlingMass;
 using runs::run;
 
 TEST(Reversal, DoesWhatANaiveCodeDoes) {
-  const RattlingMass truth{.sigma = 0.05, .eta = 0.8, .w = 1.3};
-  const auto problem = truth.problem(21.0);
+  const RattlingMass reference{.sigma = 0.05, .eta = 0.8, .w = 1.3};
+  const auto problem = reference.problem(21.0);
   const double h = 0.1;
   const auto [path, outcome] = run("newmark+reversal", problem, h);
   const auto fixed = model::with_dof<1>(problem);
@@ -51,14 +51,14 @@ TEST(Reversal, ClaimsAnIrregularFirstOrderWhateverTheIntegrator) {
 
 // The worst error over eight neighbouring steps falls like h, and neighbours scatter.
 TEST(Reversal, HasAnEnvelopeOfFirstOrder) {
-  const RattlingMass truth{.sigma = 0.05, .eta = 1.0, .w = 1.3};
+  const RattlingMass reference{.sigma = 0.05, .eta = 1.0, .w = 1.3};
   const auto envelope = [&](double h0) {
     double worst = 0.0;
     for (int i = 0; i < 8; ++i) {
       const double h = 20.0 / std::round(20.0 / (h0 * std::exp2(i / 8.0)));
-      const auto path = run("rk4+reversal", truth.problem(21.0), h).trajectory;
+      const auto path = run("rk4+reversal", reference.problem(21.0), h).trajectory;
       for (std::size_t k = 0; k < path.t.size(); ++k)
-        worst = std::max(worst, std::abs(path.u[k] - truth.u(path.t[k])));
+        worst = std::max(worst, std::abs(path.u[k] - reference.u(path.t[k])));
     }
     return worst;
   };

@@ -1,6 +1,6 @@
 #include "clackers/methods/integrators/central_difference.hpp"
 
-#include "clackers/methods/integrators/stepper_checks.hpp"
+#include "clackers/methods/testing/stepper_checks.hpp"
 
 namespace clackers::methods {
 namespace {

@@ -1,7 +1,7 @@
 #include "clackers/methods/integrators/newmark.hpp"
 
 #include "clackers/base/error.hpp"
-#include "clackers/methods/integrators/stepper_checks.hpp"
+#include "clackers/methods/testing/stepper_checks.hpp"
 
 namespace clackers::methods {
 namespace {

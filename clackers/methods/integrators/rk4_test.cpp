@@ -1,6 +1,6 @@
 #include "clackers/methods/integrators/rk4.hpp"
 
-#include "clackers/methods/integrators/stepper_checks.hpp"
+#include "clackers/methods/testing/stepper_checks.hpp"
 
 namespace clackers::methods {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <random>
 
-#include "clackers/numerics/half_turns.hpp"
-#include "clackers/numerics/power_of_two.hpp"
+#include "clackers/numerics/exp2.hpp"
 #include "clackers/numerics/simd/target.hpp"
 #include "clackers/numerics/simd/wanted.hpp"
+#include "clackers/numerics/sincospi.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "clackers/numerics/simd/kernels_test.cpp"
@@ -15,7 +15,7 @@
 #include <hwy/highway.h>
 
 #include "clackers/numerics/simd/half_turns-inl.hpp"
-#include "clackers/numerics/simd/power_of_two-inl.hpp"
+#include "clackers/numerics/simd/exp2-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace clackers::numerics::simd::HWY_NAMESPACE {
@@ -61,7 +61,7 @@ void turned(double quarters, double* out) {
 void power(double x, double* out) {
   const Vectors<1> r = {constant(x)};
   Vectors<1> value, low;
-  power_of_two<1>(r, value, low);
+  exp2<1>(r, value, low);
   out[0] = first(value[0]), out[1] = first(low[0]);
 }
 void scaled(double n, double x, double* out) {
@@ -125,8 +125,8 @@ TEST_P(Kernels, KeepLongNumbersTo102Bits) {
   for (int i = 0; i < 3000; ++i) {
     const double x = any(), y = any();
     const double x_lo = uniform(-0x1p-54, 0x1p-54) * x, y_lo = uniform(-0x1p-54, 0x1p-54) * y;
-    const auto off = [](const double* found, const DoubleDouble& truth) {
-      return std::abs((found[0] - truth.hi) + (found[1] - truth.lo));
+    const auto off = [](const double* found, const DoubleDouble& reference) {
+      return std::abs((found[0] - reference.hi) + (found[1] - reference.lo));
     };
     double found[2];
     HWY_DYNAMIC_DISPATCH(long_product)(x, x_lo, y, y_lo, found);
@@ -156,9 +156,9 @@ TEST_P(Kernels, KeepTheBoundsOfSineAndCosine) {
                                   : uniform(-0.25, 0.25);
     double found[2];
     HWY_DYNAMIC_DISPATCH(quarter)(z, found);
-    const auto truth = sine_cosine_of_half_turns({z, 0.0});
-    sine = std::max(sine, std::abs(found[0] - truth.sine.hi - truth.sine.lo));
-    const double less_one = (truth.cosine.hi - 1.0) + truth.cosine.lo;
+    const auto reference = sincospi({z, 0.0});
+    sine = std::max(sine, std::abs(found[0] - reference.sine.hi - reference.sine.lo));
+    const double less_one = (reference.cosine.hi - 1.0) + reference.cosine.lo;
     cosine = std::max(cosine, std::abs(found[1] - less_one));
   }
   EXPECT_LE(sine, 0.4 * 0x1p-52);
@@ -182,10 +182,11 @@ TEST_P(Kernels, KeepTheBoundOfPowersOfTwo) {
     const double r = i == 0 ? 0.5 : i == 1 ? -0.5 : uniform(-0.5, 0.5);
     double found[2];
     HWY_DYNAMIC_DISPATCH(power)(r, found);
-    const auto [e, exponent] = power_of_two({r, 0.0});
+    const auto [e, exponent] = exp2({r, 0.0});
     const double scale = std::ldexp(1.0, exponent);
-    const double truth = e.hi * scale;
-    worst = std::max(worst, std::abs((found[0] - truth) + (found[1] - e.lo * scale)) / truth);
+    const double reference = e.hi * scale;
+    worst =
+        std::max(worst, std::abs((found[0] - reference) + (found[1] - e.lo * scale)) / reference);
   }
   EXPECT_LE(worst, (GetParam().has_fma() ? 0.37 : 0.55) * 0x1p-52);
 }

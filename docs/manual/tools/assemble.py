@@ -9,7 +9,7 @@ import api
 import command
 import documents
 import pages
-import rooms
+import modules
 import source_pages
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
@@ -35,7 +35,7 @@ def main():
         path = out / page
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
-    rooms.draw(ROOT / "layers.txt", ROOT / "clackers", out / "_static" / "rooms.svg")
+    modules.draw(ROOT / "layers.txt", ROOT / "clackers", out / "_static" / "modules.svg")
 
 
 if __name__ == "__main__":

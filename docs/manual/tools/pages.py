@@ -48,9 +48,9 @@ def card(text):
 
 def method_page(command, row):
     name, kind, _, summary = row
-    spelling = f"newmark+{name}" if kind == "contact" else name
-    sheets = command.json("show", spelling)["sheets"]
-    shown = f"clackers show {spelling}"
+    specification = f"newmark+{name}" if kind == "contact" else name
+    sheets = command.json("show", specification)["sheets"]
+    shown = f"clackers show {specification}"
     out = [f"# {name}\n\n{cell(summary[0].upper() + summary[1:])}. Kind: {kind}.\n"]
     own = [sheet for sheet in sheets if sheet["schema"] == "clackers/card/1" and sheet["title"].startswith(name + " ")]
     out += [card(sheet["rows"][0][0]) for sheet in own]

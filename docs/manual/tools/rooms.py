@@ -1,22 +1,22 @@
-"""The picture of the rooms, from layers.txt."""
+"""The picture of the modules, from layers.txt."""
 import re
 import subprocess
 
 
 def read(layers):
-    """[(room, rooms it may include)] in the order of the file."""
+    """[(module, modules it may include)] in the order of the file."""
     table = []
     for line in layers.read_text().splitlines():
         if line.startswith("#") or not line.strip():
             continue
-        room, named = line.split(":")
-        table.append((room, named.split()))
+        module, named = line.split(":")
+        table.append((module, named.split()))
     return table
 
 
-def purpose(sources, room):
-    """The first sentence of the room's README."""
-    for folder in (sources / room, sources.parent / room, sources.parent / room / "c"):
+def purpose(sources, module):
+    """The first sentence of the module's README."""
+    for folder in (sources / module, sources.parent / module, sources.parent / module / "c"):
         if (folder / "README.md").is_file():
             text = (folder / "README.md").read_text().split("\n", 1)[1].strip()
             text = re.sub(r"\[([^\]]*)\]\([^)]*\)|`", r"\1", text.split("\n\n")[0].replace("\n", " "))
@@ -35,23 +35,23 @@ def wrapped(text, width=30):
 
 
 def reachable(table):
-    """Rooms that a room may include through others that it may include."""
+    """Modules that a module may include through others that it may include."""
     named = dict(table)
-    return {room: {far for near in rooms for far in named.get(near, [])} for room, rooms in table}
+    return {module: {far for near in modules for far in named.get(near, [])} for module, modules in table}
 
 
 def dot(table, sources):
     """The graph, without arrows that others imply."""
-    lines = ["digraph rooms {", "rankdir=BT; nodesep=0.25; ranksep=0.35; bgcolor=white;",
+    lines = ["digraph modules {", "rankdir=BT; nodesep=0.25; ranksep=0.35; bgcolor=white;",
              'node [shape=box style="rounded,filled" fontname="Helvetica" fontsize=11 color="#1b5e8c" '
              'fillcolor="#eef5fa" margin="0.15,0.08"];', 'edge [color="#5a6b78" arrowsize=0.7];']
     implied = reachable(table)
-    for room, named in table:
+    for module, named in table:
         said = "".join(f'<br/><font point-size="9">{line}</font>' for line in wrapped(
-            purpose(sources, room).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")))
-        color = ' fillcolor="#fdf1e3" color="#b5651d"' if room == "methods" else ""
-        lines.append(f"{room} [label=<<b>{room}</b>{said}>{color}];")
-        lines += [f"{room} -> {other};" for other in named if other not in implied[room]]
+            purpose(sources, module).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")))
+        color = ' fillcolor="#fdf1e3" color="#b5651d"' if module == "methods" else ""
+        lines.append(f"{module} [label=<<b>{module}</b>{said}>{color}];")
+        lines += [f"{module} -> {other};" for other in named if other not in implied[module]]
     return "\n".join(lines + ["}"])
 
 

@@ -1,0 +1,125 @@
+#include "clackers/assess/errors/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clackers/assess/errors/history_check.hpp"
+#include "clackers/assess/impacts/collision_finder.hpp"
+#include "clackers/assess/impacts/contact_rest.hpp"
+#include "clackers/assess/impacts/impact_matcher.hpp"
+#include "clackers/assess/impacts/jump_limits.hpp"
+
+namespace clackers::assess {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t block_size = 4096;  // rows of reference that fit a cache
+
+std::vector<double> entries(const Eigen::VectorXd& vector) {
+  return {vector.data(), vector.data() + vector.size()};
+}
+
+double median_difference(const std::vector<double>& t) {
+  std::vector<double> differences;
+  differences.reserve(t.size());
+  for (std::size_t i = 1; i < t.size(); ++i)
+    if (t[i] > t[i - 1]) differences.push_back(t[i] - t[i - 1]);
+  const auto middle = differences.begin() + std::ssize(differences) / 2;
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle;
+}
+
+// Vectors with a hole say nothing.
+void forget_what_is_not_finite(model::Impact& impact) {
+  for (auto* vector : {&impact.u, &impact.v_before, &impact.v_after})
+    if (!std::ranges::all_of(*vector, [](double x) { return std::isfinite(x); })) vector->clear();
+  if (!std::isfinite(impact.impulse)) impact.impulse = unknown;
+}
+
+}  // namespace
+
+Comparison::Comparison(const model::Trajectory& history, const model::Motion& reference,
+                       const model::ImpactProblem<>& problem)
+    : given_(history), reference_(reference), problem_(problem) {
+  require_comparable(history, reference, problem);
+  step_ = median_difference(history.t);
+  widened_ = with_jump_limits(history);
+  const auto envelope = reference.envelope(0.0);
+  u_envelope_ = entries(envelope.u);
+  v_envelope_ = entries(envelope.v);
+  a_envelope_ = entries(envelope.a);
+  sample_reference();
+  collect_impacts();
+}
+
+// Each row once, in blocks of one side.
+void Comparison::sample_reference() {
+  const auto& t = history().t;
+  const auto size = t.size() * dof();
+  true_u_.resize(size);
+  true_v_.resize(size);
+  if (has_accelerations()) true_a_.resize(size);
+  std::vector<double> times;
+  for (std::size_t from = 0; from < t.size(); from += times.size()) {
+    const bool left = is_left_limit(from);
+    times.clear();
+    for (auto row = from; row < t.size() && times.size() < block_size; ++row) {
+      if (is_left_limit(row) != left) break;
+      times.push_back(std::min(t[row], reference_.end()));
+    }
+    const auto part = [&](std::vector<double>& all) {
+      return all.empty() ? std::span<double>()
+                         : std::span(all).subspan(from * dof(), times.size() * dof());
+    };
+    reference_.sample(times, left ? model::Side::left : model::Side::right,
+                      {part(true_u_), part(true_v_), part(true_a_)});
+  }
+}
+
+void Comparison::collect_impacts() {
+  // Two true impacts must never count as one: the two steps within which reports are joined are at
+  // most an eighth of the mean time between true impacts, half of what a match may be off.
+  const auto spacing =
+      reference_.end() / double(std::max(1LL, reference_.impact_count(reference_.end())));
+  const double step = std::min(step_, spacing / 16.0);
+  if (!given_.impacts) {
+    source_ = ImpactSource::found_in_history;
+    for (auto& found : find_collisions(given_, problem_)) {
+      impacts_.push_back(std::move(found.impact));
+      impact_ends_.push_back(found.end);
+    }
+    match_impacts(step);
+    return;
+  }
+  auto reports = *given_.impacts;
+  std::ranges::stable_sort(reports, {}, &model::Impact::t);
+  for (auto& report : reports) {
+    forget_what_is_not_finite(report);
+    // The matcher's own rule.
+    if (!impacts_.empty() && report.t - impact_ends_.back() < (2.0 - 1e-6) * step) {
+      impacts_.back().v_after = std::move(report.v_after);
+      impacts_.back().impulse += report.impulse;
+      impact_ends_.back() = report.t;
+    } else {
+      impact_ends_.push_back(report.t);
+      impacts_.push_back(std::move(report));
+    }
+  }
+  match_impacts(step);
+}
+
+void Comparison::match_impacts(double step) {
+  const auto& t = given_.t;
+  ImpactMatcher matcher(reference_, step, t.front());
+  matcher.keep_pairs();
+  for (const auto& impact : impacts_)
+    matcher.take(impact.t,
+                 rests_in_contact(reference_, problem_.contacts, impact.contact, impact.t));
+  // Each row may be off by a unit of its envelope; at worst they add up.
+  score_ = matcher.score(t.back(), std::numeric_limits<double>::epsilon() * double(t.size()));
+  for (const auto& pair : matcher.pairs(t.back()))
+    matches_.push_back({pair.report, reference_.impact(pair.reference)});
+}
+
+}  // namespace clackers::assess

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "clackers/assess/errors/score.hpp"
+#include "clackers/model/impact_problem.hpp"
+#include "clackers/model/motion.hpp"
+#include "clackers/model/trajectory.hpp"
+
+namespace clackers::assess {
+
+/// A collision of the history and the true one it belongs to.
+struct MatchedImpact {
+  std::size_t found = 0;  ///< index into Comparison::impacts()
+  model::MotionImpact reference;
+};
+
+/// Where the impacts of a comparison come from.
+enum class ImpactSource { reported, found_in_history };
+
+/// A stored history beside the true motion: what several metrics need, worked out once. History,
+/// motion and problem must outlive it.
+class Comparison {
+ public:
+  /// Throws InputError unless the history has the problem's number of masses, at least two times,
+  /// finite numbers, times that do not descend and lie within [0, reference.end()] (or beyond it by a
+  /// rounding), and at most two rows a time. `history.v` may be empty: velocities are not known.
+  Comparison(const model::Trajectory& history, const model::Motion& reference,
+             const model::ImpactProblem<>& problem);
+
+  /// The history; where its rows lack the limits of jumps that it reports whole, with these rows
+  /// (with_jump_limits says when).
+  const model::Trajectory& history() const { return widened_ ? *widened_ : given_; }
+  const model::Motion& reference() const { return reference_; }
+  const model::ImpactProblem<>& problem() const { return problem_; }
+  std::size_t dof() const { return static_cast<std::size_t>(given_.dof); }
+  std::size_t rows() const { return history().t.size(); }
+  bool has_velocities() const { return !given_.v.empty(); }
+  bool has_accelerations() const { return !given_.a.empty(); }
+  /// Median of the given history's differences between times, without zeros [s].
+  double step() const { return step_; }
+  /// First row of two with one time: the left limit of a jump.
+  bool is_left_limit(std::size_t row) const {
+    return row + 1 < rows() && history().t[row + 1] == history().t[row];
+  }
+  /// Second row of two with one time: the right limit of a jump.
+  bool is_right_limit(std::size_t row) const {
+    return row > 0 && history().t[row - 1] == history().t[row];
+  }
+
+  /// True states at the times of history(), row-major (time, mass). Of two rows with one time the
+  /// first is the left limit, the second the right one; elsewhere the flight that truly holds, and
+  /// the right limit at the double nearest to an impact.
+  std::span<const double> true_u() const { return true_u_; }
+  std::span<const double> true_v() const { return true_v_; }
+  /// Empty unless the history has accelerations.
+  std::span<const double> true_a() const { return true_a_; }
+  /// Envelopes of the true motion at t = 0, one a mass: what relative errors are divided by.
+  std::span<const double> u_envelope() const { return u_envelope_; }
+  std::span<const double> v_envelope() const { return v_envelope_; }
+  std::span<const double> a_envelope() const { return a_envelope_; }
+
+  /// The history's collisions in order of time: those it reports, or else those found in it.
+  /// Reports of adjacent steps are one collision with the time and the limits before of the first,
+  /// the limits after of the last and the sum of impulses. What is not known of one stands as an
+  /// empty vector, and NaN for the impulse.
+  const std::vector<model::Impact>& impacts() const { return impacts_; }
+  /// When each of them was over [s]: the last report, the end of a compliant contact.
+  std::span<const double> impact_ends() const { return impact_ends_; }
+  ImpactSource impact_source() const { return source_; }
+  /// Pairs in order of time; the rule is ImpactMatcher's.
+  const std::vector<MatchedImpact>& matches() const { return matches_; }
+  /// What was matched, missed and found beside; ImpactMatcher says what is expected.
+  const ImpactScore& impact_score() const { return score_; }
+  /// True impacts that the history should have: up to its last time.
+  long long expected() const { return score_.expected; }
+
+ private:
+  void sample_reference();
+  void collect_impacts();
+  void match_impacts(double step);
+
+  const model::Trajectory& given_;
+  std::optional<model::Trajectory> widened_;
+  const model::Motion& reference_;
+  const model::ImpactProblem<>& problem_;
+  double step_ = 0.0;
+  std::vector<double> true_u_, true_v_, true_a_, u_envelope_, v_envelope_, a_envelope_;
+  std::vector<model::Impact> impacts_;
+  std::vector<double> impact_ends_;
+  ImpactSource source_ = ImpactSource::reported;
+  std::vector<MatchedImpact> matches_;
+  ImpactScore score_;
+};
+
+}  // namespace clackers::assess

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/assess/metrics/distance/polyline_distance.hpp"
+#include "clackers/assess/metrics/metric.hpp"
+
+namespace clackers::assess {
+
+/// A motion as a hybrid arc: one line for each flight j = 0, 1, ..., points (t/T, u/U, v/V) of all
+/// masses, T as in collision_period(), U and V the true envelopes at t = 0. Flights do not share
+/// their ends: the first ends with the left limits of an impact, the next starts with the right
+/// ones.
+using HybridArc = std::vector<Polyline>;
+
+/// Those of the history and the reference, points at the history's rows and at impacts. The history's
+/// flights end and start at its own collisions; a row inside a collision that takes several steps
+/// belongs to no flight. Where the displacement or a limit of a collision is not known, its flights
+/// end with the last row before it and start with the first row after it.
+HybridArc history_arc(const Comparison& comparison);
+HybridArc true_arc(const Comparison& comparison);
+
+/// The smallest epsilon for which history and reference are (tau, epsilon)-close, tau the end of the
+/// history: for every point (t, j) of the one there is an (s, j) of the other, j the same number of
+/// impacts so far, with |t - s| <= epsilon T and each state within epsilon of its scale, and the
+/// other way round. Both end with the history. Lines are joined as in filled_graphs(), and one_sided_distance() says how close
+/// to the smallest one the value is.
+///
+/// Stricter than the filled graph: impacts must come one for one, each a jump. Impacts at slightly
+/// other instants do no harm; those that take two steps, and penalty contacts, which have no jump,
+/// never become close. Not measured where the numbers of impacts differ, since then no epsilon is
+/// large enough; an impact that only one of both has within the last two steps does not count.
+/// Source: R. Goebel, R. G. Sanfelice, A. R. Teel, Hybrid Dynamical Systems, Princeton University
+/// Press (2012), section 5.3.
+MetricValue measure_hybrid_closeness(const Comparison& comparison);
+
+}  // namespace clackers::assess

@@ -1,0 +1,189 @@
+#include "clackers/exact/pair/closed_form.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clackers/base/error.hpp"
+#include "clackers/numerics/exp2.hpp"
+#include "clackers/numerics/sincospi.hpp"
+
+namespace clackers::exact {
+
+using model::Kinematics;
+using model::Side;
+using numerics::DoubleDouble;
+using numerics::Scaled;
+
+namespace {
+
+double rounded(const DoubleDouble& x, int exponent) { return numerics::scale(x.hi, exponent); }
+
+// E of flight k at time t as a number of any size. Below 2^-4000 every product with a constant
+// (all below 1e300) is nearer to 0 than to the smallest subnormal.
+Scaled power(const DoubleDouble& halvings) {
+  if (halvings.hi < -4000.0) return {};
+  return numerics::exp2(halvings);
+}
+
+Kinematics make_kinematics(int n) {
+  return {Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+}
+
+}  // namespace
+
+ClosedForm::ClosedForm(const WideMotion& motion)
+    : c_(flight_constants(motion)), problem_(impact_problem(motion)) {}
+
+ClosedForm::Phase ClosedForm::phase_at(double t) const {
+  const auto turns = c_.turns * t;
+  double k = numerics::nearest_whole(turns.hi);
+  // k <= 2^50 + 1, so the difference is exact.
+  const auto top = numerics::two_sum(turns.hi - k, turns.mid);
+  auto y = numerics::quick_two_sum(top.hi, top.lo + turns.lo);
+  // The parts below turns.hi may carry y over the edge of [-1/2, 1/2).
+  if (y.hi > 0.5 || (y.hi == 0.5 && y.lo >= 0.0)) {
+    k += 1.0;
+    y = y + DoubleDouble{-1.0, 0.0};
+  } else if (y.hi < -0.5 || (y.hi == -0.5 && y.lo < 0.0)) {
+    k -= 1.0;
+    y = y + DoubleDouble{1.0, 0.0};
+  }
+  return {k, y};
+}
+
+numerics::Neighbour ClosedForm::instant(double k) const {
+  return numerics::nearest_double(c_.period * (k - 0.5));
+}
+
+ClosedForm::Phase ClosedForm::flight_at(double t, Side side) const {
+  auto phase = phase_at(t);
+  const double natural = phase.flight;
+  if (!c_.collides) {
+    phase.flight = 0.0;
+    // Whole turns change nothing; an odd number of half turns is one.
+    if (std::fmod(natural, 2.0) != 0.0)
+      phase.half_turns = phase.half_turns + DoubleDouble{1.0, 0.0};
+    return phase;
+  }
+  // Half an ulp of t is at most 2^-53 Omega t / pi < 2^-53 (k + 1) half turns; twice that filters.
+  constexpr double two_to_minus_52 = 0x1p-52;
+  const double y = phase.half_turns.hi;
+  if (0.5 - std::abs(y) <= (natural + 1.0) * two_to_minus_52) {
+    const double k = y > 0.0 ? natural + 1.0 : natural;
+    if (instant(k).nearest == t) {
+      phase.flight = side == Side::left ? k - 1.0 : k;
+      phase.half_turns = phase.half_turns + DoubleDouble{natural - phase.flight, 0.0};
+    }
+  }
+  return phase;
+}
+
+ClosedForm::Phase ClosedForm::phase(double t, Side side) const {
+  require_inside(t);
+  return flight_at(t, side);
+}
+
+void ClosedForm::require_inside(double t) const {
+  if (!(t >= 0.0 && t <= c_.end))
+    refuse("motion", "t", t, fmt::format("0 <= t <= {} (the end of the motion, in s)", c_.end), {},
+           "time-outside");
+}
+
+void ClosedForm::sample(std::span<const double> times, Side side, model::SampleBuffers out) const {
+  const auto masses = c_.masses.size();
+  const auto size = times.size() * masses;
+  if (out.u.size() != size || out.v.size() != size || (!out.a.empty() && out.a.size() != size))
+    throw InputError(
+        fmt::format("motion: buffers for u, v, a hold {}, {}, {} numbers; allowed: {} each, one a "
+                    "time and mass (a may be empty).",
+                    out.u.size(), out.v.size(), out.a.size(), size),
+        "wrong-size");
+
+  std::size_t at = 0;
+  for (const double t : times) {
+    require_inside(t);
+    const auto [flight, half_turns] = flight_at(t, side);
+    const bool rests = c_.eta == 0.0 && flight > 0.0;
+    const auto [e, exponent] = rests ? Scaled{} : power(c_.log2_eta * flight - c_.decay * t);
+    for (const auto& mass : c_.masses) {
+      const auto [sine, cosine] = numerics::sincospi(half_turns * mass.multiple);
+      const auto ec = e * cosine, es = e * sine;
+      out.u[at] = rounded(mass.b * ec, exponent);
+      out.v[at] = rounded(mass.v_cos * ec + mass.v_sin * es, exponent);
+      if (!out.a.empty()) out.a[at] = rounded(mass.a_cos * ec + mass.a_sin * es, exponent);
+      ++at;
+    }
+  }
+}
+
+Kinematics ClosedForm::envelope(double t) const {
+  require_inside(t);
+  const double flight = flight_at(t, Side::left).flight;
+  auto result = make_kinematics(dof());
+  if (c_.eta == 0.0 && flight > 0.0) return result;
+  const auto [e, exponent] = power(c_.log2_eta * flight - c_.decay * t);
+  for (int i = 0; i < dof(); ++i) {
+    const auto& mass = c_.masses[static_cast<std::size_t>(i)];
+    result.u[i] = numerics::scale(mass.u_envelope * e.hi, exponent);
+    result.v[i] = numerics::scale(mass.v_envelope * e.hi, exponent);
+    result.a[i] = numerics::scale(mass.a_envelope * e.hi, exponent);
+  }
+  return result;
+}
+
+Kinematics ClosedForm::error_bound(double t) const {
+  constexpr double relative = 0.51 * 0x1p-52;
+  constexpr double spacing = std::numeric_limits<double>::denorm_min();
+  auto bound = envelope(t);
+  for (auto* x : {&bound.u, &bound.v, &bound.a}) *x = (*x * relative).array() + spacing;
+  return bound;
+}
+
+long long ClosedForm::impact_count(double t) const {
+  require_inside(t);
+  if (!c_.collides) return 0;
+  const auto count = static_cast<long long>(phase_at(t).flight);
+  return c_.eta == 0.0 ? std::min(count, 1LL) : count;
+}
+
+model::MotionImpact ClosedForm::impact(long long index) const {
+  const auto count = impact_count(c_.end);
+  if (index < 1 || index > count)
+    throw InputError(
+        fmt::format("motion: impact {} was asked for; allowed: {}.", index,
+                    count == 0 ? std::string("none, since nothing collides up to the end")
+                               : fmt::format("1 to {}, those up to t = {} s", count, c_.end)),
+        "beyond-last-impact");
+  const auto k = static_cast<double>(index);
+  model::MotionImpact hit;
+  hit.index = index;
+  const auto when = instant(k);
+  hit.t = when.nearest;
+  const double other = std::nextafter(hit.t, when.beyond > 0.0 ? INFINITY : 0.0);
+  hit.when = {std::min(hit.t, other), std::max(hit.t, other)};
+
+  const auto decay = c_.period_decay * (k - 0.5);
+  const auto before = power(c_.log2_eta * (k - 1.0) - decay);
+  const auto after = c_.eta == 0.0 ? Scaled{} : power(c_.log2_eta * k - decay);
+  hit.before = hit.after = make_kinematics(dof());
+  for (int i = 0; i < dof(); ++i) {
+    const auto& mass = c_.masses[static_cast<std::size_t>(i)];
+    hit.before.v[i] = rounded(mass.v_hit * before.significand, before.exponent);
+    hit.before.a[i] = rounded(mass.a_hit * before.significand, before.exponent);
+    hit.after.v[i] = rounded(-mass.v_hit * after.significand, after.exponent);
+    hit.after.a[i] = rounded(-mass.a_hit * after.significand, after.exponent);
+  }
+  hit.impulse = rounded(c_.impulse * before.significand, before.exponent);
+  const auto square = [](const Scaled& x) {
+    return Scaled{x.significand * x.significand, 2 * x.exponent};
+  };
+  const auto energy_before = square(before), energy_after = square(after);
+  hit.energy_before = rounded(c_.energy * energy_before.significand, energy_before.exponent);
+  hit.energy_after = rounded(c_.energy * energy_after.significand, energy_after.exponent);
+  return hit;
+}
+
+}  // namespace clackers::exact

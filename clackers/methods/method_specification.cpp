@@ -1,0 +1,97 @@
+#include "clackers/methods/method_specification.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <vector>
+
+#include "clackers/base/error.hpp"
+
+namespace clackers::methods {
+namespace {
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+class Parser {
+ public:
+  explicit Parser(std::string_view text) : text_(text) {}
+
+  MethodSpecification specification() const {
+    const auto terms = split_terms();
+    if (terms.size() > 2) refuse("it joins more than two names");
+    MethodSpecification result{term(terms[0]), {}};
+    if (terms.size() == 2) result.contact = term(terms[1]);
+    return result;
+  }
+
+ private:
+  [[noreturn]] void refuse(std::string_view why, Code code = "bad-syntax") const {
+    throw InputError(
+        fmt::format("clackers: method \"{}\": {}; allowed: name:parameter=value,...+contact, for "
+                    "example newmark:beta=0.25+penalty:stiffness=1e6.",
+                    text_, why),
+        code);
+  }
+
+  // The sign of an exponent (1e+6) stands before a digit, a separator before a letter.
+  std::vector<std::string_view> split_terms() const {
+    std::vector<std::string_view> terms;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i + 1 < text_.size(); ++i)
+      if (text_[i] == '+' && is_letter(text_[i + 1])) {
+        terms.push_back(text_.substr(begin, i - begin));
+        begin = i + 1;
+      }
+    terms.push_back(text_.substr(begin));
+    return terms;
+  }
+
+  Term term(std::string_view text) const {
+    const auto colon = text.find(':');
+    Term result{std::string(text.substr(0, colon)), {}};
+    if (result.name.empty()) refuse("a name is missing");
+    if (result.name.find_first_of("=,+ ") != std::string::npos)
+      refuse(fmt::format("\"{}\" is no name", result.name));
+    if (colon == std::string_view::npos) return result;
+    for (auto rest = text.substr(colon + 1);;) {
+      const auto comma = rest.find(',');
+      result.settings.push_back(setting(rest.substr(0, comma)));
+      for (std::size_t i = 0; i + 1 < result.settings.size(); ++i)
+        if (result.settings[i].first == result.settings.back().first)
+          refuse(fmt::format("{} is given twice", result.settings[i].first));
+      if (comma == std::string_view::npos) return result;
+      rest.remove_prefix(comma + 1);
+    }
+  }
+
+  std::pair<std::string, double> setting(std::string_view text) const {
+    const auto equals = text.find('=');
+    if (equals == std::string_view::npos || equals == 0)
+      refuse(fmt::format("\"{}\" is not parameter=value", text));
+    const auto name = text.substr(0, equals);
+    return {std::string(name), number(name, text.substr(equals + 1))};
+  }
+
+  double number(std::string_view name, std::string_view text) const {
+    double value = 0.0;
+    const auto* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || rest != end || std::isnan(value))
+      refuse(fmt::format("{} = \"{}\" is no number", name, text), "not-a-number");
+    if (std::isinf(value))
+      refuse(fmt::format("{} = \"{}\" is not finite", name, text), "not-finite");
+    return value;
+  }
+
+  std::string_view text_;
+};
+
+}  // namespace
+
+MethodSpecification parse_specification(std::string_view text) {
+  return Parser(text).specification();
+}
+
+}  // namespace clackers::methods

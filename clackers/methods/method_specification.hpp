@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "clackers/methods/parameters.hpp"
+
+namespace clackers::methods {
+
+/// A name with the parameters typed behind it.
+struct Term {
+  std::string name;
+  Settings settings;
+};
+
+/// A method as typed, name[:parameter=value,...][+name[:parameter=value,...]].
+struct MethodSpecification {
+  Term first;                   ///< an integrator, or a method that stands alone
+  std::optional<Term> contact;  ///< what stands behind the "+"
+};
+
+/// Takes a specification apart; a "+" separates only before a letter, so 1e+6 is a number. Names are not
+/// looked up. Throws InputError for text outside the grammar and values that are no finite number.
+MethodSpecification parse_specification(std::string_view text);
+
+}  // namespace clackers::methods

@@ -1,0 +1,135 @@
+#include "clackers/study/check.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clackers/base/error.hpp"
+#include "clackers/report/check_report.hpp"
+#include "cli/command.hpp"
+#include "cli/files/report_page.hpp"
+#include "cli/files/results.hpp"
+#include "cli/help/help.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/options.hpp"
+#include "cli/values.hpp"
+
+namespace clackers::cli {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::vector<std::string> files, settings, events;
+  std::string case_name, columns, steps, expect, tolerance, report;
+};
+
+// The parts between commas. Throws InputError for an empty one.
+std::vector<std::string> parts_of(std::string_view option, std::string_view text) {
+  std::vector<std::string> parts;
+  for (bool more = true; more;) {
+    const auto comma = text.find(',');
+    more = comma != std::string_view::npos;
+    parts.emplace_back(text.substr(0, comma));
+    if (parts.back().empty())
+      refuse("clackers", option, "an empty part", "values behind commas", {}, "bad-syntax");
+    if (more) text.remove_prefix(comma + 1);
+  }
+  return parts;
+}
+
+study::CheckRequest request_of(const Options& options, const std::string& line) {
+  study::CheckRequest request;
+  request.files = options.files;
+  request.case_name = options.case_name;
+  request.settings = read_settings(options.settings);
+  if (!options.columns.empty()) request.columns = parts_of("--columns", options.columns);
+  request.events = options.events;
+  if (!options.steps.empty())
+    for (const auto& part : parts_of("--steps", options.steps))
+      request.steps.push_back(read_number("--steps", part));
+  if (!options.expect.empty()) request.expect = study::claim_from(options.expect);
+  if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
+  request.command = line;
+  return request;
+}
+
+int run(const Options& options, const std::string& line) {
+  const auto request = request_of(options, line);
+  ReportPage page("check", options.report, options.common, OnInterrupt::stop);
+  Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
+  try {
+    const auto record = study::check(request, &interrupt_flag());
+    bool written = true;
+    if (page.wanted()) written = page.write(report::check_html(record));
+    report::write(record, results.format(), results.stream(), results.style());
+    try {
+      results.finish();
+    } catch (const BrokenPipe&) {
+      // `check | head`: the reader had enough, the verdict still counts.
+    }
+    return written ? study::exit_code(record) : 4;
+  } catch (const Error& error) {
+    if (error.code() == Code("interrupted")) throw Interrupted();
+    throw;
+  }
+}
+
+}  // namespace
+
+Command add_check(CLI::App& root) {
+  const auto options = std::make_shared<Options>();
+  auto* app = root.add_subcommand("check");
+  set_help(
+      *app,
+      {.examples = "  clackers check disp.csv\n"
+                   "  clackers check h0.01.csv h0.005.csv h0.0025.csv h0.00125.csv "
+                   "--expect proper:2\n"
+                   "  clackers check node.out --columns t,u1,u2 --events hits.csv "
+                   "--tolerance 1e-3\n",
+       .about =
+           "Judges time histories that any program wrote, against the exact motion of a case. "
+           "Text with comma, semicolon, tab or blank separation; columns t, u1, v1, a1, u2, ... "
+           "by header or --columns; a time that stands twice carries both limits of a jump. "
+           "Several files are levels of one method and give an order. Exit code 0 when the "
+           "history agrees or nothing is expected, 1 when it disagrees or is of another motion, "
+           "3 when undecided.",
+       .usage = "  clackers check FILE ... [--case CASE] [--set name=value,...]\n"
+                "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...]\n"
+                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--report FILE.html]\n"});
+  app->add_option("FILE", options->files, "Time histories, text.");
+  app->add_option("--case", options->case_name,
+                  "The case (clackers list cases). Default: three-parameter.")
+      ->option_text("CASE");
+  add_set_option(*app, options->settings);
+  app->add_option("--columns", options->columns,
+                  "Names of the columns where a header lacks or differs: t,u1,_,v1; _ skips one.")
+      ->option_text("t,u1,...");
+  app->add_option("--events", options->events,
+                  "Collisions of the history: a column t and optionally impulse,v1-,v1+,v2-,v2+. "
+                  "Of several histories one file each, in their order. Without it collisions are "
+                  "found in the history.")
+      ->option_text("FILE")
+      ->allow_extra_args(false);
+  app->add_option("--steps", options->steps,
+                  "Step of each history [s], in the order of the files; also the time between rows "
+                  "of files without a column t. Default: h0.01 in a file's name, else the median "
+                  "time between rows.")
+      ->option_text("h1,h2,...");
+  app->add_option("--expect", options->expect,
+                  "What the histories should show: proper:2, reduced:1, irregular:1, exact, "
+                  "stagnating or divergent.")
+      ->option_text("BEHAVIOUR[:ORDER]");
+  app->add_option("--tolerance", options->tolerance,
+                  "Largest error in u, relative to the initial envelope, of the finest history.")
+      ->option_text("x");
+  add_report_option(*app, options->report);
+  add_common_options(*app, options->common);
+  add_verdict_formats(*app);
+  return {app, [options](const std::string& line) { return run(*options, line); }};
+}
+
+}  // namespace clackers::cli

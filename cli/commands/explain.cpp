@@ -1,0 +1,44 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "clackers/report/write.hpp"
+#include "clackers/study/listing.hpp"
+#include "cli/command.hpp"
+#include "cli/files/results.hpp"
+#include "cli/help/help.hpp"
+#include "cli/options.hpp"
+
+namespace clackers::cli {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::string code;
+};
+
+int run(const Options& options) {
+  Results results(options.common, OnInterrupt::stop);
+  const auto sheet = study::explain(options.code);
+  study::SheetRows rows(sheet);
+  report::write(rows, results.format(), results.stream(), results.style());
+  results.finish();
+  return 0;
+}
+
+}  // namespace
+
+Command add_explain(CLI::App& root) {
+  const auto options = std::make_shared<Options>();
+  auto* app = root.add_subcommand("explain");
+  set_help(*app,
+           {.examples = "  clackers explain stagnating\n"
+                        "  clackers explain\n",
+            .about = "Tells what a behaviour, a verdict or a code in [brackets] means and what "
+                     "to do about it. Without CODE it lists all.",
+            .usage = "  clackers explain [CODE]\n"});
+  app->add_option("CODE", options->code, "The word in brackets at the end of a message.");
+  add_common_options(*app, options->common);
+  return {app, [options](const std::string&) { return run(*options); }};
+}
+
+}  // namespace clackers::cli

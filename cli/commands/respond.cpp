@@ -1,0 +1,204 @@
+#include "clackers/study/respond.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clackers/base/error.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/report/write.hpp"
+#include "clackers/study/digit_rows.hpp"
+#include "cli/command.hpp"
+#include "cli/files/results.hpp"
+#include "cli/files/times_file.hpp"
+#include "cli/help/help.hpp"
+#include "cli/options.hpp"
+#include "cli/values.hpp"
+
+namespace clackers::cli {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::vector<std::string> settings;
+  std::string name, samples, step, times, digits, sensitivity, highest;
+  bool collisions = false, plot = false, energy = false, spectrum = false;
+
+  int ways() const {
+    return int(!samples.empty()) + int(!step.empty()) + int(!times.empty()) + int(collisions);
+  }
+};
+
+// What the rows are of, where it is not the response; empty when it is.
+std::vector<std::string> other_kinds(const Options& options) {
+  std::vector<std::string> kinds;
+  if (options.energy) kinds.push_back("--energy");
+  if (options.spectrum) kinds.push_back("--spectrum");
+  if (!options.sensitivity.empty()) kinds.push_back("--sensitivity");
+  return kinds;
+}
+
+[[noreturn]] void refuse_usage(const std::string& sentence) {
+  throw InputError("respond " + sentence, "bad-syntax");
+}
+
+void check(const Options& options) {
+  const std::string ways = "one of --samples n, --step h, --times FILE and --collisions";
+  if (options.name.empty())
+    refuse_usage("needs a CASE, for example three-parameter. All names: clackers list cases");
+  if (options.ways() > 1) refuse_usage("takes only " + ways + ".");
+  if (options.ways() == 0 && !options.plot)
+    refuse_usage("needs times: " + ways + ", or --plot for a picture alone.");
+  if (options.ways() == 0 && !options.common.out.empty())
+    refuse_usage("--out needs rows to write: " + ways + ". The picture goes to standard output.");
+  if (!options.digits.empty() && options.plot)
+    refuse_usage("draws --plot with doubles and cannot show --digits. Leave one of the two out.");
+}
+
+void check_kind(const Options& options) {
+  const auto kinds = other_kinds(options);
+  if (!options.highest.empty() && !options.spectrum)
+    refuse_usage("--highest is the highest frequency of --spectrum; add it, or leave it out.");
+  if (kinds.empty()) return;
+  if (kinds.size() > 1)
+    refuse_usage("takes only one of --energy, --spectrum and --sensitivity; " + kinds[0] + " and " +
+                 kinds[1] + " were given.");
+  if (options.collisions)
+    refuse_usage(kinds[0] + " has rows of its own and takes no --collisions.");
+  if (!options.digits.empty())
+    refuse_usage(kinds[0] + " is told in doubles and takes no --digits.");
+  if (options.ways() == 0)
+    refuse_usage(kinds[0] + (options.spectrum
+                                 ? " needs --samples n, the number of frequencies."
+                                 : " needs times: one of --samples n, --step h and --times FILE."));
+  if (options.spectrum && options.samples.empty())
+    refuse_usage("--spectrum takes frequencies, not times: --samples n of them up to --highest w.");
+  if (options.spectrum && options.highest.empty())
+    refuse_usage("--spectrum needs --highest w, the highest frequency in rad/s.");
+}
+
+// What cannot be printed together.
+void check_picture(const Options& options, const Results& results) {
+  if (options.plot && !results.is_file() && results.format() != report::Format::table)
+    refuse_usage("--plot with --format " + options.common.format +
+                 " would draw inside what a program reads. Add --out FILE for the rows, or leave "
+                 "one of the two out.");
+}
+
+std::unique_ptr<study::RowSource> rows_of(const Options& options, const cases::Case& which) {
+  const double end = which.motion->end();
+  const bool digits = !options.digits.empty();
+  const auto count = digits ? read_whole("--digits", options.digits, 1, 1000) : 0;
+  const auto respond = [&](const study::TimeGrid& grid) {
+    if (options.energy) return study::energies(which, grid);
+    if (!options.sensitivity.empty()) return study::sensitivity(which, grid, options.sensitivity);
+    return digits ? study::respond(which, grid, count) : study::respond(which, grid);
+  };
+  if (options.collisions)
+    return digits ? study::collisions(which, count) : study::collisions(which);
+  if (!options.times.empty()) {
+    study::TimeGrid grid;
+    grid.times = read_times(options.times, end);
+    return respond(grid);
+  }
+  if (!options.step.empty())
+    return respond(study::grid_every(read_number("--step", options.step), end));
+  constexpr long long any = 1LL << 53;  // what makes sense is the study's to say
+  const auto samples = read_whole("--samples", options.samples, -any, any);
+  if (options.spectrum)
+    return study::spectrum(which, samples, read_number("--highest", options.highest));
+  return respond(study::grid_of(samples, end));
+}
+
+std::string picture(const cases::Case& which, const report::Style& style) {
+  // Marks closer than a column cannot be told apart; 1000 are more than any terminal shows.
+  constexpr long long most_marks = 1000;
+  const auto& motion = *which.motion;
+  std::vector<double> impact_times;
+  const auto count = std::min(motion.impact_count(motion.end()), most_marks);
+  for (long long k = 1; k <= count; ++k) impact_times.push_back(motion.impact(k).t);
+  // Eight points a column let a fast oscillation be seen as a band instead of a false slow one.
+  return report::plot(study::response_curve(which, 8 * style.width), impact_times, style);
+}
+
+int run(const Options& options) {
+  check_kind(options);
+  check(options);
+  Results results(options.common, OnInterrupt::stop);
+  check_picture(options, results);
+  const auto which = cases::make(options.name, read_settings(options.settings));
+  const auto rows = options.ways() > 0 ? rows_of(options, which) : nullptr;
+  if (options.plot) {
+    OutputStream out(1, "standard output", OnInterrupt::stop);
+    out << picture(which, standard_style(options.common.no_color));
+    out.finish();
+  }
+  if (!rows) return 0;
+  report::write(*rows, results.format(), results.stream(), results.style());
+  results.finish();
+  return 0;
+}
+
+}  // namespace
+
+Command add_respond(CLI::App& root) {
+  const auto options = std::make_shared<Options>();
+  auto* app = root.add_subcommand("respond");
+  set_help(*app,
+           {.examples = "  clackers respond three-parameter --samples 1001 --format csv\n"
+                        "  clackers respond stop --set eta=0.5 --plot\n"
+                        "  clackers respond three-parameter --sensitivity k2 --samples 201\n"
+                        "  clackers respond stop --spectrum --samples 201 --highest 20\n",
+            .about = "The exact motion of a case. Columns t [s], side, then u [m], v [m/s] and a "
+                     "[m/s^2] of each mass. Where a time is the double nearest to a collision two "
+                     "rows stand: side - before it and side + after it.",
+            .usage = "  clackers respond CASE [--set name=value,...]\n"
+                     "           (--samples n | --step h | --times FILE | --collisions)\n"
+                     "           [--digits n] [--plot]\n"
+                     "  clackers respond CASE [--set ...] (--energy | --sensitivity NAME)\n"
+                     "           (--samples n | --step h | --times FILE) [--plot]\n"
+                     "  clackers respond CASE [--set ...] --spectrum --samples n --highest w\n"});
+  app->add_option("CASE", options->name, "The case. All names: clackers list cases.");
+  add_set_option(*app, options->settings);
+  app->add_option(
+         "--samples", options->samples,
+         "Equally spaced times from 0 to the end of the case, both included; 2 to 1e9. With "
+         "--spectrum, frequencies from 0 to the highest.")
+      ->option_text("n");
+  app->add_option("--step", options->step, "Times 0, h, 2 h, ... up to the end; h in seconds.")
+      ->option_text("h");
+  app->add_option("--times", options->times,
+                  "Times from a text file, one a line, in seconds; - reads standard input. What "
+                  "follows # or % is a comment.")
+      ->option_text("FILE");
+  app->add_flag("--collisions", options->collisions,
+                "The collisions instead: k, t [s], u1 [m], velocities before and after [m/s], "
+                "impulse [N s], energy before and after [J].");
+  app->add_flag("--energy", options->energy,
+                "At the times, the energy instead: kinetic, potential, dissipated so far, lost at "
+                "impacts so far and their total [J], and the momentum [kg m/s].");
+  app->add_option(
+         "--sensitivity", options->sensitivity,
+         "At the times, the response columns differentiated by NAME: m1 m2 k1 k2 c1 c2 eta "
+         "gap u10 u20 v10 v20 with all else fixed, or a parameter of the case with all "
+         "that follows from it; class:m1, class:k1 where both have the name.")
+      ->option_text("NAME");
+  app->add_flag("--spectrum", options->spectrum,
+                "The Fourier transform of the displacements over the run instead: omega [rad/s], "
+                "real and imaginary part [m s] of each mass; takes --samples and --highest.");
+  app->add_option("--highest", options->highest, "The highest frequency of --spectrum, in rad/s.")
+      ->option_text("w");
+  app->add_option("--digits", options->digits,
+                  "Correctly rounded to n significant digits, 1 to 1000, from an enclosure; with "
+                  "--samples, --step, --times or --collisions, whose t is then the true instant.")
+      ->option_text("n");
+  app->add_flag("--plot", options->plot,
+                "Draw the displacements in the terminal; alone, or above the rows.");
+  add_common_options(*app, options->common);
+  return {app, [options](const std::string&) { return run(*options); }};
+}
+
+}  // namespace clackers::cli

@@ -1,0 +1,96 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "clackers/base/error.hpp"
+#include "clackers/base/suggest.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/report/write.hpp"
+#include "clackers/study/listing.hpp"
+#include "cli/command.hpp"
+#include "cli/files/results.hpp"
+#include "cli/help/help.hpp"
+#include "cli/options.hpp"
+#include "cli/values.hpp"
+
+namespace clackers::cli {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::vector<std::string> settings;
+  std::string name, threshold;
+};
+
+bool is_case(const std::string& name) {
+  return std::ranges::find(cases::entries(), name, &cases::CaseEntry::name) !=
+         cases::entries().end();
+}
+
+// Refuses a name that is neither a case nor the beginning of a method's specification.
+void require_method(const std::string& specification) {
+  std::vector<std::string> known;
+  for (const auto& row : study::list("methods").rows)
+    known.push_back(std::get<std::string>(row.front()));
+  const auto name = specification.substr(0, specification.find_first_of(":+"));
+  if (std::ranges::find(known, name) != known.end()) return;
+  for (const auto& entry : cases::entries()) known.push_back(entry.name);
+  refuse_name("case or method", name, known, "clackers list");
+}
+
+std::vector<study::Sheet> sheets_of(const Options& options) {
+  if (options.name.empty())
+    throw InputError(
+        "show needs a CASE or METHOD, for example three-parameter. All names: clackers list",
+        "bad-syntax");
+  const auto settings = read_settings(options.settings);
+  const double threshold = options.threshold.empty()
+                               ? cases::standard_threshold
+                               : read_number("--threshold", options.threshold);
+  if (is_case(options.name)) return study::show_case(options.name, settings, threshold);
+  require_method(options.name);
+  if (!settings.empty() || !options.threshold.empty())
+    throw InputError("show " + options.name +
+                         ": --set and --threshold are for cases. Parameters of a method stand in "
+                         "its name: newmark:beta=0.25",
+                     "bad-syntax");
+  return study::show_method(options.name);
+}
+
+int run(const Options& options) {
+  Results results(options.common, OnInterrupt::stop);
+  const auto sheets = sheets_of(options);
+  report::write(sheets, "clackers/show/1", results.format(), results.stream(), results.style());
+  results.finish();
+  return 0;
+}
+
+}  // namespace
+
+Command add_show(CLI::App& root) {
+  const auto options = std::make_shared<Options>();
+  auto* app = root.add_subcommand("show");
+  set_help(
+      *app,
+      {.examples = "  clackers show three-parameter --set N=3,xi1=0.1\n"
+                   "  clackers show newmark:beta=0.25,gamma=0.5\n",
+       .about = "Of a case: parameters, derived constants, the indicators I_ms, T_L, T_S and "
+                "I_OC, the admissibility margin, the conditioning and the first collisions. Of "
+                "a method: what it claims, its parameters and its card.",
+       .usage = "  clackers show CASE|METHOD [--set name=value,...] [--threshold x]\n"});
+  app->add_option("NAME", options->name, "A case or a method. All names: clackers list.")
+      ->option_text("CASE|METHOD");
+  add_set_option(*app, options->settings);
+  app->add_option("--threshold", options->threshold,
+                  "A frequency contributes non-trivially where its amplitude is above this part of "
+                  "the spectral peak (T_S and I_OC depend on it); between 0 and 1, dimensionless. "
+                  "Default: 0.1.")
+      ->option_text("x");
+  add_common_options(*app, options->common);
+  return {app, [options](const std::string&) { return run(*options); }};
+}
+
+}  // namespace clackers::cli

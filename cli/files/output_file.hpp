@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/files/output_stream.hpp"
+#include "cli/interrupt.hpp"
+
+namespace clackers::cli {
+
+/// An open file descriptor, closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor();
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// A file that appears whole or not at all: what is written goes to a temporary file in the same
+/// folder, which replaces `path` in commit(). Without commit() the temporary file is removed.
+/// A device or pipe (/dev/full, /dev/stdout, a fifo) is written directly; a link is followed.
+class OutputFile {
+ public:
+  /// Throws FileError at once when `path` cannot be written, before anything is computed.
+  explicit OutputFile(std::string path, OnInterrupt on_interrupt);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  std::ostream& stream() { return *stream_; }
+  const std::string& path() const { return path_; }
+  /// Puts the file in its place. Throws FileError when the disk did not take all of it.
+  void commit();
+
+ private:
+  void open_device();
+  void open_temporary();
+
+  std::string path_;    ///< as given
+  std::string target_;  ///< with links followed
+  std::optional<RemovedOnExit> temporary_;
+  std::unique_ptr<Descriptor> descriptor_;
+  std::unique_ptr<OutputStream> stream_;
+};
+
+}  // namespace clackers::cli
