@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "clackers/paper/files.hpp"
-#include "clackers/paper/page.hpp"
-#include "clackers/paper/specification.hpp"
+#include "clackers/paper/rendering/files.hpp"
+#include "clackers/paper/rendering/page.hpp"
+#include "clackers/paper/rendering/specification.hpp"
 #include "clackers/paper/table.hpp"
 #include "clackers/study/provenance.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clackers/paper/catalogue.hpp"
-#include "clackers/paper/render.hpp"
+#include "clackers/paper/rendering/render.hpp"
 
 namespace clackers::paper {
 

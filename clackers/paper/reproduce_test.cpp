@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "clackers/base/error.hpp"
-#include "clackers/paper/files.hpp"
-#include "clackers/paper/test_folder.hpp"
+#include "clackers/paper/rendering/files.hpp"
+#include "clackers/paper/testing/test_folder.hpp"
 
 namespace clackers::paper {
 namespace {

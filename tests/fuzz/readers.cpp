@@ -77,8 +77,8 @@ void read_specification(std::string_view bytes) {
   for (const auto& [name, value] : terms.first.settings)
     require(!name.empty() && std::isfinite(value), "a parameter has a name and a finite value");
   const auto method = methods::method(bytes);
-  const auto again = methods::method(method->name());
-  require(again->name() == method->name(), "a method's name is its specification");
+  const auto again = methods::method(method->facts().name);
+  require(again->facts().name == method->facts().name, "a method's name is its specification");
 }
 
 void read_settings(std::string_view bytes) {
