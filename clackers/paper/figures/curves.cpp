@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-
 namespace clackers::paper {
 namespace {
 
@@ -57,14 +56,14 @@ double named(const std::vector<cases::Constant>& list, const std::string& name) 
 
 }  // namespace
 
-FreeFlight::FreeFlight(const cases::Case& which, int mass) {
+FreeFlight::FreeFlight(const cases::Case& test_case, int mass) {
   const auto i = mass - 1;
-  const auto& system = which.problem.system;
+  const auto& system = test_case.problem.system;
   const double m = system.mass(i, i);
   sigma_ = system.damping(i, i) / (2.0 * m);
   omega_ = std::sqrt(system.stiffness(i, i) / m - sigma_ * sigma_);
-  a_ = which.problem.start.u[i];
-  b_ = (which.problem.start.v[i] + sigma_ * a_) / omega_;
+  a_ = test_case.problem.start.u[i];
+  b_ = (test_case.problem.start.v[i] + sigma_ * a_) / omega_;
 }
 
 double FreeFlight::u(double t) const {
@@ -78,10 +77,10 @@ double FreeFlight::v(double t) const {
                                   (a_ * omega_ + sigma_ * b_) * std::sin(angle));
 }
 
-Series curve(const cases::Case& which, int mass, Quantity quantity, int points_per_half_turn) {
-  const auto& motion = *which.motion;
+Series curve(const cases::Case& test_case, int mass, Quantity quantity, int points_per_half_turn) {
+  const auto& motion = *test_case.motion;
   const auto i = std::size_t(mass - 1), dof = std::size_t(motion.dof());
-  const auto dt = which.damped_periods.at(i) / (2.0 * points_per_half_turn);
+  const auto dt = test_case.damped_periods.at(i) / (2.0 * points_per_half_turn);
   const auto when = instants(motion, dt);
   std::vector<double> times;
   for (const auto& one : when) times.push_back(one.t);
@@ -109,7 +108,7 @@ Series curve(const cases::Case& which, int mass, Quantity quantity, int points_p
   return out;
 }
 
-Panel response_panel(const cases::Case& which, Quantity quantity, std::string label,
+Panel response_panel(const cases::Case& test_case, Quantity quantity, std::string label,
                      std::string note, std::vector<double> range) {
   Panel panel{std::move(label),
               std::move(note),
@@ -117,33 +116,33 @@ Panel response_panel(const cases::Case& which, Quantity quantity, std::string la
               quantity == Quantity::displacement ? displacement_axis() : velocity_axis(),
               {}};
   panel.x.lowest = 0.0;
-  panel.x.highest = which.motion->end();
+  panel.x.highest = test_case.motion->end();
   if (!range.empty()) {
     panel.y.lowest = range.at(0);
     panel.y.highest = range.at(1);
   }
-  for (int mass = 1; mass <= which.motion->dof(); ++mass) {
+  for (int mass = 1; mass <= test_case.motion->dof(); ++mass) {
     const double half_turns =
-        2.0 * which.motion->end() / which.damped_periods.at(std::size_t(mass - 1));
+        2.0 * test_case.motion->end() / test_case.damped_periods.at(std::size_t(mass - 1));
     const int points = std::clamp(int(wanted_points / half_turns), 10, 48);
-    panel.series.push_back(curve(which, mass, quantity, points));
+    panel.series.push_back(curve(test_case, mass, quantity, points));
   }
   return panel;
 }
 
-Series without_contact(const cases::Case& which, int mass, const Series& like) {
-  const FreeFlight flight(which, mass);
+Series without_contact(const cases::Case& test_case, int mass, const Series& like) {
+  const FreeFlight flight(test_case, mass);
   Series out = like;
   std::ranges::transform(like.x, out.y.begin(), [&](double t) { return flight.u(t); });
   return out;
 }
 
-double constant(const cases::Case& which, const std::string& name) {
-  return named(which.constants, name);
+double constant(const cases::Case& test_case, const std::string& name) {
+  return named(test_case.constants, name);
 }
 
-double indicator(const cases::Case& which, const std::string& name) {
-  return named(which.indicators, name);
+double indicator(const cases::Case& test_case, const std::string& name) {
+  return named(test_case.indicators, name);
 }
 
 Axis time_axis() { return {.title = "time t [s]"}; }

@@ -14,9 +14,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 TEST(FreeFlight, IsTheMassOnItsOwnSpring) {
-  const auto which = cases::make("three-parameter", {{"N", 1.0}, {"xi1", 0.6}});
+  const auto test_case = cases::make("three-parameter", {{"N", 1.0}, {"xi1", 0.6}});
   const double omega = 0.8;  // sqrt(1 - 0.36)
-  const FreeFlight one(which, 1), two(which, 2);
+  const FreeFlight one(test_case, 1), two(test_case, 2);
   for (const double t : {0.0, 0.3, 1.7, 4.0}) {
     const double E = std::exp(-0.6 * t);
     EXPECT_NEAR(one.u(t), E * std::cos(omega * t), 1e-15);
@@ -27,20 +27,21 @@ TEST(FreeFlight, IsTheMassOnItsOwnSpring) {
 }
 
 TEST(Curve, HasBothLimitsOfAVelocityAndOneOfADisplacementAtEachCollision) {
-  const auto which = cases::make("two-parameter", {{"N", 1.0}});
-  const double t1 = which.motion->impact(1).t;
-  const auto v = curve(which, 2, Quantity::velocity), u = curve(which, 2, Quantity::displacement);
+  const auto test_case = cases::make("two-parameter", {{"N", 1.0}});
+  const double t1 = test_case.motion->impact(1).t;
+  const auto v = curve(test_case, 2, Quantity::velocity),
+             u = curve(test_case, 2, Quantity::displacement);
   EXPECT_EQ(std::ranges::count(v.x, t1), 2);
   EXPECT_EQ(std::ranges::count(u.x, t1), 1);
   const auto at = std::size_t(std::ranges::find(v.x, t1) - v.x.begin());
-  EXPECT_DOUBLE_EQ(v.y[at], which.motion->impact(1).before.v[1]);
-  EXPECT_DOUBLE_EQ(v.y[at + 1], which.motion->impact(1).after.v[1]);
+  EXPECT_DOUBLE_EQ(v.y[at], test_case.motion->impact(1).before.v[1]);
+  EXPECT_DOUBLE_EQ(v.y[at + 1], test_case.motion->impact(1).after.v[1]);
   EXPECT_EQ(u.y[std::size_t(std::ranges::find(u.x, t1) - u.x.begin())], 0.0);
 }
 
 TEST(Curve, HasAPointAtEveryExtremumOfTheUndampedMotion) {
-  const auto which = cases::make("two-parameter", {{"N", 2.0}, {"xi1", 0.0}});
-  const auto u = curve(which, 2, Quantity::displacement);
+  const auto test_case = cases::make("two-parameter", {{"N", 2.0}, {"xi1", 0.0}});
+  const auto u = curve(test_case, 2, Quantity::displacement);
   EXPECT_TRUE(std::ranges::is_sorted(u.x));
   int extrema = 0;
   for (const double y : u.y) extrema += std::abs(std::abs(y) - 1.0 / 3.0) < 1e-14;
@@ -50,8 +51,8 @@ TEST(Curve, HasAPointAtEveryExtremumOfTheUndampedMotion) {
 
 TEST(Curve, CoversTheRunToItsEnd) {
   for (const auto* name : {"sdof", "stop", "three-parameter"}) {
-    const auto which = cases::make(name);
-    const auto u = curve(which, 1, Quantity::displacement, 10);
+    const auto test_case = cases::make(name);
+    const auto u = curve(test_case, 1, Quantity::displacement, 10);
     EXPECT_EQ(u.x.front(), 0.0);
     EXPECT_EQ(u.x.back(), 20.0);
     for (std::size_t i = 1; i < u.x.size(); ++i)
@@ -72,10 +73,10 @@ TEST(Panel, OfAResponseHasACurveForEachMassAndTheRunAsRange) {
 }
 
 TEST(WithoutContact, FollowsTheCollidingMassUntilTheFirstCollisionOnly) {
-  const auto which = cases::make("two-parameter", {{"N", 1.0}});
-  const auto with = curve(which, 2, Quantity::displacement);
-  const auto alone = without_contact(which, 2, with);
-  const double t1 = which.motion->impact(1).t;
+  const auto test_case = cases::make("two-parameter", {{"N", 1.0}});
+  const auto with = curve(test_case, 2, Quantity::displacement);
+  const auto alone = without_contact(test_case, 2, with);
+  const double t1 = test_case.motion->impact(1).t;
   for (std::size_t i = 0; with.x[i] < t1; ++i) EXPECT_NEAR(alone.y[i], with.y[i], 1e-14);
   EXPECT_GT(largest_difference(with, alone), 0.5);
 }
@@ -104,10 +105,10 @@ TEST(Measure, ARungeKuttaRunFindsEveryCollision) {
 }
 
 TEST(Constants, ComeByNameOrNotAtAll) {
-  const auto which = cases::make("three-parameter");
-  EXPECT_EQ(constant(which, "X"), 9.0);
-  EXPECT_EQ(indicator(which, "I_ms"), 9.0);
-  EXPECT_THROW(constant(which, "Y"), std::logic_error);
+  const auto test_case = cases::make("three-parameter");
+  EXPECT_EQ(constant(test_case, "X"), 9.0);
+  EXPECT_EQ(indicator(test_case, "I_ms"), 9.0);
+  EXPECT_THROW(constant(test_case, "Y"), std::logic_error);
 }
 
 }  // namespace

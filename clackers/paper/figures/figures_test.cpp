@@ -75,6 +75,16 @@ TEST(Fig5, TheSecondMassIsFiveTimesAsFastAndHasOneMaximumBeforeTheCollision) {
   EXPECT_NEAR(exactly(u2, 2.5 * half), 0.0, 1e-15);
 }
 
+TEST(Fig6, Equation11HoldsInPart) {
+  const auto claim = spectra().claims.back();
+  EXPECT_TRUE(claim.holds && claim.in_part);
+  // floor(sqrt(X^2 + (2X - 1)/eps)/2), and for X = 1 floor(sqrt(1 + 3/eps)/2)
+  EXPECT_EQ(claim.measured,
+            "Threshold 0.1 of the spectral peak: N = 0: 1 < 2, N = 1: 5 ≥ 5, N = 2: 9 ≥ 7, "
+            "N = 10: 41 ≥ 24; threshold 0.001 of the spectral peak: N = 0: 1 < 27, N = 1: 5 < 47, "
+            "N = 2: 9 < 65, N = 10: 41 < 143. The open points have the condition.");
+}
+
 TEST(Fig6, AmplitudesAreThoseOfAnIndependentQuadrature) {
   const auto figure = spectra();
   ASSERT_EQ(figure.panels.size(), 6u);
@@ -159,8 +169,11 @@ TEST(FigA1, DrawsEqA13) {
   EXPECT_NEAR(at(figure.panels[2].series.at(0), 1.0), 0.5403023058 - 3.0 * 0.5477292602 / 21.0,
               2e-5);
   for (const auto& panel : figure.panels)
-    for (std::size_t i = 1; i + 1 < panel.series[0].y.size(); ++i)
-      ASSERT_GT(panel.series[0].y[i], 0.0) << panel.note;
+    for (const double y : panel.series[0].y) ASSERT_GT(y, 0.0) << panel.note;
+  // D' = 4 s at the first and the last point, the doubles s = 6.12e-17 inside of +-pi/2.
+  for (const double end :
+       {figure.panels[2].series[0].y.front(), figure.panels[2].series[0].y.back()})
+    EXPECT_DOUBLE_EQ(end, 4.0 * 6.123233995736766e-17);
 }
 
 TEST(FigA2, OnTheRightMassTwoMovesHalfAsFar) {
@@ -197,7 +210,7 @@ TEST(FigA3, TheNearestMissIsWhereItsEquationSaysAndTheGrazingCurveTouches) {
   EXPECT_GT(least, -1e-12);
 }
 
-TEST(Validation, ConvergingMeansFallingToATenthAndEndingNearTheLeast) {
+TEST(Validation, ErrorsConvergeIfTheyFallToATenthAndEndNearTheLeast) {
   const auto line = [](std::vector<double> errors) {
     return Series{"", errors, errors, first_mass()};
   };
@@ -206,9 +219,16 @@ TEST(Validation, ConvergingMeansFallingToATenthAndEndingNearTheLeast) {
   EXPECT_FALSE(converges(line({1.0, 0.3, 0.11})));   // not far enough
   EXPECT_FALSE(converges(line({1.0, 0.04, 0.09})));  // it was better before
   EXPECT_FALSE(converges(line({0.01, 0.3, 1.0})));
+  EXPECT_FALSE(converges(line({})));  // every level failed
 }
 
 // Larger N do not differ and take the command longer.
+TEST(Validation, InterruptStopsTheStudies) {
+  constexpr std::array Ns{20};
+  const std::atomic<bool> interrupt{true};
+  EXPECT_TRUE(convergence(Ns, &interrupt).panels.empty());
+}
+
 TEST(Validation, SixMethodsConvergeForEveryN) {
   constexpr std::array Ns{0, 1, 2};
   const auto figure = convergence(Ns);

@@ -13,7 +13,7 @@ namespace clackers::paper {
 namespace {
 
 constexpr double xi1 = 0.1;
-const Stroke ghost{light::muted, {3, 3}, 1.2};
+const Stroke dotted{light::muted, {3, 3}, 1.2};
 
 cases::Case paper_case() {
   return cases::make("three-parameter", {{"N", 1.0}, {"xi1", xi1}, {"a_t", 1.0}});
@@ -39,8 +39,8 @@ constexpr double plain_precision = 0x1p-52 * 5.0 * 20.0;
 }  // namespace
 
 Figure mirrored_response() {
-  const auto which = paper_case();
-  const double t1 = which.motion->impact(1).t, t2 = which.motion->impact(2).t;
+  const auto test_case = paper_case();
+  const double t1 = test_case.motion->impact(1).t, t2 = test_case.motion->impact(2).t;
   Panel panel;
   panel.x = time_axis();
   panel.x.lowest = 0.0;
@@ -48,9 +48,9 @@ Figure mirrored_response() {
   panel.y = displacement_axis();
   double difference = 0.0;
   for (int mass = 1; mass <= 2; ++mass) {
-    const auto whole = part(curve(which, mass, Quantity::displacement, 40), 0.0, t2);
+    const auto whole = part(curve(test_case, mass, Quantity::displacement, 40), 0.0, t2);
     const auto after = part(whole, t1, t2);
-    auto alone = without_contact(which, mass, after);
+    auto alone = without_contact(test_case, mass, after);
     for (std::size_t i = 0; i < after.x.size(); ++i)
       difference = std::max(difference, std::abs(after.y[i] + alone.y[i]));
     alone.name = fmt::format("mass {} without the collision", mass);
@@ -80,8 +80,8 @@ Figure mirrored_response() {
 }
 
 Figure coincidence() {
-  const auto which = paper_case();
-  const auto& motion = *which.motion;
+  const auto test_case = paper_case();
+  const auto& motion = *test_case.motion;
   const double period = 2.0 * std::numbers::pi / std::sqrt(1.0 - xi1 * xi1);
   std::vector<double> moments;
   for (int n = 1; n * period <= motion.end(); ++n) moments.push_back(n * period);
@@ -93,11 +93,11 @@ Figure coincidence() {
       "(points); N = 1, ξ1 = 0.1, a_t = 1: (a) the first mass, (b) the second mass.";
   for (int mass = 1; mass <= 2; ++mass) {
     const auto i = mass - 1;
-    const FreeFlight alone(which, mass);
-    auto actual = curve(which, mass, Quantity::displacement, 40);
-    auto free = without_contact(which, mass, actual);
+    const FreeFlight alone(test_case, mass);
+    auto actual = curve(test_case, mass, Quantity::displacement, 40);
+    auto free = without_contact(test_case, mass, actual);
     free.name = "without collisions";
-    free.stroke = ghost;
+    free.stroke = dotted;
     Series points{"coincidence", {}, {}, {light::collision}, Series::Kind::points};
     double u = 0.0, v = 0.0;
     for (const double t : moments) {

@@ -25,9 +25,9 @@ struct Nearest {
 };
 
 // Over the first flight, evaluated from the two masses' own m, c, k.
-Nearest nearest(const cases::Case& which) {
-  const FreeFlight one(which, 1), two(which, 2);
-  const double t1 = constant(which, "t_1");
+Nearest nearest(const cases::Case& test_case) {
+  const FreeFlight one(test_case, 1), two(test_case, 2);
+  const double t1 = constant(test_case, "t_1");
   Nearest out;
   constexpr int fine = 40'000;
   for (int i = 0; i < fine; ++i) {
@@ -60,9 +60,9 @@ Claim damping_cancels() {
 }  // namespace
 
 Figure near_miss() {
-  const auto which = pair(xi1);
-  const FreeFlight one(which, 1), two(which, 2);
-  const double t1 = constant(which, "t_1"), omega2 = constant(which, "omega_D2");
+  const auto test_case = pair(xi1);
+  const FreeFlight one(test_case, 1), two(test_case, 2);
+  const double t1 = constant(test_case, "t_1"), omega2 = constant(test_case, "omega_D2");
   const double r_star = cases::admissibility(X, 3.0).r_star;
   const double from = t1 - 9.5 / omega2, to = t1 + 0.6 / omega2;
   Series first{"mass 1", {}, {}, first_mass()}, second{"mass 2, r = 3", {}, {}, second_mass()};
@@ -75,7 +75,7 @@ Figure near_miss() {
     second.y.push_back(two.u(t));
     grazing.y.push_back(two.u(t) * r_star / 3.0);
   }
-  const auto near = nearest(which);
+  const auto near = nearest(test_case);
   Panel panel;
   panel.x = time_axis();
   panel.x.lowest = from;

@@ -69,12 +69,12 @@ Figure effect_of_N() {
       "20 s.";
   Sequence frequency{{}, "rad/s"}, amplitude{{}, "m"}, stiffness;
   for (std::size_t i = 0; i < Ns.size(); ++i) {
-    const auto which = cases::make("one-parameter", {{"N", double(Ns[i])}});
-    figure.panels.push_back(response_panel(which, Quantity::displacement, letters[i],
+    const auto test_case = cases::make("one-parameter", {{"N", double(Ns[i])}});
+    figure.panels.push_back(response_panel(test_case, Quantity::displacement, letters[i],
                                            fmt::format("N = {}", Ns[i]), {-0.4, 1.0}));
-    frequency.values.push_back(constant(which, "omega_D2"));
-    amplitude.values.push_back(std::abs(constant(which, "d2")));
-    stiffness.values.push_back(indicator(which, "I_ms"));
+    frequency.values.push_back(constant(test_case, "omega_D2"));
+    amplitude.values.push_back(std::abs(constant(test_case, "d2")));
+    stiffness.values.push_back(indicator(test_case, "I_ms"));
   }
   figure.claims = {
       {"Section 2.2: as N increases, mass 2 oscillates with higher frequencies and smaller "
@@ -98,15 +98,16 @@ Figure effect_of_damping() {
   Sequence left, ratio2, sharp{{}, "rad/s"};
   for (std::size_t i = 0; i < Ns.size(); ++i)
     for (const double xi1 : damping) {
-      const auto which = cases::make("two-parameter", {{"N", double(Ns[i])}, {"xi1", xi1}});
-      figure.panels.push_back(response_panel(which, Quantity::displacement, letters[i],
+      const auto test_case = cases::make("two-parameter", {{"N", double(Ns[i])}, {"xi1", xi1}});
+      figure.panels.push_back(response_panel(test_case, Quantity::displacement, letters[i],
                                              fmt::format("N = {}, ξ1 = {:.2f}", Ns[i], xi1),
                                              {-0.4, 1.0}));
       if (i == 0) {
-        left.values.push_back(which.motion->envelope(20.0).u[0] / which.motion->envelope(0.0).u[0]);
-        ratio2.values.push_back(constant(which, "xi2"));
+        left.values.push_back(test_case.motion->envelope(20.0).u[0] /
+                              test_case.motion->envelope(0.0).u[0]);
+        ratio2.values.push_back(constant(test_case, "xi2"));
       }
-      if (xi1 == damping[1]) sharp.values.push_back(constant(which, "omega_D2"));
+      if (xi1 == damping[1]) sharp.values.push_back(constant(test_case, "omega_D2"));
     }
   figure.claims = {
       {"Section 2.2: the rate of decay increases with the damping coefficient.",
@@ -133,12 +134,12 @@ Figure effect_of_duration() {
       "Exact displacements of the three-parameter system for N = 5, ξ1 = 0.10 over 20 a_t seconds.";
   Sequence oscillations, collisions;
   for (std::size_t i = 0; i < factors.size(); ++i) {
-    const auto which =
+    const auto test_case =
         cases::make("three-parameter", {{"N", 5.0}, {"xi1", 0.10}, {"a_t", factors[i]}});
-    figure.panels.push_back(response_panel(which, Quantity::displacement, letters[i],
+    figure.panels.push_back(response_panel(test_case, Quantity::displacement, letters[i],
                                            fmt::format("a_t = {}", factors[i]), {-0.2, 1.0}));
-    oscillations.values.push_back(indicator(which, "I_OC"));
-    collisions.values.push_back(constant(which, "collisions"));
+    oscillations.values.push_back(indicator(test_case, "I_OC"));
+    collisions.values.push_back(constant(test_case, "collisions"));
   }
   figure.claims = {{"Section 2.2: the behaviour is more oscillatory when a_t is larger.",
                     fmt::format("a_t = 2, 5, 20: I_OC = t_end/T_S = {} with the threshold 0.1, and "

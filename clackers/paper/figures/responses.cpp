@@ -28,10 +28,10 @@ Claim integrated(const std::string& says, const std::string& name,
           run.error < most_integration_error && run.found == run.expected};
 }
 
-Figure displacement_and_velocity(const cases::Case& which) {
+Figure displacement_and_velocity(const cases::Case& test_case) {
   Figure figure;
   for (const auto quantity : {Quantity::displacement, Quantity::velocity})
-    figure.panels.push_back(response_panel(which, quantity, "", ""));
+    figure.panels.push_back(response_panel(test_case, quantity, "", ""));
   return figure;
 }
 
@@ -58,8 +58,8 @@ Claim formula(const std::string& says, const Panel& panel, bool with_sign) {
 }  // namespace
 
 Figure free_mass() {
-  const auto which = cases::make("sdof");
-  auto figure = displacement_and_velocity(which);
+  const auto test_case = cases::make("sdof");
+  auto figure = displacement_and_velocity(test_case);
   figure.caption =
       "Exact displacement and velocity of ü + 0.1 u̇ + u = 0, u(0) = 1 m, u̇(0) = −0.05 m/s, "
       "0 ≤ t < 20 s.";
@@ -70,8 +70,8 @@ Figure free_mass() {
 }
 
 Figure response_at_stop() {
-  const auto which = cases::make("stop");
-  auto figure = displacement_and_velocity(which);
+  const auto test_case = cases::make("stop");
+  auto figure = displacement_and_velocity(test_case);
   figure.caption =
       "Exact displacement and velocity of the mass of Fig. 1 with a rigid stop at its equilibrium, "
       "restitution η = 1. At each collision the velocity jumps; both limits are drawn.";
@@ -83,15 +83,15 @@ Figure response_at_stop() {
 }
 
 Figure symmetric_pair() {
-  const auto which = cases::make("symmetric-pair"), stop = cases::make("stop");
-  auto figure = displacement_and_velocity(which);
+  const auto test_case = cases::make("symmetric-pair"), stop = cases::make("stop");
+  auto figure = displacement_and_velocity(test_case);
   figure.caption =
       "Exact displacements and velocities of two equal masses with opposite starts, Eq. (7): "
       "ξ1 = 0.05, η = 1, 0 ≤ t < 20 s.";
   double difference = 0.0;
   for (const auto quantity : {Quantity::displacement, Quantity::velocity})
-    difference = std::max(difference,
-                          largest_difference(curve(which, 1, quantity), curve(stop, 1, quantity)));
+    difference = std::max(
+        difference, largest_difference(curve(test_case, 1, quantity), curve(stop, 1, quantity)));
   figure.claims = {
       {"Section 2.1: displacement and velocity of mass 1 are identical to those of Fig. 3.",
        fmt::format("The largest difference of displacements [m] and velocities [m/s] is {}.",
@@ -102,15 +102,15 @@ Figure symmetric_pair() {
 }
 
 Figure sample_extension() {
-  const auto which = cases::make("one-parameter", {{"N", 1.0}});
-  auto figure = displacement_and_velocity(which);
+  const auto test_case = cases::make("one-parameter", {{"N", 1.0}});
+  auto figure = displacement_and_velocity(test_case);
   figure.caption =
       "The second mass five times as fast as the first (N = 1, Eq. 19: m2 = 1/3 kg, u2(0) = −0.6 "
       "m, "
       "ξ1 = 0.05): the masses still meet only at their common equilibrium.";
-  const FreeFlight one(which, 1), two(which, 2);
-  const auto& mass = which.problem.system.mass;
-  const double t1 = constant(which, "t_1");
+  const FreeFlight one(test_case, 1), two(test_case, 2);
+  const auto& mass = test_case.problem.system.mass;
+  const double t1 = constant(test_case, "t_1");
   const double apart = std::max(std::abs(one.u(t1)), std::abs(two.u(t1)));
   const double p1 = mass(0, 0) * one.v(t1), p2 = mass(1, 1) * two.v(t1);
   const double momentum = std::abs(p1 + p2) / std::abs(p1);

@@ -15,7 +15,13 @@ extern const std::string_view render_js;                    ///< run by node
 /// sheet.
 namespace clackers::paper::light {
 
-extern const char *const paper, *const ink, *const muted, *const faint, *const line, *const grid,
-    *const collision, *const m1, *const m2, *const m3, *const m4, *const m7, *const m8;
+extern const char *const paper,
+    *const ink, *const muted, *const faint, *const line,
+                                                *const grid,
+                                                    *const collision,
+                                                        *const m1, *const m2, *const m3,
+                                                                                  *const m4,
+                                                                                      *const m7,
+                                                                                          *const m8;
 
 }  // namespace clackers::paper::light

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <map>
 #include <string_view>
 
 #include "clackers/cases/admissibility.hpp"
@@ -24,9 +25,10 @@ std::string label(const std::string& name) {
   return "Validation";
 }
 
-std::string badge(const Claim& claim) {
-  return fmt::format("<span class=\"badge {}\">{}</span>", claim.holds ? "holds" : "differs",
-                     verdict_of(claim));
+// The class is the first word.
+std::string badge(std::string_view verdict) {
+  return fmt::format("<span class=\"badge {}\">{}</span>", verdict.substr(0, verdict.find(' ')),
+                     verdict);
 }
 
 // Percent-encoded, as a data address asks.
@@ -54,7 +56,7 @@ std::string claims(const std::vector<Claim>& list) {
   std::string rows;
   for (const auto& claim : list)
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
-                        escape(claim.says), escape(claim.measured), badge(claim));
+                        escape(claim.says), escape(claim.measured), badge(verdict_of(claim)));
   return "<div class=\"scroll\"><table class=\"claims\"><thead><tr><th scope=\"col\">the paper "
          "says</th>"
          "<th scope=\"col\">measured</th><th scope=\"col\">verdict</th></tr></thead><tbody>\n" +
@@ -84,13 +86,13 @@ std::string section(const Drawn& drawn) {
 }
 
 std::string overall(const std::vector<Drawn>& drawn) {
-  std::size_t holding = 0, differing = 0;
+  std::map<std::string_view, int> counts;
+  int all = 0;
   for (const auto& one : drawn)
-    for (const auto& claim : one.figure.claims) ++(claim.holds ? holding : differing);
-  auto out = fmt::format("<span class=\"badge holds\">holds</span> {} of {} claims", holding,
-                         holding + differing);
-  if (differing > 0)
-    out += fmt::format(" <span class=\"badge differs\">differs</span> {}", differing);
+    for (const auto& claim : one.figure.claims) ++counts[verdict_of(claim)], ++all;
+  auto out = fmt::format("{} {} of {} claims", badge("holds"), counts["holds"], all);
+  for (const auto* verdict : {"holds in part", "differs"})
+    if (counts[verdict] > 0) out += fmt::format(" {} {}", badge(verdict), counts[verdict]);
   return out;
 }
 
@@ -109,8 +111,8 @@ std::string ratios(double threshold) {
 std::string open_points() {
   std::string limits;
   for (const double X : {5.0, 9.0, 21.0, 41.0, 81.0})
-    limits += fmt::format("{}{:.4f}", limits.empty() ? "" : ", ",
-                          cases::admissibility(X, 3.0).r_star);
+    limits +=
+        fmt::format("{}{:.4f}", limits.empty() ? "" : ", ", cases::admissibility(X, 3.0).r_star);
   return report::fill(
       assets::open_points_html,
       {{"ratios", ratios(0.1)}, {"ratios-fine", ratios(0.001)}, {"limits", limits}});

@@ -29,8 +29,10 @@ Drawn drawn() {
 TEST(Page, ShowsPictureCaptionClaimsAndFiles) {
   const auto text = page({drawn()}, "clackers paper figA3 --out x");
   for (const auto* part :
-       {"Figure A.3. A &lt;title&gt;", "\"data:image/svg+xml,%3Csvg a=%221%22%3E%C3%A9%23%3C/svg%3E%0A\"", "The caption &amp; more",
-        "It says a &lt; b", "<span class=\"badge holds\">holds</span></td>",
+       {"Figure A.3. A &lt;title&gt;",
+        "\"data:image/svg+xml,%3Csvg a=%221%22%3E%C3%A9%23%3C/svg%3E%0A\"",
+        "The caption &amp; more", "It says a &lt; b",
+        "<span class=\"badge holds\">holds</span></td>",
         "<span class=\"badge differs\">differs</span></td>", "We took 3",
         "<a href=\"figA3.svg\">figA3.svg</a>", "1 of 2 claims", "clackers paper figA3 --out x"})
     EXPECT_TRUE(contains(text, part)) << part;
