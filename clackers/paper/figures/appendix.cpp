@@ -9,7 +9,6 @@
 #include "clackers/cases/admissibility.hpp"
 #include "clackers/paper/catalogue.hpp"
 #include "clackers/paper/figures/curves.hpp"
-#include "clackers/paper/figures/measure.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -47,11 +46,12 @@ Claim positive(int N) {
   const double X = 4.0 * N + 1.0;
   const auto found = least_relative(X);
   const double proved = cases::admissibility(X, 3.0).margin;
-  return {fmt::format("Appendix A: D' is positive in −π/2 < t̄ < π/2 for N = {}.", N),
-          fmt::format("D'/cos t̄ is least, {:.6f}, at X(π/2 − |t̄|) = {:.3f}; the proof gives "
-                      "1 − 3/r* = {:.6f}.",
-                      found.value, found.x, proved),
-          found.value > 0.0 && std::abs(found.value - proved) <= scan_error};
+  return {
+      fmt::format("Appendix A: D' is positive in −π/2 < t̄ < π/2 for N = {}.", N),
+      fmt::format(
+          "D'/cos t̄ is least, {:.6f}, at X(π/2 − |t̄|) = {:.3f}; the proof gives 1 − 3/r* = {:.6f}.",
+          found.value, found.x, proved),
+      found.value > 0.0 && std::abs(found.value - proved) <= scan_error};
 }
 
 // Smallest (u1 - u2)/u1 where u1 is not at equilibrium, from drawn points.
@@ -77,8 +77,7 @@ Figure positive_definite() {
   figure.width = 250.0;
   figure.height = 150.0;
   figure.caption =
-      "D'(t̄) = cos t̄ + 3/(4N + 1) cos((4N + 1) t̄), Eq. (A.13): the gap of the masses without its "
-      "exponential factor, for r = 3.";
+      "D'(t̄) = cos t̄ + 3/(4N + 1) cos((4N + 1) t̄), Eq. (A.13): the gap of the masses without its exponential factor, for r = 3.";
   for (std::size_t i = 0; i < Ns.size(); ++i) {
     const double X = 4.0 * Ns[i] + 1.0;
     Series line{"D'", {}, {}, first_mass()};
@@ -106,8 +105,7 @@ Figure amplitudes() {
   figure.width = 330.0;
   figure.height = 140.0;
   figure.caption =
-      "Displacements for ξ1 = 0.1 and N = 1, 2, 5: (a) −u2(0) = 3 u1(0)/(4N + 1), Eq. (A.4), "
-      "(b) −u2(0) = 1.5 u1(0)/(4N + 1), Eq. (A.18).";
+      "Displacements for ξ1 = 0.1 and N = 1, 2, 5: (a) −u2(0) = 3 u1(0)/(4N + 1), Eq. (A.4), (b) −u2(0) = 1.5 u1(0)/(4N + 1), Eq. (A.18).";
   for (const int N : Ns) {
     double margin[2], measured[2];
     for (int column = 0; column < 2; ++column) {
@@ -124,9 +122,9 @@ Figure amplitudes() {
     constexpr double missed = 1e-4;
     figure.claims.push_back(
         {fmt::format("Appendix A: a smaller −u2(0) is conservative (N = {}).", N),
-         fmt::format("Between collisions (u1 − u2)/u1 is at least {:.4f} for 3 and {:.4f} for 1.5; "
-                     "1 − r/r* is {:.4f} and {:.4f}.",
-                     measured[0], measured[1], margin[0], margin[1]),
+         fmt::format(
+             "Between collisions (u1 − u2)/u1 is at least {:.4f} for 3 and {:.4f} for 1.5; 1 − r/r* is {:.4f} and {:.4f}.",
+             measured[0], measured[1], margin[0], margin[1]),
          measured[1] > measured[0] && std::abs(measured[0] - margin[0]) < missed &&
              std::abs(measured[1] - margin[1]) < missed});
   }

@@ -1,5 +1,7 @@
 #include "clackers/paper/figures/curves.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -46,12 +48,6 @@ std::vector<Instant> instants(const model::Motion& motion, double dt) {
   }
   if (from < motion.end()) append_flight(from, count, motion.end(), 0, dt, out);
   return out;
-}
-
-double named(const std::vector<cases::Constant>& list, const std::string& name) {
-  for (const auto& one : list)
-    if (one.name == name) return one.value;
-  throw std::logic_error("no constant " + name);
 }
 
 }  // namespace
@@ -137,16 +133,29 @@ Series without_contact(const cases::Case& test_case, int mass, const Series& lik
   return out;
 }
 
+double largest_difference(const Series& one, const Series& other) {
+  if (one.x != other.x || one.y.size() != other.y.size())
+    throw std::logic_error("curves of different abscissae");
+  double largest = 0.0;
+  for (std::size_t i = 0; i < one.y.size(); ++i)
+    largest = std::max(largest, std::abs(one.y[i] - other.y[i]));
+  return largest;
+}
+
+int maxima(const Series& curve, double before) {
+  int count = 0;
+  for (std::size_t i = 1; i + 1 < curve.x.size() && curve.x[i] < before; ++i)
+    count += curve.y[i] > curve.y[i - 1] && curve.y[i] >= curve.y[i + 1];
+  return count;
+}
+
 double constant(const cases::Case& test_case, const std::string& name) {
-  return named(test_case.constants, name);
+  for (const auto* list : {&test_case.constants, &test_case.indicators})
+    for (const auto& one : *list)
+      if (one.name == name) return one.value;
+  throw std::logic_error("no constant " + name);
 }
 
-double indicator(const cases::Case& test_case, const std::string& name) {
-  return named(test_case.indicators, name);
-}
-
-Axis time_axis() { return {.title = "time t [s]"}; }
-Axis displacement_axis() { return {.title = "displacement u [m]"}; }
-Axis velocity_axis() { return {.title = "velocity v [m/s]"}; }
+std::string number(double value) { return fmt::format("{:.3g}", value); }
 
 }  // namespace clackers::paper

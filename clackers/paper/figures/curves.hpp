@@ -41,14 +41,20 @@ Panel response_panel(const cases::Case& test_case, Quantity quantity, std::strin
 /// Evaluated at the times of `like`, a curve of that mass.
 Series without_contact(const cases::Case& test_case, int mass, const Series& like);
 
-/// A derived constant of a case by its name. Throws std::logic_error for one it does not have.
-double constant(const cases::Case& test_case, const std::string& name);
-/// An indicator of a case: "I_ms", "T_L", "T_S", "I_OC".
-double indicator(const cases::Case& test_case, const std::string& name);
+/// How far two curves with the same abscissae are apart at most. Throws std::logic_error for others.
+double largest_difference(const Series& one, const Series& other);
+/// Local maxima of a curve strictly inside (0, before).
+int maxima(const Series& curve, double before);
 
-/// Axes that most figures share.
-Axis time_axis();
-Axis displacement_axis();
-Axis velocity_axis();
+/// A derived constant or an indicator of a case ("omega_D2", "I_OC"). Throws std::logic_error for one
+/// it does not have.
+double constant(const cases::Case& test_case, const std::string& name);
+/// A number in the words of a claim: three significant digits, "2.2e-16".
+std::string number(double value);
+
+// Axes that most figures share.
+inline Axis time_axis() { return {.title = "time t [s]"}; }
+inline Axis displacement_axis() { return {.title = "displacement u [m]"}; }
+inline Axis velocity_axis() { return {.title = "velocity v [m/s]"}; }
 
 }  // namespace clackers::paper

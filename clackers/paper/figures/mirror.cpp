@@ -7,7 +7,6 @@
 
 #include "clackers/paper/catalogue.hpp"
 #include "clackers/paper/figures/curves.hpp"
-#include "clackers/paper/figures/measure.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -64,14 +63,12 @@ Figure mirrored_response() {
   figure.width = 640.0;
   figure.height = 260.0;
   figure.caption =
-      "From the collision at t_C1 (vertical line) on, each response is the mirror image, with "
-      "respect "
-      "to the time axis, of the response without collision. Drawn for N = 1, ξ1 = 0.1 up to t_C2.";
+      "From the collision at t_C1 (vertical line) on, each response is the mirror image, with respect to the time axis, of the response without collision. Drawn for N = 1, ξ1 = 0.1 up to t_C2.";
   figure.claims = {
       {"Section 2.3: the collision mirrors the response that would have existed without it.",
-       fmt::format("In t_C1 ≤ t ≤ t_C2, u with and u without the collision add up to {} m "
-                   "at most, for both masses.",
-                   number(difference)),
+       fmt::format(
+           "In t_C1 ≤ t ≤ t_C2, u with and u without the collision add up to {} m at most, for both masses.",
+           number(difference)),
        difference <= plain_precision}};
   figure.choices = {
       "Figure 11 is a typical sketch without parameters; those of Fig. 12 are taken."};
@@ -89,8 +86,7 @@ Figure coincidence() {
   figure.width = 640.0;
   figure.height = 190.0;
   figure.caption =
-      "The actual responses and those without any collision coincide at t_C***, 2 t_C***, 3 t_C*** "
-      "(points); N = 1, ξ1 = 0.1, a_t = 1: (a) the first mass, (b) the second mass.";
+      "The actual responses and those without any collision coincide at t_C***, 2 t_C***, 3 t_C*** (points); N = 1, ξ1 = 0.1, a_t = 1: (a) the first mass, (b) the second mass.";
   for (int mass = 1; mass <= 2; ++mass) {
     const auto i = mass - 1;
     const FreeFlight alone(test_case, mass);
@@ -116,12 +112,11 @@ Figure coincidence() {
     panel.x.highest = motion.end();
     figure.panels.push_back(panel);
     figure.claims.push_back(
-        {fmt::format("Section 2.3: at multiples of t_C*** displacement and velocity of mass {} are "
-                     "those without collisions.",
-                     mass),
+        {fmt::format(
+             "Section 2.3: at multiples of t_C*** displacement and velocity of mass {} are those without collisions.",
+             mass),
          fmt::format(
-             "t_C*** = 2π/√(1 − ξ1²) = {:.6f} s; at {} multiples the displacements differ by "
-             "{} and the velocities by {} of the amplitude then.",
+             "t_C*** = 2π/√(1 − ξ1²) = {:.6f} s; at {} multiples the displacements differ by {} and the velocities by {} of the amplitude then.",
              period, moments.size(), number(u), number(v)),
          u <= plain_precision && v <= plain_precision});
   }

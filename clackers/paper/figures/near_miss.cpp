@@ -50,10 +50,9 @@ Claim damping_cancels() {
   // X T/2 = 33 rad over 40000 points: missed by at most 3/2 (33/40000)^2 = 1e-6.
   return {
       "Appendix A: for small ξ1, Eq. (18) is sufficient against collisions away from equilibrium.",
-      fmt::format("N = 5: least (u1 − u2)/u1 is {} for ξ1 = 0, 0.05, 0.5, 0.9; the proof gives "
-                  "1 − 3/r* = {:.6f} for every ξ1. The exponential factor is common to both "
-                  "masses, so the damping need not be small.",
-                  found, proved),
+      fmt::format(
+          "N = 5: least (u1 − u2)/u1 is {} for ξ1 = 0, 0.05, 0.5, 0.9; the proof gives 1 − 3/r* = {:.6f} for every ξ1. The exponential factor is common to both masses, so the damping need not be small.",
+          found, proved),
       worst < 2e-6};
 }
 
@@ -94,19 +93,16 @@ Figure near_miss() {
   figure.width = 640.0;
   figure.height = 300.0;
   figure.caption =
-      "Before a collision mass 2 comes nearest to mass 1 about three quarters of its period "
-      "earlier; "
-      "N = 5, ξ1 = 0.05. With r = r* instead of 3 the masses would graze there.";
+      "Before a collision mass 2 comes nearest to mass 1 about three quarters of its period earlier; N = 5, ξ1 = 0.05. With r = r* instead of 3 the masses would graze there.";
   figure.claims = {
       damping_cancels(),
       {"Fig. A.3: the most probable collision away from equilibrium is a near miss.",
-       fmt::format("N = 5, ξ1 = 0.05: at t = {:.4f} s, {:.4f} rad of mass 2 before the collision, "
-                   "u2 is {:.4f} of u1.",
-                   near.t, omega2 * (t1 - near.t), 1.0 - near.share),
+       fmt::format(
+           "N = 5, ξ1 = 0.05: at t = {:.4f} s, {:.4f} rad of mass 2 before the collision, u2 is {:.4f} of u1.",
+           near.t, omega2 * (t1 - near.t), 1.0 - near.share),
        near.share > 0.0}};
   figure.choices = {
-      "The parameters do not stand in the text; N = 5 and ξ1 = 0.05 show the detail. The grazing "
-      "curve is ours."};
+      "The parameters do not stand in the text; N = 5 and ξ1 = 0.05 show the detail. The grazing curve is ours."};
   figure.panels = {panel};
   return figure;
 }

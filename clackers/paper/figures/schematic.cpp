@@ -94,8 +94,7 @@ Figure mass_and_stop() {
   figure.width = 612.0;
   figure.height = 216.0;
   figure.caption =
-      "Schematic: a mass on spring and dashpot, free to move away from a rigid stop that stands "
-      "where the mass rests at static equilibrium; restitution η.";
+      "Schematic: a mass on spring and dashpot, free to move away from a rigid stop that stands where the mass rests at static equilibrium; restitution η.";
   figure.panels = {panel};
   return figure;
 }

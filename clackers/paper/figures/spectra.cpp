@@ -10,7 +10,6 @@
 #include "clackers/exact/quantities/spectrum.hpp"
 #include "clackers/paper/catalogue.hpp"
 #include "clackers/paper/figures/curves.hpp"
-#include "clackers/paper/figures/measure.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -142,8 +141,7 @@ Figure spectra() {
   figure.width = 330.0;
   figure.height = 180.0;
   figure.caption =
-      "Exact displacements (left) and the amplitudes of their Fourier transform over 0 ≤ t ≤ 20 s "
-      "(right), lines from the closed form, points from samples every 0.001 s; ξ1 = 0.05.";
+      "Exact displacements (left) and the amplitudes of their Fourier transform over 0 ≤ t ≤ 20 s (right), lines from the closed form, points from samples every 0.001 s; ξ1 = 0.05.";
   std::string periods;
   bool falling = true;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -154,10 +152,10 @@ Figure spectra() {
         {fmt::format(
              "Section 2.2: time steps of 0.001 s give accurate Fourier amplitudes (N = {}).",
              one.N),
-         fmt::format("The transform of the samples and the closed form differ by at most {} m s, "
-                     "{} of the peak of mass 2. The trapezoidal rule allows {} m s.",
-                     number(one.difference), number(one.difference / one.peak.amplitude),
-                     number(one.bound)),
+         fmt::format(
+             "The transform of the samples and the closed form differ by at most {} m s, {} of the peak of mass 2. The trapezoidal rule allows {} m s.",
+             number(one.difference), number(one.difference / one.peak.amplitude),
+             number(one.bound)),
          one.difference <= one.bound});
     periods += fmt::format("{}N = {}: {:.4g} s with {:.4g} m s", i == 0 ? "" : ", ", one.N,
                            2.0 * std::numbers::pi / one.peak.omega, one.peak.amplitude);

@@ -70,10 +70,7 @@ Figure convergence(std::span<const int> Ns, const std::atomic<bool>* interrupt) 
   figure.width = 260.0;
   figure.height = 200.0;
   figure.caption =
-      "Largest displacement error over 0 ≤ t ≤ 20 s, relative to the initial amplitude of each "
-      "mass, "
-      "against the step; three-parameter system with ξ1 = 0.05, a_t = 1. Without another contact "
-      "treatment in its name a method locates impacts.";
+      "Largest displacement error over 0 ≤ t ≤ 20 s, relative to the initial amplitude of each mass, against the step; three-parameter system with ξ1 = 0.05, a_t = 1. Without another contact treatment in its name a method locates impacts.";
   for (std::size_t i = 0; i < Ns.size(); ++i) {
     const auto record = study_of(Ns[i], interrupt);
     if (record.interrupted) break;
@@ -104,9 +101,7 @@ Figure convergence(std::span<const int> Ns, const std::atomic<bool>* interrupt) 
     figure.panels.push_back(std::move(panel));
   }
   figure.choices = {
-      "The paper names this way and shows no figure. Penalty contact is left out: it solves a "
-      "system "
-      "with a spring between the masses, not Eq. (25)."};
+      "The paper names this way and shows no figure. Penalty contact is left out: it solves a system with a spring between the masses, not Eq. (25)."};
   return figure;
 }
 

@@ -45,8 +45,7 @@ std::string encoded(std::string_view text) {
 
 std::string picture(const Drawn& drawn) {
   if (drawn.svg.empty())
-    return "<p class=\"notice\">This figure could not be drawn; its numbers are in the csv "
-           "file.</p>";
+    return "<p class=\"notice\">This figure could not be drawn; its numbers are in the csv file.</p>";
   return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml,{}\">", escape(drawn.figure.title),
                      encoded(drawn.svg));
 }
@@ -57,9 +56,7 @@ std::string claims(const std::vector<Claim>& list) {
   for (const auto& claim : list)
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
                         escape(claim.says), escape(claim.measured), badge(verdict_of(claim)));
-  return "<div class=\"scroll\"><table class=\"claims\"><thead><tr><th scope=\"col\">the paper "
-         "says</th>"
-         "<th scope=\"col\">measured</th><th scope=\"col\">verdict</th></tr></thead><tbody>\n" +
+  return "<div class=\"scroll\"><table class=\"claims\"><thead><tr><th scope=\"col\">the paper says</th><th scope=\"col\">measured</th><th scope=\"col\">verdict</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div>\n";
 }
 

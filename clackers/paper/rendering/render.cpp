@@ -23,10 +23,11 @@ constexpr auto kept = "The numbers (csv) and specifications (vl.json) were writt
 
 Missing no_program(const std::string& program, const std::string& what,
                    const std::string& package) {
-  return {fmt::format("paper: {} are missing: there is no program {} on the PATH. Install it "
-                      "(Debian: apt-get install {}) and run the command again. {}",
-                      what, program, package, kept),
-          "no-renderer"};
+  return {
+      fmt::format(
+          "paper: {} are missing: there is no program {} on the PATH. Install it (Debian: apt-get install {}) and run the command again. {}",
+          what, program, package, kept),
+      "no-renderer"};
 }
 
 Missing failed(const std::string& program, const std::string& what, const Ended& how) {

@@ -57,10 +57,9 @@ TEST_F(Programs, WithoutNodeNothingIsDrawnAndTheMessageNamesThePackage) {
   const auto missing = render(folder_, {"fig1"});
   ASSERT_EQ(missing.size(), 1u);
   EXPECT_EQ(missing[0].code.name(), "no-renderer");
-  EXPECT_EQ(missing[0].sentence,
-            "paper: pictures (svg, pdf) are missing: there is no program node on the PATH. Install "
-            "it (Debian: apt-get install nodejs) and run the command again. The numbers (csv) and "
-            "specifications (vl.json) were written all the same.");
+  EXPECT_EQ(
+      missing[0].sentence,
+      "paper: pictures (svg, pdf) are missing: there is no program node on the PATH. Install it (Debian: apt-get install nodejs) and run the command again. The numbers (csv) and specifications (vl.json) were written all the same.");
   EXPECT_TRUE(fs::is_empty(folder_)) << "something stayed behind";
 }
 

@@ -10,6 +10,7 @@
 
 #include "clackers/paper/rendering/assets.hpp"
 #include "clackers/report/figure_data.hpp"
+#include "clackers/report/markup.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -22,6 +23,17 @@ constexpr std::size_t drawn_points = 3000;
 
 // The marker of a legend at the size that lines have there, so that all stand on one line.
 constexpr auto disc = "M0.27,0A0.27,0.27,0,1,1,-0.27,0A0.27,0.27,0,1,1,0.27,0";
+
+// A part of page/look.json: fonts, colours and spacing.
+const Json& look(const char* part) {
+  static const Json all = Json::parse(report::fill(assets::look_json, {{"paper", light::paper},
+                                                                       {"ink", light::ink},
+                                                                       {"muted", light::muted},
+                                                                       {"faint", light::faint},
+                                                                       {"line", light::line},
+                                                                       {"grid", light::grid}}));
+  return all.at(part);
+}
 
 Json rounded(const std::vector<double>& values) {
   Json out = Json::array();
@@ -78,9 +90,7 @@ Json position(const Figure& figure, const Axis& axis, bool titled) {
   if (axis.logarithmic)
     add_decades(axis, out["axis"]);
   else
-    out["axis"]["gridColor"] = {
-        {"condition", {{"test", "datum.value === 0"}, {"value", light::faint}}},
-        {"value", light::grid}};
+    out["axis"]["gridColor"] = look("zero line");
   return out;
 }
 
@@ -124,6 +134,7 @@ Json rows_of(const Panel& panel, Kind kind) {
   return rows;
 }
 
+// What is drawn into a panel, from the back to the front.
 class PanelView {
  public:
   PanelView(const Figure& figure, const Panel& panel, bool x_title, bool y_title)
@@ -133,6 +144,8 @@ class PanelView {
         lines_(figure, Kind::line),
         points_(figure, Kind::points),
         drawing_(figure.drawing) {
+    x_["field"] = "x";
+    y_["field"] = "y";
     // Space for labels such as "1.36".
     if (!drawing_ && !panel.x.logarithmic)
       x_["axis"]["tickCount"] = std::floor(figure.width / 50.0);
@@ -140,96 +153,64 @@ class PanelView {
 
   Json layers() const {
     Json out = Json::array();
-    for (const auto& series : panel_.series)
-      if (series.kind == Kind::shape) out.push_back(shape(series));
-    for (const auto& series : panel_.series)
-      if (series.kind == Kind::rule) out.push_back(rule(series));
+    add_each(Kind::shape, "shape", "fill", out);
+    add_each(Kind::rule, "rule", "stroke", out);
     add_lines(out);
     add_points(out);
-    for (const auto& series : panel_.series)
-      if (series.kind == Kind::text) out.push_back(text(series));
+    add_each(Kind::text, "text", "fill", out);
     return out;
   }
 
  private:
-  Json with(Json axis, const char* field) const {
-    axis["field"] = field;
-    return axis;
-  }
-
-  Json layer(Kind kind, Json mark) const {
-    mark["clip"] = true;
-    return {{"data", {{"values", rows_of(panel_, kind)}}},
+  Json layer(const Json& mark, const Json& rows) const {
+    return {{"data", {{"values", rows}}},
             {"transform", {{{"flatten", {"x", "y"}}}}},
             {"mark", mark},
-            {"encoding", {{"x", with(x_, "x")}, {"y", with(y_, "y")}}}};
+            {"encoding", {{"x", x_}, {"y", y_}}}};
+  }
+
+  // A layer for each series of a kind, its colour in `channel`.
+  void add_each(Kind kind, const char* mark, const char* channel, Json& out) const {
+    for (const auto& series : panel_.series) {
+      if (series.kind != kind) continue;
+      auto view = layer(look(mark), {{{"x", rounded(series.x)}, {"y", rounded(series.y)}}});
+      view["mark"][channel] = series.stroke.color;
+      if (kind == Kind::shape) {
+        view["mark"]["strokeWidth"] = series.stroke.width;
+        view["encoding"]["order"] = {{"value", nullptr}};  // in the order of the data
+      } else if (kind == Kind::text) {
+        view["mark"]["text"] = series.name;
+      } else {
+        view["transform"] = {{{"flatten", {"x"}}}};
+        view["encoding"].erase("y");
+      }
+      out.push_back(view);
+    }
   }
 
   void add_lines(Json& out) const {
-    auto lines = layer(Kind::line, {{"type", "line"}, {"strokeCap", "butt"}});
+    auto lines = layer(look("lines"), rows_of(panel_, Kind::line));
     if (lines["data"]["values"].empty()) return;
     auto& encoding = lines["encoding"];
     encoding["detail"] = {{"field", "piece"}, {"type", "nominal"}};
-    encoding["order"] = {{"value", nullptr}};  // in the order of the data
-    if (lines_.names.size() == 1) {
-      // Alone it needs no legend, and so no scale.
-      lines["mark"].update({{"stroke", lines_.colors[0]},
-                            {"strokeDash", lines_.dashes[0]},
-                            {"strokeWidth", lines_.widths[0]}});
-    } else {
-      const Json legend = drawing_ ? Json(nullptr) : Json(Json::object());
-      encoding["stroke"] = lines_.channel(lines_.colors, legend);
-      encoding["strokeDash"] = lines_.channel(lines_.dashes, legend);
-      encoding["strokeWidth"] = lines_.channel(lines_.widths, legend);
-    }
+    encoding["order"] = {{"value", nullptr}};     // in the order of the data
+    const bool alone = lines_.names.size() == 1;  // without a legend, and so without a scale
+    const Json legend = drawing_ ? Json(nullptr) : Json(Json::object());
+    for (const auto& [channel, range] : {std::pair{"stroke", &lines_.colors},
+                                         {"strokeDash", &lines_.dashes},
+                                         {"strokeWidth", &lines_.widths}})
+      if (alone)
+        lines["mark"][channel] = (*range)[0];
+      else
+        encoding[channel] = lines_.channel(*range, legend);
     out.push_back(lines);
   }
 
   void add_points(Json& out) const {
-    auto points = layer(Kind::points, {{"type", "point"},
-                                       {"shape", "circle"},
-                                       {"size", 34},
-                                       {"opacity", 1},
-                                       {"strokeWidth", 1},
-                                       {"stroke", light::paper}});
+    auto points = layer(look("points"), rows_of(panel_, Kind::points));
     if (points["data"]["values"].empty()) return;
     points["encoding"]["fill"] = points_.channel(points_.colors, {{"symbolType", disc}});
     out.push_back(points);
-  }
-
-  Json rule(const Series& series) const {
-    return {{"data", {{"values", {{{"x", rounded(series.x)}}}}}},
-            {"transform", {{{"flatten", {"x"}}}}},
-            {"mark",
-             {{"type", "rule"},
-              {"clip", true},
-              {"stroke", series.stroke.color},
-              {"strokeDash", {2, 3}}}},
-            {"encoding", {{"x", with(x_, "x")}}}};
-  }
-
-  Json shape(const Series& series) const {
-    Json rows{{{"x", rounded(series.x)}, {"y", rounded(series.y)}}};
-    return {{"data", {{"values", rows}}},
-            {"transform", {{{"flatten", {"x", "y"}}}}},
-            {"mark",
-             {{"type", "line"},
-              {"interpolate", "linear-closed"},
-              {"fill", series.stroke.color},
-              {"stroke", light::ink},
-              {"strokeWidth", series.stroke.width}}},
-            {"encoding",
-             {{"x", with(x_, "x")}, {"y", with(y_, "y")}, {"order", {{"value", nullptr}}}}}};
-  }
-
-  Json text(const Series& series) const {
-    return {{"data", {{"values", {{{"x", series.x.front()}, {"y", series.y.front()}}}}}},
-            {"mark",
-             {{"type", "text"},
-              {"text", series.name},
-              {"fontSize", 12.5},
-              {"fill", series.stroke.color}}},
-            {"encoding", {{"x", with(x_, "x")}, {"y", with(y_, "y")}}}};
   }
 
   const Panel& panel_;
@@ -259,51 +240,12 @@ Json panel_view(const Figure& figure, std::size_t index) {
   return view;
 }
 
-// Fonts, colours and spacing of all figures.
-Json configuration() {
-  return {{"background", light::paper},
-          {"font", "\"Liberation Sans\", Arial, Helvetica, \"DejaVu Sans\", sans-serif"},
-          {"padding", 12},
-          {"view", {{"stroke", light::line}}},
-          {"concat", {{"spacing", 16}}},
-          {"axis",
-           {{"domainColor", light::faint},
-            {"tickColor", light::faint},
-            {"gridColor", light::grid},
-            {"labelColor", light::muted},
-            {"titleColor", light::ink},
-            {"labelFontSize", 12},
-            {"titleFontSize", 12.5},
-            {"titleFontWeight", "normal"},
-            {"titlePadding", 8},
-            {"labelPadding", 4},
-            {"labelFlush", false}}},
-          {"title",
-           {{"color", light::ink},
-            {"fontSize", 13},
-            {"fontWeight", "normal"},
-            {"anchor", "start"},
-            {"frame", "group"},
-            {"offset", 6}}},
-          {"legend",
-           {{"orient", "top"},
-            {"direction", "horizontal"},
-            {"title", nullptr},
-            {"labelColor", light::ink},
-            {"labelFontSize", 12.5},
-            {"labelLimit", 420},
-            {"symbolType", "stroke"},
-            {"symbolSize", 700},
-            {"columnPadding", 24},
-            {"offset", 10}}}};
-}
-
 }  // namespace
 
 nlohmann::ordered_json specification(const Figure& figure) {
   Json out{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
            {"description", figure.title},
-           {"config", configuration()},
+           {"config", look("config")},
            {"columns", figure.columns},
            {"align", "all"},
            {"concat", Json::array()}};

@@ -126,9 +126,9 @@ TEST(Specification, LogarithmicAxisIsLabelledByPowersOfTen) {
   axis.highest = 10.0;
   const auto json = specification(figure)["concat"][2]["layer"][1]["encoding"]["y"]["axis"];
   EXPECT_EQ(json["values"].size(), 7u);  // every second power
-  EXPECT_EQ(json["labelExpr"],
-            "['10⁻¹²','10⁻¹⁰','10⁻⁸','10⁻⁶','10⁻⁴','10⁻²','10⁰']"
-            "[round((log(datum.value) / LN10 - -12) / 2)]");
+  EXPECT_EQ(
+      json["labelExpr"],
+      "['10⁻¹²','10⁻¹⁰','10⁻⁸','10⁻⁶','10⁻⁴','10⁻²','10⁰'][round((log(datum.value) / LN10 - -12) / 2)]");
 }
 
 }  // namespace
