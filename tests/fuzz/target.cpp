@@ -20,6 +20,8 @@ constexpr auto table = std::to_array<Target>({
     {"specification", read_specification, nullptr},
     {"settings", read_settings, mutate_numbers},
     {"times", read_times, mutate_numbers},
+    {"record", read_record, mutate_numbers},
+    {"check", check_and_report, mutate_numbers},
 });
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "clackers/paper/rendering/assets.hpp"
-#include "clackers/report/figure_data.hpp"
 #include "clackers/report/markup.hpp"
+#include "clackers/study/reduced_curve.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -125,7 +125,7 @@ Json rows_of(const Panel& panel, Kind kind) {
   for (const auto& series : panel.series) {
     if (series.kind != kind) continue;
     auto drawn = study::Curve{series.x, {series.y}};
-    if (kind == Kind::line) drawn = report::reduced(drawn, drawn_points);
+    if (kind == Kind::line) drawn = study::reduced(drawn, drawn_points);
     rows.push_back({{"series", series.name},
                     {"piece", rows.size()},
                     {"x", rounded(drawn.t)},
