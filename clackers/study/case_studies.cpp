@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "clackers/base/error.hpp"
-#include "clackers/study/verify_plan.hpp"
+#include "clackers/study/verify/verify_plan.hpp"
 
 namespace clackers::study {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "clackers/study/check_record.hpp"
-#include "clackers/study/record_fields.hpp"
+#include "clackers/study/record/record_fields.hpp"
 
 namespace clackers::study {
 
