@@ -47,11 +47,11 @@ struct Facts {
 /// (`undecided` claims nothing). Behaviour and verdict go by the displacement error; velocity and
 /// impact times are fitted beside it. The rules for the behaviour, first hit wins:
 ///
+///     divergent [energy-growth]     no line, and most runs of both finest levels end with an energy
+///                                   outside [1/2, 2] of the true one
 ///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
 ///                                   printing makes, and the fit is exact, a floor or has too few
 ///                                   levels
-///     divergent [energy-growth]     no line, and most runs of both finest levels end with an energy
-///                                   outside [1/2, 2] of the true one
 ///     reduced                       a straight line of the very order that is claimed as reduced
 ///     what fit_ladder found         otherwise
 ///

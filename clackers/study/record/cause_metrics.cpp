@@ -11,6 +11,7 @@
 #include <string>
 
 #include "clackers/assess/metrics/detuning.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/assess/metrics/penalty_split.hpp"
 #include "clackers/assess/metrics/synchrony.hpp"
 #include "clackers/assess/metrics/value.hpp"
@@ -144,8 +145,20 @@ std::vector<MetricResult> cause_results(const assess::Comparison& comparison,
   return all;
 }
 
-std::vector<MetricResult> all_metrics(const assess::Comparison& comparison, const RunFacts& facts) {
-  auto all = metric_results(comparison);
+std::optional<std::vector<MetricResult>> all_metrics(const assess::Comparison& comparison,
+                                                     const RunFacts& facts,
+                                                     const MetricsDone& done,
+                                                     const std::atomic<bool>* interrupt) {
+  std::vector<MetricResult> all;
+  const auto table_of_metrics = assess::metrics();
+  for (const auto& metric : table_of_metrics) {
+    if (interrupt != nullptr && *interrupt) return {};
+    auto found = metric.measure(comparison);
+    all.push_back({std::string(metric.name), std::string(metric.unit), found.value,
+                   std::move(found.masses), std::move(found.reason), metric.across_jumps});
+    if (done) done(double(all.size()) / double(table_of_metrics.size() + 1));
+  }
+  if (interrupt != nullptr && *interrupt) return {};
   for (auto& cause : cause_results(comparison, facts)) all.push_back(std::move(cause));
   return all;
 }

@@ -14,29 +14,29 @@ namespace {
 constexpr double failed = std::numeric_limits<double>::infinity();
 constexpr int smallest_decade = 16;  // below 1e-16 of the envelope nothing is measured
 
-using Curves = std::vector<assess::WorkCurve>;
-
-Curves curves_of(const Record& record, assess::Counter counter) {
-  Curves curves;
-  for (const auto& method : record.methods)
-    curves.push_back(assess::work_curve(method.ladder, counter));
-  return curves;
+// The least cost of a level from which on, at it and all finer ones, no run fails and no error
+// exceeds `error`; infinite where the finest level does.
+double cost_of(const std::vector<LevelScore>& levels, double error, assess::Counter counter) {
+  double least = failed;
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+    if (level->failed > 0 || !(level->worst.u_error <= error)) break;
+    least = std::min(least, assess::cost(level->worst, counter));
+  }
+  return least;
 }
 
-// What each method needs to reach an error; nothing where none reaches it.
-std::vector<double> costs_of(const Curves& curves, double error) {
-  std::vector<double> costs;
-  for (const auto& curve : curves) costs.push_back(assess::work_for(curve, error).value_or(failed));
-  if (std::ranges::all_of(costs, [](double cost) { return cost == failed; })) return {};
-  return costs;
-}
-
-void add_tasks(assess::CostTable& table, const Record& record, assess::Counter counter) {
-  const auto curves = curves_of(record, counter);
+void add_tasks(assess::CostTable& table, const CaseRecord& record, assess::Counter counter) {
+  std::vector<std::vector<LevelScore>> subjects;
+  for (const auto& subject : record.subjects) {
+    subjects.emplace_back();
+    for (const auto& level : subject.levels) subjects.back().push_back(worst(level));
+  }
   for (int decade = 1; decade <= smallest_decade; ++decade) {
     const double error = std::pow(10.0, -decade);
-    const auto costs = costs_of(curves, error);
-    if (costs.empty()) return;  // a smaller error is not reached either
+    std::vector<double> costs;
+    for (const auto& levels : subjects) costs.push_back(cost_of(levels, error, counter));
+    // A smaller error is not reached either.
+    if (std::ranges::all_of(costs, [](double cost) { return cost == failed; })) return;
     table.tasks.push_back(fmt::format("{}: error in u <= {:.0e}", record.problem.name, error));
     for (std::size_t i = 0; i < costs.size(); ++i) table.costs[i].push_back(costs[i]);
   }
@@ -69,15 +69,16 @@ std::string_view field_of(assess::Counter counter) {
   return "seconds";
 }
 
-std::vector<Profile> profiles_of(std::span<const Record> records) {
+std::vector<Profile> profiles_of(std::span<const CaseRecord> cases) {
   std::vector<Profile> profiles;
-  if (records.empty() || std::ranges::any_of(records, &Record::interrupted)) return profiles;
+  const auto is_interrupted = [](const CaseRecord& one) { return counts(one).interrupted > 0; };
+  if (cases.empty() || std::ranges::any_of(cases, is_interrupted)) return profiles;
   for (const auto counter : assess::all_counters) {
     if (counter == assess::Counter::seconds) continue;
     assess::CostTable table;
-    for (const auto& method : records.front().methods) table.methods.push_back(method.name);
+    for (const auto& subject : cases.front().subjects) table.methods.push_back(subject.name);
     table.costs.resize(table.methods.size());
-    for (const auto& record : records) add_tasks(table, record, counter);
+    for (const auto& one : cases) add_tasks(table, one, counter);
     if (!has_profile(table)) continue;
     auto found = assess::performance_profile(table);
     profiles.push_back(

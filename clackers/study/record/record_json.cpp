@@ -1,26 +1,75 @@
+#include "clackers/study/record_json.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/study/case_studies.hpp"
-#include "clackers/study/json_writer.hpp"
 #include "clackers/study/record/record_fields.hpp"
-#include "clackers/study/verify.hpp"
 
 namespace clackers::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Json has no numbers for these three, so that they are written as text.
+constexpr auto infinity = "inf", minus_infinity = "-inf", not_a_number = "nan";
+
+/// Collects the fields of one struct as a json object.
+class Writer {
+ public:
+  template <class T>
+  void operator()(const char* name, const T& x) {
+    object_[name] = written(x);
+  }
+  template <class T>
+  static Json written(const T& x) {
+    Writer writer;
+    fields(writer, x);
+    return std::move(writer.object_);
+  }
+
+ private:
+  static Json written(double x) {
+    if (std::isnan(x)) return not_a_number;
+    if (std::isinf(x)) return x > 0.0 ? infinity : minus_infinity;
+    return x;
+  }
+  static Json written(const std::string& x) { return x; }
+  static Json written(bool x) { return x; }
+  static Json written(int x) { return x; }
+  static Json written(long long x) { return x; }
+  static Json written(const std::vector<bool>& x) { return x; }
+  template <class Word>
+    requires std::is_enum_v<Word>
+  static Json written(Word x) {
+    return to_string(x);
+  }
+  template <class T>
+  static Json written(const std::optional<T>& x) {
+    return x ? written(*x) : Json(nullptr);
+  }
+  template <class T>
+  static Json written(const std::vector<T>& x) {
+    Json list = Json::array();
+    for (const auto& item : x) list.push_back(written(item));
+    return list;
+  }
+
+  Json object_ = Json::object();
+};
+
 [[noreturn]] void refuse_record(const std::string& where, std::string_view what) {
   throw InputError(fmt::format("record: {} at {}; allowed: json of schema {}, as written by "
-                               "clackers verify --format json.",
+                               "clackers verify or check with --format json.",
                                what, where.empty() ? "the top" : where, Record::schema),
                    "not-a-record");
 }
@@ -38,11 +87,6 @@ class Reader {
     read(*field, where_ + "/" + name, x);
     ++known_;
   }
-  /// A field that records of earlier versions lack: what it stands for is left as it is then.
-  template <class T>
-  void added(const char* name, T& x) {
-    if (object_.contains(name)) (*this)(name, x);
-  }
   /// Call after the last field.
   void finish() const {
     if (known_ != object_.size()) refuse_record(where_, "a field that is not known");
@@ -52,11 +96,11 @@ class Reader {
   static void read(const Json& json, const std::string& where, double& x) {
     if (json.is_number())
       x = json.get<double>();
-    else if (json == JsonWriter::infinity)
+    else if (json == infinity)
       x = std::numeric_limits<double>::infinity();
-    else if (json == JsonWriter::minus_infinity)
+    else if (json == minus_infinity)
       x = -std::numeric_limits<double>::infinity();
-    else if (json == JsonWriter::not_a_number)
+    else if (json == not_a_number)
       x = std::numeric_limits<double>::quiet_NaN();
     else
       refuse_record(where, "no number");
@@ -78,15 +122,37 @@ class Reader {
     if (!fits) refuse_record(where, "no whole number, or one too large,");
     x = json.get<Whole>();
   }
-  static void read(const Json& json, const std::string& where, Behaviour& x) {
+  template <class Word>
+  static void read_word(const Json& json, const std::string& where, Word& x,
+                        std::initializer_list<Word> words) {
     std::string text;
     read(json, where, text);
-    x = behaviour_from(text);
+    for (const auto word : words)
+      if (to_string(word) == text) {
+        x = word;
+        return;
+      }
+    refuse_record(where, fmt::format("\"{}\", which is none of the words for it,", text));
+  }
+  static void read(const Json& json, const std::string& where, Behaviour& x) {
+    read_word(json, where, x,
+              {Behaviour::exact, Behaviour::proper, Behaviour::reduced, Behaviour::irregular,
+               Behaviour::stagnating, Behaviour::divergent, Behaviour::undecided});
   }
   static void read(const Json& json, const std::string& where, Verdict& x) {
-    std::string text;
-    read(json, where, text);
-    x = verdict_from(text);
+    read_word(
+        json, where, x,
+        {Verdict::agrees, Verdict::disagrees, Verdict::not_claimed, Verdict::undecided});
+  }
+  static void read(const Json& json, const std::string& where, StepSource& x) {
+    read_word(json, where, x, {StepSource::data, StepSource::name, StepSource::option});
+  }
+  static void read(const Json& json, const std::string& where, CollisionSource& x) {
+    read_word(json, where, x,
+              {CollisionSource::events, CollisionSource::history, CollisionSource::unknown});
+  }
+  static void read(const Json& json, const std::string& where, SubjectKind& x) {
+    read_word(json, where, x, {SubjectKind::method, SubjectKind::histories});
   }
   template <class T>
   static void read(const Json& json, const std::string& where, std::optional<T>& x) {
@@ -95,8 +161,11 @@ class Reader {
   template <class T>
   static void read(const Json& json, const std::string& where, std::vector<T>& x) {
     if (!json.is_array()) refuse_record(where, "no list");
-    for (std::size_t i = 0; i < json.size(); ++i)
-      read(json[i], fmt::format("{}/{}", where, i), x.emplace_back());
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      T item{};
+      read(json[i], fmt::format("{}/{}", where, i), item);
+      x.push_back(std::move(item));
+    }
   }
   template <class T>
   static void read(const Json& json, const std::string& where, T& x) {
@@ -110,38 +179,35 @@ class Reader {
   std::size_t known_ = 0;
 };
 
-Json json_of(const Record& record) {
-  JsonWriter writer;
-  writer("schema", std::string(Record::schema));
-  fields(writer, record);
-  return writer.object();
-}
+// A record has 14 levels. Hostile text of a million brackets would take the memory.
+constexpr int deepest = 32;
 
-std::string text_of(const Json& json) {
-  return json.dump(1, ' ', false, Json::error_handler_t::replace);
+Json parsed(const std::string& text, const std::atomic<bool>* interrupt) {
+  if (text.size() > longest_record)
+    refuse_record({}, fmt::format("more than {} bytes", longest_record));
+  const auto watch = [&](int depth, Json::parse_event_t event, const Json&) {
+    if (interrupt != nullptr && *interrupt) throw Error("interrupted", "interrupted");
+    if (depth > deepest) refuse_record({}, fmt::format("more than {} levels", deepest));
+    if (depth == 0 && event == Json::parse_event_t::array_start) refuse_record({}, "no object");
+    return true;
+  };
+  try {
+    return Json::parse(text, watch);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("record: no json: {}", error.what()), "not-a-record");
+  }
 }
 
 }  // namespace
 
-std::string to_json(const Record& record) { return text_of(json_of(record)); }
-
-std::string to_json(const CaseStudies& studies) {
-  JsonWriter writer;
-  writer("profiles", studies.profiles);
-  Json records = Json::array();
-  for (const auto& record : studies.records) records.push_back(json_of(record));
-  return text_of({{"schema", CaseStudies::schema},
-                  {"records", std::move(records)},
-                  {"profiles", writer.object()["profiles"]}});
+std::string to_json(const Record& record) {
+  Json json{{"schema", Record::schema}};
+  json.update(Writer::written(record));
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
-Record record_from_json(const std::string& text) {
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("record: no json: {}", error.what()), "not-a-record");
-  }
+Record record_from_json(const std::string& text, const std::atomic<bool>* interrupt) {
+  const auto json = parsed(text, interrupt);
   Reader reader(json, {});
   std::string schema;
   reader("schema", schema);

@@ -12,24 +12,27 @@ namespace clackers::study {
 /// A method of a study before its runs.
 struct PlannedMethod {
   std::shared_ptr<const methods::Method> method;
-  MethodResult result;  ///< name, claim, contact time and refusal are known already
+  Subject subject;  ///< name, claim, contact time and refusal
   bool reports_impacts = true;
-  std::vector<assess::ResponseLevel> ends;  ///< displacements at the end, once they were run
 };
 
-/// A request made ready to run.
-struct VerifyPlan {
+/// One case of a request, ready to run.
+struct CasePlan {
   cases::Case problem;
   CaseSummary summary;
   std::vector<PlannedMethod> methods;
-  std::vector<assess::StepLevel> ladder;
+  std::vector<assess::StepLevel> levels;
 };
 
-/// What a record tells of a case.
-CaseSummary summary_of(const cases::Case& which);
+/// The plan of a case whose subjects are histories.
+inline constexpr RefinementPlan no_refinement{0.0, 0, 0};
 
-/// Throws InputError for whatever cannot be run: unknown names, values outside their range, a
-/// ladder of too many steps, a method named twice, or no method left that takes the case.
-VerifyPlan plan_of(const VerifyRequest& request);
+CaseSummary summary_of(const cases::Case& problem);
+
+/// The name of a method in every output: as one would type it, without "+event-driven".
+std::string short_name(const std::string& name);
+
+/// Throws InputError for what verify() refuses.
+std::vector<CasePlan> plans_of(const VerifyRequest& request);
 
 }  // namespace clackers::study

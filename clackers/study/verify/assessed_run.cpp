@@ -1,4 +1,6 @@
-#include "clackers/study/verify/judged_run.hpp"
+#include "clackers/study/verify/assessed_run.hpp"
+
+#include <time.h>
 
 #include <cmath>
 
@@ -6,16 +8,13 @@
 #include "clackers/assess/errors/error_sink.hpp"
 #include "clackers/model/trajectory.hpp"
 #include "clackers/study/cause_metrics.hpp"
-#include "clackers/study/verify/processor_time.hpp"
-#include "clackers/study/verify/run_recorder.hpp"
-#include "clackers/study/verify/watched_sink.hpp"
+#include "clackers/study/verify/run_sinks.hpp"
 
 namespace clackers::study {
 namespace {
 
-// A state under judgement needs the true motion, one without only the method, one under all metrics
-// both and a search. Only the progress shown depends on these.
-constexpr double judged_state = 1.0, timed_state = 0.2, measured_state = 10.0;
+// Costs of a state, relative: with errors, for timing only, with metrics.
+constexpr double error_state = 1.0, timed_state = 0.2, measured_state = 10.0;
 
 // The clock of a thread costs and errs by less than a microsecond: a thousandth of this.
 constexpr double shortest_timing = 1e-3;  // [s]
@@ -35,14 +34,21 @@ std::vector<double> relative(std::vector<double> u, const model::Motion& motion)
   return u;
 }
 
+// Of this thread [s].
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
 // Processor time of one run [s]; nothing when interrupted.
 std::optional<double> time_of(model::Run& run, model::Sink& sink) {
-  const double start = thread_processor_time();
+  const double start = processor_time();
   double used = 0.0;
   int runs = 0;
   while (used < shortest_timing && runs < most_repetitions) {
     if (run.advance(sink).stopped_by_sink) return {};
-    used = thread_processor_time() - start;
+    used = processor_time() - start;
     ++runs;
   }
   return used / runs;
@@ -51,34 +57,40 @@ std::optional<double> time_of(model::Run& run, model::Sink& sink) {
 }  // namespace
 
 double RunTask::cost() const {
-  return (judged_state + timed_state + (metrics ? measured_state : 0.0)) * double(steps);
+  return (error_state + timed_state + (metrics ? measured_state : 0.0)) * double(steps);
 }
 
-std::optional<JudgedRun> judge_run(const VerifyPlan& plan, const RunTask& task, TaskShare& share,
-                                   const std::atomic<bool>* interrupt) {
+std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task, TaskShare& share,
+                                      const std::atomic<bool>* interrupt) {
   if (interrupt != nullptr && *interrupt) return {};
   const auto& method = plan.methods[task.method];
   const auto& motion = *plan.problem.motion;
   const auto run = method.method->prepare(plan.problem.problem, task.step);
-  assess::ErrorSink judge(motion, plan.problem.problem, task.step,
-                          {method.reports_impacts, task.history_bins, nullptr});
+  assess::ErrorSink errors(motion, plan.problem.problem, task.step,
+                           {.impacts_are_reported = method.reports_impacts,
+                            .history_bins = task.history_bins});
   model::TrajectorySink stored(method.reports_impacts);
-  RunRecorder recorder(judge, task.metrics ? &stored : nullptr);
-  WatchedSink judged(&recorder, share, judged_state, interrupt);
-  const auto outcome = run->advance(judged);
+  RunRecorder recorder(errors, task.metrics ? &stored : nullptr);
+  WatchedSink watched(&recorder, share, error_state, interrupt);
+  const auto outcome = run->advance(watched);
   if (outcome.stopped_by_sink) return {};
-  JudgedRun result{judge.score(outcome), {}, {}, {}};
-  if (task.history_bins > 0) result.history = curve_of(judge.history(), motion.dof());
+  AssessedRun result;
+  result.run.score = errors.score(outcome);
+  if (task.history_bins > 0) result.run.error_history = curve_of(errors.history(), motion.dof());
   if (!outcome.finished) return result;
   result.end_u = relative(recorder.last_u(), motion);
   // A state that is not finite is no row of a history.
-  if (task.metrics && std::isfinite(result.score.u_error))
-    result.metrics = all_metrics({stored.trajectory(), motion, plan.problem.problem},
-                                 facts_of(plan.summary, method.result.contact_time));
+  if (task.metrics && std::isfinite(result.run.score.u_error)) {
+    auto metrics =
+        all_metrics({stored.trajectory(), motion, plan.problem.problem},
+                    facts_of(plan.summary, method.subject.contact_time), {}, interrupt);
+    if (!metrics) return {};
+    result.run.metrics = std::move(*metrics);
+  }
   WatchedSink timed(nullptr, share, timed_state, interrupt);
   const auto seconds = time_of(*run, timed);
   if (!seconds) return {};
-  result.score.seconds = *seconds;
+  result.run.score.seconds = *seconds;
   return result;
 }
 

@@ -1,4 +1,4 @@
-#include "clackers/study/verify/progress_meter.hpp"
+#include "clackers/study/progress.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -13,8 +13,8 @@ void ProgressMeter::add(double amount) {
   const std::lock_guard lock(guard_);
   done_ += amount;
   const auto now = Clock::now();
-  if (now - told_ < std::chrono::milliseconds(50)) return;
-  told_ = now;
+  if (now - last_ < std::chrono::milliseconds(50)) return;
+  last_ = now;
   // The sum of many shares can pass the total by rounding.
   progress_(std::min(1.0, done_ / total_));
 }
