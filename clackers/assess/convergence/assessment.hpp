@@ -30,7 +30,6 @@ struct Assessment {
   LadderFit displacement;           ///< decides behaviour and verdict
   LadderFit velocity, impact_time;  ///< shown beside it
   Verdict verdict = Verdict::undecided;
-  std::string sentence;  ///< what was measured and how it compares with the claim, for a person
 };
 
 }  // namespace clackers::assess

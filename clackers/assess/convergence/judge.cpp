@@ -1,13 +1,10 @@
 #include "clackers/assess/convergence/judge.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "clackers/assess/convergence/ladder_fit.hpp"
-#include "clackers/assess/convergence/sentence.hpp"
 #include "clackers/base/codes.hpp"
 
 namespace clackers::assess {
@@ -47,8 +44,8 @@ bool energy_left(const Ladder& ladder) {
   });
 }
 
-// The first run of the two finest levels that did not find what it should; its sentence.
-std::string miscounted(const Ladder& ladder, bool late_is_allowed) {
+// Whether a run of the two finest levels missed a collision or found one too many.
+bool miscounted(const Ladder& ladder, bool late_is_allowed) {
   for (auto level = ladder.end() - std::min<std::ptrdiff_t>(2, std::ssize(ladder));
        level != ladder.end(); ++level)
     for (const auto& run : level->runs) {
@@ -56,18 +53,9 @@ std::string miscounted(const Ladder& ladder, bool late_is_allowed) {
       const auto& found = *run.impacts;
       if (found.missed + found.extra == 0) continue;
       if (late_is_allowed && found.found == found.expected) continue;
-      return fmt::format("At h = {:.3g} s it finds {} of {} collisions and {} that did not happen.",
-                         run.step, found.matched, found.expected, found.extra);
+      return true;
     }
-  return {};
-}
-
-std::string first_failure(const Ladder& ladder) {
-  for (const auto& level : ladder)
-    for (const auto& run : level.runs)
-      if (!run.failure.empty())
-        return fmt::format(" First failure, h = {:.3g} s: {}", run.step, run.failure);
-  return {};
+  return false;
 }
 
 // Relabels a line of the very slope that is claimed as reduced.
@@ -100,21 +88,6 @@ Verdict compare(const LadderFit& fit, const Claim& claim) {
   }
 }
 
-std::string conclusion(const Assessment& found, const Claim& claim) {
-  if (found.verdict == Verdict::not_claimed) return "Nothing is claimed.";
-  const auto claimed = fmt::format("Claimed: {}", describe(claim));
-  if (found.verdict == Verdict::undecided && found.displacement.behaviour == Behaviour::exact)
-    return claimed + "; a larger coarsest step is needed to measure it.";
-  if (found.verdict == Verdict::undecided && found.displacement.behaviour == Behaviour::irregular)
-    return claimed + "; more levels are needed to tell.";
-  if (found.displacement.behaviour == Behaviour::proper && found.displacement.order > claim.order &&
-      found.verdict == Verdict::disagrees && claim.behaviour == Behaviour::proper)
-    return claimed +
-           "; it converges faster, better than claimed: the claim is too low or errors "
-           "cancel here.";
-  return claimed + ".";
-}
-
 }  // namespace
 
 Assessment judge(const Ladder& ladder, const Claim& claim, double contact_time) {
@@ -139,19 +112,14 @@ Assessment judge(const Ladder& ladder, const Claim& claim, double contact_time) 
     shown.behaviour = Behaviour::divergent;
     shown.reason = Code("energy-growth").name();
   }
-  found.sentence = describe(shown);
-  if (shown.reason == "run-failed") found.sentence += first_failure(ladder);
   if (claim.behaviour == Behaviour::undecided) {
     found.verdict = Verdict::not_claimed;
   } else {
     found.verdict = compare(shown, claim);
-    const auto miscount = miscounted(ladder, claim.behaviour == Behaviour::stagnating);
-    if (!miscount.empty() && found.verdict != Verdict::undecided) {
+    if (found.verdict != Verdict::undecided &&
+        miscounted(ladder, claim.behaviour == Behaviour::stagnating))
       found.verdict = Verdict::disagrees;
-      found.sentence += " " + miscount;
-    }
   }
-  found.sentence += " " + conclusion(found, claim);
   return found;
 }
 

@@ -56,9 +56,6 @@ TEST(Judge, WhatIsClaimedAndFoundAgrees) {
   EXPECT_EQ(found.impact_time.behaviour, Behaviour::proper);
   EXPECT_NEAR(found.velocity.constant, 2.0, 1e-9);
   EXPECT_NEAR(found.impact_time.constant, 3.0, 1e-9);
-  EXPECT_EQ(found.sentence,
-            "The displacement error falls as h^2.00 (+- 0.00) from h = 0.05 s to 0.000391 s. "
-            "Claimed: proper of order 2.");
 }
 
 TEST(Judge, AnotherOrderDisagreesInBothDirections) {
@@ -68,7 +65,6 @@ TEST(Judge, AnotherOrderDisagreesInBothDirections) {
   const auto higher = judge(scores(power(4.0), {.levels = 6}), second, 0.0);
   EXPECT_EQ(higher.verdict, Verdict::disagrees);
   EXPECT_EQ(higher.displacement.behaviour, Behaviour::proper);
-  EXPECT_NE(higher.sentence.find("it converges faster"), std::string::npos) << higher.sentence;
 }
 
 TEST(Judge, AnOrderWithinATenthAgrees) {
@@ -93,10 +89,10 @@ TEST(Judge, AnIrregularClaimIsComparedWithTheEnvelope) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Scatter scatter(20.0, seed), again(20.0, seed);
     const auto found = judge(scores([&](double h) { return h / scatter(); }), rough, 0.0);
-    EXPECT_NE(found.verdict, Verdict::disagrees) << found.sentence;
+    EXPECT_NE(found.verdict, Verdict::disagrees);
     EXPECT_EQ(found.displacement.behaviour, Behaviour::irregular);
     const auto claims_line = judge(scores([&](double h) { return h / again(); }), second, 0.0);
-    EXPECT_EQ(claims_line.verdict, Verdict::disagrees) << claims_line.sentence;
+    EXPECT_EQ(claims_line.verdict, Verdict::disagrees);
   }
 }
 
@@ -104,9 +100,9 @@ TEST(Judge, AnEnvelopeOfHalfTheOrderDisagreesAndOneTooUncertainIsUndecided) {
   Scatter scatter(10.0, 1), wild(1e4, 2);
   const auto half = judge(scores([&](double h) { return std::sqrt(h) / scatter(); }), rough, 0.0);
   EXPECT_EQ(half.displacement.behaviour, Behaviour::irregular);
-  EXPECT_EQ(half.verdict, Verdict::disagrees) << half.sentence;
+  EXPECT_EQ(half.verdict, Verdict::disagrees);
   const auto few = judge(scores([&](double h) { return h / wild(); }, {.levels = 4}), rough, 0.0);
-  EXPECT_EQ(few.verdict, Verdict::undecided) << few.sentence;
+  EXPECT_EQ(few.verdict, Verdict::undecided);
 }
 
 // Rough levels whose largest errors lie at factor e^(+-0.2) around h^order, in the pattern + - - +
@@ -129,7 +125,7 @@ TEST(Judge, AnEnvelopeThatMayBeAnythingIsUndecided) {
     EXPECT_EQ(found.displacement.behaviour, Behaviour::irregular);
     EXPECT_NEAR(found.displacement.order, order, 1e-9);
     EXPECT_NEAR(found.displacement.spread, 0.78, 0.01);
-    EXPECT_EQ(found.verdict, Verdict::undecided) << found.sentence;
+    EXPECT_EQ(found.verdict, Verdict::undecided);
   }
 }
 
@@ -165,9 +161,8 @@ TEST(Judge, ALineWhereScatterIsClaimedDisagrees) {
 TEST(Judge, AFloorAgreesOnlyForTheClaimedReason) {
   const auto flat = scores([](double h) { return 0.3 + h; });
   const auto found = judge(flat, floor_claim, 0.0157);
-  EXPECT_EQ(found.verdict, Verdict::agrees) << found.sentence;
+  EXPECT_EQ(found.verdict, Verdict::agrees);
   EXPECT_EQ(found.displacement.reason, "contact-stiffness");
-  EXPECT_NE(found.sentence.find("stays at 0.3"), std::string::npos) << found.sentence;
   EXPECT_EQ(judge(flat, floor_claim, 0.0).verdict, Verdict::disagrees);
   const Claim tolerance{Behaviour::stagnating, 0.0, "tolerance-floor"};
   EXPECT_EQ(judge(flat, tolerance, 0.0).verdict, Verdict::agrees);
@@ -183,7 +178,6 @@ TEST(Judge, WithoutAClaimNothingIsCompared) {
   const auto found = judge(scores(power(1.0)), {}, 0.0);
   EXPECT_EQ(found.verdict, Verdict::not_claimed);
   EXPECT_EQ(found.displacement.behaviour, Behaviour::proper);
-  EXPECT_NE(found.sentence.find("Nothing is claimed."), std::string::npos);
 }
 
 TEST(Judge, AnExactMotionAgreesWithTheClaimOfOneAndTellsNothingOfAnOrder) {
@@ -191,7 +185,6 @@ TEST(Judge, AnExactMotionAgreesWithTheClaimOfOneAndTellsNothingOfAnOrder) {
   EXPECT_EQ(judge(exact, {Behaviour::exact, 0.0, ""}, 0.0).verdict, Verdict::agrees);
   const auto found = judge(exact, second, 0.0);
   EXPECT_EQ(found.verdict, Verdict::undecided);
-  EXPECT_NE(found.sentence.find("larger coarsest step"), std::string::npos) << found.sentence;
 }
 
 TEST(Judge, MissedOrExtraCollisionsOnTheFinestLevelsDisagree) {
@@ -203,10 +196,6 @@ TEST(Judge, MissedOrExtraCollisionsOnTheFinestLevelsDisagree) {
       if (!extra) impacts.matched = impacts.found = 5;
       const auto found = judge(ladder, second, 0.0);
       EXPECT_EQ(found.verdict, Verdict::disagrees) << level;
-      EXPECT_NE(found.sentence.find(extra ? "finds 6 of 6 collisions and 1 that did not happen"
-                                          : "finds 5 of 6 collisions and 0 that did not happen"),
-                std::string::npos)
-          << found.sentence;
     }
   auto coarse = scores(power(2.0));
   coarse[5].runs[0].impacts->missed = 1;
@@ -226,7 +215,7 @@ TEST(Judge, EnergyThatLeavesItsBoundsDiverges) {
     auto ladder = scores([](double h) { return 1.7 + h; });
     every_run(ladder, 6, [&](RunScore& run) { run.energy_ratio = ratio; });
     const auto found = judge(ladder, second, 0.0);
-    EXPECT_EQ(found.displacement.behaviour, Behaviour::divergent) << found.sentence;
+    EXPECT_EQ(found.displacement.behaviour, Behaviour::divergent);
     EXPECT_EQ(found.displacement.reason, "energy-growth");
     EXPECT_EQ(found.verdict, Verdict::disagrees);
   }
@@ -261,9 +250,6 @@ TEST(Judge, ARunThatFailedHasNoErrorHoweverSmall) {
   const auto found = judge(ladder, second, 0.0);
   EXPECT_EQ(found.verdict, Verdict::undecided);
   EXPECT_EQ(found.displacement.reason, "run-failed");
-  EXPECT_NE(found.sentence.find("First failure, h = 0.05 s: left the finite numbers at t = 3 s."),
-            std::string::npos)
-      << found.sentence;
 }
 
 TEST(Judge, WithoutReportedImpactsTheirTimesAreUndecided) {
@@ -278,7 +264,6 @@ TEST(Judge, WithoutReportedImpactsTheirTimesAreUndecided) {
 TEST(Judge, FewLevelsAreUndecided) {
   const auto found = judge(scores(power(2.0), {.levels = 3}), second, 0.0);
   EXPECT_EQ(found.verdict, Verdict::undecided);
-  EXPECT_NE(found.sentence.find("Fewer than four levels"), std::string::npos) << found.sentence;
   EXPECT_EQ(judge({}, second, 0.0).verdict, Verdict::undecided);
 }
 
