@@ -209,7 +209,7 @@ void fields(Archive& archive, Like<assess::SelfConvergence> auto& x) {
 
 template <class Archive>
 void fields(Archive& archive, Like<assess::SelfAgainstReference> auto& x) {
-  archive("false_convergence", x.would_have_lied);
+  archive("false_convergence", x.false_convergence);
   archive("reason", x.reason);
   archive("error_ratio", x.error_ratio);
 }
