@@ -25,9 +25,8 @@ std::string_view field_of(assess::Counter counter);
 
 /// Profiles by every counter that is the same on every machine and above 0 wherever a task is
 /// solved. The tasks: each case with the errors 0.1, 0.01, ... down to the smallest that some method
-/// reaches on it. What a method needs for one is the least cost of a level from which on, at it and
-/// all finer ones, no run fails and no error is larger; nothing is interpolated. A method that
-/// refused a case or does not reach an error has failed there. Nothing where a subject was
+/// reaches on it; what a method needs for one is assess::work_for. A method that refused a case or
+/// does not reach an error has failed there. Nothing where a subject was
 /// interrupted, since what was not run has not failed, and where no method reaches 0.1. All cases
 /// have the same methods.
 std::vector<Profile> profiles_of(std::span<const CaseRecord> cases);

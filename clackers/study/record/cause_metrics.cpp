@@ -146,8 +146,7 @@ std::vector<MetricResult> cause_results(const assess::Comparison& comparison,
 }
 
 std::optional<std::vector<MetricResult>> all_metrics(const assess::Comparison& comparison,
-                                                     const RunFacts& facts,
-                                                     const MetricsDone& done,
+                                                     const RunFacts& facts, const MetricsDone& done,
                                                      const std::atomic<bool>* interrupt) {
   std::vector<MetricResult> all;
   const auto table_of_metrics = assess::metrics();

@@ -14,27 +14,15 @@ namespace {
 constexpr double failed = std::numeric_limits<double>::infinity();
 constexpr int smallest_decade = 16;  // below 1e-16 of the envelope nothing is measured
 
-// The least cost of a level from which on, at it and all finer ones, no run fails and no error
-// exceeds `error`; infinite where the finest level does.
-double cost_of(const std::vector<LevelScore>& levels, double error, assess::Counter counter) {
-  double least = failed;
-  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
-    if (level->failed > 0 || !(level->worst.u_error <= error)) break;
-    least = std::min(least, assess::cost(level->worst, counter));
-  }
-  return least;
-}
-
 void add_tasks(assess::CostTable& table, const CaseRecord& record, assess::Counter counter) {
-  std::vector<std::vector<LevelScore>> subjects;
-  for (const auto& subject : record.subjects) {
-    subjects.emplace_back();
-    for (const auto& level : subject.levels) subjects.back().push_back(worst(level));
-  }
+  std::vector<assess::WorkCurve> curves;
+  for (const auto& subject : record.subjects)
+    curves.push_back(assess::work_curve(ladder_of(subject), counter));
   for (int decade = 1; decade <= smallest_decade; ++decade) {
     const double error = std::pow(10.0, -decade);
     std::vector<double> costs;
-    for (const auto& levels : subjects) costs.push_back(cost_of(levels, error, counter));
+    for (const auto& curve : curves)
+      costs.push_back(assess::work_for(curve, error).value_or(failed));
     // A smaller error is not reached either.
     if (std::ranges::all_of(costs, [](double cost) { return cost == failed; })) return;
     table.tasks.push_back(fmt::format("{}: error in u <= {:.0e}", record.problem.name, error));

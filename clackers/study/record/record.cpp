@@ -1,59 +1,9 @@
 #include "clackers/study/record.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace clackers::study {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-// NaN is a number that a run lacks.
-void raise(double& most, double value) {
-  if (std::isnan(most) || value > most) most = value;
-}
-
-// Energy off by a factor is as bad as by its inverse; none at all is worse than any.
-double departure(double energy_ratio) { return std::abs(std::log(energy_ratio)); }
-
-void raise(model::Work& most, const model::Work& work) {
-  for (auto counter : {&model::Work::steps, &model::Work::force_evaluations,
-                       &model::Work::factorizations, &model::Work::newton_iterations,
-                       &model::Work::event_searches})
-    most.*counter = std::max(most.*counter, work.*counter);
-}
-
-void add_impacts(std::optional<assess::ImpactScore>& worst, const assess::ImpactScore& score) {
-  const auto wrong = [](const assess::ImpactScore& s) { return s.missed + s.extra; };
-  const double time_error = std::max(worst ? worst->worst_time_error : 0.0, score.worst_time_error);
-  const double floor = std::max(worst ? worst->rounding_floor : 0.0, score.rounding_floor);
-  if (!worst || wrong(score) > wrong(*worst)) worst = score;
-  worst->worst_time_error = time_error;
-  worst->rounding_floor = floor;
-}
-
-void add_run(assess::RunScore& worst, const assess::RunScore& run) {
-  worst.finished = true;
-  raise(worst.u_error, run.u_error);
-  raise(worst.u_error_absolute, run.u_error_absolute);
-  raise(worst.v_error, run.v_error);
-  raise(worst.energy_error, run.energy_error);
-  if (std::isnan(worst.energy_ratio) ||
-      departure(run.energy_ratio) > departure(worst.energy_ratio))
-    worst.energy_ratio = run.energy_ratio;
-  worst.rounding_floor = std::max(worst.rounding_floor, run.rounding_floor);
-  if (run.impacts) add_impacts(worst.impacts, *run.impacts);
-  raise(worst.work, run.work);
-  worst.seconds = std::max(worst.seconds, run.seconds);
-}
-
-assess::RunScore no_run(double step) {
-  assess::RunScore score;
-  score.step = step;
-  score.u_error = score.u_error_absolute = score.v_error = unknown;
-  score.energy_error = score.energy_ratio = unknown;
-  return score;
-}
 
 void add(Counts& to, const Counts& more) {
   for (auto count : {&Counts::agrees, &Counts::disagrees, &Counts::not_claimed, &Counts::undecided,
@@ -93,19 +43,19 @@ const Run* Subject::shown_run() const {
 }
 
 LevelScore worst(const Level& level) {
-  LevelScore score{level.step, no_run(level.step), int(level.runs.size()), 0};
-  for (const auto& run : level.runs)
-    if (run.score.finished)
-      add_run(score.worst, run.score);
-    else
-      ++score.failed;
+  std::vector<assess::RunScore> scores;
+  for (const auto& run : level.runs) scores.push_back(run.score);
+  LevelScore score{level.step, assess::worst(scores), int(level.runs.size()), 0};
+  score.failed = int(std::ranges::count(scores, false, &assess::RunScore::finished));
   return score;
 }
 
 LevelScore worst_of_finest(const Subject& subject) {
   for (auto level = subject.levels.rbegin(); level != subject.levels.rend(); ++level)
     if (!level->runs.empty()) return worst(*level);
-  return {unknown, no_run(unknown), 0, 0};
+  auto none = worst(Level{});
+  none.step = none.worst.step = std::numeric_limits<double>::quiet_NaN();
+  return none;
 }
 
 assess::Ladder ladder_of(const Subject& subject) {

@@ -49,10 +49,8 @@ class Writer {
   static Json written(long long x) { return x; }
   static Json written(const std::vector<bool>& x) { return x; }
   template <class Word>
-    requires std::is_enum_v<Word>
-  static Json written(Word x) {
-    return to_string(x);
-  }
+  requires std::is_enum_v<Word>
+  static Json written(Word x) { return to_string(x); }
   template <class T>
   static Json written(const std::optional<T>& x) {
     return x ? written(*x) : Json(nullptr);
@@ -140,9 +138,8 @@ class Reader {
                Behaviour::stagnating, Behaviour::divergent, Behaviour::undecided});
   }
   static void read(const Json& json, const std::string& where, Verdict& x) {
-    read_word(
-        json, where, x,
-        {Verdict::agrees, Verdict::disagrees, Verdict::not_claimed, Verdict::undecided});
+    read_word(json, where, x,
+              {Verdict::agrees, Verdict::disagrees, Verdict::not_claimed, Verdict::undecided});
   }
   static void read(const Json& json, const std::string& where, StepSource& x) {
     read_word(json, where, x, {StepSource::data, StepSource::name, StepSource::option});

@@ -66,9 +66,9 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   const auto& method = plan.methods[task.method];
   const auto& motion = *plan.problem.motion;
   const auto run = method.method->prepare(plan.problem.problem, task.step);
-  assess::ErrorSink errors(motion, plan.problem.problem, task.step,
-                           {.impacts_are_reported = method.reports_impacts,
-                            .history_bins = task.history_bins});
+  assess::ErrorSink errors(
+      motion, plan.problem.problem, task.step,
+      {.impacts_are_reported = method.reports_impacts, .history_bins = task.history_bins});
   model::TrajectorySink stored(method.reports_impacts);
   RunRecorder recorder(errors, task.metrics ? &stored : nullptr);
   WatchedSink watched(&recorder, share, error_state, interrupt);
@@ -81,9 +81,8 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   result.end_u = relative(recorder.last_u(), motion);
   // A state that is not finite is no row of a history.
   if (task.metrics && std::isfinite(result.run.score.u_error)) {
-    auto metrics =
-        all_metrics({stored.trajectory(), motion, plan.problem.problem},
-                    facts_of(plan.summary, method.subject.contact_time), {}, interrupt);
+    auto metrics = all_metrics({stored.trajectory(), motion, plan.problem.problem},
+                               facts_of(plan.summary, method.subject.contact_time), {}, interrupt);
     if (!metrics) return {};
     result.run.metrics = std::move(*metrics);
   }

@@ -7,8 +7,8 @@
 
 #include "clackers/assess/metrics/metric.hpp"
 #include "clackers/study/cause_metrics.hpp"
-#include "clackers/study/verify/processor_time.hpp"
 #include "clackers/study/testing/toy_motion.hpp"
+#include "clackers/study/verify/processor_time.hpp"
 
 namespace clackers::study {
 namespace {

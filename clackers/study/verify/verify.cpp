@@ -85,9 +85,8 @@ std::optional<SelfResult> self_convergence(const PlannedMethod& planned, const S
   const double order =
       subject.claim.order > 0.0 ? subject.claim.order : planned.method->facts().smooth_order;
   if (ends.empty() || !(order > 0.0)) return {};
-  return self_result(
-      std::move(ends), exact,
-      {.claimed_order = order, .size = 1.0, .contact_time = subject.contact_time});
+  return self_result(std::move(ends), exact,
+                     {.claimed_order = order, .size = 1.0, .contact_time = subject.contact_time});
 }
 
 // The subject with its runs; a level that lacks one is left out.
@@ -97,7 +96,8 @@ Subject assessed(const CasePlan& plan, const PlannedMethod& planned, MethodRuns 
   if (!subject.refusal.empty()) return subject;
   std::vector<assess::ResponseLevel> ends;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const bool whole = std::ranges::all_of(runs[i], [](const auto& run) { return run.has_value(); });
+    const bool whole =
+        std::ranges::all_of(runs[i], [](const auto& run) { return run.has_value(); });
     subject.complete = subject.complete && whole;
     if (!whole) continue;
     subject.levels.push_back({plan.levels[i].nominal, {}});
@@ -111,8 +111,8 @@ Subject assessed(const CasePlan& plan, const PlannedMethod& planned, MethodRuns 
   if (subject.levels.empty())
     subject.assessment.reason = subject.assessment.displacement.reason = Code("interrupted").name();
   else
-    subject.assessment = assess::judge(ladder_of(subject), subject.claim,
-                                       {.contact_time = subject.contact_time});
+    subject.assessment =
+        assess::judge(ladder_of(subject), subject.claim, {.contact_time = subject.contact_time});
   subject.self_convergence = self_convergence(planned, subject, std::move(ends), exact);
   return subject;
 }

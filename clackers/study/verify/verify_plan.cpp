@@ -22,7 +22,8 @@ void require_steps(const RefinementPlan& plan, double end) {
     refuse("verify", "levels", fmt::format("{}", plan.levels), "a whole number, 1 or more",
            "A verdict needs at least four.");
   if (plan.samples_per_level < 1 || plan.samples_per_level > 64)
-    refuse("verify", "neighbours", fmt::format("{}", plan.samples_per_level), "1 <= neighbours <= 64");
+    refuse("verify", "neighbours", fmt::format("{}", plan.samples_per_level),
+           "1 <= neighbours <= 64");
 }
 
 Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
