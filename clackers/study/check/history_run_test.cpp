@@ -1,11 +1,11 @@
-#include "clackers/study/check/check_steps.hpp"
+#include "clackers/study/check/history_run.hpp"
 
 #include <gtest/gtest.h>
 
 namespace clackers::study {
 namespace {
 
-TEST(CheckSteps, AreReadFromNames) {
+TEST(StepInName, FollowsAnHThatBeginsAWord) {
   EXPECT_EQ(step_in_name("h0.01.csv"), 0.01);
   EXPECT_EQ(step_in_name("/data/h5/run-h=1e-3.txt"), 1e-3);
   EXPECT_EQ(step_in_name("disp_h_0.005.out"), 0.005);

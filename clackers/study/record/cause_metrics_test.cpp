@@ -26,13 +26,13 @@ struct Shown {
 };
 
 Shown shown(const char* method, const char* name, const cases::Settings& settings, double h) {
-  const auto which = cases::make(name, settings);
+  const auto one = cases::make(name, settings);
   const auto made = methods::method(method);
   model::TrajectorySink sink(true);
-  made->prepare(which.problem, h)->advance(sink);
-  const assess::Comparison comparison(sink.trajectory(), *which.motion, which.problem);
-  const auto contact_time = made->contact_time(which.problem);
-  return {cause_results(comparison, facts_of(summary_of(which), contact_time))};
+  made->prepare(one.problem, h)->advance(sink);
+  const assess::Comparison comparison(sink.trajectory(), *one.motion, one.problem);
+  const auto contact_time = made->contact_time(one.problem);
+  return {cause_results(comparison, facts_of(summary_of(one), contact_time))};
 }
 
 TEST(CauseMetrics, AreAllThereInTheirOrder) {
@@ -86,12 +86,12 @@ TEST(CauseMetrics, SeparateTheErrorOfASpringFromThatOfTheStep) {
 }
 
 TEST(CauseMetrics, TellWhyThePenalizedMotionIsNotKnown) {
-  const auto which = cases::make("three-parameter", {});
-  auto problem = which.problem;
+  const auto pair = cases::make("three-parameter", {});
+  auto problem = pair.problem;
   problem.contacts[0].restitution = 0.5;
   model::TrajectorySink sink(true);
-  methods::method("rk4")->prepare(which.problem, 0.01)->advance(sink);
-  const assess::Comparison comparison(sink.trajectory(), *which.motion, problem);
+  methods::method("rk4")->prepare(pair.problem, 0.01)->advance(sink);
+  const assess::Comparison comparison(sink.trajectory(), *pair.motion, problem);
   const auto all = cause_results(comparison, {.detuning_rate = 0.0, .contact_time = 0.01});
   EXPECT_NE(all[5].reason.find("restitution"), std::string::npos) << all[5].reason;
 }

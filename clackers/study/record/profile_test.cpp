@@ -11,8 +11,8 @@ namespace {
 
 // Four levels of one run each, errors 0.05, 0.005, 0.0005, 0.00005 times `factor`, and steps
 // 100, 200, 400, 800 times `price`.
-MethodResult method(const std::string& name, double factor, long long price) {
-  MethodResult result;
+Subject method(const std::string& name, double factor, long long price) {
+  Subject result;
   result.name = name;
   for (int level = 0; level < 4; ++level) {
     assess::RunScore run;
@@ -22,15 +22,15 @@ MethodResult method(const std::string& name, double factor, long long price) {
     run.work.steps = price * 100 * (1LL << level);
     run.work.force_evaluations = 2 * run.work.steps;
     run.seconds = 1.0;
-    result.ladder.push_back({run.step, {run}});
+    result.levels.push_back({run.step, {{run, {}, {}, {}}}});
   }
   return result;
 }
 
-Record study_of(const std::string& name, std::vector<MethodResult> methods) {
-  Record record;
+CaseRecord study_of(const std::string& name, std::vector<Subject> methods) {
+  CaseRecord record;
   record.problem.name = name;
-  record.methods = std::move(methods);
+  record.subjects = std::move(methods);
   return record;
 }
 
@@ -59,16 +59,16 @@ TEST(Profiles, AreByCountersThatEveryMethodHasAndNotByTime) {
 
 TEST(Profiles, CountARefusalAsAFailure) {
   auto record = study_of("stop", {method("a", 1.0, 1), {}});
-  record.methods[1].name = "b";
-  record.methods[1].refusal = "cannot";
+  record.subjects[1].name = "b";
+  record.subjects[1].refusal = "cannot";
   const auto profile = profiles_of({&record, 1}).at(0);
   EXPECT_EQ(profile.methods[1].failed, 4);
   EXPECT_TRUE(profile.methods[1].steps.empty());
 }
 
 TEST(Profiles, GoOverAllCases) {
-  const Record records[] = {study_of("stop", {method("a", 1.0, 1), method("b", 1.0, 2)}),
-                            study_of("sdof", {method("a", 1.0, 4), method("b", 1.0, 2)})};
+  const CaseRecord records[] = {study_of("stop", {method("a", 1.0, 1), method("b", 1.0, 2)}),
+                                study_of("sdof", {method("a", 1.0, 4), method("b", 1.0, 2)})};
   const auto profile = profiles_of(records).at(0);
   ASSERT_EQ(profile.tasks.size(), 8u);
   EXPECT_EQ(profile.tasks[4], "sdof: error in u <= 1e-01");
@@ -76,9 +76,9 @@ TEST(Profiles, GoOverAllCases) {
   EXPECT_EQ(profile.methods[1].ratios, (std::vector<double>{2, 2, 2, 2, 1, 1, 1, 1}));
 }
 
-TEST(Profiles, DoNotExistOfInterruptedRecordsOrWhereNothingIsReached) {
+TEST(Profiles, DoNotExistOfInterruptedStudiesOrWhereNothingIsReached) {
   auto record = study_of("stop", {method("a", 1.0, 1)});
-  record.interrupted = true;
+  record.subjects[0].complete = false;
   EXPECT_TRUE(profiles_of({&record, 1}).empty());
   const auto hopeless = study_of("stop", {method("a", 1e6, 1)});
   EXPECT_TRUE(profiles_of({&hopeless, 1}).empty());

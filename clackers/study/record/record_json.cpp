@@ -50,7 +50,7 @@ class Writer {
   static Json written(const std::vector<bool>& x) { return x; }
   template <class Word>
   requires std::is_enum_v<Word>
-  static Json written(Word x) { return to_string(x); }
+  static Json written(const Word& x) { return to_string(x); }
   template <class T>
   static Json written(const std::optional<T>& x) {
     return x ? written(*x) : Json(nullptr);

@@ -44,47 +44,83 @@ inline Record sample_record() {
   auto second = fit, third = fit;
   second.behaviour = Behaviour::proper;
   third.behaviour = Behaviour::divergent;
-  MethodResult method;
-  method.name = "newmark+event-driven";
+  Subject method;
+  method.name = "newmark";
   method.claim = {Behaviour::proper, 2.0, "why"};
+  method.tolerance = 1e-3;
   method.contact_time = 0.0157;
   method.refusal = "cannot";
   method.refusal_code = "simultaneous-contacts";
   method.complete = false;
-  method.ladder = {{0.05, {run, silent}}, {0.025, {run}}};
-  method.assessment = {fit, second, third, Verdict::not_claimed, "a sentence"};
-  method.error_history = {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}};
-  method.history_step = 0.003125;
+  const std::vector<MetricResult> metrics = {{"u-max", "m", 0.1 + 0.7, {tiny, huge}, "", true},
+                                             {"v-max", "m/s", -0.0, {}, "no velocities", false}};
+  HistoryFile file;
+  file.file = "h0.01.csv";
+  file.rows = 2001;
+  file.rows_beyond = 7;
+  file.first = 0.01;
+  file.last = 19.99;
+  file.spacing = 0.0101;
+  file.step_source = StepSource::option;
+  file.columns = {{"t", 6, false, 5e-5}, {"u1", 7, true, 5e-6}};
+  file.printed_floor = 3e-6;
+  file.printed_by = "u1";
+  file.unseen_bend = 0.02;
+  file.has_velocities = true;
+  file.has_u = {true, false};
+  file.start_error = 1e-5;
+  file.collisions = CollisionSource::history;
+  file.rows_resolve_collisions = false;
+  file.contact_time = 0.016;
+  file.notes = {{"rows-beyond-end", {7.0, 20.0}, ""}, {"columns-not-used", {}, "energy"}};
+  file.history = {{0.25}, {{1.0}, {0.5}}};
+  method.levels = {
+      {0.05,
+       {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}}, {silent, {}, {}, {}}}},
+      {0.025, {{run, file, {}, {}}}}};
+  method.assessment = {fit,
+                       second,
+                       third,
+                       Verdict::not_claimed,
+                       "printed-digits",
+                       {{"within-tolerance", Verdict::agrees, {1e-4, 1e-3, 1e-6}}}};
   auto& without = method.self_convergence.emplace();
   without.order = 1.5;
-  without.self = {second, true, 0.1234, "alone"};
+  without.self = {second, true, 0.1234};
   without.errors = third;
-  without.against_reference = {true, "wrong-limit", 7.25, "both"};
-  without.extrapolation = {true, "differences-turn", "so far", {0.3, -tiny}, 1e-9, 2e-10, 6};
+  without.against_reference = {true, "wrong-limit", 7.25};
+  without.extrapolation = {true, "differences-turn", {0.3, -tiny}, 1e-9, 2e-10, 6};
   without.extrapolation_error = 3e-9;
-  method.metrics = {{"u-max", "m", 0.1 + 0.7, {tiny, huge}, "", true},
-                    {"v-max", "m/s", -0.0, {}, "no velocities", false}};
-  method.metrics_step = 0.0125;
-  Record record;
-  record.provenance = {"clackers verify", "9.8.7", "GCC 12",
-                       "Linux",           "EPYC",  "2030-01-02T03:04:05Z"};
-  record.problem = {"three-parameter",
-                    "two masses",
-                    "Eq. (25)",
-                    {{"N", 2.0, "", "whole"}},
-                    {{"m2", 1.0 / 3.0, "kg", "mass 2"}},
-                    20.0,
-                    0.699,
-                    {1.5727, 4.7181},
-                    2};
-  record.plan = {0.04, 6, 5};
-  record.response = {{0.0, 1.0}, {{1.0, 0.5}, {-0.3, 0.2}}};
-  record.methods = {method};
-  record.interrupted = true;
-  record.profiles = {
+  auto histories = method;
+  histories.kind = SubjectKind::histories;
+  histories.name = "histories";
+  histories.tolerance.reset();
+  histories.self_convergence.reset();
+  CaseRecord one;
+  one.problem = {"three-parameter",
+                 "two masses",
+                 "Eq. (25)",
+                 {{"N", 2.0, "", "whole"}},
+                 {{"m2", 1.0 / 3.0, "kg", "mass 2"}},
+                 20.0,
+                 0.699,
+                 {1.5727, 4.7181},
+                 2};
+  one.plan = {0.04, 6, 5};
+  one.response = {{0.0, 1.0}, {{1.0, 0.5}, {-0.3, 0.2}}};
+  one.subjects = {method, histories};
+  one.profiles = {
       {"steps",
        {"stop: error in u <= 1e-01"},
        {{"newmark", {1.5, std::numeric_limits<double>::infinity()}, {{1.5, 0.5}}, 0, 1}}}};
+  Record record;
+  record.command = "check";
+  record.provenance = {"clackers verify", "9.8.7", "GCC 12",
+                       "Linux",           "EPYC",  "2030-01-02T03:04:05Z"};
+  record.cases = {one, CaseRecord{}};
+  record.profiles = one.profiles;
+  record.profiles[0].counter = "force_evaluations";
+  record.interrupted = true;
   return record;
 }
 

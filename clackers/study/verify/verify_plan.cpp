@@ -113,7 +113,7 @@ CaseSummary summary_of(const cases::Case& problem) {
 
 std::vector<CasePlan> plans_of(const VerifyRequest& request) {
   auto names = request.cases;
-  if (names.empty()) names.push_back(cases::default_case());
+  if (names.empty()) names.emplace_back(cases::default_case());
   std::vector<CasePlan> plans;
   for (const auto& name : names) {
     if (std::ranges::count(names, name) > 1)

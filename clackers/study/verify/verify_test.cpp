@@ -9,7 +9,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/methods/registry.hpp"
-#include "clackers/study/testing/record_fingerprint.hpp"
+#include "clackers/study/record_json.hpp"
 
 namespace clackers::study {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 VerifyRequest small(std::vector<std::string> methods) {
   VerifyRequest request;
   request.methods = std::move(methods);
-  request.case_name = "stop";
+  request.cases = {"stop"};
   request.settings = {{"t_end", 8.0}};
   request.plan = {0.1, 5, 2};
   request.command = "clackers verify";
@@ -26,13 +26,16 @@ VerifyRequest small(std::vector<std::string> methods) {
 }
 
 // What must not depend on the machine, the time of day or the number of threads.
-std::string judgement_of(Record record) {
+std::string findings_of(Record record) {
   record.provenance = {};
-  for (auto& method : record.methods)
-    for (auto& level : method.ladder)
-      for (auto& run : level.runs) run.seconds = 0.0;
-  return fingerprint(record);
+  for (auto& one : record.cases)
+    for (auto& subject : one.subjects)
+      for (auto& level : subject.levels)
+        for (auto& run : level.runs) run.score.seconds = 0.0;
+  return to_json(record);
 }
+
+const std::vector<Subject>& subjects(const Record& record) { return record.cases.at(0).subjects; }
 
 std::string refusal(const VerifyRequest& request) {
   bool worked = false;
@@ -45,11 +48,11 @@ std::string refusal(const VerifyRequest& request) {
   return "accepted";
 }
 
-TEST(Verify, JudgesMethodsOverTheLadder) {
+TEST(Verify, AssessesMethodsOverTheLevels) {
   const auto record = verify(small({"rk4", "newmark"}));
   EXPECT_FALSE(record.interrupted);
-  ASSERT_EQ(record.methods.size(), 2u);
-  for (const auto& method : record.methods) {
+  ASSERT_EQ(subjects(record).size(), 2u);
+  for (const auto& method : subjects(record)) {
     SCOPED_TRACE(method.name);
     EXPECT_TRUE(method.complete);
     EXPECT_TRUE(method.refusal.empty());
@@ -57,13 +60,14 @@ TEST(Verify, JudgesMethodsOverTheLadder) {
     EXPECT_EQ(method.assessment.displacement.behaviour, Behaviour::proper);
     EXPECT_EQ(method.assessment.verdict, Verdict::agrees);
     EXPECT_NEAR(method.assessment.displacement.order, method.claim.order, 0.1 * method.claim.order);
-    ASSERT_EQ(method.ladder.size(), 5u);
+    ASSERT_EQ(method.levels.size(), 5u);
     for (std::size_t l = 0; l < 5; ++l) {
-      const auto& level = method.ladder[l];
+      const auto& level = method.levels[l];
       EXPECT_EQ(level.step, 0.1 / std::exp2(double(l)));
       ASSERT_EQ(level.runs.size(), 2u);
-      EXPECT_GT(level.runs[0].step, level.runs[1].step);
-      for (const auto& run : level.runs) {
+      EXPECT_GT(level.runs[0].score.step, level.runs[1].score.step);
+      for (const auto& whole : level.runs) {
+        const auto& run = whole.score;
         EXPECT_TRUE(run.finished);
         EXPECT_EQ(run.work.steps, std::llround(8.0 / run.step));
         EXPECT_EQ(8.0 / double(run.work.steps), run.step);
@@ -78,11 +82,11 @@ TEST(Verify, JudgesMethodsOverTheLadder) {
   EXPECT_EQ(exit_code(record), 0);
 }
 
-TEST(Verify, TellsTheProblemAndWhoComputed) {
+TEST(Verify, HoldsTheProblemAndItsProvenance) {
   const auto record = verify(small({"rk4"}));
   EXPECT_EQ(record.provenance.command, "clackers verify");
   EXPECT_FALSE(record.provenance.version.empty() || record.provenance.date.empty());
-  const auto& problem = record.problem;
+  const auto& problem = record.cases[0].problem;
   EXPECT_EQ(problem.name, "stop");
   EXPECT_EQ(problem.equations, "Eq. (5)-(6)");
   EXPECT_FALSE(problem.summary.empty());
@@ -101,65 +105,95 @@ TEST(Verify, TellsTheProblemAndWhoComputed) {
   EXPECT_EQ(problem.impact_count, 3);
   ASSERT_EQ(problem.impact_times.size(), 3u);
   EXPECT_NEAR(problem.impact_times[2], 2.5 * T, 1e-14);
-  EXPECT_EQ(record.plan.levels, 5);
-  EXPECT_EQ(record.response.t.size(), 1501u);
-  EXPECT_EQ(record.response.t.back(), 8.0);
-  EXPECT_EQ(record.response.y.size(), 1u);
-  EXPECT_EQ(record.response.y[0][0], 1.0);
+  EXPECT_EQ(record.cases[0].plan.levels, 5);
+  EXPECT_EQ(record.cases[0].response.t.size(), 1501u);
+  EXPECT_EQ(record.cases[0].response.t.back(), 8.0);
+  EXPECT_EQ(record.cases[0].response.y.size(), 1u);
+  EXPECT_EQ(record.cases[0].response.y[0][0], 1.0);
 }
 
 TEST(Verify, TakesTheFastMassForTheFastPeriod) {
   auto request = small({"rk4"});
-  request.case_name = "three-parameter";
+  request.cases = {"three-parameter"};
   request.settings = {{"a_t", 0.2}};
   request.plan = {0.02, 1, 1};
-  EXPECT_NEAR(verify(request).problem.fast_period, 2.0 * M_PI / 9.0 / std::sqrt(0.9975), 1e-15);
+  EXPECT_NEAR(verify(request).cases[0].problem.fast_period, 2.0 * M_PI / 9.0 / std::sqrt(0.9975),
+              1e-15);
 }
 
-TEST(Verify, ShowsTheErrorAgainstTimeOfTheMiddleLevel) {
+TEST(Verify, KeepsTheErrorAgainstTimeOfTheRunWithMetrics) {
   const auto record = verify(small({"newmark"}));
-  const auto& method = record.methods[0];
-  const auto& shown = method.ladder[2].runs[0];
-  EXPECT_EQ(method.history_step, shown.step);
-  ASSERT_EQ(method.error_history.y.size(), 1u);
-  const auto& errors = method.error_history.y[0];
-  EXPECT_EQ(errors.size(), method.error_history.t.size());
+  const auto& method = subjects(record)[0];
+  const auto& shown = method.levels[4].runs[0];
+  ASSERT_EQ(method.shown_run(), &shown);
+  ASSERT_EQ(shown.error_history.y.size(), 1u);
+  const auto& errors = shown.error_history.y[0];
+  EXPECT_EQ(errors.size(), shown.error_history.t.size());
   EXPECT_GT(errors.size(), 200u);
   EXPECT_LE(errors.size(), 400u);
-  EXPECT_EQ(std::ranges::max(errors), shown.u_error);
+  EXPECT_EQ(std::ranges::max(errors), shown.score.u_error);
+  EXPECT_FALSE(shown.metrics.empty());
+}
+
+TEST(Verify, NamesMethodsAsOneWouldTypeThem) {
+  const auto record = verify(small({"rk4+event-driven", "newmark:beta=0+penalty", "moreau-jean"}));
+  EXPECT_EQ(subjects(record)[0].name, "rk4");
+  EXPECT_EQ(subjects(record)[1].name.find("newmark:beta=0"), 0u) << subjects(record)[1].name;
+  EXPECT_NE(subjects(record)[1].name.find("+penalty"), std::string::npos);
+}
+
+TEST(Verify, AssessesSeveralCasesInTheirOrder) {
+  auto request = small({"rk4", "newmark"});
+  request.cases = {"stop", "symmetric-pair"};
+  const auto record = verify(request);
+  ASSERT_EQ(record.cases.size(), 2u);
+  EXPECT_EQ(record.cases[0].problem.name, "stop");
+  EXPECT_EQ(record.cases[1].problem.name, "symmetric-pair");
+  for (const auto& one : record.cases) {
+    ASSERT_EQ(one.subjects.size(), 2u);
+    EXPECT_EQ(one.subjects[1].name, "newmark");
+    EXPECT_EQ(one.subjects[1].levels.size(), 5u);
+    ASSERT_FALSE(one.profiles.empty());
+  }
+  ASSERT_FALSE(record.profiles.empty());
+  EXPECT_EQ(record.profiles[0].tasks.size(),
+            record.cases[0].profiles[0].tasks.size() + record.cases[1].profiles[0].tasks.size());
+  request.cases.pop_back();
+  EXPECT_TRUE(verify(request).profiles.empty()) << "that of one case is in the case";
 }
 
 TEST(Verify, DoesNotDependOnTheNumberOfThreads) {
   auto request = small({"rk4", "newmark+penalty", "moreau-jean"});
+  request.cases = {"stop", "symmetric-pair"};
   request.jobs = 1;
-  const auto one = judgement_of(verify(request));
+  const auto one = findings_of(verify(request));
   request.jobs = 3;
-  EXPECT_EQ(judgement_of(verify(request)), one);
+  EXPECT_EQ(findings_of(verify(request)), one);
   request.jobs = 0;
-  EXPECT_EQ(judgement_of(verify(request)), one);
+  EXPECT_EQ(findings_of(verify(request)), one);
 }
 
 TEST(Verify, SurvivesItsJson) {
   const auto record = verify(small({"rk4"}));
-  EXPECT_EQ(fingerprint(record_from_json(to_json(record))), fingerprint(record));
+  EXPECT_EQ(to_json(record_from_json(to_json(record))), to_json(record));
 }
 
-TEST(Verify, TellsProgressUpToOne) {
-  std::vector<double> told;
-  verify(small({"rk4", "newmark"}), [&](double share) { told.push_back(share); });
-  ASSERT_FALSE(told.empty());
-  EXPECT_TRUE(std::ranges::is_sorted(told));
-  EXPECT_EQ(told.back(), 1.0);
-  EXPECT_GT(told.front(), 0.0);
+TEST(Verify, ReportsProgressUpToOne) {
+  std::vector<double> shares;
+  verify(small({"rk4", "newmark"}), [&](double share) { shares.push_back(share); });
+  ASSERT_FALSE(shares.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_EQ(shares.back(), 1.0);
+  EXPECT_GT(shares.front(), 0.0);
 }
 
 TEST(Verify, TakesTheDefaultPanelAndCaseWhenNothingIsNamed) {
   VerifyRequest request;
   request.plan = {0.05, 1, 1};
   const auto record = verify(request);
-  EXPECT_EQ(record.problem.name, "three-parameter");
-  ASSERT_EQ(record.methods.size(), methods::default_panel().size());
-  EXPECT_EQ(record.methods[0].name, methods::method(methods::default_panel()[0])->facts().name);
+  EXPECT_EQ(record.cases[0].problem.name, "three-parameter");
+  ASSERT_EQ(subjects(record).size(), methods::default_panel().size());
+  EXPECT_EQ(subjects(record)[0].name, methods::default_panel()[0]);
   EXPECT_EQ(exit_code(record), 3) << "one level decides nothing";
 }
 
@@ -167,11 +201,11 @@ TEST(Verify, KeepsAMethodThatObjectsWithItsReason) {
   auto request = small({"rk4", "newmark+penalty"});
   request.settings.emplace_back("eta", 0.5);
   const auto record = verify(request);
-  EXPECT_TRUE(record.methods[0].refusal.empty());
-  EXPECT_FALSE(record.methods[1].refusal.empty());
-  EXPECT_EQ(record.methods[1].refusal_code, "penalty-needs-elastic");
-  EXPECT_TRUE(record.methods[1].complete);
-  EXPECT_TRUE(record.methods[1].ladder.empty());
+  EXPECT_TRUE(subjects(record)[0].refusal.empty());
+  EXPECT_FALSE(subjects(record)[1].refusal.empty());
+  EXPECT_EQ(subjects(record)[1].refusal_code, "penalty-needs-elastic");
+  EXPECT_TRUE(subjects(record)[1].complete);
+  EXPECT_TRUE(subjects(record)[1].levels.empty());
   EXPECT_FALSE(record.interrupted);
   EXPECT_EQ(exit_code(record), 0);
 }
@@ -185,23 +219,25 @@ TEST(Verify, RefusesWhenEveryMethodObjects) {
 }
 
 TEST(Verify, CarriesTheContactTimeOfACompliantContact) {
-  EXPECT_GT(verify(small({"newmark+penalty"})).methods[0].contact_time, 0.0);
+  EXPECT_GT(subjects(verify(small({"newmark+penalty"})))[0].contact_time, 0.0);
 }
 
 TEST(Verify, HoldsMethodsToTheirSmoothOrderWhereNothingCollides) {
   auto free = small({"rk4", "newmark+penalty", "newmark+reversal"});
-  free.case_name = "sdof";
+  free.cases = {"sdof"};
   auto early = free;
-  early.case_name = "stop";
+  early.cases = {"stop"};
   early.settings = {{"t_end", 1.5}};  // the first collision is at 1.573 s
-  for (const auto& request : {free, early})
-    for (const auto& method : verify(request).methods) {
+  for (const auto& request : {free, early}) {
+    const auto record = verify(request);
+    for (const auto& method : subjects(record)) {
       EXPECT_EQ(method.claim.behaviour, Behaviour::proper) << method.name;
       EXPECT_EQ(method.claim.order, method.name[0] == 'r' ? 4.0 : 2.0) << method.name;
       EXPECT_TRUE(method.claim.reason.empty());
       EXPECT_EQ(method.contact_time, 0.0);
-      EXPECT_EQ(method.assessment.verdict, Verdict::agrees) << method.assessment.sentence;
+      EXPECT_EQ(method.assessment.verdict, Verdict::agrees);
     }
+  }
 }
 
 TEST(Verify, RefusesBadPlansBeforeAnyWork) {
@@ -230,7 +266,7 @@ TEST(Verify, RefusesBadPlansBeforeAnyWork) {
       "verify: levels = 0; allowed: a whole number, 1 or more. A verdict needs at least four. "
       "[out-of-range]");
   for (const int neighbours : {0, 65})
-    EXPECT_EQ(with([&](auto& r) { r.plan.neighbours = neighbours; }),
+    EXPECT_EQ(with([&](auto& r) { r.plan.samples_per_level = neighbours; }),
               "verify: neighbours = " + std::to_string(neighbours) +
                   "; allowed: 1 <= neighbours <= 64. [out-of-range]");
   for (const auto& text :
@@ -254,7 +290,7 @@ TEST(Verify, RefusesUnknownNamesBeforeAnyWork) {
               r.methods = {"rk4", "newmrak"};
             }).find("Did you mean \"newmark\"?"),
             std::string::npos);
-  EXPECT_NE(with([](auto& r) { r.case_name = "stopp"; }).find("Did you mean \"stop\"?"),
+  EXPECT_NE(with([](auto& r) { r.cases = {"stopp"}; }).find("Did you mean \"stop\"?"),
             std::string::npos);
   EXPECT_NE(with([](auto& r) {
               r.settings = {{"ta", 1.0}};
@@ -270,43 +306,46 @@ TEST(Verify, RefusesUnknownNamesBeforeAnyWork) {
             std::string::npos);
 }
 
+TEST(Verify, RefusesACaseTwiceAndSettingsThatOneCaseLacks) {
+  auto request = small({"rk4"});
+  request.cases = {"stop", "stop"};
+  EXPECT_NE(refusal(request).find("each case once"), std::string::npos);
+  request.cases = {"stop", "one-parameter"};
+  EXPECT_NE(refusal(request).find("[unknown-name]"), std::string::npos);
+}
+
 TEST(Verify, LeavesNothingUnmarkedWhenInterruptedBeforeItBegan) {
   const std::atomic<bool> interrupt = true;
   const auto record = verify(small({"rk4", "newmark"}), {}, &interrupt);
   EXPECT_TRUE(record.interrupted);
   EXPECT_EQ(exit_code(record), 130);
-  for (const auto& method : record.methods) {
+  for (const auto& method : subjects(record)) {
     EXPECT_FALSE(method.complete);
-    EXPECT_TRUE(method.ladder.empty());
+    EXPECT_TRUE(method.levels.empty());
     EXPECT_EQ(method.assessment.verdict, Verdict::undecided);
     EXPECT_EQ(method.assessment.displacement.reason, "interrupted");
-    EXPECT_EQ(method.assessment.sentence, "Interrupted before a level was finished.");
+    EXPECT_EQ(method.assessment.reason, "interrupted");
     EXPECT_FALSE(method.self_convergence.has_value());
-    EXPECT_TRUE(method.metrics.empty());
   }
-  EXPECT_FALSE(record.response.t.empty());
+  EXPECT_FALSE(record.cases[0].response.t.empty());
 }
 
 TEST(Verify, KeepsFinishedRowsWhenInterruptedOnTheWay) {
-  // Half of the work is the first method's. A tenth of a second of work for each gives a progress
-  // told every 50 ms the time to arrive.
-  std::atomic<bool> interrupt = false;
-  auto request = small({"rk4"});
-  request.plan = {5e-5, 2, 1};
-  const auto whole = verify(request);
-  request.methods = {"rk4", "newmark"};
+  // Half of the work is the first method's.
+  auto request = small({"rk4", "newmark"});
   request.jobs = 1;
-  const auto stop_late = [&](double share) { interrupt = share > 0.5; };
+  std::atomic<bool> interrupt = false;
+  const auto stop_late = [&](double share) { interrupt = share >= 0.5; };
+  // Progress comes every 50 ms at most: steps so small that the second method takes longer.
+  request.plan = {2e-5, 2, 1};
   const auto record = verify(request, stop_late, &interrupt);
-  if (!record.interrupted) GTEST_SKIP() << "the machine was too fast to be interrupted";
-  EXPECT_TRUE(record.methods[0].complete);
-  EXPECT_EQ(judgement_of({{}, {}, {}, {}, {record.methods[0]}, false}),
-            judgement_of({{}, {}, {}, {}, {whole.methods[0]}, false}));
-  EXPECT_FALSE(record.methods[1].complete);
-  for (const auto& level : record.methods[1].ladder) {
-    EXPECT_EQ(level.runs.size(), 1u);
-    for (const auto& run : level.runs) EXPECT_TRUE(run.finished);
-  }
+  ASSERT_TRUE(record.interrupted);
+  EXPECT_TRUE(subjects(record)[0].complete);
+  EXPECT_EQ(subjects(record)[0].levels.size(), 2u);
+  EXPECT_FALSE(subjects(record)[1].complete);
+  EXPECT_LT(subjects(record)[1].levels.size(), 2u);
+  for (const auto& level : subjects(record)[1].levels)
+    for (const auto& run : level.runs) EXPECT_TRUE(run.score.finished);
 }
 
 TEST(Verify, EndsSoonAfterAnInterrupt) {
