@@ -46,9 +46,9 @@ struct CaseSummary {
 
 /// Steps of a refinement study.
 struct RefinementPlan {
-  double coarsest = 0.05;      ///< [s]
-  int levels = 8;              ///< each half the one before
-  int samples_per_level = 8;   ///< steps a level, ratio 2^(1/samples_per_level)
+  double coarsest = 0.05;     ///< [s]
+  int levels = 8;             ///< each half the one before
+  int samples_per_level = 8;  ///< steps a level, ratio 2^(1/samples_per_level)
 };
 
 /// A curve for a figure.
@@ -65,7 +65,7 @@ struct PrintedColumn {
   double half_unit = 0.0;  ///< largest rounding error of printing, in the column's unit
 };
 
-enum class StepSource { data, name, option };          ///< where a history's step comes from
+enum class StepSource { data, name, option };             ///< where a history's step comes from
 enum class CollisionSource { events, history, unknown };  ///< unknown: neither reported nor found
 
 std::string_view to_string(StepSource source);       ///< "data", "name", "option"
@@ -103,8 +103,8 @@ struct HistoryFile {
 
 /// One run against the reference solution: a run of a method, or a history somebody's program wrote.
 struct Run {
-  assess::RunScore score;           ///< NaN where a history lacks what an error needs
-  std::optional<HistoryFile> file;  ///< of a history
+  assess::RunScore score;             ///< NaN where a history lacks what an error needs
+  std::optional<HistoryFile> file;    ///< of a history
   std::vector<MetricResult> metrics;  ///< empty where none were measured
   Curve error_history;  ///< |error in u| / envelope against time; empty where none was kept
 };
@@ -124,8 +124,8 @@ struct Subject {
   /// The one name in every output. A method as one would type it, without "+event-driven", which is
   /// what a name without "+contact" means; "histories" for histories.
   std::string name;
-  Claim claim;                      ///< of the method, or what --expect says of the histories
-  std::optional<double> tolerance;  ///< largest allowed u_error, where one was asked for
+  Claim claim;                        ///< of the method, or what --expect says of the histories
+  std::optional<double> tolerance;    ///< largest allowed u_error, where one was asked for
   double contact_time = 0.0;          ///< [s], 0 for rigid contact
   std::string refusal, refusal_code;  ///< why a method cannot take the case; empty when it can
   bool complete = true;               ///< false: interrupted before its last level
