@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks docs/equations.md, the table of the paper's equations, against the sources.
+"""Checks docs/manual/explanation/equations.md, the table of the paper's equations, against the sources.
 
     check_equations.py ROOT      prints each fault, exits 1 if there is one
 
@@ -13,7 +13,7 @@ import pathlib
 import re
 import sys
 
-PAGE = pathlib.PurePosixPath("docs/equations.md")
+PAGE = pathlib.PurePosixPath("docs/manual/explanation/equations.md")
 EQUATIONS = [f"({n})" for n in range(1, 39)] + [f"(A.{n})" for n in range(1, 19)]
 ROW = re.compile(r"^\| (\((?:A\.)?\d+\)) \|(.*)\|$")
 LINK = re.compile(r"\[(`?)([^\]`]+)\1\]\(([^)\s]+)\)")

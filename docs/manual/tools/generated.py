@@ -1,4 +1,4 @@
-"""Pages that the command writes: cases, methods, metrics, codes and the reference of the command."""
+"""Reference pages that the command generates: cases, methods, metrics, codes, columns and the commands."""
 import re
 
 COMMANDS_LINE = re.compile(r"^  clackers ([a-z]+) ", re.MULTILINE)
@@ -6,7 +6,7 @@ CARD_WORDS = ("Order", "Stability", "Dissipation", "Memory", "Cost", "Source")
 
 
 def cell(value):
-    """A cell of a table: what Markdown would take for markup stands as it is."""
+    """A cell of a table, with Markdown's markup escaped."""
     text = "" if value is None else str(value)
     return re.sub(r"([\\*_<>|`$\[\]~])", r"\\\1", text).replace("\n", " ")
 
@@ -29,7 +29,7 @@ def toctree(names):
 
 
 def card(text):
-    """A card: formulas and words as they stand, the six facts as a list."""
+    """A card: formulas and words unchanged, the six facts as a table."""
     head, _, facts = text.partition("\nOrder ")
     out, block = [], []
     for paragraph in head.strip("\n").split("\n\n"):
@@ -59,60 +59,68 @@ def method_page(command, row):
             out.append("## Parameters\n\n" + sheet_table(sheet))
         if sheet["schema"] == "clackers/facts/1":
             out.append(f"## Claims of `{sheet['title']}`\n\n" + sheet_table(sheet))
-    out.append(f"This page is `{shown}`, from the card in the method's header.\n")
+    out.append(f"`{shown}` prints the same, from the card in the method's header.\n")
     return "\n".join(out)
 
 
 def methods(command):
     listed = command.json("list", "methods")
-    texts = {f"methods/{row[0]}.md": method_page(command, row) for row in listed["rows"]}
+    texts = {f"reference/methods/{row[0]}.md": method_page(command, row) for row in listed["rows"]}
     pairs = command.json("list", "pairs")
-    texts["methods/index.md"] = (
-        "# Methods\n\nA method is an integrator joined with a contact treatment by `+`, or one that brings its own "
-        "integration. Without `+contact` the treatment is `event-driven`.\n\n" + toctree(row[0] for row in listed["rows"]) +
+    texts["reference/methods/index.md"] = (
+        "# Methods\n\nA method is an integrator and a contact treatment joined by `+`, or a method that needs no separate "
+        "treatment. Without `+contact` the treatment is `event-driven`.\n\n" + toctree(row[0] for row in listed["rows"]) +
         "\n## In one table\n\n" + sheet_table(listed) + "\n## All pairs and what they claim\n\n" + sheet_table(pairs))
     return texts
 
 
 def cases(command):
-    out = ["# Cases\n\nA name never changes its meaning. `clackers show CASE` prints all that follows from the "
+    out = ["# Cases\n\nThe meaning of a name never changes. `clackers show CASE` prints everything derived from the "
            "parameters.\n"]
     for name, equations, _, summary in command.json("list", "cases")["rows"]:
         parameters = next(sheet for sheet in command.json("show", name)["sheets"]
                           if "parameter" in [column["name"] for column in sheet["columns"]])
         out.append(f"## {name}\n\n{cell(summary)} {cell(equations)}.\n\n" + sheet_table(parameters))
-    return {"cases.md": "\n".join(out)}
+    return {"reference/cases.md": "\n".join(out)}
 
 
 def metrics(command):
-    return {"metrics.md": (
-        "# Metrics\n\nFirst what a run of `verify` is scored by, then the metrics of a whole history, which `check` and the "
-        "pages of both show. u, v, a are displacement, velocity and acceleration of a history, those with a star the true "
-        "ones; U, V their envelopes at t = 0; T the time between collisions; g the opening of a contact. A metric is "
-        "*valid across jumps* when it tends to zero for every history that converges, though its velocities jump at "
-        "slightly other instants than the true ones. A maximum of velocity errors is not: it compares the two sides "
-        "of a jump.\n\n" + sheet_table(command.json("list", "metrics")))}
+    return {"reference/metrics.md": (
+        "# Metrics\n\nThe table begins with the scores of a run of `verify`; the metrics of a whole history follow, which "
+        "`check` and the report pages show. u, v, a are the displacement, velocity and acceleration of a history; u\\*, v\\*, "
+        "a\\* those of the reference solution; U, V their envelopes at t = 0; T the time between collisions; g the gap of a "
+        "contact.\n\nA metric is *valid across jumps* if it tends to zero for every history that converges, although its "
+        "velocities jump at slightly different times than those of the reference solution. The maximum of velocity errors "
+        "is not valid: it compares the two sides of a jump.\n\n" + sheet_table(command.json("list", "metrics")))}
 
 
 def reference(command):
     overall = command.text("--help")
     names = COMMANDS_LINE.findall(overall.split("\nUsage\n")[1])
-    out = ["# Commands\n\nThis page is what `--help` prints. An installed command brings man pages (`man clackers-verify`) and "
-           "completion for bash and zsh from the same source: commands, options, cases, methods, parameters of a case.\n",
+    out = ["# Commands\n\nThis page is the output of `--help`. The installation includes man pages (`man clackers-verify`) and "
+           "completion for bash and zsh.\n",
            "## clackers\n\n```text\n" + overall + "```\n"]
     out += [f"## clackers {name}\n\n```text\n" + command.text(name, "--help") + "```\n" for name in names]
-    return {"commands.md": "\n".join(out)}
+    return {"reference/commands.md": "\n".join(out)}
 
 
 def codes(command):
     sheet = command.json("explain")
-    out = ["# Codes\n\nThe word in brackets at the end of a message. `clackers explain CODE` prints one of them.\n"]
+    out = ["# Codes\n\nA code is the word in brackets at the end of a message. `clackers explain CODE` prints its meaning.\n"]
     for kind in dict.fromkeys(row[1] for row in sheet["rows"]):
         rows = [[row[0], row[2]] for row in sheet["rows"] if row[1] == kind]
         out.append(f"## {kind.capitalize()}\n\n" + table(["code", "meaning"], rows))
-    return {"codes.md": "\n".join(out)}
+    return {"reference/codes.md": "\n".join(out)}
+
+
+def columns(command):
+    """The columns of a run, which output.md includes."""
+    return {"reference/columns.md": (
+        "# Columns\n\nThe columns of a run in csv, in their order; json and the report use the same names.\n\n" +
+        sheet_table(command.json("list", "columns")))}
 
 
 def pages(command):
     """Texts by page."""
-    return {**methods(command), **cases(command), **metrics(command), **reference(command), **codes(command)}
+    return {**methods(command), **cases(command), **metrics(command), **columns(command), **reference(command),
+            **codes(command)}
