@@ -84,7 +84,7 @@ def fix(root, files):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    listed = subprocess.run(["git", "-c", "safe.directory=*", "ls-files"], cwd=root, capture_output=True, text=True, check=False).stdout
+    listed = subprocess.run(["git", "-c", "safe.directory=*", "ls-files", "-co", "--exclude-standard"], cwd=root, capture_output=True, text=True, check=False).stdout
     files = [root / name for name in listed.splitlines() if (root / name).is_file()]
     if not files:  # an archive without git
         files = [path for path in sorted(root.rglob("*")) if path.is_file() and path.relative_to(root).parts[0] not in ("build", ".git")]
