@@ -3,11 +3,11 @@
 
     check_equations.py ROOT      prints each fault, exits 1 if there is one
 
-A row is `| (n) | what it says | function | test | note |`. Each of (1)-(38) and (A.1)-(A.18) stands in
-exactly one row. A function is a link [`Name`](header): every word of Name stands in the header,
-outside comments. Or the cell says `not realized: why`. A test is a link [`Suite.Name`](source) to a
-source with that GoogleTest, or [`path`](path) to a file or folder of tests/. Every link to a section
-of the page has its heading.
+A row is `| (n) | what it says | function | test | note |`. Each of (1)-(38) and (A.1)-(A.18) has
+exactly one row. A function is a link [`Name`](header) to a header that contains every word of Name
+outside comments; otherwise the cell is `not realized: reason`. A test is a link [`Suite.Name`](source)
+to a source with that GoogleTest, or [`path`](path) to a file or folder of tests/. A note links to a
+heading of the page.
 """
 import pathlib
 import re
@@ -23,13 +23,13 @@ REFUSAL = re.compile(r"not realized: \S.*")
 
 
 def slug(heading):
-    """The name that GitHub gives a heading."""
+    """The anchor of a heading on GitHub."""
     kept = re.sub(r"[^\w\- ]", "", heading.strip().lower())
     return kept.replace(" ", "-")
 
 
 def file_of(root, target):
-    """The file or folder that a link of the page means, or None."""
+    """The file or folder that a link leads to, or None."""
     path = (root / PAGE.parent / target).resolve()
     return path if path.is_relative_to(root) and path.exists() else None
 

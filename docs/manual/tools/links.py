@@ -16,7 +16,7 @@ from pygments.util import ClassNotFound
 LINK = re.compile(r"(!?)\[((?:[^\[\]`]|`[^`]*`)+)\]\((?!\w+:)([^)#\s]*)(#[^)\s]*)?\)")
 CODE = re.compile(r"(`+)(.+?)\1")
 FENCE = re.compile(r"^(```|~~~|:::)")
-# Written by generated.py and api.py: Sphinx checks that they exist.
+# Generated pages: Sphinx checks that they exist.
 GENERATED = ("docs/manual/reference/", "docs/manual/explanation/decisions/")
 
 

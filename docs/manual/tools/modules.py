@@ -1,4 +1,4 @@
-"""The picture of the modules, from layers.txt."""
+"""Draws the modules of layers.txt."""
 import re
 import subprocess
 
@@ -35,22 +35,22 @@ def wrapped(text, width=30):
 
 
 def reachable(table):
-    """Modules that a module may include through others that it may include."""
+    """The modules that each module may include through others."""
     named = dict(table)
     return {module: {far for near in modules for far in named.get(near, [])} for module, modules in table}
 
 
 def dot(table, sources):
-    """The graph, without arrows that others imply."""
+    """The graph, without arrows that follow from others."""
     lines = ["digraph modules {", "rankdir=BT; nodesep=0.25; ranksep=0.35; bgcolor=white;",
              'node [shape=box style="rounded,filled" fontname="Helvetica" fontsize=11 color="#1b5e8c" '
              'fillcolor="#eef5fa" margin="0.15,0.08"];', 'edge [color="#5a6b78" arrowsize=0.7];']
     implied = reachable(table)
     for module, named in table:
-        said = "".join(f'<br/><font point-size="9">{line}</font>' for line in wrapped(
+        lines_below = "".join(f'<br/><font point-size="9">{line}</font>' for line in wrapped(
             purpose(sources, module).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")))
         color = ' fillcolor="#fdf1e3" color="#b5651d"' if module == "methods" else ""
-        lines.append(f"{module} [label=<<b>{module}</b>{said}>{color}];")
+        lines.append(f"{module} [label=<<b>{module}</b>{lines_below}>{color}];")
         lines += [f"{module} -> {other};" for other in named if other not in implied[module]]
     return "\n".join(lines + ["}"])
 
@@ -58,6 +58,6 @@ def dot(table, sources):
 def draw(layers, sources, to):
     graph = dot(read(layers), sources)
     done = subprocess.run(["dot", "-Tsvg"], input=graph, capture_output=True, text=True, check=True)
-    # Without graphviz's comments, which name its version.
+    # Remove graphviz's comments, which contain its version.
     to.parent.mkdir(parents=True, exist_ok=True)
     to.write_text(re.sub(r"<!--.*?-->\n?", "", done.stdout, flags=re.DOTALL))
