@@ -1,4 +1,4 @@
-"""Sphinx configuration. `scripts/docs` assembles the sources and runs Sphinx on them."""
+"""Sphinx configuration. `scripts/docs` prepares the sources and runs Sphinx."""
 import os
 import pathlib
 
@@ -14,8 +14,8 @@ nitpicky = False
 myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", "deflist"]
 myst_heading_anchors = 4
 
-# The copy of Debian's libjs-mathjax that scripts/docs lays beside the pages. SVG output: its fonts
-# are scripts, which a browser also loads from a page opened as a file.
+# scripts/docs copies Debian's libjs-mathjax. SVG output, because a browser loads its fonts also from a
+# page that is opened as a file.
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
 mathjax2_config = {
     "showMathMenu": False,
@@ -23,7 +23,7 @@ mathjax2_config = {
     "SVG": {"font": "TeX", "scale": 95},
     "tex2jax": {"processClass": "math|mathjax_process", "ignoreClass": "document"},
 }
-# The first speaks of version 3 of MathJax, the second of sections that begin at a lower level.
+# The first warning is about MathJax 3, the second about sections that begin at a lower level.
 suppress_warnings = ["myst.mathjax", "myst.header"]
 
 breathe_projects = {"clackers": os.environ["CLACKERS_DOXYGEN_XML"]}

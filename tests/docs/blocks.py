@@ -1,27 +1,28 @@
-"""Code blocks of Markdown documents, and output compared with what a document shows."""
+"""Code blocks of Markdown documents, and the comparison of output with the text of a document."""
 import dataclasses
 import re
 
 FENCE = re.compile(r"^(?P<indent> *)(?P<fence>`{3,}|~{3,})(?P<language>[^`\n]*)$")
 PROMPT = "$ "
+MORE = "> "
 
 
 @dataclasses.dataclass
 class Block:
     language: str
-    text: str  # with its last line end
+    text: str  # with its last newline
     line: int  # of its fence
 
 
 @dataclasses.dataclass
 class Step:
-    """One command of a console block and the output that stands below it."""
+    """One command of a console block and the output below it."""
     command: str
     expected: str
 
 
 def blocks_of(text):
-    """All fenced blocks, in order. Throws ValueError for a fence that is not closed."""
+    """All fenced blocks, in order. Raises ValueError for a fence that is not closed."""
     found, opened, body = [], None, []
     for number, line in enumerate(text.splitlines(), start=1):
         fence = FENCE.match(line)
@@ -48,13 +49,15 @@ def commands_of(text):
 
 
 def steps_of(text):
-    """The steps of a console block. Throws ValueError where it does not begin with a command."""
+    """The steps of a console block. Raises ValueError if it does not begin with a command."""
     steps = []
     for line in text.splitlines():
         if line.startswith(PROMPT):
             steps.append(Step(line.removeprefix(PROMPT), ""))
         elif steps and steps[-1].command.endswith("\\") and not steps[-1].expected:
             steps[-1].command = steps[-1].command[:-1] + line.strip()
+        elif line.startswith(MORE) and steps and not steps[-1].expected:
+            steps[-1].command += "\n" + line.removeprefix(MORE)
         elif steps:
             steps[-1].expected += line + "\n"
         else:
@@ -63,7 +66,7 @@ def steps_of(text):
 
 
 def pattern_of(expected):
-    """A line of three dots stands for any lines, three dots within a line for any text."""
+    """A regular expression: a line of three dots matches any lines, three dots within a line any text."""
     parts = []
     for line in expected.rstrip("\n").split("\n"):
         if line.strip() == "...":
@@ -74,7 +77,7 @@ def pattern_of(expected):
 
 
 def matches(expected, actual):
-    """Whether `actual` is the output that a document shows. Shown nothing means: nothing."""
+    """Whether `actual` is the output that a document shows."""
     if not expected.strip():
         return not actual.strip()
     return re.fullmatch(pattern_of(expected), actual.rstrip("\n") + "\n") is not None

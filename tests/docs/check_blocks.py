@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""Runs the code blocks of documents and compares their outputs with what the documents show.
+"""Runs the code blocks of documents and compares their output with the documents.
 
     CLACKERS=build/dev/cli/clackers CLACKERS_BUILD=build/dev check_blocks.py README.md ...
+    check_blocks.py --update README.md      also writes output that differs into the document
 
-Each document has a folder of its own, in which its blocks run in order:
+The blocks of a document run in order in one temporary folder:
 
 sh        every line is a command that must succeed
-console   "$ command" and its output; a line "..." stands for any lines. A command that does not succeed
-          is followed by "$ echo $?"
-c, cpp, python   begins with a comment that names a file, which is written; a C or C++ program is also built
-          under the name without its extension. Without a name C++ is a fragment, compiled behind PREAMBLE
-(none)    an output: TABLES says of which command
-text, json, csv, math, {directive}   to be read only
+console   "$ command", continued by "> " lines, and its output; a line "..." matches any lines. After a
+          command that fails, "$ echo $?" shows its exit code
+c, cpp, python   the first line is a comment that names a file, which is written; a C or C++ program is
+          also built under the name without its extension. Without a name, C++ is a fragment that is
+          compiled after PREAMBLE
+text, json, csv, yaml, math, {directive}   not run
 """
 import functools
 import os
@@ -25,7 +26,7 @@ import blocks
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Run elsewhere, because it installs packages or takes minutes: the command, and the test that does it.
+# Commands that install packages or take minutes, and the test that runs them.
 ELSEWHERE = {
     r"scripts/demo": "cli.test_verify runs the command; continuous integration runs the script",
     r"scripts/test": "continuous integration",
@@ -39,11 +40,9 @@ ELSEWHERE = {
     r"find_package\(.*": "package.test_cpp",
     r"target_link_libraries\(.*": "package.test_cpp",
 }
-# Outputs without their command: the document and how the block begins.
-TABLES = {("README.md", "three-parameter (N = 2, xi1 = 0.05, a_t = 1)"): "clackers verify --report page.html 2>/dev/null"}
-TO_READ = {"text", "json", "csv", "math", "xml", "latex"}
+TO_READ = {"text", "json", "csv", "yaml", "math", "xml", "latex"}
 NAME = re.compile(r"(?://|#|/\*) ([\w.-]+\.(?:c|cpp|py|sh))\b")
-# What a fragment of C++ stands behind.
+# Precedes a fragment of C++.
 PREAMBLE = """#include "clackers/cases/case.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/model/run.hpp"
@@ -60,11 +59,11 @@ def python_with_numpy():
 
 
 class Document:
-    def __init__(self, path, folder, used=None):
+    def __init__(self, path, folder):
         self.path, self.folder, self.problems = path, pathlib.Path(folder), []
         self.name = path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else path.name
-        self.used = used if used is not None else set()
         self.last_code = 0
+        self.differing = []  # (shown, printed)
         tools = self.folder / ".tools"
         tools.mkdir()
         (tools / "clackers").symlink_to(pathlib.Path(os.environ["CLACKERS"]).resolve())
@@ -75,7 +74,7 @@ class Document:
                             "LD_LIBRARY_PATH": str(self.build / "bindings/c"), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def run(self, command):
-        """The output of a command, both streams; its exit code is kept."""
+        """The output of a command on both streams; keeps its exit code."""
         done = subprocess.run(["bash", "-c", f"(exit {self.last_code}); {command}"], cwd=self.folder,
                               env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, timeout=120)
@@ -85,12 +84,9 @@ class Document:
     def problem(self, block, text):
         self.problems.append(f"{self.name}:{block.line}: {text}")
 
-    def elsewhere(self, command):
-        for pattern in ELSEWHERE:
-            if re.fullmatch(pattern, command):
-                self.used.add(pattern)
-                return True
-        return False
+    @staticmethod
+    def elsewhere(command):
+        return any(re.fullmatch(pattern, command) for pattern in ELSEWHERE)
 
     def check(self):
         try:
@@ -112,10 +108,8 @@ class Document:
             self.check_console(block)
         elif language in ("c", "cpp", "python"):
             self.check_source(block)
-        elif not language:
-            self.check_table(block)
         else:
-            self.problem(block, f"no rule for blocks of {language}")
+            self.problem(block, f"no rule for blocks of \"{language}\"")
 
     def check_commands(self, block):
         for command in blocks.commands_of(block.text):
@@ -140,20 +134,10 @@ class Document:
             output = self.run(step.command)
             if not blocks.matches(step.expected, output):
                 self.problem(block, f"$ {step.command}\nshows\n{step.expected}\nand prints\n{output}")
+                self.differing.append((step.expected, output))
             shown = number + 1 < len(steps) and steps[number + 1].command == "echo $?"
             if self.last_code and not shown:
                 self.problem(block, f"{step.command}: exit code {self.last_code}, which is not shown")
-
-    def check_table(self, block):
-        for (name, beginning), command in TABLES.items():
-            if self.name == name and block.text.startswith(beginning):
-                self.used.add((name, beginning))
-                self.last_code = 0
-                output = self.run(command)
-                if not blocks.matches(block.text, output):
-                    self.problem(block, f"shows\n{block.text}\nand {command} prints\n{output}")
-                return
-        self.problem(block, "a block without language that no command of TABLES prints")
 
     def check_source(self, block):
         named = NAME.match(block.text)
@@ -185,11 +169,18 @@ class Document:
 
 
 def main():
-    problems, used = [], set()
-    paths = [pathlib.Path(name).resolve() for name in sys.argv[1:]]
+    problems = []
+    update = "--update" in sys.argv
+    paths = [pathlib.Path(name).resolve() for name in sys.argv[1:] if name != "--update"]
     for path in paths:
         with tempfile.TemporaryDirectory(prefix="clackers-blocks-") as folder:
-            problems += Document(path, folder, used).check()
+            document = Document(path, folder)
+            problems += document.check()
+        if update:
+            text = path.read_text()
+            for shown, printed in document.differing:
+                text = text.replace(shown, printed, 1) if shown else text
+            path.write_text(text)
     print("\n\n".join(problems))
     return 1 if problems or not paths else 0
 

@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
-"""Checks docs/equations.md, the table of the paper's equations, against the sources.
+"""Checks docs/manual/explanation/equations.md, the table of the paper's equations, against the sources.
 
-    check_equations.py ROOT      prints each fault, exits 1 if there is one
+    check_equations.py ROOT          prints each fault, exits 1 if there is one
+    check_equations.py ROOT --fix    first points links at the only file that has the name or the test
 
-A row is `| (n) | what it says | function | test | note |`. Each of (1)-(38) and (A.1)-(A.18) stands in
-exactly one row. A function is a link [`Name`](header): every word of Name stands in the header,
-outside comments. Or the cell says `not realized: why`. A test is a link [`Suite.Name`](source) to a
-source with that GoogleTest, or [`path`](path) to a file or folder of tests/. Every link to a section
-of the page has its heading.
+A row is `| (n) | what it says | function | test | note |`. Each of (1)-(38) and (A.1)-(A.18) has
+exactly one row. A function is a link [`Name`](header) to a header that contains every word of Name
+outside comments; otherwise the cell is `not realized: reason`. A test is a link [`Suite.Name`](source)
+to a source with that GoogleTest, or [`path`](path) to a file or folder of tests/. A note links to a
+heading of the page.
 """
+import os
 import pathlib
 import re
 import sys
 
-PAGE = pathlib.PurePosixPath("docs/equations.md")
+PAGE = pathlib.PurePosixPath("docs/manual/explanation/equations.md")
 EQUATIONS = [f"({n})" for n in range(1, 39)] + [f"(A.{n})" for n in range(1, 19)]
 ROW = re.compile(r"^\| (\((?:A\.)?\d+\)) \|(.*)\|$")
 LINK = re.compile(r"\[(`?)([^\]`]+)\1\]\(([^)\s]+)\)")
@@ -23,15 +25,31 @@ REFUSAL = re.compile(r"not realized: \S.*")
 
 
 def slug(heading):
-    """The name that GitHub gives a heading."""
+    """The anchor of a heading on GitHub."""
     kept = re.sub(r"[^\w\- ]", "", heading.strip().lower())
     return kept.replace(" ", "-")
 
 
 def file_of(root, target):
-    """The file or folder that a link of the page means, or None."""
+    """The file or folder that a link leads to, or None."""
     path = (root / PAGE.parent / target).resolve()
     return path if path.is_relative_to(root) and path.exists() else None
+
+
+def has_words(header, name):
+    """Whether every word of a C++ name stands in a header, outside comments."""
+    code = COMMENT.sub("", header.read_text(encoding="utf-8"))
+    return all(re.search(rf"\b{re.escape(word)}\b", code) for word in name.split("::"))
+
+
+def has_test(source, name):
+    suite, test = name.split(".")
+    written = rf"^\s*TEST(?:_F|_P)?\(\s*{suite}\s*,\s*{test}\s*\)"
+    return re.search(written, COMMENT.sub("", source.read_text(encoding="utf-8")), re.MULTILINE) is not None
+
+
+def is_test_name(name):
+    return re.fullmatch(r"\w+\.\w+", name) is not None
 
 
 def check_function(root, cell):
@@ -42,11 +60,8 @@ def check_function(root, cell):
         header = file_of(root, target)
         if header is None or not header.is_file():
             yield f"{name}: no header {target}"
-            continue
-        code = COMMENT.sub("", header.read_text(encoding="utf-8"))
-        for word in name.split("::"):
-            if not re.search(rf"\b{re.escape(word)}\b", code):
-                yield f"{name}: {word} does not stand in {target}"
+        elif not has_words(header, name):
+            yield f"{name} does not stand in {target}"
 
 
 def check_test(root, cell):
@@ -57,14 +72,34 @@ def check_test(root, cell):
         source = file_of(root, target)
         if source is None:
             yield f"{name}: no file {target}"
-        elif re.fullmatch(r"\w+\.\w+", name):
-            suite, test = name.split(".")
-            written = rf"^\s*TEST(?:_F|_P)?\(\s*{suite}\s*,\s*{test}\s*\)"
-            text = COMMENT.sub("", source.read_text(encoding="utf-8")) if source.is_file() else ""
-            if not re.search(written, text, re.MULTILINE):
+        elif is_test_name(name):
+            if not source.is_file() or not has_test(source, name):
                 yield f"{name}: {target} has no such test"
         elif not source.is_relative_to(root / "tests") or name != source.relative_to(root).as_posix():
             yield f"{name}: neither Suite.Name nor the path of {target} in tests/"
+
+
+def fix(root):
+    """Links whose file lacks the name lead to the only file that has it."""
+    headers = sorted((root / "clackers").rglob("*.hpp"))
+    sources = sorted(path for top in ("clackers", "tests") for path in (root / top).rglob("*_test.cpp"))
+
+    def moved(found):
+        name, target = found[2], found[3]
+        if target.startswith("#") or name.startswith("tests/"):
+            return found[0]
+        candidates, has = (sources, has_test) if is_test_name(name) else (headers, has_words)
+        file = file_of(root, target)
+        if file is not None and file.is_file() and has(file, name):
+            return found[0]
+        having = [candidate for candidate in candidates if has(candidate, name)]
+        if len(having) != 1:
+            return found[0]
+        return found[0].replace(f"({target})", f"({os.path.relpath(having[0], (root / PAGE).parent)})")
+
+    text = (root / PAGE).read_text(encoding="utf-8")
+    rows = [LINK.sub(moved, line) if ROW.match(line) else line for line in text.split("\n")]
+    (root / PAGE).write_text("\n".join(rows), encoding="utf-8")
 
 
 def check_row(root, cells, headings):
@@ -107,7 +142,10 @@ def check(root):
 
 
 def main():
-    errors = check(pathlib.Path(sys.argv[1]))
+    root = pathlib.Path(sys.argv[1]).resolve()
+    if "--fix" in sys.argv[2:]:
+        fix(root)
+    errors = check(root)
     for error in errors:
         print(error)
     return 1 if errors else 0

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Man pages and completions as the built command writes them: CLACKERS=build/dev/cli/clackers."""
+"""Man pages and completion scripts that the built command writes: CLACKERS=build/dev/cli/clackers."""
 import os
 import pathlib
 import pty
@@ -41,7 +41,7 @@ def options_of(command):
 
 
 def words(text):
-    """Without what a formatter may change: breaks of lines and the width of gaps."""
+    """The words, without line breaks and the width of gaps."""
     return " ".join(text.split())
 
 
@@ -54,13 +54,13 @@ class ManualPages(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""), name)
         return re.sub(r".\x08", "", done.stdout)
 
-    def test_exist_for_the_program_and_each_command(self):
+    def test_program_and_each_command_have_a_page(self):
         self.assertEqual(sorted(path.name for path in (share / "man/man1").iterdir()),
                          sorted(["clackers.1", *(f"clackers-{name}.1" for name in commands)]))
         self.assertGreater(len(commands), 5)
 
     @unittest.skipUnless(shutil.which("groff"), "needs groff")
-    def test_have_no_warnings_and_the_usual_sections(self):
+    def test_rendered_pages_have_all_sections_and_no_warnings(self):
         for name in ["clackers", *(f"clackers-{command}" for command in commands)]:
             text = self.rendered(name)
             heads = re.findall(r"^[A-Z][A-Z ]+$", text, re.MULTILINE)
@@ -69,7 +69,7 @@ class ManualPages(unittest.TestCase):
             self.assertRegex(text, rf"NAME\n +{name} - \S+ \S+")
 
     @unittest.skipUnless(shutil.which("groff"), "needs groff")
-    def test_say_what_help_says(self):
+    def test_pages_contain_the_text_of_help(self):
         for command in commands:
             text = words(self.rendered(f"clackers-{command}"))
             page = self.page(f"clackers-{command}").read_text()
@@ -80,7 +80,7 @@ class ManualPages(unittest.TestCase):
             for option in options_of(command):
                 self.assertIn(option.replace("-", r"\-"), page)
 
-    def test_begin_no_line_with_a_request_of_their_own(self):
+    def test_text_lines_do_not_begin_with_a_groff_request(self):
         for path in (share / "man/man1").iterdir():
             for line in path.read_text().splitlines():
                 self.assertRegex(line, r"\A(?:[^.']|\.(?:TH|SH|TP|BR|nf|fi|nh|ad)\b)|\A\Z", path.name)
@@ -88,7 +88,7 @@ class ManualPages(unittest.TestCase):
 
 class Bash(unittest.TestCase):
     def completed(self, line):
-        """What bash offers where `line` ends; words are split as readline splits them."""
+        """The words that bash offers at the end of `line`, split as readline splits it."""
         parts = [part for part in re.split(r"\s+|(=)", line) if part]
         if line.endswith((" ", "=")) or not parts:
             parts.append("")
@@ -99,50 +99,50 @@ class Bash(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""), line)
         return [word for word in done.stdout.splitlines() if word]
 
-    def test_completes_commands(self):
+    def test_prefix_of_a_command_gives_commands(self):
         self.assertEqual(self.completed("clackers ver"), ["verify"])
         self.assertEqual(sorted(self.completed("clackers ")), sorted([*commands, "-h", "--help", "--version"]))
 
-    def test_completes_the_options_of_each_command(self):
+    def test_two_dashes_give_the_options_of_the_command(self):
         for command in commands:
             self.assertEqual(sorted(self.completed(f"clackers {command} --")), sorted(options_of(command)), command)
         self.assertEqual(self.completed("clackers verify --lev"), ["--levels"])
 
-    def test_goes_on_behind_an_option_without_a_value(self):
+    def test_word_after_an_option_without_value_is_completed(self):
         self.assertEqual(self.completed("clackers verify --quiet --lev"), ["--levels"])
         self.assertEqual(self.completed("clackers verify --quiet mor"), ["moreau-jean"])
 
-    def test_completes_cases(self):
+    def test_place_of_a_case_gives_cases(self):
         self.assertEqual(self.completed("clackers respond sto"), ["stop"])
         self.assertEqual(self.completed("clackers verify --case three"), ["three-parameter"])
         self.assertEqual(self.completed("clackers verify --case=three"), ["three-parameter"])
         self.assertIn("sdof", self.completed("clackers verify --case="))
 
-    def test_completes_methods_and_their_pairs(self):
+    def test_place_of_a_method_gives_methods_and_pairs(self):
         self.assertEqual(self.completed("clackers verify newmark+rev"), ["newmark+reversal"])
         self.assertEqual(self.completed("clackers verify newmark mor"), ["moreau-jean"])
         shown = self.completed("clackers show ")
         for name in ("stop", "rk4", "newmark+penalty"):
             self.assertIn(name, shown)
 
-    def test_completes_words_codes_and_kinds(self):
+    def test_fixed_words_and_codes_are_completed(self):
         self.assertEqual(self.completed("clackers list metr"), ["metrics"])
         self.assertEqual(self.completed("clackers explain stagn"), ["stagnating"])
         self.assertEqual(self.completed("clackers verify --format js"), ["json"])
         self.assertEqual(self.completed("clackers check x.csv --expect prop"), ["proper"])
 
-    def test_completes_parameters_of_the_case_on_the_line(self):
+    def test_set_gives_the_parameters_of_the_case(self):
         self.assertEqual(self.completed("clackers show --set "), ["N=", "xi1=", "a_t="])
         self.assertEqual(self.completed("clackers show stop --set et"), ["eta="])
         self.assertEqual(self.completed("clackers show stop --set xi1=0.1,et"), [])  # '=' splits the word
         self.assertEqual(self.completed("clackers verify --set N"), ["N="])
 
-    def test_completes_files(self):
+    def test_place_of_a_file_gives_files(self):
         (pathlib.Path(folder.name) / "history.csv").touch()
         self.assertEqual(self.completed("clackers check hist"), ["history.csv"])
         self.assertEqual(self.completed("clackers verify --report hist"), ["history.csv"])
 
-    def test_offers_nothing_for_numbers(self):
+    def test_place_of_a_number_gives_nothing(self):
         for line in ("clackers verify --levels ", "clackers respond stop --step ", "clackers show stop --threshold "):
             self.assertEqual(self.completed(line), [], line)
 
@@ -169,7 +169,7 @@ class Zsh(unittest.TestCase):
         os.close(cls.terminal)
 
     def completed(self, line):
-        """What a zsh on a terminal makes of `line` and a tab: the arguments that the command receives."""
+        """The arguments that the command receives after zsh completed `line` and a tab."""
         os.write(self.terminal, f"{line}\t".encode())
         self.read(None)
         os.write(self.terminal, b"\n")
@@ -178,7 +178,7 @@ class Zsh(unittest.TestCase):
 
     @classmethod
     def read(cls, until, seconds=30):
-        """What comes, to a text or until a second of silence."""
+        """The output up to a text, or until a second without output."""
         text, end = "", time.monotonic() + seconds
         while time.monotonic() < end and (until is None or until not in text):
             if not select.select([cls.terminal], [], [], 1.0 if until is None else 0.2)[0]:
@@ -188,11 +188,11 @@ class Zsh(unittest.TestCase):
             text += os.read(cls.terminal, 65536).decode(errors="replace")
         return text
 
-    def test_is_sound_zsh(self):
+    def test_script_has_no_syntax_error(self):
         done = run("zsh", "-n", share / "zsh/site-functions/_clackers")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
-    def test_completes_commands_options_cases_and_methods(self):
+    def test_commands_options_cases_and_methods_are_completed(self):
         for line, made in (("clackers ver", "verify"), ("clackers verify --lev", "verify --levels"),
                            ("clackers verify --case three", "verify --case three-parameter"),
                            ("clackers respond sto", "respond stop"), ("clackers verify newmark+rev", "verify newmark+reversal"),

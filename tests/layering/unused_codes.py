@@ -3,8 +3,8 @@
 
     unused_codes.py ROOT      prints each unused code, exits 1 if there is one
 
-Used means: it stands as a text literal in a source that is neither the table nor a test. Verdicts
-and behaviours are also used where their words stand with blanks ("not claimed").
+A code is used if it is a text literal in a source other than the table and the tests. Verdicts and
+behaviours also count where their words are separated by blanks ("not claimed").
 """
 import pathlib
 import re

@@ -1,40 +1,54 @@
 #!/usr/bin/env python3
-"""Lays out the sources of the manual for Sphinx: hand-written pages, documents that stand elsewhere in
-the tree, and pages that the command and the sources write themselves."""
+"""Prepares the sources of the manual for Sphinx: the pages of docs/manual, the decisions, CONTRIBUTING,
+CHANGELOG, and the reference pages that the built command and the headers generate."""
 import argparse
 import pathlib
 import shutil
 
 import api
 import command
-import documents
-import pages
+import generated
+import links
 import modules
-import source_pages
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-MANUAL = ROOT / "docs" / "manual"
+
+
+def sources():
+    """The source of each written page, by page."""
+    manual, decisions = ROOT / "docs" / "manual", ROOT / "docs" / "decisions"
+    found = {path.relative_to(manual).as_posix(): path for path in manual.rglob("*.md") if path.name != "README.md"}
+    found.update({f"explanation/decisions/{path.name}": path for path in decisions.glob("[0-9]*.md")})
+    found.update({"contributing.md": ROOT / "CONTRIBUTING.md", "changelog.md": ROOT / "CHANGELOG.md"})
+    return dict(sorted(found.items()))
+
+
+def decisions_index(pages):
+    names = [pathlib.PurePath(page).stem for page in pages if page.startswith("explanation/decisions/")]
+    return ("# Decisions\n\nThe question, the choice, the rejected alternatives, and what would change the choice.\n\n" +
+            generated.toctree(names))
 
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("--command", required=True, help="a built clackers")
-    arguments.add_argument("--out", required=True, type=pathlib.Path, help="a folder, made anew")
+    arguments.add_argument("--out", required=True, type=pathlib.Path, help="a folder, replaced")
     options = arguments.parse_args()
     out = options.out
     shutil.rmtree(out, ignore_errors=True)
-    shutil.copytree(MANUAL, out, ignore=shutil.ignore_patterns("tools", "README.md", "__pycache__"))
+    shutil.copytree(ROOT / "docs" / "manual" / "_static", out / "_static")
+    shutil.copy(ROOT / "docs" / "manual" / "conf.py", out)
 
-    links = source_pages.SourcePages(ROOT, out / "files")
-    for path in sorted(out.rglob("*.md")):
-        page = path.relative_to(out)
-        path.write_text(links.rewrite(path.read_text(), MANUAL / page, page))
-    texts = {**documents.pages(ROOT, links), **pages.pages(command.Command(options.command)),
-             **api.pages()}
+    pages = sources()
+    rewriter = links.Links(ROOT, {path: page for page, path in pages.items()}, out / "files")
+    texts = {page: rewriter.rewrite(path, page) for page, path in pages.items()}
+    texts.update(generated.pages(command.Command(options.command)))
+    texts.update(api.pages())
+    texts["explanation/decisions/index.md"] = decisions_index(pages)
     for page, text in texts.items():
-        path = out / page
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
+        (out / page).parent.mkdir(parents=True, exist_ok=True)
+        (out / page).write_text(text)
+    rewriter.copy_pictures(out)
     modules.draw(ROOT / "layers.txt", ROOT / "clackers", out / "_static" / "modules.svg")
 
 

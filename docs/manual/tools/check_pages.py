@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the built pages: every link inside leads to a file and an anchor that exist, nothing is loaded from
-a network, and addresses outside are well formed. Sphinx checks its own links; these are all others too."""
+"""Checks the built pages: internal links lead to existing files and anchors, nothing is loaded from a
+network, external addresses are well formed. Sphinx checks only the links that it creates."""
 import html.parser
 import pathlib
 import re
@@ -11,7 +11,7 @@ ADDRESS = re.compile(r"https://[a-z0-9.-]+\.[a-z]{2,}(/[^\s]*)?\Z|mailto:[^@\s]+
 
 
 class Page(html.parser.HTMLParser):
-    """The anchors of a page, where it links to, and what it loads by itself."""
+    """The anchors of a page, its links, and the files that it loads."""
 
     def __init__(self, text):
         super().__init__()
@@ -49,7 +49,7 @@ def problems_of(folder):
             elif parts.fragment and target in pages and \
                     urllib.parse.unquote(parts.fragment) not in pages[target].anchors:
                 problems.append(f"{where}: no such anchor")
-    # An interface that Doxygen did not find leaves a page without a single signature, and no warning.
+    # Without this, an interface that Doxygen did not find gives an empty page and no warning.
     for path in folder.glob("api/*.html"):
         if path.stem != "index" and "sig-name" not in path.read_text():
             problems.append(f"{path.relative_to(folder)}: describes nothing")

@@ -1,4 +1,4 @@
-"""What the built command tells of itself."""
+"""Runs the built command."""
 import json
 import subprocess
 
