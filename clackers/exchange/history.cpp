@@ -27,7 +27,7 @@ class Reader {
   Reader(const std::string& path, const HistoryOptions& options)
       : options_(options),
         table_(path, options.columns, TableKind::history, options.interrupt),
-        columns_(history_columns(path, table_.names(), options, history_.notes)) {
+        columns_(history_columns(table_.path(), table_.names(), options, history_.notes)) {
     if (table_.names_from_comment())
       history_.notes.push_back("Columns are named by the comment above the rows.");
     history_.motion.dof = options.dof;
