@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,7 +12,6 @@
 #include "cli/command.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 #include "cli/values.hpp"
@@ -59,7 +57,7 @@ study::CheckRequest request_of(const Options& options, const std::string& line) 
 
 int run(const Options& options, const std::string& line) {
   const auto request = request_of(options, line);
-  ReportPage page("check", options.report, options.common, OnInterrupt::stop);
+  ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
   try {
     const auto record = study::check(request, &interrupt_flag());
@@ -80,9 +78,9 @@ int run(const Options& options, const std::string& line) {
 
 }  // namespace
 
-Command add_check(CLI::App& root) {
+void add_check(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("check");
+  auto* app = root.add_subcommand("check", "FILE ...", "assess time histories of any program");
   set_help(
       *app,
       {.examples = "  clackers check disp.csv\n"
@@ -100,7 +98,8 @@ Command add_check(CLI::App& root) {
        .usage = "  clackers check FILE ... [--case CASE] [--set name=value,...]\n"
                 "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...]\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--report FILE.html]\n"});
-  app->add_option("FILE", options->files, "Time histories, text.");
+  app->add_option("FILE", options->files, "Time histories, text; - reads standard input.")
+      ->reads_file("");
   app->add_option("--case", options->case_name,
                   "The case (clackers list cases). Default: three-parameter.")
       ->option_text("CASE");
@@ -112,8 +111,7 @@ Command add_check(CLI::App& root) {
                   "Collisions of the history: a column t and optionally impulse,v1-,v1+,v2-,v2+. "
                   "Of several histories one file each, in their order. Without it collisions are "
                   "found in the history.")
-      ->option_text("FILE")
-      ->allow_extra_args(false);
+      ->reads_file("FILE");
   app->add_option("--steps", options->steps,
                   "Step of each history [s], in the order of the files; also the time between rows "
                   "of files without a column t. Default: h0.01 in a file's name, else the median "
@@ -129,7 +127,7 @@ Command add_check(CLI::App& root) {
   add_report_option(*app, options->report);
   add_common_options(*app, options->common);
   add_verdict_formats(*app);
-  return {app, [options](const std::string& line) { return run(*options, line); }};
+  app->run = [options](const std::string& line) { return run(*options, line); };
 }
 
 }  // namespace clackers::cli

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -20,15 +19,13 @@
 #include "clackers/study/case_studies.hpp"
 #include "clackers/study/listing.hpp"
 #include "cli/command.hpp"
-#include "cli/files/baseline_file.hpp"
+#include "cli/files/input_files.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/survived.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
@@ -78,7 +75,7 @@ void check(const Options& options) {
 study::Record run_study(const Options& options, const study::VerifyRequest& request) {
   ProgressLine line("verify", options.common.quiet);
   return study::verify(
-      request, [&](double share) { line.tell(share); }, &interrupt_flag());
+      request, [&](double share) { line.report(share); }, &interrupt_flag());
 }
 
 using Changes = std::optional<study::BaselineComparison>;
@@ -124,11 +121,11 @@ int run_several(const Options& options, const study::VerifyRequest& request) {
   const auto studies = [&] {
     ProgressLine line("verify", options.common.quiet);
     return study::verify_cases(
-        request, options.cases, [&](double share) { line.tell(share); }, &interrupt_flag());
+        request, options.cases, [&](double share) { line.report(share); }, &interrupt_flag());
   }();
   bool written = true;
   try {
-    written = survived([&] {
+    written = try_to_write([&] {
       report::write(studies, results.format(), results.stream(), results.style());
       results.finish();
     });
@@ -136,7 +133,7 @@ int run_several(const Options& options, const study::VerifyRequest& request) {
     // `verify | head`: the reader had enough, the verdict still counts.
   }
   const int code = study::exit_code(studies);
-  if (code == 130) complain("interrupted; the finished rows were kept.", "interrupted");
+  if (code == 130) report_error("interrupted; the finished rows were kept.", "interrupted");
   return written ? code : 4;
 }
 
@@ -147,7 +144,7 @@ int run(const Options& options, const std::string& line) {
   // Before the work: where it cannot go must not be found out afterwards.
   Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
   const auto baseline = baseline_of(options, request);
-  ReportPage page("verify", options.report, options.common, OnInterrupt::finish);
+  ReportPage page(options.report, options.common, OnInterrupt::finish);
 
   const auto record = run_study(options, request);
   Changes changes;
@@ -156,14 +153,14 @@ int run(const Options& options, const std::string& line) {
   bool written = true;
   if (page.wanted()) written = page.write(report::html(record, pointer(changes)));
   try {
-    if (!survived([&] { print(record, changes, results); })) {
+    if (!try_to_write([&] { print(record, changes, results); })) {
       written = false;
       // The work is done; a person may still read it.
       CommonOptions standard;
       standard.no_color = options.common.no_color;
       if (results.is_file()) {
         Results terminal(standard, OnInterrupt::finish);
-        survived([&] { print(record, changes, terminal); });
+        try_to_write([&] { print(record, changes, terminal); });
       }
     }
   } catch (const BrokenPipe&) {
@@ -171,15 +168,15 @@ int run(const Options& options, const std::string& line) {
   }
   if (changes && !report::tells_changes(results.format()) && !options.common.quiet)
     note_changes(*changes);
-  if (record.interrupted) complain("interrupted; the finished rows were kept.", "interrupted");
+  if (record.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
   return written ? study::exit_code(record) : 4;
 }
 
 }  // namespace
 
-Command add_verify(CLI::App& root) {
+void add_verify(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("verify");
+  auto* app = root.add_subcommand("verify", "[METHOD ...]", "assess methods over a range of steps");
   set_help(
       *app,
       {.examples =
@@ -205,8 +202,7 @@ Command add_verify(CLI::App& root) {
          "--case", options->cases,
          "The case (clackers list cases). Default: three-parameter. Several, each with its "
          "own --case, are judged in turn and compared in a performance profile.")
-      ->option_text("CASE")
-      ->allow_extra_args(false);
+      ->option_text("CASE");
   add_set_option(*app, options->settings);
   app->add_option("--levels", options->levels,
                   "Number of levels of the ladder, each with half the step of the one before. "
@@ -224,10 +220,10 @@ Command add_verify(CLI::App& root) {
          "--baseline", options->baseline,
          "An earlier record (--format json) of the same case and steps, - for standard "
          "input: says in words what changed since. The exit code stays that of the verdicts.")
-      ->option_text("FILE.json");
+      ->reads_file("FILE.json");
   add_common_options(*app, options->common);
   add_verdict_formats(*app);
-  return {app, [options](const std::string& line) { return run(*options, line); }};
+  app->run = [options](const std::string& line) { return run(*options, line); };
 }
 
 }  // namespace clackers::cli
