@@ -45,7 +45,7 @@ _clackers() {
     return
   fi
   [[ $candidates[1] == *= ]] && suffix=(-S '')
-  compadd $suffix -l -d shown -a candidates
+  compadd "${suffix[@]}" -l -d shown -a candidates
 }
 
 _clackers "$@"

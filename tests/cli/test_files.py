@@ -66,8 +66,9 @@ class Written(CommandTest):
         self.assertEqual(process.returncode, 0)
 
     def test_dev_stdout_appends_where_the_shell_redirected_it(self):
-        subprocess.run(["sh", "-c", 'echo before; "$0" list cases --quiet --out /dev/stdout; echo after',
-                        PROGRAM], stdout=open(self.path("all"), "w"), check=True, env=environment())
+        with open(self.path("all"), "w") as file:
+            subprocess.run(["sh", "-c", 'echo before; "$0" list cases --quiet --out /dev/stdout; echo after',
+                            PROGRAM], stdout=file, check=True, env=environment())
         self.assertEqual(self.text_of("all"), "before\n" + self.good("list", "cases") + "after\n")
 
 
