@@ -97,7 +97,8 @@ void handle(int signal, void (*handler)(int), int flags) {
   ours.sa_flags = flags;
   ::sigfillset(&ours.sa_mask);
   ::sigaction(signal, nullptr, &inherited);
-  if (inherited.sa_handler != SIG_IGN) ::sigaction(signal, &ours, nullptr);
+  // Neither what the parent chose to ignore nor what a sanitizer handles.
+  if (inherited.sa_handler == SIG_DFL) ::sigaction(signal, &ours, nullptr);
 }
 
 }  // namespace

@@ -37,8 +37,10 @@ class Workshop {
     write_file(folder_ / "render.js", assets::render_js);
   }
   ~Workshop() {
-    std::error_code ignored;  // the folder around it tells of a full disk
-    std::filesystem::remove_all(folder_, ignored);
+    // A lack of memory or of descriptors may have passed at the second try.
+    std::error_code error;
+    std::filesystem::remove_all(folder_, error);
+    if (error) std::filesystem::remove_all(folder_, error);
   }
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;

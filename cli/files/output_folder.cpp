@@ -101,9 +101,9 @@ void OutputFolder::exchange() {
 }
 
 void OutputFolder::remove_old(const fs::path& old) {
-  // Names of entries only: what own_ says of other folders is not followed.
-  for (const auto& name : names_in(old))
-    if (std::ranges::find(own_, name) != own_.end()) ::unlink((old / name).c_str());
+  // Names of entries only: what the list says of other folders is not followed.
+  for (const auto& name : own_)
+    if (name.find('/') == std::string::npos) ::unlink((old / name).c_str());
   if (::rmdir(old.c_str()) == 0) return;
   for (const auto& name : names_in(old))
     ::renameat2(AT_FDCWD, (old / name).c_str(), AT_FDCWD, (target_ / name).c_str(),
