@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -12,7 +11,6 @@
 #include "clackers/study/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/options.hpp"
 
 namespace clackers::cli {
@@ -53,9 +51,9 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_list(CLI::App& root) {
+void add_list(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("list");
+  auto* app = root.add_subcommand("list", "[KIND]", "what there is: cases, methods, metrics");
   set_help(
       *app,
       {.examples = "  clackers list cases\n"
@@ -69,7 +67,7 @@ Command add_list(CLI::App& root) {
       "treatment that takes it, and what they claim), metrics or figures (of clackers paper). "
       "Without it cases, methods and metrics.");
   add_common_options(*app, options->common);
-  return {app, [options](const std::string&) { return run(*options); }};
+  app->run = [options](const std::string&) { return run(*options); };
 }
 
 }  // namespace clackers::cli

@@ -1,4 +1,4 @@
-#include "cli/text.hpp"
+#include "cli/help/text.hpp"
 
 #include <algorithm>
 
