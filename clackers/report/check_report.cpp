@@ -25,6 +25,8 @@ void write(const study::CheckRecord& record, Format format, std::ostream& out, c
     }
     case Format::junit:
       return write_check_junit(record, out);
+    case Format::npy:  // has no place for verdicts; format_from gives none
+      return;
     case Format::latex:
       return write_check_latex(record, out);
   }

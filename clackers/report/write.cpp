@@ -8,6 +8,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "clackers/base/suggest.hpp"
 #include "clackers/report/junit.hpp"
@@ -28,10 +29,12 @@ namespace {
 }  // namespace
 
 Format format_from(std::string_view text, Content content) {
-  static const std::array<std::string, 5> names{"table", "csv", "json", "junit", "latex"};
-  const std::span known(names.data(), content == Content::rows ? 3 : names.size());
-  const auto found = std::ranges::find(known, text);
-  if (found != known.end()) return static_cast<Format>(found - known.begin());
+  static const std::array<std::string, 6> names{"table", "csv", "json", "junit", "latex", "npy"};
+  std::vector<std::string> known(names.begin(), names.begin() + 3);
+  if (content == Content::numbers) known.push_back("npy");
+  if (content == Content::verdicts) known.insert(known.end(), {"junit", "latex"});
+  if (std::ranges::find(known, text) != known.end())
+    return static_cast<Format>(std::ranges::find(names, text) - names.begin());
   refuse_name("format", text, known, fmt::format("{}", fmt::join(known, ", ")));
 }
 
@@ -43,6 +46,8 @@ void write(study::RowSource& rows, Format format, std::ostream& out, const Style
       return write_csv(rows, out);
     case Format::json:
       return write_json(rows, out);
+    case Format::npy:
+      return write_npy(rows, out);
     case Format::junit:
     case Format::latex:
       refuse_rows();
@@ -74,6 +79,8 @@ void write(const study::Record& record, Format format, std::ostream& out, const 
       study::SheetRows rows(sheet);
       return write_csv(rows, out);
     }
+    case Format::npy:
+      throw std::logic_error("verdicts have no npy; format_from(text) gives none");
     case Format::junit:
       return write_junit(record, out, changes);
     case Format::latex:

@@ -11,10 +11,11 @@
 
 namespace clackers::report {
 
-enum class Format { table, csv, json, junit, latex };
+enum class Format { table, csv, json, junit, latex, npy };
 
-/// What there is to write. Rows know the first three formats only.
-enum class Content { rows, verdicts };
+/// What there is to write: rows as table, csv or json, rows of numbers also as npy, verdicts as all
+/// but npy.
+enum class Content { rows, numbers, verdicts };
 
 /// Throws InputError with did-you-mean for any text but the formats of the content.
 Format format_from(std::string_view text, Content content = Content::rows);
@@ -26,7 +27,7 @@ struct Style {
 };
 
 /// Rows, one by one: a table at 80 columns, csv with a header line, or json with the schema, the
-/// columns and the rows. Numbers of csv and json read back to the same double.
+/// columns and the rows, or NumPy's file. Numbers of csv and json read back to the same double.
 void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style = {});
 
 /// Several sheets, one below the other; json: one object whose "sheets" holds all. `schema` names

@@ -58,7 +58,7 @@ inline constexpr long long most_metric_rows = 262144;
 /// One method of a study.
 struct MethodResult {
   std::string name;
-  methods::Claim claim;
+  Claim claim;
   double contact_time = 0.0;          ///< [s], 0 for rigid contact
   std::string refusal, refusal_code;  ///< why the method cannot take the case; empty when it can
   bool complete = true;               ///< false: interrupted before its last level

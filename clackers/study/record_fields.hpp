@@ -66,7 +66,7 @@ void fields(Archive& archive, Like<Curve> auto& x) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<methods::Claim> auto& x) {
+void fields(Archive& archive, Like<Claim> auto& x) {
   auto& [behaviour, order, reason] = x;
   archive("behaviour", behaviour);
   archive("order", order);
