@@ -14,11 +14,9 @@
 #include <vector>
 
 #include "benchmarks/measure.hpp"
-#include "clackers/methods/contact/event_driven_loop.hpp"
 #include "clackers/methods/integrators/newmark.hpp"
 #include "clackers/methods/integrators/rk4.hpp"
-#include "clackers/methods/pair.hpp"
-#include "clackers/methods/scheme.hpp"
+#include "clackers/methods/rows.hpp"
 
 namespace {
 
@@ -27,14 +25,6 @@ using namespace clackers;
 // The peer: (u1, u2, v1, v2)' = (v, -M^-1 C v - M^-1 K u).
 struct OdeintRk4 {
   static constexpr std::string_view name = "odeint-rk4";
-  static const std::vector<methods::ParameterOf<OdeintRk4>>& parameters() {
-    static const std::vector<methods::ParameterOf<OdeintRk4>> none;
-    return none;
-  }
-  methods::IntegratorFacts facts() const {
-    return {std::string(name), 4.0, false, 2.0 * std::numbers::sqrt2};
-  }
-
   template <int Dof>
   class Stepper;
 };
@@ -66,6 +56,7 @@ class OdeintRk4::Stepper<2> {
     return to_;
   }
   static constexpr bool failed() { return false; }
+  static constexpr Code failure() { return "run-failed"; }
   void reset() {}
   void add_work(model::Work&) const {}
 
@@ -129,10 +120,12 @@ struct Side {
 
 template <class Integrator>
 Side side(const model::ImpactProblem<>& problem, double h) {
-  using Scheme = methods::Pair<Integrator, methods::EventDriven>;
-  return {std::string(Integrator::name),
-          std::make_unique<methods::SchemeRun<typename Scheme::template TimeLoop<2>, 2>>(
-              Scheme{}, problem, methods::plan_steps(Integrator::name, 0.0, problem.end, h)),
+  using Loop = methods::EventDriven::TimeLoop<Integrator, 2>;
+  const std::string name(Integrator::name);
+  return {name,
+          std::make_unique<methods::MethodRun<Loop, 2>>(
+              name, problem, methods::plan_steps(name, 0.0, problem.end, h), Integrator{},
+              methods::EventDriven{}),
           {},
           {}};
 }

@@ -58,9 +58,6 @@ class Parser {
     for (auto rest = text.substr(colon + 1);;) {
       const auto comma = rest.find(',');
       result.settings.push_back(setting(rest.substr(0, comma)));
-      for (std::size_t i = 0; i + 1 < result.settings.size(); ++i)
-        if (result.settings[i].first == result.settings.back().first)
-          refuse(fmt::format("{} is given twice", result.settings[i].first));
       if (comma == std::string_view::npos) return result;
       rest.remove_prefix(comma + 1);
     }

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "clackers/methods/parameters.hpp"
+#include "clackers/base/parameter.hpp"
 
 namespace clackers::methods {
 
@@ -20,8 +20,8 @@ struct MethodSpecification {
   std::optional<Term> contact;  ///< what stands behind the "+"
 };
 
-/// Takes a specification apart; a "+" separates only before a letter, so 1e+6 is a number. Names are not
-/// looked up. Throws InputError for text outside the grammar and values that are no finite number.
+/// Takes a specification apart; a "+" separates only before a letter, so 1e+6 is a number. Names are
+/// not looked up. Throws InputError for text outside the grammar and values that are no finite number.
 MethodSpecification parse_specification(std::string_view text);
 
 }  // namespace clackers::methods

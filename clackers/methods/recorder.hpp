@@ -33,7 +33,7 @@ class Recorder {
   }
 
   /// Takes the next state. False: the run ends here.
-  bool push(const State& now) {
+  bool append(const State& now) {
     t_[count_] = now.t;
     for (std::size_t i = 0; i < size(); ++i) {
       u_[count_ * size() + i] = now.u[static_cast<Eigen::Index>(i)];
@@ -49,9 +49,9 @@ class Recorder {
   /// return.
   bool fail(Code reason, std::string detail);
   bool fail_diverged(double t);
-  bool fail_newton(double t);
+  bool fail_step(double t, Code failure);  ///< of a stepper
 
-  /// Delivers what is left and tells how the run ended.
+  /// Delivers what is left and returns how the run ended.
   model::Outcome finish(const model::Work& work) {
     flush();
     outcome_.work = work;

@@ -42,4 +42,12 @@ StepPlan plan_steps(std::string_view who, double start, double end, double h) {
   return plan;
 }
 
+StepPlan checked_plan(const Method& method, const model::ImpactProblem<>& problem, double h) {
+  const auto who = method.facts().name;
+  require_step(who, h);
+  model::validate(problem);
+  if (const auto no = method.objection(problem)) throw InputError(no->sentence, no->code);
+  return plan_steps(who, problem.start.t, problem.end, h);
+}
+
 }  // namespace clackers::methods

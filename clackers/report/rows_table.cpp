@@ -21,7 +21,8 @@ constexpr std::size_t any_number = 8;
 constexpr std::size_t least_text = 12;
 
 std::string text_of(const study::Cell& cell, int digits, std::size_t width) {
-  if (const auto* real = std::get_if<double>(&cell)) return short_number(*real, digits, width);
+  if (const auto* real = std::get_if<double>(&cell))
+    return short_number(*real + 0.0, digits, width);  // no -0
   if (const auto* whole = std::get_if<long long>(&cell)) return fmt::format("{}", *whole);
   if (const auto* text = std::get_if<std::string>(&cell))
     return rejoin(std::string_view(*text).substr(0, text->find_last_not_of(" \n") + 1));

@@ -26,7 +26,7 @@ struct Style {
 };
 
 /// Rows, one by one: a table at 80 columns, csv with a header line, or json with the schema, the
-/// columns and the rows. Numbers of csv and json read back to the same double.
+/// columns and the rows, or NumPy's file. Numbers of csv and json read back to the same double.
 void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style = {});
 
 /// Several sheets, one below the other; json: one object whose "sheets" holds all. `schema` names

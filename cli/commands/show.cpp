@@ -46,7 +46,7 @@ std::vector<study::Sheet> sheets_of(const Options& options) {
         "bad-syntax");
   const auto settings = read_settings(options.settings);
   const double threshold = options.threshold.empty()
-                               ? cases::standard_threshold
+                               ? cases::default_threshold
                                : read_number("--threshold", options.threshold);
   if (is_case(options.name)) return study::show_case(options.name, settings, threshold);
   require_method(options.name);

@@ -16,8 +16,8 @@ std::vector<ImpactLaw<Dof>> impact_laws(const model::ImpactProblem<Dof>& problem
   std::vector<ImpactLaw<Dof>> laws;
   for (const auto& contact : problem.contacts) {
     ImpactLaw<Dof> law{contact, contact.direction, 0.0};
-    mass.solve_in_place(law.push);
-    law.mobility = contact.direction.dot(law.push);
+    mass.solve_in_place(law.inverse_mass_direction);
+    law.inverse_effective_mass = contact.direction.dot(law.inverse_mass_direction);
     laws.push_back(law);
   }
   return laws;
@@ -26,10 +26,10 @@ std::vector<ImpactLaw<Dof>> impact_laws(const model::ImpactProblem<Dof>& problem
 template <int Dof>
 bool are_coupled(const ImpactLaw<Dof>& one, const ImpactLaw<Dof>& other) {
   // Orthogonal rows leave n products' rounding; any real coupling is far larger.
-  const double size = std::sqrt(one.mobility * other.mobility);
-  const double n = double(one.push.size());
+  const double size = std::sqrt(one.inverse_effective_mass * other.inverse_effective_mass);
+  const double n = double(one.inverse_mass_direction.size());
   const double rounding = 16.0 * n * std::numeric_limits<double>::epsilon();
-  return std::abs(one.contact.direction.dot(other.push)) > rounding * size;
+  return std::abs(one.contact.direction.dot(other.inverse_mass_direction)) > rounding * size;
 }
 
 std::string simultaneous(double t, std::size_t one, std::size_t other) {

@@ -7,11 +7,12 @@
 #include <numbers>
 
 #include "clackers/base/check.hpp"
+#include "clackers/methods/rows.hpp"
 
 namespace clackers::methods {
 namespace {
 
-constexpr double standard_factor = 1e4;
+constexpr double default_factor = 1e4;
 
 // The degree of freedom whose stiffness sets the default of a contact.
 template <int Dof>
@@ -23,19 +24,18 @@ Eigen::Index first_touched(const model::Contact<Dof>& contact) {
 
 }  // namespace
 
-const std::vector<ParameterOf<Penalty>>& Penalty::parameters() {
-  static const std::vector<ParameterOf<Penalty>> all = {
-      {"stiffness", "0 < stiffness < infinity", "of the contact spring [N/m]",
-       [](const Penalty& x) { return x.stiffness; },
-       [](Penalty& x, double value) { x.stiffness = value; }, "1e4 k1"}};
+const std::vector<Field<Penalty>>& Penalty::fields() {
+  static const std::vector<Field<Penalty>> all = {{"stiffness", "0 < stiffness < infinity",
+                                                   "of the contact spring [N/m]",
+                                                   &Penalty::stiffness, "1e4 k1"}};
   return all;
 }
 
 void Penalty::validate() const {
-  if (stiffness) require_positive(name, "stiffness", *stiffness);
+  if (!std::isnan(stiffness)) require_positive(name, "stiffness", stiffness);
 }
 
-Claim Penalty::claim(const IntegratorFacts&) const {
+Claim Penalty::claim(const Facts&) const {
   return {Behaviour::stagnating, 0.0, "contact-stiffness"};
 }
 
@@ -44,7 +44,8 @@ std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& proble
   std::vector<double> all;
   for (const auto& contact : problem.contacts) {
     const auto i = first_touched(contact);
-    all.push_back(stiffness ? *stiffness : standard_factor * problem.system.stiffness(i, i));
+    all.push_back(std::isnan(stiffness) ? default_factor * problem.system.stiffness(i, i)
+                                        : stiffness);
   }
   return all;
 }
@@ -76,7 +77,7 @@ double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
   const auto all = stiffnesses(problem);
   double shortest = 0.0;
   for (std::size_t j = 0; j < laws.size(); ++j) {
-    const double time = std::numbers::pi / std::sqrt(all[j] * laws[j].mobility);
+    const double time = std::numbers::pi / std::sqrt(all[j] * laws[j].inverse_effective_mass);
     shortest = j == 0 ? time : std::min(shortest, time);
   }
   return shortest;
@@ -85,5 +86,7 @@ double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<1>&) const;
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<2>&) const;
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<>&) const;
+
+template Row row<Penalty>();
 
 }  // namespace clackers::methods

@@ -8,7 +8,7 @@
 
 #include "clackers/methods/contact/impact_law.hpp"
 #include "clackers/methods/contact/penalty_force.hpp"
-#include "clackers/methods/integrators/integrator_facts.hpp"
+#include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
 #include "clackers/methods/time_loop.hpp"
 #include "clackers/numerics/roots.hpp"
@@ -37,13 +37,14 @@ struct Penalty {
   static constexpr std::string_view name = "penalty";
   static constexpr std::string_view summary =
       "a linear one-sided spring in place of each contact, as in finite-element codes";
-  static const std::vector<ParameterOf<Penalty>>& parameters();
+  static const std::vector<Field<Penalty>>& fields();
 
-  std::optional<double> stiffness;  ///< [N/m], > 0; empty: the default above
+  /// [N/m], > 0; NaN: the default above.
+  double stiffness = std::numeric_limits<double>::quiet_NaN();
 
-  /// Throws InputError unless 0 < stiffness < infinity.
+  /// Throws InputError unless 0 < stiffness < infinity, or NaN.
   void validate() const;
-  Claim claim(const IntegratorFacts& integrator) const;
+  Claim claim(const Facts& integrator) const;
   std::optional<Objection> objection(const std::string& who,
                                      const model::ImpactProblem<>& problem) const;
   /// The shortest of the contacts' [s]; 0 without contacts.
@@ -128,7 +129,7 @@ class Penalty::TimeLoop {
       stepper_.step(now);
       now.t = t1;
     }
-    return stepper_.failed() ? out.fail_newton(now.t) : true;
+    return stepper_.failed() ? out.fail_step(now.t, stepper_.failure()) : true;
   }
 
   model::ImpactProblem<Dof> problem_;

@@ -21,7 +21,7 @@ template <class Parameters>
 std::string with_defaults(const Parameters& parameters) {
   std::string text;
   for (const auto& p : parameters)
-    text += fmt::format("{}{}={}", text.empty() ? "" : " ", p.name, p.default_value);
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", p.name, p.default_text());
   return text;
 }
 

@@ -87,7 +87,7 @@ void add_entry(std::vector<Sheet>& sheets, const methods::Entry& entry) {
                     {"meaning", "", "with its unit"}},
                    {}};
   for (const auto& p : entry.parameters)
-    parameters.rows.push_back({p.name, p.default_value, p.allowed, p.meaning});
+    parameters.rows.push_back({p.name, p.default_text(), p.allowed, p.meaning});
   if (!parameters.rows.empty()) sheets.push_back(std::move(parameters));
   sheets.push_back({"clackers/card/1",
                     fmt::format("{} ({}): {}", entry.name, entry.kind, entry.summary),

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "clackers/study/respond.hpp"
 
 namespace clackers::study {
@@ -18,10 +20,12 @@ std::vector<Column> collision_columns(int dof) {
   columns.push_back({"impulse", "N s", "of the contact"});
   columns.push_back({"energy_before", "J", "of the whole structure"});
   columns.push_back({"energy_after", "J", "of the whole structure"});
+  for (auto& column : columns) column.kind = ColumnKind::real;
+  columns.front().kind = ColumnKind::whole;
   return columns;
 }
 
-class CollisionRows : public RowSource {
+class CollisionRows : public NumberRows {
  public:
   explicit CollisionRows(const cases::Case& which)
       : motion_(*which.motion),
@@ -37,17 +41,20 @@ class CollisionRows : public RowSource {
   }
   const std::vector<Column>& columns() const override { return columns_; }
 
-  bool next(std::vector<Cell>& row) override {
-    if (done_ == total_) return false;
-    const auto now = motion_.impact(++done_);
-    row.assign({Cell{now.index}, Cell{now.t}, Cell{now.before.u[0]}});
-    for (Eigen::Index i = 0; i < motion_.dof(); ++i) {
-      row.emplace_back(now.before.v[i]);
-      row.emplace_back(now.after.v[i]);
+  long long count() const override { return total_; }
+
+  bool next_block(std::vector<double>& values) override {
+    constexpr long long block = 64;
+    values.clear();
+    for (const auto end = std::min(done_ + block, total_); done_ < end; ++done_) {
+      const auto now = motion_.impact(done_ + 1);
+      values.insert(values.end(), {double(now.index), now.t, now.before.u[0]});
+      for (Eigen::Index i = 0; i < motion_.dof(); ++i)
+        values.insert(values.end(), {now.before.v[i], now.after.v[i]});
+      values.insert(values.end(), {now.impulse, now.energy_before, now.energy_after});
     }
-    for (const double value : {now.impulse, now.energy_before, now.energy_after})
-      row.emplace_back(value);
-    return true;
+    if (!values.empty()) report(done_, total_);
+    return !values.empty();
   }
 
  private:

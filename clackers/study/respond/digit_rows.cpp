@@ -17,18 +17,31 @@ class DigitRows : public RowSource {
       : rows_(std::move(rows)),
         digits_(*which.motion, digits),
         columns_(rows_->columns()),
-        title_(fmt::format("{} to {} digits", rows_->title(), digits)) {}
+        title_(fmt::format("{} to {} digits", rows_->title(), digits)) {
+    for (auto& column : columns_) column.kind = ColumnKind::any;
+  }
 
   std::string title() const override { return title_; }
   const std::vector<Column>& columns() const override { return columns_; }
 
+  bool next(std::vector<Cell>& row) final {
+    if (total_ == 0) total_ = rows_->numbers()->count();
+    if (!rows_->next(row)) return false;
+    round(row);
+    report(++done_, total_);
+    return true;
+  }
+
  protected:
+  virtual void round(std::vector<Cell>& row) = 0;
+
   std::unique_ptr<RowSource> rows_;
   Digits digits_;
   std::vector<Column> columns_;
 
  private:
   std::string title_;
+  long long done_ = 0, total_ = 0;
 };
 
 class ResponseDigits : public DigitRows {
@@ -36,8 +49,7 @@ class ResponseDigits : public DigitRows {
   using DigitRows::DigitRows;
   std::string schema() const override { return "clackers/response-digits/1"; }
 
-  bool next(std::vector<Cell>& row) override {
-    if (!rows_->next(row)) return false;
+  void round(std::vector<Cell>& row) override {
     const double t = std::get<double>(row[0]);
     const auto* side = std::get_if<std::string>(&row[1]);
     const bool after = side != nullptr && *side == "+";
@@ -46,7 +58,6 @@ class ResponseDigits : public DigitRows {
     std::size_t at = 2;
     for (std::size_t i = 0; i < now.u.size(); ++i)
       for (const auto* values : {&now.u, &now.v, &now.a}) row[at++] = (*values)[i];
-    return true;
   }
 };
 
@@ -58,8 +69,7 @@ class CollisionDigits : public DigitRows {
   }
   std::string schema() const override { return "clackers/collisions-digits/1"; }
 
-  bool next(std::vector<Cell>& row) override {
-    if (!rows_->next(row)) return false;
+  void round(std::vector<Cell>& row) override {
     const auto hit = digits_.impact(std::get<long long>(row[0]));
     row[1] = hit.t;
     row[2] = hit.before.u[0];
@@ -70,7 +80,6 @@ class CollisionDigits : public DigitRows {
     }
     for (const auto* value : {&hit.impulse, &hit.energy_before, &hit.energy_after})
       row[at++] = *value;
-    return true;
   }
 };
 

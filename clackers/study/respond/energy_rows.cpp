@@ -16,13 +16,13 @@ std::unique_ptr<RowSource> energies(const cases::Case& which, const TimeGrid& gr
                                     {"total", "J", "the sum of the four: what was there at t = 0"},
                                     {"momentum", "kg m/s", "of all masses"}};
   return std::make_unique<TimedRows>(
-      motion, grid, "clackers/energy/1", "Energy of " + which.entry->name, columns,
-      [account](double t, model::Side side, std::vector<Cell>& row) {
+      motion, grid, "clackers/energy/1", "Energy of " + which.entry->name, columns, 64,
+      one_by_one([account](double t, model::Side side, double* row) {
         const auto split = account->at(t, side);
         for (const double value : {split.kinetic, split.potential, split.dissipated, split.lost,
                                    split.total(), account->momentum(t, side)})
-          row.emplace_back(value);
-      });
+          *row++ = value;
+      }));
 }
 
 }  // namespace clackers::study

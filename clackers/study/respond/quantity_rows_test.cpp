@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 #include "clackers/exact/quantities/energy.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/exact/quantities/spectrum.hpp"
@@ -36,15 +36,7 @@ std::string units(const RowSource& rows) {
   return list;
 }
 
-template <class Call>
-std::string refusal(Call call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return std::string(error.what()) + " [" + std::string(error.code().name()) + "]";
-  }
-  return "accepted";
-}
+using test::refusal_of;
 
 const exact::ClosedForm& motion_of(const cases::Case& which) {
   return dynamic_cast<const exact::ClosedForm&>(*which.motion);
@@ -104,7 +96,7 @@ TEST(SensitivityRows, AreTheDerivativeWithinTheClassWhereAParameterOfTheCaseIsNa
 
 TEST(SensitivityRows, AreRefusedWithTheReason) {
   const auto ask = [](const char* name, const cases::Settings& settings, const char* parameter) {
-    return refusal([&] {
+    return refusal_of([&] {
       const auto which = cases::make(name, settings);
       sensitivity(which, grid_of(2, 1.0), parameter);
     });
@@ -144,8 +136,9 @@ TEST(SpectrumRows, AreTheTransformFromZeroToTheHighestFrequency) {
   }
   EXPECT_EQ(names(*spectrum(cases::make("sdof"), 2, 1.0)), "omega,re1,im1");
   for (const double highest : {0.0, -1.0, 1e300})
-    EXPECT_NE(refusal([&] { spectrum(which, 5, highest); }).find("highest = "), std::string::npos);
-  EXPECT_NE(refusal([&] { spectrum(which, 1, 1.0); }).find("samples = 1"), std::string::npos);
+    EXPECT_NE(refusal_of([&] { spectrum(which, 5, highest); }).find("highest = "),
+              std::string::npos);
+  EXPECT_NE(refusal_of([&] { spectrum(which, 1, 1.0); }).find("samples = 1"), std::string::npos);
 }
 
 TEST(QuantityRows, NeedAClosedFormAndTimesInsideTheRun) {
@@ -153,14 +146,14 @@ TEST(QuantityRows, NeedAClosedFormAndTimesInsideTheRun) {
   cases::Case toy;
   toy.entry = &entry;
   toy.motion = std::make_shared<ToyMotion>(2, 4.0, std::vector<double>{});
-  for (const auto& text : {refusal([&] { energies(toy, grid_of(2, 1.0)); }),
-                           refusal([&] { sensitivity(toy, grid_of(2, 1.0), "m1"); }),
-                           refusal([&] { spectrum(toy, 2, 1.0); })})
+  for (const auto& text : {refusal_of([&] { energies(toy, grid_of(2, 1.0)); }),
+                           refusal_of([&] { sensitivity(toy, grid_of(2, 1.0), "m1"); }),
+                           refusal_of([&] { spectrum(toy, 2, 1.0); })})
     EXPECT_NE(text.find("toy is none. [no-closed-form]"), std::string::npos) << text;
   const auto which = cases::make("sdof");
   const TimeGrid late{0.0, 0, 0.0, {21.0}};
-  EXPECT_NE(refusal([&] { energies(which, late); }).find("[time-outside]"), std::string::npos);
-  EXPECT_NE(refusal([&] { sensitivity(which, late, "m1"); }).find("[time-outside]"),
+  EXPECT_NE(refusal_of([&] { energies(which, late); }).find("[time-outside]"), std::string::npos);
+  EXPECT_NE(refusal_of([&] { sensitivity(which, late, "m1"); }).find("[time-outside]"),
             std::string::npos);
 }
 

@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 #include "clackers/study/testing/toy_motion.hpp"
 
 namespace clackers::study {
@@ -88,27 +89,47 @@ TEST(Respond, StreamsManyRowsWithoutLosingOneAtABlocksBorder) {
   EXPECT_FALSE(rows->next(row));
 }
 
+TEST(Respond, KnowsTheNumberOfItsRowsAndGivesThemAsNumbers) {
+  const auto which = toy(2, 4.0, {1.0, 4.0});
+  const auto rows = respond(which, {1.0, 5, 0.0, {}});
+  ASSERT_NE(rows->numbers(), nullptr);
+  EXPECT_EQ(rows->numbers()->count(), 7);
+  std::vector<double> values;
+  ASSERT_TRUE(rows->numbers()->next_block(values));
+  ASSERT_EQ(values.size(), 7u * 8u);
+  EXPECT_EQ(std::vector<double>(values.begin() + 8, values.begin() + 24),
+            (std::vector<double>{1, -1, 1, 1, 101, 2, 2, 201, 1, 1, 1, -1, 101, 2, -2, 201}));
+  EXPECT_FALSE(rows->numbers()->next_block(values));
+  EXPECT_TRUE(values.empty());
+}
+
+TEST(Respond, ReportsTheShareOfItsRowsAndEndsWhereTheCallerThrows) {
+  const auto which = toy(1, 5000.0, {});
+  const auto rows = respond(which, grid_of(5001, 5000.0));
+  std::vector<double> shares;
+  rows->progress = [&](double share) {
+    shares.push_back(share);
+    if (share > 0.5) throw 1;
+  };
+  std::vector<Cell> row;
+  EXPECT_THROW(while (rows->next(row)){}, int);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_GT(shares.size(), 1u);
+  EXPECT_LT(shares.back(), 1.0);
+}
+
 TEST(Respond, RefusesTimesOutsideTheRunBeforeAnyRow) {
   const auto which = toy(1, 4.0, {});
   for (const auto& [t, code] : {std::pair{4.5, "time-outside"},
                                 {-0.5, "time-outside"},
                                 {double(NAN), "not-a-number"},
                                 {double(INFINITY), "not-finite"}}) {
-    try {
-      respond(which, {0.0, 0, 0.0, {1.0, t, 2.0}});
-      FAIL() << t;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.code().name(), code);
-    }
+    EXPECT_REFUSED(respond(which, {0.0, 0, 0.0, {1.0, t, 2.0}}), code);
   }
-  try {
-    respond(which, {0.0, 0, 0.0, {4.5}});
-  } catch (const InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "respond: t = 4.5; allowed: 0 <= t <= 4 s, the run of toy. A longer run is another "
-        "value of t_end or a_t.");
-  }
+  EXPECT_REFUSED(
+      respond(which, {0.0, 0, 0.0, {4.5}}), "time-outside",
+      "respond: t = 4.5; allowed: 0 <= t <= 4 s, the run of toy. A longer run is another "
+      "value of t_end or a_t.");
   EXPECT_THROW(respond(which, grid_of(3, 8.0)), InputError);
 }
 

@@ -73,7 +73,7 @@ Choice choose(const cases::Case& which, const exact::ClosedForm& motion, std::st
 
   const auto smooth = exact::class_parameters(motion);
   const auto& own = which.entry->parameters;
-  const auto found = std::ranges::find(own, name, &cases::CaseParameter::name);
+  const auto found = std::ranges::find(own, name, &Parameter::name);
   if (found != own.end()) {
     if (!contains(smooth, name)) refuse_parameter(which, name);
     return {fmt::format("{}, all that follows from it following", name), found->unit,
@@ -110,12 +110,12 @@ std::unique_ptr<RowSource> sensitivity(const cases::Case& which, const TimeGrid&
   const std::shared_ptr<const exact::Sensitivity> change = std::move(choice.sensitivity);
   return std::make_unique<TimedRows>(
       motion, grid, "clackers/sensitivity/1",
-      fmt::format("Sensitivity of {} to {}", which.entry->name, choice.label), columns,
-      [change](double t, model::Side side, std::vector<Cell>& row) {
+      fmt::format("Sensitivity of {} to {}", which.entry->name, choice.label), columns, 64,
+      one_by_one([change](double t, model::Side side, double* row) {
         const auto d = change->at(t, side);
         for (Eigen::Index i = 0; i < d.u.size(); ++i)
-          for (const double value : {d.u[i], d.v[i], d.a[i]}) row.emplace_back(value);
-      });
+          for (const double value : {d.u[i], d.v[i], d.a[i]}) *row++ = value;
+      }));
 }
 
 }  // namespace clackers::study

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "clackers/base/error.hpp"
@@ -9,15 +10,15 @@
 namespace clackers::study {
 namespace {
 
-class SpectrumRows : public RowSource {
+class SpectrumRows : public NumberRows {
  public:
   SpectrumRows(const exact::ClosedForm& motion, const std::string& name, const TimeGrid& grid)
       : spectrum_(motion), dof_(std::size_t(motion.dof())), name_(name), grid_(grid) {
-    columns_.push_back({"omega", "rad/s", "frequency"});
+    columns_.push_back({"omega", "rad/s", "frequency", ColumnKind::real});
     for (std::size_t i = 1; i <= dof_; ++i) {
       const auto what = fmt::format("part of the integral of u{} exp(-i omega t) over the run", i);
-      columns_.push_back({fmt::format("re{}", i), "m s", "real " + what});
-      columns_.push_back({fmt::format("im{}", i), "m s", "imaginary " + what});
+      columns_.push_back({fmt::format("re{}", i), "m s", "real " + what, ColumnKind::real});
+      columns_.push_back({fmt::format("im{}", i), "m s", "imaginary " + what, ColumnKind::real});
     }
   }
 
@@ -25,16 +26,22 @@ class SpectrumRows : public RowSource {
   std::string title() const override { return "Fourier transform of " + name_ + " over its run"; }
   const std::vector<Column>& columns() const override { return columns_; }
 
-  bool next(std::vector<Cell>& row) override {
-    if (done_ == grid_.size()) return false;
-    const double omega = grid_.at(done_++);
-    const auto transform = spectrum_.at(omega);
-    row.assign({Cell{omega}});
-    for (std::size_t i = 0; i < dof_; ++i) {
-      row.emplace_back(transform[i].real());
-      row.emplace_back(transform[i].imag());
+  long long count() const override { return grid_.size(); }
+
+  bool next_block(std::vector<double>& values) override {
+    constexpr long long block = 64;
+    values.clear();
+    for (const auto end = std::min(done_ + block, grid_.size()); done_ < end; ++done_) {
+      const double omega = grid_.at(done_);
+      const auto transform = spectrum_.at(omega);
+      values.push_back(omega);
+      for (std::size_t i = 0; i < dof_; ++i) {
+        values.push_back(transform[i].real());
+        values.push_back(transform[i].imag());
+      }
     }
-    return true;
+    if (!values.empty()) report(done_, grid_.size());
+    return !values.empty();
   }
 
  private:

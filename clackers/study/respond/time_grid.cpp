@@ -44,7 +44,7 @@ TimeGrid grid_every(double step, double end) {
   require_positive("respond", "end", end);
   if (!(step > 0.0 && step <= end))
     refuse("respond", "step", step, fmt::format("0 < step <= {} s, the end of the run", end), {},
-           "step-not-positive");
+           step > 0.0 ? Code("out-of-range") : Code("step-not-positive"));
   require_few("step", step, end / step);
   // end / step carries at most half a unit of rounding, and the end as typed another: a whole
   // number within two units of the quotient is meant to reach the end.

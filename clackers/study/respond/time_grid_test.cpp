@@ -2,20 +2,11 @@
 
 #include <cmath>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 #include "clackers/study/respond.hpp"
 
 namespace clackers::study {
 namespace {
-
-std::string code_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return std::string(error.code().name());
-  }
-  return "nothing refused";
-}
 
 TEST(TimeGrid, OfSamplesIncludesBothEndsExactly) {
   // 0.1 = end / 49 * 49 misses the end by rounding for about a third of these.
@@ -38,21 +29,16 @@ TEST(TimeGrid, OfSamplesStaysInsideTheRun) {
 }
 
 TEST(TimeGrid, RefusesFewerThanTwoSamplesInWords) {
-  for (const long long n : {1LL, 0LL, -5LL})
-    EXPECT_EQ(code_of([&] { grid_of(n, 20.0); }), "out-of-range");
-  try {
-    grid_of(1, 20.0);
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
+  for (const long long n : {1LL, 0LL, -5LL}) EXPECT_REFUSED(grid_of(n, 20.0), "out-of-range");
+  EXPECT_REFUSED(grid_of(1, 20.0), "out-of-range",
                  "respond: samples = 1; allowed: a whole number, 2 <= samples <= 1e9. Both ends of "
                  "the run are among them.");
-  }
 }
 
 TEST(TimeGrid, RefusesMoreThanABillionRows) {
-  EXPECT_EQ(code_of([] { grid_of(1'000'000'001, 20.0); }), "too-many-rows");
+  EXPECT_REFUSED(grid_of(1'000'000'001, 20.0), "too-many-rows");
   EXPECT_EQ(grid_of(1'000'000'000, 20.0).size(), 1'000'000'000);
-  EXPECT_EQ(code_of([] { grid_every(1e-9, 20.0); }), "too-many-rows");
+  EXPECT_REFUSED(grid_every(1e-9, 20.0), "too-many-rows");
 }
 
 TEST(TimeGrid, OfAStepReachesAnEndThatOnlyRoundingHides) {
@@ -72,11 +58,11 @@ TEST(TimeGrid, OfAStepReachesAnEndThatOnlyRoundingHides) {
 }
 
 TEST(TimeGrid, RefusesStepsThatAreNotPositiveOrLongerThanTheRun) {
-  EXPECT_EQ(code_of([] { grid_every(0.0, 20.0); }), "step-not-positive");
-  EXPECT_EQ(code_of([] { grid_every(-0.1, 20.0); }), "step-not-positive");
-  EXPECT_EQ(code_of([] { grid_every(20.1, 20.0); }), "step-not-positive");
-  EXPECT_EQ(code_of([] { grid_every(NAN, 20.0); }), "not-a-number");
-  EXPECT_EQ(code_of([] { grid_every(INFINITY, 20.0); }), "not-finite");
+  EXPECT_REFUSED(grid_every(0.0, 20.0), "step-not-positive");
+  EXPECT_REFUSED(grid_every(-0.1, 20.0), "step-not-positive");
+  EXPECT_REFUSED(grid_every(20.1, 20.0), "out-of-range");
+  EXPECT_REFUSED(grid_every(NAN, 20.0), "not-a-number");
+  EXPECT_REFUSED(grid_every(INFINITY, 20.0), "not-finite");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "clackers/methods/contact/held_system.hpp"
+#include "clackers/methods/contact/constrained_system.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,17 +31,17 @@ template <int Dof>
 void moves_as_one_mass() {
   const auto problem = two_masses<Dof>();
   const auto laws = impact_laws(problem);
-  HeldSystem<Dof> held(problem.system, laws);
-  EXPECT_FALSE(held.is_any_held());
-  held.hold(0, problem.start.u);
-  EXPECT_TRUE(held.is_held(0) && held.is_any_held());
+  ConstrainedSystem<Dof> constrained(problem.system, laws);
+  EXPECT_FALSE(constrained.is_any_active());
+  constrained.activate(0, problem.start.u);
+  EXPECT_TRUE(constrained.is_active(0) && constrained.is_any_active());
 
   using Number = model::Matrix<1>;
   const model::SmoothSystem<1> one{Number(5.0), Number(0.3), Number(9.0),
                                    [](double t, std::span<double> f) {
                                      f[0] += std::sin(t) - 2.0 * t - 4.0 * 0.3;  // k1 (u2 + gap)
                                    }};
-  Rk4::Stepper<Dof> stepper({}, held.system(), 0.01);
+  Rk4::Stepper<Dof> stepper({}, constrained.system(), 0.01);
   Rk4::Stepper<1> reference({}, one, 0.01);
   auto now = problem.start;
   model::State<1> other{1.0, model::Vector<1>(0.4), model::Vector<1>(-0.5)};
@@ -58,14 +58,14 @@ void moves_as_one_mass() {
 
   // The force is what mass 1 needs to accelerate with the other.
   const double a = (std::sin(3.0) - 6.0 - 1.2 - 0.3 * now.v[1] - 9.0 * now.u[1]) / 5.0;
-  EXPECT_NEAR(held.contact_force(0, now), 2.0 * a + 0.1 * now.v[0] + 4.0 * now.u[0] - std::sin(3.0),
+  EXPECT_NEAR(constrained.contact_force(0, now), 2.0 * a + 0.1 * now.v[0] + 4.0 * now.u[0] - std::sin(3.0),
               1e-11);
-  held.release(0, now.u);
-  EXPECT_FALSE(held.is_any_held());
-  EXPECT_LT((held.system().stiffness - problem.system.stiffness).norm(), 1e-15);
+  constrained.deactivate(0, now.u);
+  EXPECT_FALSE(constrained.is_any_active());
+  EXPECT_LT((constrained.system().stiffness - problem.system.stiffness).norm(), 1e-15);
 }
 
-TEST(HeldSystem, MovesTwoMassesAsOne) {
+TEST(ConstrainedSystem, MovesTwoMassesAsOne) {
   moves_as_one_mass<2>();
   moves_as_one_mass<model::any_dof>();
 }
@@ -83,13 +83,13 @@ struct Spring : model::NonlinearForce<model::any_dof> {
   }
 };
 
-TEST(HeldSystem, ProjectsANonlinearForceToo) {
+TEST(ConstrainedSystem, ProjectsANonlinearForceToo) {
   auto problem = two_masses<model::any_dof>();
   problem.system.nonlinear = std::make_shared<Spring>();
   const auto laws = impact_laws(problem);
-  HeldSystem<model::any_dof> held(problem.system, laws);
-  held.hold(0, problem.start.u);
-  const auto& s = held.system();
+  ConstrainedSystem<model::any_dof> constrained(problem.system, laws);
+  constrained.activate(0, problem.start.u);
+  const auto& s = constrained.system();
   const auto& now = problem.start;
   Eigen::VectorXd f = Eigen::VectorXd::Zero(2), p = f, q = f;
   s.add_load(now.t, {f.data(), 2});

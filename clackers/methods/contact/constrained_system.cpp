@@ -1,10 +1,10 @@
-#include "clackers/methods/contact/held_system.hpp"
+#include "clackers/methods/contact/constrained_system.hpp"
 
 namespace clackers::methods {
 
 // Q^T p(u, v); its tangents follow.
 template <int Dof>
-class HeldSystem<Dof>::ProjectedForce : public model::NonlinearForce<Dof> {
+class ConstrainedSystem<Dof>::ProjectedForce : public model::NonlinearForce<Dof> {
  public:
   ProjectedForce(const model::NonlinearForce<Dof>& free, const Matrix& projector)
       : free_(free), projector_(projector) {}
@@ -28,55 +28,55 @@ class HeldSystem<Dof>::ProjectedForce : public model::NonlinearForce<Dof> {
 };
 
 template <int Dof>
-HeldSystem<Dof>::HeldSystem(const model::SmoothSystem<Dof>& free,
+ConstrainedSystem<Dof>::ConstrainedSystem(const model::SmoothSystem<Dof>& free,
                             const std::vector<ImpactLaw<Dof>>& laws)
-    : free_(free), laws_(laws), held_(free), is_held_(laws.size(), false) {
+    : free_(free), laws_(laws), constrained_(free), is_active_(laws.size(), false) {
   const auto n = free.dof();
   projector_ = matrix_ = Matrix::Identity(n, n);
   constant_ = force_ = Vector::Zero(n);
-  held_.add_load = [this](double t, std::span<double> force) { add_load(t, force); };
+  constrained_.add_load = [this](double t, std::span<double> force) { add_load(t, force); };
   if (free.nonlinear)
-    held_.nonlinear = std::make_shared<ProjectedForce>(*free.nonlinear, projector_);
+    constrained_.nonlinear = std::make_shared<ProjectedForce>(*free.nonlinear, projector_);
 }
 
 template <int Dof>
-void HeldSystem<Dof>::hold(std::size_t contact, const Vector& u) {
-  if (!is_held_[contact]) ++count_;
-  is_held_[contact] = true;
+void ConstrainedSystem<Dof>::activate(std::size_t contact, const Vector& u) {
+  if (!is_active_[contact]) ++count_;
+  is_active_[contact] = true;
   project(u);
 }
 
 template <int Dof>
-void HeldSystem<Dof>::release(std::size_t contact, const Vector& u) {
-  if (is_held_[contact]) --count_;
-  is_held_[contact] = false;
+void ConstrainedSystem<Dof>::deactivate(std::size_t contact, const Vector& u) {
+  if (is_active_[contact]) --count_;
+  is_active_[contact] = false;
   project(u);
 }
 
 template <int Dof>
-void HeldSystem<Dof>::release_all() {
+void ConstrainedSystem<Dof>::deactivate_all() {
   count_ = 0;
-  is_held_.assign(is_held_.size(), false);
+  is_active_.assign(is_active_.size(), false);
 }
 
 template <int Dof>
-void HeldSystem<Dof>::project(const Vector& u) {
+void ConstrainedSystem<Dof>::project(const Vector& u) {
   projector_.setIdentity();
   for (std::size_t i = 0; i < laws_.size(); ++i)
-    if (is_held_[i])
+    if (is_active_[i])
       projector_.noalias() -=
-          laws_[i].push / laws_[i].mobility * laws_[i].contact.direction.transpose();
+          laws_[i].inverse_mass_direction / laws_[i].inverse_effective_mass * laws_[i].contact.direction.transpose();
   matrix_.noalias() = free_.damping * projector_;
-  held_.damping.noalias() = projector_.transpose() * matrix_;
+  constrained_.damping.noalias() = projector_.transpose() * matrix_;
   matrix_.noalias() = free_.stiffness * projector_;
-  held_.stiffness.noalias() = projector_.transpose() * matrix_;
+  constrained_.stiffness.noalias() = projector_.transpose() * matrix_;
   force_ = u;
   force_.noalias() -= projector_ * u;
   constant_.noalias() = free_.stiffness * force_;
 }
 
 template <int Dof>
-void HeldSystem<Dof>::add_load(double t, std::span<double> force) {
+void ConstrainedSystem<Dof>::add_load(double t, std::span<double> force) {
   force_ = -constant_;
   if (free_.add_load)
     free_.add_load(t, std::span<double>(force_.data(), static_cast<std::size_t>(force_.size())));
@@ -85,7 +85,7 @@ void HeldSystem<Dof>::add_load(double t, std::span<double> force) {
 }
 
 template <int Dof>
-double HeldSystem<Dof>::contact_force(std::size_t contact, const State& now) {
+double ConstrainedSystem<Dof>::contact_force(std::size_t contact, const State& now) {
   force_.setZero();
   if (free_.nonlinear) {
     free_.nonlinear->add(now.u, now.v, force_);
@@ -96,11 +96,11 @@ double HeldSystem<Dof>::contact_force(std::size_t contact, const State& now) {
   if (free_.add_load)
     free_.add_load(now.t,
                    std::span<double>(force_.data(), static_cast<std::size_t>(force_.size())));
-  return -laws_[contact].push.dot(force_) / laws_[contact].mobility;
+  return -laws_[contact].inverse_mass_direction.dot(force_) / laws_[contact].inverse_effective_mass;
 }
 
-template class HeldSystem<1>;
-template class HeldSystem<2>;
-template class HeldSystem<model::any_dof>;
+template class ConstrainedSystem<1>;
+template class ConstrainedSystem<2>;
+template class ConstrainedSystem<model::any_dof>;
 
 }  // namespace clackers::methods
