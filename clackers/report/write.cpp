@@ -52,6 +52,8 @@ const FormatRow table[] = {
      false},
     {Format::json, "json", [](auto& rows, auto& out, auto&) { write_json(rows, out); },
      write_record_json, false},
+    {Format::npy, "npy", [](auto& rows, auto& out, auto&) { write_npy(rows, out); }, nullptr, false,
+     true},
     {Format::junit, "junit", nullptr, write_junit, true},
     {Format::latex, "latex", nullptr, write_latex, false},
 };
