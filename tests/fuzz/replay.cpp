@@ -13,11 +13,11 @@ namespace {
 int count = 0;
 
 void replay(const clackers::fuzz::Target& target, const fs::path& file) {
-  std::printf("%s\n", file.c_str());
+  std::printf("%s: ", file.c_str());
   std::fflush(stdout);  // the last line names the file that failed
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  clackers::fuzz::run_input(target, bytes);
+  std::puts(clackers::fuzz::run_input(target, bytes) ? "taken" : "refused");
   ++count;
 }
 

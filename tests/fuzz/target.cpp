@@ -37,11 +37,13 @@ const Target& target(std::string_view name) {
   std::exit(2);
 }
 
-void run_input(const Target& target, std::string_view bytes) {
+bool run_input(const Target& target, std::string_view bytes) {
   try {
     target.run(bytes);
   } catch (const Error&) {
+    return false;
   }
+  return true;
 }
 
 void require(bool kept, const char* promise) {

@@ -8,8 +8,7 @@
 
 namespace clackers::fuzz {
 
-/// Code that takes any bytes. It throws `Broken` where the code under test breaks a promise, and
-/// lets every exception through that is not an Error of ours.
+/// Code that takes any bytes. It throws std::logic_error where the code under test breaks a promise.
 struct Target {
   std::string_view name;
   void (*run)(std::string_view bytes);
@@ -22,8 +21,8 @@ std::span<const Target> targets();
 /// The target of a name; ends the program with exit code 2 and the list of names for any other.
 const Target& target(std::string_view name);
 
-/// Runs one input: refusals (Error) are fine, anything else ends the program.
-void run_input(const Target& target, std::string_view bytes);
+/// Runs one input: refusals (Error) are fine, anything else ends the program. False for a refusal.
+bool run_input(const Target& target, std::string_view bytes);
 
 /// Throws std::logic_error unless `kept`.
 void require(bool kept, const char* promise);
