@@ -216,7 +216,7 @@ TEST(Cases, SynchronizedPairPassesEveryParameterOn) {
   expect_near(constant(which.constants, "margin"), 1.0 - 2.5 / 3.0, "margin");
 }
 
-TEST(Cases, ExchangedRolesAreAskedForByOneOverAnOddNumber) {
+TEST(Cases, ExchangedRolesAreOneOverAnOddNumber) {
   const auto which = make("synchronized-pair", {{"X", 1.0 / 5.0}, {"r", 0.5}});
   expect_near(constant(which.constants, "omega_D1") / constant(which.constants, "omega_D2"), 5.0,
               "X");
@@ -260,12 +260,12 @@ TEST(Cases, ExactDataPairHasTheExactInputsOfItsFormulas) {
 TEST(Cases, IndicatorsNameTheirThreshold) {
   // X = 9: harmonics up to n = floor(sqrt(81 + 17/eps)/2), 7 for eps = 0.1 and 4 for 0.9.
   const double T = std::numbers::pi / std::sqrt(0.9975);
-  const auto standard = make("three-parameter").indicators;
-  EXPECT_EQ(constant(standard, "threshold"), 0.1);
-  EXPECT_EQ(constant(standard, "I_ms"), 9.0);
-  expect_near(constant(standard, "T_L"), T, "T_L");
-  expect_near(constant(standard, "T_S"), T / 7.0, "T_S");
-  expect_near(constant(standard, "I_OC"), 140.0 / T, "I_OC");
+  const auto usual = make("three-parameter").indicators;
+  EXPECT_EQ(constant(usual, "threshold"), 0.1);
+  EXPECT_EQ(constant(usual, "I_ms"), 9.0);
+  expect_near(constant(usual, "T_L"), T, "T_L");
+  expect_near(constant(usual, "T_S"), T / 7.0, "T_S");
+  expect_near(constant(usual, "I_OC"), 140.0 / T, "I_OC");
   const auto coarse = make("three-parameter", {}, 0.9).indicators;
   EXPECT_EQ(constant(coarse, "threshold"), 0.9);
   expect_near(constant(coarse, "T_S"), T / 4.0, "T_S");

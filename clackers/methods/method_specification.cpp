@@ -91,4 +91,17 @@ MethodSpecification parse_specification(std::string_view text) {
   return Parser(text).specification();
 }
 
+std::string specification(std::string_view name, std::span<const Parameter> parameters,
+                          const Settings& values) {
+  std::string text(name);
+  char mark = ':';
+  for (const auto& parameter : parameters) {
+    const double value = value_of(values, parameter.name);
+    if (value == parameter.default_value || std::isnan(value)) continue;
+    text += fmt::format("{}{}={}", mark, parameter.name, value);
+    mark = ',';
+  }
+  return text;
+}
+
 }  // namespace clackers::methods

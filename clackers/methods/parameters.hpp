@@ -1,13 +1,11 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "clackers/base/parameter.hpp"
+#include "clackers/methods/method_specification.hpp"
 
 namespace clackers::methods {
 
@@ -44,15 +42,9 @@ T configured(const Settings& given) {
 /// digits that read back to the same number.
 template <class T>
 std::string specification(const T& x) {
-  std::string text(T::name);
-  char mark = ':';
-  for (const Field<T>& field : T::fields()) {
-    const double value = x.*field.member;
-    if (value == T{}.*field.member || std::isnan(value)) continue;
-    text += fmt::format("{}{}={}", mark, field.name, value);
-    mark = ',';
-  }
-  return text;
+  Settings values;
+  for (const Field<T>& field : T::fields()) values.emplace_back(field.name, x.*field.member);
+  return specification(T::name, parameters_of<T>(), values);
 }
 
 }  // namespace clackers::methods

@@ -19,17 +19,17 @@ bool Recorder<Dof>::impact(const State& after, int contact, const Vector& v_befo
 }
 
 template <int Dof>
-bool Recorder<Dof>::fail(Code reason, std::string detail) {
+bool Recorder<Dof>::fail(Code reason, double t, std::string_view what) {
   if (!flush()) return false;
   outcome_.finished = false;
   outcome_.reason = reason;
-  outcome_.detail = std::move(detail);
+  outcome_.detail = fmt::format("t = {} s: {}", t, what);
   return false;
 }
 
 template <int Dof>
 bool Recorder<Dof>::fail_diverged(double t) {
-  return fail("diverged", fmt::format("t = {} s: the motion is no longer finite", t));
+  return fail("diverged", t, "the motion is no longer finite");
 }
 
 template <int Dof>
@@ -37,7 +37,7 @@ bool Recorder<Dof>::fail_step(double t, Code failure) {
   const auto why = failure == Code("newton-failed")
                        ? "Newton's iteration found no solution of the step"
                        : "the effective mass matrix of a part of the step is not positive definite";
-  return fail(failure, fmt::format("t = {} s: {}", t, why));
+  return fail(failure, t, why);
 }
 
 template <int Dof>

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clackers/model/run.hpp"
@@ -10,7 +11,7 @@
 
 namespace clackers::methods {
 
-/// Stands between a step loop and a sink: states go out in blocks, so that a step costs no virtual
+/// Connects a step loop with a sink: states are delivered in blocks, so that a step costs no virtual
 /// call; an impact goes out at once, after the states before it. A state that is not finite ends
 /// the run as diverged; states up to it are delivered, it is not.
 template <int Dof>
@@ -45,9 +46,9 @@ class Recorder {
   /// Takes an impact at `after`, the state on its later side. False: the run ends here.
   bool impact(const State& after, int contact, const Vector& v_before, double impulse);
 
-  /// Ends the run with a failure; states taken so far are delivered. Always false, for the loop to
-  /// return.
-  bool fail(Code reason, std::string detail);
+  /// Ends the run with a failure at t [s], "t = 3 s: what"; states taken so far are delivered. Always
+  /// false, for the loop to return.
+  bool fail(Code reason, double t, std::string_view what);
   bool fail_diverged(double t);
   bool fail_step(double t, Code failure);  ///< of a stepper
 

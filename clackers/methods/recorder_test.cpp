@@ -63,7 +63,7 @@ TEST(Recorder, EndsWhereTheSinkSaysSo) {
     recorder.begin(log);
     recorder.append(state(0));
     EXPECT_FALSE(recorder.impact(state(0.5), 0, model::Vector<1>(1.0), 1.0));
-    EXPECT_FALSE(recorder.fail("diverged", "not this"));
+    EXPECT_FALSE(recorder.fail("diverged", 1.0, "not this"));
     const auto outcome = recorder.finish({});
     EXPECT_EQ(log.calls.size(), allowed);
     EXPECT_FALSE(outcome.finished);
@@ -94,7 +94,7 @@ TEST(Recorder, StartsANewRunAfresh) {
   Log log;
   recorder.begin(log);
   recorder.append({0.0, Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)});
-  recorder.fail("newton-failed", "x");
+  recorder.fail("newton-failed", 1.0, "x");
   EXPECT_TRUE(recorder.finish({}).failed());
   model::TrajectorySink sink(true);
   recorder.begin(sink);

@@ -22,7 +22,7 @@ struct MoreauJean;
 
 namespace {
 
-// Integrators, contact treatments, methods that stand alone.
+// Integrators, contact treatments, standalone methods.
 std::span<const Row> rows() {
   static const std::array all{row<Newmark>(),          row<CentralDifference>(), row<Rk4>(),
                               row<GeneralizedAlpha>(), row<EventDriven>(),       row<Reversal>(),

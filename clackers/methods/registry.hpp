@@ -11,7 +11,7 @@
 
 namespace clackers::methods {
 
-/// What `clackers list` and `clackers show` tell of an integrator or a contact treatment.
+/// What `clackers list` and `clackers show` print of an integrator or a contact treatment.
 struct Entry {
   std::string name;     ///< "newmark"
   std::string kind;     ///< "integrator", "contact" or "method" (brings its own integration)
@@ -20,11 +20,11 @@ struct Entry {
   std::string card;  ///< the card of its header, as text
 };
 
-/// A row of the registry: what is told of a type, and how a method is made of it.
+/// A row of the registry: the entry of a type, and how a method is made of it.
 struct Row {
   Entry entry;
-  /// Of an integrator the method with this treatment, empty for an unknown treatment; of a method
-  /// that stands alone the method itself; nullptr for a contact treatment. Throws InputError for
+  /// Of an integrator the method with this treatment, empty for an unknown treatment; of a standalone
+  /// method the method itself; nullptr for a contact treatment. Throws InputError for
   /// parameters.
   std::shared_ptr<const Method> (*make)(const Settings& settings, std::string_view treatment,
                                         const Settings& of_treatment);
@@ -46,7 +46,7 @@ std::string_view card(std::string_view name);
 /// did-you-mean for names, and for parameters outside their range.
 std::shared_ptr<const Method> method(std::string_view specification);
 
-/// Every integrator joined with every treatment that takes it, and the methods that stand alone,
+/// Every integrator joined with every treatment that takes it, and the standalone methods,
 /// all with default parameters: the specifications.
 std::vector<std::string> pairs();
 

@@ -71,7 +71,7 @@ void check_kind(const Options& options) {
   if (options.collisions)
     refuse_usage(kinds[0] + " has rows of its own and takes no --collisions.");
   if (!options.digits.empty())
-    refuse_usage(kinds[0] + " is told in doubles and takes no --digits.");
+    refuse_usage(kinds[0] + " is computed in doubles and takes no --digits.");
   if (options.ways() == 0)
     refuse_usage(kinds[0] + (options.spectrum
                                  ? " needs --samples n, the number of frequencies."
@@ -123,7 +123,7 @@ std::unique_ptr<study::RowSource> rows_of(const Options& options, const cases::C
 }
 
 std::string picture(const cases::Case& which, const report::Style& style) {
-  // Marks closer than a column cannot be told apart; 1000 are more than any terminal shows.
+  // Marks closer than a column coincide; 1000 are more than any terminal shows.
   constexpr long long most_marks = 1000;
   const auto& motion = *which.motion;
   std::vector<double> impact_times;

@@ -29,7 +29,7 @@ class ConstrainedSystem<Dof>::ProjectedForce : public model::NonlinearForce<Dof>
 
 template <int Dof>
 ConstrainedSystem<Dof>::ConstrainedSystem(const model::SmoothSystem<Dof>& free,
-                            const std::vector<ImpactLaw<Dof>>& laws)
+                                          const std::vector<ImpactLaw<Dof>>& laws)
     : free_(free), laws_(laws), constrained_(free), is_active_(laws.size(), false) {
   const auto n = free.dof();
   projector_ = matrix_ = Matrix::Identity(n, n);
@@ -64,8 +64,8 @@ void ConstrainedSystem<Dof>::project(const Vector& u) {
   projector_.setIdentity();
   for (std::size_t i = 0; i < laws_.size(); ++i)
     if (is_active_[i])
-      projector_.noalias() -=
-          laws_[i].inverse_mass_direction / laws_[i].inverse_effective_mass * laws_[i].contact.direction.transpose();
+      projector_.noalias() -= laws_[i].inverse_mass_direction / laws_[i].inverse_effective_mass *
+                              laws_[i].contact.direction.transpose();
   matrix_.noalias() = free_.damping * projector_;
   constrained_.damping.noalias() = projector_.transpose() * matrix_;
   matrix_.noalias() = free_.stiffness * projector_;

@@ -58,8 +58,8 @@ void moves_as_one_mass() {
 
   // The force is what mass 1 needs to accelerate with the other.
   const double a = (std::sin(3.0) - 6.0 - 1.2 - 0.3 * now.v[1] - 9.0 * now.u[1]) / 5.0;
-  EXPECT_NEAR(constrained.contact_force(0, now), 2.0 * a + 0.1 * now.v[0] + 4.0 * now.u[0] - std::sin(3.0),
-              1e-11);
+  EXPECT_NEAR(constrained.contact_force(0, now),
+              2.0 * a + 0.1 * now.v[0] + 4.0 * now.u[0] - std::sin(3.0), 1e-11);
   constrained.deactivate(0, now.u);
   EXPECT_FALSE(constrained.is_any_active());
   EXPECT_LT((constrained.system().stiffness - problem.system.stiffness).norm(), 1e-15);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -48,7 +46,7 @@ struct EventDriven {
       "impacts located inside the step, the rest of the step completed after them";
   static const std::vector<Field<EventDriven>>& fields();
 
-  static constexpr int most_events = 1000;  ///< in one step
+  static constexpr int most_events = 1000;  ///< in one step; a message and the card repeat it
 
   void validate() const {}
   Claim claim(const Facts& integrator) const {
@@ -178,9 +176,7 @@ class EventDriven::TimeLoop {
       const auto event = first_event(now);
       if (!event) break;
       if (++events > most_events)
-        return out.fail(
-            "too-many-impacts",
-            fmt::format("t = {} s: more than {} impacts in one step", from_.t, most_events));
+        return out.fail("too-many-impacts", from_.t, "more than 1000 impacts in one step");
       if (!apply(*event, t1, out)) return false;
       stepper().restart(from_);
       now = from_;
@@ -204,11 +200,8 @@ class EventDriven::TimeLoop {
       if (!constrained_.is_active(i) && !is_suppressed_[i] &&
           laws_[i].contact.gap_rate(now.v) < 0.0 &&
           laws_[i].contact.gap_at(now.u) < -laws_[i].rounding(now.u))
-        return out.fail(
-            "too-many-impacts",
-            fmt::format("t = {} s: impacts accumulate, closer than rounding of the time "
-                        "can separate",
-                        from_.t));
+        return out.fail("too-many-impacts", from_.t,
+                        "impacts accumulate, closer than rounding of the time can separate");
     stepper().restart(now);
     return true;
   }
@@ -286,8 +279,8 @@ class EventDriven::TimeLoop {
     const auto& law = laws_[i];
     for (std::size_t j = 0; j < laws_.size(); ++j)
       if (j != i && is_closed(j) && are_coupled(law, laws_[j]))
-        return out.fail("simultaneous-contacts",
-                        simultaneous(from_.t, std::min(i, j), std::max(i, j)));
+        return out.fail("simultaneous-contacts", from_.t,
+                        simultaneous(std::min(i, j), std::max(i, j)));
     v_before_ = from_.v;
     const double impulse = law.apply(from_.v);
     if (!out.impact(from_, static_cast<int>(i), v_before_, impulse)) return false;

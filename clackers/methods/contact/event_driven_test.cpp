@@ -13,8 +13,13 @@ using runs::mass_on_stop;
 using runs::RattlingMass;
 using runs::run;
 
-const auto integrators = {"newmark", "central-difference", "rk4", "generalized-alpha:rho=0.8",
-                          "generalized-alpha:rho=0"};
+// Every registered one, and two with parameters that matter here.
+const std::vector<std::string> integrators = [] {
+  std::vector<std::string> all{"generalized-alpha:rho=0.8", "generalized-alpha:rho=0"};
+  for (const auto& entry : entries())
+    if (entry.kind == "integrator") all.push_back(entry.name);
+  return all;
+}();
 
 // A mass thrown up under unit gravity, its floor at u = 0.
 model::ImpactProblem<> ball(double u, double v, double eta, double end) {
@@ -25,7 +30,7 @@ model::ImpactProblem<> ball(double u, double v, double eta, double end) {
 
 TEST(EventDriven, KeepsTheOrderOfTheIntegratorThroughImpacts) {
   for (const double eta : {1.0, 0.7})
-    for (const std::string name : integrators) {
+    for (const auto& name : integrators) {
       const RattlingMass reference{.sigma = 0.05, .eta = eta, .w = 1.3};
       const auto claim = method(name)->facts().through_impacts;
       EXPECT_EQ(claim.behaviour, Behaviour::proper);
@@ -52,7 +57,7 @@ TEST(EventDriven, KeepsTheOrderOfTheIntegratorThroughImpacts) {
 // at most 0.5 (w h)^p: measured 0.44 for generalized-alpha:rho=0, the others less.
 TEST(EventDriven, FindsEveryImpactOnce) {
   const RattlingMass reference{.sigma = 0.0, .eta = 1.0, .w = 1.0};
-  for (const std::string name : integrators)
+  for (const auto& name : integrators)
     for (const double n : {997.0, 2000.0, 6283.0}) {
       SCOPED_TRACE(testing::Message() << name << " n = " << n);
       const auto [path, outcome] = run(name, reference.problem(301.0), 300.0 / n);
@@ -134,26 +139,30 @@ TEST(EventDriven, PassesAGrazeThatDoesNotTouch) {
   }
 }
 
-// The step map of the central difference reaches the floor at t = 1, where its velocity is already
-// upwards: a large step under a load that grows fast. This is grazing, and no impact.
+// A large step under a load that changes fast: the step map reaches the floor where its velocity is
+// upwards. This is grazing, and no impact.
 model::ImpactProblem<> grazing(double end, std::function<double(double)> load) {
   auto p = mass_on_stop(1.0, 0.0, 0.0, 1.0, -1.0, 1.0, end);
   p.system.add_load = [load](double t, std::span<double> f) { f[0] += load(t); };
   return p;
 }
 
+// Average acceleration, u(s) = 1 - s + s^2/4 [f(0) + f(s)], is positive before s = 3 under this load
+// and crosses 0 there with v = 1/3. The flight from there is pulled down again.
 TEST(EventDriven, MeetsAnImpactAfterGrazingInTheSameStep) {
-  const auto load = [](double t) { return t < 1.2 ? 10.0 * t : -30.0; };
-  const auto [path, outcome] = run("central-difference", grazing(3.0, load), 3.0);
+  const auto load = [](double t) {
+    return t < 2.5 ? std::min(0.5 + 0.1 * t, 0.6) : 0.6 - (2.0 / 0.9 - 1.8) * (t - 2.5);
+  };
+  const auto [path, outcome] = run("newmark", grazing(10.0, load), 10.0);
   ASSERT_TRUE(outcome.finished) << outcome.detail;
   ASSERT_GE(path.impacts->size(), 1u);
-  EXPECT_GT(path.impacts->front().t, 1.0);
+  EXPECT_GT(path.impacts->front().t, 3.0);
   EXPECT_LT(path.impacts->front().v_before[0], 0.0);
   EXPECT_GE(path.u.back(), 0.0);
 }
 
 TEST(EventDriven, MeetsAContactAgainThatGrazedBeforeAnImpactElsewhere) {
-  // Thrown up after grazing, the mass comes back from a ceiling at u = 3 within the same step.
+  // The central difference grazes at t = 1. Thrown up from there, the mass comes back from a ceiling at u = 3 within the same step.
   auto p = grazing(3.0, [](double t) { return 10.0 * t; });
   p.contacts.push_back({Eigen::VectorXd::Constant(1, -1.0), -3.0, 1.0});
   const auto [path, outcome] = run("central-difference", p, 3.0);
@@ -208,7 +217,7 @@ TEST(EventDriven, RepeatsARunToTheBit) {
 // Resting contact.
 
 TEST(EventDriven, RestsAfterAnImpactThatGivesNothingBack) {
-  for (const std::string name : integrators) {
+  for (const auto& name : integrators) {
     const auto [path, outcome] = run(name, ball(0.5, 0.0, 0.0, 3.0), 0.07);
     ASSERT_TRUE(outcome.finished) << outcome.detail;
     EXPECT_EQ(path.impacts->size(), 1u);
@@ -368,7 +377,7 @@ TEST(EventDriven, EndsAtTheImpactWhereTheSinkSaysSo) {
 
 TEST(EventDriven, RunsANonlinearForceOfAnySize) {
   for (const int n : {1, 2, 3})
-    for (const std::string name : integrators) {
+    for (const auto& name : integrators) {
       SCOPED_TRACE(testing::Message() << name << " n = " << n);
       // Equal masses on cubic springs; the first has a stop. Each moves by itself, so the first one
       // does the same for every n.

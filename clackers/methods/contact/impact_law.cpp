@@ -32,11 +32,11 @@ bool are_coupled(const ImpactLaw<Dof>& one, const ImpactLaw<Dof>& other) {
   return std::abs(one.contact.direction.dot(other.inverse_mass_direction)) > rounding * size;
 }
 
-std::string simultaneous(double t, std::size_t one, std::size_t other) {
+std::string simultaneous(std::size_t one, std::size_t other) {
   return fmt::format(
-      "t = {} s: contacts {} and {} share a mass and are closed together, which needs a "
-      "complementarity solver",
-      t, one + 1, other + 1);
+      "contacts {} and {} share a mass and are closed together, which needs a complementarity "
+      "solver",
+      one + 1, other + 1);
 }
 
 std::optional<Objection> objection_to_closed_contacts(const std::string& who,
@@ -48,8 +48,8 @@ std::optional<Objection> objection_to_closed_contacts(const std::string& who,
   for (std::size_t i = 0; i < laws.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (is_closed(laws[i]) && is_closed(laws[j]) && are_coupled(laws[i], laws[j]))
-        return Objection{fmt::format("{}: {}. Start with one of them open.", who,
-                                     simultaneous(problem.start.t, j, i)),
+        return Objection{fmt::format("{}: t = {} s: {}. Start with one of them open.", who,
+                                     problem.start.t, simultaneous(j, i)),
                          "simultaneous-contacts"};
   return std::nullopt;
 }

@@ -50,6 +50,6 @@ std::optional<Objection> objection_to_closed_contacts(const std::string& who,
                                                       const model::ImpactProblem<>& problem);
 
 /// What the same treatments say when it happens during a run.
-std::string simultaneous(double t, std::size_t one, std::size_t other);
+std::string simultaneous(std::size_t one, std::size_t other);
 
 }  // namespace clackers::methods

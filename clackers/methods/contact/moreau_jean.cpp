@@ -155,8 +155,8 @@ class MoreauJean::TimeLoop {
         if (j == i || !(impulses_[j] > 0.0) || !is_active(i, x, h)) continue;
         if (!(impulses_[i] > 0.0 || shortfall(i, x, r_) < 0.0)) continue;
         if (respond_to_each_other(i, j))
-          return out.fail("simultaneous-contacts",
-                          simultaneous(t1, std::min(i, j), std::max(i, j)));
+          return out.fail("simultaneous-contacts", t1,
+                          simultaneous(std::min(i, j), std::max(i, j)));
       }
     return true;
   }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "clackers/methods/contact/impact_law.hpp"
-#include "clackers/methods/contact/penalty_force.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
 #include "clackers/methods/time_loop.hpp"
@@ -21,7 +20,7 @@ namespace clackers::methods {
 ///     gap_j
 ///
 /// solved by Newton's iteration where the integrator is implicit in u. A contact lasts
-/// pi sqrt(m_e / stiffness), m_e = 1 / (b . M^-1 b). It gives back what it takes and stands for
+/// pi sqrt(m_e / stiffness), m_e = 1 / (b . M^-1 b). It is elastic and models
 /// eta = 1 alone. An impact is reported at the first touch of each contact, located on the step
 /// map, with equal velocities before and after and no impulse: the force acts later, over the
 /// contact time. The default stiffness of a contact is 1e4 times the diagonal stiffness of the
@@ -56,6 +55,11 @@ struct Penalty {
   template <class Integrator, int Dof>
   class TimeLoop;
 };
+
+/// The problem with springs in its system; the contacts stay to be looked at.
+template <int Dof>
+model::ImpactProblem<Dof> with_springs(model::ImpactProblem<Dof> problem,
+                                       std::vector<double> stiffnesses);
 
 /// A run with penalty springs.
 template <class Integrator, int Dof>

@@ -84,7 +84,7 @@ class Reversal::TimeLoop {
       is_reversed_[i] = contact.gap_at(now.u) < 0.0 && contact.gap_rate(now.v) < 0.0;
       for (std::size_t j = 0; j < i; ++j)
         if (is_reversed_[i] && is_reversed_[j] && are_coupled(laws_[i], laws_[j]))
-          return out.fail("simultaneous-contacts", simultaneous(now.t, j, i));
+          return out.fail("simultaneous-contacts", now.t, simultaneous(j, i));
     }
     for (std::size_t i = 0; i < laws_.size(); ++i) {
       if (!is_reversed_[i]) continue;

@@ -81,8 +81,8 @@ class GeneralizedAlpha::Stepper {
     require_definite("generalized-alpha", h_, equation_.failed());
   }
 
-  /// Starts at `from`, or starts again after a jump in velocity: the remembered acceleration is now
-  /// false. That a0 belongs to t0 and not to the shifted time costs h² in v once, not a step.
+  /// Starts at `from`, or starts again after a jump in velocity: the remembered acceleration no
+  /// longer holds. That a0 belongs to t0 and not to the shifted time costs h² in v once, not a step.
   void restart(const State& from) {
     equation_.accelerate(from.t, from.u, from.v, a_);
     start_ = from.t;
@@ -112,7 +112,7 @@ class GeneralizedAlpha::Stepper {
     return to_;
   }
 
-  /// True after a step whose equations could not be solved; its state means nothing.
+  /// True after a step whose equations could not be solved; its state is meaningless.
   bool failed() const { return equation_.failed(); }
   Code failure() const { return equation_.failure(); }
   /// Forgets failures and counts, for a new run.

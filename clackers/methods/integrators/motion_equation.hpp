@@ -77,7 +77,7 @@ class MotionEquation {
     ++evaluations_;
   }
 
-  /// True after something has failed; the state made of it means nothing.
+  /// True after something has failed; the state computed since is meaningless.
   bool failed() const { return failed_; }
   /// The first failure. Meaningful only where failed().
   Code failure() const { return failure_; }

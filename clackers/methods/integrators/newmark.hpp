@@ -50,7 +50,7 @@ class Newmark::Stepper {
   using Vector = model::Vector<Dof>;
 
   /// The system must outlive the stepper. Throws InputError unless 0 < h < infinity, and for a
-  /// system whose effective mass at h is not positive definite; `who` speaks in its message.
+  /// system whose effective mass at h is not positive definite; `who` opens its message.
   Stepper(const Newmark& method, const model::SmoothSystem<Dof>& system, double h,
           std::string_view who = Newmark::name)
       : p_(method),
@@ -70,8 +70,8 @@ class Newmark::Stepper {
     require_definite(who_, h_, equation_.failed());
   }
 
-  /// Starts at `from`, or starts again after a jump in velocity: the remembered acceleration is now
-  /// false.
+  /// Starts at `from`, or starts again after a jump in velocity: the remembered acceleration no
+  /// longer holds.
   void restart(const State& from) {
     equation_.accelerate(from.t, from.u, from.v, a_);
     start_ = from.t;
@@ -101,7 +101,7 @@ class Newmark::Stepper {
     return to_;
   }
 
-  /// True after a step whose equations could not be solved; its state means nothing.
+  /// True after a step whose equations could not be solved; its state is meaningless.
   bool failed() const { return equation_.failed(); }
   Code failure() const { return equation_.failure(); }
   /// Forgets failures and counts, for a new run.

@@ -113,7 +113,7 @@ TEST(SensitivityRows, AreRefusedWithTheReason) {
     EXPECT_NE(ask(name, {}, parameter).find("it is a whole number"), std::string::npos);
   for (const auto& [name, parameter] : {std::pair{"three-parameter", "a_t"}, {"sdof", "t_end"}}) {
     const auto text = ask(name, {}, parameter);
-    EXPECT_NE(text.find("it only says where the run ends"), std::string::npos) << text;
+    EXPECT_NE(text.find("it only sets the end of the run"), std::string::npos) << text;
     EXPECT_NE(text.find("[no-derivative]"), std::string::npos) << text;
   }
   EXPECT_NE(ask("stop", {{"eta", 0.0}}, "k1").find("eta = 0"), std::string::npos);

@@ -55,7 +55,7 @@ std::array<std::string, 3> units_over(const std::string& by) {
           whole
               ? "it is a whole number, and between two of them there is no motion of the class to "
                 "compare with. Use k2 or m2, which shift the frequency of mass 2."
-              : "it only says where the run ends; the motion up to there does not depend on it."),
+              : "it only sets the end of the run; the motion up to there does not depend on it."),
       "no-derivative");
 }
 
@@ -64,10 +64,10 @@ struct Choice {
   std::unique_ptr<exact::Sensitivity> sensitivity;
 };
 
-Choice choose(const cases::Case& which, const exact::ClosedForm& motion, std::string_view asked) {
+Choice choose(const cases::Case& which, const exact::ClosedForm& motion, std::string_view given) {
   const auto raw = exact::raw_parameters(motion);
-  const bool in_class = asked.starts_with(class_prefix);
-  const auto name = in_class ? asked.substr(class_prefix.size()) : asked;
+  const bool in_class = given.starts_with(class_prefix);
+  const auto name = in_class ? given.substr(class_prefix.size()) : given;
   if (!in_class && contains(raw, name))
     return {std::string(name), unit_of_raw(name), exact::raw_sensitivity(motion, name)};
 
@@ -85,7 +85,7 @@ Choice choose(const cases::Case& which, const exact::ClosedForm& motion, std::st
     if (contains(smooth, parameter.name))
       known.push_back(contains(raw, parameter.name) ? std::string(class_prefix) + parameter.name
                                                     : parameter.name);
-  refuse_name(fmt::format("parameter of {} to differentiate by", which.entry->name), asked, known,
+  refuse_name(fmt::format("parameter of {} to differentiate by", which.entry->name), given, known,
               fmt::format("{}", fmt::join(known, " ")));
 }
 
