@@ -90,9 +90,12 @@ extern "C" void on_abort(int) {
       "[internal-error]\n");
 }
 
+// Objects that exist before main() allocate, too.
+[[gnu::constructor(101)]] void set_terminate_early() { std::set_terminate(on_terminate); }
+
 void handle(int signal, void (*handler)(int), int flags) {
-  struct sigaction ours {
-  }, inherited{};
+  struct sigaction ours {};
+  struct sigaction inherited {};
   ours.sa_handler = handler;
   ours.sa_flags = flags;
   ::sigfillset(&ours.sa_mask);
@@ -112,7 +115,6 @@ void catch_signals() {
   handle(SIGABRT, on_abort, 0);
   ::signal(SIGPIPE, SIG_IGN);
   ::signal(SIGXFSZ, SIG_IGN);
-  std::set_terminate(on_terminate);
 }
 
 const std::atomic<bool>& interrupt_flag() { return interrupted; }

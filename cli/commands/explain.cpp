@@ -31,8 +31,8 @@ void add_explain(Grammar& root) {
   set_help(*app,
            {.examples = "  clackers explain stagnating\n"
                         "  clackers explain\n",
-            .about = "Tells what a behaviour, a verdict or a code in [brackets] means and what "
-                     "to do about it. Without CODE it lists all.",
+            .about = "Explains a behaviour, a verdict or a code in [brackets], and what to do "
+                     "about it. Without CODE it lists all.",
             .usage = "  clackers explain [CODE]\n"});
   app->add_option("CODE", options->code, "The word in brackets at the end of a message.");
   add_common_options(*app, options->common);

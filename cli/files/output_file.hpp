@@ -24,8 +24,9 @@ class Descriptor {
 };
 
 /// A file that appears whole or not at all: what is written goes to a temporary file in the same
-/// folder, which replaces `path` in commit(). Without commit() nothing remains: the temporary file
-/// has no name, or, where the file system knows no such files, one that is removed.
+/// folder, which replaces `path` in commit(). Without commit() nothing remains, however the process
+/// ends: the temporary file has no name. Where the file system knows no such files, it has a random
+/// one, which is removed unless the process is killed (SIGKILL).
 /// A device or pipe (/dev/full, /dev/stdout, a fifo) is written directly; a link is followed, also
 /// one to a file that does not exist yet.
 class OutputFile {

@@ -17,7 +17,8 @@
 #include <unistd.h>
 
 enum kind { MALLOC, OPEN, READ, WRITE, RENAME, FSYNC, THREAD, KINDS };
-static const char* const names[KINDS] = {"malloc", "open", "read", "write", "rename", "fsync", "thread"};
+static const char* const names[KINDS] = {"malloc", "open",  "read",  "write",
+                                         "rename", "fsync", "thread"};
 static atomic_long counts[KINDS];
 static atomic_int state; /* 0: FAIL_CALL not yet read, 1: it is being read, 2: read */
 static int failing_kind = -1, failing_error;
@@ -53,7 +54,8 @@ __attribute__((destructor)) static void write_counts(void) {
   const int file = (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   char line[64];
   for (int kind = 0; kind < KINDS; ++kind) {
-    const int length = snprintf(line, sizeof line, "%s %ld\n", names[kind], atomic_load(&counts[kind]));
+    const int length =
+        snprintf(line, sizeof line, "%s %ld\n", names[kind], atomic_load(&counts[kind]));
     if (syscall(SYS_write, file, line, length) != length) break;
   }
   syscall(SYS_close, file);
@@ -78,11 +80,11 @@ static int open_at(int folder, const char* path, int flags, va_list more) {
   const int has_mode = (flags & O_CREAT) || (flags & O_TMPFILE) == O_TMPFILE;
   return (int)syscall(SYS_openat, folder, path, flags, has_mode ? va_arg(more, mode_t) : 0);
 }
-#define OPEN_AT(folder)                               \
-  va_list more;                                       \
-  va_start(more, flags);                              \
+#define OPEN_AT(folder)                                  \
+  va_list more;                                          \
+  va_start(more, flags);                                 \
   const int result = open_at(folder, path, flags, more); \
-  va_end(more);                                       \
+  va_end(more);                                          \
   return result
 int open(const char* path, int flags, ...) { OPEN_AT(AT_FDCWD); }
 int open64(const char* path, int flags, ...) { OPEN_AT(AT_FDCWD); }
