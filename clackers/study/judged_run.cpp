@@ -61,7 +61,7 @@ std::optional<JudgedRun> judge_run(const VerifyPlan& plan, const RunTask& task, 
   const auto& motion = *plan.problem.motion;
   const auto run = method.method->prepare(plan.problem.problem, task.step);
   assess::ErrorSink judge(motion, plan.problem.problem, task.step,
-                          {method.reports_impacts, task.history_bins, nullptr});
+                          {method.reports_impacts, task.history_bins});
   model::TrajectorySink stored(method.reports_impacts);
   RunRecorder recorder(judge, task.metrics ? &stored : nullptr);
   WatchedSink judged(&recorder, share, judged_state, interrupt);

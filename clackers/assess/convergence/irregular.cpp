@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "clackers/assess/convergence/window.hpp"
+#include "clackers/assess/errors/vectors.hpp"
 
 namespace clackers::assess {
 namespace {
@@ -26,12 +27,6 @@ numerics::LineFit line_of_largest(std::span<const LevelView> levels, int first, 
     y.push_back(std::log(levels[std::size_t(i)].error));
   }
   return numerics::fit_line(x, y);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 // Whether the coarsest level lies more than a factor `leading_level` off the line of medians (Theil and Sen), to

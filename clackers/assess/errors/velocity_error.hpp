@@ -32,8 +32,12 @@ class VelocityError {
   explicit VelocityError(const model::Motion& reference,
                          JumpingQuantity quantity = JumpingQuantity::velocity);
 
-  /// Takes the state at an own time with the true velocity, right limit. Times ascend.
-  void take(double t, std::span<const double> v, std::span<const double> v_true);
+  /// Takes the states at own times with the true velocities, right limits, row-major (time, mass).
+  /// Times ascend. No impact taken later may lie before the last but one of them.
+  void take(std::span<const double> t, std::span<const double> v, std::span<const double> v_true);
+  void take(double t, std::span<const double> v, std::span<const double> v_true) {
+    take({&t, 1}, v, v_true);
+  }
   /// Takes an impact after the own times before it, before or after an own time equal to its own.
   void take(const model::ReportedImpact& impact);
   /// The integral [m] of one mass up to the last own time.
@@ -48,6 +52,7 @@ class VelocityError {
   };
   using Errors = std::vector<double>;
 
+  void take_first(double t, const double* v, const double* v_true);
   void close();
   void pass(const Jump& jump, double& from, Errors& error);
   const model::MotionImpact* join(double from);

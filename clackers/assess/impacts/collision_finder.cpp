@@ -5,7 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "clackers/assess/errors/free_motion.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
+#include "clackers/assess/errors/vectors.hpp"
 #include "clackers/assess/impacts/gap_history.hpp"
 
 namespace clackers::assess {
@@ -14,10 +15,6 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<double> entries(const VectorXd& vector) {
-  return {vector.data(), vector.data() + vector.size()};
-}
 
 // The collisions of one contact.
 class ContactScan {

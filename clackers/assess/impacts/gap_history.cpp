@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "clackers/assess/errors/vectors.hpp"
 
 namespace clackers::assess {
 namespace {
@@ -83,13 +86,6 @@ void find_rates(GapHistory& gaps) {
   }
 }
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // In free motion both rates are the same, so that half of all rows being collisions or less leaves
 // the median to rounding. It is local, since a motion may decay; the factor covers the tail of a
 // normal distribution down to 1e-7 (5.3 deviations, one deviation being 1.5 medians).
@@ -106,9 +102,9 @@ double find_noise(GapHistory& gaps) {
       block.push_back(std::abs(gaps.after[i] - gaps.before[i]));
     all.insert(all.end(), block.begin(), block.end());
     std::fill(gaps.noise.begin() + std::ptrdiff_t(from), gaps.noise.begin() + std::ptrdiff_t(to),
-              noise_factor * median(block));
+              block.empty() ? 0.0 : noise_factor * median(block));
   }
-  return median(all);
+  return all.empty() ? 0.0 : median(std::move(all));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "clackers/assess/metrics/value.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/base/error.hpp"
 
 namespace clackers::assess {

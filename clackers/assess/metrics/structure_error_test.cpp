@@ -1,11 +1,9 @@
+#include "clackers/assess/metrics/structure_error.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "clackers/assess/errors/mechanical_energy.hpp"
-#include "clackers/assess/metrics/energy_error.hpp"
-#include "clackers/assess/metrics/momentum_error.hpp"
-#include "clackers/assess/metrics/penetration.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
 #include "clackers/assess/testing/reference_history.hpp"
 #include "clackers/assess/testing/toy_motion.hpp"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "clackers/assess/errors/free_motion.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/trajectory.hpp"
 

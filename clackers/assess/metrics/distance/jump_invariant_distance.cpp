@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/errors/free_motion.hpp"
-#include "clackers/assess/metrics/value.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::assess {
 namespace {

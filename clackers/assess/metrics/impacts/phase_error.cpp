@@ -1,4 +1,4 @@
-#include "clackers/assess/metrics/phase_error.hpp"
+#include "clackers/assess/metrics/impacts/phase_error.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "clackers/assess/metrics/value.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
 namespace clackers::assess {

@@ -1,4 +1,4 @@
-#include "clackers/assess/metrics/flight_error.hpp"
+#include "clackers/assess/metrics/impacts/flight_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "clackers/model/impact_problem.hpp"
 
@@ -28,6 +29,32 @@ class FreeMotion {
  private:
   const model::SmoothSystem<>& system_;
   Eigen::MatrixXd inverse_mass_;
+};
+
+/// Kinetic energy v' M v / 2 and potential energy u' K u / 2 of a linear structure [J].
+class MechanicalEnergy {
+ public:
+  explicit MechanicalEnergy(const model::SmoothSystem<>& system);
+
+  /// `v` [m/s] and `u` [m]: one entry a degree of freedom.
+  double kinetic(const double* v) const { return 0.5 * form(mass_, v); }
+  double potential(const double* u) const { return 0.5 * form(stiffness_, u); }
+  double total(const double* u, const double* v) const { return kinetic(v) + potential(u); }
+
+ private:
+  // x' A x, A row-major.
+  double form(const std::vector<double>& matrix, const double* x) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < dof_; ++i) {
+      double row = 0.0;
+      for (std::size_t j = 0; j < dof_; ++j) row += matrix[i * dof_ + j] * x[j];
+      sum += x[i] * row;
+    }
+    return sum;
+  }
+
+  std::size_t dof_;
+  std::vector<double> mass_, stiffness_;  ///< row-major
 };
 
 }  // namespace clackers::assess

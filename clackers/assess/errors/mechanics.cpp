@@ -1,8 +1,18 @@
-#include "clackers/assess/errors/free_motion.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
 
 #include <Eigen/Cholesky>
 
 namespace clackers::assess {
+namespace {
+
+std::vector<double> row_major(const Eigen::MatrixXd& matrix) {
+  std::vector<double> entries;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) entries.push_back(matrix(i, j));
+  return entries;
+}
+
+}  // namespace
 
 FreeMotion::FreeMotion(const model::SmoothSystem<>& system)
     : system_(system),
@@ -34,5 +44,10 @@ FreeState FreeMotion::moved(const FreeState& from, double s) const {
   return {t + s, u + s / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4),
           v + s / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)};
 }
+
+MechanicalEnergy::MechanicalEnergy(const model::SmoothSystem<>& system)
+    : dof_(std::size_t(system.dof())),
+      mass_(row_major(system.mass)),
+      stiffness_(row_major(system.stiffness)) {}
 
 }  // namespace clackers::assess

@@ -1,9 +1,9 @@
-#include "clackers/assess/metrics/event_report.hpp"
+#include "clackers/assess/metrics/impacts/event_report.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/metrics/value.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::assess {
 namespace {
@@ -23,7 +23,7 @@ MetricValue none_matched(const EventReport& report) {
 // The largest entry of a list that each collision carries, mass by mass.
 MetricValue worst(const Comparison& comparison, std::vector<double> CollisionError::*list,
                   const char* unknown) {
-  const auto report = event_report(comparison);
+  const auto& report = comparison.shared(event_report);
   if (report.collisions.empty()) return none_matched(report);
   std::vector<double> masses;
   for (const auto& collision : report.collisions) {
@@ -63,7 +63,7 @@ EventReport event_report(const Comparison& comparison) {
 }
 
 MetricValue impact_time_error(const Comparison& comparison) {
-  const auto report = event_report(comparison);
+  const auto& report = comparison.shared(event_report);
   if (report.collisions.empty()) return none_matched(report);
   double worst = 0.0;
   for (const auto& collision : report.collisions)
@@ -82,7 +82,7 @@ MetricValue velocity_after_error(const Comparison& comparison) {
 }
 
 MetricValue impulse_error(const Comparison& comparison) {
-  const auto report = event_report(comparison);
+  const auto& report = comparison.shared(event_report);
   if (report.collisions.empty()) return none_matched(report);
   double worst = -1.0;
   for (const auto& collision : report.collisions)
@@ -100,7 +100,7 @@ MetricValue extra_impacts(const Comparison& comparison) {
 }
 
 MetricValue late_impacts(const Comparison& comparison) {
-  return measured(double(event_report(comparison).late));
+  return measured(double(comparison.shared(event_report).late));
 }
 
 }  // namespace clackers::assess

@@ -1,4 +1,4 @@
-#include "clackers/assess/metrics/event_report.hpp"
+#include "clackers/assess/metrics/impacts/event_report.hpp"
 
 #include <gtest/gtest.h>
 

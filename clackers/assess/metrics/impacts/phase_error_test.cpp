@@ -1,4 +1,4 @@
-#include "clackers/assess/metrics/phase_error.hpp"
+#include "clackers/assess/metrics/impacts/phase_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "clackers/assess/metrics/flight_error.hpp"
+#include "clackers/assess/metrics/impacts/flight_error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "clackers/assess/metrics/value.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::assess {
 namespace {
@@ -36,10 +36,10 @@ std::vector<Flight> flights(const Comparison& comparison) {
   return all;
 }
 
-// Compares flights one by one; rows and flights are both walked once.
-class TimeLoop {
+// Compares flights one by one; rows and flights are both passed once.
+class FlightComparison {
  public:
-  explicit TimeLoop(const Comparison& comparison)
+  explicit FlightComparison(const Comparison& comparison)
       : c_(comparison), t_(c_.history().t), dof_(c_.dof()) {}
 
   void add(const Flight& flight, std::vector<FlightError>& errors) {
@@ -82,13 +82,13 @@ class TimeLoop {
   // Displacements are right to a unit of their envelope, and so is their sum.
   bool is_closed(std::size_t i) const {
     for (const auto& contact : c_.problem().contacts) {
-      double opening = -contact.gap, size = 0.0;
+      double gap = -contact.gap, size = 0.0;
       for (std::size_t j = 0; j < dof_; ++j) {
         const double part = contact.direction[Eigen::Index(j)];
-        opening += part * c_.history().u[i * dof_ + j];
+        gap += part * c_.history().u[i * dof_ + j];
         size += std::abs(part) * c_.u_envelope()[j];
       }
-      if (opening < -2.0 * std::numeric_limits<double>::epsilon() * size) return true;
+      if (gap < -2.0 * std::numeric_limits<double>::epsilon() * size) return true;
     }
     return false;
   }
@@ -126,7 +126,7 @@ class TimeLoop {
 
 MetricValue worst(const Comparison& comparison, std::vector<double> FlightError::*list) {
   std::vector<double> masses;
-  for (const auto& flight : flight_errors(comparison)) {
+  for (const auto& flight : comparison.shared(flight_errors)) {
     masses.resize(comparison.dof());
     for (std::size_t j = 0; j < masses.size(); ++j)
       masses[j] = std::max(masses[j], (flight.*list)[j]);
@@ -140,8 +140,8 @@ MetricValue worst(const Comparison& comparison, std::vector<double> FlightError:
 
 std::vector<FlightError> flight_errors(const Comparison& comparison) {
   std::vector<FlightError> errors;
-  TimeLoop walk(comparison);
-  for (const auto& flight : flights(comparison)) walk.add(flight, errors);
+  FlightComparison comparing(comparison);
+  for (const auto& flight : flights(comparison)) comparing.add(flight, errors);
   return errors;
 }
 
