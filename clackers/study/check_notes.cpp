@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/convergence/error_ladder.hpp"
+#include "clackers/assess/convergence/fit/error_ladder.hpp"
 
 namespace clackers::study {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/convergence/error_ladder.hpp"
+#include "clackers/assess/convergence/fit/error_ladder.hpp"
 #include "clackers/assess/convergence/judge.hpp"
 #include "clackers/assess/convergence/sentence.hpp"
 #include "clackers/base/codes.hpp"

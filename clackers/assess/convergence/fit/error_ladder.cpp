@@ -1,4 +1,4 @@
-#include "clackers/assess/convergence/error_ladder.hpp"
+#include "clackers/assess/convergence/fit/error_ladder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "clackers/assess/convergence/rate_trend.hpp"
+#include "clackers/assess/convergence/fit/window.hpp"
 
 #include <gtest/gtest.h>
 

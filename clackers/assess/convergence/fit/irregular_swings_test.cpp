@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/assess/convergence/irregular.hpp"
+#include "clackers/assess/convergence/fit/irregular.hpp"
 #include "clackers/assess/testing/synthetic_ladder.hpp"
 
 namespace clackers::assess {

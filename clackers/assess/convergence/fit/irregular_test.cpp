@@ -1,4 +1,4 @@
-#include "clackers/assess/convergence/irregular.hpp"
+#include "clackers/assess/convergence/fit/irregular.hpp"
 
 #include <gtest/gtest.h>
 

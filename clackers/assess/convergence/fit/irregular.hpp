@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "clackers/assess/convergence/error_ladder.hpp"
+#include "clackers/assess/convergence/fit/error_ladder.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
 namespace clackers::assess {

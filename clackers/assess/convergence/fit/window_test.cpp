@@ -1,4 +1,4 @@
-#include "clackers/assess/convergence/window.hpp"
+#include "clackers/assess/convergence/fit/window.hpp"
 
 #include <gtest/gtest.h>
 

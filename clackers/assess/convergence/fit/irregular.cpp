@@ -1,10 +1,10 @@
-#include "clackers/assess/convergence/irregular.hpp"
+#include "clackers/assess/convergence/fit/irregular.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "clackers/assess/convergence/window.hpp"
+#include "clackers/assess/convergence/fit/window.hpp"
 #include "clackers/assess/errors/vectors.hpp"
 
 namespace clackers::assess {
