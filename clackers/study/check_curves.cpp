@@ -30,7 +30,7 @@ Curve displacement_curve(const assess::Comparison& comparison) {
 Curve error_curve(const assess::Comparison& comparison) {
   return curve_of(comparison, [&](std::size_t mass, std::size_t row) {
     const auto at = row * comparison.dof() + mass;
-    return std::abs(comparison.history().u[at] - comparison.true_u()[at]) /
+    return std::abs(comparison.history().u[at] - comparison.reference_u()[at]) /
            comparison.u_envelope()[mass];
   });
 }

@@ -78,9 +78,9 @@ Comparison::Comparison(const model::Trajectory& history, const model::Motion& re
 void Comparison::sample_reference() {
   const auto& t = history().t;
   const auto size = t.size() * dof();
-  true_u_.resize(size);
-  true_v_.resize(size);
-  if (has_accelerations()) true_a_.resize(size);
+  reference_u_.resize(size);
+  reference_v_.resize(size);
+  if (has_accelerations()) reference_a_.resize(size);
   std::vector<double> times;
   for (std::size_t from = 0; from < t.size(); from += times.size()) {
     const bool left = is_left_limit(from);
@@ -94,7 +94,7 @@ void Comparison::sample_reference() {
                          : std::span(all).subspan(from * dof(), times.size() * dof());
     };
     reference_.sample(times, left ? model::Side::left : model::Side::right,
-                      {part(true_u_), part(true_v_), part(true_a_)});
+                      {part(reference_u_), part(reference_v_), part(reference_a_)});
   }
 }
 

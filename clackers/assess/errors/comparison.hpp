@@ -42,7 +42,7 @@ class Comparison {
              const model::ImpactProblem<>& problem);
 
   /// The history; where its rows lack the limits of jumps that it reports whole, with these rows
-  /// (with_jump_limits says when).
+  /// (see with_jump_limits()).
   const model::Trajectory& history() const { return widened_ ? *widened_ : given_; }
   const model::Motion& reference() const { return reference_; }
   const model::ImpactProblem<>& problem() const { return problem_; }
@@ -77,10 +77,10 @@ class Comparison {
   /// True states at the times of history(), row-major (time, mass). Of two rows with one time the
   /// first is the left limit, the second the right one; elsewhere the flight that truly holds, and
   /// the right limit at the double nearest to an impact.
-  std::span<const double> true_u() const { return true_u_; }
-  std::span<const double> true_v() const { return true_v_; }
+  std::span<const double> reference_u() const { return reference_u_; }
+  std::span<const double> reference_v() const { return reference_v_; }
   /// Empty unless the history has accelerations.
-  std::span<const double> true_a() const { return true_a_; }
+  std::span<const double> reference_a() const { return reference_a_; }
   /// What relative errors are divided by, one a mass: see reference_scale().
   std::span<const double> u_envelope() const { return u_envelope_; }
   std::span<const double> v_envelope() const { return v_envelope_; }
@@ -96,7 +96,7 @@ class Comparison {
   ImpactSource impact_source() const { return source_; }
   /// Pairs in order of time; the rule is ImpactMatcher's.
   const std::vector<MatchedImpact>& matches() const { return matches_; }
-  /// What was matched, missed and found beside; ImpactMatcher says what is expected.
+  /// Numbers of matched, missed and extra impacts, as ImpactMatcher counts.
   const ImpactScore& impact_score() const { return score_; }
   /// True impacts that the history should have: up to its last time.
   long long expected() const { return score_.expected; }
@@ -112,7 +112,8 @@ class Comparison {
   const model::ImpactProblem<>& problem_;
   double step_ = 0.0;
   mutable double collision_period_ = 0.0;  ///< 0 until asked for
-  std::vector<double> true_u_, true_v_, true_a_, u_envelope_, v_envelope_, a_envelope_;
+  std::vector<double> reference_u_, reference_v_, reference_a_, u_envelope_, v_envelope_,
+      a_envelope_;
   std::vector<model::Impact> impacts_;
   std::vector<double> impact_ends_;
   ImpactSource source_ = ImpactSource::reported;

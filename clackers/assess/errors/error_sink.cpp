@@ -40,8 +40,8 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
       scale_(reference_scale(reference)),
       start_(problem.start.t),
       times_(block_size),
-      u_true_(block_size * dof_),
-      v_true_(block_size * dof_),
+      u_reference_(block_size * dof_),
+      v_reference_(block_size * dof_),
       relative_(dof_),
       u_error_(dof_),
       last_(start_),
@@ -63,7 +63,7 @@ void ErrorSink::sample_reference(std::span<const double> times) {
     times_[i] = times[i] > end && times[i] <= end + slack ? end : times[i];
   const auto size = times.size() * dof_;
   reference_.sample({times_.data(), times.size()}, model::Side::right,
-                    {{u_true_.data(), size}, {v_true_.data(), size}, {}});
+                    {{u_reference_.data(), size}, {v_reference_.data(), size}, {}});
 }
 
 bool ErrorSink::take(const model::SampleBlock& block) {
@@ -80,22 +80,22 @@ void ErrorSink::take_part(const model::SampleBlock& block, std::size_t from, std
   const auto u = block.u.subspan(from * dof_, count * dof_);
   const auto v = block.v.subspan(from * dof_, count * dof_);
   sample_reference(t);
-  velocity_.take(t, v, v_true_);
+  velocity_.take(t, v, v_reference_);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t row = i * dof_;
     for (std::size_t j = 0; j < dof_; ++j) {
-      const double error = std::abs(u[row + j] - u_true_[row + j]);
+      const double error = std::abs(u[row + j] - u_reference_[row + j]);
       u_error_[j] = std::max(u_error_[j], error);
       // The difference of a number that is not finite and itself is NaN.
       finite_ += (error - error) + (v[row + j] - v[row + j]);
     }
     const double found = energy_.total(&u[row], &v[row]);
-    const double expected = energy_.total(&u_true_[row], &v_true_[row]);
+    const double expected = energy_.total(&u_reference_[row], &v_reference_[row]);
     energy_error_ = std::max(energy_error_, std::abs(found - expected));
     energy_ratio_ = expected > 0.0 ? found / expected : std::numeric_limits<double>::quiet_NaN();
     if (options_.history_bins > 0) {
       for (std::size_t j = 0; j < dof_; ++j)
-        relative_[j] = std::abs(u[row + j] - u_true_[row + j]) / scale_.u[Eigen::Index(j)];
+        relative_[j] = std::abs(u[row + j] - u_reference_[row + j]) / scale_.u[Eigen::Index(j)];
       history_.take(t[i], relative_);
     }
   }

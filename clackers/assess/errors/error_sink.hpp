@@ -53,8 +53,8 @@ class ErrorSink : public model::Sink {
   MechanicalEnergy energy_;
   model::Kinematics scale_;
   double start_, energy_scale_;
-  std::vector<double> times_, u_true_, v_true_, relative_;  ///< of one block
-  std::vector<double> u_error_;                             ///< largest of each mass [m]
+  std::vector<double> times_, u_reference_, v_reference_, relative_;  ///< of one block
+  std::vector<double> u_error_;                                       ///< largest of each mass [m]
   double energy_error_ = 0.0;
   double energy_ratio_ = std::numeric_limits<double>::quiet_NaN();
   double bound_ = 0.0;  ///< largest relative_bound() of the reference

@@ -32,10 +32,10 @@ std::span<const double> VelocityError::part(const model::Kinematics& now) const 
 }
 
 void VelocityError::take(std::span<const double> t, std::span<const double> v,
-                         std::span<const double> v_true) {
+                         std::span<const double> v_reference) {
   // The interval in front of them, and that between them, may hold an impact.
   const auto slow = std::min<std::size_t>(2, t.size());
-  for (std::size_t i = 0; i < slow; ++i) take_first(t[i], &v[i * dof_], &v_true[i * dof_]);
+  for (std::size_t i = 0; i < slow; ++i) take_first(t[i], &v[i * dof_], &v_reference[i * dof_]);
   for (std::size_t i = slow; i < t.size(); ++i) {
     const double half = 0.5 * (to_ - from_);
     for (std::size_t j = 0; j < dof_; ++j) {
@@ -43,14 +43,14 @@ void VelocityError::take(std::span<const double> t, std::span<const double> v,
       sum_[j] += half * (left + right);
       squares_[j] += half * (left * left + right * right);
       from_error_[j] = right;
-      to_error_[j] = std::abs(v[i * dof_ + j] - v_true[i * dof_ + j]);
+      to_error_[j] = std::abs(v[i * dof_ + j] - v_reference[i * dof_ + j]);
     }
     from_ = to_;
     to_ = t[i];
   }
 }
 
-void VelocityError::take_first(double t, const double* v, const double* v_true) {
+void VelocityError::take_first(double t, const double* v, const double* v_reference) {
   if (taken_ > 0) {
     close();
     from_ = to_;
@@ -59,7 +59,7 @@ void VelocityError::take_first(double t, const double* v, const double* v_true) 
   }
   taken_ = std::min(taken_ + 1, 2);
   to_ = t;
-  for (std::size_t i = 0; i < dof_; ++i) to_error_[i] = std::abs(v[i] - v_true[i]);
+  for (std::size_t i = 0; i < dof_; ++i) to_error_[i] = std::abs(v[i] - v_reference[i]);
 }
 
 void VelocityError::take(const model::ReportedImpact& impact) {
@@ -96,7 +96,7 @@ void VelocityError::close() {
   }
   double from = from_;
   for (const auto& jump : jumps_) pass(jump, from, from_error_);
-  // A jump at the own time itself has said what holds on both sides of it.
+  // A jump at the output time itself has the limits of both sides.
   if (from >= to_) return;
   add(to_ - from, from_error_, to_error_);
   std::swap(from_error_, to_error_);

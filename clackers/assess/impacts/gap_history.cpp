@@ -109,14 +109,14 @@ double find_noise(GapHistory& gaps) {
 
 }  // namespace
 
-double GapHistory::push(std::size_t i) const {
+double GapHistory::contact_change(std::size_t i) const {
   return after[i + 1] - before[i] - 0.5 * length(i) * (acceleration[i] + acceleration[i + 1]);
 }
 
 // The trapezoidal rule is off by h^3 a'' / 12, the two rates from displacements by h^3 a'' / 24
 // each, so h times a sixth of the second difference of a in all; a quarter allows for h^2 a'' being
 // taken from beside the interval.
-double GapHistory::doubt(std::size_t i) const {
+double GapHistory::uncertainty(std::size_t i) const {
   double bend = 0.0;
   for (const auto middle : {i, i + 1})
     if (middle > 0 && middle + 1 < size())

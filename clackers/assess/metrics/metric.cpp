@@ -180,7 +180,7 @@ MetricValue relative_to(const MetricValue& value, std::span<const double> envelo
   for (std::size_t i = 0; i < masses.size(); ++i) {
     if (!(envelope[i] > 0.0))
       return not_measured(fmt::format(
-          "The true motion of mass {} has no extent, so nothing is relative to it.", i + 1));
+          "The reference motion of mass {} has no extent, so nothing is relative to it.", i + 1));
     masses[i] /= envelope[i];
   }
   return measured(std::move(masses));

@@ -64,8 +64,8 @@ std::vector<Scenario> scenarios() {
            falling_delays()}};
 }
 
-// What each metric says at each level; empty where it is not measured.
-std::vector<Values> judged(const Scenario& scenario) {
+// The value of each metric at each level; empty where it is not measured.
+std::vector<Values> measured_values(const Scenario& scenario) {
   const auto problem = scenario.motion->problem();
   std::vector<Values> values(metrics().size());
   for (const auto& level : scenario.levels) {
@@ -97,7 +97,7 @@ TEST(Metrics, ConvergeThroughShiftedJumpsExactlyWhenTheyClaimTo) {
   const auto all = scenarios();
   std::vector<bool> is_measured(metrics().size()), floors(metrics().size());
   for (const auto& scenario : all) {
-    const auto values = judged(scenario);
+    const auto values = measured_values(scenario);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (values[i].empty()) continue;
       ASSERT_EQ(values[i].size(), scenario.levels.size()) << metrics()[i].name;

@@ -15,11 +15,11 @@ struct Columns {
 Columns columns_of(const Comparison& comparison, Quantity quantity) {
   switch (quantity) {
     case Quantity::u:
-      return {comparison.history().u, comparison.true_u()};
+      return {comparison.history().u, comparison.reference_u()};
     case Quantity::v:
-      return {comparison.history().v, comparison.true_v()};
+      return {comparison.history().v, comparison.reference_v()};
     case Quantity::a:
-      return {comparison.history().a, comparison.true_a()};
+      return {comparison.history().a, comparison.reference_a()};
   }
   return {};
 }
@@ -63,8 +63,8 @@ void integrate_across_jumps(const Comparison& comparison, const Columns& columns
   std::size_t done = 0;
   for (std::size_t i = 0; i < t.size(); ++i) {
     if (!comparison.is_left_limit(i)) continue;
-    // A jump is an instant of its own between own times. At the ends of the history there is
-    // nothing beyond, so that it is an own time as well.
+    // A jump is an instant of its own between output times. At the ends of the history there is
+    // nothing beyond, so that it is an output time as well.
     take(done, i == 0 ? 1 : i);
     error.take(model::ReportedImpact{t[i],
                                      0,

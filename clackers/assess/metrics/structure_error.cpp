@@ -16,7 +16,7 @@ MetricValue energy_error(const Comparison& comparison, Energy energy) {
   const MechanicalEnergy of(system);
   const auto start = comparison.reference().at(0.0, model::Side::right);
   const double scale = of.total(start.u.data(), start.v.data());
-  if (!(scale > 0.0)) return not_measured("The true motion starts without energy.");
+  if (!(scale > 0.0)) return not_measured("The reference starts without energy.");
 
   const auto& history = comparison.history();
   const auto dof = comparison.dof();
@@ -24,9 +24,9 @@ MetricValue energy_error(const Comparison& comparison, Energy energy) {
   for (std::size_t i = 0; i < history.u.size(); i += dof) {
     double error = 0.0;
     if (energy != Energy::kinetic)
-      error += of.potential(&history.u[i]) - of.potential(&comparison.true_u()[i]);
+      error += of.potential(&history.u[i]) - of.potential(&comparison.reference_u()[i]);
     if (energy != Energy::potential)
-      error += of.kinetic(&history.v[i]) - of.kinetic(&comparison.true_v()[i]);
+      error += of.kinetic(&history.v[i]) - of.kinetic(&comparison.reference_v()[i]);
     worst = std::max(worst, std::abs(error));
   }
   return measured(worst / scale);
@@ -45,12 +45,12 @@ MetricValue momentum_error(const Comparison& comparison) {
         "The true velocities have no extent at t = 0, so nothing is relative to them.");
 
   const auto& v = comparison.history().v;
-  const auto v_true = comparison.true_v();
+  const auto v_reference = comparison.reference_v();
   double worst = 0.0;
   for (std::size_t i = 0; i < v.size(); i += dof) {
     double error = 0.0;
     for (std::size_t j = 0; j < dof; ++j)
-      error += columns[Eigen::Index(j)] * (v[i + j] - v_true[i + j]);
+      error += columns[Eigen::Index(j)] * (v[i + j] - v_reference[i + j]);
     worst = std::max(worst, std::abs(error));
   }
   return measured(worst / scale);

@@ -3,7 +3,7 @@
 #include "clackers/assess/errors/comparison.hpp"
 #include "clackers/assess/metrics/metric.hpp"
 
-// Errors of the whole structure over the history's own times.
+// Errors of the whole structure over the history's output times.
 namespace clackers::assess {
 
 /// v' M v / 2, u' K u / 2 or their sum.

@@ -33,7 +33,7 @@ LevelView view_level(ErrorLevel level) {
       seen.error = point.error;
       seen.step = point.step;
     }
-    // A zero is a lucky hit below what doubles can tell; it has no place on logarithmic axes.
+    // A zero has no place on logarithmic axes.
     if (point.error == 0.0) continue;
     seen.x.push_back(std::log(point.step));
     seen.y.push_back(std::log(point.error));

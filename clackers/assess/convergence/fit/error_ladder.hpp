@@ -15,8 +15,8 @@ struct ErrorPoint {
 /// The errors of neighbouring steps around one nominal step.
 using ErrorLevel = std::vector<ErrorPoint>;
 
-/// Errors within this factor of their rounding floor cannot be told from rounding: the estimate
-/// (steps times 2^-52) knows nothing of how a motion magnifies a rounding error.
+/// Errors within this factor of their rounding floor count as rounding: the estimate (steps times
+/// 2^-52) leaves out how a motion magnifies a rounding error.
 inline constexpr double rounding_slack = 10.0;
 
 /// Rounding at its worst, `rounding_slack` floors, bends a line by less than a tenth only where errors
@@ -36,8 +36,7 @@ struct LevelView {
 
 /// Throws InputError unless every step is positive and finite, every error >= 0 or not finite, every
 /// floor >= 0, and every step of a level is smaller than all steps of the levels before it. A ladder
-/// given finest first is refused and not turned round: whoever gave it may have meant other errors
-/// with it. A step may stand twice in one level.
+/// given finest first is not reversed: its errors may belong to other steps. A step may stand twice in one level.
 std::vector<LevelView> view(std::span<const ErrorLevel> ladder);
 
 }  // namespace clackers::assess

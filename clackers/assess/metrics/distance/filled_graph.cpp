@@ -116,7 +116,7 @@ Polyline reference_graph(const Comparison& comparison, std::size_t mass) {
   GraphBuilder graph(comparison.collision_period(), jumps, last_true_is_alone(comparison, jumps));
   graph.reserve(t.size());
   for (std::size_t i = 0; i < t.size(); ++i)
-    graph.row(t[i], comparison.true_v()[i * comparison.dof() + mass] / scale);
+    graph.row(t[i], comparison.reference_v()[i * comparison.dof() + mass] / scale);
   return std::move(graph).finish();
 }
 

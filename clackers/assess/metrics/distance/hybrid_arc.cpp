@@ -15,7 +15,8 @@ std::string objection(const Comparison& comparison) {
   if (!comparison.has_velocities()) return "The history has no velocities.";
   for (std::size_t i = 0; i < comparison.dof(); ++i)
     if (!(comparison.u_envelope()[i] > 0.0 && comparison.v_envelope()[i] > 0.0))
-      return fmt::format("The true motion of mass {} has no extent at t = 0 to divide by.", i + 1);
+      return fmt::format("The reference motion of mass {} has no extent at t = 0 to divide by.",
+                         i + 1);
   const auto& t = comparison.history().t;
   const auto& reference = comparison.reference();
   const auto found = static_cast<long long>(comparison.impacts().size());
@@ -51,7 +52,7 @@ HybridArc HybridArc::of_history(const Comparison& comparison) {
 HybridArc HybridArc::of_reference(const Comparison& comparison) {
   const auto& reference = comparison.reference();
   const auto& t = comparison.history().t;
-  HybridArc arc(comparison, comparison.true_u(), comparison.true_v());
+  HybridArc arc(comparison, comparison.reference_u(), comparison.reference_v());
   const auto last = reference.impact_count(std::min(t.back(), reference.end()));
   for (auto k = reference.impact_count(t.front()) + 1; k <= last; ++k) {
     const auto impact = reference.impact(k);

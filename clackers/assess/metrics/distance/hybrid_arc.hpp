@@ -53,7 +53,7 @@ class HybridArc {
 /// history: for every point (t, j) of the one there is an (s, j) of the other, j the same number of
 /// impacts so far, with |t - s| <= epsilon T and each state within epsilon of its scale, and the
 /// other way round. Both end with the history. Lines are joined as in filled_graphs(), and
-/// one_sided_distance() says how close to the smallest one the value is.
+/// the value is as close to the smallest one as one_sided_distance() is.
 ///
 /// Stricter than the filled graph: impacts must come one for one, each a jump. Impacts at slightly
 /// other instants do no harm; those that take two steps, and penalty contacts, which have no jump,

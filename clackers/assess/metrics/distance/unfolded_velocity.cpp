@@ -56,7 +56,7 @@ MetricValue unfolded_velocity_error(const Comparison& comparison) {
       same_sign = !same_sign;
     for (; is_passed(next_true); next_true = true_time(++true_passed)) same_sign = !same_sign;
     for (std::size_t j = 0; j < dof; ++j) {
-      const double found = history.v[i * dof + j], exact = comparison.true_v()[i * dof + j];
+      const double found = history.v[i * dof + j], exact = comparison.reference_v()[i * dof + j];
       errors[j] = std::max(errors[j], std::abs(same_sign ? found - exact : found + exact));
     }
   }

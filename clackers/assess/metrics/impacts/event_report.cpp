@@ -16,7 +16,7 @@ std::vector<double> distance(const std::vector<double>& found, const Eigen::Vect
 }
 
 MetricValue none_matched(const EventReport& report) {
-  if (report.expected == 0) return not_measured("The true motion has no collision by then.");
+  if (report.expected == 0) return not_measured("The reference has no collision by then.");
   return not_measured("No collision of the history belongs to a true one.");
 }
 

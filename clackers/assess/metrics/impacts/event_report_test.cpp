@@ -19,7 +19,7 @@ const auto problem = toy_problem(12.0);
 model::Trajectory history(std::vector<model::Impact> reports) {
   std::vector<double> times;
   for (int i = 0; i <= 150; ++i) times.push_back(0.08 * i);
-  auto rows = true_history(reference, times);
+  auto rows = history_of(reference, times);
   rows.impacts = std::move(reports);
   return rows;
 }
@@ -94,9 +94,9 @@ TEST(EventReport, SaysWhyThereIsNothingToCompare) {
   EXPECT_NE(velocity_before_error(nothing_known).reason.find("before"), std::string::npos);
   EXPECT_NE(velocity_after_error(nothing_known).reason.find("after"), std::string::npos);
   EXPECT_NE(impulse_error(nothing_known).reason.find("impulse"), std::string::npos);
-  auto early = true_history(reference, {0.0, 0.1, 1.0});
+  auto early = history_of(reference, {0.0, 0.1, 1.0});
   EXPECT_EQ(impact_time_error({early, reference, problem}).reason,
-            "The true motion has no collision by then.");
+            "The reference has no collision by then.");
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ const auto problem = toy_problem(12.0);
 // impact, 5 and 6 in the flight after it, two at the next, 9 behind.
 model::Trajectory late() {
   auto history =
-      true_history(reference, {0.0, 1.0, pi / 2, pi / 2, 2.0, 4.0, 3 * pi / 2, 3 * pi / 2, 6.0});
+      history_of(reference, {0.0, 1.0, pi / 2, pi / 2, 2.0, 4.0, 3 * pi / 2, 3 * pi / 2, 6.0});
   for (std::size_t i = 2; i < history.t.size(); ++i) history.t[i] += 0.1;
   history.impacts = {{history.t[2], 0, {}, {}, {}, nan}, {history.t[6], 0, {}, {}, {}, nan}};
   return history;
@@ -78,7 +78,7 @@ TEST(FlightError, LeavesOutRowsInWhichAContactIsClosed) {
 }
 
 TEST(FlightError, LeavesOutARowAloneAtACollision) {
-  auto history = true_history(reference, {0.0, 1.0, pi / 2, 2.0, 4.0});
+  auto history = history_of(reference, {0.0, 1.0, pi / 2, 2.0, 4.0});
   history.v[4] = 3.0;
   history.impacts = {{history.t[2], 0, {}, {}, {}, nan}};
   EXPECT_LE(flight_v_error({history, reference, problem}).value, 1e-14);
@@ -113,7 +113,7 @@ TEST(FlightError, NeedsVelocitiesForThoseAlone) {
 }
 
 TEST(FlightError, OfAHistoryThatStartsLateBelongsToTheFlightItStartsIn) {
-  const auto history = true_history(reference, {2.0, 3.0, 4.0});
+  const auto history = history_of(reference, {2.0, 3.0, 4.0});
   const auto flights = flight_errors({history, reference, problem});
   ASSERT_EQ(flights.size(), 1u);
   EXPECT_EQ(flights[0].after, 1);
@@ -122,7 +122,7 @@ TEST(FlightError, OfAHistoryThatStartsLateBelongsToTheFlightItStartsIn) {
 }
 
 TEST(FlightError, TakesAFirstRowAtAnImpactForTheStartOfAFlight) {
-  auto history = true_history(reference, {pi / 2, 3.0});
+  auto history = history_of(reference, {pi / 2, 3.0});
   history.v[0] += 0.25;
   const auto flights = flight_errors({history, reference, problem});
   ASSERT_EQ(flights.size(), 1u);

@@ -45,7 +45,8 @@ std::vector<Crossing> crossings(const Comparison& comparison, std::size_t mass,
 PhaseMarks crossing_marks(const Comparison& comparison, std::size_t mass) {
   const auto& history = comparison.history();
   const auto found = crossings(comparison, mass, history.u, history.v);
-  const auto reference = crossings(comparison, mass, comparison.true_u(), comparison.true_v());
+  const auto reference =
+      crossings(comparison, mass, comparison.reference_u(), comparison.reference_v());
   PhaseMarks marks{.index = {},
                    .found = {},
                    .reference = {},
