@@ -19,7 +19,10 @@ using numerics::Scaled;
 
 namespace {
 
-double rounded(const DoubleDouble& x, int exponent) { return numerics::scale(x.hi, exponent); }
+// Never -0, which would be printed as such.
+double rounded(const DoubleDouble& x, int exponent) {
+  return numerics::scale(x.hi, exponent) + 0.0;
+}
 
 // E of flight k at time t as a number of any size. Below 2^-4000 every product with a constant
 // (all below 1e300) is nearer to 0 than to the smallest subnormal.
