@@ -277,11 +277,12 @@ TEST(ClassSensitivity, KeepsItsDigitsWhereTheMotionItselfUnderflows) {
   near(by_A.u[0] / 2.6049951e-261, 1.0);
   EXPECT_NEAR(by_A.u[1] / 8.595e-263, 1.0, 1e-3);
   // The same ratio as at full size, where nothing underflows.
-  const auto whole = SynchronizedPair({.t_end = 12001.0}).at(12000.0, Side::right);
+  const SynchronizedPair usual({.t_end = 12001.0});
+  const auto whole = usual.at(12000.0, Side::right);
   near(by_A.u[1] / by_A.u[0], whole.u[1] / whole.u[0]);
   const SynchronizedPair light({.m1 = 1e-50, .k1 = 1e-50, .A = 1e-60, .t_end = 12001.0});
   const auto by_k1 = class_sensitivity(light, "k1")->at(12000.0, Side::right);
-  const auto full = class_sensitivity(SynchronizedPair({.t_end = 12001.0}), "k1");
+  const auto full = class_sensitivity(usual, "k1");
   near(by_k1.v[1] * 1e10, full->at(12000.0, Side::right).v[1]);
   const SynchronizedPair plastic({.xi1 = 0.0, .eta = 1e-100});
   near(class_sensitivity(plastic, "eta")->at(11.0, Side::right).v[0], 3.99996e-300);
