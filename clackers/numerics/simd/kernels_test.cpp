@@ -14,8 +14,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "clackers/numerics/simd/half_turns-inl.hpp"
 #include "clackers/numerics/simd/exp2-inl.hpp"
+#include "clackers/numerics/simd/half_turns-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace clackers::numerics::simd::HWY_NAMESPACE {

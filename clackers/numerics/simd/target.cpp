@@ -1,14 +1,7 @@
 #include "clackers/numerics/simd/target.hpp"
 
-#include "clackers/numerics/simd/wanted.hpp"
-
-#include <fmt/format.h>
 #include <hwy/highway.h>
 #include <hwy/targets.h>
-
-#include <algorithm>
-
-#include "clackers/base/error.hpp"
 
 namespace clackers::numerics::simd {
 
@@ -26,22 +19,6 @@ std::vector<Target> available_targets() {
   std::vector<Target> targets;
   for (const auto bit : hwy::SupportedAndGeneratedTargets()) targets.push_back({bit});
   return targets;
-}
-
-ForcedTarget::ForcedTarget(Target target) {
-  const auto all = available_targets();
-  if (std::find(all.begin(), all.end(), target) == all.end())
-    throw InputError(
-        fmt::format("simd: target {} was asked for; allowed: those of this processor, {} the best.",
-                    target.name(), all.front().name()),
-        "out-of-range");
-  hwy::SetSupportedTargetsForTest(target.bit);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
-ForcedTarget::~ForcedTarget() {
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 }  // namespace clackers::numerics::simd

@@ -1,5 +1,9 @@
 #pragma once
 
+// Sources of kernels include this before Highway, so that all agree on the targets: processors with
+// SSSE3 and not SSE4 are served by the path without vectors.
+#define HWY_DISABLED_TARGETS HWY_SSSE3
+
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -22,15 +26,5 @@ struct Target {
 
 /// Those that were compiled and that this processor can run, the fastest first.
 std::vector<Target> available_targets();
-
-/// While it lives all kernels of the process run on `target`, which must be available. For tests
-/// and benchmarks: not safe beside threads that run kernels.
-class ForcedTarget {
- public:
-  explicit ForcedTarget(Target target);
-  ~ForcedTarget();
-  ForcedTarget(const ForcedTarget&) = delete;
-  ForcedTarget& operator=(const ForcedTarget&) = delete;
-};
 
 }  // namespace clackers::numerics::simd
