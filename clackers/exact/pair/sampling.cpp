@@ -1,7 +1,5 @@
 #include "clackers/exact/pair/sampling.hpp"
 
-#include "clackers/numerics/simd/target.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "clackers/exact/pair/sampling.cpp"
 #include <hwy/foreach_target.h>
