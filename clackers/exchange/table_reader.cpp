@@ -27,6 +27,7 @@ std::vector<std::string> plain_names(const Separation& separation, std::string_v
   std::vector<std::string_view> fields;
   separation.split(line, fields);
   std::vector<std::string> names;
+  names.reserve(fields.size());
   for (const auto field : fields) names.push_back(plain_name(field));
   return names;
 }
