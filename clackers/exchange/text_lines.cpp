@@ -94,7 +94,10 @@ bool TextLines::next() {
     if (!fill()) break;
   }
   const char* const begin = bytes_.data() + at_;
-  if (end == nullptr && at_ == have_) return false;
+  if (end == nullptr && at_ == have_) {
+    --number_;
+    return false;
+  }
   const auto length = end != nullptr
                           ? static_cast<std::size_t>(static_cast<const char*>(end) - begin)
                           : have_ - at_;

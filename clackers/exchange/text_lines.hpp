@@ -33,6 +33,7 @@ class TextLines {
   std::string_view text() const { return text_; }
   /// What follows the # or % of a line, empty without one; valid as long as text().
   std::string_view comment() const { return comment_; }
+  /// Of the present line, from 1; after the last line still that.
   long long number() const { return number_; }
   /// "FILE line 3", of the present line.
   std::string place() const;
