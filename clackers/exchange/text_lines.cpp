@@ -95,8 +95,11 @@ bool TextLines::next() {
     looked = have_ - at_;
     if (length != std::string_view::npos || looked > longest_line || !fill()) break;
   }
+  if (length == std::string_view::npos && at_ == have_) {
+    --number_;
+    return false;
+  }
   without_line_end_ = length == std::string_view::npos;
-  if (without_line_end_ && at_ == have_) return false;
   length = std::min(length, have_ - at_);
   if (length > longest_line)
     refuse_bytes(place(), fmt::format("is longer than {} bytes", longest_line),

@@ -31,15 +31,16 @@ class TextLines {
   std::string_view text() const { return text_; }
   /// What follows the # or % of a line, empty without one; valid as long as text().
   std::string_view comment() const { return comment_; }
+  /// Of the present line, from 1; after the last line still that.
   long long number() const { return number_; }
-  /// The present line is the last and has no line end: the file may have been cut there.
-  bool without_line_end() const { return without_line_end_; }
   /// "FILE line 3", of the present line.
   std::string place() const;
   /// The path, or "standard input".
   const std::string& name() const { return file_.name(); }
   /// Bytes of the file, 0 when it is no regular file.
   long long file_size() const { return file_.size(); }
+  /// The present line is the last and has no line end: the file may have been cut there.
+  bool ends_without_line_feed() const { return without_line_end_; }
   /// Bytes of the lines so far.
   long long consumed() const { return consumed_; }
 

@@ -7,6 +7,7 @@
 
 #include "clackers/base/suggest.hpp"
 #include "clackers/paper/table.hpp"
+#include "clackers/report/columns.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/listing.hpp"
 #include "cli/command.hpp"
@@ -24,11 +25,12 @@ struct Options {
 // Together these name everything; the other kinds repeat a part of it.
 constexpr auto shown_together = {"cases", "methods", "metrics"};
 
-// Figures lie in a module above the one that lists the rest.
+// Columns and figures are in modules above the one that lists the rest.
 study::Sheet list(const std::string& kind) {
+  if (kind == "columns") return report::list_columns();
   if (kind == "figures") return paper::list_figures();
   auto kinds = study::list_kinds();
-  kinds.emplace_back("figures");
+  kinds.insert(kinds.end(), {"columns", "figures"});
   if (std::ranges::find(kinds, kind) == kinds.end())
     refuse_name("list", kind, kinds, fmt::format("{}", fmt::join(kinds, ", ")));
   return study::list(kind);
@@ -59,12 +61,14 @@ void add_list(Grammar& root) {
       {.examples = "  clackers list cases\n"
                    "  clackers list pairs --format csv\n",
        .about = "Lists what there is, one line each.",
-       .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|figures]\n"});
+       .usage =
+           "  clackers list [cases|integrators|contacts|methods|pairs|metrics|columns|figures]\n"});
   app->add_option(
       "KIND", options->kind,
       "cases, methods (integrators, contact treatments, methods that stand alone, and which are "
       "the default panel), integrators, contacts, pairs (every integrator with every contact "
-      "treatment that takes it, and what they claim), metrics or figures (of clackers paper). "
+      "treatment that takes it, and what they claim), metrics, columns (of csv and json) or figures "
+      "(of clackers paper). "
       "Without it cases, methods and metrics.");
   add_common_options(*app, options->common);
   app->run = [options](const std::string&) { return run(*options); };

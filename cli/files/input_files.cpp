@@ -6,7 +6,7 @@
 #include "clackers/exchange/input_file.hpp"
 #include "clackers/exchange/separation.hpp"
 #include "clackers/exchange/text_lines.hpp"
-#include "clackers/study/verify.hpp"
+#include "clackers/study/record_json.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/values.hpp"
 
@@ -31,25 +31,22 @@ std::vector<double> read_times(const std::string& path, double end) {
 }
 
 study::Record read_baseline(const std::string& path) {
-  // A record takes some 100 kB a method on the default steps (720 kB for the default panel). A file
-  // that is much longer is no record and must not fill the memory.
-  constexpr std::size_t longest_record = 20'000'000;
   exchange::InputFile file(path, &interrupt_flag());
   std::string text;
   std::size_t size = 0, count = 0;
   do {
     size += count;
-    if (size > longest_record)
+    if (size > study::longest_record)
       throw InputError(fmt::format("baseline {}: is longer than {} bytes; allowed: json as written "
-                                   "by clackers verify --format json.",
-                                   path, longest_record),
+                                   "by clackers verify or check with --format json.",
+                                   path, study::longest_record),
                        "not-a-record");
     text.resize(size + (1 << 16));
     count = file.read(text.data() + size, text.size() - size);
   } while (count > 0);
   text.resize(size);
   try {
-    return study::record_from_json(text);
+    return study::record_from_json(text, &interrupt_flag());
   } catch (const InputError& error) {
     throw InputError(fmt::format("baseline {}: {}", path, error.what()), error.code());
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,5 +45,13 @@ struct Level {
 
 /// Levels of one method, coarsest first.
 using Ladder = std::vector<Level>;
+
+/// The worst run of a level, the one rule for all tables, figures and fits. Over the runs that
+/// finished: the largest of each error, each floor, each count of work and the time, the energy
+/// ratio farthest from 1 in either direction, and the impacts with the most missed and extra ones,
+/// with the largest of their time errors. An error that is not a number counts as largest. A failed
+/// run counts nowhere; where all failed, errors, energy ratio, floor and time are NaN, the work is
+/// that of no run, and the failure is the first run's. The step is the first run's.
+RunScore worst(std::span<const RunScore> runs);
 
 }  // namespace clackers::assess
