@@ -46,7 +46,10 @@ bool has_inner_blank(std::string_view field) {
 
 TableReader::TableReader(const std::string& path, const std::vector<std::string>& names,
                          TableKind kind, const std::atomic<bool>* interrupt)
-    : path_(path), kind_(kind), lines_(path, interrupt), separation_(Separation::of("")) {
+    : path_(shown_name(path)),
+      kind_(kind),
+      lines_(path, interrupt),
+      separation_(Separation::of("")) {
   std::optional<std::string> header;
   row_is_waiting_ = next_content();
   if (row_is_waiting_ && !has_a_number(lines_.text())) {

@@ -42,6 +42,7 @@ class TableReader {
 
   std::string place() const { return lines_.place(); }
   long long line() const { return lines_.number(); }
+  /// As messages call it.
   const std::string& path() const { return path_; }
   const TextLines& lines() const { return lines_; }
 

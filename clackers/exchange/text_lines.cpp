@@ -23,9 +23,13 @@ static_assert(block >= longest_line);
 
 }  // namespace
 
+std::string shown_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+
 TextLines::TextLines(const std::string& path, const std::atomic<bool>* interrupt)
-    : path_(path), interrupt_(interrupt), bytes_(block + longest_line) {
-  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    : path_(shown_name(path)), interrupt_(interrupt), bytes_(block + longest_line) {
+  // A copy of standard input, so that closing it at the end is right in both cases.
+  descriptor_ = path == "-" ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3)
+                            : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) fail(path_, errno);
   struct stat facts {};
   if (::fstat(descriptor_, &facts) != 0 || S_ISDIR(facts.st_mode)) {
@@ -98,6 +102,7 @@ bool TextLines::next() {
     throw InputError(
         fmt::format("{} is longer than {} bytes; allowed: one time a line.", place(), longest_line),
         "not-text");
+  unended_ = end == nullptr && length > 0;
   at_ += length + (end != nullptr);
   consumed_ += static_cast<long long>(length) + 1;
   text_ = {begin, length};

@@ -12,7 +12,10 @@ namespace clackers::exchange {
 /// memory.
 inline constexpr std::size_t longest_line = std::size_t{1} << 16;
 
-/// The lines of a text file, read a block at a time: without their ends (LF, CRLF or none at the
+/// What messages call a path: "standard input" for "-".
+std::string shown_name(const std::string& path);
+
+/// The lines of a text file, of standard input for the path "-", read a block at a time: without their ends (LF, CRLF or none at the
 /// end of the file), without a byte order mark, and without what follows # or %.
 class TextLines {
  public:
@@ -35,6 +38,8 @@ class TextLines {
   std::string place() const;
   /// Bytes of the file, 0 when it is no regular file.
   long long file_size() const { return size_; }
+  /// The last line had text and no line feed, so that it may be cut. Known after the last line.
+  bool ends_without_line_feed() const { return unended_; }
   /// Bytes of the lines so far.
   long long consumed() const { return consumed_; }
 
@@ -48,7 +53,7 @@ class TextLines {
   long long size_ = 0, consumed_ = 0, number_ = 0;
   std::vector<char> bytes_;
   std::size_t at_ = 0, have_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, unended_ = false;
   std::string_view text_, comment_;
 };
 

@@ -4,8 +4,8 @@
 #include <ostream>
 
 #include "clackers/report/format.hpp"
-#include "clackers/report/layout.hpp"
 #include "clackers/report/rows.hpp"
+#include "clackers/report/text/table.hpp"
 
 namespace clackers::report {
 namespace {
@@ -104,7 +104,7 @@ void write_table(study::RowSource& rows, std::ostream& out, const Style& style) 
   const auto width = std::size_t(std::max(style.width, 1));
   if (!rows.title().empty())
     for (const auto& line : wrap(rows.title(), width))
-      out << painted(line, Paint::bold, style) << '\n';
+      out << colored(line, TextColor::bold, style) << '\n';
 
   const auto& columns = rows.columns();
   std::vector<Row> first;

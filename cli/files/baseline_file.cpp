@@ -8,17 +8,13 @@
 #include <cerrno>
 
 #include "clackers/base/error.hpp"
-#include "clackers/study/verify.hpp"
+#include "clackers/study/record_json.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/system_error.hpp"
 
 namespace clackers::cli {
 namespace {
-
-// A record takes some 100 kB a method on the default ladder (720 kB for the default panel). What is
-// two thousand times longer is another file (/dev/zero), which must not fill the memory.
-constexpr std::size_t longest_record = 200'000'000;
 
 std::string read_all(const std::string& path) {
   // A copy of standard input, so that closing it at the end is right in both cases.
@@ -35,10 +31,10 @@ std::string read_all(const std::string& path) {
     if (count < 0) fail_to_read(path, errno);
     if (count == 0) return text;
     text.append(bytes.data(), static_cast<std::size_t>(count));
-    if (text.size() > longest_record)
+    if (text.size() > study::longest_record)
       throw InputError(fmt::format("baseline {}: is longer than {} bytes; allowed: json as written "
-                                   "by clackers verify --format json.",
-                                   path, longest_record),
+                                   "by clackers verify or check with --format json.",
+                                   path, study::longest_record),
                        "not-a-record");
   }
 }
@@ -48,7 +44,7 @@ std::string read_all(const std::string& path) {
 study::Record read_baseline(const std::string& path) {
   const auto text = read_all(path);
   try {
-    return study::record_from_json(text);
+    return study::record_from_json(text, &interrupt_flag());
   } catch (const InputError& error) {
     throw InputError(fmt::format("baseline {}: {}", path, error.what()), error.code());
   }

@@ -6,7 +6,7 @@
 
 namespace clackers::cli {
 
-/// The record of an earlier `verify --format json`; "-" reads standard input. Throws FileError when the file cannot be read,
+/// The record of an earlier `--format json`; "-" reads standard input. Throws FileError when the file cannot be read,
 /// InputError with its name and the place when it is no such record; Interrupted.
 study::Record read_baseline(const std::string& path);
 

@@ -25,7 +25,6 @@ struct VerdictSequence {
   Verdict verdict = Verdict::undecided;
   std::string_view reason = {};              ///< code, empty for none
   double order = 0.0, within = 0.0;          ///< of the line; within 0: there is no line
-  std::string_view said = {};                ///< part of the sentence
   double contact_time = 0.0;                 ///< of a compliant contact [s]
   std::function<void(Ladder&)> change = {};  ///< what else is wrong with the runs
 };
