@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/assess/metrics/collision_period.hpp"
-#include "clackers/assess/metrics/value.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
@@ -66,7 +65,7 @@ SynchronyLoss synchrony_loss(const Comparison& comparison) {
   const auto& t = comparison.history().t;
   const auto first = reference.impact_count(t.front());
   const auto known = reference.impact_count(reference.end());
-  SynchronyWatch watch(collision_period(reference), t.front());
+  SynchronyWatch watch(comparison.collision_period(), t.front());
   for (std::size_t k = 0; k < comparison.impacts().size(); ++k) {
     const auto index = first + static_cast<long long>(k) + 1;
     if (index > known) break;

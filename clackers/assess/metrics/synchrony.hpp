@@ -47,7 +47,7 @@ class SynchronyWatch {
 double relative_momentum(const model::SmoothSystem<>& system, std::span<const double> v);
 
 /// The loss of the history's collisions against the true ones, number by number, T as in
-/// collision_period(). Stops at the shorter list.
+/// Comparison::collision_period(). Stops at the shorter list.
 SynchronyLoss synchrony_loss(const Comparison& comparison);
 
 /// What is known of a pair, and of a method on it, for the part that detuning explains.
