@@ -61,7 +61,8 @@ void add_list(Grammar& root) {
       {.examples = "  clackers list cases\n"
                    "  clackers list pairs --format csv\n",
        .about = "Lists what there is, one line each.",
-       .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|columns|figures]\n"});
+       .usage =
+           "  clackers list [cases|integrators|contacts|methods|pairs|metrics|columns|figures]\n"});
   app->add_option(
       "KIND", options->kind,
       "cases, methods (integrators, contact treatments, methods that stand alone, and which are "
