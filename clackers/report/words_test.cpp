@@ -133,7 +133,7 @@ TEST(NoteTexts, OneForEachCode) {
   auto subject = sample_check().cases[0].subjects[0];
   const auto texts = note_texts(subject);
   ASSERT_EQ(texts.size(), 2u);
-  EXPECT_TRUE(has(texts[0], "with other numbers, of 1 other history")) << texts[0];
+  EXPECT_TRUE(has(texts[0], "Also in 1 other history, with other numbers.")) << texts[0];
   EXPECT_TRUE(texts[1].starts_with("coarse.csv: The first row is at 0.02 s")) << texts[1];
   subject.levels[0].runs[0].file->notes[0] = subject.levels[1].runs[0].file->notes[0];
   EXPECT_FALSE(has(note_texts(subject)[0], "other history"));
