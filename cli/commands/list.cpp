@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -13,7 +12,6 @@
 #include "clackers/study/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/options.hpp"
 
 namespace clackers::cli {
@@ -55,15 +53,16 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_list(CLI::App& root) {
+void add_list(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("list");
+  auto* app = root.add_subcommand("list", "[KIND]", "what there is: cases, methods, metrics");
   set_help(
       *app,
       {.examples = "  clackers list cases\n"
                    "  clackers list pairs --format csv\n",
        .about = "Lists what there is, one line each.",
-       .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|columns|figures]\n"});
+       .usage =
+           "  clackers list [cases|integrators|contacts|methods|pairs|metrics|columns|figures]\n"});
   app->add_option(
       "KIND", options->kind,
       "cases, methods (integrators, contact treatments, methods that stand alone, and which are "
@@ -72,7 +71,7 @@ Command add_list(CLI::App& root) {
       "(of clackers paper). "
       "Without it cases, methods and metrics.");
   add_common_options(*app, options->common);
-  return {app, [options](const std::string&) { return run(*options); }};
+  app->run = [options](const std::string&) { return run(*options); };
 }
 
 }  // namespace clackers::cli
