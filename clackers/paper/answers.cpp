@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "clackers/cases/admissibility.hpp"
+#include "clackers/cases/case.hpp"
 #include "clackers/exact/quantities/indicators.hpp"
 
 namespace clackers::paper {

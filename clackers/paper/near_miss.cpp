@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "clackers/cases/admissibility.hpp"
+#include "clackers/cases/case.hpp"
 #include "clackers/paper/catalogue.hpp"
 #include "clackers/paper/curves.hpp"
 #include "clackers/paper/free_flight.hpp"
