@@ -80,7 +80,7 @@ DetuningPart explained_by_detuning(const SynchronyLoss& loss, const DetuningFact
   if (!(size > 0.0 && size < 1.0)) refuse("detuning", "eps", facts.eps, "0 < |eps| < 1");
   if (!(facts.eta > 0.0 && facts.eta <= 1.0)) refuse("detuning", "eta", facts.eta, "0 < eta <= 1");
   DetuningPart part;
-  part.growth = facts.eta < 1.0 ? -std::log(facts.eta) : facts.rate * size;
+  part.growth = facts.rate * size - std::log(facts.eta);
   part.collision =
       size >= lost_synchrony ? 0.0 : std::ceil(std::log(lost_synchrony / size) / part.growth);
   part.share = part.growth / loss.growth;

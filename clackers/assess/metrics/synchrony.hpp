@@ -60,7 +60,7 @@ struct DetuningFacts {
 
 /// The part of a loss of synchrony that a method's own frequencies explain.
 struct DetuningPart {
-  double growth = 0.0;  ///< predicted, per collision: rate |eps|, or ln(1/eta) where eta < 1
+  double growth = 0.0;  ///< predicted, per collision: rate |eps| + ln(1/eta)
   /// Predicted loss: ln(0.1/|eps|)/growth rounded up, as exact::collisions_until_detuning;
   /// infinite where nothing grows, 0 for |eps| >= 0.1.
   double collision = 0.0;

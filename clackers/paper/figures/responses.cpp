@@ -26,12 +26,12 @@ Claim integrated(const std::string& says, const std::string& name,
                  const cases::Settings& settings) {
   study::VerifyRequest request;
   request.methods = {"rk4"};
-  request.case_name = name;
+  request.cases = {name};
   request.settings = settings;
-  request.plan = {.coarsest = step, .levels = 1, .neighbours = 1};
+  request.plan = {.coarsest = step, .levels = 1, .samples_per_level = 1};
   request.jobs = 1;
-  const auto record = study::verify(request);
-  const auto& score = record.methods.at(0).ladder.at(0).runs.at(0);
+  const auto record = study::verify(request).cases.at(0);
+  const auto score = study::worst_of_finest(record.subjects.at(0)).worst;
   const long long expected = record.problem.impact_count;
   const long long found = score.impacts ? score.impacts->found : 0;
   auto measured = fmt::format("rk4 with located impacts, step {} s: largest error {}", step,

@@ -33,25 +33,23 @@ const std::vector<Method>& methods_shown() {
 // every N.
 study::Record study_of(int N, const std::atomic<bool>* interrupt) {
   study::VerifyRequest request;
-  for (const auto& one : methods_shown()) request.methods.push_back(one.name);
-  request.case_name = "three-parameter";
+  for (const auto& method : methods_shown()) request.methods.push_back(method.name);
+  request.cases = {"three-parameter"};
   request.settings = {{"N", double(N)}};
-  const auto test_case = cases::make(request.case_name, request.settings);
+  const auto periods = cases::make(request.cases[0], request.settings).damped_periods;
   request.plan = {
-      .coarsest = std::ranges::min(test_case.damped_periods) / 16.0, .levels = 7, .neighbours = 2};
+      .coarsest = std::ranges::min(periods) / 16.0, .levels = 7, .samples_per_level = 2};
   return study::verify(request, {}, interrupt);
 }
 
 // The largest error of each level; a level with a run that failed has none.
-Series errors_of(const study::MethodResult& method, const Method& look) {
+Series errors_of(const study::Subject& subject, const Method& look) {
   Series out{look.name, {}, {}, look.stroke};
-  for (const auto& level : method.ladder) {
-    double worst = 0.0;
-    for (const auto& run : level.runs)
-      worst = std::max(worst, run.finished ? run.u_error : INFINITY);
-    if (!(worst > 0.0 && std::isfinite(worst))) continue;
+  for (const auto& level : subject.levels) {
+    const auto score = study::worst(level);
+    if (score.failed > 0 || !(score.worst.u_error > 0.0)) continue;
     out.x.push_back(level.step);
-    out.y.push_back(worst);
+    out.y.push_back(score.worst.u_error);
   }
   return out;
 }
@@ -74,13 +72,13 @@ Figure convergence(std::span<const int> Ns, const std::atomic<bool>* interrupt) 
   for (std::size_t i = 0; i < Ns.size(); ++i) {
     const auto record = study_of(Ns[i], interrupt);
     if (record.interrupted) break;
-    const double coarsest = record.plan.coarsest;
-    const double finest = std::ldexp(coarsest, 1 - record.plan.levels);
+    const auto& plan = record.cases.at(0).plan;
+    const double finest = std::ldexp(plan.coarsest, 1 - plan.levels);
     Panel panel{letters[i],
                 fmt::format("N = {}", Ns[i]),
                 {.title = "step h [s]",
                  .lowest = finest / 1.3,
-                 .highest = coarsest * 1.3,
+                 .highest = plan.coarsest * 1.3,
                  .logarithmic = true},
                 {.title = "error in u", .lowest = 1e-11, .highest = 10.0, .logarithmic = true},
                 {}};
@@ -88,8 +86,9 @@ Figure convergence(std::span<const int> Ns, const std::atomic<bool>* interrupt) 
         fmt::format("Section 2.3: numerical solutions of Eq. (25) converge to Eq. (26), N = {}.",
                     Ns[i]),
         fmt::format("Errors at the finest step, {:.2g} s:", finest), true};
-    for (std::size_t m = 0; m < record.methods.size(); ++m) {
-      const auto line = errors_of(record.methods[m], methods_shown()[m]);
+    const auto& subjects = record.cases[0].subjects;
+    for (std::size_t m = 0; m < subjects.size(); ++m) {
+      const auto line = errors_of(subjects[m], methods_shown()[m]);
       const bool reached = !line.x.empty() && line.x.back() < 1.01 * finest;
       claim.holds = claim.holds && reached && converges(line);
       claim.measured += fmt::format("{} {} {}", m == 0 ? "" : ",", line.name,
