@@ -99,7 +99,7 @@ assess::RunScore history_score(const assess::Comparison& comparison, const std::
   assess::RunScore score;
   score.step = step;
   score.finished = true;
-  score.rounding_floor = std::numeric_limits<double>::epsilon() * double(comparison.rows());
+  score.rounding_floor = comparison.rounding_floor();
   score.v_error = score.energy_error = score.energy_ratio = unknown;
   measure_u(comparison, has_u, score);
   if (!comparison.has_velocities()) return score;

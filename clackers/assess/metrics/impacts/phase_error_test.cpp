@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/assess/testing/toy_history.hpp"
+#include "clackers/assess/testing/toy_motion.hpp"
 #include "clackers/exact/pair/single_mass.hpp"
 
 namespace clackers::assess {
