@@ -1,7 +1,7 @@
 #include "clackers/cases/admissibility.hpp"
 
 #include "clackers/exact/pair/admissibility.hpp"
-#include "clackers/exact/pair/parameter_ranges.hpp"
+#include "clackers/exact/pair/parameters.hpp"
 
 namespace clackers::cases {
 

@@ -5,9 +5,7 @@
 
 #include "clackers/cases/constants.hpp"
 #include "clackers/cases/parameters.hpp"
-#include "clackers/exact/pair/exact_data_pair.hpp"
-#include "clackers/exact/pair/single_mass.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::cases {
 namespace {
@@ -27,7 +25,7 @@ void build_single(Case& which, double xi1) {
 template <class Pair>
 void build_pair(Case& which, std::shared_ptr<const Pair> pair, double threshold) {
   const auto& c = pair->constants();
-  const double r = pair->parameters().r;
+  const double r = c.r;
   use(which, pair);
   which.damped_periods = {2.0 * std::numbers::pi / c.omega_D1, 2.0 * std::numbers::pi / c.omega_D2};
   which.constants = pair_constants(which, c, r);

@@ -68,7 +68,7 @@ double rule_bound(double amplitude, double w, double omega) {
 
 Compared compare(int N, std::string label) {
   const auto which = cases::make("one-parameter", {{"N", double(N)}});
-  const exact::Spectrum spectrum(dynamic_cast<const exact::ClosedForm&>(*which.motion));
+  const exact::Spectrum spectrum(*exact::as_closed_form(*which.motion));
   Compared out;
   out.N = N;
   out.time = response_panel(which, Quantity::displacement, std::move(label),

@@ -47,7 +47,7 @@ std::string refusal(Call call) {
 }
 
 const exact::ClosedForm& motion_of(const cases::Case& which) {
-  return dynamic_cast<const exact::ClosedForm&>(*which.motion);
+  return *exact::as_closed_form(*which.motion);
 }
 
 TEST(EnergyRows, AreTheSplitAtEveryTimeAndOnBothSidesOfACollision) {

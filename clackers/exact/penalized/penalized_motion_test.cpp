@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::exact {
 namespace {

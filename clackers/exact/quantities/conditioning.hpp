@@ -1,6 +1,6 @@
 #pragma once
 
-#include "clackers/exact/pair/frequency_ratio.hpp"
+#include "clackers/exact/pair/parameters.hpp"
 
 namespace clackers::exact {
 

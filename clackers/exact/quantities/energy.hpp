@@ -42,7 +42,7 @@ class EnergyAccount {
     double mass, stiffness, frequency, multiple, start;  ///< frequency: damped
   };
   double dissipated_in_first_flight(const Body& body, double t,
-                                    const numerics::DoubleDouble& half_turns) const;
+                                    const numerics::DoubleDouble& theta_over_pi) const;
   double sum_over_collisions(double count) const;
 
   const ClosedForm& motion_;

@@ -6,7 +6,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
-#include "clackers/exact/pair/frequency_ratio.hpp"
+#include "clackers/exact/pair/parameters.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/numerics/exp2.hpp"
 #include "clackers/numerics/sincospi.hpp"
@@ -95,7 +95,7 @@ class RawSensitivity : public Sensitivity {
   }
 
   Kinematics at(double t, Side side) const override {
-    const auto [flight, half_turns] = motion_.phase(t, side);
+    const auto [flight, theta_over_pi] = motion_.phase(t, side);
     const auto& c = motion_.flight();
     const auto size = static_cast<Eigen::Index>(n_);
     const auto state = motion_.at(t, side);
@@ -103,7 +103,7 @@ class RawSensitivity : public Sensitivity {
                  Eigen::VectorXd::Zero(size)};
     // What is left of the flight's start, and the angle since.
     const bool first = flight == 0.0;
-    const auto part = first ? half_turns : half_turns + DoubleDouble{0.5, 0.0};
+    const auto part = first ? theta_over_pi : theta_over_pi + DoubleDouble{0.5, 0.0};
     const double e = power(first ? -(c.decay * t) : -(c.period_decay * part));
     const auto z = first ? std::array<Deviation, 2>{} : both(after(flight));
     const double a = first ? 0.0

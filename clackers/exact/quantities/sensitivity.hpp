@@ -28,7 +28,7 @@ class Sensitivity {
 std::vector<std::string> raw_parameters(const ClosedForm& motion);
 
 /// The free parameters of the motion's class that the motion depends on smoothly, all that follows
-/// from them (m2, k2, c1, u2(0), ...) following. None for a ClosedForm of no known class.
+/// from them (m2, k2, c1, u2(0), ...) following.
 std::vector<std::string> class_parameters(const ClosedForm& motion);
 
 /// The derivative with respect to a raw parameter, through the impacts: the times of the collisions
