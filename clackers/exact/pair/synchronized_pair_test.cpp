@@ -220,7 +220,7 @@ TEST(ExactDataPair, GivesAMethodTheTrueSystem) {
     EXPECT_EQ(problem.end, p.t_end);
     EXPECT_EQ(problem.contacts.at(0).restitution, p.eta);
     EXPECT_EQ(pair.constants().omega_D1, p.Omega);
-    EXPECT_EQ(std::get<PairParameters>(pair.parameters()).X, p.X);
+    EXPECT_EQ(std::get<ExactDataParameters>(pair.parameters()).X, p.X);
   }
 }
 

@@ -23,8 +23,8 @@ struct Deviation {
   double u = 0.0, v = 0.0;
 };
 
-// Of both masses, as the common part C that an impact keeps and the relative one R that it turns
-// about: x1 = C + R/(1 + r), x2 = C - r R/(1 + r). A stop is a mass 2 of endless mass: r = 0.
+// Of both masses, as the common part C that an impact keeps and the relative one R whose sign it
+// reverses: x1 = C + R/(1 + r), x2 = C - r R/(1 + r). A stop is a second mass of infinite mass: r = 0.
 struct Split {
   Deviation C, R;
 };
@@ -194,8 +194,8 @@ class RawSensitivity : public Sensitivity {
     log_q_ = std::log(2.0) * (c.log2_eta - c.period_decay).hi;
   }
 
-  // Just after collision `flight`: every flight turns all about and adds to it, every impact turns
-  // R about once more; n flights later the sums are geometric.
+  // Just after collision `flight`: every flight reverses all signs and adds to it, every impact reverses
+  // R once more; n flights later the sums are geometric.
   Split after(double flight) const {
     const auto& c = motion_.flight();
     const double n = flight - 1.0;
