@@ -8,8 +8,7 @@
 
 #include "clackers/assess/testing/sampled_motion.hpp"
 #include "clackers/assess/testing/shifted_history.hpp"
-#include "clackers/exact/pair/single_mass.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::assess {
 namespace {

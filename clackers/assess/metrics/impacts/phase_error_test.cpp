@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "clackers/assess/testing/toy_motion.hpp"
-#include "clackers/exact/pair/single_mass.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::assess {
 namespace {
