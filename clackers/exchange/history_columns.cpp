@@ -5,14 +5,18 @@
 #include <algorithm>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/text.hpp"
 
 namespace clackers::exchange {
 namespace {
 
+// For a message: of many names the first.
 std::string joined(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 20;
   std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    text += (i == 0 ? "" : ", ") + printable(names[i]);
+  return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
 }
 
 class Finder {

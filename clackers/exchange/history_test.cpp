@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "clackers/exchange/events.hpp"
-#include "clackers/exchange/test_file.hpp"
+#include "clackers/exchange/testing/test_file.hpp"
 
 namespace clackers::exchange {
 namespace {

@@ -1,100 +1,92 @@
-#include "clackers/report/changes.hpp"
-
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include "clackers/report/format.hpp"
-#include "clackers/report/sample_record.hpp"
+#include "clackers/report/testing/sample_record.hpp"
+#include "clackers/report/testing/written.hpp"
+#include "clackers/report/words.hpp"
 
 namespace clackers::report {
 namespace {
 
-using Presence = study::MethodChange::Presence;
+using Presence = study::SubjectChange::Presence;
 
-// All sentences of one change, joined by spaces.
-std::string told(const study::MethodChange& change) {
-  study::BaselineComparison all;
-  all.methods = {change};
+std::string text_of_all(const study::SubjectChange& change) {
   std::string text;
-  for (const auto& method : change_texts(all))
-    for (const auto& sentence : method.sentences) text += (text.empty() ? "" : " ") + sentence;
+  for (const auto& sentence : change_texts(change)) text += (text.empty() ? "" : " ") + sentence;
   return text;
 }
 
-study::MethodChange named() {
-  study::MethodChange change;
-  change.name = "rk4+event-driven";
+study::SubjectChange named(const std::string& name = "rk4") {
+  study::SubjectChange change;
+  change.case_name = "three-parameter";
+  change.name = name;
   return change;
-}
-
-TEST(Changes, OfNothingAreNotTold) {
-  EXPECT_EQ(told(named()), "");
-  study::BaselineComparison all;
-  all.before.date = "2030-01-02T03:04:05Z";
-  all.before.version = "9.8.7";
-  all.methods = {named()};
-  EXPECT_EQ(change_summary(all),
-            "Against the baseline of 2030-01-02T03:04:05Z (clackers 9.8.7): nothing changed in 1 "
-            "method.");
 }
 
 TEST(Changes, AreCounted) {
   study::BaselineComparison all;
-  all.methods = {named(), named(), named()};
-  all.methods[1].presence = Presence::added;
+  all.before.date = "2030-01-02T03:04:05Z";
+  all.before.version = "9.8.7";
+  all.subjects = {named()};
+  EXPECT_EQ(change_summary(all),
+            "Against the baseline of 2030-01-02T03:04:05Z (clackers 9.8.7): nothing changed in 1 "
+            "method.");
+  all.subjects = {named(), named(), named("histories")};
+  all.subjects[1].presence = Presence::added;
   all.interrupted = true;
-  EXPECT_NE(change_summary(all).find(", interrupted): 1 of 3 methods changed."), std::string::npos);
+  EXPECT_TRUE(has(change_summary(all), ", interrupted): 1 of 3 subjects changed."));
 }
 
-TEST(Changes, NameMethodsThatAreNewOrGone) {
+TEST(Changes, ASubjectIsNewOrGone) {
   auto change = named();
   change.presence = Presence::added;
-  EXPECT_EQ(told(change), "is new; the baseline does not have it.");
+  EXPECT_EQ(text_of_all(change), "is new; the baseline does not have it.");
   change.presence = Presence::gone;
-  EXPECT_EQ(told(change), "is gone; only the baseline has it.");
+  EXPECT_EQ(text_of_all(change), "is gone; only the baseline has it.");
 }
 
-TEST(Changes, TellVerdictBehaviourAndClaim) {
+TEST(Changes, VerdictBehaviourAndClaimAreGiven) {
   auto change = named();
-  study::Standing before, now;
+  study::Finding before, now;
   before.verdict = Verdict::agrees;
   before.behaviour = Behaviour::proper;
   before.claim = {Behaviour::proper, 4, ""};
   now = before;
   now.verdict = Verdict::disagrees;
   now.behaviour = Behaviour::reduced;
-  change.standing = {before, now};
-  EXPECT_EQ(told(change), "verdict disagrees, before agrees. behaviour reduced, before proper.");
+  change.finding = {before, now};
+  EXPECT_EQ(text_of_all(change),
+            "verdict disagrees, before agrees. behaviour reduced, before proper.");
   now = before;
   now.claim.order = 3;
   now.reason = "energy-growth";
-  change.standing = {before, now};
-  EXPECT_EQ(told(change),
+  change.finding = {before, now};
+  EXPECT_EQ(text_of_all(change),
             "behaviour proper [energy-growth], before proper. claims proper, order 3, before "
             "proper, order 4.");
   now = before;
   now.complete = false;
-  change.standing = {before, now};
-  EXPECT_EQ(told(change), "verdict interrupted, before agrees.");
+  change.finding = {before, now};
+  EXPECT_EQ(text_of_all(change), "verdict interrupted, before agrees.");
   now = {};
   now.refused = true;
   now.reason = "linear-only";
   now.claim = before.claim;
-  change.standing = {before, now};
-  EXPECT_EQ(told(change), "verdict refused, before agrees. behaviour not run, before proper.");
+  change.finding = {before, now};
+  EXPECT_EQ(text_of_all(change),
+            "verdict refused, before agrees. behaviour not run, before proper.");
   before = now;
   now.reason = "simultaneous-contacts";
-  change.standing = {before, now};
-  EXPECT_EQ(told(change), "refused as [simultaneous-contacts], before [linear-only].");
+  change.finding = {before, now};
+  EXPECT_EQ(text_of_all(change), "refused as [simultaneous-contacts], before [linear-only].");
   now = {};
   now.claim = before.claim;
-  change.standing = {before, now};
-  EXPECT_EQ(told(change),
+  change.finding = {before, now};
+  EXPECT_EQ(text_of_all(change),
             "verdict undecided, before refused. behaviour undecided, before not run.");
 }
 
-TEST(Changes, TellNumbersWithTheirStep) {
+TEST(Changes, NumbersHaveTheirStep) {
   auto change = named();
   assess::LadderFit before, now;
   before.has_line = now.has_line = true;
@@ -103,69 +95,51 @@ TEST(Changes, TellNumbersWithTheirStep) {
   now.order = 2.004;
   now.spread = 0.034;
   change.order = {before, now};
-  EXPECT_EQ(told(change), "order 2.00 ±0.03, before 3.98 ±0.01.");
+  EXPECT_EQ(text_of_all(change), "order 2.00 ±0.03, before 3.98 ±0.01.");
   change.order.reset();
   change.error = {0.000390625, 1.2e-7, 5.04e-7};
-  EXPECT_EQ(told(change),
+  EXPECT_EQ(text_of_all(change),
             "error in u at h = 0.0003906 s grew by a factor 4.2: 5.04e-7, before 1.20e-7.");
   change.error = {0.05, 5.04e-7, 1.2e-7};
-  EXPECT_EQ(told(change),
+  EXPECT_EQ(text_of_all(change),
             "error in u at h = 0.05 s shrank by a factor 4.2: 1.20e-7, before 5.04e-7.");
   change.error = {0.05, 0.0, 1.2e-7};
-  EXPECT_EQ(told(change), "error in u at h = 0.05 s: 1.20e-7, before 0.");
+  EXPECT_EQ(text_of_all(change), "error in u at h = 0.05 s: 1.20e-7, before 0.");
   change.error.reset();
   change.collisions = {0.01, {6, 0, 1}, {6, 2, 0}};
-  EXPECT_EQ(told(change),
-            "misses 2 of 6 collisions at h = 0.01 s, before none. finds no extra collisions at h = "
+  EXPECT_EQ(text_of_all(change),
+            "misses 2 of 6 collisions at h = 0.01 s, before none. finds no extra collision at h = "
             "0.01 s, before 1.");
   change.collisions.reset();
   change.finished = {0.01, true, false};
-  EXPECT_EQ(told(change), "the run at h = 0.01 s fails, before it reached its end.");
+  EXPECT_EQ(text_of_all(change), "the run at h = 0.01 s fails, before it reached its end.");
   change.finished = {0.01, false, true};
-  EXPECT_EQ(told(change), "the run at h = 0.01 s reaches its end, before it failed.");
+  EXPECT_EQ(text_of_all(change), "the run at h = 0.01 s reaches its end, before it failed.");
   change.finished.reset();
   change.work = {0.01, 2000, 8000};
-  EXPECT_EQ(told(change), "takes 8000 force evaluations at h = 0.01 s, before 2000.");
+  EXPECT_EQ(text_of_all(change), "takes 8000 force evaluations at h = 0.01 s, before 2000.");
 }
 
-TEST(Changes, StandBetweenTheTableAndItsLastLineWithinEightyColumns) {
+TEST(Changes, AreShownByTextPageAndJunit) {
   const auto before = sample_record();
   auto now = before;
-  now.methods[0].name = "fresh";
-  now.methods[1].assessment.verdict = Verdict::disagrees;
-  now.methods[2].ladder.back().runs.back().impacts->missed = 2;
+  auto& subjects = now.cases[0].subjects;
+  subjects[0].name = "<new>";
+  subjects[1].assessment.verdict = Verdict::disagrees;
+  subjects[2].levels.back().runs.back().score.impacts->missed = 2;
   const auto changes = study::compare(now, before);
-  std::ostringstream out;
-  write(now, Format::table, out, {}, &changes);
-  const auto text = out.str();
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) {
-    EXPECT_LE(display_width(line), 80u) << line;
-    lines.push_back(line);
-  }
-  EXPECT_TRUE(lines.back().starts_with("Verdict: "));
-  EXPECT_NE(text.find("): 4 of\n9 methods changed.\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("\ncentral-difference: verdict disagrees, before agrees.\n"),
-            std::string::npos);
-  EXPECT_NE(text.find("\nrk4: misses 2 of 6 collisions at h = "), std::string::npos);
-  EXPECT_NE(text.find("\nnewmark: is gone; only the baseline has it.\n"), std::string::npos);
-}
-
-TEST(Changes, AreASectionOfThePageWithLinksToMethods) {
-  const auto before = sample_record();
-  auto now = before;
-  now.methods[1].assessment.verdict = Verdict::disagrees;
-  now.methods[0].name = "<new>";
-  const auto changes = study::compare(now, before);
+  const auto text = written(now, Format::table, {}, &changes);
+  for (const auto& line : lines_of(text)) EXPECT_LE(display_width(line), 80u) << line;
+  EXPECT_TRUE(has(text, "\ncentral-difference: verdict disagrees, before agrees.\n")) << text;
+  EXPECT_TRUE(has(text, "\nrk4: misses 2 of 6 collisions at h = "));
+  EXPECT_TRUE(has(text, "\nnewmark: is gone; only the baseline has it.\n"));
   const auto page = html(now, &changes);
-  EXPECT_NE(page.find("<a href=\"#changes\">Changes</a>"), std::string::npos);
-  EXPECT_NE(page.find("<dt><a href=\"#method-2\">central-difference</a></dt><dd><ul><li>verdict "
-                      "disagrees, before agrees.</li></ul></dd>"),
-            std::string::npos);
-  EXPECT_NE(page.find("<dt><a href=\"#method-1\">&lt;new&gt;</a></dt>"), std::string::npos);
-  EXPECT_NE(page.find("<dt>newmark</dt><dd><ul><li>is gone"), std::string::npos);
-  EXPECT_EQ(html(now).find("id=\"changes\""), std::string::npos);
+  EXPECT_TRUE(has(page, "<a href=\"#changes\">Changes</a>"));
+  EXPECT_TRUE(has(page, "central-difference</dt><dd><ul><li>verdict disagrees, before agrees."));
+  EXPECT_TRUE(has(page, "&lt;new&gt;</dt>"));
+  EXPECT_FALSE(has(html(now), "id=\"changes\""));
+  EXPECT_TRUE(has(written(now, Format::junit, {}, &changes), "<system-out>Against the baseline"));
+  EXPECT_FALSE(has(written(now, Format::junit), "<system-out>"));
 }
 
 }  // namespace

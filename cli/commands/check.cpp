@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,7 +12,6 @@
 #include "cli/files/record_output.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
@@ -58,19 +56,15 @@ study::CheckRequest request_of(const Options& options, const std::string& line) 
   return request;
 }
 
-study::Record run_check(const Options& options, const study::CheckRequest& request) try {
+study::Record run_check(const Options& options, const study::CheckRequest& request) {
   ProgressLine progress("check", options.common.quiet);
-  return study::check(
-      request, [&](double share) { progress.tell(share); }, &interrupt_flag());
-} catch (const Error& error) {
-  if (error.code() == Code("interrupted")) throw Interrupted();
-  throw;
+  return study::check(request, progress.callback(), &interrupt_flag());
 }
 
 int run(const Options& options, const std::string& line) {
   const auto request = request_of(options, line);
   const auto baseline = baseline_of(options.baseline, request);
-  ReportPage page("check", options.report, options.common, OnInterrupt::stop);
+  ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
   const auto record = run_check(options, request);
   const RecordOutput output(record, baseline, options.common);
@@ -86,9 +80,9 @@ int run(const Options& options, const std::string& line) {
 
 }  // namespace
 
-Command add_check(CLI::App& root) {
+void add_check(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("check");
+  auto* app = root.add_subcommand("check", "FILE ...", "assess time histories of any program");
   set_help(
       *app,
       {.examples = "  clackers check disp.csv\n"
@@ -108,7 +102,8 @@ Command add_check(CLI::App& root) {
                 "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...]\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x]\n"
                 "           [--baseline FILE.json] [--report FILE.html]\n"});
-  app->add_option("FILE", options->files, "Time histories, text; - for standard input.");
+  app->add_option("FILE", options->files, "Time histories, text; - for standard input.")
+      ->reads_file("");
   app->add_option("--case", options->case_name,
                   "The case (clackers list cases). Default: three-parameter.")
       ->option_text("CASE");
@@ -120,8 +115,7 @@ Command add_check(CLI::App& root) {
                   "Collisions of the history: a column t and optionally impulse,v1-,v1+,v2-,v2+. "
                   "Of several histories one file each, in their order. Without it collisions are "
                   "found in the history.")
-      ->option_text("FILE")
-      ->allow_extra_args(false);
+      ->reads_file("FILE");
   app->add_option("--steps", options->steps,
                   "Step of each history [s], in the order of the files; also the time between rows "
                   "of files without a column t. Default: h0.01 in a file's name, else the median "
@@ -139,10 +133,10 @@ Command add_check(CLI::App& root) {
                   "An earlier record of check (--format json) of the same case, - for standard "
                   "input: says in words what changed since. The exit code stays that of the "
                   "verdicts.")
-      ->option_text("FILE.json");
+      ->reads_file("FILE.json");
   add_common_options(*app, options->common);
   add_verdict_formats(*app);
-  return {app, [options](const std::string& line) { return run(*options, line); }};
+  app->run = [options](const std::string& line) { return run(*options, line); };
 }
 
 }  // namespace clackers::cli

@@ -1,6 +1,5 @@
 #include "clackers/study/respond.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -12,9 +11,8 @@
 #include "clackers/report/write.hpp"
 #include "clackers/study/digit_rows.hpp"
 #include "cli/command.hpp"
+#include "cli/files/input_files.hpp"
 #include "cli/files/results.hpp"
-#include "cli/files/times_file.hpp"
-#include "cli/help/help.hpp"
 #include "cli/options.hpp"
 #include "cli/values.hpp"
 
@@ -144,9 +142,9 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_respond(CLI::App& root) {
+void add_respond(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("respond");
+  auto* app = root.add_subcommand("respond", "CASE ...", "the exact motion of a case");
   set_help(*app,
            {.examples = "  clackers respond three-parameter --samples 1001 --format csv\n"
                         "  clackers respond stop --set eta=0.5 --plot\n"
@@ -173,7 +171,7 @@ Command add_respond(CLI::App& root) {
   app->add_option("--times", options->times,
                   "Times from a text file, one a line, in seconds; - reads standard input. What "
                   "follows # or % is a comment.")
-      ->option_text("FILE");
+      ->reads_file("FILE");
   app->add_flag("--collisions", options->collisions,
                 "The collisions instead: k, t [s], u1 [m], velocities before and after [m/s], "
                 "impulse [N s], energy before and after [J].");
@@ -198,7 +196,7 @@ Command add_respond(CLI::App& root) {
   app->add_flag("--plot", options->plot,
                 "Draw the displacements in the terminal; alone, or above the rows.");
   add_common_options(*app, options->common);
-  return {app, [options](const std::string&) { return run(*options); }};
+  app->run = [options](const std::string&) { return run(*options); };
 }
 
 }  // namespace clackers::cli

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <limits>
 #include <memory>
 #include <string>
@@ -16,12 +15,10 @@
 #include "cli/files/record_output.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/survived.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
@@ -69,9 +66,8 @@ void check(const Options& options) {
 }
 
 study::Record run_study(const Options& options, const study::VerifyRequest& request) {
-  ProgressLine line("verify", options.common.quiet);
-  return study::verify(
-      request, [&](double share) { line.tell(share); }, &interrupt_flag());
+  ProgressLine progress("verify", options.common.quiet);
+  return study::verify(request, progress.callback(), &interrupt_flag());
 }
 
 int run(const Options& options, const std::string& line) {
@@ -80,35 +76,35 @@ int run(const Options& options, const std::string& line) {
   // Before the work: where it cannot go must not be found out afterwards.
   Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
   const auto baseline = baseline_of(options.baseline, request);
-  ReportPage page("verify", options.report, options.common, OnInterrupt::finish);
+  ReportPage page(options.report, options.common, OnInterrupt::finish);
 
   const auto record = run_study(options, request);
   const RecordOutput output(record, baseline, options.common);
   bool written = !page.wanted() || page.write(output.html());
   try {
-    if (!survived([&] { output.write(results); })) {
+    if (!try_to_write([&] { output.write(results); })) {
       written = false;
       // The work is done; a person may still read it.
       CommonOptions standard;
       standard.no_color = options.common.no_color;
       if (results.is_file()) {
         Results terminal(standard, OnInterrupt::finish);
-        survived([&] { output.write(terminal); });
+        try_to_write([&] { output.write(terminal); });
       }
     }
   } catch (const BrokenPipe&) {
     // `verify | head`: the reader had enough, the verdict still counts.
   }
   output.note_changes(results.format());
-  if (record.interrupted) complain("interrupted; the finished rows were kept.", "interrupted");
+  if (record.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
   return written ? study::exit_code(record) : 4;
 }
 
 }  // namespace
 
-Command add_verify(CLI::App& root) {
+void add_verify(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("verify");
+  auto* app = root.add_subcommand("verify", "[METHOD ...]", "assess methods over a range of steps");
   set_help(
       *app,
       {.examples =
@@ -134,8 +130,7 @@ Command add_verify(CLI::App& root) {
          "--case", options->cases,
          "The case (clackers list cases). Default: three-parameter. Several, each with its "
          "own --case, are assessed in turn and compared in a performance profile.")
-      ->option_text("CASE")
-      ->allow_extra_args(false);
+      ->option_text("CASE");
   add_set_option(*app, options->settings);
   app->add_option("--levels", options->levels,
                   "Number of levels, each with half the step of the one before. "
@@ -153,10 +148,10 @@ Command add_verify(CLI::App& root) {
          "--baseline", options->baseline,
          "An earlier record (--format json) of the same cases and steps, - for standard "
          "input: says in words what changed since. The exit code stays that of the verdicts.")
-      ->option_text("FILE.json");
+      ->reads_file("FILE.json");
   add_common_options(*app, options->common);
   add_verdict_formats(*app);
-  return {app, [options](const std::string& line) { return run(*options, line); }};
+  app->run = [options](const std::string& line) { return run(*options, line); };
 }
 
 }  // namespace clackers::cli

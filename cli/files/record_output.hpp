@@ -5,7 +5,7 @@
 
 #include "clackers/report/write.hpp"
 #include "clackers/study/baseline.hpp"
-#include "cli/files/baseline_file.hpp"
+#include "cli/files/input_files.hpp"
 #include "cli/files/results.hpp"
 
 namespace clackers::cli {

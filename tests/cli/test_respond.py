@@ -81,7 +81,7 @@ class Times(CommandTest):
                                  ("1e999\n", "not-finite", "line 1"),
                                  ("1\n2\n20.000000000000004\n", "time-outside", ("line 3", "0 <= t <= 20")),
                                  ("-1e-9\n", "time-outside", "line 1"),
-                                 ("0\0\n", "not-a-number", "line 1")):
+                                 ("0\0\n", "not-text", "byte 0")):
             self.refused("respond", "sdof", "--times", "-", stdin=text, code=code, says=says)
 
     def test_refuse_a_file_without_times(self):
@@ -89,18 +89,16 @@ class Times(CommandTest):
             self.refused("respond", "sdof", "--times", "-", stdin=text, code="bad-syntax",
                          says="standard input has no times")
 
-    def test_refuse_a_line_that_cannot_be_a_time(self):
-        self.assertEqual(self.times("sdof", "--times", "-", stdin="0" * 999 + "1"), [1])
-        self.refused("respond", "sdof", "--times", "-", stdin="\n" + "0" * 1001, code="not-a-number",
-                     says="line 2 is longer than 1000 bytes")
+    def test_are_read_with_any_line_end_and_a_byte_order_mark(self):
+        for end in ("\n", "\r\n", "\r"):
+            self.assertEqual(self.times("sdof", "--times", "-", stdin=f"\ufeff0{end}1{end}"), [0, 1])
 
     def test_refuse_a_file_that_cannot_be_read(self):
         self.refused("respond", "sdof", "--times", self.path("none"), exit_code=4,
                      code="cannot-read", says=(self.path("none"), "No such file"))
         self.refused("respond", "sdof", "--times", self.folder, exit_code=4, code="cannot-read",
                      says="directory")
-        self.refused("respond", "sdof", "--times", "/dev/zero", code="not-a-number",
-                     says="line 1 is longer than")
+        self.refused("respond", "sdof", "--times", "/dev/zero", code="not-text", says="byte 0")
 
 
 class Collisions(CommandTest):

@@ -47,8 +47,10 @@ class RenderFolder {
     write_file(folder_ / "render.js", assets::render_js);
   }
   ~RenderFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
+    // A lack of memory or of descriptors may have passed at the second try.
+    std::error_code error;
+    std::filesystem::remove_all(folder_, error);
+    if (error) std::filesystem::remove_all(folder_, error);
   }
   RenderFolder(const RenderFolder&) = delete;
   RenderFolder& operator=(const RenderFolder&) = delete;

@@ -1,4 +1,4 @@
-#include "clackers/report/counters.hpp"
+#include "clackers/report/html/counters.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,16 +7,19 @@
 namespace clackers::report {
 namespace {
 
-study::Record with_run(bool finished) {
-  study::Record record;
-  record.methods.emplace_back().ladder.emplace_back().runs.emplace_back();
-  auto& run = record.methods[0].ladder[0].runs[0];
+study::CaseRecord with_run(bool finished) {
+  study::CaseRecord record;
+  record.subjects.emplace_back().levels.emplace_back().runs.emplace_back();
+  auto& run = record.subjects[0].levels[0].runs[0].score;
   run.finished = finished;
   run.work.steps = 7;
   run.work.newton_iterations = 3;
   run.seconds = 0.5;
   return record;
 }
+
+const ShownCounter steps{assess::Counter::steps, "steps", "steps"};
+const ShownCounter forces{assess::Counter::force_evaluations, "force_evaluations", "forces"};
 
 TEST(Counters, AreThoseThatSomeFinishedRunHas) {
   const auto found = counters_of(with_run(true));
@@ -37,14 +40,14 @@ TEST(Counters, OfProfilesStandInTheSameOrder) {
 }
 
 TEST(Counters, ShowForceEvaluationsFirstWhereTheyAreCounted) {
-  EXPECT_EQ(first_shown({{"steps", ""}, {"force_evaluations", ""}}).field, "force_evaluations");
-  EXPECT_EQ(first_shown({{"steps", ""}, {"seconds", ""}}).field, "steps");
+  EXPECT_EQ(first_shown({steps, forces}).field, "force_evaluations");
+  EXPECT_EQ(first_shown({steps, {assess::Counter::seconds, "seconds", ""}}).field, "steps");
   EXPECT_THROW(first_shown({}), std::logic_error);
 }
 
 TEST(Counters, AreChosenWithButtonsOfWhichOneIsPressed) {
-  EXPECT_EQ(counter_choice({{"steps", "steps"}}, "work"), "");
-  const auto html = counter_choice({{"steps", "steps"}, {"force_evaluations", "forces"}}, "work");
+  EXPECT_EQ(counter_choice({steps}, "work"), "");
+  const auto html = counter_choice({steps, forces}, "work");
   EXPECT_NE(html.find("data-counter=\"steps\" data-of=\"work\" aria-pressed=\"false\">steps<"),
             std::string::npos);
   EXPECT_NE(html.find("data-counter=\"force_evaluations\" data-of=\"work\" "

@@ -61,8 +61,8 @@ PageSection case_section(const study::CaseRecord& problem, std::size_t index, in
 }
 
 void add_figures(Page& page, const study::CaseRecord& problem, const Place& place) {
-  for (const auto& [name, rows] : figure_data(problem).items())
-    page.data[name + place.suffix] = rows;
+  const auto data = figure_data(problem);
+  for (const auto& [name, rows] : data.items()) page.data[name + place.suffix] = rows;
   auto specifications = figure_specifications(problem);
   for (auto& [name, specification] : specifications.items()) {
     if (!place.suffix.empty()) rename_data(specification, place.suffix);

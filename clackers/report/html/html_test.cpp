@@ -1,25 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <stdexcept>
+#include <set>
 
-#include "clackers/report/figure_data.hpp"
-#include "clackers/report/look.hpp"
-#include "clackers/report/markup.hpp"
-#include "clackers/report/sample_record.hpp"
-#include "clackers/report/write.hpp"
+#include "clackers/report/testing/sample_record.hpp"
+#include "clackers/report/testing/written.hpp"
 
 namespace clackers::report {
 namespace {
-
-std::size_t occurrences(const std::string& text, std::string_view part) {
-  std::size_t count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
-    ++count;
-  return count;
-}
 
 nlohmann::json block(const std::string& page, const std::string& id) {
   const auto open = page.find("id=\"" + id + "\">");
@@ -27,211 +16,178 @@ nlohmann::json block(const std::string& page, const std::string& id) {
   return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
-TEST(Html, TheLeadIsMadeOfWholeSentences) {
-  const auto page = html(sample_record());
-  EXPECT_NE(page.find("and amplitude. 20 s with"), std::string::npos);
-}
-
-TEST(Markup, EscapesWhatHtmlWouldTakeForItsOwn) {
-  EXPECT_EQ(escape("<a href=\"x\">'&'</a>"),
-            "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
-  const nlohmann::ordered_json json{{"name", "</script><!--<script>"}, {"bad", "\xff"}};
-  const auto text = script_json(json);
-  EXPECT_EQ(text.find('<'), std::string::npos);
-  EXPECT_EQ(nlohmann::json::parse(text)["name"], "</script><!--<script>");
-}
-
-TEST(Markup, DressesNumbers) {
-  EXPECT_EQ(html_number(0.0157, 3), "0.0157");
-  EXPECT_EQ(html_number(-1.25e-7, 3), "−1.25\u202f×\u202f10<sup>−7</sup>");
-  EXPECT_EQ(html_number(2.5e12, 3), "2.5\u202f×\u202f10<sup>12</sup>");
-  EXPECT_EQ(html_scientific(1.25e-7, 2), "1.25\u202f×\u202f10<sup>−7</sup>");
-  EXPECT_EQ(html_scientific(0.0), "0");
-  EXPECT_EQ(html_number(std::nan(""), 3), "–");
-  EXPECT_EQ(html_scientific(-INFINITY), "−∞");
-  EXPECT_EQ(html_count(93901), "93\u202f901");
-  EXPECT_EQ(html_count(-1234567), "−1\u202f234\u202f567");
-  EXPECT_EQ(html_count(-123), "−123");
-  EXPECT_EQ(html_count(999), "999");
-}
-
-TEST(Markup, FillsEverySlotAndKnowsWhenOneIsMissing) {
-  EXPECT_EQ(fill("a{{x}}b{{y}}{{x}}", {{"x", "1"}, {"y", "{{x}}"}}), "a1b{{x}}1");
-  EXPECT_THROW(fill("{{z}}", {{"x", "1"}}), std::logic_error);
-}
-
-TEST(Look, IsDifferentForTheFirstTwentyFourMethods) {
-  for (std::size_t i = 0; i < 24; ++i)
-    for (std::size_t k = 0; k < i; ++k) {
-      const auto a = look(i), b = look(k);
-      // Colour may repeat, but then neither dash nor marker does.
-      EXPECT_TRUE(a.color != b.color || (a.dash != b.dash && a.shape != b.shape)) << i << " " << k;
-    }
-}
-
 TEST(Html, IsOneFileThatLoadsNothing) {
   const auto page = html(sample_record());
   EXPECT_LT(page.size(), 2000000u);
-  EXPECT_FALSE(std::regex_search(page.substr(0, page.find("<body>")),
-                                 std::regex("(src|href)=\"(?!data:,)")));
-  for (const auto part :
-       {"<script src", "<link rel=\"stylesheet\"", "@import", "url(", "sourceMappingURL"})
-    EXPECT_EQ(page.substr(0, page.find("id=\"data\"")).find(part), std::string::npos) << part;
-  EXPECT_EQ(page.find("sourceMappingURL"), std::string::npos);
-  EXPECT_EQ(page.find("{{"), page.find("{{", page.find("vega")));  // no slot of ours is left
-  EXPECT_EQ(occurrences(page, "</script>"), 8u);
+  for (const auto part : {"<script src", "<link rel=\"stylesheet\"", "@import", "url("})
+    EXPECT_FALSE(has(page.substr(0, page.find("id=\"data\"")), part)) << part;
+  EXPECT_FALSE(has(page, "sourceMappingURL"));
+  EXPECT_EQ(page.find("{{"), page.find("{{", page.find("vega"))) << "no slot of ours is left";
 }
 
-TEST(Html, HoldsAVerdictAFigureAndASectionForEverything) {
+TEST(Html, ThePolicyHasAHashForEveryScriptAndForbidsTheRest) {
+  const auto page = html(sample_record());
+  const auto from = page.find("Content-Security-Policy");
+  const auto policy = page.substr(from, page.find('>', from) - from);
+  EXPECT_TRUE(has(policy, "default-src 'none'"));
+  EXPECT_FALSE(has(policy, "unsafe-eval"));
+  EXPECT_FALSE(has(policy.substr(policy.find("script-src"), policy.find("style-src")),
+                   "script-src 'unsafe"));
+  EXPECT_EQ(occurrences(policy, "'sha256-"), occurrences(page, "<script>"));
+}
+
+TEST(Html, IdsAreDifferentAndEveryLinkHasOne) {
+  for (const auto& record : {sample_record(), sample_check(), sample_of_all()}) {
+    const auto page = html(record);
+    const auto body =
+        page.substr(page.find("<body>"), page.find("id=\"data\"") - page.find("<body>"));
+    std::set<std::string> ids;
+    const std::regex id(" id=\"([^\"]*)\""), link("href=\"#([^\"]*)\"");
+    for (std::sregex_iterator at(body.begin(), body.end(), id), end; at != end; ++at)
+      EXPECT_TRUE(ids.insert((*at)[1]).second) << (*at)[1];
+    for (std::sregex_iterator at(body.begin(), body.end(), link), end; at != end; ++at)
+      EXPECT_TRUE(ids.contains((*at)[1])) << (*at)[1];
+  }
+}
+
+TEST(Html, FiguresAreCountedWithoutGaps) {
+  auto record = sample_record();
+  for (const auto& problem : {record, sample_check(), sample_of_all()}) {
+    const auto page = html(problem);
+    const auto figures = occurrences(page, "<figure ");
+    for (std::size_t i = 1; i <= figures; ++i)
+      EXPECT_EQ(occurrences(page, "\">Figure " + std::to_string(i) + ". "), 1u) << i;
+    EXPECT_EQ(block(page, "specifications").size(), figures);
+  }
+  for (auto& subject : record.cases[0].subjects)
+    for (auto& level : subject.levels)
+      for (auto& run : level.runs) run.score.work = {}, run.score.seconds = 0.0;
+  EXPECT_TRUE(has(html(record), "Figure 4. Performance profile")) << "without a figure of work";
+}
+
+TEST(Html, EverySpecificationHasItsDataAndItsFrame) {
+  const auto page = html(sample_of_all());
+  const auto data = block(page, "data"), specifications = block(page, "specifications");
+  EXPECT_TRUE(specifications.contains("convergence-1") && specifications.contains("response-2"));
+  for (const auto& [name, specification] : specifications.items()) {
+    EXPECT_EQ(occurrences(page, "data-plot=\"" + name + "\""), 1u);
+    const auto text = specification.dump();
+    const std::regex named("\"data\":\\{\"name\":\"([^\"]+)\"\\}");
+    for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at)
+      EXPECT_TRUE(data.contains((*at)[1].str())) << name << (*at)[1];
+  }
+}
+
+TEST(Html, EverySubjectHasASectionAndTheRecordItsProvenance) {
   const auto record = sample_record();
   const auto page = html(record);
-  for (std::size_t i = 1; i <= record.methods.size(); ++i) {
+  for (std::size_t i = 1; i <= record.cases[0].subjects.size(); ++i)
     EXPECT_EQ(occurrences(page, "id=\"method-" + std::to_string(i) + "\""), 1u);
-    EXPECT_GE(occurrences(page, "href=\"#method-" + std::to_string(i) + "\""), 1u);
-  }
-  EXPECT_EQ(occurrences(page, "<figure "), 5u);
-  EXPECT_EQ(occurrences(page, "How to read."), 5u);
-  EXPECT_NE(page.find("<span class=\"badge disagrees\">disagrees</span>"), std::string::npos);
-  EXPECT_NE(page.find("<pre id=\"command\">clackers verify --report report.html</pre>"),
-            std::string::npos);
-  for (const auto& text :
-       {record.provenance.compiler, record.provenance.machine, record.provenance.processor,
-        record.provenance.date, record.provenance.version})
-    EXPECT_NE(page.find("<dd>" +
-                        (text == record.provenance.date
-                             ? "<time datetime=\"" + text + "\">" + text + "</time>"
-                             : text) +
-                        "</dd>"),
-              std::string::npos)
-        << text;
-  EXPECT_NE(page.find("University of Washington Interactive Data Lab"), std::string::npos);
+  EXPECT_TRUE(has(page, "<span class=\"badge disagrees\">disagrees</span>"));
+  EXPECT_TRUE(has(page, "<pre id=\"command\">clackers verify --report report.html</pre>"));
+  for (const auto& text : {record.provenance.compiler, record.provenance.processor})
+    EXPECT_TRUE(has(page, "<dd>" + text + "</dd>")) << text;
+  EXPECT_TRUE(has(page, "University of Washington Interactive Data Lab"));
 }
 
-TEST(Html, MarksAnInterruptedRecordAndOnlyThat) {
+TEST(Html, AnInterruptedRecordIsMarked) {
   auto record = sample_record();
   EXPECT_EQ(occurrences(html(record), "<strong>Interrupted.</strong>"), 1u);
   record.interrupted = false;
   EXPECT_EQ(occurrences(html(record), "<strong>Interrupted.</strong>"), 0u);
 }
 
-TEST(Html, LetsNoTextOfTheRecordBecomeMarkup) {
+TEST(Html, WhatIsConcludedWithoutTheExactSolutionIsBesideTheTruth) {
   auto record = sample_record();
+  auto page = html(record);
+  EXPECT_EQ(occurrences(page, "<h4>Without the exact solution</h4>"), 7u)
+      << "a refused method has no runs";
+  EXPECT_EQ(occurrences(page,
+                        "away from the reference solution. <span class=\"code\">[wrong-limit]"
+                        "</span></p>"),
+            1u);
+  EXPECT_TRUE(has(page, "at the end = 0.25, −0.125, within 1.5\u202f×\u202f10<sup>−7</sup>"));
+  EXPECT_TRUE(has(page, ": the limit is not the reference solution"));
+  auto& result = record.cases[0].subjects[0].self_convergence;
+  result->extrapolation.bounded = false;
+  result->extrapolation.reason = "differences-turn";
+  EXPECT_TRUE(has(html(record), "<dd>no bound. The differences between runs"));
+  result.reset();
+  EXPECT_TRUE(has(html(record), "<p>Not assessed: the method claims no order"));
+}
+
+TEST(Html, EveryMethodThatRanHasItsMetrics) {
+  auto record = sample_record();
+  const auto page = html(record);
+  EXPECT_EQ(occurrences(page, "<details class=\"metrics\">"), 7u);
+  EXPECT_EQ(occurrences(page, "<code>v-max</code> *</th>"), 7u);
+  EXPECT_EQ(occurrences(page,
+                        "<p>There are no collisions. Not measured: <code>decay-error</code>, "
+                        "<code>collision-spacing</code>.</p>"),
+            7u);
+}
+
+TEST(Html, HistoriesHaveFilesNotesAndMetrics) {
+  const auto page = html(sample_check());
+  EXPECT_TRUE(has(page, "<span class=\"badge disagrees\">disagrees</span> <span>Another motion"));
+  EXPECT_TRUE(has(page, "fine.csv</th>"));
+  EXPECT_TRUE(has(page, "<li>coarse.csv: The first row"));
+  EXPECT_TRUE(has(page, "<span class=\"wrong\">4/6</span>"));
+  EXPECT_TRUE(has(page, "<code>u-max</code></th>"));
+}
+
+TEST(Html, CountersOfWorkAreOfferedAndTimesAreNoProfile) {
+  const auto page = html(sample_record());
+  for (const auto* field : {"steps", "force_evaluations", "event_searches", "seconds"})
+    EXPECT_EQ(occurrences(page, "data-counter=\"" + std::string(field) + "\" data-of=\"work\""), 1u)
+        << field;
+  EXPECT_EQ(occurrences(page, "data-of=\"work\" aria-pressed=\"true\""), 1u);
+  EXPECT_FALSE(has(page, "data-counter=\"newton_iterations\""));
+  EXPECT_FALSE(has(page, "data-counter=\"seconds\" data-of=\"profile\""));
+}
+
+TEST(Html, WhatCannotBeDrawnIsSaid) {
+  auto record = sample_record();
+  EXPECT_FALSE(has(html(record), "Not drawn:"));
+  auto& runs = record.cases[0].subjects[0].levels[0].runs;
+  runs[0].score.finished = false;
+  runs[1].score.u_error = 0.0;
+  EXPECT_TRUE(
+      has(html(record), "Not drawn: 1 run that failed. Not drawn: 1 run without any error."));
+}
+
+TEST(Html, NoTextOfTheRecordBecomesMarkup) {
+  auto record = sample_of_all();
+  const auto scripts = occurrences(html(record), "</script>");
   const std::string evil = "</script><script>alert(1)</script><b x='\">&";
   record.provenance = {evil, evil, evil, evil, evil, evil};
-  record.problem.name = record.problem.summary = record.problem.equations = evil;
-  for (auto* list : {&record.problem.parameters, &record.problem.constants})
-    for (auto& quantity : *list) quantity = {evil, 1.0, evil, evil};
-  for (auto& method : record.methods) {
-    method.name = evil;
-    method.assessment.sentence = evil;
-    method.assessment.displacement.reason = evil;
-    method.claim.reason = evil;
-    method.self_convergence.emplace();
-    method.self_convergence->against_reference = {true, evil, 0.0, evil};
-    method.self_convergence->extrapolation.reason = evil;
-    method.self_convergence->extrapolation.sentence = evil;
-    for (auto& metric : method.metrics) metric = {evil, evil, 1.0, {}, evil, true};
-    for (auto& level : method.ladder) {
-      level.runs[0].finished = false;
-      level.runs[0].failure = level.runs[0].failure_code = evil;
+  for (auto& problem : record.cases) {
+    problem.problem.name = problem.problem.summary = problem.problem.equations = evil;
+    for (auto* list : {&problem.problem.parameters, &problem.problem.constants})
+      for (auto& quantity : *list) quantity = {evil, 1.0, evil, evil};
+    for (auto& subject : problem.subjects) {
+      subject.name = subject.claim.reason = subject.assessment.reason = evil;
+      subject.assessment.displacement.reason = evil;
+      if (!subject.refusal.empty()) subject.refusal = subject.refusal_code = evil;
+      if (subject.self_convergence) {
+        subject.self_convergence->against_reference = {true, evil, 0.0};
+        subject.self_convergence->extrapolation.reason = evil;
+      }
+      for (auto& level : subject.levels)
+        for (auto& run : level.runs) {
+          run.score.failure = run.score.failure_code = evil;
+          for (auto& metric : run.metrics) metric = {evil, evil, 1.0, {}, evil, true};
+          if (!run.file) continue;
+          run.file->file = evil;
+          run.file->notes.push_back(study::note("columns-not-used", {}, evil));
+        }
     }
   }
-  record.methods.back().refusal = record.methods.back().refusal_code = evil;
-  for (auto& profile : record.profiles)
-    for (auto& method : profile.methods) method.method = evil;
   const auto page = html(record);
-  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
-  EXPECT_EQ(page.find("<b x="), std::string::npos);
-  EXPECT_EQ(occurrences(page, "</script>"), 8u);
-  EXPECT_EQ(block(page, "data")["levels"][0]["method"], evil);
-}
-
-TEST(Html, CarriesTheErrorsOfAllRunsToTheLastDigit) {
-  const auto record = sample_record();
-  const auto data = block(html(record), "data");
-  ASSERT_EQ(data["runs"]["rows"].size(), 6u * 64 + 24 + 1);
-  std::size_t column = 0;
-  while (data["runs"]["columns"][column] != "u_error") ++column;
-  EXPECT_EQ(data["runs"]["rows"][77][column].get<double>(),
-            record.methods[1].ladder[1].runs[5].u_error);
-}
-
-TEST(FigureData, LevelsAreTheWorstRunOfEachThatFinished) {
-  auto record = sample_record();
-  auto& runs = record.methods[0].ladder[2].runs;
-  runs[1].u_error = 5.0;
-  runs[1].work.force_evaluations = 4321;
-  runs[1].seconds = 0.125;
-  runs[1].work.newton_iterations = 17;
-  runs[0].finished = false;
-  runs[0].u_error = 50.0;
-  const auto level = figure_data(record)["levels"][2];
-  EXPECT_EQ(level["u_error"], 5.0);
-  EXPECT_EQ(level["force_evaluations"], 4321);
-  EXPECT_EQ(level["seconds"], 0.125);
-  EXPECT_EQ(level["newton_iterations"], 17);
-  EXPECT_EQ(level["step"], runs[1].step);
-  EXPECT_EQ(level["level"], 3);
-}
-
-TEST(FigureData, TrianglesClimbWithTheirOrder) {
-  const auto slopes = figure_data(sample_record())["slopes"];
-  ASSERT_EQ(slopes.size(), 3u);
-  for (const auto& slope : slopes) {
-    // From the left end of the base to the top right corner, which is corner 2.
-    double left = 1e9, bottom = 1e9, right = 0, top = 0;
-    for (std::size_t i = 0; i < slope["corner"].size(); ++i) {
-      left = std::min(left, slope["step"][i].get<double>());
-      bottom = std::min(bottom, slope["u_error"][i].get<double>());
-      if (slope["corner"][i] == 2) right = slope["step"][i], top = slope["u_error"][i];
-    }
-    EXPECT_NEAR(std::log(top / bottom) / std::log(right / left),
-                std::stod(slope["order"].get<std::string>()),
-                1e-12);  // three logarithms and a power, each within 1e-15 relative of about 10
-  }
-  study::Record empty;
-  EXPECT_TRUE(figure_data(empty)["slopes"].empty());
-}
-
-TEST(FigureData, LongCurvesKeepTheirExtremesInFewPoints) {
-  study::Curve curve;
-  curve.y.resize(2);
-  for (int i = 0; i < 100000; ++i) {
-    curve.t.push_back(i);
-    curve.y[0].push_back(i == 54321 ? 1e3 : std::sin(i));
-    curve.y[1].push_back(i == 12345 ? -1e3 : std::cos(i));
-  }
-  const auto few = reduced(curve);
-  EXPECT_LE(few.t.size(), most_points);
-  EXPECT_GE(few.t.size(), most_points / 2);
-  EXPECT_TRUE(std::ranges::is_sorted(few.t));
-  EXPECT_EQ(std::ranges::max(few.y[0]), 1e3);
-  EXPECT_EQ(std::ranges::min(few.y[1]), -1e3);
-  EXPECT_EQ(few.t.size(), few.y[0].size());
-  EXPECT_EQ(reduced(sample_response(900)).t.size(), 900u);
-}
-
-TEST(FigureSpecifications, HaveNoPlaceholderLeftAndNameTheirData) {
-  const auto record = sample_record();
-  const auto data = figure_data(record);
-  const auto all = figure_specifications(record);
-  for (const auto& [name, specification] : all.items()) {
-    const auto text = specification.dump();
-    EXPECT_FALSE(std::regex_search(text, std::regex("\"\\$(?!schema)"))) << name << text;
-    const std::regex named("\"data\":\\{\"name\":\"([a-z]+)\"\\}");
-    for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at)
-      EXPECT_TRUE(data.contains((*at)[1].str())) << name << (*at)[1];
-  }
-}
-
-TEST(Html, SaysWhatCannotBeDrawn) {
-  auto record = sample_record();
-  EXPECT_EQ(html(record).find("are not drawn"), std::string::npos);
-  record.methods[0].ladder[0].runs[0].finished = false;
-  record.methods[0].ladder[0].runs[1].u_error = 0.0;
-  const auto page = html(record);
-  EXPECT_NE(page.find("1 run that did not reach its end is not drawn."), std::string::npos);
-  EXPECT_NE(page.find("1 run without any error is not drawn."), std::string::npos);
+  EXPECT_FALSE(has(page, "<script>alert"));
+  EXPECT_FALSE(has(page, "<b x="));
+  EXPECT_EQ(occurrences(page, "</script>"), scripts);
+  EXPECT_EQ(block(page, "data")["levels-1"][0]["method"], evil);
 }
 
 }  // namespace

@@ -1,150 +1,128 @@
-#include "clackers/report/junit.hpp"
+#include "clackers/report/junit/junit.hpp"
 
 #include <gtest/gtest.h>
 
-#include <sstream>
+#include <cmath>
+#include <pugixml.hpp>
 
-#include "clackers/report/sample_record.hpp"
-#include "clackers/report/write.hpp"
-#include "clackers/report/xml.hpp"
+#include "clackers/report/testing/sample_record.hpp"
+#include "clackers/report/testing/written.hpp"
 
 namespace clackers::report {
 namespace {
 
-std::string junit(const study::Record& record, const study::BaselineComparison* changes = nullptr) {
-  std::ostringstream out;
-  write(record, Format::junit, out, {}, changes);
-  return out.str();
+pugi::xml_document parsed(const study::Record& record) {
+  pugi::xml_document document;
+  const auto text = written(record, Format::junit);
+  EXPECT_TRUE(document.load_string(text.c_str())) << text;
+  return document;
 }
 
-std::size_t occurrences(const std::string& text, std::string_view part) {
-  std::size_t count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
-    ++count;
-  return count;
+pugi::xml_node test_of(const pugi::xml_document& document, const char* name) {
+  return document.child("testsuites")
+      .child("testsuite")
+      .find_child_by_attribute("testcase", "name", name);
 }
 
-// The element of one method.
-std::string test_of(const std::string& text, const std::string& method) {
-  const auto from = text.find("<testcase name=\"" + method + "\"");
-  return from == std::string::npos ? "" : text.substr(from, text.find("</testcase>", from) - from);
+std::string property(const pugi::xml_node& test, const char* name) {
+  return test.child("properties")
+      .find_child_by_attribute("property", "name", name)
+      .attribute("value")
+      .value();
 }
 
-TEST(Xml, EscapesWhatXmlTakesForItsOwn) {
-  EXPECT_EQ(xml_text("<a href=\"x\">'&'</a>]]>"),
-            "&lt;a href=&quot;x&quot;&gt;&apos;&amp;&apos;&lt;/a&gt;]]&gt;");
-  EXPECT_EQ(xml_text("one\ntwo\tthree\r\n"), "one\ntwo\tthree&#13;\n");
-  EXPECT_EQ(xml_attribute("a", "one\ntwo\t\"x\""), " a=\"one&#10;two&#9;&quot;x&quot;\"");
-}
-
-TEST(Xml, PutsTheReplacementCharacterForWhatXmlCannotHold) {
-  EXPECT_EQ(xml_text(std::string_view("a\0b\x1f", 4)),
-            "a\xEF\xBF\xBD"
-            "b\xEF\xBF\xBD");
-  EXPECT_EQ(xml_text("\xff"), "\xEF\xBF\xBD");
-  EXPECT_EQ(xml_text("\xEF\xBF\xBE\xEF\xBF\xBF"), "\xEF\xBF\xBD\xEF\xBF\xBD");
-  EXPECT_EQ(xml_text("xi₁ ±"), "xi₁ ±");
-}
-
-TEST(Junit, CountsWhatFailedWasSkippedAndWasInterrupted) {
-  const auto text = junit(sample_record());
-  // Seven of 8 levels and one that refused: one disagrees, one was interrupted, one refused. The
-  // counts stand at the suite and at the whole.
-  EXPECT_EQ(occurrences(text, " tests=\"8\" failures=\"1\" errors=\"1\" skipped=\"1\" time=\""), 2u)
-      << text;
-  EXPECT_EQ(occurrences(text, "<testcase "), 8u);
-  EXPECT_EQ(occurrences(text, "<failure "), 1u);
-  EXPECT_EQ(occurrences(text, "<skipped "), 1u);
-  EXPECT_EQ(occurrences(text, "<error "), 1u);
-}
-
-TEST(Junit, FailsTheMethodThatDisagreesWithItsSentenceAndLevels) {
-  const auto test = test_of(junit(sample_record()), "generalized-alpha:rho=0.8");
-  EXPECT_NE(test.find("<failure message=\"reduced: the line is straight with slope 1.6, the method "
-                      "claims order 2 [reduced]\" type=\"reduced\">claimed: proper, order 2\n"
-                      "found: reduced\nh = 0.05 s: error in u "),
-            std::string::npos)
-      << test;
-  EXPECT_EQ(occurrences(test, "\nh = "), 8u);
-  EXPECT_NE(test.find(", 6 of 6 collisions\n"), std::string::npos);
-
-  auto record = sample_record();
-  record.methods[3].ladder[1].runs[2].finished = false;
-  EXPECT_NE(junit(record).find(", 6 of 6 collisions, 1 of 8 runs failed\n"), std::string::npos);
-}
-
-TEST(Junit, SkipsRefusedAndUndecidedMethodsWithTheReason) {
-  auto record = sample_record();
-  record.methods[2].assessment.verdict = Verdict::undecided;
-  record.methods[2].assessment.displacement.reason = "too-few-levels";
-  const auto text = junit(record);
-  EXPECT_NE(test_of(text, "newmark+penalty:stiffness=1e6")
-                .find("<skipped message=\"newmark+penalty with eta = 0.5: a linear penalty spring "
-                      "gives back what it takes, so it can only stand for eta = 1. "
-                      "[penalty-needs-elastic]\"/>"),
-            std::string::npos);
-  EXPECT_NE(test_of(text, "rk4").find("[too-few-levels]\"/>"), std::string::npos);
-  EXPECT_NE(text.find(" skipped=\"2\""), std::string::npos);
-}
-
-TEST(Junit, LetsAMethodPassThatAgreesOrClaimsNothing) {
-  auto record = sample_record();
-  record.methods[1].assessment.verdict = Verdict::not_claimed;
-  const auto text = junit(record);
-  for (const auto name : {"newmark", "central-difference"}) {
-    const auto test = test_of(text, name);
-    EXPECT_NE(test.find("<properties>"), std::string::npos);
-    for (const auto part : {"<failure", "<skipped", "<error"})
-      EXPECT_EQ(test.find(part), std::string::npos) << name;
+TEST(Junit, TotalsAreThoseOfTheTests) {
+  const auto document = parsed(sample_record());
+  // One of eight disagrees, one was interrupted, one refused.
+  for (const auto& node :
+       {document.child("testsuites"), document.child("testsuites").child("testsuite")}) {
+    EXPECT_EQ(node.attribute("tests").as_int(), 8);
+    EXPECT_EQ(node.attribute("failures").as_int(), 1);
+    EXPECT_EQ(node.attribute("errors").as_int(), 1);
+    EXPECT_EQ(node.attribute("skipped").as_int(), 1);
   }
+  EXPECT_TRUE(test_of(document, "generalized-alpha:rho=0.8").child("failure"));
+  EXPECT_TRUE(test_of(document, "newmark+penalty:stiffness=1e6").child("skipped"));
+  EXPECT_TRUE(test_of(document, "moreau-jean").child("error"));
+  EXPECT_FALSE(test_of(document, "newmark").child("failure"));
 }
 
-TEST(Junit, GivesProcessorTimeAndMeasuredNumbers) {
+TEST(Junit, AFailureHasItsCodeAndALineALevel) {
   auto record = sample_record();
-  record.methods.resize(1);
-  auto& ladder = record.methods[0].ladder;
-  ladder.resize(1);
-  ladder[0].runs.resize(2);
-  ladder[0].runs[0].seconds = 1.25;
-  ladder[0].runs[1].seconds = 0.5;
-  ladder[0].runs[0].u_error = 0.1;
-  ladder[0].runs[1].u_error = 0.30000000000000004;
-  const auto text = junit(record);
-  EXPECT_EQ(occurrences(text, " time=\"1.750\""), 3u) << text;
-  for (const auto part :
-       {"name=\"order\" value=\"2.0123\"", "name=\"order_spread\" value=\"0.012\"",
-        "name=\"u_error\" value=\"0.30000000000000004\"", "name=\"seconds\" value=\"1.75\"",
-        "name=\"behaviour\" value=\"proper\"", "name=\"collisions_found\" value=\"6\"",
-        "name=\"N\" value=\"2\"", "name=\"command\" value=\"clackers verify --report report.html\"",
-        "<testsuite name=\"three-parameter (N = 2, xi1 = 0.05, a_t = 1 m)\"",
-        "classname=\"clackers.verify.three-parameter\"", "timestamp=\"2025-11-21T09:43:00Z\""})
-    EXPECT_NE(text.find(part), std::string::npos) << part;
+  record.cases[0].subjects[3].levels[1].runs[2].score.finished = false;
+  const auto failure = test_of(parsed(record), "generalized-alpha:rho=0.8").child("failure");
+  EXPECT_STREQ(failure.attribute("type").value(), "reduced");
+  EXPECT_TRUE(has(failure.attribute("message").value(), "[reduced]"));
+  EXPECT_EQ(occurrences(failure.text().get(), "\nh = "), 8u);
+  EXPECT_TRUE(has(failure.text().get(), "6 of 6 collisions matched, 1 of 8 runs failed\n"));
 }
 
-TEST(Junit, LetsNoTextBecomeMarkup) {
+TEST(Junit, AnUndecidedSubjectIsSkipped) {
   auto record = sample_record();
-  const std::string evil = "]]><b x='\">&\x01";
+  record.cases[0].subjects[2].assessment.verdict = Verdict::undecided;
+  EXPECT_TRUE(test_of(parsed(record), "rk4").child("skipped"));
+}
+
+TEST(Junit, PropertiesReadBackToTheSameNumbers) {
+  auto record = sample_record();
+  auto& subject = record.cases[0].subjects[0];
+  subject.levels.resize(1);
+  subject.levels[0].runs.resize(2);
+  subject.levels[0].runs[0].score.seconds = 1.25;
+  subject.levels[0].runs[1].score.seconds = 0.5;
+  subject.levels[0].runs[1].score.u_error = 0.30000000000000004;
+  const auto document = parsed(record);
+  const auto test = test_of(document, "newmark");
+  EXPECT_STREQ(test.attribute("time").value(), "1.750");
+  EXPECT_STREQ(test.attribute("classname").value(), "clackers.verify.three-parameter");
+  EXPECT_EQ(property(test, "u_error"), "0.30000000000000004");
+  EXPECT_EQ(property(test, "order"), "2.0123");
+  EXPECT_EQ(property(test, "collisions_matched"), "6");
+  EXPECT_EQ(property(document.child("testsuites").child("testsuite"), "N"), "2");
+}
+
+TEST(Junit, WhatWasNotMeasuredIsLeftOut) {
+  auto record = sample_record();
+  for (auto& run : record.cases[0].subjects[0].levels.back().runs) run.score.finished = false;
+  const auto test = test_of(parsed(record), "newmark");
+  EXPECT_EQ(property(test, "u_error"), "");
+  for (const auto& each : test.child("properties"))
+    EXPECT_FALSE(has(each.attribute("value").value(), "nan")) << each.attribute("name").value();
+}
+
+TEST(Junit, HistoriesAreOneTestWithALineAFile) {
+  const auto document = parsed(sample_check());
+  const auto test = test_of(document, "histories");
+  EXPECT_STREQ(test.attribute("classname").value(), "clackers.check.three-parameter");
+  EXPECT_EQ(property(test, "metric:u-max"), "1e-06");
+  EXPECT_EQ(property(test, "metric:decay-error"), "") << "not measured";
+  const std::string log = test.child("failure").text().get();
+  EXPECT_TRUE(has(log, "fine.csv: h = 0.01 s: error in u 1.00e-3, 4 of 6 collisions matched\n"));
+  EXPECT_TRUE(has(log, "No events file"));
+}
+
+TEST(Junit, EachCaseIsASuite) {
+  const auto document = parsed(sample_of_all());
+  EXPECT_EQ(std::distance(document.child("testsuites").begin(), document.child("testsuites").end()),
+            2);
+}
+
+TEST(Junit, NoTextBecomesMarkup) {
+  auto record = sample_record();
+  const std::string evil = "]]><b x='\">&\x01\xff\n";
   record.provenance = {evil, evil, evil, evil, evil, evil};
-  record.problem.name = evil;
-  for (auto& method : record.methods) {
-    method.name = method.assessment.sentence = evil;
-    method.assessment.displacement.reason = method.claim.reason = evil;
-  }
-  record.methods.back().refusal = record.methods.back().refusal_code = evil;
-  const auto text = junit(record);
-  EXPECT_EQ(text.find("<b"), std::string::npos);
-  EXPECT_EQ(text.find('\x01'), std::string::npos);
-}
-
-TEST(Junit, HoldsWhatChangedSinceABaselineAsItsOutput) {
-  const auto record = sample_record();
-  EXPECT_EQ(junit(record).find("<system-out>"), std::string::npos);
-  const auto changes = study::compare(record, record);
-  const auto text = junit(record, &changes);
-  EXPECT_NE(text.find("<system-out>Against the baseline of 2025-11-21T09:43:00Z (clackers 0.1.0, "
-                      "interrupted): nothing changed in"),
-            std::string::npos);
-  EXPECT_NE(text.find("methods.\n</system-out>"), std::string::npos);
+  record.cases[0].problem.name = evil;
+  for (auto& subject : record.cases[0].subjects) subject.name = subject.assessment.reason = evil;
+  record.cases[0].subjects.back().refusal = record.cases[0].subjects.back().refusal_code = evil;
+  const auto text = written(record, Format::junit);
+  EXPECT_FALSE(has(text, "<b"));
+  EXPECT_FALSE(has(text, "\x01"));
+  EXPECT_FALSE(has(text, "&#1;"));
+  EXPECT_FALSE(has(text, "\xff"));
+  const auto document = parsed(record);
+  const std::string name =
+      document.child("testsuites").child("testsuite").child("testcase").attribute("name").value();
+  EXPECT_EQ(name, "]]><b x='\">&\xEF\xBF\xBD\xEF\xBF\xBD\n");
 }
 
 }  // namespace

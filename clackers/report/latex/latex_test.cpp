@@ -1,30 +1,18 @@
-#include "clackers/report/latex.hpp"
+#include "clackers/report/latex/latex.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <regex>
-#include <sstream>
 
-#include "clackers/report/sample_record.hpp"
-#include "clackers/report/tex.hpp"
-#include "clackers/report/write.hpp"
+#include "clackers/report/latex/tex.hpp"
+#include "clackers/report/testing/sample_record.hpp"
+#include "clackers/report/testing/written.hpp"
 
 namespace clackers::report {
 namespace {
 
-std::string latex(const study::Record& record) {
-  std::ostringstream out;
-  write(record, Format::latex, out);
-  return out.str();
-}
-
-std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> out;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) out.push_back(line);
-  return out;
-}
+std::string latex(const study::Record& record) { return written(record, Format::latex); }
 
 // Columns of a line of the table: "&" that is no "\&".
 long columns(const std::string& line) {
@@ -32,12 +20,12 @@ long columns(const std::string& line) {
   return 1 + std::distance(std::sregex_iterator(line.begin(), line.end(), separator), {});
 }
 
-// What TeX would stumble over; empty where it would not.
-std::string trouble(const std::string& text) {
+// What TeX cannot read; empty where it can read all.
+std::string first_mistake(const std::string& text) {
   std::vector<std::string> open;
   std::string braces;
   bool formula = false;
-  for (const auto& line : lines(text)) {
+  for (const auto& line : lines_of(text)) {
     if (line.starts_with('%')) continue;
     for (std::size_t i = 0; i < line.size(); ++i) {
       const char c = line[i];
@@ -78,6 +66,7 @@ TEST(Tex, EscapesWhatTexTakesForItsOwn) {
   EXPECT_EQ(tex_text("---"), "-{}-{}-");
   EXPECT_EQ(tex_text("a\nb\tc\x7f"), "a b c ");
   EXPECT_EQ(tex_text("x ≤ −1 ≥ y"), "x $\\le$ $-$1 $\\ge$ y");
+  EXPECT_EQ(tex_text("2.01 ±0.01"), "2.01 $\\pm$0.01");
   EXPECT_EQ(tex_text("\xff"), "\xEF\xBF\xBD");
 }
 
@@ -94,72 +83,81 @@ TEST(Tex, KeepsACommentOnItsLine) {
   EXPECT_EQ(tex_comment("a\n\\end{table} 50%"), "a \\end{table} 50%");
 }
 
-TEST(Latex, HasARowOfNineColumnsAMethod) {
+TEST(Tex, SmallNumbersHaveThreeDigits) {
+  EXPECT_EQ(tex_number(0.05), "$0.05$");
+  EXPECT_EQ(tex_number(1.234e-12), "$1.2\\cdot 10^{-12}$");
+}
+
+// Lines of the tables' rows, without headings.
+std::vector<std::string> rows_of(const std::string& text) {
+  std::vector<std::string> rows;
+  for (const auto& line : lines_of(text))
+    if (line.ends_with("\\\\") && !has(line, "\\shortstack")) rows.push_back(line);
+  return rows;
+}
+
+TEST(Latex, EveryRowHasTheColumnsOfItsHeading) {
   const auto record = sample_record();
-  std::size_t rows = 0;
-  for (const auto& line : lines(latex(record)))
-    if (line.ends_with("\\\\")) {
-      EXPECT_EQ(columns(line), 9) << line;
-      ++rows;
-    }
-  EXPECT_EQ(rows, 2 + record.methods.size());
+  const auto rows = rows_of(latex(record));
+  EXPECT_EQ(rows.size(), record.cases[0].subjects.size());
+  for (const auto& row : rows) EXPECT_EQ(columns(row), 9) << row;
 }
 
-TEST(Latex, ShowsErrorOrderCollisionsCostBehaviourAndVerdict) {
+TEST(Latex, ARowHasErrorOrderCollisionsCostBehaviourAndVerdict) {
   const auto text = latex(sample_record());
-  EXPECT_NE(
-      text.find("    \\texttt{newmark} & $1.2\\cdot 10^{-7}$ & $2.01 \\pm 0.01$ & $6/6$ & "
-                "$4.1\\cdot 10^{-8}$ & $3.7\\cdot 10^{-7}$ & $93901$ & proper & agrees \\\\\n"),
-      std::string::npos)
+  EXPECT_TRUE(has(text,
+                  "    \\texttt{newmark} & $1.2\\cdot 10^{-7}$ & 2.01$\\pm$0.01 & 6/6 & "
+                  "$4.1\\cdot 10^{-8}$ & $3.7\\cdot 10^{-7}$ & $93901$ & proper & agrees \\\\\n"))
       << text;
-  EXPECT_NE(text.find("\\caption{three-parameter (N = 2, xi1 = 0.05, a\\_t = 1 m): 8 levels of 8"),
-            std::string::npos);
-  EXPECT_NE(text.find("\\label{tab:clackers-three-parameter}"), std::string::npos);
-  EXPECT_NE(text.find("Interrupted: only what was finished is shown."), std::string::npos);
+  EXPECT_TRUE(has(text, "\\label{tab:clackers-three-parameter}"));
+  EXPECT_TRUE(has(text, "Interrupted: only what was finished is shown."));
 }
 
-TEST(Latex, PutsWhatIsSaidOfAMethodIntoANoteWithItsLetter) {
+TEST(Latex, AFindingIsANoteWithItsLetter) {
   const auto text = latex(sample_record());
-  EXPECT_NE(text.find("& reduced & disagrees\\textsuperscript{a} \\\\"), std::string::npos) << text;
-  EXPECT_NE(
-      text.find("\\par \\textsuperscript{a}~reduced: the line is straight with slope 1.6, the "
-                "method claims order 2 [reduced]"),
-      std::string::npos);
-  EXPECT_NE(text.find("\\texttt{newmark+\\allowbreak{}penalty:\\allowbreak{}stiffness=1e6} & -- & "
-                      "-- & -- & -- & -- & -- & -- & refused\\textsuperscript{e}"),
-            std::string::npos)
-      << text;
+  EXPECT_TRUE(has(text, "& reduced & disagrees\\textsuperscript{a} \\\\")) << text;
+  EXPECT_TRUE(has(text, "\\par \\textsuperscript{a}~Converges with the reduced order"));
+  EXPECT_TRUE(has(text, "& refused\\textsuperscript{e}"));
 }
 
-TEST(Latex, GoesOnWithTwoLettersBehindTheTwentySixthNote) {
+TEST(Latex, LettersGoOnBehindTheTwentySixthNote) {
   auto record = sample_record();
-  const auto refused = record.methods.back();
-  record.methods.assign(53, refused);
+  record.cases[0].subjects.assign(53, sample_refusal());
   const auto text = latex(record);
   for (const auto letter : {"{a}", "{z}", "{aa}", "{az}", "{ba}"})
-    EXPECT_NE(text.find(std::string("\\par \\textsuperscript") + letter + "~"), std::string::npos)
-        << letter;
+    EXPECT_TRUE(has(text, std::string("\\par \\textsuperscript") + letter + "~")) << letter;
 }
 
-TEST(Latex, LetsNothingOfTheRecordStopTex) {
-  auto record = sample_record();
-  EXPECT_EQ(trouble(latex(record)), "");
+TEST(Latex, HistoriesHaveARowAFileAndTheVerdictBelow) {
+  const auto text = latex(sample_check());
+  EXPECT_TRUE(has(text, "\\label{tab:clackers-check-three-parameter}"));
+  EXPECT_TRUE(
+      has(text, "\\texttt{fine.csv} & $2001$ & $0.01$ & 6 & $1.0\\cdot 10^{-3}$ & -- & 4/6"))
+      << text;
+  EXPECT_TRUE(has(text, "\\par Verdict: disagrees. "));
+  EXPECT_EQ(occurrences(latex(sample_of_all()), "\\begin{table}"), 2u);
+}
+
+TEST(Latex, NothingOfTheRecordStopsTex) {
+  auto record = sample_of_all();
+  EXPECT_EQ(first_mistake(latex(record)), "");
   const std::string evil = "}\n\\end{tabular} & $ _ ^ # % ~ \\\\ {";
   record.provenance = {evil, evil, evil, evil, evil, evil};
-  record.problem.name = evil;
-  for (auto& parameter : record.problem.parameters) parameter = {evil, 1.0, evil, evil};
-  for (auto& method : record.methods) {
-    method.name = method.assessment.sentence = evil;
-    method.assessment.displacement.reason = method.claim.reason = evil;
-    for (auto& level : method.ladder)
-      for (auto& run : level.runs) run.u_error = INFINITY;
-  }
-  record.methods.back().refusal = record.methods.back().refusal_code = evil;
-  EXPECT_EQ(trouble(latex(record)), "");
-  for (const auto& line : lines(latex(record)))
-    if (line.ends_with("\\\\")) {
-      EXPECT_EQ(columns(line), 9) << line;
+  for (auto& problem : record.cases) {
+    problem.problem.name = evil;
+    for (auto& parameter : problem.problem.parameters) parameter = {evil, 1.0, evil, evil};
+    for (auto& subject : problem.subjects) {
+      subject.name = subject.assessment.reason = subject.claim.reason = evil;
+      if (!subject.refusal.empty()) subject.refusal = subject.refusal_code = evil;
+      for (auto& level : subject.levels)
+        for (auto& run : level.runs) {
+          run.score.u_error = INFINITY;
+          if (run.file) run.file->file = evil;
+        }
     }
+  }
+  EXPECT_EQ(first_mistake(latex(record)), "");
+  for (const auto& row : rows_of(latex(record))) EXPECT_EQ(columns(row), 9) << row;
 }
 
 }  // namespace

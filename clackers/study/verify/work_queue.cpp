@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -40,7 +41,12 @@ void run_all(std::size_t count, int threads, const std::function<void(std::size_
     // This thread serves as well: one thread needs no other.
     std::vector<std::jthread> others;
     const auto wanted = std::min(count, static_cast<std::size_t>(threads));
-    for (std::size_t i = 1; i < wanted; ++i) others.emplace_back(serve);
+    try {
+      others.reserve(wanted);
+      for (std::size_t i = 1; i < wanted; ++i) others.emplace_back(serve);
+    } catch (const std::system_error&) {
+      // A limit on threads, as in containers: the work goes on with those that there are.
+    }
     serve();
   }
   if (first) std::rethrow_exception(first);
