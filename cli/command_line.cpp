@@ -2,113 +2,119 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <span>
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
 #include "cli/command.hpp"
-#include "cli/commands/generate.hpp"
 #include "cli/files/output_stream.hpp"
+#include "cli/files/paths.hpp"
+#include "cli/help/completion.hpp"
 #include "cli/help/help.hpp"
-#include "cli/help/reference.hpp"
-#include "cli/text.hpp"
+#include "cli/help/shell_files.hpp"
+#include "cli/help/text.hpp"
 
 namespace clackers::cli {
 namespace {
 
-const HelpPage overall_page{
-    .examples =
-        "  clackers verify                        judge the default methods\n"
-        "  clackers verify newmark --report newmark.html\n"
-        "  clackers respond three-parameter --samples 1001 --format csv --out exact.csv\n",
-    .about = "Exact motions of colliding structures, and verdicts on time-integration methods.",
-    .usage =
-        "  clackers list     [KIND]           what there is: cases, methods, metrics\n"
-        "  clackers show     CASE|METHOD      one case or method in full\n"
-        "  clackers respond  CASE ...         the exact motion of a case\n"
-        "  clackers verify   [METHOD ...]     judge methods on a ladder of steps\n"
-        "  clackers check    FILE ...         judge time histories of any program\n"
-        "  clackers paper    [FIGURE ...]     the paper's figures and claims, reproduced\n"
-        "  clackers explain  [CODE]           what a code in [brackets] means\n"
-        "\n"
-        "  clackers COMMAND --help tells the rest. Quantities are in SI units.\n"
-        "\n"
-        "Exit codes\n"
-        "  0 agrees, nothing claimed, or done   1 disagrees         2 refused input\n"
-        "  3 undecided                          4 file or failure   130 interrupted\n"};
-
-std::string help_of(const CLI::App& app) {
-  const auto* parent = app.get_parent();
-  return parent == nullptr ? "clackers --help" : fmt::format("clackers {} --help", app.get_name());
+std::string help_of(const Command& command) {
+  return command.name.empty() ? "clackers --help" : fmt::format("clackers {} --help", command.name);
 }
 
-// The long names of an app's options, as typed.
-std::vector<std::string> option_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const auto* option : app.get_options())
-    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
-  return names;
+[[noreturn]] void refuse_syntax(const std::string& what, const Command& command) {
+  throw InputError(fmt::format("{} See: {}", what, help_of(command)), "bad-syntax");
 }
 
-[[noreturn]] void refuse_syntax(const std::string& what, const CLI::App& app) {
-  throw InputError(fmt::format("{} See: {}", what, help_of(app)), "bad-syntax");
+[[noreturn]] void refuse_option(const std::string& name, const Command& command) {
+  std::vector<std::string> known;
+  for (const auto& option : command.options) known.push_back(option.name);
+  refuse_name("option", name, known, help_of(command));
 }
 
-// Refuses what the parser could not place: unknown options, then surplus arguments.
-void refuse_leftovers(const CLI::App& app) {
-  auto left = app.remaining();
-  std::erase(left, "--");  // ends the options, as everywhere
-  const auto option = std::ranges::find_if(
-      left, [](const std::string& text) { return text.size() > 1 && text.starts_with('-'); });
-  if (option != left.end()) {
-    const auto name = option->substr(0, option->find('='));
-    const auto known = option_names(app);
-    // A known one is left over behind "--", where options are arguments.
-    if (std::ranges::find(known, name) == known.end())
-      refuse_name("option", name, known, help_of(app));
+bool is_help(std::string_view word) { return word == "-h" || word == "--help"; }
+
+// Gives the words behind a command to its options and arguments.
+class Parser {
+ public:
+  Parser(Command& command, std::span<const std::string> words) : command_(command), words_(words) {}
+
+  /// False when help is asked for, and nothing else counts.
+  bool parse() {
+    bool options_end = false;
+    while (at_ < words_.size()) {
+      const auto& word = words_[at_++];
+      if (!options_end && is_help(word)) return false;
+      if (!options_end && word == "--")
+        options_end = true;
+      else if (!options_end && word.size() > 1 && word.starts_with('-'))
+        take_option(word);
+      else
+        take_argument(word);
+    }
+    return true;
   }
-  if (!left.empty())
-    refuse_syntax(fmt::format("one argument too many: \"{}\".", left.front()), app);
-}
 
-// An empty value is a shell variable that was not set, and not a wish for the default.
-void refuse_empty_values(const CLI::App& app) {
-  for (const auto* option : app.get_options())
-    for (const auto& value : option->results())
-      if (value.empty())
-        refuse_syntax(fmt::format("{} is given an empty value.", option->get_name()), app);
-}
-
-void refuse_root_leftovers(const CLI::App& root, const std::vector<Command>& commands) {
-  const auto left = root.remaining();
-  if (left.empty()) return;
-  const auto& first = left.front();
-  if (!first.starts_with('-')) {
-    std::vector<std::string> names;
-    for (const auto& command : commands) names.push_back(command.app->get_name());
-    refuse_name("command", first, names, help_of(root));
+ private:
+  void take_option(const std::string& word) {
+    const auto equals = word.find('=');
+    const auto name = word.substr(0, equals);
+    const auto option = std::ranges::find(command_.options, name, &Option::name);
+    if (option == command_.options.end()) refuse_option(name, command_);
+    if (auto* const* flag = std::get_if<bool*>(&option->target)) {
+      if (equals != std::string::npos)
+        refuse_syntax(name + " stands alone, without a value.", command_);
+      **flag = true;
+    } else if (equals != std::string::npos) {
+      give(*option, word.substr(equals + 1));
+    } else if (at_ == words_.size() || words_[at_].starts_with("--") || is_help(words_[at_])) {
+      refuse_syntax(fmt::format("{0} needs a value: {0} {1}.", name, option->placeholder),
+                    command_);
+    } else {
+      give(*option, words_[at_++]);
+    }
   }
-  const auto name = first.substr(0, first.find('='));
-  const auto known = option_names(*commands.front().app);
-  if (std::ranges::find(known, name) != known.end())
-    refuse_syntax(fmt::format("{} stands after the command: clackers COMMAND ... {}.", name, name),
-                  root);
-  refuse_name("option", name, option_names(root), help_of(root));
-}
 
-// The parser's complaint in our words.
-[[noreturn]] void refuse_parse(const CLI::ParseError& error, const CLI::App& app) {
-  const std::string what = error.what();
-  if (error.get_name() != "ArgumentMismatch") refuse_syntax(what + ".", app);
-  auto name = what.substr(0, what.find_first_of(": "));
-  if (!name.starts_with("--")) name = "--" + name;
-  const auto* option = app.get_option_no_throw(name);
-  if (option == nullptr) refuse_syntax(what + ".", app);
-  if (option->get_option_text().empty())
-    refuse_syntax(fmt::format("{} stands alone, without a value.", name), app);
-  if (option->count() > 1) refuse_syntax(fmt::format("{} stands more than once.", name), app);
-  refuse_syntax(fmt::format("{0} needs a value: {0} {1}.", name, option->get_option_text()), app);
+  void take_argument(const std::string& word) {
+    if (next_argument_ == command_.arguments.size())
+      refuse_syntax(fmt::format("one argument too many: \"{}\".", word), command_);
+    auto& argument = command_.arguments[next_argument_];
+    next_argument_ += !argument.repeats();
+    give(argument, word);
+  }
+
+  void give(Option& option, const std::string& value) {
+    // A shell variable that was not set; it does not stand for the default.
+    if (value.empty())
+      refuse_syntax(fmt::format("{} is given an empty value.", option.name), command_);
+    if (auto* const* many = std::get_if<std::vector<std::string>*>(&option.target)) {
+      (*many)->push_back(value);
+      return;
+    }
+    if (std::ranges::find(given_, &option) != given_.end())
+      refuse_syntax(fmt::format("{} stands more than once.", option.name), command_);
+    given_.push_back(&option);
+    *std::get<std::string*>(option.target) = value;
+  }
+
+  Command& command_;
+  std::span<const std::string> words_;
+  std::size_t at_ = 0, next_argument_ = 0;
+  std::vector<const Option*> given_;
+};
+
+// No file is both read and written.
+void require_distinct_files(const Command& command) {
+  std::vector<NamedFile> inputs, outputs;
+  const auto collect = [&](const Option& option) {
+    if (option.kind == ValueKind::text) return;
+    auto& files = option.kind == ValueKind::input_file ? inputs : outputs;
+    for (const auto& path : option.values())
+      if (&files == &inputs || path != "-") files.push_back({option.name, path});
+  };
+  std::ranges::for_each(command.arguments, collect);
+  std::ranges::for_each(command.options, collect);
+  require_distinct_files(inputs, outputs);
 }
 
 void print(const std::string& text) {
@@ -117,60 +123,77 @@ void print(const std::string& text) {
   out.finish();
 }
 
+[[noreturn]] void refuse_command(const std::string& word, const Grammar& grammar) {
+  const auto& program = grammar.program;
+  if (!word.starts_with('-')) {
+    std::vector<std::string> names;
+    for (const auto& command : grammar.commands) names.push_back(command.name);
+    refuse_name("command", word, names, help_of(program));
+  }
+  const auto name = word.substr(0, word.find('='));
+  const auto& known = grammar.commands.front().options;
+  if (std::ranges::find(known, name, &Option::name) != known.end())
+    refuse_syntax(fmt::format("{0} stands after the command: clackers COMMAND ... {0}.", name),
+                  program);
+  refuse_option(name, program);
+}
+
+// The flags --help and --version have no target of their own: they end the parsing.
+bool unused_flag = false;
+
+Grammar clackers_grammar() {
+  Grammar grammar;
+  grammar.program.summary =
+      "exact motions of colliding structures, and verdicts on time-integration methods";
+  grammar.program.page = {
+      .examples =
+          "  clackers verify                        assess the default methods\n"
+          "  clackers verify newmark --report newmark.html\n"
+          "  clackers respond three-parameter --samples 1001 --format csv --out exact.csv\n",
+      .about = "Exact motions of colliding structures, and verdicts on time-integration methods.",
+      .usage = ""};
+  grammar.program.add_flag("--help", unused_flag, "This help.");
+  grammar.program.add_flag("--version", unused_flag, "The version.");
+  for (const auto add :
+       {add_list, add_show, add_respond, add_verify, add_check, add_paper, add_explain})
+    add(grammar);
+  for (auto& command : grammar.commands) command.add_flag("--help", unused_flag, "This help.");
+  return grammar;
+}
+
 }  // namespace
 
 int run_command_line(const std::vector<std::string>& arguments) {
-  CLI::App root("", "clackers");
-  set_help(root, overall_page);
-  root.set_help_flag("-h,--help", "This help.");
-  root.set_version_flag("--version", "clackers " CLACKERS_VERSION, "The version.");
-  root.require_subcommand(0, 1);  // so that `clackers explain list` is not two commands
-  root.allow_extras();
-  const std::vector<Command> commands{add_list(root),   add_show(root),  add_respond(root),
-                                      add_verify(root), add_check(root), add_paper(root),
-                                      add_explain(root)};
-  for (const auto& command : commands) {
-    command.app->set_help_flag("-h,--help", "This help.");
-    command.app->allow_extras();
-    for (auto* option : command.app->get_options())
-      if (option->get_items_expected_max() == 0) option->disable_flag_override();
-  }
-  // Unlisted: the build calls it, with everything above as its source.
-  if (arguments.size() == 2 && arguments.front() == "--generate") {
-    std::vector<Reference> references{reference_of(root)};
-    for (const auto& command : commands) references.push_back(reference_of(*command.app));
-    generate_shell_files(references, arguments.back());
+  auto grammar = clackers_grammar();
+  const auto first = arguments.empty() ? "--help" : arguments.front();
+  const auto rest = std::span(arguments).subspan(arguments.empty() ? 0 : 1);
+  if (is_help(first)) {
+    print(help_text(grammar));
     return 0;
   }
-  const auto chosen = [&] {
-    return std::ranges::find_if(commands, [](const Command& it) { return it.app->parsed(); });
-  };
-  const auto innermost = [&]() -> const CLI::App& {
-    return chosen() == commands.end() ? root : *chosen()->app;
-  };
-
-  try {
-    root.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-  } catch (const CLI::CallForVersion& version) {
-    print(std::string(version.what()) + "\n");
-    return 0;
-  } catch (const CLI::Success&) {
-    print(innermost().help());
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    refuse_parse(error, innermost());
-  }
-  refuse_root_leftovers(root, commands);
-  if (chosen() == commands.end()) {
-    print(root.help());
+  if (first == "--version") {
+    print("clackers " CLACKERS_VERSION "\n");
     return 0;
   }
-  refuse_leftovers(*chosen()->app);
-  refuse_empty_values(*chosen()->app);
-
+  // Unlisted: the build calls the first, the shells call the second.
+  if (first == "--generate" && rest.size() == 1) {
+    write_shell_files(grammar, rest.front());
+    return 0;
+  }
+  if (first == "--complete") {
+    for (const auto& line : completions(grammar, {rest.begin(), rest.end()})) print(line + "\n");
+    return 0;
+  }
+  const auto command = std::ranges::find(grammar.commands, first, &Command::name);
+  if (command == grammar.commands.end()) refuse_command(first, grammar);
+  if (!Parser(*command, rest).parse()) {
+    print(help_text(*command));
+    return 0;
+  }
+  require_distinct_files(*command);
   std::vector<std::string> line{"clackers"};
   line.insert(line.end(), arguments.begin(), arguments.end());
-  return chosen()->run(shell_line(line));
+  return command->run(shell_line(line));
 }
 
 }  // namespace clackers::cli

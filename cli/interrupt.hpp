@@ -1,19 +1,24 @@
 #pragma once
 
+#include <signal.h>
+
 #include <atomic>
-#include <exception>
 #include <string>
+
+#include "clackers/base/error.hpp"
 
 namespace clackers::cli {
 
-/// Thrown where work stops because a signal asked for it. Exit code 130 of the command.
-class Interrupted : public std::exception {
+/// Thrown where work stops because a signal asked for it: Error with code interrupted, as the
+/// modules throw it. Exit code 130 of the command.
+class Interrupted : public Error {
  public:
-  const char* what() const noexcept override { return "interrupted"; }
+  Interrupted() : Error("interrupted", "interrupted") {}
 };
 
 /// From here on SIGINT, SIGTERM and SIGHUP raise `interrupt_flag()` instead of ending the process;
-/// a second one ends it at once with exit code 130, after removing the files of RemovedOnExit.
+/// a second one ends it at once with exit code 130. Other signals that end a process, and
+/// std::terminate and abort (exit code 4), end it after removing the paths of RemovedOnExit, too.
 /// Signals that the parent chose to ignore stay ignored. A closed pipe and a file limit become
 /// errors of write() instead of signals.
 void catch_signals();
@@ -21,7 +26,7 @@ void catch_signals();
 /// True once a signal asked to stop.
 const std::atomic<bool>& interrupt_flag();
 
-/// While it lives, the file is removed when a second signal ends the process.
+/// While it lives, the file or folder is removed when a signal ends the process.
 class RemovedOnExit {
  public:
   explicit RemovedOnExit(std::string path);
@@ -32,6 +37,22 @@ class RemovedOnExit {
 
  private:
   std::string path_;
+};
+
+/// Removes a file, or a folder with all that it holds, without following links. It calls nothing
+/// that a signal handler may not call.
+void remove_path(const char* path);
+
+/// While it lives, signals wait. For the few system calls that put a result in place.
+class SignalsWait {
+ public:
+  SignalsWait();
+  ~SignalsWait();
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
 };
 
 }  // namespace clackers::cli

@@ -23,8 +23,8 @@ void open_standard_descriptors() {
     if (::fcntl(number, F_GETFD) == -1) ::open("/dev/null", O_RDONLY);
 }
 
-int tell(const std::exception& error, std::string_view code, int exit_code) {
-  complain(error.what(), code);
+int report(const std::exception& error, std::string_view code, int exit_code) {
+  report_error(error.what(), code);
   return exit_code;
 }
 
@@ -32,20 +32,18 @@ int guarded(const std::vector<std::string>& arguments) {
   try {
     return run_command_line(arguments);
   } catch (const InputError& error) {
-    return tell(error, error.code().name(), 2);
+    return report(error, error.code().name(), 2);
   } catch (const Error& error) {
-    return tell(error, error.code().name(), 4);
+    return report(error, error.code().name(), error.code() == Code("interrupted") ? 130 : 4);
   } catch (const BrokenPipe&) {
     return 0;
-  } catch (const Interrupted& error) {
-    return tell(error, "interrupted", 130);
   } catch (const std::bad_alloc&) {
-    complain("not enough memory for this request; ask for less.", "out-of-memory");
+    report_error("not enough memory for this request; ask for less.", "out-of-memory");
     return 4;
   } catch (const std::exception& error) {
-    complain(fmt::format("a mistake in the program: {}. Please report it with your command.",
-                         error.what()),
-             "internal-error");
+    report_error(fmt::format("a mistake in the program: {}. Please report it with your command.",
+                             error.what()),
+                 "internal-error");
     return 4;
   }
 }

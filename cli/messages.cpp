@@ -5,16 +5,22 @@
 
 #include <cstdio>
 
-#include "cli/text.hpp"
+#include "clackers/base/text.hpp"
+#include "cli/help/text.hpp"
 
 namespace clackers::cli {
+namespace {
 
-void note(const std::string& text) { std::fputs((text + "\n").c_str(), stderr); }
+void put_line(const std::string& text) { std::fputs((text + "\n").c_str(), stderr); }
 
-void complain(std::string_view message, std::string_view code) {
+}  // namespace
+
+void note(std::string_view text) { put_line(printable(text)); }
+
+void report_error(std::string_view message, std::string_view code) {
   const auto* const who = message.starts_with("clackers: ") ? "" : "clackers: ";
-  const auto line = fmt::format("{}{} [{}]", who, message, code);
-  note(::isatty(STDERR_FILENO) != 0 ? wrap(line, 80) : line);
+  const auto line = fmt::format("{}{} [{}]", who, printable(message), code);
+  put_line(::isatty(STDERR_FILENO) != 0 ? wrap(line, 80) : line);
 }
 
 }  // namespace clackers::cli

@@ -1,14 +1,29 @@
 #pragma once
 
-#include <string>
 #include <string_view>
+
+#include "clackers/base/error.hpp"
 
 namespace clackers::cli {
 
-/// One line on standard error, for a person.
-void note(const std::string& text);
+/// One line on standard error, for a person. Control characters are escaped.
+void note(std::string_view text);
 
-/// "clackers: message [code]" on standard error, broken at its width if that is a terminal.
-void complain(std::string_view message, std::string_view code);
+/// "clackers: message [code]" on standard error, wrapped if that is a terminal. Control characters
+/// are escaped.
+void report_error(std::string_view message, std::string_view code);
+
+/// Runs `write`, which writes one of several results: a file that fails is reported and does not
+/// stop the others. True when written.
+template <class Write>
+bool try_to_write(const Write& write) {
+  try {
+    write();
+    return true;
+  } catch (const FileError& error) {
+    report_error(error.what(), error.code().name());
+    return false;
+  }
+}
 
 }  // namespace clackers::cli

@@ -1,10 +1,8 @@
 #include "cli/options.hpp"
 
-#include <CLI/CLI.hpp>
-
 namespace clackers::cli {
 
-void add_common_options(CLI::App& command, CommonOptions& options) {
+void add_common_options(Command& command, CommonOptions& options) {
   command
       .add_option("--format", options.format,
                   "table (for people, 80 columns), csv or json (for programs; numbers read back to "
@@ -13,31 +11,30 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command
       .add_option("--out", options.out,
                   "Write the result to FILE instead of standard output, whole or not at all.")
-      ->option_text("FILE");
+      ->writes_file("FILE");
   command.add_flag("--quiet", options.quiet,
                    "No progress and no notes on standard error; refusals still appear.");
   command.add_flag("--no-color", options.no_color,
-                   "No colours; the environment variable NO_COLOR does the same.");
+                   "No colors; the environment variable NO_COLOR does the same.");
 }
 
-void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
+void add_set_option(Command& command, std::vector<std::string>& settings) {
   command
       .add_option("--set", settings,
                   "Parameters of the case in SI units: xi1=0.1,N=3 (may be repeated). Their names, "
                   "units and ranges: clackers show CASE.")
-      ->option_text("name=value,...")
-      ->allow_extra_args(false);
+      ->option_text("name=value,...");
 }
 
-void add_report_option(CLI::App& command, std::string& path) {
+void add_report_option(Command& command, std::string& path) {
   command
       .add_option("--report", path,
                   "Also write a page with verdicts, figures and provenance that opens without a "
                   "network, whole or not at all.")
-      ->option_text("FILE.html");
+      ->writes_file("FILE.html");
 }
 
-void add_verdict_formats(CLI::App& command) {
+void add_verdict_formats(Command& command) {
   command.get_option("--format")
       ->description(
           "table (for people, 80 columns), csv or json (for programs; numbers read back to the "

@@ -3,9 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "cli/command.hpp"
 
 namespace clackers::cli {
 
@@ -16,15 +14,15 @@ struct CommonOptions {
 };
 
 /// Adds --format, --out, --quiet and --no-color. `options` must outlive the parsing.
-void add_common_options(CLI::App& command, CommonOptions& options);
+void add_common_options(Command& command, CommonOptions& options);
 
 /// Adds --set, which may stand several times.
-void add_set_option(CLI::App& command, std::vector<std::string>& settings);
+void add_set_option(Command& command, std::vector<std::string>& settings);
 
-/// Adds --report of commands that judge. `path` must outlive the parsing.
-void add_report_option(CLI::App& command, std::string& path);
+/// Adds --report of commands that assess. `path` must outlive the parsing.
+void add_report_option(Command& command, std::string& path);
 
-/// Says in the help of --format that commands that judge know more formats.
-void add_verdict_formats(CLI::App& command);
+/// Says in the help of --format that commands that assess know more formats.
+void add_verdict_formats(Command& command);
 
 }  // namespace clackers::cli

@@ -19,7 +19,7 @@ void put(const std::string& text) {
 
 }  // namespace
 
-std::string spell_duration(double seconds) {
+std::string duration_text(double seconds) {
   const auto s = static_cast<long long>(seconds + 0.5);
   if (s < 60) return fmt::format("{} s", s);
   if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
@@ -35,18 +35,17 @@ ProgressLine::~ProgressLine() {
   if (visible_) put("");
 }
 
-void ProgressLine::tell(double share) {
+void ProgressLine::report(double share) {
   if (!visible_) return;
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
   if (now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  auto line =
-      fmt::format("{} {:3.0f} %, {} elapsed", what_, 100.0 * share, spell_duration(elapsed));
-  // Before a twentieth is done the rest is anyone's guess.
+  auto line = fmt::format("{} {:3.0f} %, {} elapsed", what_, 100.0 * share, duration_text(elapsed));
+  // Before a twentieth is done the rest cannot be estimated.
   if (share >= 0.05)
-    line += fmt::format(", about {} left", spell_duration(elapsed * (1.0 - share) / share));
+    line += fmt::format(", about {} left", duration_text(elapsed * (1.0 - share) / share));
   put(line);
 }
 

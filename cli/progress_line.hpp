@@ -1,13 +1,14 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <string>
 
 namespace clackers::cli {
 
-/// One line on a terminal's standard error that tells how far the work is, rewritten in place and
-/// erased at the end. Silent when standard error is no terminal.
+/// One line on a terminal's standard error with the share of the work that is done, rewritten in
+/// place and erased at the end. Silent when standard error is no terminal.
 class ProgressLine {
  public:
   /// `what` stands first: "verify".
@@ -17,7 +18,11 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   /// The share of the work that is done, in [0, 1]; from any thread.
-  void tell(double share);
+  void report(double share);
+  /// report() for functions that take a callback; valid as long as this object.
+  std::function<void(double)> callback() {
+    return [this](double share) { report(share); };
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -29,6 +34,6 @@ class ProgressLine {
 };
 
 /// "12 s", "3 min 05 s", "2 h 07 min".
-std::string spell_duration(double seconds);
+std::string duration_text(double seconds);
 
 }  // namespace clackers::cli

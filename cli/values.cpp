@@ -3,33 +3,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 
 #include "clackers/base/error.hpp"
+#include "clackers/exchange/number.hpp"
 
 namespace clackers::cli {
 namespace {
 
-constexpr std::string_view number_rule = "a number with a decimal point such as 0.05, 5e-2 or 1/20";
-
-[[noreturn]] void refuse_text(std::string_view what, std::string_view text) {
-  const bool comma = text.find(',') != std::string_view::npos;
-  refuse("clackers", what, fmt::format("\"{}\"", text), number_rule,
-         comma ? "Use a point, not a comma." : "", "not-a-number");
-}
-
+// `part` is the whole, or a side of a fraction.
 double read_decimal(std::string_view what, std::string_view whole, std::string_view part) {
-  if (part.starts_with('+') && !part.starts_with("+-")) part.remove_prefix(1);
-  double value = 0.0;
-  const auto* const end = part.data() + part.size();
-  const auto [stop, error] = std::from_chars(part.data(), end, value);
-  if (error == std::errc::invalid_argument || stop != end) refuse_text(what, whole);
-  if (error == std::errc::result_out_of_range)
-    refuse("clackers", what, whole, "a number that a double can hold, 5e-324 to 1.8e308 in size",
-           {}, "not-finite");
-  return value;
+  exchange::Number number;
+  switch (exchange::read(part, number)) {
+    case exchange::NumberError::none:
+      return number.value;
+    case exchange::NumberError::not_finite:
+      if (!std::isfinite(number.value)) return number.value;  // nan and inf as words
+      refuse("clackers", what, whole, "a number that a double can hold, 5e-324 to 1.8e308 in size",
+             {}, "not-finite");
+    default:
+      refuse("clackers", what, fmt::format("\"{}\"", whole),
+             "a number with a decimal point such as 0.05, 5e-2 or 1/20",
+             whole.find(',') != std::string_view::npos ? "Use a point, not a comma." : "",
+             "not-a-number");
+  }
 }
 
 }  // namespace

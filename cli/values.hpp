@@ -8,7 +8,7 @@
 
 namespace clackers::cli {
 
-/// The number that `text` spells: decimal with a point, nan, inf, or a fraction of two such numbers
+/// The number in `text`: decimal with a point, nan, inf, or a fraction of two such numbers
 /// ("1/9"). `what` names it in messages ("--step", "xi1"). Throws InputError for anything else.
 double read_number(std::string_view what, std::string_view text);
 

@@ -20,6 +20,19 @@ if(CLACKERS_DEVELOPER)
     "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Werror>")
 endif()
 
+# Hardening of what is built for use: canaries on the stack, checked copies, and tables of addresses
+# that are read-only once the program runs. The command is position-independent, too. tests/package
+# reads it. Sanitizers have their own checks.
+include(CheckPIESupported)
+check_pie_supported(LANGUAGES CXX)
+set(for_use $<CONFIG:Release,RelWithDebInfo,MinSizeRel>)
+if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  target_compile_options(clackers_options INTERFACE
+    "$<BUILD_INTERFACE:$<${for_use}:-fstack-protector-strong;-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>>")
+  target_link_options(clackers_options INTERFACE
+    "$<BUILD_INTERFACE:$<${for_use}:LINKER:-z,relro,-z,now>>")
+endif()
+
 # clackers_module(<name> LINK <targets> [TEST_LINK <targets>]): the library clackers_<name> from
 # clackers/<name>/**.cpp and, from its *_test.cpp, the test program clackers_<name>_test.
 function(clackers_module name)

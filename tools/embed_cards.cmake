@@ -21,25 +21,25 @@ foreach(header IN LISTS headers)
 endforeach()
 
 file(WRITE ${OUTPUT} "// Written by tools/embed_cards.cmake at build time.
-#include \"clackers/methods/cards.hpp\"
+#include \"clackers/methods/registry.hpp\"
 
 #include <string_view>
 
 namespace clackers::methods {
 namespace {
 
-struct Row {
-  std::string_view name, card;
+struct Card {
+  std::string_view name, text;
 };
 
-constexpr Row rows[] = {
+constexpr Card cards[] = {
 ${rows}};
 
 }  // namespace
 
 std::string_view card(std::string_view name) {
-  for (const auto& row : rows)
-    if (row.name == name) return row.card;
+  for (const auto& row : cards)
+    if (row.name == name) return row.text;
   return {};
 }
 

@@ -5,7 +5,7 @@
 #include "bindings/c/handle.hpp"
 #include "bindings/c/versioned.hpp"
 #include "clackers/base/suggest.hpp"
-#include "clackers/cases/admissibility.hpp"
+#include "clackers/cases/case.hpp"
 
 namespace clackers::c_api {
 namespace {

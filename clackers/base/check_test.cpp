@@ -7,31 +7,13 @@
 #include <limits>
 #include <string>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 
 namespace clackers {
 namespace {
 
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 constexpr double largest = std::numeric_limits<double>::max();
-
-std::string code_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return std::string(error.code().name());
-  }
-  return "none";
-}
-
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
-}
 
 TEST(Check, ReturnsWhatItAllows) {
   for (const double x : {0.0, -1.0, largest, -largest}) EXPECT_EQ(require_finite("w", "x", x), x);
@@ -43,41 +25,39 @@ TEST(Check, ReturnsWhatItAllows) {
 }
 
 TEST(Check, RefusesNanEverywhere) {
-  EXPECT_EQ(code_of([] { require_finite("w", "x", NAN); }), "not-a-number");
-  EXPECT_EQ(code_of([] { require_positive("w", "x", NAN); }), "not-a-number");
-  EXPECT_EQ(code_of([] { require_within("w", "x", NAN, 0.0, 1.0); }), "not-a-number");
-  EXPECT_EQ(code_of([] { require_step("w", NAN); }), "not-a-number");
+  EXPECT_REFUSED(require_finite("w", "x", NAN), "not-a-number");
+  EXPECT_REFUSED(require_positive("w", "x", NAN), "not-a-number");
+  EXPECT_REFUSED(require_within("w", "x", NAN, 0.0, 1.0), "not-a-number");
+  EXPECT_REFUSED(require_step("w", NAN), "not-a-number");
 }
 
 TEST(Check, RefusesInfinityWhereFiniteNumbersAreMeant) {
   for (const double x : {INFINITY, -INFINITY}) {
-    EXPECT_EQ(code_of([&] { require_finite("w", "x", x); }), "not-finite");
-    EXPECT_EQ(code_of([&] { require_positive("w", "x", x); }), "not-finite");
-    EXPECT_EQ(code_of([&] { require_step("w", x); }), "not-finite");
+    EXPECT_REFUSED(require_finite("w", "x", x), "not-finite");
+    EXPECT_REFUSED(require_positive("w", "x", x), "not-finite");
+    EXPECT_REFUSED(require_step("w", x), "not-finite");
   }
   EXPECT_EQ(require_within("w", "x", INFINITY, 0.0, INFINITY), INFINITY);
 }
 
 TEST(Check, RefusesWhatLiesOutside) {
   for (const double x : {0.0, -0.0, -smallest, -1.0}) {
-    EXPECT_EQ(code_of([&] { require_positive("w", "x", x); }), "out-of-range");
-    EXPECT_EQ(code_of([&] { require_step("w", x); }), "step-not-positive");
+    EXPECT_REFUSED(require_positive("w", "x", x), "out-of-range");
+    EXPECT_REFUSED(require_step("w", x), "step-not-positive");
   }
-  EXPECT_EQ(code_of([] { require_within("w", "x", std::nextafter(2.0, 3.0), -1.0, 2.0); }),
-            "out-of-range");
-  EXPECT_EQ(code_of([] { require_within("w", "x", std::nextafter(-1.0, -2.0), -1.0, 2.0); }),
-            "out-of-range");
+  EXPECT_REFUSED(require_within("w", "x", std::nextafter(2.0, 3.0), -1.0, 2.0), "out-of-range");
+  EXPECT_REFUSED(require_within("w", "x", std::nextafter(-1.0, -2.0), -1.0, 2.0), "out-of-range");
 }
 
 TEST(Check, SaysWhatIsAllowed) {
-  EXPECT_EQ(message_of([] { require_within("case", "eta", 1.5, 0.0, 1.0); }),
-            "case: eta = 1.5; allowed: 0 <= eta <= 1.");
-  EXPECT_EQ(message_of([] { require_positive("case", "m1", -2.0); }),
-            "case: m1 = -2; allowed: 0 < m1 < infinity.");
-  EXPECT_EQ(message_of([] { require_step("rk4", 0.0); }),
-            "rk4: h = 0; allowed: 0 < h < infinity, in seconds.");
-  EXPECT_EQ(message_of([] { require_finite("case", "gap", NAN); }),
-            "case: gap = nan; allowed: a finite number.");
+  EXPECT_EQ(test::refusal_of([] { require_within("case", "eta", 1.5, 0.0, 1.0); }),
+            "case: eta = 1.5; allowed: 0 <= eta <= 1. [out-of-range]");
+  EXPECT_EQ(test::refusal_of([] { require_positive("case", "m1", -2.0); }),
+            "case: m1 = -2; allowed: 0 < m1 < infinity. [out-of-range]");
+  EXPECT_EQ(test::refusal_of([] { require_step("rk4", 0.0); }),
+            "rk4: h = 0; allowed: 0 < h < infinity, in seconds. [step-not-positive]");
+  EXPECT_EQ(test::refusal_of([] { require_finite("case", "gap", NAN); }),
+            "case: gap = nan; allowed: a finite number. [not-a-number]");
 }
 
 }  // namespace

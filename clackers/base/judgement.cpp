@@ -9,27 +9,25 @@
 namespace clackers {
 namespace {
 
-template <class Word>
-using MethodSpecification = std::pair<Word, std::string_view>;
+template <class Value>
+using Named = std::pair<Value, std::string_view>;
 
-constexpr std::array<MethodSpecification<Behaviour>, 7> behaviours{
-    {{Behaviour::exact, "exact"},
-     {Behaviour::proper, "proper"},
-     {Behaviour::reduced, "reduced"},
-     {Behaviour::irregular, "irregular"},
-     {Behaviour::stagnating, "stagnating"},
-     {Behaviour::divergent, "divergent"},
-     {Behaviour::undecided, "undecided"}}};
+constexpr std::array<Named<Behaviour>, 7> behaviours{{{Behaviour::exact, "exact"},
+                                                      {Behaviour::proper, "proper"},
+                                                      {Behaviour::reduced, "reduced"},
+                                                      {Behaviour::irregular, "irregular"},
+                                                      {Behaviour::stagnating, "stagnating"},
+                                                      {Behaviour::divergent, "divergent"},
+                                                      {Behaviour::undecided, "undecided"}}};
 
-constexpr std::array<MethodSpecification<Verdict>, 4> verdicts{
-    {{Verdict::agrees, "agrees"},
-     {Verdict::disagrees, "disagrees"},
-     {Verdict::not_claimed, "not claimed"},
-     {Verdict::undecided, "undecided"}}};
+constexpr std::array<Named<Verdict>, 4> verdicts{{{Verdict::agrees, "agrees"},
+                                                  {Verdict::disagrees, "disagrees"},
+                                                  {Verdict::not_claimed, "not claimed"},
+                                                  {Verdict::undecided, "undecided"}}};
 
-template <class Table, class Word>
-std::string_view spell(const Table& table, Word word) {
-  return std::ranges::find(table, word, &Table::value_type::first)->second;
+template <class Table, class Value>
+std::string_view name_of(const Table& table, Value value) {
+  return std::ranges::find(table, value, &Table::value_type::first)->second;
 }
 
 template <class Table>
@@ -42,8 +40,8 @@ auto read(const Table& table, std::string_view text, std::string_view what,
 
 }  // namespace
 
-std::string_view to_string(Behaviour behaviour) { return spell(behaviours, behaviour); }
-std::string_view to_string(Verdict verdict) { return spell(verdicts, verdict); }
+std::string_view to_string(Behaviour behaviour) { return name_of(behaviours, behaviour); }
+std::string_view to_string(Verdict verdict) { return name_of(verdicts, verdict); }
 
 Behaviour behaviour_from(std::string_view text) {
   return read(behaviours, text, "behaviour",

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 
 namespace clackers {
 namespace {
@@ -41,25 +41,15 @@ TEST(Judgement, EveryWordCanBeExplained) {
 }
 
 TEST(Judgement, RefusesOtherWordsAndNamesTheRightOnes) {
-  try {
-    behaviour_from("propper");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.code(), Code("unknown-name"));
-    EXPECT_STREQ(error.what(),
+  EXPECT_REFUSED(behaviour_from("propper"), "unknown-name",
                  "clackers: behaviour = propper; allowed: exact, proper, reduced, irregular, "
                  "stagnating, divergent, undecided.");
-  }
   EXPECT_THROW(behaviour_from("agrees"), InputError);
   EXPECT_THROW(behaviour_from(""), InputError);
   EXPECT_THROW(verdict_from("not-claimed"), InputError);
 }
 
-TEST(Claim, SaysNothingByDefault) {
-  EXPECT_EQ(Claim{}.behaviour, Behaviour::undecided);
-  EXPECT_EQ(Claim{}.order, 0.0);
-  EXPECT_EQ(Claim{}.reason, "");
-}
+TEST(Claim, OfNothingIsTheDefault) { EXPECT_EQ(Claim{}.behaviour, Behaviour::undecided); }
 
 }  // namespace
 }  // namespace clackers

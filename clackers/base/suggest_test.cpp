@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 
 namespace clackers {
 namespace {
@@ -40,22 +40,12 @@ TEST(Suggest, TakesTheNearestAndOfEquallyNearTheFirst) {
   EXPECT_EQ(nearest("penal", names), "penalt");
 }
 
-std::string refused(std::string_view given) {
-  try {
-    refuse_name("integrator", given, known, "clackers list integrators");
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.code(), Code("unknown-name"));
-    return error.what();
-  }
-}
-
-TEST(RefuseName, AsksForTheNearestAndSaysWhereAllStand) {
-  EXPECT_EQ(
-      refused("newmrak"),
-      "clackers: no integrator \"newmrak\". Did you mean \"newmark\"? All names: clackers list "
-      "integrators");
-  EXPECT_EQ(refused("houbolt-wilson"),
-            "clackers: no integrator \"houbolt-wilson\". All names: clackers list integrators");
+TEST(RefuseName, NamesTheNearestAndWhereAllAreListed) {
+  EXPECT_EQ(test::refusal_of([] { refuse_name("integrator", "newmrak", known, "clackers list"); }),
+            "clackers: no integrator \"newmrak\". Did you mean \"newmark\"? All names: clackers "
+            "list [unknown-name]");
+  EXPECT_EQ(test::refusal_of([] { refuse_name("integrator", "houbolt", known, "clackers list"); }),
+            "clackers: no integrator \"houbolt\". All names: clackers list [unknown-name]");
 }
 
 }  // namespace

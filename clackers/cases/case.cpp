@@ -1,21 +1,205 @@
 #include "clackers/cases/case.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
-#include "clackers/cases/builders.hpp"
-#include "clackers/cases/parameters.hpp"
+#include "clackers/cases/constants.hpp"
+#include "clackers/exact/pair/admissibility.hpp"
+#include "clackers/exact/pair/exact_data_pair.hpp"
+#include "clackers/exact/pair/parameter_ranges.hpp"
+#include "clackers/exact/pair/single_mass.hpp"
+#include "clackers/exact/pair/synchronized_pair.hpp"
 
 namespace clackers::cases {
 namespace {
 
+// The value of a parameter that the case has.
+struct Values {
+  const Settings& settings;
+  double operator()(std::string_view name) const { return value_of(settings, name); }
+};
+
+// Fills problem, motion, constants, indicators and periods of a case whose entry and values are
+// set. Throws InputError for values outside their range.
+using Builder = void (*)(Case& which, const Values& value, double threshold);
+
+struct Row {
+  CaseEntry entry;
+  Builder build;
+};
+
+void use(Case& which, std::shared_ptr<const exact::ClosedForm> motion) {
+  which.problem = motion->problem();
+  which.motion = std::move(motion);
+}
+
+void add_single_mass(Case& which, double xi1) {
+  which.damped_periods = {2.0 * std::numbers::pi / std::sqrt((1.0 - xi1) * (1.0 + xi1))};
+  which.constants = single_mass_constants(which, xi1);
+}
+
+template <class Pair>
+void use_pair(Case& which, std::shared_ptr<const Pair> pair, double threshold) {
+  const auto& c = pair->constants();
+  const double r = pair->parameters().r;
+  use(which, pair);
+  which.damped_periods = {2.0 * std::numbers::pi / c.omega_D1, 2.0 * std::numbers::pi / c.omega_D2};
+  which.constants = pair_constants(which, c, r);
+  which.indicators = indicator_constants(c.ratio.odd, std::min(c.omega_D1, c.omega_D2),
+                                         which.motion->end(), threshold);
+}
+
+void synchronize(Case& which, const exact::PairParameters& parameters, double threshold) {
+  use_pair(which, std::make_shared<const exact::SynchronizedPair>(parameters, which.entry->name),
+           threshold);
+}
+
+// X = 4N + 1 of Eq. (9), up to the largest ratio that the reference solution takes.
+double ratio(const Case& which, double N) {
+  constexpr double largest_N = 249'999'999;
+  const auto rule = fmt::format("a whole number, 0 <= N <= {:.0f}", largest_N);
+  if (!(N >= 0.0 && N <= largest_N))
+    refuse(which.entry->name, "N", N, rule,
+           N < 0.0 ? "Mass 2 is X = 4N + 1 times as fast as mass 1." : "");
+  if (N != std::floor(N))
+    refuse(which.entry->name, "N", N, rule,
+           "Only with X = 4N + 1 odd both masses pass equilibrium together at every collision.",
+           "not-whole");
+  return 4.0 * N + 1.0;
+}
+
+// A parameter of the same name means the same in every case.
+Parameter xi1() { return {"xi1", 0.05, "", "0 or 1e-60 <= xi1 < 1", "damping ratio of mass 1"}; }
+Parameter eta() { return {"eta", 1.0, "", "0 <= eta <= 1", "restitution; 1 is elastic"}; }
+Parameter t_end() { return {"t_end", 20.0, "s", "0 < t_end < infinity", "end of the run"}; }
+Parameter whole_N() {
+  return {"N", 2.0, "", "a whole number, 0 <= N <= 249999999",
+          "mass 2 is X = 4N + 1 times as fast as mass 1, Eq. (9)"};
+}
+Parameter scale(const char* name, double default_value, const char* unit, const char* allowed,
+                const char* meaning) {
+  return {name, default_value, unit, allowed, meaning};
+}
+
+// One row a case is all that the command line, the manual and the tests know.
+const std::vector<Row>& rows() {
+  static const std::vector<Row> all{
+      {{"three-parameter",
+        "Two colliding masses, the second 4N + 1 times as fast; t_end = 20 a_t.",
+        "Eq. (25)-(26)",
+        {whole_N(),
+         xi1(),
+         {"a_t", 1.0, "", "0 < a_t < infinity", "length of the run in units of 20 s, Eq. (24)"}}},
+       [](Case& which, const Values& value, double threshold) {
+         synchronize(which,
+                     {.xi1 = value("xi1"),
+                      .X = ratio(which, value("N")),
+                      .t_end = 20.0 * require_positive(which.entry->name, "a_t", value("a_t"))},
+                     threshold);
+       }},
+      {{"sdof", "One damped mass without a stop.", "Eq. (3)-(4)", {xi1(), t_end()}},
+       [](Case& which, const Values& value, double) {
+         use(which,
+             std::make_shared<const exact::FreeMass>(
+                 exact::FreeMassParameters{value("xi1"), value("t_end")}, which.entry->name));
+         add_single_mass(which, value("xi1"));
+       }},
+      {{"stop",
+        "One damped mass above a rigid stop at its equilibrium.",
+        "Eq. (5)-(6)",
+        {xi1(), eta(), t_end()}},
+       [](Case& which, const Values& value, double threshold) {
+         use(which, std::make_shared<const exact::RigidStop>(
+                        exact::RigidStopParameters{value("xi1"), value("eta"), value("t_end")},
+                        which.entry->name));
+         add_single_mass(which, value("xi1"));
+         which.indicators = indicator_constants(
+             1.0, 2.0 * std::numbers::pi / which.damped_periods[0], value("t_end"), threshold);
+       }},
+      {{"symmetric-pair",
+        "Two equal masses with opposite motions that collide at equilibrium.",
+        "Eq. (7)-(8)",
+        {xi1(), eta(), t_end()}},
+       [](Case& which, const Values& value, double threshold) {
+         synchronize(which,
+                     {.xi1 = value("xi1"),
+                      .X = 1.0,
+                      .r = 1.0,
+                      .eta = value("eta"),
+                      .t_end = value("t_end")},
+                     threshold);
+       }},
+      {{"one-parameter",
+        "Two colliding masses, the second 4N + 1 times as fast; xi1 = 0.05, t_end = 20 s.",
+        "Eq. (19)-(20)",
+        {whole_N()}},
+       [](Case& which, const Values& value, double threshold) {
+         synchronize(which, {.X = ratio(which, value("N"))}, threshold);
+       }},
+      {{"two-parameter",
+        "Two colliding masses, the second 4N + 1 times as fast; t_end = 20 s.",
+        "Eq. (21)-(22)",
+        {whole_N(), xi1()}},
+       [](Case& which, const Values& value, double threshold) {
+         synchronize(which, {.xi1 = value("xi1"), .X = ratio(which, value("N"))}, threshold);
+       }},
+      {{"synchronized-pair",
+        "The whole class: any masses, odd frequency ratio, mass ratio below r*, restitution.",
+        "Section 2.2, Eq. (9)-(17)",
+        {scale("m1", 1.0, "kg", "1e-60 <= m1 <= 1e+60", "mass 1, above"),
+         scale("k1", 1.0, "N/m", "1e-60 <= k1 <= 1e+60", "stiffness of mass 1"),
+         xi1(),
+         scale("A", 1.0, "m", "1e-60 <= A <= 1e+60", "size of the initial displacement of mass 1"),
+         {"X", 9.0, "", "an odd whole number from 1 to 1e+09, or 1 over one",
+          "frequency ratio omega_D2/omega_D1; 1 over an odd number exchanges the roles"},
+         {"r", 3.0, "", "0 < r < r*(X)",
+          "mass ratio m1/m2; beyond 1/r* for X = 1 over an odd number"},
+         eta(),
+         t_end()}},
+       [](Case& which, const Values& value, double threshold) {
+         synchronize(which,
+                     {value("m1"), value("k1"), value("xi1"), value("A"), value("X"), value("r"),
+                      value("eta"), value("t_end")},
+                     threshold);
+       }},
+      {{"exact-data-pair",
+        "The class with every model input a binary64 number, so that nothing is rounded.",
+        "Section 2.2, Eq. (9)-(17)",
+        {scale("m2", 1.0, "kg", "1e-30 <= m2 <= 1e+30, a short binary fraction",
+               "mass 2, the fast one"),
+         scale("Omega", 1.0, "rad/s", "1e-30 <= Omega <= 1e+30, a short binary fraction",
+               "damped frequency of mass 1"),
+         scale("sigma", 0.0625, "1/s", "0 or 1e-30 <= sigma <= 1e+30, a short binary fraction",
+               "common rate of decay"),
+         scale("A_over_X", 0.125, "m", "1e-30 <= A_over_X <= 1e+30, a short binary fraction",
+               "initial displacement of mass 1 over X"),
+         {"X", 9.0, "", "an odd whole number from 1 to 1e+09", "frequency ratio omega_D2/omega_D1"},
+         {"r", 0.5, "", "0 < r < r*(X), a short binary fraction", "mass ratio m1/m2"},
+         eta(),
+         t_end()}},
+       [](Case& which, const Values& value, double threshold) {
+         const exact::ExactDataParameters parameters{
+             value("m2"), value("Omega"), value("sigma"), value("A_over_X"),
+             value("X"),  value("r"),     value("eta"),   value("t_end")};
+         use_pair(which,
+                  std::make_shared<const exact::ExactDataPair>(parameters, which.entry->name),
+                  threshold);
+       }},
+  };
+  return all;
+}
+
 const Row& row(std::string_view name) {
-  const auto found =
-      std::ranges::find_if(table(), [&](const Row& one) { return one.entry.name == name; });
-  if (found != table().end()) return *found;
+  for (const auto& one : rows())
+    if (one.entry.name == name) return one;
   std::vector<std::string> names;
-  for (const auto& one : table()) names.push_back(one.entry.name);
+  for (const auto& one : rows()) names.push_back(one.entry.name);
   refuse_name("case", name, names, "clackers list cases");
 }
 
@@ -24,13 +208,13 @@ const Row& row(std::string_view name) {
 std::span<const CaseEntry> entries() {
   static const auto all = [] {
     std::vector<CaseEntry> list;
-    for (const auto& one : table()) list.push_back(one.entry);
+    for (const auto& one : rows()) list.push_back(one.entry);
     return list;
   }();
   return all;
 }
 
-std::string_view default_case() { return "three-parameter"; }
+std::string_view default_case() { return entries().front().name; }
 
 const CaseEntry& entry(std::string_view name) { return row(name).entry; }
 
@@ -41,9 +225,15 @@ Case make(std::string_view name, const Settings& settings, double threshold) {
            "It is the share of the spectral peak from which a harmonic counts.");
   Case which;
   which.entry = &entry;
-  which.values = complete(entry, settings);
-  build(which, threshold);
+  which.values = complete(entry.name, entry.parameters, settings);
+  build(which, Values{which.values}, threshold);
   return which;
+}
+
+Admissibility admissibility(double X, double r) {
+  const auto ratio = exact::frequency_ratio("admissibility", X);
+  exact::require_scale("admissibility", "r", r);
+  return {exact::r_star(ratio.odd), exact::admissibility_margin(ratio, r)};
 }
 
 }  // namespace clackers::cases

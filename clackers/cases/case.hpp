@@ -4,35 +4,25 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "clackers/base/parameter.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
 
 namespace clackers::cases {
-
-/// One parameter of a named case.
-struct CaseParameter {
-  std::string name;
-  double default_value = 0.0;  ///< used when not set
-  std::string unit;            ///< empty when dimensionless
-  std::string allowed;         ///< "0 <= xi1 < 1"
-  std::string meaning;
-};
 
 /// What is known of a case before its parameters are.
 struct CaseEntry {
   std::string name;       ///< never changes its meaning
   std::string summary;    ///< one sentence, with its full stop
   std::string equations;  ///< of the paper: "Eq. (25)-(26)"
-  std::vector<CaseParameter> parameters;
+  std::vector<Parameter> parameters;
 };
 
-/// Parameters by name; those not named keep their default.
-using Settings = std::vector<std::pair<std::string, double>>;
+using clackers::Settings;
 
-/// A derived constant with the words a reader needs.
+/// A derived constant with its unit and meaning.
 struct Constant {
   std::string name;
   double value = 0.0;
@@ -51,19 +41,31 @@ struct Case {
 };
 
 /// The threshold of "non-trivially contributing" in Eq. (11), of the spectral peak.
-inline constexpr double standard_threshold = 0.1;
+inline constexpr double default_threshold = 0.1;
 
-/// All cases, the default one first marked by default_case().
+/// All cases, the default one first.
 std::span<const CaseEntry> entries();
-std::string_view default_case();  ///< "three-parameter"
+std::string_view default_case();
 
 /// The entry of a name; throws InputError with did-you-mean.
 const CaseEntry& entry(std::string_view name);
 
 /// Builds a case. Throws InputError for unknown names (with did-you-mean) and for values outside
-/// their range; a mass ratio beyond r*(X) is told how far outside, where and when the masses would
-/// touch away from equilibrium, and what to change. `threshold` lies in (0, 1).
+/// their range. For a mass ratio beyond r*(X) the message says by how much, where and when the
+/// masses would touch away from equilibrium, and what to change. `threshold` lies in (0, 1).
 Case make(std::string_view name, const Settings& settings = {},
-          double threshold = standard_threshold);
+          double threshold = default_threshold);
+
+/// How far the masses of a pair stay apart away from equilibrium (sharp form of Eq. 18).
+struct Admissibility {
+  double r_star = 0.0;  ///< limit of slow over fast mass; infinity for equal frequencies
+  /// Smallest gap between collisions relative to the slow displacement: 1 - r/r*, 1 - 1/(r r*) for
+  /// X = 1 over an odd number, 1 + r for X = 1. The closed form holds where it is positive; 0 grazes.
+  double margin = 0.0;
+};
+
+/// For a frequency ratio X (odd, or 1 over an odd number) and a mass ratio r = m1/m2, admissible or
+/// not. Throws InputError for another X, and unless 1e-60 <= r <= 1e60.
+Admissibility admissibility(double X, double r);
 
 }  // namespace clackers::cases

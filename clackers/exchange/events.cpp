@@ -56,7 +56,8 @@ std::vector<model::Impact> read_events(const std::string& path, int dof,
   TableReader table(path, {}, TableKind::events, interrupt);
   auto t = find(table, "t");
   if (!t) t = find(table, "time");
-  if (!t) throw InputError(path + " has no column t; collisions need their times.", "no-column");
+  if (!t)
+    throw InputError(table.path() + " has no column t; collisions need their times.", "no-column");
   const auto impulse = find(table, "impulse");
   const auto u = find_all(table, "u", "", dof);
   const auto before = find_all(table, "v", "-", dof), after = find_all(table, "v", "+", dof);

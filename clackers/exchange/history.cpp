@@ -27,9 +27,8 @@ class Reader {
   Reader(const std::string& path, const HistoryOptions& options)
       : options_(options),
         table_(path, options.columns, TableKind::history, options.interrupt),
-        columns_(history_columns(path, table_.names(), options, history_.notes)) {
-    if (table_.names_from_comment())
-      history_.notes.push_back("Columns are named by the comment above the rows.");
+        columns_(history_columns(table_.path(), table_.names(), options, history_.notes)) {
+    if (table_.names_from_comment()) history_.notes.push_back({.code = "columns-from-comment"});
     history_.motion.dof = options.dof;
     history_.has_time = columns_.t.has_value();
     auto& motion = history_.motion;
@@ -46,13 +45,23 @@ class Reader {
       take_time();
       take_row();
       if (rows_ == rows_before_guess) reserve();
+      if (rows_ % rows_a_report == 0) report();
     }
+    if (table_.lines().without_line_end())
+      history_.notes.push_back(
+          {.code = "last-line-incomplete", .numbers = {double(table_.line())}});
     finish();
     return std::move(history_);
   }
 
  private:
-  static constexpr std::size_t rows_before_guess = 1000;
+  static constexpr std::size_t rows_before_guess = 1000, rows_a_report = 65536;
+
+  void report() const {
+    const auto size = table_.lines().file_size();
+    if (options_.progress && size > 0)
+      options_.progress(std::min(1.0, double(table_.lines().consumed()) / double(size)));
+  }
 
   void take_time() {
     auto& times = history_.motion.t;

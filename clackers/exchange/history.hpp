@@ -1,12 +1,20 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "clackers/model/trajectory.hpp"
 
 namespace clackers::exchange {
+
+/// Something a reader should know of a file. A code and its numbers, as study/notes.hpp lists them.
+struct ReadNote {
+  std::string code;
+  std::vector<double> numbers{};
+  std::string text{};
+};
 
 /// What is known of a file before it is read.
 struct HistoryOptions {
@@ -15,6 +23,8 @@ struct HistoryOptions {
   /// Of a file without a time column [s]: row n = 0, 1, ... is at n step. 0: there must be one.
   double step = 0.0;
   const std::atomic<bool>* interrupt = nullptr;  ///< ends the reading with Error (interrupted)
+  /// Called now and then with the share that is read, in [0, 1]; never for a file of unknown size.
+  std::function<void(double share)> progress{};
 };
 
 /// How the numbers of one column are printed.
@@ -25,7 +35,7 @@ struct ColumnPrint {
   double half_unit = 0.0;  ///< largest rounding error by printing, in the column's unit; 0: none
 };
 
-/// A time history as a file tells it.
+/// A time history as it stands in a file.
 struct History {
   /// Masses without a column u: their u is 0 and means nothing. v and a are empty unless there is a
   /// column for every mass. Impacts are not reported.
@@ -36,11 +46,11 @@ struct History {
   /// Rounding error of the times by printing [s]; 0 when they are equally spaced to the last digit,
   /// since such times were hardly rounded.
   double time_half_unit = 0.0;
-  double spacing = 0.0;            ///< median time between rows [s]
-  std::vector<std::string> notes;  ///< what a reader must know, sentences
+  double spacing = 0.0;  ///< median time between rows [s]
+  std::vector<ReadNote> notes;
 };
 
-/// Reads a history: fields separated by commas, semicolons, tabs or blanks; columns t (or time), u1,
+/// Reads a history, of standard input for the path "-": fields separated by commas, semicolons, tabs or blanks; columns t (or time), u1,
 /// v1, a1, u2, ... (u, v, a alone for one mass), in any order and case, others left out; names from
 /// a header, from a comment above the rows, or from the options; comments behind # or %. Two rows of
 /// one time are the left and right limits of a jump.

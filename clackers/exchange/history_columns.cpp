@@ -5,14 +5,18 @@
 #include <algorithm>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/text.hpp"
 
 namespace clackers::exchange {
 namespace {
 
+// For a message: of many names the first.
 std::string joined(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 20;
   std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    text += (i == 0 ? "" : ", ") + printable(names[i]);
+  return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
 }
 
 class Finder {
@@ -58,20 +62,19 @@ class Finder {
   std::vector<bool> used_;
 };
 
-// All or nothing: what is known of some masses only is left out, in words.
-void require_all(std::vector<HistoryColumns::Column>& columns, const std::string& what,
-                 std::vector<std::string>& notes) {
+// All or nothing: what is known of some masses only is left out, with a note.
+void require_all(std::vector<HistoryColumns::Column>& columns, const std::string& code,
+                 std::vector<ReadNote>& notes) {
   const auto given = [](const HistoryColumns::Column& c) { return c.has_value(); };
   if (std::ranges::all_of(columns, given)) return;
-  if (std::ranges::any_of(columns, given))
-    notes.push_back(what + " of some masses only; left out.");
+  if (std::ranges::any_of(columns, given)) notes.push_back({.code = code});
   columns.clear();
 }
 
 }  // namespace
 
 HistoryColumns history_columns(const std::string& path, const std::vector<std::string>& names,
-                               const HistoryOptions& options, std::vector<std::string>& notes) {
+                               const HistoryOptions& options, std::vector<ReadNote>& notes) {
   Finder finder(path, names);
   HistoryColumns columns;
   columns.t = finder.find({"t", "time"});
@@ -89,10 +92,10 @@ HistoryColumns history_columns(const std::string& path, const std::vector<std::s
                                  "t,u1,..., or give the time between rows with --steps.",
                                  path, joined(names)),
                      "no-column");
-  require_all(columns.v, "Velocities are given", notes);
-  require_all(columns.a, "Accelerations are given", notes);
+  require_all(columns.v, "velocities-incomplete", notes);
+  require_all(columns.a, "accelerations-incomplete", notes);
   if (const auto unused = finder.unused(); !unused.empty())
-    notes.push_back("Columns not used: " + joined(unused) + ".");
+    notes.push_back({.code = "columns-not-used", .text = joined(unused)});
   return columns;
 }
 

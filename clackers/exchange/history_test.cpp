@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "clackers/exchange/events.hpp"
-#include "clackers/exchange/test_file.hpp"
+#include "clackers/exchange/testing/test_file.hpp"
 
 namespace clackers::exchange {
 namespace {
@@ -26,7 +26,8 @@ TEST(History, TakesColumnsInAnyOrderAndLeavesOthersOut) {
   EXPECT_TRUE(h.motion.a.empty());
   EXPECT_FALSE(h.motion.impacts.has_value());
   ASSERT_EQ(h.notes.size(), 1u);
-  EXPECT_EQ(h.notes[0], "Columns not used: energy.");
+  EXPECT_EQ(h.notes[0].code, "columns-not-used");
+  EXPECT_EQ(h.notes[0].text, "energy");
 }
 
 TEST(History, OfOneMassMayLeaveItsNumberOut) {
@@ -41,8 +42,8 @@ TEST(History, KnowsWhichMassesItHas) {
   EXPECT_EQ(h.has_u, (std::vector<bool>{false, true}));
   EXPECT_EQ(h.motion.u, (Numbers{0.0, 1.0, 0.0, 3.0}));
   EXPECT_TRUE(h.motion.v.empty());
-  EXPECT_EQ(h.notes,
-            std::vector<std::string>{"Velocities are given of some masses only; left out."});
+  ASSERT_EQ(h.notes.size(), 1u);
+  EXPECT_EQ(h.notes[0].code, "velocities-incomplete");
 }
 
 TEST(History, KeepsBothLimitsOfAJump) {

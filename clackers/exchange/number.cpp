@@ -38,31 +38,31 @@ bool has_decimal_comma(std::string_view text) {
 
 }  // namespace
 
-NumberTrouble read(std::string_view text, Number& number) {
+NumberError read(std::string_view text, Number& number) {
   const auto whole = text;
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto try_read = [&number](std::string_view s) {
     const auto [stop, error] = std::from_chars(s.data(), s.data() + s.size(), number.value);
     if (stop != s.data() + s.size() || error == std::errc::invalid_argument)
-      return NumberTrouble::no_number;
+      return NumberError::no_number;
     if (error == std::errc::result_out_of_range || !std::isfinite(number.value))
-      return NumberTrouble::not_finite;
-    return NumberTrouble::none;
+      return NumberError::not_finite;
+    return NumberError::none;
   };
-  auto trouble = try_read(text);
-  if (trouble == NumberTrouble::no_number) {
+  auto result = try_read(text);
+  if (result == NumberError::no_number) {
     std::array<char, 64> copy;
-    trouble = try_read(without_d(text, copy));
+    result = try_read(without_d(text, copy));
   }
-  if (trouble == NumberTrouble::no_number && has_decimal_comma(whole))
-    return NumberTrouble::decimal_comma;
-  if (trouble == NumberTrouble::none) number.digits = significant_digits(text);
-  return trouble;
+  if (result == NumberError::no_number && has_decimal_comma(whole))
+    return NumberError::decimal_comma;
+  if (result == NumberError::none) number.digits = significant_digits(text);
+  return result;
 }
 
 bool looks_numeric(std::string_view text) {
   Number number;
-  return read(text, number) != NumberTrouble::no_number;
+  return read(text, number) != NumberError::no_number;
 }
 
 }  // namespace clackers::exchange

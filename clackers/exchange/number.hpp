@@ -12,13 +12,13 @@ struct Number {
 };
 
 /// Why a text is no number that can be used.
-enum class NumberTrouble { none, no_number, not_finite, decimal_comma };
+enum class NumberError { none, no_number, not_finite, decimal_comma };
 
 /// Reads a decimal number with a point: "1.5", "-1.5e-3", "+.5", and Fortran's "1.5D-3". Returns
 /// what is wrong with any other text; NaN, infinities and what a double cannot hold are not_finite.
-NumberTrouble read(std::string_view text, Number& number);
+NumberError read(std::string_view text, Number& number);
 
-/// Whether the text is a number, NaN and infinity included: what tells a row from a header.
+/// Whether the text is a number, NaN and infinity included. A header has none.
 bool looks_numeric(std::string_view text);
 
 }  // namespace clackers::exchange

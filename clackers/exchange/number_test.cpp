@@ -9,11 +9,11 @@ namespace {
 
 Number number(std::string_view text) {
   Number out;
-  EXPECT_EQ(read(text, out), NumberTrouble::none) << text;
+  EXPECT_EQ(read(text, out), NumberError::none) << text;
   return out;
 }
 
-NumberTrouble trouble(std::string_view text) {
+NumberError error_of(std::string_view text) {
   Number out;
   return read(text, out);
 }
@@ -38,17 +38,17 @@ TEST(Number, CountsItsSignificantDigits) {
 }
 
 TEST(Number, SaysWhatIsWrongWithOtherText) {
-  EXPECT_EQ(trouble("abc"), NumberTrouble::no_number);
-  EXPECT_EQ(trouble(""), NumberTrouble::no_number);
-  EXPECT_EQ(trouble("1.5x"), NumberTrouble::no_number);
-  EXPECT_EQ(trouble("+-1"), NumberTrouble::no_number);
-  EXPECT_EQ(trouble("d2"), NumberTrouble::no_number);
-  EXPECT_EQ(trouble("1d"), NumberTrouble::no_number);
-  EXPECT_EQ(trouble("nan"), NumberTrouble::not_finite);
-  EXPECT_EQ(trouble("-Inf"), NumberTrouble::not_finite);
-  EXPECT_EQ(trouble("1e999"), NumberTrouble::not_finite);
-  EXPECT_EQ(trouble("0,05"), NumberTrouble::decimal_comma);
-  EXPECT_EQ(trouble("u,v"), NumberTrouble::no_number);
+  EXPECT_EQ(error_of("abc"), NumberError::no_number);
+  EXPECT_EQ(error_of(""), NumberError::no_number);
+  EXPECT_EQ(error_of("1.5x"), NumberError::no_number);
+  EXPECT_EQ(error_of("+-1"), NumberError::no_number);
+  EXPECT_EQ(error_of("d2"), NumberError::no_number);
+  EXPECT_EQ(error_of("1d"), NumberError::no_number);
+  EXPECT_EQ(error_of("nan"), NumberError::not_finite);
+  EXPECT_EQ(error_of("-Inf"), NumberError::not_finite);
+  EXPECT_EQ(error_of("1e999"), NumberError::not_finite);
+  EXPECT_EQ(error_of("0,05"), NumberError::decimal_comma);
+  EXPECT_EQ(error_of("u,v"), NumberError::no_number);
 }
 
 TEST(Number, LooksNumericThoughItIsNotFinite) {

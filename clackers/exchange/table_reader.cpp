@@ -46,7 +46,7 @@ bool has_inner_blank(std::string_view field) {
 
 TableReader::TableReader(const std::string& path, const std::vector<std::string>& names,
                          TableKind kind, const std::atomic<bool>* interrupt)
-    : path_(path), kind_(kind), lines_(path, interrupt), separation_(Separation::of("")) {
+    : kind_(kind), lines_(path, interrupt), separation_(Separation::of("")) {
   std::optional<std::string> header;
   row_is_waiting_ = next_content();
   if (row_is_waiting_ && !has_a_number(lines_.text())) {
@@ -54,7 +54,7 @@ TableReader::TableReader(const std::string& path, const std::vector<std::string>
     row_is_waiting_ = next_content();
   }
   if (!row_is_waiting_ && (!header || kind == TableKind::history))
-    throw InputError(path_ + (header ? " has a header and no rows" : " is empty") +
+    throw InputError(this->path() + (header ? " has a header and no rows" : " is empty") +
                          "; allowed: rows of numbers.",
                      "too-short");
   separation_ = Separation::of(row_is_waiting_ ? lines_.text() : std::string_view(*header));
@@ -103,10 +103,16 @@ void TableReader::name_columns(const std::vector<std::string>& given,
 
 void TableReader::require_fields() const {
   if (fields_.size() == names_.size()) return;
+  std::string_view hint;
+  // Decimal commas make fields, and never fewer.
+  if (fields_.size() > names_.size() && separation_.is_comma())
+    hint = decimal_comma_hint;
+  else if (lines_.without_line_end())
+    hint =
+        "The file ends without a line feed: it may have been cut here, or is still being written.";
   throw InputError(
       fmt::format("{} has {} fields; allowed: {}, one for each named column.{}{}", place(),
-                  fields_.size(), names_.size(), separation_.is_comma() ? " " : "",
-                  separation_.is_comma() ? decimal_comma_hint : ""),
+                  fields_.size(), names_.size(), hint.empty() ? "" : " ", hint),
       "ragged-row");
 }
 
@@ -123,14 +129,14 @@ bool TableReader::next() {
 
 void TableReader::read_number(std::size_t column, Number& number) const {
   const auto text = fields_[column];
-  const auto trouble = read(text, number);
-  if (trouble == NumberTrouble::none) return;
+  const auto error = read(text, number);
+  if (error == NumberError::none) return;
   const auto who = place();
   const auto quoted = fmt::format("\"{}\"", text);
-  if (trouble == NumberTrouble::decimal_comma || (separation_.is_comma() && has_inner_blank(text)))
+  if (error == NumberError::decimal_comma || (separation_.is_comma() && has_inner_blank(text)))
     refuse(who, names_[column], quoted, "a number with a decimal point", decimal_comma_hint,
            "decimal-comma");
-  if (trouble == NumberTrouble::not_finite)
+  if (error == NumberError::not_finite)
     refuse(who, names_[column], quoted, "a finite number that a double can hold",
            "The run that wrote it may have left the range of finite numbers.", "not-finite");
   refuse(who, names_[column], quoted, "a number with a decimal point such as 0.05 or 5e-2", {},

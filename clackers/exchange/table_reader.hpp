@@ -22,7 +22,7 @@ enum class TableKind {
 /// column. Names are in lower case, without a unit in brackets behind them.
 class TableReader {
  public:
-  /// Reads up to the first row. `names` may be empty. Throws InputError for columns without names
+  /// Reads up to the first row. `path` is "-" for standard input; `names` may be empty. Throws InputError for columns without names
   /// (no-column), another number of names than of columns (ragged-row), no rows (too-short), and
   /// FileError as TextLines does.
   TableReader(const std::string& path, const std::vector<std::string>& names, TableKind kind,
@@ -42,7 +42,8 @@ class TableReader {
 
   std::string place() const { return lines_.place(); }
   long long line() const { return lines_.number(); }
-  const std::string& path() const { return path_; }
+  /// The file's path, or "standard input".
+  const std::string& path() const { return lines_.name(); }
   const TextLines& lines() const { return lines_; }
 
  private:
@@ -52,7 +53,6 @@ class TableReader {
   bool comment_names_columns();
   void require_fields() const;
 
-  std::string path_;
   TableKind kind_;
   TextLines lines_;
   std::string comment_;  ///< the last above the rows

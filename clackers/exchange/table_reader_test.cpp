@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "clackers/exchange/number.hpp"
-#include "clackers/exchange/test_file.hpp"
+#include "clackers/exchange/testing/test_file.hpp"
 
 namespace clackers::exchange {
 namespace {
@@ -120,7 +120,38 @@ TEST(TableReader, RefusesWhatIsNoFiniteNumberWithItsLine) {
 TEST(TableReader, RefusesWhatIsNoText) {
   EXPECT_REFUSED(read(std::string("t,u1\n0,1\n0.5\0,2\n", 17)), "not-text", "byte 0");
   EXPECT_REFUSED(read("\xFF\xFEt,u1\n"), "not-text", "UTF-16");
-  EXPECT_REFUSED(read("t,u1\n" + std::string(100'000, '1')), "not-text", "line 2 is longer");
+  EXPECT_REFUSED(read(std::string("\xFF\xFE\0\0t\0\0\0", 8)), "not-text", "UTF-32");
+  EXPECT_REFUSED(read("\x1F\x8B\b"), "not-text", "compressed with gzip");
+  EXPECT_REFUSED(read("PK\x03\x04"), "not-text", "spreadsheet");
+  EXPECT_REFUSED(read("t,u1\n" + std::string((1 << 24) + 1, '1')), "not-text", "line 2 is longer");
+}
+
+TEST(TableReader, CutLastRowIsRefusedWithThatReason) {
+  EXPECT_REFUSED(read("t,u1\n0,1\n0.5"), "ragged-row", "may have been cut");
+}
+
+TEST(TableReader, LineEndsOfAllSystemsGiveTheSameRows) {
+  for (const std::string end : {"\n", "\r\n", "\r", "\r\r\n"}) {
+    const auto table = read(
+        "\xEF\xBB\xBF"
+        "t,u1" +
+        end + "0,1" + end + "# note" + end + "0.5,-2" + end);
+    ASSERT_EQ(table.rows.size(), 2u) << ::testing::PrintToString(end);
+    EXPECT_EQ(table.rows[1], (std::vector<double>{0.5, -2.0}));
+  }
+}
+
+TEST(TableReader, RowsOfTwentyThousandColumnsAreRead) {
+  constexpr std::size_t columns = 20'000;
+  std::string header = "t", row = "0";
+  for (std::size_t i = 1; i < columns; ++i) {
+    header += ",u" + std::to_string(i);
+    row += ",0.123456789012345";
+  }
+  const auto table = read(header + "\n" + row + "\n" + row + "\n");
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.rows[1].size(), columns);
+  EXPECT_EQ(table.rows[1].back(), 0.123456789012345);
 }
 
 TEST(TableReader, RefusesWhatCannotBeRead) {

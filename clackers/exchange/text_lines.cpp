@@ -1,106 +1,111 @@
 #include "clackers/exchange/text_lines.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
+#include <initializer_list>
 
 #include "clackers/base/error.hpp"
 
 namespace clackers::exchange {
 namespace {
 
-constexpr std::size_t block = std::size_t{1} << 20;
-static_assert(block >= longest_line);
+using namespace std::string_view_literals;
 
-[[noreturn]] void fail(const std::string& path, int error) {
-  throw FileError(fmt::format("{}: cannot read: {}.", path, std::strerror(error)), "cannot-read");
+constexpr std::size_t block = std::size_t{1} << 20;
+
+[[noreturn]] void refuse_bytes(const std::string& name, std::string_view what,
+                               std::string_view advice) {
+  throw InputError(fmt::format("{} {}; allowed: rows of numbers as text. {}", name, what, advice),
+                   "not-text");
+}
+
+// What the first bytes of a file say about its format, where that is not text.
+void refuse_other_formats(const std::string& name, std::string_view bytes) {
+  struct Format {
+    std::string_view bytes, what, advice;
+  };
+  constexpr auto utf8 = "Save it as UTF-8."sv, decompress = "Decompress it first."sv;
+  // UTF-32 with the smallest byte first begins like UTF-16.
+  for (const auto& format : std::initializer_list<Format>{
+           {"\xFF\xFE\0\0"sv, "is text in UTF-32", utf8},
+           {"\0\0\xFE\xFF"sv, "is text in UTF-32", utf8},
+           {"\xFF\xFE"sv, "is text in UTF-16", utf8},
+           {"\xFE\xFF"sv, "is text in UTF-16", utf8},
+           {"\x1F\x8B"sv, "is compressed with gzip",
+            "Decompress it: gunzip -c FILE | clackers check -"},
+           {"BZh"sv, "is compressed with bzip2", decompress},
+           {"\xFD\x37zXZ"sv, "is compressed with xz", decompress},
+           {"\x28\xB5\x2F\xFD"sv, "is compressed with zstd", decompress},
+           {"PK\x03\x04"sv, "is a zip archive or a spreadsheet", "Export the history as csv."},
+           {"\x93NUMPY"sv, "is an array of NumPy", "Save it with numpy.savetxt."}})
+    if (bytes.starts_with(format.bytes)) refuse_bytes(name, format.what, format.advice);
 }
 
 }  // namespace
 
+std::string shown_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+
 TextLines::TextLines(const std::string& path, const std::atomic<bool>* interrupt)
-    : path_(path), interrupt_(interrupt), bytes_(block + longest_line) {
-  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor_ < 0) fail(path_, errno);
-  struct stat facts {};
-  if (::fstat(descriptor_, &facts) != 0 || S_ISDIR(facts.st_mode)) {
-    const int error = S_ISDIR(facts.st_mode) ? EISDIR : errno;
-    ::close(descriptor_);
-    fail(path_, error);
-  }
-  if (S_ISREG(facts.st_mode)) size_ = facts.st_size;
-}
+    : file_(path, interrupt), bytes_(block) {}
 
-TextLines::~TextLines() { ::close(descriptor_); }
-
-std::string TextLines::place() const { return fmt::format("{} line {}", path_, number_); }
-
-void TextLines::check_block(std::size_t from) const {
-  const std::string_view fresh{bytes_.data() + from, have_ - from};
-  const bool first = consumed_ == 0 && from == 0;
-  if (first && (fresh.starts_with("\xFF\xFE") || fresh.starts_with("\xFE\xFF")))
-    throw InputError(path_ + " is text in UTF-16; allowed: UTF-8 or ASCII. Save it as UTF-8.",
-                     "not-text");
-  if (fresh.find('\0') != std::string_view::npos)
-    throw InputError(path_ +
-                         " is no text: it has a byte 0 in it; allowed: rows of numbers as text. "
-                         "Export the history as text.",
-                     "not-text");
-}
+std::string TextLines::place() const { return fmt::format("{} line {}", name(), number_); }
 
 // Moves what is left of the last block to the front and reads behind it.
 bool TextLines::fill() {
   if (ended_) return false;
-  std::memmove(bytes_.data(), bytes_.data() + at_, have_ - at_);
+  if (at_ > 0) std::memmove(bytes_.data(), bytes_.data() + at_, have_ - at_);
   have_ -= at_;
   at_ = 0;
-  while (true) {
-    if (interrupt_ != nullptr && *interrupt_) throw Error("interrupted", "interrupted");
-    const auto count = ::read(descriptor_, bytes_.data() + have_, bytes_.size() - have_);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail(path_, errno);
-    const auto from = have_;
-    have_ += static_cast<std::size_t>(count);
-    ended_ = count == 0;
-    check_block(from);
-    return !ended_;
+  if (have_ == bytes_.size()) bytes_.resize(2 * bytes_.size());
+  const auto from = have_;
+  have_ += file_.read(bytes_.data() + have_, bytes_.size() - have_);
+  ended_ = have_ == from;
+  if (number_ > 0 && rest().substr(from).find('\0') != std::string_view::npos)
+    refuse_bytes(name(), "is no text: it has a byte 0 in it", "Export the history as text.");
+  return !ended_;
+}
+
+// Finds out what kind of text it is.
+void TextLines::begin() {
+  while (have_ < 6 && fill()) {
   }
+  refuse_other_formats(name(), rest());
+  number_ = 1;
+  if (rest().find('\0') != std::string_view::npos)
+    refuse_bytes(name(), "is no text: it has a byte 0 in it", "Export the history as text.");
+  if (rest().starts_with("\xEF\xBB\xBF")) at_ = 3;
+  // CR ends the lines of a file that has no LF among its first bytes.
+  while (true) {
+    const auto end = rest().find_first_of("\r\n");
+    const bool is_known =
+        end != std::string_view::npos && (rest()[end] == '\n' || end + 1 < rest().size());
+    if (is_known || rest().size() > longest_line || !fill()) break;
+  }
+  if (rest().find('\r') != std::string_view::npos && rest().find('\n') == std::string_view::npos)
+    line_end_ = '\r';
+  number_ = 0;
 }
 
 bool TextLines::next() {
-  if (number_ == 0) {
-    while (have_ < 3 && fill()) {
-    }
-    if (std::string_view(bytes_.data(), have_).starts_with("\xEF\xBB\xBF")) at_ = 3;
-  }
+  if (number_ == 0) begin();
   ++number_;
-  std::size_t looked = 0;  // bytes behind at_ that hold no line feed
-  const void* end = nullptr;
+  std::size_t length = std::string_view::npos, looked = 0;
   while (true) {
-    if (have_ > at_ + looked)
-      end = std::memchr(bytes_.data() + at_ + looked, '\n', have_ - at_ - looked);
-    if (end != nullptr) break;
+    length = rest().find(line_end_, looked);
     looked = have_ - at_;
-    if (looked > longest_line) break;
-    if (!fill()) break;
+    if (length != std::string_view::npos || looked > longest_line || !fill()) break;
   }
-  const char* const begin = bytes_.data() + at_;
-  if (end == nullptr && at_ == have_) return false;
-  const auto length = end != nullptr
-                          ? static_cast<std::size_t>(static_cast<const char*>(end) - begin)
-                          : have_ - at_;
+  if (length == std::string_view::npos && at_ == have_) return false;
+  without_line_end_ = length == std::string_view::npos;
+  length = std::min(length, have_ - at_);
   if (length > longest_line)
-    throw InputError(
-        fmt::format("{} is longer than {} bytes; allowed: one time a line.", place(), longest_line),
-        "not-text");
-  at_ += length + (end != nullptr);
+    refuse_bytes(place(), fmt::format("is longer than {} bytes", longest_line),
+                 "End each row with a line feed.");
+  text_ = rest().substr(0, length);
+  at_ += length + !without_line_end_;
   consumed_ += static_cast<long long>(length) + 1;
-  text_ = {begin, length};
   if (text_.ends_with('\r')) text_.remove_suffix(1);
   // Twice memchr is several times as fast as one search for either.
   const auto mark = std::min(text_.find('#'), text_.find('%'));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,18 +12,15 @@
 
 namespace clackers::methods {
 
-/// What a method promises of its displacement error through impacts.
-using Claim = clackers::Claim;
-
-/// A method's card as data: what the tests measure and the verdict compares with.
+/// A card as data: what the tests measure and the verdict compares with.
 struct Facts {
-  std::string name;  ///< as typed, with its parameters: "generalized-alpha:rho=0.8+event-driven"
-  double smooth_order = 0.0;            ///< of u and v while nothing collides
-  bool unconditionally_stable = false;  ///< in smooth motion, for every step
-  double stability_limit =
-      0.0;  ///< largest omega h of undamped smooth motion; infinity if unconditional
-  Claim through_impacts;
+  std::string name;              ///< the specification: "generalized-alpha:rho=0.8+event-driven"
+  double smooth_order = 0.0;     ///< of u and v while nothing collides
+  double stability_limit = 0.0;  ///< largest omega h of undamped smooth motion; may be infinite
+  Claim through_impacts{};       ///< of an integrator alone: nothing
   bool reports_impacts = true;
+
+  bool is_unconditionally_stable() const { return std::isinf(stability_limit); }
 };
 
 /// Why a method cannot take a problem.
@@ -31,8 +29,8 @@ struct Objection {
   Code code;
 };
 
-/// A time-integration method, judged as a whole: an integrator joined with a contact treatment,
-/// a treatment that brings its own integration, or an engine.
+/// A time-integration method, assessed as a whole: an integrator joined with a contact treatment,
+/// or a method that brings its own integration.
 class Method {
  public:
   virtual ~Method() = default;
@@ -41,7 +39,7 @@ class Method {
   virtual std::optional<Objection> objection(const model::ImpactProblem<>& problem) const = 0;
   /// How long one contact lasts [s] for a compliant contact treatment; 0 for a rigid one. A run
   /// resolves the contact where its step is at most 1/25 of this.
-  virtual double contact_time(const model::ImpactProblem<>& problem) const;
+  virtual double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
   /// Throws InputError unless 0 < step < infinity [s], the problem is valid and there is no
   /// objection. The run copies what it needs of the problem.
   virtual std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>& problem,

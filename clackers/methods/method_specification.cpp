@@ -58,9 +58,6 @@ class Parser {
     for (auto rest = text.substr(colon + 1);;) {
       const auto comma = rest.find(',');
       result.settings.push_back(setting(rest.substr(0, comma)));
-      for (std::size_t i = 0; i + 1 < result.settings.size(); ++i)
-        if (result.settings[i].first == result.settings.back().first)
-          refuse(fmt::format("{} is given twice", result.settings[i].first));
       if (comma == std::string_view::npos) return result;
       rest.remove_prefix(comma + 1);
     }
@@ -92,6 +89,19 @@ class Parser {
 
 MethodSpecification parse_specification(std::string_view text) {
   return Parser(text).specification();
+}
+
+std::string specification(std::string_view name, std::span<const Parameter> parameters,
+                          const Settings& values) {
+  std::string text(name);
+  char mark = ':';
+  for (const auto& parameter : parameters) {
+    const double value = value_of(values, parameter.name);
+    if (value == parameter.default_value || std::isnan(value)) continue;
+    text += fmt::format("{}{}={}", mark, parameter.name, value);
+    mark = ',';
+  }
+  return text;
 }
 
 }  // namespace clackers::methods

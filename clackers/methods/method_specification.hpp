@@ -1,10 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
-#include "clackers/methods/parameters.hpp"
+#include "clackers/base/parameter.hpp"
 
 namespace clackers::methods {
 
@@ -16,12 +17,17 @@ struct Term {
 
 /// A method as typed, name[:parameter=value,...][+name[:parameter=value,...]].
 struct MethodSpecification {
-  Term first;                   ///< an integrator, or a method that stands alone
-  std::optional<Term> contact;  ///< what stands behind the "+"
+  Term first;                   ///< an integrator, or a standalone method
+  std::optional<Term> contact;  ///< what follows the "+"
 };
 
-/// Takes a specification apart; a "+" separates only before a letter, so 1e+6 is a number. Names are not
-/// looked up. Throws InputError for text outside the grammar and values that are no finite number.
+/// Takes a specification apart; a "+" separates only before a letter, so 1e+6 is a number. Names are
+/// not looked up. Throws InputError for text outside the grammar and values that are no finite number.
 MethodSpecification parse_specification(std::string_view text);
+
+/// The reverse for one name: the parameters that differ from their default, those that are NaN left
+/// out.
+std::string specification(std::string_view name, std::span<const Parameter> parameters,
+                          const Settings& values);
 
 }  // namespace clackers::methods

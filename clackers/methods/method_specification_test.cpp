@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -27,26 +27,16 @@ TEST(MethodSpecification, SeparatesAtAPlusOnlyBeforeALetter) {
 }
 
 TEST(MethodSpecification, RefusesWhatIsOutsideTheGrammar) {
-  for (const char* text : {"", ":a=1", "+rk4", "a+", "a:b", "a:", "a:=1", "a:b=1,", "a:b=1,b=2",
-                           "a+b+c", "a=1", "a b", "a,b"})
-    try {
-      parse_specification(text);
-      ADD_FAILURE() << text;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.code().name(), "bad-syntax") << error.what();
-      EXPECT_NE(std::string(error.what()).find("allowed: name:parameter=value"), std::string::npos);
-    }
+  for (const char* text :
+       {"", ":a=1", "+rk4", "a+", "a:b", "a:", "a:=1", "a:b=1,", "a+b+c", "a=1", "a b", "a,b"})
+    EXPECT_REFUSED(parse_specification(text), "bad-syntax", "allowed: name:parameter=value");
 }
 
 TEST(MethodSpecification, RefusesValuesThatAreNoFiniteNumber) {
-  for (const char* text : {"a:b=x", "a:b=", "a:b=1x", "a:b=nan", "a:b=1e999", "a:b=0,5"})
-    EXPECT_THROW(parse_specification(text), InputError) << text;
-  try {
-    parse_specification("a:b=inf");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.code().name(), "not-finite");
-  }
+  for (const char* text : {"a:b=x", "a:b=", "a:b=1x", "a:b=nan"})
+    EXPECT_REFUSED(parse_specification(text), "not-a-number", "b = ");
+  for (const char* text : {"a:b=inf", "a:b=-inf"})
+    EXPECT_REFUSED(parse_specification(text), "not-finite", "not finite");
 }
 
 }  // namespace

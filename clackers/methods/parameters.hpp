@@ -1,87 +1,50 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "clackers/base/suggest.hpp"
-#include "clackers/methods/registry.hpp"
+#include "clackers/base/parameter.hpp"
+#include "clackers/methods/method_specification.hpp"
 
 namespace clackers::methods {
 
-/// Parameters as typed: name and number.
-using Settings = std::vector<std::pair<std::string, double>>;
-
-/// One parameter of the value type T. A type that has any lists them in `T::parameters()`.
+/// A parameter that is a member of the value type T. The default is that of T{}, or NaN with the
+/// words for it. A type lists its fields in `T::fields()`.
 template <class T>
-struct ParameterOf {
+struct Field {
   std::string_view name, allowed, meaning;
-  std::optional<double> (*get)(const T&);  ///< empty: left to the method
-  void (*set)(T&, double);
-  std::string_view default_value{};  ///< in words, where T{} leaves it empty
+  double T::*member;
+  std::string_view default_words{};
 };
 
-/// The parameter that is a plain member.
-template <auto Member, class T>
-ParameterOf<T> member_parameter(std::string_view name, std::string_view allowed,
-                                std::string_view meaning) {
-  return {name, allowed, meaning, [](const T& x) -> std::optional<double> { return x.*Member; },
-          [](T& x, double value) { x.*Member = value; }};
+template <class T>
+std::vector<Parameter> parameters_of() {
+  std::vector<Parameter> all;
+  for (const Field<T>& field : T::fields())
+    all.push_back({std::string(field.name), T{}.*field.member, "", std::string(field.allowed),
+                   std::string(field.meaning), std::string(field.default_words)});
+  return all;
 }
 
-/// The name of a method as it would be typed: parameters that differ from their default are
-/// spelled out, with digits that read back to the same number.
+/// The value with these parameters. Throws InputError with did-you-mean for names that it does not
+/// have, for a name given twice, and for numbers outside their range.
 template <class T>
-std::string spelled(const T& x) {
-  std::string text(T::name);
-  char mark = ':';
-  for (const ParameterOf<T>& p : T::parameters())
-    if (const auto value = p.get(x); value && value != p.get(T{})) {
-      text += fmt::format("{}{}={}", mark, p.name, *value);
-      mark = ',';
-    }
-  return text;
-}
-
-/// The value with these parameters. Throws InputError with did-you-mean for names it has not, and
-/// for numbers outside their range.
-template <class T>
-T configured(const Settings& settings) {
+T configured(const Settings& given) {
   T x{};
-  std::vector<std::string> known;
-  for (const ParameterOf<T>& p : T::parameters()) known.emplace_back(p.name);
-  for (const auto& [name, value] : settings) {
-    bool found = false;
-    for (const ParameterOf<T>& p : T::parameters())
-      if (p.name == name) {
-        p.set(x, value);
-        found = true;
-      }
-    if (!found)
-      refuse_name(fmt::format("parameter of {}", T::name), name, known,
-                  fmt::format("clackers show {}", T::name));
-  }
+  const auto values = complete(T::name, parameters_of<T>(), given);
+  for (const Field<T>& field : T::fields()) x.*field.member = value_of(values, field.name);
   x.validate();
   return x;
 }
 
-/// What listings tell of a type.
+/// The specification of a value: its name, and the parameters that differ from their default with
+/// digits that read back to the same number.
 template <class T>
-Entry entry_of(std::string_view kind, std::string_view card) {
-  Entry entry{
-      std::string(T::name), std::string(kind), std::string(T::summary), {}, std::string(card)};
-  for (const ParameterOf<T>& p : T::parameters()) {
-    const auto given = p.get(T{});
-    entry.parameters.push_back({std::string(p.name),
-                                given ? fmt::format("{}", *given) : std::string(p.default_value),
-                                std::string(p.allowed), std::string(p.meaning)});
-  }
-  return entry;
+std::string specification(const T& x) {
+  Settings values;
+  for (const Field<T>& field : T::fields()) values.emplace_back(field.name, x.*field.member);
+  return specification(T::name, parameters_of<T>(), values);
 }
 
 }  // namespace clackers::methods

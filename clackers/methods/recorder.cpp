@@ -19,23 +19,25 @@ bool Recorder<Dof>::impact(const State& after, int contact, const Vector& v_befo
 }
 
 template <int Dof>
-bool Recorder<Dof>::fail(Code reason, std::string detail) {
+bool Recorder<Dof>::fail(Code reason, double t, std::string_view what) {
   if (!flush()) return false;
   outcome_.finished = false;
   outcome_.reason = reason;
-  outcome_.detail = std::move(detail);
+  outcome_.detail = fmt::format("t = {} s: {}", t, what);
   return false;
 }
 
 template <int Dof>
 bool Recorder<Dof>::fail_diverged(double t) {
-  return fail("diverged", fmt::format("t = {} s: the motion is no longer finite", t));
+  return fail("diverged", t, "the motion is no longer finite");
 }
 
 template <int Dof>
-bool Recorder<Dof>::fail_newton(double t) {
-  return fail("newton-failed",
-              fmt::format("t = {} s: Newton's iteration found no solution of the step", t));
+bool Recorder<Dof>::fail_step(double t, Code failure) {
+  const auto why = failure == Code("newton-failed")
+                       ? "Newton's iteration found no solution of the step"
+                       : "the effective mass matrix of a part of the step is not positive definite";
+  return fail(failure, t, why);
 }
 
 template <int Dof>
@@ -50,7 +52,7 @@ bool Recorder<Dof>::flush() {
   if (!outcome_.finished) return false;
   if (count_ == 0) return true;
   std::size_t good = count_;
-  // What is not finite stays so: the last state speaks for its block.
+  // A state that is not finite is never followed by a finite one, so the last one is enough.
   if (!is_finite(count_ - 1))
     for (good = 0; is_finite(good);) ++good;
   const double bad_time = good < count_ ? t_[good] : 0.0;

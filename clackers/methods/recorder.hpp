@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clackers/model/run.hpp"
@@ -10,7 +11,7 @@
 
 namespace clackers::methods {
 
-/// Stands between a step loop and a sink: states go out in blocks, so that a step costs no virtual
+/// Connects a step loop with a sink: states are delivered in blocks, so that a step costs no virtual
 /// call; an impact goes out at once, after the states before it. A state that is not finite ends
 /// the run as diverged; states up to it are delivered, it is not.
 template <int Dof>
@@ -33,7 +34,7 @@ class Recorder {
   }
 
   /// Takes the next state. False: the run ends here.
-  bool push(const State& now) {
+  bool append(const State& now) {
     t_[count_] = now.t;
     for (std::size_t i = 0; i < size(); ++i) {
       u_[count_ * size() + i] = now.u[static_cast<Eigen::Index>(i)];
@@ -45,13 +46,13 @@ class Recorder {
   /// Takes an impact at `after`, the state on its later side. False: the run ends here.
   bool impact(const State& after, int contact, const Vector& v_before, double impulse);
 
-  /// Ends the run with a failure; states taken so far are delivered. Always false, for the loop to
-  /// return.
-  bool fail(Code reason, std::string detail);
+  /// Ends the run with a failure at t [s], "t = 3 s: what"; states taken so far are delivered. Always
+  /// false, for the loop to return.
+  bool fail(Code reason, double t, std::string_view what);
   bool fail_diverged(double t);
-  bool fail_newton(double t);
+  bool fail_step(double t, Code failure);  ///< of a stepper
 
-  /// Delivers what is left and tells how the run ended.
+  /// Delivers what is left and returns how the run ended.
   model::Outcome finish(const model::Work& work) {
     flush();
     outcome_.work = work;

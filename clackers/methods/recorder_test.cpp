@@ -34,7 +34,7 @@ TEST(Recorder, SendsBlocksAndTheRestAtTheEnd) {
   Recorder<1> recorder(1);
   Log log;
   recorder.begin(log);
-  for (int i = 0; i < 600; ++i) ASSERT_TRUE(recorder.push(state(i)));
+  for (int i = 0; i < 600; ++i) ASSERT_TRUE(recorder.append(state(i)));
   model::Work work;
   work.steps = 599;
   const auto outcome = recorder.finish(work);
@@ -48,9 +48,9 @@ TEST(Recorder, SendsAllStatesBeforeAnImpactFirst) {
   Recorder<1> recorder(1);
   Log log;
   recorder.begin(log);
-  for (int i = 0; i < 3; ++i) recorder.push(state(i));
+  for (int i = 0; i < 3; ++i) recorder.append(state(i));
   ASSERT_TRUE(recorder.impact(state(2.5), 0, model::Vector<1>(-1.0), 2.0));
-  recorder.push(state(3));
+  recorder.append(state(3));
   recorder.finish({});
   EXPECT_EQ(log.calls, (std::vector<std::size_t>{3, 0, 1}));
 }
@@ -61,9 +61,9 @@ TEST(Recorder, EndsWhereTheSinkSaysSo) {
     Log log;
     log.allowed = allowed;
     recorder.begin(log);
-    recorder.push(state(0));
+    recorder.append(state(0));
     EXPECT_FALSE(recorder.impact(state(0.5), 0, model::Vector<1>(1.0), 1.0));
-    EXPECT_FALSE(recorder.fail("diverged", "not this"));
+    EXPECT_FALSE(recorder.fail("diverged", 1.0, "not this"));
     const auto outcome = recorder.finish({});
     EXPECT_EQ(log.calls.size(), allowed);
     EXPECT_FALSE(outcome.finished);
@@ -80,7 +80,7 @@ TEST(Recorder, EndsAsDivergedAtTheFirstStateThatIsNotFinite) {
     model::TrajectorySink sink(true);
     recorder.begin(sink);
     for (int i = 0; i < 300; ++i)
-      if (!recorder.push(state(i, i < 40 ? 1.0 : bad))) break;
+      if (!recorder.append(state(i, i < 40 ? 1.0 : bad))) break;
     const auto outcome = recorder.finish({});
     EXPECT_TRUE(outcome.failed());
     EXPECT_EQ(outcome.reason, Code("diverged"));
@@ -93,12 +93,12 @@ TEST(Recorder, StartsANewRunAfresh) {
   Recorder<model::any_dof> recorder(3);
   Log log;
   recorder.begin(log);
-  recorder.push({0.0, Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)});
-  recorder.fail("newton-failed", "x");
+  recorder.append({0.0, Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)});
+  recorder.fail("newton-failed", 1.0, "x");
   EXPECT_TRUE(recorder.finish({}).failed());
   model::TrajectorySink sink(true);
   recorder.begin(sink);
-  recorder.push({0.5, Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)});
+  recorder.append({0.5, Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)});
   EXPECT_FALSE(recorder.finish({}).failed());
   EXPECT_EQ(sink.trajectory().dof, 3);
   EXPECT_EQ(sink.trajectory().u, (std::vector<double>{1, 2, 3}));

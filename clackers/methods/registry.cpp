@@ -2,53 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <tuple>
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
-#include "clackers/methods/cards.hpp"
-#include "clackers/methods/contact/moreau_jean.hpp"
-#include "clackers/methods/integrators/central_difference.hpp"
-#include "clackers/methods/integrators/generalized_alpha.hpp"
-#include "clackers/methods/integrators/newmark.hpp"
-#include "clackers/methods/integrators/rk4.hpp"
 #include "clackers/methods/method_specification.hpp"
-#include "clackers/methods/rows.hpp"
 
 namespace clackers::methods {
 
-// Compiled in the source files of the types.
-extern template IntegratorRow integrator_row<Newmark>();
-extern template IntegratorRow integrator_row<CentralDifference>();
-extern template IntegratorRow integrator_row<Rk4>();
-extern template IntegratorRow integrator_row<GeneralizedAlpha>();
-extern template MethodRow method_row<MoreauJean>();
+struct Newmark;
+struct CentralDifference;
+struct Rk4;
+struct GeneralizedAlpha;
+struct EventDriven;
+struct Reversal;
+struct Penalty;
+struct MoreauJean;
 
 namespace {
 
-const std::array<IntegratorRow, 4>& integrators() {
-  static const std::array<IntegratorRow, 4> all = {
-      integrator_row<Newmark>(), integrator_row<CentralDifference>(), integrator_row<Rk4>(),
-      integrator_row<GeneralizedAlpha>()};
-  return all;
-}
-
-const std::array<MethodRow, 1>& methods_alone() {
-  static const std::array<MethodRow, 1> all = {method_row<MoreauJean>()};
-  return all;
-}
-
-template <class... Treatment>
-void add_treatments(std::vector<Entry>& all, std::tuple<Treatment...>*) {
-  (all.push_back(entry_of<Treatment>("contact", card(Treatment::name))), ...);
-}
-
-std::vector<Entry> build_entries() {
-  std::vector<Entry> all;
-  for (const auto& row : integrators()) all.push_back(row.entry(card(row.name)));
-  add_treatments(all, static_cast<Treatments*>(nullptr));
-  for (const auto& row : methods_alone()) all.push_back(row.entry(card(row.name)));
+// Integrators, contact treatments, standalone methods.
+std::span<const Row> rows() {
+  static const std::array all{row<Newmark>(),          row<CentralDifference>(), row<Rk4>(),
+                              row<GeneralizedAlpha>(), row<EventDriven>(),       row<Reversal>(),
+                              row<Penalty>(),          row<MoreauJean>()};
   return all;
 }
 
@@ -59,36 +37,30 @@ std::vector<std::string> names(std::string_view kind, std::string_view or_kind =
   return all;
 }
 
-std::string_view contact_or_default(const MethodSpecification& specification) {
-  return specification.contact ? std::string_view(specification.contact->name) : "event-driven";
-}
-
 }  // namespace
 
 std::span<const Entry> entries() {
-  static const std::vector<Entry> all = build_entries();
+  static const auto all = [] {
+    std::vector<Entry> list;
+    for (const auto& row : rows()) list.push_back(row.entry);
+    return list;
+  }();
   return all;
 }
 
 std::shared_ptr<const Method> method(std::string_view text) {
-  const MethodSpecification specification = parse_specification(text);
-  const auto& first = specification.first;
-  for (const auto& row : methods_alone()) {
-    if (row.name != first.name) continue;
-    if (specification.contact)
+  const auto [first, contact] = parse_specification(text);
+  for (const auto& row : rows()) {
+    if (row.entry.name != first.name || row.make == nullptr) continue;
+    if (contact && row.entry.kind == "method")
       throw InputError(
           fmt::format("clackers: method \"{}\": {} brings its own contact treatment; allowed: "
                       "{} alone.",
                       text, first.name, first.name),
           "bad-syntax");
-    return row.make(first.settings);
-  }
-  for (const auto& row : integrators()) {
-    if (row.name != first.name) continue;
-    const auto treatment = contact_or_default(specification);
-    const auto settings = specification.contact ? specification.contact->settings : Settings{};
-    if (auto joined = row.join(first.settings, treatment, settings)) return joined;
-    refuse_name("contact treatment", treatment, names("contact"), "clackers list contacts");
+    const auto treatment = contact.value_or(Term{"event-driven", {}});
+    if (auto made = row.make(first.settings, treatment.name, treatment.settings)) return made;
+    refuse_name("contact treatment", treatment.name, names("contact"), "clackers list contacts");
   }
   refuse_name("method", first.name, names("integrator", "method"), "clackers list methods");
 }

@@ -2,19 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 
 namespace clackers::methods {
 namespace {
-
-std::string message_of(const char* specification) {
-  try {
-    method(specification);
-  } catch (const InputError& error) {
-    return std::string(error.what()) + " [" + std::string(error.code().name()) + "]";
-  }
-  return {};
-}
 
 TEST(Registry, JoinsIntegratorsWithTreatments) {
   EXPECT_EQ(method("newmark")->facts().name, "newmark+event-driven");
@@ -28,32 +19,35 @@ TEST(Registry, JoinsIntegratorsWithTreatments) {
   EXPECT_EQ(method("rk4+penalty")->facts().through_impacts.reason, "contact-stiffness");
 }
 
-TEST(Registry, SuggestsNamesThatAreNear) {
+TEST(Registry, UnknownNamesAreRefusedWithAGuess) {
   EXPECT_EQ(
-      message_of("newmrak"),
+      test::refusal_of([] { method("newmrak"); }),
       "clackers: no method \"newmrak\". Did you mean \"newmark\"? All names: clackers list methods "
       "[unknown-name]");
-  EXPECT_NE(message_of("newmark+penality").find("Did you mean \"penalty\"?"), std::string::npos);
-  EXPECT_NE(message_of("newmark:bta=0.25")
-                .find("no parameter of newmark \"bta\". Did you mean \"beta\"?"),
-            std::string::npos);
-  EXPECT_NE(message_of("rk4:order=4").find("no parameter of rk4"), std::string::npos);
+  EXPECT_REFUSED(method("newmark+penality"), "unknown-name", "Did you mean \"penalty\"?");
+  EXPECT_REFUSED(method("newmark:bta=0.25"), "unknown-name",
+                 "no parameter of newmark \"bta\". Did you mean \"beta\"?");
+  EXPECT_REFUSED(method("rk4:order=4"), "unknown-name", "no parameter of rk4");
+  EXPECT_REFUSED(method("event-driven"), "unknown-name", "no method");
 }
 
-TEST(Registry, RefusesParametersOutsideTheirRangeAndFalsePairs) {
-  EXPECT_NE(message_of("newmark:gamma=0.4").find("1/2 <= gamma <= 1"), std::string::npos);
-  EXPECT_NE(message_of("newmark+penalty:stiffness=0").find("0 < stiffness"), std::string::npos);
-  EXPECT_NE(message_of("moreau-jean:theta=0.4").find("1/2 <= theta <= 1"), std::string::npos);
-  EXPECT_NE(message_of("generalized-alpha:rho=2").find("0 <= rho <= 1"), std::string::npos);
-  EXPECT_NE(message_of("moreau-jean+penalty").find("brings its own contact treatment"),
-            std::string::npos);
-  EXPECT_NE(message_of("event-driven").find("no method"), std::string::npos);
+TEST(Registry, ParametersOutsideTheirRangeAreRefused) {
+  EXPECT_REFUSED(method("newmark:gamma=0.4"), "out-of-range", "1/2 <= gamma <= 1");
+  EXPECT_REFUSED(method("newmark+penalty:stiffness=0"), "out-of-range", "0 < stiffness");
+  EXPECT_REFUSED(method("moreau-jean:theta=0.4"), "out-of-range", "1/2 <= theta <= 1");
+  EXPECT_REFUSED(method("generalized-alpha:rho=2"), "out-of-range", "0 <= rho <= 1");
+}
+
+TEST(Registry, AParameterGivenTwiceIsRefused) {
+  EXPECT_REFUSED(method("newmark:beta=0.1,beta=0.2"), "bad-syntax", "newmark: beta = 0.2", "twice");
+}
+
+TEST(Registry, AMethodThatStandsAloneTakesNoTreatment) {
+  EXPECT_REFUSED(method("moreau-jean+penalty"), "bad-syntax", "brings its own contact treatment");
 }
 
 TEST(Registry, ListsEveryNameWithItsCard) {
-  std::vector<std::string> names;
   for (const auto& entry : entries()) {
-    names.push_back(entry.name);
     SCOPED_TRACE(entry.name);
     EXPECT_FALSE(entry.summary.empty());
     std::size_t at = 0;
@@ -66,23 +60,20 @@ TEST(Registry, ListsEveryNameWithItsCard) {
     }
     EXPECT_EQ(entry.card.find("///"), std::string::npos);
     for (const auto& p : entry.parameters) {
-      EXPECT_FALSE(p.default_value.empty());
+      EXPECT_NE(p.default_text(), "nan");
       EXPECT_NE(p.allowed.find(p.name), std::string::npos);
       EXPECT_FALSE(p.meaning.empty());
     }
   }
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"newmark", "central-difference", "rk4", "generalized-alpha",
-                                      "event-driven", "reversal", "penalty", "moreau-jean"}));
-  EXPECT_EQ(entries()[0].card.substr(0, 26), "Newmark's one-step family ");
-  EXPECT_EQ(entries()[0].parameters[0].default_value, "0.25");
-  EXPECT_EQ(entries()[6].parameters[0].default_value, "1e4 k1");
+}
+
+TEST(Registry, TheCardIsTheCommentAboveTheType) {
+  EXPECT_TRUE(card("newmark").starts_with("Newmark's one-step family for M a"));
+  EXPECT_TRUE(card("no-such-method").empty());
 }
 
 TEST(Registry, PairsAndPanelAreMethods) {
-  EXPECT_EQ(pairs().size(), 13u);
   for (const auto& name : pairs()) EXPECT_EQ(method(name)->facts().name, name);
-  EXPECT_EQ(default_panel().size(), 7u);
   for (const auto& name : default_panel()) EXPECT_NO_THROW(method(name)) << name;
 }
 

@@ -10,11 +10,8 @@
 #include "clackers/base/error.hpp"
 
 namespace clackers::methods {
-namespace {
 
-constexpr double most_steps = 1e9;
-
-}  // namespace
+using model::most_steps;
 
 StepPlan plan_steps(std::string_view who, double start, double end, double h) {
   require_step(who, h);
@@ -27,19 +24,26 @@ StepPlan plan_steps(std::string_view who, double start, double end, double h) {
   const bool is_whole = std::abs(ratio - nearest) <= 4.0 * eps * scale * ratio && nearest >= 1.0;
   if (!is_whole && h > length)
     refuse(who, "h", h, fmt::format("h <= {}, the length of the run in seconds", length),
-           "Use a step that fits into the run.", "step-not-positive");
+           "Use a step that fits into the run.");
   if (!(ratio <= most_steps))
     refuse(who, "h", h, fmt::format("h >= {}, that is at most 1e9 steps", length / most_steps),
            "Use a larger step or an earlier end.", "too-many-steps");
   const double latest = std::max(std::abs(start), std::abs(end));
   if (!(h >= 4.0 * eps * latest))
-    refuse(
-        who, "h", h,
-        fmt::format("h >= {}, or times of this size cannot tell steps apart", 4.0 * eps * latest),
-        "Let the run start nearer to time 0.", "step-not-positive");
+    refuse(who, "h", h,
+           fmt::format("h >= {}, or rounding of the times hides the steps", 4.0 * eps * latest),
+           "Let the run start nearer to time 0.");
   StepPlan plan{start, end, h, static_cast<long long>(is_whole ? nearest : std::floor(ratio)), 0};
   plan.total = plan.whole + (is_whole ? 0 : 1);
   return plan;
+}
+
+StepPlan checked_plan(const Method& method, const model::ImpactProblem<>& problem, double h) {
+  const auto who = method.facts().name;
+  require_step(who, h);
+  model::validate(problem);
+  if (const auto no = method.objection(problem)) throw InputError(no->sentence, no->code);
+  return plan_steps(who, problem.start.t, problem.end, h);
 }
 
 }  // namespace clackers::methods

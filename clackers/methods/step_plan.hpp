@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "clackers/methods/method.hpp"
+
 namespace clackers::methods {
 
 /// The instants of a run: start + k h for k = 0 ... whole, and the end. The end is one of them
@@ -19,5 +21,8 @@ struct StepPlan {
 /// Lays out a run of `who`. Throws InputError for a step that is not positive and finite, is
 /// longer than the run, is lost in the rounding of the times, or asks for more than 1e9 steps.
 StepPlan plan_steps(std::string_view who, double start, double end, double h);
+
+/// The plan of a run of `method`, after the checks that Method::prepare() promises.
+StepPlan checked_plan(const Method& method, const model::ImpactProblem<>& problem, double h);
 
 }  // namespace clackers::methods

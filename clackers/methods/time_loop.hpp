@@ -15,7 +15,7 @@ long long time_loop(Stepper& stepper, const StepPlan& plan, const model::State<D
                     Recorder<Dof>& out, AfterStep&& after_step) {
   model::State<Dof> now = start, before = start;
   stepper.restart(now);
-  if (!out.push(now)) return 0;
+  if (!out.append(now)) return 0;
   for (long long k = 1; k <= plan.total; ++k) {
     const double t1 = plan.time(k);
     before = now;
@@ -26,10 +26,10 @@ long long time_loop(Stepper& stepper, const StepPlan& plan, const model::State<D
       now = stepper.partial(before, t1 - before.t);
     now.t = t1;  // counted over the whole run, whatever the stepper was restarted from
     if (stepper.failed()) {
-      out.fail_newton(t1);
+      out.fail_step(t1, stepper.failure());
       return k - 1;
     }
-    if (!after_step(before, now, is_stepped) || !out.push(now)) return k;
+    if (!after_step(before, now, is_stepped) || !out.append(now)) return k;
   }
   return plan.total;
 }

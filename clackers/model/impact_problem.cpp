@@ -71,10 +71,9 @@ void require_contact(const Contact<>& contact, std::size_t number, Index dof,
   const double g = contact.gap_at(start.u), rate = contact.gap_rate(start.v);
   if (g < 0.0 || (g == 0.0 && rate < 0.0))
     throw InputError(
-        fmt::format(
-            "{}: at the start its opening is {} m, changing by {} m/s; allowed: opening > 0, "
-            "or 0 and not closing. Start before the impact or after it.",
-            who, g, rate),
+        fmt::format("{}: at the start its gap is {} m, changing by {} m/s; allowed: gap > 0, "
+                    "or 0 and not closing. Start before the impact or after it.",
+                    who, g, rate),
         "starts-in-contact");
 }
 

@@ -27,6 +27,9 @@ struct Outcome {
   bool failed() const { return !finished && !stopped_by_sink; }
 };
 
+/// No run has more steps than this.
+inline constexpr double most_steps = 1e9;
+
 /// A method prepared for one problem and one step. Everything that depends on these two alone has
 /// been done; the step loop allocates nothing.
 class Run {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,7 +14,8 @@ namespace clackers::paper {
 struct Entry {
   std::string_view name;   ///< "fig12", "figA1", "validation"
   std::string_view title;  ///< one line
-  Figure (*build)();       ///< fills everything but name and title
+  /// Fills everything but name and title; stops early when `interrupt` becomes true.
+  Figure (*build)(const std::atomic<bool>* interrupt);
 };
 
 /// All figures, in the paper's order.
@@ -23,25 +25,25 @@ std::span<const Entry> entries();
 /// InputError with did-you-mean for a name that does not exist.
 std::vector<Entry> chosen(const std::vector<std::string>& names);
 
-/// The figure of an entry, whole.
-Figure make(const Entry& entry);
+/// The figure of an entry, whole unless `interrupt` became true.
+Figure make(const Entry& entry, const std::atomic<bool>* interrupt = nullptr);
 
-// The builders, by the file that holds them.
-Figure free_mass();           ///< responses.cpp: Fig. 1
-Figure mass_and_stop();       ///< schematic.cpp: Fig. 2
-Figure response_at_stop();    ///< responses.cpp: Fig. 3
-Figure symmetric_pair();      ///< responses.cpp: Fig. 4
-Figure sample_extension();    ///< responses.cpp: Fig. 5
-Figure spectra();             ///< spectra.cpp: Fig. 6
-Figure effect_of_N();         ///< parameters.cpp: Fig. 7
-Figure effect_of_damping();   ///< parameters.cpp: Fig. 8
-Figure effect_of_duration();  ///< parameters.cpp: Fig. 9
-Figure three_parameters();    ///< examples.cpp: Fig. 10
-Figure mirrored_response();   ///< mirror.cpp: Fig. 11
-Figure coincidence();         ///< mirror.cpp: Fig. 12
-Figure positive_definite();   ///< appendix.cpp: Fig. A.1
-Figure amplitudes();          ///< appendix.cpp: Fig. A.2
-Figure near_miss();           ///< near_miss.cpp: Fig. A.3
-Figure validation();          ///< validation.cpp: the second way of section 2.3
+// The builders, by the file in figures/ that holds them.
+Figure free_mass();                                     ///< responses.cpp: Fig. 1
+Figure mass_and_stop();                                 ///< schematic.cpp: Fig. 2
+Figure response_at_stop();                              ///< responses.cpp: Fig. 3
+Figure symmetric_pair();                                ///< responses.cpp: Fig. 4
+Figure sample_extension();                              ///< responses.cpp: Fig. 5
+Figure spectra();                                       ///< spectra.cpp: Fig. 6
+Figure effect_of_N();                                   ///< parameters.cpp: Fig. 7
+Figure effect_of_damping();                             ///< parameters.cpp: Fig. 8
+Figure effect_of_duration();                            ///< parameters.cpp: Fig. 9
+Figure three_parameters();                              ///< parameters.cpp: Fig. 10
+Figure mirrored_response();                             ///< mirror.cpp: Fig. 11
+Figure coincidence();                                   ///< mirror.cpp: Fig. 12
+Figure positive_definite();                             ///< appendix.cpp: Fig. A.1
+Figure amplitudes();                                    ///< appendix.cpp: Fig. A.2
+Figure near_miss();                                     ///< near_miss.cpp: Fig. A.3
+Figure validation(const std::atomic<bool>* interrupt);  ///< validation.cpp: section 2.3
 
 }  // namespace clackers::paper

@@ -4,18 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "clackers/paper/rendering/assets.hpp"
+
 namespace clackers::paper {
 
 /// How a line looks. Colour, dash and width differ together, so that a curve is known in grey too.
 struct Stroke {
-  std::string color;               ///< a variable of the report's style sheet: "var(--m1)"
+  std::string color;               ///< "#0b62a4"; of assets.hpp
   std::vector<double> dash{1, 0};  ///< lengths of strokes and gaps
   double width = 1.6;
 };
 
 /// Strokes that mean the same in every figure.
-Stroke first_mass();
-Stroke second_mass();
+inline Stroke first_mass() { return {light::m1, {1, 0}, 2.0}; }
+inline Stroke second_mass() { return {light::m2, {5, 2}, 1.3}; }
 
 /// One curve, or what else is drawn into a panel.
 struct Series {
@@ -52,6 +54,7 @@ struct Claim {
   std::string says;      ///< the paper's statement, with its place: "Section 2.1: ..."
   std::string measured;  ///< with the number and how it was found
   bool holds = false;
+  bool in_part = false;  ///< holds only for some of what it is said of; `measured` says for what
 };
 
 /// A figure of the paper, or one it asks for: everything that picture, csv and page show.

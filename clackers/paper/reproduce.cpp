@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "clackers/paper/files.hpp"
-#include "clackers/paper/page.hpp"
-#include "clackers/paper/specification.hpp"
+#include "clackers/paper/rendering/files.hpp"
+#include "clackers/paper/rendering/page.hpp"
+#include "clackers/paper/rendering/specification.hpp"
 #include "clackers/paper/table.hpp"
 #include "clackers/study/provenance.hpp"
 
@@ -67,12 +67,12 @@ Reproduction reproduce(const std::vector<Entry>& chosen, const fs::path& folder,
   const double parts = double(chosen.size()) + 2.0;
   for (const auto& entry : chosen) {
     if (progress) progress(double(out.figures.size()) / parts);
-    out.figures.push_back(make(entry));
+    out.figures.push_back(make(entry, interrupt));
     names.emplace_back(entry.name);
     write_numbers(out.figures.back(), folder);
     if (stopped()) break;
   }
-  if (!stopped()) out.missing = render(folder, names);
+  if (!stopped()) out.missing = render(folder, names, interrupt);
   out.interrupted = stopped();
   if (out.interrupted) return out;
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clackers/paper/catalogue.hpp"
-#include "clackers/paper/render.hpp"
+#include "clackers/paper/rendering/render.hpp"
 
 namespace clackers::paper {
 
@@ -19,7 +19,7 @@ struct Reproduction {
 
 /// Computes the figures and fills `folder`, which exists and is empty: of each figure NAME.csv,
 /// NAME.vl.json, NAME.svg and NAME.pdf; index.html; paper.json, which lists all files. Throws
-/// FileError. `interrupt` is looked at between figures.
+/// FileError. Stops within 0.2 s when `interrupt` becomes true.
 Reproduction reproduce(const std::vector<Entry>& chosen, const std::filesystem::path& folder,
                        const std::string& command,
                        const std::function<void(double share)>& progress = {},

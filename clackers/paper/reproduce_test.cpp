@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "clackers/base/error.hpp"
-#include "clackers/paper/files.hpp"
-#include "clackers/paper/test_folder.hpp"
+#include "clackers/paper/rendering/files.hpp"
+#include "clackers/paper/testing/test_folder.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -30,7 +30,7 @@ class Reproduced : public FolderTest {
   }
 };
 
-TEST_F(Reproduced, WithoutProgramsToDrawHoldsNumbersSpecificationsAndPage) {
+TEST_F(Reproduced, FolderWithoutRenderersHasNumbersSpecificationsAndPage) {
   const auto made = reproduce(chosen({"fig2", "fig12"}), folder_, "clackers paper");
   ASSERT_EQ(made.missing.size(), 1u);
   EXPECT_FALSE(made.interrupted);
@@ -42,7 +42,7 @@ TEST_F(Reproduced, WithoutProgramsToDrawHoldsNumbersSpecificationsAndPage) {
   EXPECT_NE(read_file(folder_ / "index.html").find("could not be drawn"), std::string::npos);
 }
 
-TEST_F(Reproduced, TheManifestRepeatsClaimsAndVerdicts) {
+TEST_F(Reproduced, ManifestHasClaimsAndVerdicts) {
   const auto made = reproduce(chosen({"fig12"}), folder_, "clackers paper fig12");
   const auto json = nlohmann::json::parse(read_file(folder_ / "paper.json"));
   EXPECT_EQ(json.at("schema"), "clackers/paper-folder/1");
@@ -53,7 +53,7 @@ TEST_F(Reproduced, TheManifestRepeatsClaimsAndVerdicts) {
   EXPECT_EQ(claims[0].at("measured"), made.figures[0].claims[0].measured);
 }
 
-TEST_F(Reproduced, StopsWhenAskedTo) {
+TEST_F(Reproduced, InterruptLeavesAnIncompleteFolder) {
   const std::atomic<bool> stop{true};
   const auto made = reproduce(chosen({}), folder_, "", {}, &stop);
   EXPECT_TRUE(made.interrupted);
@@ -61,7 +61,7 @@ TEST_F(Reproduced, StopsWhenAskedTo) {
   EXPECT_FALSE(fs::exists(folder_ / "paper.json"));
 }
 
-TEST_F(Reproduced, OnlyItsOwnManifestListsFiles) {
+TEST_F(Reproduced, ForeignManifestListsNoFiles) {
   EXPECT_TRUE(listed_files(folder_).empty());
   for (const auto* text : {"no json", "[]", "{\"schema\": \"other/1\", \"files\": [\"a\"]}",
                            "{\"schema\": 3, \"files\": [\"a\"]}"}) {
@@ -70,7 +70,7 @@ TEST_F(Reproduced, OnlyItsOwnManifestListsFiles) {
   }
 }
 
-TEST_F(Reproduced, AFolderThatTakesNoFileIsAFileError) {
+TEST_F(Reproduced, MissingFolderIsAFileError) {
   EXPECT_THROW(reproduce(chosen({"fig2"}), folder_ / "not-there", ""), FileError);
   EXPECT_THROW(read_file(folder_ / "not-there"), FileError);
   EXPECT_THROW(make_folder(folder_ / "not-there" / "below"), FileError);

@@ -12,13 +12,13 @@ namespace clackers::paper {
 /// to the same double. A vertical line has an empty y.
 void write_csv(const Figure& figure, std::ostream& out);
 
-/// Every claim of the figures with its verdict, "holds" or "differs", a row each.
+/// Every claim of the figures with its verdict, a row each.
 study::Sheet claims_of(const std::vector<Figure>& figures);
 
 /// What `clackers list figures` shows.
 study::Sheet list_figures();
 
-/// "holds" or "differs".
+/// "holds", "holds in part" (see Claim) or "differs".
 const char* verdict_of(const Claim& claim);
 
 }  // namespace clackers::paper

@@ -7,7 +7,7 @@
 namespace clackers::paper {
 namespace {
 
-TEST(Csv, HoldsEveryNumberWholeUnderItsPanelAndSeries) {
+TEST(Csv, NumbersReadBackUnderPanelAndSeries) {
   Figure figure;
   figure.panels = {{"a",
                     "N = 1",
@@ -25,7 +25,7 @@ TEST(Csv, HoldsEveryNumberWholeUnderItsPanelAndSeries) {
             "a,at,t [s],0.5,\"u, \"\"v\"\"\",\n");
 }
 
-TEST(Csv, PanelsOfOneLetterAreToldApartByTheirNote) {
+TEST(Csv, PanelsOfOneLetterDifferByTheirNote) {
   Figure figure;
   figure.columns = 2;
   const Panel panel{"a", "N = 1", {.title = "x"}, {.title = "y"}, {{"m", {1}, {2}, first_mass()}}};
@@ -36,16 +36,18 @@ TEST(Csv, PanelsOfOneLetterAreToldApartByTheirNote) {
   EXPECT_EQ(out.str(), "panel,series,x_name,x,y_name,y\na N = 1,m,x,1,y,2\nN = 1,m,x,1,y,2\n");
 }
 
-TEST(Claims, ComeARowEachWithTheirVerdict) {
+TEST(Claims, EachIsARowWithItsVerdict) {
   Figure figure;
   figure.name = "fig0";
-  figure.claims = {{"says", "found 1", true}, {"says more", "found 2", false}};
+  figure.claims = {
+      {"says", "found 1", true}, {"says more", "found 2", false}, {"c", "3", true, true}};
   const auto sheet = claims_of({figure, figure});
-  ASSERT_EQ(sheet.rows.size(), 4u);
+  ASSERT_EQ(sheet.rows.size(), 6u);
   const std::vector<study::Cell> first{"fig0", "holds", "says", "found 1"},
       second{"fig0", "differs", "says more", "found 2"};
   EXPECT_EQ(sheet.rows[0], first);
-  EXPECT_EQ(sheet.rows[3], second);
+  EXPECT_EQ(sheet.rows[4], second);
+  EXPECT_EQ(sheet.rows[5][1], study::Cell("holds in part"));
 }
 
 }  // namespace

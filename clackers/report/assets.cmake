@@ -18,6 +18,12 @@ endforeach()
 set(page
   ${report_dir}/page/page.html
   ${report_dir}/page/page.css
+  ${report_dir}/page/section.html
+  ${report_dir}/page/table.html
+  ${report_dir}/page/figure.html
+  ${report_dir}/page/subject.html
+  ${report_dir}/page/self.html
+  ${report_dir}/page/theme.js
   ${report_dir}/page/page.js
   ${report_dir}/page/figures.js
   ${report_dir}/page/response.vl.json

@@ -7,7 +7,11 @@ namespace clackers::report::assets {
 
 extern const std::string_view page_html;  ///< with {{slots}}
 extern const std::string_view page_css;
-extern const std::string_view page_js, figures_js;
+extern const std::string_view page_js, figures_js, theme_js;
+/// Parts of page_html, also with {{slots}}.
+extern const std::string_view section_html, table_html, figure_html, subject_html, self_html;
+/// The sources of the content security policy for the scripts above: 'sha256-...' each.
+extern const std::string_view script_hashes;
 
 /// Vega-Lite specifications with "$placeholders".
 extern const std::string_view response_vl_json, convergence_vl_json, history_vl_json, work_vl_json,

@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "clackers/report/format.hpp"
+
 namespace clackers::report {
 namespace {
 
 // "1.2e-07" as "1.2 × 10<sup>−7</sup>", "-0.5" with a true minus sign.
-std::string dressed(const std::string& text) {
+std::string with_power(const std::string& text) {
   const auto e = text.find('e');
   auto mantissa = text.substr(0, e);
   if (mantissa.front() == '-') mantissa.replace(0, 1, "−");
@@ -27,7 +29,7 @@ std::string not_finite(double value) { return std::isnan(value) ? "–" : value 
 
 std::string escape(std::string_view text) {
   std::string out;
-  for (const char c : text) switch (c) {
+  for (const char c : valid_utf8(text)) switch (c) {
       case '&':
         out += "&amp;";
         break;
@@ -73,13 +75,13 @@ std::string script_json(const nlohmann::ordered_json& json) {
 
 std::string html_number(double value, int digits) {
   if (!std::isfinite(value)) return not_finite(value);
-  return dressed(fmt::format("{:.{}g}", value, digits));
+  return with_power(fmt::format("{:.{}g}", value, digits));
 }
 
 std::string html_scientific(double value, int decimals) {
   if (!std::isfinite(value)) return not_finite(value);
   if (value == 0.0) return "0";
-  return dressed(fmt::format("{:.{}e}", value, decimals));
+  return with_power(fmt::format("{:.{}e}", value, decimals));
 }
 
 std::string html_count(long long value) {

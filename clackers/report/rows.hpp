@@ -8,8 +8,8 @@
 
 namespace clackers::report {
 
-// The three ways to write rows. All read row by row and stop early when the stream fails; how it
-// failed is the stream's to tell.
+// The ways to write rows. All read row by row, or block by block where the rows are numbers, and
+// stop early when the stream fails. csv and json never print -0.
 
 /// At most style.width characters a line: numbers to the right with at most six significant digits,
 /// units below the names, long text wrapped. The widths are those of the first 1000 rows; a later
@@ -24,6 +24,11 @@ void write_csv(study::RowSource& rows, std::ostream& out);
 /// What is empty is null; infinities and NaN, which json does not have, are the texts "inf",
 /// "-inf", "nan".
 void write_json(study::RowSource& rows, std::ostream& out);
+
+/// NumPy's file, version 1.0: a structured array of float64, one field a column, so that
+/// numpy.load(FILE)["u1"] is a column and names are never separated from numbers. A side is -1, 0
+/// or 1. Throws InputError for rows that hold text.
+void write_npy(study::RowSource& rows, std::ostream& out);
 
 /// {"schema", "sheets": [as above]}.
 void write_json(std::span<const study::Sheet> sheets, std::string_view schema, std::ostream& out);

@@ -4,6 +4,7 @@
 
 #include "clackers/report/format.hpp"
 #include "clackers/report/rows.hpp"
+#include "clackers/report/rows_numbers.hpp"
 
 namespace clackers::report {
 namespace {
@@ -17,7 +18,7 @@ std::string quoted(const std::string& text) {
 
 struct CsvText {
   std::string operator()(std::monostate) const { return {}; }
-  std::string operator()(double value) const { return exact_number(value); }
+  std::string operator()(double value) const { return exact_number(value + 0.0); }  // no -0
   std::string operator()(long long value) const { return fmt::format("{}", value); }
   std::string operator()(const std::string& text) const { return quoted(text); }
 };
@@ -31,6 +32,12 @@ void write_csv(study::RowSource& rows, std::ostream& out) {
     comma = ",";
   }
   out << '\n';
+  if (auto* const numbers = rows.numbers()) {
+    NumberText text(rows.columns(), {"", ",", "\n", "", ""});
+    std::vector<double> values;
+    while (out && numbers->next_block(values)) out << text.text(values);
+    return;
+  }
   std::vector<study::Cell> row;
   while (out && rows.next(row)) {
     comma = "";

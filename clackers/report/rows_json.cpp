@@ -6,6 +6,7 @@
 
 #include "clackers/report/format.hpp"
 #include "clackers/report/rows.hpp"
+#include "clackers/report/rows_numbers.hpp"
 
 namespace clackers::report {
 namespace {
@@ -17,11 +18,37 @@ std::string json_text(std::string_view text) {
 struct JsonText {
   std::string operator()(std::monostate) const { return "null"; }
   std::string operator()(double value) const {
-    return std::isfinite(value) ? exact_number(value) : json_text(exact_number(value));
+    return std::isfinite(value) ? exact_number(value + 0.0)  // no -0
+                                : json_text(exact_number(value));
   }
   std::string operator()(long long value) const { return fmt::format("{}", value); }
   std::string operator()(const std::string& text) const { return json_text(text); }
 };
+
+void write_rows(study::RowSource& rows, std::ostream& out) {
+  if (auto* const numbers = rows.numbers()) {
+    std::string_view skipped = ",";  // the first row has none before it
+    NumberText text(rows.columns(), {",\n  [", ", ", "]", "null", "\""});
+    std::vector<double> values;
+    while (out && numbers->next_block(values)) {
+      out << text.text(values).substr(skipped.size());
+      skipped = {};
+    }
+    return;
+  }
+  std::vector<study::Cell> row;
+  const char* comma = "\n";
+  while (out && rows.next(row)) {
+    out << comma << "  [";
+    const char* between = "";
+    for (const auto& cell : row) {
+      out << between << std::visit(JsonText{}, cell);
+      between = ", ";
+    }
+    out << ']';
+    comma = ",\n";
+  }
+}
 
 }  // namespace
 
@@ -36,18 +63,7 @@ void write_json(study::RowSource& rows, std::ostream& out) {
     comma = ",\n";
   }
   out << "\n],\n\"rows\": [";
-  std::vector<study::Cell> row;
-  comma = "\n";
-  while (out && rows.next(row)) {
-    out << comma << "  [";
-    const char* between = "";
-    for (const auto& cell : row) {
-      out << between << std::visit(JsonText{}, cell);
-      between = ", ";
-    }
-    out << ']';
-    comma = ",\n";
-  }
+  write_rows(rows, out);
   out << "\n]\n}\n";
 }
 

@@ -4,8 +4,8 @@
 #include <ostream>
 
 #include "clackers/report/format.hpp"
-#include "clackers/report/layout.hpp"
 #include "clackers/report/rows.hpp"
+#include "clackers/report/text/table.hpp"
 
 namespace clackers::report {
 namespace {
@@ -21,7 +21,8 @@ constexpr std::size_t any_number = 8;
 constexpr std::size_t least_text = 12;
 
 std::string text_of(const study::Cell& cell, int digits, std::size_t width) {
-  if (const auto* real = std::get_if<double>(&cell)) return short_number(*real, digits, width);
+  if (const auto* real = std::get_if<double>(&cell))
+    return short_number(*real + 0.0, digits, width);  // no -0
   if (const auto* whole = std::get_if<long long>(&cell)) return fmt::format("{}", *whole);
   if (const auto* text = std::get_if<std::string>(&cell))
     return rejoin(std::string_view(*text).substr(0, text->find_last_not_of(" \n") + 1));
@@ -104,7 +105,7 @@ void write_table(study::RowSource& rows, std::ostream& out, const Style& style) 
   const auto width = std::size_t(std::max(style.width, 1));
   if (!rows.title().empty())
     for (const auto& line : wrap(rows.title(), width))
-      out << painted(line, Paint::bold, style) << '\n';
+      out << colored(line, TextColor::bold, style) << '\n';
 
   const auto& columns = rows.columns();
   std::vector<Row> first;

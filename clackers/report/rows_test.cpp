@@ -5,12 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 #include "clackers/report/format.hpp"
 
 namespace clackers::report {
@@ -282,24 +283,99 @@ TEST(Rows, WritingStopsWhenTheStreamHasFailed) {
   }
 }
 
+/// Rows of numbers in blocks of two.
+class Numbers : public study::NumberRows {
+ public:
+  explicit Numbers(std::vector<double> values) : values_(std::move(values)) {}
+  std::string schema() const override { return "x/1"; }
+  std::string title() const override { return {}; }
+  const std::vector<study::Column>& columns() const override { return columns_; }
+  long long count() const override { return static_cast<long long>(values_.size() / 3); }
+  bool next_block(std::vector<double>& values) override {
+    const auto end = std::min(read_ + 6, values_.size());
+    values.assign(values_.begin() + std::ptrdiff_t(read_), values_.begin() + std::ptrdiff_t(end));
+    read_ = end;
+    return !values.empty();
+  }
+
+ private:
+  std::vector<double> values_;
+  std::size_t read_ = 0;
+  std::vector<study::Column> columns_{{"k", "", "", study::ColumnKind::whole},
+                                      {"side", "", "", study::ColumnKind::side},
+                                      {"u", "m", "", study::ColumnKind::real}};
+};
+
+std::string written(study::RowSource& rows, Format format) {
+  std::ostringstream out;
+  write(rows, format, out);
+  return out.str();
+}
+
+const std::vector<double> few{1, -1, 0.1, 2, 1, -0.0, 3, 0, -infinity, 1e18, 0, 5e-324};
+
+TEST(NumberRows, AreWrittenAsTheirCellsAre) {
+  for (const auto format : {Format::csv, Format::json, Format::table}) {
+    Numbers blocks(few), cells(few);
+    Sheet sheet{"x/1", "", cells.columns(), {}};
+    for (std::vector<study::Cell> row; cells.next(row);) sheet.rows.push_back(row);
+    EXPECT_EQ(sheet.rows.size(), 4u);
+    study::SheetRows rows(sheet);
+    EXPECT_EQ(written(blocks, format), written(rows, format));
+  }
+}
+
+TEST(NumberRows, HaveNoNegativeZero) {
+  Numbers rows(few);
+  EXPECT_EQ(written(rows, Format::csv),
+            "k,side,u\n1,-,0.1\n2,+,0\n3,,-inf\n1000000000000000000,,5e-324\n");
+}
+
+TEST(NumberRows, ReadBackToTheSameDouble) {
+  std::mt19937_64 bits(9);
+  std::vector<double> values;
+  while (values.size() < 3000) {
+    const auto value = std::bit_cast<double>(bits());
+    if (std::isfinite(value)) values.insert(values.end(), {0, 0, value});
+  }
+  Numbers rows(values);
+  const auto read = parsed_csv(written(rows, Format::csv));
+  for (std::size_t r = 0; r < values.size() / 3; ++r)
+    EXPECT_EQ(std::strtod(read[r + 1][2].c_str(), nullptr), values[3 * r + 2]);
+}
+
+TEST(Npy, HasAPaddedHeaderAndTheDoubles) {
+  Numbers rows(few);
+  const auto text = written(rows, Format::npy);
+  EXPECT_EQ(text.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
+  const auto size = std::size_t(static_cast<unsigned char>(text[8])) +
+                    256 * std::size_t(static_cast<unsigned char>(text[9])) + 10;
+  EXPECT_EQ(size % 64, 0u);
+  const auto header = text.substr(10, size - 10);
+  EXPECT_EQ(header.substr(0, header.find_last_not_of(" \n") + 1),
+            "{'descr': [('k', '<f8'), ('side', '<f8'), ('u', '<f8'), ], 'fortran_order': False, "
+            "'shape': (4,), }");
+  EXPECT_EQ(header.back(), '\n');
+  ASSERT_EQ(text.size(), size + few.size() * sizeof(double));
+  EXPECT_EQ(std::memcmp(text.data() + size, few.data(), few.size() * sizeof(double)), 0);
+}
+
+TEST(Npy, IsRefusedForRowsWithText) {
+  const auto sheet = mixed_sheet();
+  study::SheetRows rows(sheet);
+  EXPECT_REFUSED(written(rows, Format::npy), "bad-syntax", "hold text", "Use csv or json");
+}
+
 TEST(Format, KnowsItsNamesAndRefusesOthersWithAGuess) {
   EXPECT_EQ(format_from("table"), Format::table);
   EXPECT_EQ(format_from("csv"), Format::csv);
   EXPECT_EQ(format_from("json"), Format::json);
-  for (const auto text : {"jsn", "JSON", "", "xml"}) {
-    try {
-      format_from(text);
-      FAIL() << text;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.code().name(), "unknown-name");
-      EXPECT_NE(std::string(error.what()).find("table, csv, json"), std::string::npos);
-    }
-  }
-  try {
-    format_from("jsn");
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("Did you mean \"json\"?"), std::string::npos);
-  }
+  EXPECT_EQ(format_from("npy", Content::numbers), Format::npy);
+  EXPECT_EQ(format_from("latex", Content::verdicts), Format::latex);
+  for (const auto text : {"JSON", "", "xml", "npy", "junit"})
+    EXPECT_REFUSED(format_from(text), "unknown-name", "table, csv, json");
+  EXPECT_REFUSED(format_from("jsn"), "unknown-name", "Did you mean \"json\"?");
+  EXPECT_REFUSED(format_from("npy", Content::verdicts), "unknown-name");
 }
 
 }  // namespace

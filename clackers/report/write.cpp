@@ -1,52 +1,92 @@
 #include "clackers/report/write.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <ostream>
-#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "clackers/base/suggest.hpp"
-#include "clackers/report/junit.hpp"
-#include "clackers/report/latex.hpp"
+#include "clackers/report/columns.hpp"
+#include "clackers/report/junit/junit.hpp"
+#include "clackers/report/latex/latex.hpp"
 #include "clackers/report/rows.hpp"
-#include "clackers/report/runs.hpp"
-#include "clackers/report/verdict_table.hpp"
-#include "clackers/study/verify.hpp"
+#include "clackers/report/text/text.hpp"
+#include "clackers/study/record_json.hpp"
 
 namespace clackers::report {
-
 namespace {
 
-[[noreturn]] void refuse_rows() {
-  throw std::logic_error("rows have no format for verdicts; format_from(text) gives none");
+using RowWriter = void (*)(study::RowSource&, std::ostream&, const Style&);
+using RecordWriter = void (*)(const study::Record&, std::ostream&, const Style&,
+                              const study::BaselineComparison*);
+
+void write_runs(const study::Record& record, std::ostream& out, const Style&,
+                const study::BaselineComparison*) {
+  const auto sheet = run_sheet(record.cases);
+  study::SheetRows rows(sheet);
+  write_csv(rows, out);
+}
+
+void write_record_json(const study::Record& record, std::ostream& out, const Style&,
+                       const study::BaselineComparison*) {
+  out << study::to_json(record) << '\n';
+}
+
+struct FormatRow {
+  Format format;
+  std::string name;
+  RowWriter rows;        ///< nullptr: rows do not have it
+  RecordWriter record;   ///< nullptr: records do not have it
+  bool shows_changes;    ///< since a baseline
+  bool numbers = false;  ///< of rows only where all are numbers
+};
+
+/// All formats; a new one is a row here and its writer.
+const FormatRow table[] = {
+    {Format::table, "table", write_table, write_text, true},
+    {Format::csv, "csv", [](auto& rows, auto& out, auto&) { write_csv(rows, out); }, write_runs,
+     false},
+    {Format::json, "json", [](auto& rows, auto& out, auto&) { write_json(rows, out); },
+     write_record_json, false},
+    {Format::npy, "npy", [](auto& rows, auto& out, auto&) { write_npy(rows, out); }, nullptr, false,
+     true},
+    {Format::junit, "junit", nullptr, write_junit, true},
+    {Format::latex, "latex", nullptr, write_latex, false},
+};
+
+const FormatRow& row_of(Format format) {
+  const auto* found = std::ranges::find(table, format, &FormatRow::format);
+  if (found == std::end(table)) throw std::logic_error("a format without a row");
+  return *found;
+}
+
+bool has(const FormatRow& row, Content content) {
+  if (content == Content::verdicts) return row.record != nullptr;
+  return row.rows != nullptr && (content == Content::numbers || !row.numbers);
 }
 
 }  // namespace
 
 Format format_from(std::string_view text, Content content) {
-  static const std::array<std::string, 5> names{"table", "csv", "json", "junit", "latex"};
-  const std::span known(names.data(), content == Content::rows ? 3 : names.size());
-  const auto found = std::ranges::find(known, text);
-  if (found != known.end()) return static_cast<Format>(found - known.begin());
-  refuse_name("format", text, known, fmt::format("{}", fmt::join(known, ", ")));
+  std::vector<std::string> names;
+  for (const auto& row : table) {
+    if (!has(row, content)) continue;
+    if (row.name == text) return row.format;
+    names.push_back(row.name);
+  }
+  refuse_name("format", text, names, fmt::format("{}", fmt::join(names, ", ")));
 }
 
+bool shows_changes(Format format) { return row_of(format).shows_changes; }
+
 void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style) {
-  switch (format) {
-    case Format::table:
-      return write_table(rows, out, style);
-    case Format::csv:
-      return write_csv(rows, out);
-    case Format::json:
-      return write_json(rows, out);
-    case Format::junit:
-    case Format::latex:
-      refuse_rows();
-  }
+  const auto writer = row_of(format).rows;
+  if (writer == nullptr) throw std::logic_error("rows do not have this format");
+  writer(rows, out, style);
 }
 
 void write(std::span<const study::Sheet> sheets, std::string_view schema, Format format,
@@ -63,22 +103,9 @@ void write(std::span<const study::Sheet> sheets, std::string_view schema, Format
 
 void write(const study::Record& record, Format format, std::ostream& out, const Style& style,
            const study::BaselineComparison* changes) {
-  switch (format) {
-    case Format::table:
-      return write_verdict_table(record, out, style, changes);
-    case Format::json:
-      out << study::to_json(record) << '\n';
-      return;
-    case Format::csv: {
-      const auto sheet = runs(record);
-      study::SheetRows rows(sheet);
-      return write_csv(rows, out);
-    }
-    case Format::junit:
-      return write_junit(record, out, changes);
-    case Format::latex:
-      return write_latex(record, out);
-  }
+  const auto writer = row_of(format).record;
+  if (writer == nullptr) throw std::logic_error("records do not have this format");
+  writer(record, out, style, changes);
 }
 
 }  // namespace clackers::report

@@ -11,10 +11,10 @@
 
 namespace clackers::report {
 
-enum class Format { table, csv, json, junit, latex };
+enum class Format { table, csv, json, npy, junit, latex };
 
-/// What there is to write. Rows know the first three formats only.
-enum class Content { rows, verdicts };
+/// What there is to write: rows, rows of numbers alone, or a record.
+enum class Content { rows, numbers, verdicts };
 
 /// Throws InputError with did-you-mean for any text but the formats of the content.
 Format format_from(std::string_view text, Content content = Content::rows);
@@ -26,7 +26,7 @@ struct Style {
 };
 
 /// Rows, one by one: a table at 80 columns, csv with a header line, or json with the schema, the
-/// columns and the rows. Numbers of csv and json read back to the same double.
+/// columns and the rows, or NumPy's file. Numbers of csv and json read back to the same double.
 void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style = {});
 
 /// Several sheets, one below the other; json: one object whose "sheets" holds all. `schema` names
@@ -34,16 +34,18 @@ void write(study::RowSource& rows, Format format, std::ostream& out, const Style
 void write(std::span<const study::Sheet> sheets, std::string_view schema, Format format,
            std::ostream& out, const Style& style = {});
 
-/// A study: the verdict table with its closing lines, a csv row for every run, its json, JUnit XML
-/// or a LaTeX table. What changed since a baseline stands in the table and in JUnit's output; the
-/// other formats have no place for it.
+/// A record of verify or check, of one case or several: tables with findings and a last line with
+/// the verdict, a csv row for every run, its json, JUnit XML, or LaTeX tables. The formats that
+/// shows_changes names also show what changed since a baseline.
 void write(const study::Record& record, Format format, std::ostream& out, const Style& style = {},
            const study::BaselineComparison* changes = nullptr);
-constexpr bool tells_changes(Format format) {
-  return format == Format::table || format == Format::junit;
-}
+bool shows_changes(Format format);
 
-/// One self-contained html page that opens without a network.
+/// What changed since a baseline: a summary, and a line for each change.
+void write_changes(const study::BaselineComparison& changes, std::ostream& out,
+                   const Style& style = {});
+
+/// A record as one self-contained page that opens without a network.
 std::string html(const study::Record& record, const study::BaselineComparison* changes = nullptr);
 
 /// The displacements as a picture of characters, masses marked 1 and 2, collisions on the axis.

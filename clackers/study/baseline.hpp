@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "clackers/study/verify.hpp"
+#include "clackers/study/record.hpp"
 
 namespace clackers::study {
+
+struct VerifyRequest;
+struct CheckRequest;
 
 /// A value then and now.
 template <class T>
@@ -14,14 +17,14 @@ struct Change {
   T before{}, now{};
 };
 
-/// What was found of a method and what it claims.
-struct Standing {
+/// What was found of a subject and what it claims.
+struct Finding {
   bool refused = false, complete = true;
   Verdict verdict = Verdict::undecided;
   Behaviour behaviour = Behaviour::undecided;
   std::string reason;  ///< code of the behaviour or of the refusal
   Claim claim;
-  friend bool operator==(const Standing&, const Standing&);
+  friend bool operator==(const Finding&, const Finding&);
 };
 
 /// Two numbers of runs with the same step.
@@ -36,12 +39,12 @@ struct Collisions {
   long long expected = 0, missed = 0, extra = 0;
 };
 
-/// What became of one method. Everything that stayed is empty.
-struct MethodChange {
+/// What changed of one subject of one case. Everything that stayed is empty.
+struct SubjectChange {
   enum class Presence { both, added, gone };
-  std::string name;
+  std::string case_name, name;
   Presence presence = Presence::both;
-  std::optional<Change<Standing>> standing;
+  std::optional<Change<Finding>> finding;
   /// Order and spread of the displacement error, where the change is larger than both spreads
   /// together and at least `visible_order`.
   std::optional<Change<assess::LadderFit>> order;
@@ -61,25 +64,27 @@ struct MethodChange {
 
 /// The order is shown with two decimals.
 inline constexpr double visible_order = 0.01;
-/// A change of less than one in the third digit is not told: on another machine or with another
-/// compiler an error may differ in its last digits, and people read two of them.
+/// Smaller relative changes are left out: on another machine or with another compiler an error may
+/// differ in its last digits, and people read two of them.
 inline constexpr double visible_error = 0.01, visible_work = 0.01;
 
-/// What changed between two studies of the same case and ladder.
+/// What changed between two records.
 struct BaselineComparison {
-  Provenance before;         ///< of the older study
-  bool interrupted = false;  ///< the older study was
-  /// A row for each method of the new study in its order, then those that are gone.
-  std::vector<MethodChange> methods;
+  Provenance before;         ///< of the older record
+  bool interrupted = false;  ///< the older record was
+  /// A row for each subject of the new record in its order, case by case, then those that are gone.
+  std::vector<SubjectChange> subjects;
 
   bool any() const;  ///< something changed
 };
 
-/// Throws InputError, with the settings to repeat it, where the baseline is of another case, other
-/// parameters or another ladder of steps than what is asked for; and what plan_of throws.
+/// Throws InputError (other-study), with the settings to repeat it, where the baseline cannot be
+/// compared with what is asked for: a record of the other command, no case in common, or a common
+/// case with other parameters or other steps; and what verify and check throw before any work.
 void require_same_study(const VerifyRequest& request, const Record& baseline);
+void require_same_study(const CheckRequest& request, const Record& baseline);
 
-/// Compares method by method, by name. Throws as require_same_study.
-BaselineComparison compare(const Record& now, const Record& baseline);
+/// Compares subject by subject, by the names of case and subject. Throws as require_same_study.
+BaselineComparison compare(const Record& now, const Record& before);
 
 }  // namespace clackers::study

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <atomic>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -10,7 +13,7 @@
 
 namespace clackers::study {
 
-/// A number that tells why a run errs. Unlike assess::Metric it needs more than history and reference.
+/// A number that gives a cause of a run's error. Unlike assess::Metric it needs more than history and reference.
 struct CauseMetric {
   std::string_view name, unit, definition, source;
 };
@@ -33,7 +36,14 @@ RunFacts facts_of(const CaseSummary& problem, double contact_time);
 std::vector<MetricResult> cause_results(const assess::Comparison& comparison,
                                         const RunFacts& facts);
 
-/// metric_results(), then cause_results().
-std::vector<MetricResult> all_metrics(const assess::Comparison& comparison, const RunFacts& facts);
+/// Called now and then with the share that is done, in [0, 1].
+using MetricsDone = std::function<void(double share)>;
+
+/// All metrics of a history, in the order of assess::metrics(), then cause_results(). Nothing when
+/// `interrupt` becomes true.
+std::optional<std::vector<MetricResult>> all_metrics(const assess::Comparison& comparison,
+                                                     const RunFacts& facts,
+                                                     const MetricsDone& done = {},
+                                                     const std::atomic<bool>* interrupt = nullptr);
 
 }  // namespace clackers::study

@@ -7,14 +7,16 @@
 #include <vector>
 
 #include "clackers/cases/case.hpp"
-#include "clackers/study/check_record.hpp"
+#include "clackers/study/progress.hpp"
+#include "clackers/study/record.hpp"
 
 namespace clackers::study {
 
 /// What `clackers check` is asked for.
 struct CheckRequest {
-  std::vector<std::string> files;  ///< one or more; several are levels of one method
-  std::string case_name;           ///< empty: the default case
+  /// One or more; several are levels of one method. "-" is standard input, one of them at most.
+  std::vector<std::string> files;
+  std::string case_name;  ///< empty: the default case
   cases::Settings settings;
   std::vector<std::string> columns;  ///< names of the columns; empty: those of the files
   std::vector<std::string> events;   ///< files of collisions: none, or one a history
@@ -24,28 +26,27 @@ struct CheckRequest {
   std::string command;              ///< as typed
 };
 
-/// Judges histories of any program against the exact motion of a case.
+/// Assesses histories of any program against the exact motion of a case: a record of one case with
+/// one subject, the histories.
 ///
-/// A level's step is the one of `steps`; else the number behind "h" in the file's name (h0.01.csv,
+/// A run's step is the one of `steps`; else the number behind "h" in the file's name (h0.01.csv,
 /// run_h=1e-3.txt); else the median time between rows. A history without times has them from
 /// `steps`, its first row at 0 if it is the initial state and at one step otherwise. Rows after the
-/// end of the case are left out with a note.
+/// end of the case are left out with a note. Neighbouring steps, of a ratio below 1.3, within a
+/// factor 2 are one level.
 ///
-/// Verdict: with `expect` that of assess::judge, `undecided` where printed digits hide the errors;
-/// with `tolerance` whether the finest history's u_error is within it, `undecided` where the printed
-/// digits do not tell; the worse of both. Without either `not claimed`, unless the finest history
-/// misses a collision, has one too many, or begins far from the reference: that `disagrees`.
+/// assess::judge gives behaviour and verdict. Its claim is `expect`; without it the verdict goes by
+/// the tolerance, and the finest history disagrees where it misses a collision, has one too many, or
+/// begins far from the reference.
 ///
 /// Throws InputError for what read_history refuses, a history that starts from another state than
 /// the case (not-this-case), and options that do not fit the files; FileError for files that cannot
 /// be read; Error (interrupted) when `interrupt` becomes true.
-CheckRecord check(const CheckRequest& request, const std::atomic<bool>* interrupt = nullptr);
+Record check(const CheckRequest& request, const Progress& progress = {},
+             const std::atomic<bool>* interrupt = nullptr);
 
 /// "proper:2", "irregular:1", "exact": a behaviour and, where it needs one, an order. Throws
 /// InputError for any other text.
 Claim claim_from(std::string_view text);
-
-/// 0 agrees or nothing claimed, 1 disagrees, 3 undecided.
-int exit_code(const CheckRecord& record);
 
 }  // namespace clackers::study

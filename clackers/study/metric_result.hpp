@@ -4,10 +4,6 @@
 #include <string>
 #include <vector>
 
-namespace clackers::assess {
-class Comparison;
-}
-
 namespace clackers::study {
 
 /// A metric of one history.
@@ -19,8 +15,5 @@ struct MetricResult {
   /// false: it need not tend to zero for a history that converges, since its velocities jump.
   bool across_jumps = true;
 };
-
-/// All metrics of a history, in the order of assess::metrics().
-std::vector<MetricResult> metric_results(const assess::Comparison& comparison);
 
 }  // namespace clackers::study

@@ -10,7 +10,7 @@
 
 namespace clackers::study {
 
-struct Record;
+struct CaseRecord;
 
 /// A performance profile of the methods of one study or of several, by one counter.
 struct Profile {
@@ -26,8 +26,9 @@ std::string_view field_of(assess::Counter counter);
 /// Profiles by every counter that is the same on every machine and above 0 wherever a task is
 /// solved. The tasks: each case with the errors 0.1, 0.01, ... down to the smallest that some method
 /// reaches on it; what a method needs for one is assess::work_for. A method that refused a case or
-/// does not reach an error has failed there. Nothing where a record was interrupted, since what was
-/// not run has not failed, and where no method reaches 0.1. All records have the same methods.
-std::vector<Profile> profiles_of(std::span<const Record> records);
+/// does not reach an error has failed there. Nothing where a subject was
+/// interrupted, since what was not run has not failed, and where no method reaches 0.1. All cases
+/// have the same methods.
+std::vector<Profile> profiles_of(std::span<const CaseRecord> cases);
 
 }  // namespace clackers::study

@@ -1,20 +1,25 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "clackers/assess/convergence/assessment.hpp"
 #include "clackers/assess/errors/score.hpp"
-#include "clackers/methods/method.hpp"
+#include "clackers/base/judgement.hpp"
 #include "clackers/study/metric_result.hpp"
 #include "clackers/study/profile.hpp"
 #include "clackers/study/self_result.hpp"
 
+// The one record of every study: verify and check fill it, for one case or for several; every
+// output format, --report and --baseline reads it.
 namespace clackers::study {
 
-/// A number with the words a reader needs beside it.
+/// A number with its unit and meaning.
 struct Quantity {
   std::string name;  ///< "omega_D1"
   double value = 0.0;
@@ -29,7 +34,7 @@ struct Provenance {
   std::string compiler, machine, processor, date;  ///< date in UTC, ISO 8601
 };
 
-/// The problem of a study.
+/// The problem of a case and its reference solution.
 struct CaseSummary {
   std::string name, summary, equations;
   std::vector<Quantity> parameters, constants;
@@ -39,11 +44,11 @@ struct CaseSummary {
   long long impact_count = 0;
 };
 
-/// Steps of a study.
-struct LadderPlan {
-  double coarsest = 0.05;  ///< [s]
-  int levels = 8;          ///< each half the one before
-  int neighbours = 8;      ///< steps a level, ratio 2^(1/8)
+/// Steps of a refinement study.
+struct RefinementPlan {
+  double coarsest = 0.05;     ///< [s]
+  int levels = 8;             ///< each half the one before
+  int samples_per_level = 8;  ///< steps a level, ratio 2^(1/samples_per_level)
 };
 
 /// A curve for a figure.
@@ -52,39 +57,136 @@ struct Curve {
   std::vector<std::vector<double>> y;  ///< one row a mass
 };
 
-/// The longest run that metrics are measured on; a stored row takes some 50 bytes.
-inline constexpr long long most_metric_rows = 262144;
-
-/// One method of a study.
-struct MethodResult {
+/// How a column of a history is printed.
+struct PrintedColumn {
   std::string name;
-  methods::Claim claim;
-  double contact_time = 0.0;          ///< [s], 0 for rigid contact
-  std::string refusal, refusal_code;  ///< why the method cannot take the case; empty when it can
-  bool complete = true;               ///< false: interrupted before its last level
-  assess::Ladder ladder;
-  assess::Assessment assessment;
-  Curve error_history;        ///< |error in u| / initial envelope against time, at `history_step`
-  double history_step = 0.0;  ///< [s]
-  /// Without the true motion; nothing where no level was finished, or where the method claims no
-  /// order that differences could be held to.
-  std::optional<SelfResult> self_convergence;
-  /// All metrics of the run with step `metrics_step`: the first of the finest level whose first run
-  /// has fewer than `most_metric_rows` steps. Empty where that run failed or there is none.
-  std::vector<MetricResult> metrics;
-  double metrics_step = 0.0;  ///< [s], 0 without metrics
+  int digits = 0;
+  bool single = false;     ///< numbers of single precision
+  double half_unit = 0.0;  ///< largest rounding error of printing, in the column's unit
 };
 
-/// A study whole: what json holds, what reports show, what --baseline will read.
-struct Record {
-  static constexpr auto schema = "clackers/verify/1";
-  Provenance provenance;
-  CaseSummary problem;
-  LadderPlan plan;
-  Curve response;  ///< exact displacements, one row a mass [m]
-  std::vector<MethodResult> methods;
-  bool interrupted = false;
-  std::vector<Profile> profiles = {};  ///< over the errors to reach on this case; profiles_of
+enum class StepSource { data, name, option };             ///< where a history's step comes from
+enum class CollisionSource { events, history, unknown };  ///< unknown: neither reported nor found
+
+std::string_view to_string(StepSource source);       ///< "data", "name", "option"
+std::string_view to_string(CollisionSource source);  ///< "events", "history", "unknown"
+
+/// Something a reader should know of a history: a code and its numbers; report/words makes the
+/// sentence. `text` holds a name where the note needs one (a column, a code of a step source).
+struct Note {
+  std::string code;             ///< "rows-beyond-end", "columns-not-used", ...
+  std::vector<double> numbers;  ///< in the order that the code's entry in notes.hpp gives
+  std::string text;
 };
+
+/// What a history file holds beside its errors.
+struct HistoryFile {
+  std::string file;                ///< as given
+  long long rows = 0;              ///< assessed
+  long long rows_beyond = 0;       ///< after the end of the case, left out
+  double first = 0.0, last = 0.0;  ///< times of the first and the last row assessed [s]
+  double spacing = 0.0;            ///< median time between rows [s]
+  StepSource step_source = StepSource::data;
+  std::vector<PrintedColumn> columns;
+  double printed_floor = 0.0;  ///< part of u_error that printing alone may make
+  std::string printed_by;      ///< the column that makes most of it, empty for none
+  double unseen_bend = 0.0;    ///< departure of the fast mass from a line between rows / amplitude
+  bool has_velocities = false;
+  std::vector<bool> has_u;   ///< one entry a mass
+  double start_error = 0.0;  ///< of the first row, relative to envelopes of u and v
+  CollisionSource collisions = CollisionSource::unknown;
+  bool rows_resolve_collisions = true;  ///< false: rows too far apart to find collisions in them
+  double contact_time = 0.0;            ///< median length of the contacts in it [s], 0 for instants
+  std::vector<Note> notes;
+  Curve history;  ///< displacements for a figure [m]; empty without those of all masses
+};
+
+/// One run against the reference solution: a run of a method, or a history somebody's program wrote.
+struct Run {
+  assess::RunScore score;             ///< NaN where a history lacks what an error needs
+  std::optional<HistoryFile> file;    ///< of a history
+  std::vector<MetricResult> metrics;  ///< empty where none were measured
+  Curve error_history;  ///< |error in u| / envelope against time; empty where none was kept
+};
+
+/// Runs with steps around one nominal step.
+struct Level {
+  double step = 0.0;      ///< nominal h [s]
+  std::vector<Run> runs;  ///< coarsest first
+};
+
+/// What is assessed: a method of the catalogue, or a set of histories.
+enum class SubjectKind { method, histories };
+std::string_view to_string(SubjectKind kind);  ///< "method", "histories"
+
+struct Subject {
+  SubjectKind kind = SubjectKind::method;
+  /// The one name in every output. A method as one would type it, without "+event-driven", which is
+  /// what a name without "+contact" means; "histories" for histories.
+  std::string name;
+  Claim claim;                        ///< of the method, or what --expect says of the histories
+  std::optional<double> tolerance;    ///< largest allowed u_error, where one was asked for
+  double contact_time = 0.0;          ///< [s], 0 for rigid contact
+  std::string refusal, refusal_code;  ///< why a method cannot take the case; empty when it can
+  bool complete = true;               ///< false: interrupted before its last level
+  std::vector<Level> levels;          ///< coarsest first
+  /// Behaviour, verdict, reason (a code) and numbers; `assessment.verdict` is the verdict.
+  assess::Assessment assessment;
+  /// Without the reference solution; nothing where no level was finished, or where no order is
+  /// claimed that differences could be compared with.
+  std::optional<SelfResult> self_convergence;
+
+  /// The run that error history and metrics of the subject are taken from: the finest one that has
+  /// them; nullptr where none has.
+  const Run* shown_run() const;
+};
+
+/// The verdicts of a case or of a record, counted.
+struct Counts {
+  int agrees = 0, disagrees = 0, not_claimed = 0, undecided = 0, refused = 0, interrupted = 0;
+  int total() const { return agrees + disagrees + not_claimed + undecided + refused + interrupted; }
+};
+
+/// One case with everything that was assessed on it.
+struct CaseRecord {
+  CaseSummary problem;
+  RefinementPlan plan;  ///< of methods; levels = 0 for histories
+  Curve response;       ///< exact displacements, one row a mass [m]
+  std::vector<Subject> subjects;
+  std::vector<Profile> profiles;  ///< of this case alone
+};
+
+struct Record {
+  static constexpr auto schema = "clackers/record/1";
+  std::string command = "verify";  ///< "verify" or "check"
+  Provenance provenance;
+  std::vector<CaseRecord> cases;
+  std::vector<Profile> profiles;  ///< over all cases; empty for one case
+  bool interrupted = false;
+};
+
+/// The numbers of a level that tables show: of every number the worst over the runs that finished
+/// (largest error, largest work and time, the impact score with most missed and extra). One rule
+/// for failed runs: they count in `failed` and nowhere else; a level without a finished run has NaN
+/// errors and no impacts.
+struct LevelScore {
+  double step = 0.0;  ///< nominal [s]
+  assess::RunScore worst;
+  int runs = 0, failed = 0;
+};
+LevelScore worst(const Level& level);
+/// Of the finest level that has runs; NaN without one.
+LevelScore worst_of_finest(const Subject& subject);
+/// The scores alone, as assess reads them.
+assess::Ladder ladder_of(const Subject& subject);
+
+Counts counts(const CaseRecord& record);
+Counts counts(const Record& record);
+/// The word for the verdict: the verdict's, or "refused" or "interrupted".
+std::string_view verdict_word(const Subject& subject);
+
+/// 0 agrees or nothing claimed, 1 disagrees, 3 undecided; of several 1, else 3, else 0. A method
+/// that refused the case counts for nothing. 130 for an interrupted record.
+int exit_code(const Record& record);
 
 }  // namespace clackers::study

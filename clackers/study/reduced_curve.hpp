@@ -38,7 +38,24 @@ std::vector<std::size_t> kept_points(std::size_t n, std::size_t rows, const Valu
   return kept;
 }
 
-/// The curve with at most `most` points, kept_points says which.
-Curve reduced(const Curve& curve, std::size_t most = most_points);
+/// The curve through kept_points of n points at `time(point)`.
+template <class Time, class Value>
+Curve reduced(std::size_t n, std::size_t rows, const Time& time, const Value& value,
+              std::size_t most = most_points) {
+  Curve out;
+  out.y.resize(rows);
+  for (const auto point : kept_points(n, rows, value, most)) {
+    out.t.push_back(time(point));
+    for (std::size_t row = 0; row < rows; ++row) out.y[row].push_back(value(row, point));
+  }
+  return out;
+}
+
+/// The curve with at most `most` points.
+inline Curve reduced(const Curve& curve, std::size_t most = most_points) {
+  return reduced(
+      curve.t.size(), curve.y.size(), [&](std::size_t i) { return curve.t[i]; },
+      [&](std::size_t row, std::size_t i) { return curve.y[row][i]; }, most);
+}
 
 }  // namespace clackers::study

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,11 +11,18 @@ namespace clackers::study {
 /// Empty, a real number, a whole number or text.
 using Cell = std::variant<std::monostate, double, long long, std::string>;
 
+/// What the cells of a column hold. In rows of doubles a side is -1 ("-", before a collision), 1
+/// ("+", after it) or 0 (empty).
+enum class ColumnKind { any, real, whole, side };
+
 struct Column {
   std::string name;  ///< as in csv and json: "t", "u1", "v1-"
   std::string unit;  ///< "s", empty when dimensionless or text
   std::string meaning;
+  ColumnKind kind = ColumnKind::any;
 };
+
+class NumberRows;
 
 /// Rows for a person or a program, asked for one by one so that a billion need no memory.
 class RowSource {
@@ -24,6 +33,34 @@ class RowSource {
   virtual const std::vector<Column>& columns() const = 0;
   /// Fills `row` (one cell a column), or returns false after the last row.
   virtual bool next(std::vector<Cell>& row) = 0;
+  /// The same rows as blocks of doubles, or nullptr where a cell may be text.
+  virtual NumberRows* numbers() { return nullptr; }
+
+  /// Called with the share of the rows in [0, 1] that has been made, many times a second; an
+  /// exception thrown by it ends the reading.
+  std::function<void(double share)> progress;
+
+ protected:
+  void report(long long done, long long total) const {
+    if (progress) progress(double(done) / double(total));
+  }
+};
+
+/// Rows whose columns are all `real`, `whole` or `side`. Read either with next() or with
+/// next_block().
+class NumberRows : public RowSource {
+ public:
+  /// Number of rows in all.
+  virtual long long count() const = 0;
+  /// Replaces `values` by the next rows, row-major; returns false, leaving none, after the last.
+  virtual bool next_block(std::vector<double>& values) = 0;
+
+  bool next(std::vector<Cell>& row) final;
+  NumberRows* numbers() final { return this; }
+
+ private:
+  std::vector<double> block_;
+  std::size_t read_ = 0;  // of block_
 };
 
 /// Rows held in memory.

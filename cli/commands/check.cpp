@@ -2,20 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/report/check_report.hpp"
 #include "cli/command.hpp"
+#include "cli/files/record_output.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
@@ -24,7 +23,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> files, settings, events;
-  std::string case_name, columns, steps, expect, tolerance, report;
+  std::string case_name, columns, steps, expect, tolerance, report, baseline;
 };
 
 // The parts between commas. Throws InputError for an empty one.
@@ -57,50 +56,54 @@ study::CheckRequest request_of(const Options& options, const std::string& line) 
   return request;
 }
 
+study::Record run_check(const Options& options, const study::CheckRequest& request) {
+  ProgressLine progress("check", options.common.quiet);
+  return study::check(request, progress.callback(), &interrupt_flag());
+}
+
 int run(const Options& options, const std::string& line) {
   const auto request = request_of(options, line);
-  ReportPage page("check", options.report, options.common, OnInterrupt::stop);
+  const auto baseline = baseline_of(options.baseline, request);
+  ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
+  const auto record = run_check(options, request);
+  const RecordOutput output(record, baseline, options.common);
+  const bool written = !page.wanted() || page.write(output.html());
   try {
-    const auto record = study::check(request, &interrupt_flag());
-    bool written = true;
-    if (page.wanted()) written = page.write(report::check_html(record));
-    report::write(record, results.format(), results.stream(), results.style());
-    try {
-      results.finish();
-    } catch (const BrokenPipe&) {
-      // `check | head`: the reader had enough, the verdict still counts.
-    }
-    return written ? study::exit_code(record) : 4;
-  } catch (const Error& error) {
-    if (error.code() == Code("interrupted")) throw Interrupted();
-    throw;
+    output.write(results);
+  } catch (const BrokenPipe&) {
+    // `check | head`: the reader had enough, the verdict still counts.
   }
+  output.note_changes(results.format());
+  return written ? study::exit_code(record) : 4;
 }
 
 }  // namespace
 
-Command add_check(CLI::App& root) {
+void add_check(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("check");
+  auto* app = root.add_subcommand("check", "FILE ...", "assess time histories of any program");
   set_help(
       *app,
       {.examples = "  clackers check disp.csv\n"
                    "  clackers check h0.01.csv h0.005.csv h0.0025.csv h0.00125.csv "
                    "--expect proper:2\n"
                    "  clackers check node.out --columns t,u1,u2 --events hits.csv "
-                   "--tolerance 1e-3\n",
+                   "--tolerance 1e-3\n"
+                   "  ./solver | clackers check - --case stop\n",
        .about =
-           "Judges time histories that any program wrote, against the exact motion of a case. "
+           "Assesses time histories that any program wrote, against the exact motion of a case. "
            "Text with comma, semicolon, tab or blank separation; columns t, u1, v1, a1, u2, ... "
            "by header or --columns; a time that stands twice carries both limits of a jump. "
            "Several files are levels of one method and give an order. Exit code 0 when the "
            "history agrees or nothing is expected, 1 when it disagrees or is of another motion, "
            "3 when undecided.",
-       .usage = "  clackers check FILE ... [--case CASE] [--set name=value,...]\n"
+       .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
                 "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...]\n"
-                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--report FILE.html]\n"});
-  app->add_option("FILE", options->files, "Time histories, text.");
+                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x]\n"
+                 "           [--baseline FILE.json] [--report FILE.html]\n"});
+  app->add_option("FILE", options->files, "Time histories, text; - reads standard input.")
+      ->reads_file("");
   app->add_option("--case", options->case_name,
                   "The case (clackers list cases). Default: three-parameter.")
       ->option_text("CASE");
@@ -112,8 +115,7 @@ Command add_check(CLI::App& root) {
                   "Collisions of the history: a column t and optionally impulse,v1-,v1+,v2-,v2+. "
                   "Of several histories one file each, in their order. Without it collisions are "
                   "found in the history.")
-      ->option_text("FILE")
-      ->allow_extra_args(false);
+      ->reads_file("FILE");
   app->add_option("--steps", options->steps,
                   "Step of each history [s], in the order of the files; also the time between rows "
                   "of files without a column t. Default: h0.01 in a file's name, else the median "
@@ -127,9 +129,14 @@ Command add_check(CLI::App& root) {
                   "Largest error in u, relative to the initial envelope, of the finest history.")
       ->option_text("x");
   add_report_option(*app, options->report);
+  app->add_option("--baseline", options->baseline,
+                  "An earlier record of check (--format json) of the same case, - for standard "
+                  "input: says in words what changed since. The exit code stays that of the "
+                  "verdicts.")
+      ->option_text("FILE.json");
   add_common_options(*app, options->common);
   add_verdict_formats(*app);
-  return {app, [options](const std::string& line) { return run(*options, line); }};
+  app->run = [options](const std::string& line) { return run(*options, line); };
 }
 
 }  // namespace clackers::cli

@@ -1,11 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "clackers/report/write.hpp"
 #include "clackers/study/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/options.hpp"
 
 namespace clackers::cli {
@@ -27,18 +25,18 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_explain(CLI::App& root) {
+void add_explain(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("explain");
+  auto* app = root.add_subcommand("explain", "[CODE]", "what a code in [brackets] means");
   set_help(*app,
            {.examples = "  clackers explain stagnating\n"
                         "  clackers explain\n",
-            .about = "Tells what a behaviour, a verdict or a code in [brackets] means and what "
-                     "to do about it. Without CODE it lists all.",
+            .about = "Explains a behaviour, a verdict or a code in [brackets], and what to do "
+                     "about it. Without CODE it lists all.",
             .usage = "  clackers explain [CODE]\n"});
   app->add_option("CODE", options->code, "The word in brackets at the end of a message.");
   add_common_options(*app, options->common);
-  return {app, [options](const std::string&) { return run(*options); }};
+  app->run = [options](const std::string&) { return run(*options); };
 }
 
 }  // namespace clackers::cli

@@ -1,18 +1,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "clackers/base/suggest.hpp"
 #include "clackers/paper/table.hpp"
+#include "clackers/report/columns.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/options.hpp"
 
 namespace clackers::cli {
@@ -26,11 +25,12 @@ struct Options {
 // Together these name everything; the other kinds repeat a part of it.
 constexpr auto shown_together = {"cases", "methods", "metrics"};
 
-// Figures lie in a module above the one that lists the rest.
+// Columns and figures are in modules above the one that lists the rest.
 study::Sheet list(const std::string& kind) {
+  if (kind == "columns") return report::list_columns();
   if (kind == "figures") return paper::list_figures();
   auto kinds = study::list_kinds();
-  kinds.emplace_back("figures");
+  kinds.insert(kinds.end(), {"columns", "figures"});
   if (std::ranges::find(kinds, kind) == kinds.end())
     refuse_name("list", kind, kinds, fmt::format("{}", fmt::join(kinds, ", ")));
   return study::list(kind);
@@ -53,23 +53,24 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_list(CLI::App& root) {
+void add_list(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("list");
+  auto* app = root.add_subcommand("list", "[KIND]", "what there is: cases, methods, metrics");
   set_help(
       *app,
       {.examples = "  clackers list cases\n"
                    "  clackers list pairs --format csv\n",
        .about = "Lists what there is, one line each.",
-       .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|figures]\n"});
+       .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|columns|figures]\n"});
   app->add_option(
       "KIND", options->kind,
       "cases, methods (integrators, contact treatments, methods that stand alone, and which are "
       "the default panel), integrators, contacts, pairs (every integrator with every contact "
-      "treatment that takes it, and what they claim), metrics or figures (of clackers paper). "
+      "treatment that takes it, and what they claim), metrics, columns (of csv and json) or figures "
+      "(of clackers paper). "
       "Without it cases, methods and metrics.");
   add_common_options(*app, options->common);
-  return {app, [options](const std::string&) { return run(*options); }};
+  app->run = [options](const std::string&) { return run(*options); };
 }
 
 }  // namespace clackers::cli

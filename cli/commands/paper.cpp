@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,7 +12,6 @@
 #include "cli/command.hpp"
 #include "cli/files/output_folder.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
@@ -30,9 +28,7 @@ struct Options {
 paper::Reproduction reproduce(const Options& options, const std::vector<paper::Entry>& chosen,
                               const OutputFolder& folder, const std::string& line) {
   ProgressLine progress("paper", options.common.quiet);
-  return paper::reproduce(
-      chosen, folder.folder(), line, [&](double share) { progress.tell(share); },
-      &interrupt_flag());
+  return paper::reproduce(chosen, folder.folder(), line, progress.callback(), &interrupt_flag());
 }
 
 int run(const Options& options, const std::string& line) {
@@ -51,16 +47,17 @@ int run(const Options& options, const std::string& line) {
   study::SheetRows rows(sheet);
   report::write(rows, results.format(), results.stream(), results.style());
   results.finish();
-  for (const auto& missing : made.missing) complain(missing.sentence, missing.code.name());
+  for (const auto& missing : made.missing) report_error(missing.sentence, missing.code.name());
   if (!options.common.quiet) note(fmt::format("Wrote {}", folder.path()));
   return made.missing.empty() ? 0 : 4;
 }
 
 }  // namespace
 
-Command add_paper(CLI::App& root) {
+void add_paper(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("paper");
+  auto* app =
+      root.add_subcommand("paper", "[FIGURE ...]", "the paper's figures and claims, reproduced");
   set_help(
       *app,
       {.examples = "  clackers paper --out figures\n"
@@ -80,7 +77,8 @@ Command add_paper(CLI::App& root) {
           "The folder to write, whole or not at all. An earlier one of this command is replaced; "
           "one that holds other files is refused.")
       ->option_text("FOLDER");
-  return {app, [options](const std::string& line) { return run(*options, line); }};
+  app->get_option("--out")->kind = ValueKind::text;
+  app->run = [options](const std::string& line) { return run(*options, line); };
 }
 
 }  // namespace clackers::cli

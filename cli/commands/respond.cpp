@@ -1,6 +1,7 @@
 #include "clackers/study/respond.hpp"
 
-#include <CLI/CLI.hpp>
+#include <unistd.h>
+
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -12,10 +13,11 @@
 #include "clackers/report/write.hpp"
 #include "clackers/study/digit_rows.hpp"
 #include "cli/command.hpp"
+#include "cli/files/input_files.hpp"
 #include "cli/files/results.hpp"
-#include "cli/files/times_file.hpp"
-#include "cli/help/help.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/options.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
@@ -69,7 +71,7 @@ void check_kind(const Options& options) {
   if (options.collisions)
     refuse_usage(kinds[0] + " has rows of its own and takes no --collisions.");
   if (!options.digits.empty())
-    refuse_usage(kinds[0] + " is told in doubles and takes no --digits.");
+    refuse_usage(kinds[0] + " is computed in doubles and takes no --digits.");
   if (options.ways() == 0)
     refuse_usage(kinds[0] + (options.spectrum
                                  ? " needs --samples n, the number of frequencies."
@@ -80,8 +82,15 @@ void check_kind(const Options& options) {
     refuse_usage("--spectrum needs --highest w, the highest frequency in rad/s.");
 }
 
-// What cannot be printed together.
-void check_picture(const Options& options, const Results& results) {
+// What cannot be written together or where it is to go.
+void check_format(const Options& options, const Results& results) {
+  const bool npy = results.format() == report::Format::npy;
+  if (npy && !options.digits.empty())
+    refuse_usage("--digits is text and --format npy holds doubles. Use csv or json.");
+  if (npy && !results.is_file() && ::isatty(STDOUT_FILENO) != 0)
+    refuse_usage(
+        "--format npy is bytes that a terminal cannot show. Add --out FILE, or send them "
+        "to a program.");
   if (options.plot && !results.is_file() && results.format() != report::Format::table)
     refuse_usage("--plot with --format " + options.common.format +
                  " would draw inside what a program reads. Add --out FILE for the rows, or leave "
@@ -114,7 +123,7 @@ std::unique_ptr<study::RowSource> rows_of(const Options& options, const cases::C
 }
 
 std::string picture(const cases::Case& which, const report::Style& style) {
-  // Marks closer than a column cannot be told apart; 1000 are more than any terminal shows.
+  // Marks closer than a column coincide; 1000 are more than any terminal shows.
   constexpr long long most_marks = 1000;
   const auto& motion = *which.motion;
   std::vector<double> impact_times;
@@ -124,11 +133,22 @@ std::string picture(const cases::Case& which, const report::Style& style) {
   return report::plot(study::response_curve(which, 8 * style.width), impact_times, style);
 }
 
+void write(study::RowSource& rows, Results& results, bool quiet) {
+  // Rows on a terminal show the progress themselves.
+  const bool rows_are_seen = !results.is_file() && ::isatty(STDOUT_FILENO) != 0;
+  ProgressLine line("respond", quiet || rows_are_seen);
+  rows.progress = [&](double share) {
+    if (interrupt_flag()) throw Interrupted();
+    line.tell(share);
+  };
+  report::write(rows, results.format(), results.stream(), results.style());
+}
+
 int run(const Options& options) {
   check_kind(options);
   check(options);
-  Results results(options.common, OnInterrupt::stop);
-  check_picture(options, results);
+  Results results(options.common, OnInterrupt::stop, report::Content::numbers);
+  check_format(options, results);
   const auto which = cases::make(options.name, read_settings(options.settings));
   const auto rows = options.ways() > 0 ? rows_of(options, which) : nullptr;
   if (options.plot) {
@@ -137,16 +157,16 @@ int run(const Options& options) {
     out.finish();
   }
   if (!rows) return 0;
-  report::write(*rows, results.format(), results.stream(), results.style());
+  write(*rows, results, options.common.quiet);
   results.finish();
   return 0;
 }
 
 }  // namespace
 
-Command add_respond(CLI::App& root) {
+void add_respond(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("respond");
+  auto* app = root.add_subcommand("respond", "CASE ...", "the exact motion of a case");
   set_help(*app,
            {.examples = "  clackers respond three-parameter --samples 1001 --format csv\n"
                         "  clackers respond stop --set eta=0.5 --plot\n"
@@ -173,7 +193,7 @@ Command add_respond(CLI::App& root) {
   app->add_option("--times", options->times,
                   "Times from a text file, one a line, in seconds; - reads standard input. What "
                   "follows # or % is a comment.")
-      ->option_text("FILE");
+      ->reads_file("FILE");
   app->add_flag("--collisions", options->collisions,
                 "The collisions instead: k, t [s], u1 [m], velocities before and after [m/s], "
                 "impulse [N s], energy before and after [J].");
@@ -198,7 +218,13 @@ Command add_respond(CLI::App& root) {
   app->add_flag("--plot", options->plot,
                 "Draw the displacements in the terminal; alone, or above the rows.");
   add_common_options(*app, options->common);
-  return {app, [options](const std::string&) { return run(*options); }};
+  app->get_option("--format")
+      ->description(
+          "table (for people, 80 columns), csv or json (numbers read back to the same double), npy "
+          "(a NumPy structured array of float64, one field a column; side is -1, 0 or 1; not with "
+          "--digits). Default: table.")
+      ->option_text("table|csv|json|npy");
+  app->run = [options](const std::string&) { return run(*options); };
 }
 
 }  // namespace clackers::cli

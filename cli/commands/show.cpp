@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -12,7 +11,6 @@
 #include "clackers/study/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/options.hpp"
 #include "cli/values.hpp"
 
@@ -48,7 +46,7 @@ std::vector<study::Sheet> sheets_of(const Options& options) {
         "bad-syntax");
   const auto settings = read_settings(options.settings);
   const double threshold = options.threshold.empty()
-                               ? cases::standard_threshold
+                               ? cases::default_threshold
                                : read_number("--threshold", options.threshold);
   if (is_case(options.name)) return study::show_case(options.name, settings, threshold);
   require_method(options.name);
@@ -70,9 +68,9 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_show(CLI::App& root) {
+void add_show(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("show");
+  auto* app = root.add_subcommand("show", "CASE|METHOD", "one case or method in full");
   set_help(
       *app,
       {.examples = "  clackers show three-parameter --set N=3,xi1=0.1\n"
@@ -90,7 +88,7 @@ Command add_show(CLI::App& root) {
                   "Default: 0.1.")
       ->option_text("x");
   add_common_options(*app, options->common);
-  return {app, [options](const std::string&) { return run(*options); }};
+  app->run = [options](const std::string&) { return run(*options); };
 }
 
 }  // namespace clackers::cli

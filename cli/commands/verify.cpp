@@ -2,33 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <limits>
 #include <memory>
-#include <optional>
-#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
-#include "clackers/report/case_studies.hpp"
-#include "clackers/report/changes.hpp"
-#include "clackers/report/write.hpp"
-#include "clackers/study/baseline.hpp"
-#include "clackers/study/case_studies.hpp"
 #include "clackers/study/listing.hpp"
 #include "cli/command.hpp"
-#include "cli/files/baseline_file.hpp"
+#include "cli/files/record_output.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/help.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/survived.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
@@ -51,11 +41,11 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
   if (options.all)
     for (const auto& row : study::list("pairs").rows)
       request.methods.push_back(std::get<std::string>(row.front()));
-  if (!options.cases.empty()) request.case_name = options.cases.front();
+  request.cases = options.cases;
   request.settings = read_settings(options.settings);
   auto& plan = request.plan;
   plan.levels = whole("--levels", options.levels, 1, plan.levels);
-  plan.neighbours = whole("--neighbours", options.neighbours, 1, plan.neighbours);
+  plan.samples_per_level = whole("--neighbours", options.neighbours, 1, plan.samples_per_level);
   if (!options.coarsest.empty()) plan.coarsest = read_number("--coarsest", options.coarsest);
   request.jobs = whole("--jobs", options.jobs, 1, request.jobs);
   request.command = line;
@@ -78,108 +68,44 @@ void check(const Options& options) {
 study::Record run_study(const Options& options, const study::VerifyRequest& request) {
   ProgressLine line("verify", options.common.quiet);
   return study::verify(
-      request, [&](double share) { line.tell(share); }, &interrupt_flag());
-}
-
-using Changes = std::optional<study::BaselineComparison>;
-
-const study::BaselineComparison* pointer(const Changes& changes) {
-  return changes ? &*changes : nullptr;
-}
-
-void print(const study::Record& record, const Changes& changes, Results& to) {
-  report::write(record, to.format(), to.stream(), to.style(), pointer(changes));
-  to.finish();
-}
-
-// A format without a place for changes leaves them to standard error.
-void note_changes(const study::BaselineComparison& changes) {
-  std::ostringstream text;
-  report::write_changes(changes, text, {});
-  std::istringstream lines(text.str());
-  for (std::string line; std::getline(lines, line);) note(line);
-}
-
-// Before the work: what cannot be compared must not be found out afterwards.
-std::optional<study::Record> baseline_of(const Options& options,
-                                         const study::VerifyRequest& request) {
-  if (options.baseline.empty()) return {};
-  auto baseline = read_baseline(options.baseline);
-  study::require_same_study(request, baseline);
-  return baseline;
-}
-
-void check_several(const Options& options, report::Format format) {
-  const std::string hint = "leave one --case, or take --format json.";
-  if (!options.baseline.empty())
-    refuse_usage("--baseline compares studies of one case; leave one --case.");
-  if (!options.report.empty()) refuse_usage("--report shows one case; " + hint);
-  if (!report::takes_several_cases(format))
-    refuse_usage("--format " + options.common.format + " has no place for several cases; " + hint);
-}
-
-int run_several(const Options& options, const study::VerifyRequest& request) {
-  check_several(options, report::format_from(options.common.format, report::Content::verdicts));
-  Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
-  const auto studies = [&] {
-    ProgressLine line("verify", options.common.quiet);
-    return study::verify_cases(
-        request, options.cases, [&](double share) { line.tell(share); }, &interrupt_flag());
-  }();
-  bool written = true;
-  try {
-    written = survived([&] {
-      report::write(studies, results.format(), results.stream(), results.style());
-      results.finish();
-    });
-  } catch (const BrokenPipe&) {
-    // `verify | head`: the reader had enough, the verdict still counts.
-  }
-  const int code = study::exit_code(studies);
-  if (code == 130) complain("interrupted; the finished rows were kept.", "interrupted");
-  return written ? code : 4;
+      request, [&](double share) { line.report(share); }, &interrupt_flag());
 }
 
 int run(const Options& options, const std::string& line) {
   check(options);
   const auto request = request_of(options, line);
-  if (options.cases.size() > 1) return run_several(options, request);
   // Before the work: where it cannot go must not be found out afterwards.
   Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
-  const auto baseline = baseline_of(options, request);
-  ReportPage page("verify", options.report, options.common, OnInterrupt::finish);
+  const auto baseline = baseline_of(options.baseline, request);
+  ReportPage page(options.report, options.common, OnInterrupt::finish);
 
   const auto record = run_study(options, request);
-  Changes changes;
-  if (baseline) changes = study::compare(record, *baseline);
-
-  bool written = true;
-  if (page.wanted()) written = page.write(report::html(record, pointer(changes)));
+  const RecordOutput output(record, baseline, options.common);
+  bool written = !page.wanted() || page.write(output.html());
   try {
-    if (!survived([&] { print(record, changes, results); })) {
+    if (!try_to_write([&] { output.write(results); })) {
       written = false;
       // The work is done; a person may still read it.
       CommonOptions standard;
       standard.no_color = options.common.no_color;
       if (results.is_file()) {
         Results terminal(standard, OnInterrupt::finish);
-        survived([&] { print(record, changes, terminal); });
+        try_to_write([&] { output.write(terminal); });
       }
     }
   } catch (const BrokenPipe&) {
     // `verify | head`: the reader had enough, the verdict still counts.
   }
-  if (changes && !report::tells_changes(results.format()) && !options.common.quiet)
-    note_changes(*changes);
-  if (record.interrupted) complain("interrupted; the finished rows were kept.", "interrupted");
+  output.note_changes(results.format());
+  if (record.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
   return written ? study::exit_code(record) : 4;
 }
 
 }  // namespace
 
-Command add_verify(CLI::App& root) {
+void add_verify(Grammar& root) {
   const auto options = std::make_shared<Options>();
-  auto* app = root.add_subcommand("verify");
+  auto* app = root.add_subcommand("verify", "[METHOD ...]", "assess methods over a range of steps");
   set_help(
       *app,
       {.examples =
@@ -189,7 +115,7 @@ Command add_verify(CLI::App& root) {
            "  clackers verify --baseline record.json\n"
            "  clackers verify rk4 newmark --case stop --case symmetric-pair\n",
        .about =
-           "Judges time-integration methods: runs each over a ladder of steps on a case whose "
+           "Assesses time-integration methods: runs each with a sequence of steps on a case whose "
            "exact motion is known, and compares what was measured with what it claims. A "
            "method is integrator[:name=value,...][+contact[:name=value,...]]; without +contact "
            "impacts are located as events (event-driven). Exit code 0 when all agree, 1 when "
@@ -204,12 +130,11 @@ Command add_verify(CLI::App& root) {
   app->add_option(
          "--case", options->cases,
          "The case (clackers list cases). Default: three-parameter. Several, each with its "
-         "own --case, are judged in turn and compared in a performance profile.")
-      ->option_text("CASE")
-      ->allow_extra_args(false);
+         "own --case, are assessed in turn and compared in a performance profile.")
+      ->option_text("CASE");
   add_set_option(*app, options->settings);
   app->add_option("--levels", options->levels,
-                  "Number of levels of the ladder, each with half the step of the one before. "
+                  "Number of levels, each with half the step of the one before. "
                   "Default: 8.")
       ->option_text("n");
   app->add_option("--coarsest", options->coarsest, "Largest step, in seconds. Default: 0.05.")
@@ -222,12 +147,12 @@ Command add_verify(CLI::App& root) {
   add_report_option(*app, options->report);
   app->add_option(
          "--baseline", options->baseline,
-         "An earlier record (--format json) of the same case and steps, - for standard "
+         "An earlier record (--format json) of the same cases and steps, - for standard "
          "input: says in words what changed since. The exit code stays that of the verdicts.")
-      ->option_text("FILE.json");
+      ->reads_file("FILE.json");
   add_common_options(*app, options->common);
   add_verdict_formats(*app);
-  return {app, [options](const std::string& line) { return run(*options, line); }};
+  app->run = [options](const std::string& line) { return run(*options, line); };
 }
 
 }  // namespace clackers::cli

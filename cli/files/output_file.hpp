@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,8 +24,11 @@ class Descriptor {
 };
 
 /// A file that appears whole or not at all: what is written goes to a temporary file in the same
-/// folder, which replaces `path` in commit(). Without commit() the temporary file is removed.
-/// A device or pipe (/dev/full, /dev/stdout, a fifo) is written directly; a link is followed.
+/// folder, which replaces `path` in commit(). Without commit() nothing remains, however the process
+/// ends: the temporary file has no name. Where the file system knows no such files, it has a random
+/// one, which is removed unless the process is killed (SIGKILL).
+/// A device or pipe (/dev/full, /dev/stdout, a fifo) is written directly; a link is followed, also
+/// one to a file that does not exist yet.
 class OutputFile {
  public:
   /// Throws FileError at once when `path` cannot be written, before anything is computed.
@@ -41,10 +45,13 @@ class OutputFile {
  private:
   void open_device();
   void open_temporary();
+  int open_named();
+  void give_name();
 
-  std::string path_;    ///< as given
-  std::string target_;  ///< with links followed
-  std::optional<RemovedOnExit> temporary_;
+  std::string path_;              ///< as given
+  std::filesystem::path target_;  ///< with links followed
+  bool is_device_ = false;
+  std::optional<RemovedOnExit> temporary_;  ///< while the temporary file has a name
   std::unique_ptr<Descriptor> descriptor_;
   std::unique_ptr<OutputStream> stream_;
 };

@@ -5,8 +5,8 @@
 #include <cerrno>
 #include <utility>
 
+#include "cli/files/paths.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/system_error.hpp"
 
 namespace clackers::cli {
 

@@ -4,22 +4,20 @@
 #include <string>
 
 #include "cli/files/output_file.hpp"
-#include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 
 namespace clackers::cli {
 
-/// The page of --report. Construct it before the work: where it cannot go is found out at once.
+/// The page of --report. Construct it before the work: where it cannot be written is found out at
+/// once.
 class ReportPage {
  public:
-  /// An empty path: there is no page. Throws InputError when --out names the same file, FileError
-  /// when it cannot be written.
-  ReportPage(const std::string& command, const std::string& path, const CommonOptions& common,
-             OnInterrupt on_interrupt);
+  /// An empty path: there is no page. Throws FileError when it cannot be written.
+  ReportPage(const std::string& path, const CommonOptions& common, OnInterrupt on_interrupt);
 
   bool wanted() const { return file_ != nullptr; }
-  /// Puts the page in place and says so on standard error. A page that fails must not take other
-  /// results with it: the reason is told, and the answer is false.
+  /// Puts the page in place and says so on standard error. A page that fails must not stop other
+  /// results: the reason is reported, and the answer is false.
   bool write(const std::string& html);
 
  private:

@@ -39,6 +39,8 @@ Results::Results(const CommonOptions& options, OnInterrupt on_interrupt, report:
 
 std::ostream& Results::stream() { return file_ ? file_->stream() : *standard_; }
 
+bool Results::is_terminal() const { return !file_ && ::isatty(STDOUT_FILENO) != 0; }
+
 void Results::finish() {
   if (!file_) return standard_->finish();
   file_->commit();

@@ -22,6 +22,8 @@ class Results {
   report::Format format() const { return format_; }
   const report::Style& style() const { return style_; }
   bool is_file() const { return file_ != nullptr; }
+  /// Rows appear on a terminal, where a progress line would stand between them.
+  bool is_terminal() const;
   /// After the last byte: puts the file in place and says so on standard error, or throws
   /// FileError.
   void finish();

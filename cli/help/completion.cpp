@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 #include <variant>
 
 #include "clackers/cases/case.hpp"
@@ -11,80 +12,120 @@
 namespace clackers::cli {
 namespace {
 
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, '|');) parts.push_back(part);
-  return parts;
-}
-
-void append_first_column(const study::Sheet& sheet, std::vector<std::string>& words,
-                         const std::string& kind = {}) {
-  for (const auto& row : sheet.rows)
-    if (kind.empty() || std::get<std::string>(row[1]) == kind)
-      words.push_back(std::get<std::string>(row[0]));
-}
-
-// The words of "[a|b|c]" in a usage, when that is a list of words and not of options or
-// placeholders.
-std::vector<std::string> written_out(const std::string& usage) {
-  const auto open = usage.find('['), close = usage.find(']', open);
-  if (open == std::string::npos || close == std::string::npos) return {};
-  const auto inside = usage.substr(open + 1, close - open - 1);
-  const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || c == '|'; };
-  if (!std::ranges::all_of(inside, is_plain)) return {};
-  return split(inside);
-}
-
-// Appends what one placeholder stands for.
-void append(const std::string& placeholder, Completion& to) {
-  if (placeholder == "CASE") {
-    append_first_column(study::list("cases"), to.words);
-  } else if (placeholder == "METHOD") {
-    append_first_column(study::list("integrators"), to.words);
-    append_first_column(study::list("pairs"), to.words);
-  } else if (placeholder == "CODE") {
-    append_first_column(study::explain(""), to.words);
-  } else if (placeholder == "FIGURE") {
-    append_first_column(paper::list_figures(), to.words);
-  } else if (placeholder.starts_with("BEHAVIOUR")) {
-    append_first_column(study::explain(""), to.words, "behaviour");
-  } else if (placeholder.starts_with("FILE") || placeholder == "FOLDER") {
-    to.files = true;
-  } else if (std::ranges::all_of(placeholder, [](char c) { return c >= 'a' && c <= 'z'; }) &&
-             placeholder.size() > 1) {
-    to.words.push_back(placeholder);
+class Candidates {
+ public:
+  explicit Candidates(std::string prefix) : prefix_(std::move(prefix)) {}
+  void add(const std::string& word, const std::string& explanation = {}) {
+    if (!word.starts_with(prefix_) || std::ranges::find(words_, word) != words_.end()) return;
+    words_.push_back(word);
+    lines_.push_back(word + "\t" + explanation.substr(0, explanation.find(". ")));
   }
+  void add_column(const study::Sheet& sheet, const std::string& kind = {}) {
+    for (const auto& row : sheet.rows)
+      if (kind.empty() || std::get<std::string>(row[1]) == kind) add(std::get<std::string>(row[0]));
+  }
+  void add_files() { lines_.emplace_back(":files"); }
+  const std::string& prefix() const { return prefix_; }
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  std::string prefix_;
+  std::vector<std::string> words_, lines_;
+};
+
+// "name=" for each parameter of the case on the line, behind the settings already typed.
+void add_parameters(const std::vector<std::string>& words, Candidates& to) {
+  auto name = cases::default_case();
+  for (const auto& entry : cases::entries())
+    if (std::ranges::find(words, entry.name) != words.end()) name = entry.name;
+  const auto typed = to.prefix().substr(0, to.prefix().rfind(',') + 1);
+  for (const auto& entry : cases::entries())
+    if (entry.name == name)
+      for (const auto& parameter : entry.parameters) to.add(typed + parameter.name + "=");
+}
+
+// What one placeholder stands for; numbers complete to nothing.
+void add_values(std::string_view placeholder, bool is_choice, Candidates& to) {
+  if (placeholder == "CASE") {
+    to.add_column(study::list("cases"));
+  } else if (placeholder == "METHOD") {
+    to.add_column(study::list("integrators"));
+    to.add_column(study::list("pairs"));
+  } else if (placeholder == "KIND") {
+    for (const auto& kind : study::list_kinds()) to.add(kind);
+    to.add("figures");
+  } else if (placeholder == "CODE") {
+    to.add_column(study::explain(""));
+  } else if (placeholder == "FIGURE") {
+    to.add_column(paper::list_figures());
+  } else if (placeholder.starts_with("BEHAVIOUR")) {
+    to.add_column(study::explain(""), "behaviour");
+  } else if (placeholder.starts_with("FILE") || placeholder == "FOLDER") {
+    to.add_files();
+  } else if (is_choice) {
+    to.add(std::string(placeholder));
+  }
+}
+
+void add_values(const Option& option, const std::vector<std::string>& words, Candidates& to) {
+  if (option.placeholder.starts_with("name=")) return add_parameters(words, to);
+  std::istringstream parts(option.placeholder.empty() ? option.name : option.placeholder);
+  const bool is_choice = option.placeholder.find('|') != std::string::npos;
+  for (std::string part; std::getline(parts, part, '|');) add_values(part, is_choice, to);
+}
+
+// Joins "--case", "=", "thr" to "--case=thr"; returns how much of the last stands before its last
+// part.
+std::size_t join_at_equals(std::vector<std::string>& words) {
+  std::vector<std::string> joined;
+  std::size_t before_last = 0;
+  bool is_joined = false;
+  for (const auto& word : words) {
+    is_joined = !joined.empty() && (word == "=" || (is_joined && joined.back().ends_with('=')));
+    before_last = is_joined ? joined.back().size() + (word == "=") : 0;
+    is_joined ? joined.back() += word : joined.emplace_back(word);
+  }
+  words = std::move(joined);
+  return before_last;
+}
+
+void add_all(const Grammar& grammar, const std::vector<std::string>& words, Candidates& to) {
+  const auto command = std::ranges::find(grammar.commands, words.front(), &Command::name);
+  if (words.size() == 1 || command == grammar.commands.end()) {
+    if (words.size() > 1) return;
+    for (const auto& each : grammar.commands) to.add(each.name, each.summary);
+    for (const auto& option : grammar.program.options) to.add(option.name, option.explanation);
+    return to.add("-h");
+  }
+  const auto& before = words[words.size() - 2];
+  for (const auto& option : command->options)
+    if (option.name == before && !option.is_flag()) return add_values(option, words, to);
+  if (to.prefix().starts_with('-'))
+    for (const auto& option : command->options) to.add(option.name, option.explanation);
+  else if (!command->arguments.empty())
+    add_values(command->arguments.front(), words, to);
 }
 
 }  // namespace
 
-Completion completion_of(const ReferenceItem& item, const Reference& command) {
-  Completion all;
-  const auto placeholders = split(item.value);
-  // A single word in small letters is a name for a number ("x"), not a word to type.
-  const bool is_choice = placeholders.size() > 1;
-  for (const auto& placeholder : placeholders)
-    if (is_choice || placeholder.find_first_of("abcdefghijklmnopqrstuvwxyz") != 0)
-      append(placeholder, all);
-  const bool positional = !item.names.front().starts_with('-');
-  if (positional && all.words.empty() && !all.files) all.words = written_out(command.page.usage);
-  // One word a name: the first of two equal ones stays.
-  std::vector<std::string> once;
-  for (auto& word : all.words)
-    if (std::ranges::find(once, word) == once.end()) once.push_back(std::move(word));
-  all.words = std::move(once);
-  return all;
-}
-
-std::vector<CaseWords> case_words() {
-  std::vector<CaseWords> all;
-  for (const auto& entry : cases::entries()) {
-    CaseWords words{entry.name, {}};
-    for (const auto& parameter : entry.parameters) words.words.push_back(parameter.name + "=");
-    all.push_back(std::move(words));
+std::vector<std::string> completions(const Grammar& grammar, std::vector<std::string> words) {
+  if (words.empty()) words.emplace_back();
+  auto hidden = join_at_equals(words);
+  // "--case=thr" is a value of --case.
+  std::string option;
+  if (const auto equals = words.back().find('=');
+      words.back().starts_with("--") && equals != std::string::npos) {
+    option = words.back().substr(0, equals + 1);
+    const auto value = words.back().substr(equals + 1);
+    words.back().resize(equals);
+    words.push_back(value);
   }
-  return all;
+  Candidates candidates(words.back());
+  add_all(grammar, words, candidates);
+  auto lines = candidates.lines();
+  for (auto& line : lines)
+    if (line != ":files") line = (option + line).substr(hidden);
+  return lines;
 }
 
 }  // namespace clackers::cli

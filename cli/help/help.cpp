@@ -2,67 +2,71 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <memory>
-#include <string>
-#include <utility>
+#include <array>
+#include <deque>
 
-#include "cli/text.hpp"
+#include "cli/help/text.hpp"
 
 namespace clackers::cli {
 namespace {
 
 constexpr std::size_t width = 80, column = 24;
 
-std::string described(const std::string& name, const std::string& description) {
-  auto line = "  " + name;
+constexpr auto codes = std::to_array<ExitCode>({
+    {0, "agrees, nothing claimed, or done"},
+    {1, "disagrees"},
+    {2, "refused input"},
+    {3, "undecided"},
+    {4, "file or failure"},
+    {130, "interrupted"},
+});
+
+std::string described(const Option& option) {
+  auto line = "  " + heading(option);
   if (line.size() + 1 > column)
     line.append("\n").append(column, ' ');
   else
     line.resize(column, ' ');
-  return line + wrap(description, width, column) + "\n";
+  return line + wrap(option.explanation, width, column) + "\n";
 }
 
-class Formatter : public CLI::Formatter {
- public:
-  explicit Formatter(HelpPage page) : page_(std::move(page)) {}
-  const HelpPage& page() const { return page_; }
-
-  std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
-    std::string arguments, options;
-    for (const auto* option : app->get_options()) {
-      const auto text =
-          described(make_option_name(option, option->get_positional()) +
-                        (option->get_option_text().empty() ? "" : " ") + option->get_option_text(),
-                    option->get_description());
-      (option->get_positional() ? arguments : options) += text;
-    }
-    return app->get_description() + (arguments.empty() ? "" : "\nArguments\n" + arguments) +
-           "\nOptions\n" + options;
-  }
-
- private:
-  HelpPage page_;
-};
+std::string section(std::string_view title, const std::deque<Option>& options) {
+  std::string text;
+  for (const auto& option : options) text += described(option);
+  return text.empty() ? "" : fmt::format("\n{}\n{}", title, text);
+}
 
 }  // namespace
 
-void set_help(CLI::App& command, const HelpPage& page) {
-  std::string text;
-  for (const auto& [head, body] :
-       {std::pair{"Examples", page.examples}, {"", page.about}, {"Usage", page.usage}}) {
-    if (body.empty()) continue;
-    if (!text.empty()) text += "\n";
-    if (*head != '\0') text += fmt::format("{}\n", head);
-    text += *head != '\0' ? body : wrap(body, width);
-    if (text.back() != '\n') text += "\n";
-  }
-  command.description(text);
-  command.formatter(std::make_shared<Formatter>(page));
+std::span<const ExitCode> exit_codes() { return codes; }
+
+std::string heading(const Option& option) {
+  const auto name = option.name == "--help" ? "-h,--help" : option.name;
+  return option.placeholder.empty() ? name : name + " " + option.placeholder;
 }
 
-const HelpPage& help_page(const CLI::App& command) {
-  return dynamic_cast<const Formatter&>(*command.get_formatter()).page();
+std::string help_text(const Command& command) {
+  return fmt::format("Examples\n{}\n{}\n\nUsage\n{}{}{}", command.page.examples,
+                     wrap(command.page.about, width), command.page.usage,
+                     section("Arguments", command.arguments), section("Options", command.options));
+}
+
+std::string overall_usage(const Grammar& grammar) {
+  std::string text;
+  for (const auto& command : grammar.commands)
+    text += fmt::format("  clackers {:<8} {:<16} {}\n", command.name, command.synopsis,
+                        command.summary);
+  return text;
+}
+
+std::string help_text(const Grammar& grammar) {
+  auto program = grammar.program;
+  program.page.usage = overall_usage(grammar) +
+                       "\n  clackers COMMAND --help describes it. Quantities are in SI units.\n"
+                       "\nExit codes\n";
+  for (const auto& [code, meaning] : exit_codes())
+    program.page.usage += fmt::format("  {:<4} {}\n", code, meaning);
+  return help_text(program);
 }
 
 }  // namespace clackers::cli

@@ -1,25 +1,32 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 
-namespace CLI {
-class App;
-}
+#include "cli/command.hpp"
 
 namespace clackers::cli {
 
-/// What stands above the options of a command's help.
-struct HelpPage {
-  std::string examples;  ///< lines to copy
-  std::string about;     ///< what it does
-  std::string usage;     ///< the grammar
+struct ExitCode {
+  int code;
+  std::string_view meaning;
 };
 
-/// Gives a command its help at 80 columns: examples first, then what it does, its grammar, its
-/// arguments and options.
-void set_help(CLI::App& command, const HelpPage& page);
+/// The exit codes, which all commands share.
+std::span<const ExitCode> exit_codes();
 
-/// The page that set_help() was given for this command.
-const HelpPage& help_page(const CLI::App& command);
+/// What --help prints, at 80 columns: examples first, then what the command does, its grammar, its
+/// arguments and options.
+std::string help_text(const Command& command);
+
+/// The same for the program itself, with a line for each command.
+std::string help_text(const Grammar& grammar);
+
+/// The grammar of the program: a line for each command.
+std::string overall_usage(const Grammar& grammar);
+
+/// An option as --help heads it: "--samples n", "CASE".
+std::string heading(const Option& option);
 
 }  // namespace clackers::cli

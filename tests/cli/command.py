@@ -87,8 +87,22 @@ class CommandTest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
+    def text_of(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return file.read()
+
     def files(self):
         return sorted(os.listdir(self.folder))
+
+    def open_files(self, process):
+        """Files of the test's folder that a process has open, those without a name included."""
+        found = []
+        for number in os.listdir(f"/proc/{process.pid}/fd"):
+            try:
+                found.append(os.readlink(f"/proc/{process.pid}/fd/{number}"))
+            except FileNotFoundError:
+                pass
+        return [path for path in found if path.startswith(self.folder + "/")]
 
     def good(self, *arguments, **more):
         """Standard output of a command that must succeed and say nothing else."""

@@ -5,6 +5,7 @@ import os
 import shutil
 import signal
 import subprocess
+import time
 import unittest
 import xml.etree.ElementTree
 
@@ -41,7 +42,7 @@ class Folder(CommandTest):
             self.assertIn(text, texts)
         with open(self.path("figures/fig12.pdf"), "rb") as file:
             self.assertEqual(file.read(5), b"%PDF-")
-        self.assertIn("data:image/svg+xml;base64,", self.read("figures/index.html"))
+        self.assertIn("data:image/svg+xml,%3Csvg", self.read("figures/index.html"))
 
     @unittest.skipUnless(CAN_DRAW, "node and rsvg-convert draw")
     def test_every_figure_but_the_validation_is_drawn_and_every_claim_holds(self):
@@ -54,7 +55,8 @@ class Folder(CommandTest):
             self.assertIn(f"{name}.pdf", self.written())
         claims = json_rows(done.stdout)
         self.assertGreater(len(claims), 20)
-        self.assertEqual([c for c in claims if c["verdict"] != "holds"], [])
+        others = [(c["claim"], c["verdict"]) for c in claims if c["verdict"] != "holds"]
+        self.assertEqual(others, [("Eq. (11): I_ms is an upper bound of T_L/T_S.", "holds in part")])
 
     def test_curves_of_fig_12_coincide_in_the_csv(self):
         run_with_path("", "paper", "fig12", "--out", self.path("figures"))
@@ -92,6 +94,59 @@ class Folder(CommandTest):
                      says="mine.txt")
         self.assertIn("mine.txt", self.written())
 
+    def started(self, figure="fig2"):
+        """A run that replaces a folder of an earlier one, while it works."""
+        run_with_path("", "paper", figure, "--out", self.path("figures"))
+        process = start("paper", "--out", self.path("figures"), stdout=subprocess.DEVNULL,
+                        stderr=subprocess.DEVNULL, env=environment(PATH=""))
+        self.wait_for(lambda: len(self.files()) == 2)
+        return process
+
+    def test_what_comes_into_the_folder_meanwhile_is_kept(self):
+        run_with_path("", "paper", "fig2", "--out", self.path("figures"))
+        process = start("paper", "fig12", "fig10", "--out", self.path("figures"), stdout=subprocess.DEVNULL,
+                        stderr=subprocess.DEVNULL, env=environment(PATH=""))
+        self.wait_for(lambda: len(self.files()) == 2)
+        process.send_signal(signal.SIGSTOP)
+        with open(self.path("figures/mine.txt"), "w") as file:
+            file.write("mine")
+        os.mkdir(self.path("figures/folder"))
+        process.send_signal(signal.SIGCONT)
+        self.assertEqual(process.wait(60), 4)
+        self.assertEqual(self.read("figures/mine.txt"), "mine")
+        self.assertEqual(self.written(), ["fig10.csv", "fig10.vl.json", "fig12.csv", "fig12.vl.json", "folder",
+                                          "index.html", "mine.txt", "paper.json"])
+        self.assertEqual(self.files(), ["figures"])
+
+    def test_a_second_signal_leaves_the_old_folder_and_nothing_else(self):
+        process = self.started()
+        before = self.written()
+        process.send_signal(signal.SIGSTOP)
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
+        process.send_signal(signal.SIGCONT)
+        self.assertEqual(process.wait(10), 130)
+        self.assertEqual((self.files(), self.written()), (["figures"], before))
+
+    def test_other_signals_leave_the_old_folder_and_nothing_else(self):
+        for sign in (signal.SIGXCPU, signal.SIGUSR1, signal.SIGALRM):
+            process = self.started()
+            before = self.written()
+            process.send_signal(sign)
+            self.assertEqual(process.wait(10), -sign)
+            self.assertEqual((self.files(), self.written()), (["figures"], before))
+
+    def test_names_in_an_earlier_list_do_not_reach_other_folders(self):
+        run_with_path("", "paper", "fig2", "--out", self.path("figures"))
+        with open(self.path("precious"), "w") as file:
+            file.write("mine")
+        listed = self.read("figures/paper.json").replace("fig2.csv", "../precious")
+        os.unlink(self.path("figures/fig2.csv"))
+        with open(self.path("figures/paper.json"), "w") as file:
+            file.write(listed)
+        run_with_path("", "paper", "fig2", "--out", self.path("figures"))
+        self.assertEqual(self.read("precious"), "mine")
+
     def test_an_empty_folder_is_filled_and_a_file_refused(self):
         os.mkdir(self.path("figures"))
         self.assertEqual(run_with_path("", "paper", "fig2", "--out", self.path("figures/")).returncode, 4)
@@ -118,6 +173,18 @@ class Folder(CommandTest):
         self.wait_for(self.files)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(60), 130)
+        self.assertEqual(self.files(), [])
+
+    def test_ctrl_c_in_the_validation_stops_at_once(self):
+        process = start("paper", "validation", "--out", self.path("figures"), "--quiet",
+                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.wait_for(self.files)
+        time.sleep(0.5)
+        self.assertIsNone(process.poll(), "the validation takes seconds")
+        sent = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 130)
+        self.assertLess(time.monotonic() - sent, 2.0)  # 0.2 s on a machine with nothing else to do
         self.assertEqual(self.files(), [])
 
 

@@ -1,8 +1,15 @@
 """respond: columns, times, collisions, the picture, and what it refuses."""
+import array
+import ast
 import math
+import os
+import shutil
+import signal
+import subprocess
+import time
 import unittest
 
-from command import CommandTest, run
+from command import PROGRAM, CommandTest, environment, run, run_on_terminal, start
 
 PAIR = "t,side,u1,v1,a1,u2,v2,a2"
 CASES = {"sdof": "t,side,u1,v1,a1", "stop": "t,side,u1,v1,a1", "symmetric-pair": PAIR,
@@ -81,7 +88,7 @@ class Times(CommandTest):
                                  ("1e999\n", "not-finite", "line 1"),
                                  ("1\n2\n20.000000000000004\n", "time-outside", ("line 3", "0 <= t <= 20")),
                                  ("-1e-9\n", "time-outside", "line 1"),
-                                 ("0\0\n", "not-a-number", "line 1")):
+                                 ("0\0\n", "not-text", "byte 0")):
             self.refused("respond", "sdof", "--times", "-", stdin=text, code=code, says=says)
 
     def test_refuse_a_file_without_times(self):
@@ -89,18 +96,125 @@ class Times(CommandTest):
             self.refused("respond", "sdof", "--times", "-", stdin=text, code="bad-syntax",
                          says="standard input has no times")
 
-    def test_refuse_a_line_that_cannot_be_a_time(self):
-        self.assertEqual(self.times("sdof", "--times", "-", stdin="0" * 999 + "1"), [1])
-        self.refused("respond", "sdof", "--times", "-", stdin="\n" + "0" * 1001, code="not-a-number",
-                     says="line 2 is longer than 1000 bytes")
+    def test_are_read_with_any_line_end_and_a_byte_order_mark(self):
+        for end in ("\n", "\r\n", "\r"):
+            self.assertEqual(self.times("sdof", "--times", "-", stdin=f"\ufeff0{end}1{end}"), [0, 1])
 
     def test_refuse_a_file_that_cannot_be_read(self):
         self.refused("respond", "sdof", "--times", self.path("none"), exit_code=4,
                      code="cannot-read", says=(self.path("none"), "No such file"))
         self.refused("respond", "sdof", "--times", self.folder, exit_code=4, code="cannot-read",
                      says="directory")
-        self.refused("respond", "sdof", "--times", "/dev/zero", code="not-a-number",
-                     says="line 1 is longer than")
+        self.refused("respond", "sdof", "--times", "/dev/zero", code="not-text", says="byte 0")
+
+
+def npy(data):
+    """Names, shape and numbers of NumPy's file, read as its format says."""
+    assert data[:8] == b"\x93NUMPY\x01\x00", data[:8]
+    end = 10 + int.from_bytes(data[8:10], "little")
+    assert end % 64 == 0 and data[end - 1:end] == b"\n"
+    header = ast.literal_eval(data[10:end].decode("ascii"))
+    assert header["fortran_order"] is False
+    assert {kind for _, kind in header["descr"]} == {"<f8"}
+    return [name for name, _ in header["descr"]], header["shape"], array.array("d", data[end:])
+
+
+class Npy(CommandTest):
+    WAYS = (("three-parameter", "--samples", "5001"), ("stop", "--step", "0.1"),
+            ("three-parameter", "--collisions"), ("stop", "--energy", "--samples", "11"),
+            ("stop", "--sensitivity", "xi1", "--samples", "11"),
+            ("stop", "--spectrum", "--samples", "11", "--highest", "20"))
+
+    def test_holds_the_numbers_of_csv_in_a_file_and_in_a_pipe(self):
+        sides = {"-": -1.0, "": 0.0, "+": 1.0}
+        for way in self.WAYS:
+            done = run("respond", *way, "--format", "npy", "--out", self.path("r.npy"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(self.path("r.npy"), "rb") as file:
+                data = file.read()
+            piped = subprocess.run([PROGRAM, "respond", *way, "--format", "npy"],
+                                   capture_output=True, env=environment(), timeout=60)
+            self.assertEqual((piped.returncode, piped.stderr), (0, b""))
+            self.assertEqual(piped.stdout, data)
+            names, shape, values = npy(data)
+            listed = self.rows_of("respond", *way)
+            self.assertEqual(names, list(listed[0]))
+            self.assertEqual(shape, (len(listed),))
+            read = iter(values)
+            for row in listed:
+                for name, text in row.items():
+                    expected = sides[text] if name == "side" else float(text)
+                    self.assertEqual(next(read), expected, (way, name))
+            self.assertEqual(list(read), [])
+
+    def test_keeps_both_rows_at_a_collision(self):
+        t = self.rows_of("respond", "stop", "--collisions")[0]["t"]
+        run("respond", "stop", "--times", "-", "--format", "npy", "--out", self.path("r.npy"),
+            stdin=f"1\n{t}\n2\n")
+        with open(self.path("r.npy"), "rb") as file:
+            names, shape, values = npy(file.read())
+        self.assertEqual(shape, (4,))
+        self.assertEqual(list(values[names.index("side")::len(names)]), [0, -1, 1, 0])
+
+    def test_reads_back_with_numpy(self):
+        program = next((python for python in ("python3", "/usr/bin/python3")
+                        if shutil.which(python) and subprocess.run(
+                            [python, "-c", "import numpy"], capture_output=True).returncode == 0),
+                       None)
+        if program is None:
+            self.skipTest("no Python with numpy")
+        run("respond", "stop", "--samples", "101", "--format", "npy", "--out", self.path("r.npy"))
+        done = subprocess.run(
+            [program, "-c", "import sys, numpy as np; a = np.load(sys.argv[1]); "
+             "print(a.shape, a.dtype.names, repr(float(a['u1'][-1])), a.flags['C_CONTIGUOUS'])",
+             self.path("r.npy")], capture_output=True, text=True)
+        last = self.rows_of("respond", "stop", "--samples", "101")[-1]["u1"]
+        self.assertEqual(done.stdout,
+                         f"(101,) ('t', 'side', 'u1', 'v1', 'a1') {float(last)!r} True\n",
+                         done.stderr)
+
+    def test_is_refused_for_text_and_for_a_terminal(self):
+        self.refused("respond", "stop", "--samples", "3", "--digits", "20", "--format", "npy",
+                     code="bad-syntax", says=("--digits", "csv or json"))
+        self.refused("respond", "stop", "--samples", "3", "--format", "npz", code="unknown-name",
+                     says="table, csv, json, npy")
+        self.refused("list", "cases", "--format", "npy", code="unknown-name")
+        code, text = run_on_terminal("respond", "stop", "--samples", "3", "--format", "npy")
+        self.assertEqual((code, text), (2, ""))
+        code, text = run_on_terminal("respond", "stop", "--samples", "3", "--format", "npy",
+                                     "--out", self.path("r.npy"))
+        self.assertEqual(code, 0)
+
+
+class Long(CommandTest):
+    LONG = ("--samples", "1e9")
+
+    def interrupted(self, *arguments):
+        process = start("respond", "three-parameter", *arguments, "--out", self.path("rows"),
+                        stderr=subprocess.PIPE)
+        self.wait_for(self.files)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        begin = time.monotonic()
+        text = process.communicate(timeout=20)[1].decode()
+        self.assertEqual(process.returncode, 130, text)
+        self.assertEqual(self.files(), [])
+        return time.monotonic() - begin
+
+    def test_ends_soon_after_an_interrupt(self):
+        for way in (("--format", "csv"), ("--format", "json"), ("--format", "npy"), (),
+                    ("--format", "csv", "--digits", "1000"),
+                    ("--format", "csv", "--energy"), ("--format", "csv", "--sensitivity", "k2")):
+            # 0.2 s, and as much again for a machine that does other things.
+            self.assertLess(self.interrupted(*self.LONG, *way), 0.4, way)
+
+    def test_shows_its_progress_on_a_terminal(self):
+        _, text = run_on_terminal("respond", "three-parameter", "--samples", "3e6", "--format",
+                                  "csv", "--out", os.devnull, stream="stderr")
+        self.assertRegex(text, r"\rrespond +\d+ %, \d+ s elapsed")
+        _, text = run_on_terminal("respond", "three-parameter", "--samples", "3e6", "--format",
+                                  "csv", "--out", os.devnull, "--quiet", stream="stderr")
+        self.assertEqual(text, "")
 
 
 class Collisions(CommandTest):
@@ -276,9 +390,12 @@ class Refusals(CommandTest):
     def test_of_steps_that_are_zero_negative_or_not_finite(self):
         for step, code in (("0", "step-not-positive"), ("-0.1", "step-not-positive"),
                            ("nan", "not-a-number"), ("inf", "not-finite"), ("x", "not-a-number"),
-                           ("21", "step-not-positive"), ("1e-9", "too-many-rows"),
+                           ("1e-9", "too-many-rows"),
                            ("1e-320", "too-many-rows")):
             self.refused("respond", "sdof", "--step", step, code=code, says="step")
+
+    def test_of_a_step_longer_than_the_run(self):
+        self.refused("respond", "sdof", "--step", "30", code="out-of-range", says="0 < step <= 20 s")
 
     def test_of_parameters_outside_their_range(self):
         for case, setting, code, says in (

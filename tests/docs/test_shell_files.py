@@ -14,6 +14,10 @@ import unittest
 PROGRAM = os.path.abspath(os.environ["CLACKERS"])
 
 
+# The scripts ask the program, which stands on the PATH where it is installed.
+os.environ["PATH"] = os.path.dirname(PROGRAM) + ":" + os.environ["PATH"]
+
+
 def run(*words, **more):
     return subprocess.run([str(word) for word in words], capture_output=True, text=True, **more)
 
@@ -134,7 +138,7 @@ class Bash(unittest.TestCase):
     def test_set_gives_the_parameters_of_the_case(self):
         self.assertEqual(self.completed("clackers show --set "), ["N=", "xi1=", "a_t="])
         self.assertEqual(self.completed("clackers show stop --set et"), ["eta="])
-        self.assertEqual(self.completed("clackers show stop --set xi1=0.1,et"), [])  # '=' splits the word
+        self.assertEqual(self.completed("clackers show stop --set xi1=0.1,et"), ["0.1,eta="])  # '=' splits the word
         self.assertEqual(self.completed("clackers verify --set N"), ["N="])
 
     def test_place_of_a_file_gives_files(self):

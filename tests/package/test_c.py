@@ -36,7 +36,7 @@ class CLibrary(unittest.TestCase):
             self.assertLess(before, 0.0)
             self.assertAlmostEqual(after, -0.75 * before, delta=2e-6)  # four numbers printed to 0.5e-6
 
-    def test_the_example_finds_it_through_pkg_config(self):
+    def test_example_is_built_with_pkg_config(self):
         environment = tree.environment()
         flags = installed.run("sh", "-c", 'eval "set -- $(pkg-config --cflags --libs clackers)"; printf "%s\\n" "$@"',
                               env=environment).split("\n")
@@ -44,7 +44,7 @@ class CLibrary(unittest.TestCase):
         installed.run(installed.CC, *STRICT, installed.ROOT / "examples/c/collisions.c", *filter(None, flags), "-o", program)
         self.check(installed.run(program, env=environment))
 
-    def test_the_example_finds_it_through_cmake(self):
+    def test_example_is_built_with_cmake(self):
         source = tree.folder / "with_cmake"
         source.mkdir()
         (source / "CMakeLists.txt").write_text(
@@ -56,23 +56,23 @@ class CLibrary(unittest.TestCase):
         installed.run(installed.CMAKE, "--build", build)
         self.check(installed.run(build / "collisions"))
 
-    def test_pkg_config_tells_the_version_of_the_command(self):
+    def test_pkg_config_has_the_version_of_the_command(self):
         told = installed.run("pkg-config", "--modversion", "clackers", env=tree.environment()).strip()
         self.assertIn(told, installed.run(tree.prefix / "bin/clackers", "--version"))
 
-    def test_the_library_has_a_soname(self):
+    def test_library_has_a_soname(self):
         self.assertIn("Library soname: [libclackers.so.0]", installed.run("readelf", "-d", tree.lib / "libclackers.so"))
 
-    def test_it_shows_exactly_the_functions_of_its_header_with_their_version(self):
-        shown = re.findall(r" T (\S+)$", installed.run("nm", "-D", "--defined-only", tree.lib / "libclackers.so"), re.MULTILINE)
-        self.assertGreater(len(shown), 15)
-        self.assertEqual(sorted(shown), [name + "@@CLACKERS_0.1" for name in declared()])
+    def test_exported_functions_are_those_of_the_header_with_their_version(self):
+        exported = re.findall(r" T (\S+)$", installed.run("nm", "-D", "--defined-only", tree.lib / "libclackers.so"), re.MULTILINE)
+        self.assertGreater(len(exported), 15)
+        self.assertEqual(sorted(exported), [name + "@@CLACKERS_0.1" for name in declared()])
 
-    def test_nothing_but_functions_is_shown(self):
+    def test_only_functions_are_exported(self):
         kinds = set(re.findall(r" (\w) \S+$", installed.run("nm", "-D", "--defined-only", tree.lib / "libclackers.so"), re.MULTILINE))
         self.assertLessEqual(kinds, {"T", "A"})
 
-    def test_the_header_is_c99_and_cxx(self):
+    def test_header_is_c99_and_cxx98(self):
         for language in (["-x", "c", "-std=c99"], ["-x", "c++", "-std=c++98", "-Wno-long-long"]):
             installed.run(installed.CC, "-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only", *language,
                           tree.prefix / "include/clackers.h")

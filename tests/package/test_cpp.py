@@ -15,7 +15,7 @@ def tearDownModule():
 
 
 class Modules(unittest.TestCase):
-    def test_the_example_is_built_and_sees_second_order(self):
+    def test_example_is_built_and_finds_second_order(self):
         build = tree.configure(installed.ROOT / "examples/cpp", "cpp", f"-DCMAKE_CXX_COMPILER={installed.CXX}")
         installed.run(installed.CMAKE, "--build", build)
         text = installed.run(build / "newmark_error")
@@ -27,7 +27,7 @@ class Modules(unittest.TestCase):
             self.assertGreater(coarse / fine, 3.5)
             self.assertLess(coarse / fine, 4.6)
 
-    def test_every_room_is_a_target_with_a_library(self):
+    def test_every_module_is_a_target_with_a_library(self):
         source = tree.folder / "modules"
         source.mkdir()
         modules = re.findall(r"^clackers_module\((\w+)", (installed.ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)
@@ -36,7 +36,7 @@ class Modules(unittest.TestCase):
             "cmake_minimum_required(VERSION 3.25)\nproject(it LANGUAGES CXX)\nfind_package(clackers REQUIRED)\n"
             + "".join(f"if(NOT TARGET clackers::{module})\n  message(FATAL_ERROR {module})\nendif()\n"
                       for module in modules + ["clackers", "c"]))
-        tree.configure(source, "rooms_build")
+        tree.configure(source, "modules_build")
 
 
 if __name__ == "__main__":

@@ -47,32 +47,32 @@ def field(package, name):
 
 
 class Packages(unittest.TestCase):
-    def test_there_are_three(self):
+    def test_three_packages_are_made(self):
         self.assertEqual(sorted(debs), ["clackers", "libclackers-dev", "libclackers0"])
 
-    def test_programs_depend_on_the_libraries_they_load(self):
+    def test_packages_depend_on_the_libraries_they_load(self):
         for package, file in [("clackers", "usr/bin/clackers"), ("libclackers0", "libclackers.so.0")]:
             self.assertRegex(field(package, "Depends"), r"\blibc6 \(>= ")
             self.assertRegex(field(package, "Depends"), r"\blibfmt\d+ \(>= ")
             self.assertIn(file, installed.run("dpkg-deb", "-c", debs[package]))
 
-    def test_development_needs_the_same_library_and_what_the_rooms_leave_open(self):
+    def test_development_package_depends_on_its_library_and_on_what_modules_include(self):
         depends = field("libclackers-dev", "Depends")
         self.assertIn(f"libclackers0 (= {field('libclackers0', 'Version')})", depends)
         for name in ["libeigen3-dev", "libfmt-dev", "nlohmann-json3-dev", "libboost-dev", "libhwy-dev"]:
             self.assertIn(name, depends)
 
-    def test_the_library_tells_what_its_users_depend_on(self):
+    def test_library_package_has_shlibs(self):
         control = folder / "control"
         installed.run("dpkg-deb", "-e", debs["libclackers0"], control)
         version = re.escape(field("libclackers0", "Version"))
         self.assertRegex((control / "shlibs").read_text(), rf"^libclackers 0 libclackers0 \(>= {version}\)")
 
-    def test_the_command_comes_without_development_files(self):
+    def test_command_package_has_no_development_files(self):
         contents = installed.run("dpkg-deb", "-c", debs["clackers"]) + installed.run("dpkg-deb", "-c", debs["libclackers0"])
         self.assertNotRegex(contents, r"\.hpp|\.a\b|\.cmake|libclackers\.so ")
 
-    def test_everything_belongs_to_root_and_is_below_usr(self):
+    def test_files_belong_to_root_and_are_below_usr(self):
         for deb in debs.values():
             for line in installed.run("dpkg-deb", "-c", deb).splitlines():
                 self.assertRegex(line, r"^\S+ root/root .* \./(usr/.*)?", line)
@@ -93,7 +93,7 @@ class InstalledUsedAndRemoved(unittest.TestCase):
         (folder / "bin/ldconfig").chmod(0o755)
         return calls
 
-    def test_the_packages_live_a_whole_life(self):
+    def test_packages_are_installed_used_and_removed(self):
         root = folder / "root"
         admin = root / "var/lib/dpkg"
         admin.parent.mkdir(parents=True)

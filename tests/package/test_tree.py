@@ -21,11 +21,11 @@ class InstalledTree(unittest.TestCase):
     def headers(self):
         return {str(p.relative_to(tree.prefix / "include")) for p in (tree.prefix / "include").rglob("*.hpp")}
 
-    def test_the_command_runs(self):
+    def test_command_runs(self):
         text = installed.run(tree.prefix / "bin/clackers", "--version")
         self.assertRegex(text, r"\d+\.\d+\.\d+")
 
-    def test_every_header_that_an_installed_header_includes_is_installed(self):
+    def test_included_headers_are_installed(self):
         here = self.headers()
         self.assertGreater(len(here), 40)
         for header in sorted(here):
@@ -33,7 +33,7 @@ class InstalledTree(unittest.TestCase):
             for wanted in INCLUDE.findall(text):
                 self.assertIn(wanted, here, f"{header} includes it")
 
-    def test_headers_that_only_tests_include_are_not_installed(self):
+    def test_headers_of_tests_are_not_installed(self):
         sources = [p for folder in ["clackers", "cli", "bindings"] for p in (installed.ROOT / folder).rglob("*.[ch]pp")
                    if not p.name.endswith("_test.cpp")]
         wanted = {w for p in sources for w in INCLUDE.findall(p.read_text())}
@@ -41,21 +41,21 @@ class InstalledTree(unittest.TestCase):
         own = {h for h in self.headers() if (installed.ROOT / h).with_suffix(".cpp").exists()}
         self.assertEqual(sorted(self.headers() - wanted - own), [])
 
-    def test_no_header_asks_for_a_test_library(self):
+    def test_headers_include_no_test_library(self):
         for header in sorted(self.headers()):
             self.assertNotRegex((tree.prefix / "include" / header).read_text(), "gtest|rapidcheck", header)
 
-    def test_no_file_knows_the_tree_it_was_built_in(self):
+    def test_files_do_not_name_the_build_tree(self):
         for path in tree.prefix.rglob("*"):
             if path.suffix in {".cmake", ".pc", ".h", ".hpp"}:
                 for folder in [installed.ROOT, installed.BUILD, tree.folder / "first"]:
                     self.assertNotIn(str(folder), path.read_text(), path)
 
-    def test_warnings_of_developers_stay_here(self):
+    def test_targets_have_no_warning_flags(self):
         for path in tree.prefix.rglob("*.cmake"):
             self.assertNotRegex(path.read_text(), "-Werror|-Wall|-fsanitize", path)
 
-    def test_the_license_comes_along(self):
+    def test_license_is_installed(self):
         found = sorted(p.parent.name for p in tree.prefix.rglob("copyright"))
         self.assertEqual(found, ["clackers", "libclackers-dev", "libclackers0"])
 
@@ -69,17 +69,17 @@ class FindPackage(unittest.TestCase):
         return subprocess.run([installed.CMAKE, "-S", source, "-B", source / "build",
                                f"-DCMAKE_PREFIX_PATH={tree.prefix}"], capture_output=True, text=True)
 
-    def test_a_newer_version_than_this_is_not_found(self):
+    def test_newer_version_is_not_found(self):
         done = self.configure("newer", "find_package(clackers 99.0 REQUIRED COMPONENTS c)")
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("99.0", done.stderr)
 
-    def test_an_unknown_component_is_not_found(self):
+    def test_unknown_component_is_not_found(self):
         done = self.configure("unknown", "find_package(clackers REQUIRED COMPONENTS fortran)")
         self.assertNotEqual(done.returncode, 0)
         self.assertIn('has no component "fortran"; there are c and cpp.', " ".join(done.stderr.split()))
 
-    def test_the_c_library_needs_neither_cxx_nor_its_libraries(self):
+    def test_c_library_needs_neither_cxx_nor_its_libraries(self):
         done = self.configure("only_c", "find_package(clackers REQUIRED COMPONENTS c)\n"
                               "if(NOT TARGET clackers::c OR TARGET clackers::clackers OR Eigen3_FOUND)\n"
                               "  message(FATAL_ERROR \"not the C library alone\")\nendif()")

@@ -27,6 +27,11 @@ def pair(*settings):
     return constants
 
 
+def runs(subject):
+    """The runs of a subject, coarsest first."""
+    return [run for level in subject["levels"] for run in level["runs"]]
+
+
 class PeerTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -37,15 +42,15 @@ class PeerTest(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def checked(self, *arguments, exit_code=0):
-        """The record of a check that must end with that exit code."""
+        """The subject of the record of a check that must end with that exit code."""
         done = clackers("check", *arguments, "--format", "json")
         self.assertEqual((done.returncode, done.stderr), (exit_code, ""),
                          clackers("check", *arguments).stdout)
-        return json.loads(done.stdout)
+        return json.loads(done.stdout)["cases"][0]["subjects"][0]
 
-    def assert_collides_as_it_should(self, file, time_error):
-        """A file of a record has all six collisions and no other, each within `time_error` [s]."""
-        impacts = file["score"]["impacts"]
+    def assert_six_collisions(self, run, time_error):
+        """A run has all six collisions and no other, each within `time_error` [s]."""
+        impacts = run["impacts"]
         self.assertEqual((impacts["expected"], impacts["matched"], impacts["missed"],
-                          impacts["extra"]), (6, 6, 0, 0), file["notes"])
+                          impacts["extra"]), (6, 6, 0, 0), run["file"]["notes"])
         self.assertLess(impacts["worst_time_error"], time_error)

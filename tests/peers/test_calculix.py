@@ -3,7 +3,7 @@ import shutil
 import unittest
 
 import calculix_pair
-from peers import PeerTest, pair
+from peers import PeerTest, pair, runs
 
 CASE = ("--set", "xi1=0")
 
@@ -20,27 +20,27 @@ class Calculix(PeerTest):
                           self.pair["t_end"] if end is None else end, path)
         return path
 
-    def test_collides_as_it_should_and_late_by_its_contacts(self):
-        record = self.checked(self.history(1e4, 0.004), *CASE)
-        file = record["files"][0]
-        self.assertEqual(record["verdict"], "not claimed")
+    def test_stiff_contact_has_all_collisions_late_by_the_contacts(self):
+        subject = self.checked(self.history(1e4, 0.004), *CASE)
+        run = runs(subject)[0]
+        self.assertEqual(subject["assessment"]["verdict"], "not claimed")
         # Each contact lasts 0.0157 s and delays what follows by as much: 0.079 s at the sixth.
-        self.assert_collides_as_it_should(file, 0.11)
-        self.assertGreater(file["score"]["impacts"]["worst_time_error"], 0.07)
-        self.assertEqual(file["collision_source"], "history")
-        self.assertEqual({c["digits"] for c in file["columns"] if c["name"] != "t"}, {7})
+        self.assert_six_collisions(run, 0.11)
+        self.assertGreater(run["impacts"]["worst_time_error"], 0.07)
+        self.assertEqual(run["file"]["collision_source"], "history")
+        self.assertEqual({c["digits"] for c in run["file"]["columns"] if c["name"] != "t"}, {7})
 
-    def test_stagnates_at_the_error_of_its_contact(self):
+    def test_error_of_soft_contact_stagnates(self):
         # Contacts of pi sqrt(0.25 / 900) = 0.0524 s, 26 of the finest steps.
         files = [self.history(900.0, 0.016 / 2**n, end=6.0) for n in range(4)]
-        record = self.checked(*files, *CASE, "--expect", "stagnating")
-        self.assertEqual(record["assessment"]["displacement"]["reason"], "contact-stiffness")
-        self.assertAlmostEqual(record["files"][-1]["contact_time"], 0.0524, delta=0.004)
+        subject = self.checked(*files, *CASE, "--expect", "stagnating")
+        self.assertEqual(subject["assessment"]["displacement"]["reason"], "contact-stiffness")
+        self.assertAlmostEqual(runs(subject)[-1]["file"]["contact_time"], 0.0524, delta=0.004)
         self.checked(*files, *CASE, "--expect", "proper:2", exit_code=1)
 
-    def test_with_too_soft_a_contact_is_another_motion(self):
-        record = self.checked(self.history(30.0, 0.005), *CASE, exit_code=1)
-        self.assertEqual(record["verdict"], "disagrees")
+    def test_too_soft_contact_disagrees(self):
+        subject = self.checked(self.history(30.0, 0.005), *CASE, exit_code=1)
+        self.assertEqual(subject["assessment"]["verdict"], "disagrees")
 
 
 if __name__ == "__main__":

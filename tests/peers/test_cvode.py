@@ -3,7 +3,7 @@ import os
 import subprocess
 import unittest
 
-from peers import HERE, PeerTest, pair
+from peers import HERE, PeerTest, pair, runs
 
 LIBRARIES = ("-lsundials_cvode", "-lsundials_nvecserial", "-lsundials_sunlinsoldense",
              "-lsundials_sunmatrixdense", "-lm")
@@ -28,47 +28,47 @@ class Cvode(PeerTest):
         subprocess.run([self.program, *map(repr, numbers), *files], check=True)
         return files
 
-    def test_with_a_tight_tolerance_is_the_true_motion(self):
+    def test_tight_tolerance_agrees(self):
         history, events = self.histories("tight", 1e-10)
         for arguments in ((history,), (history, "--events", events)):
-            record = self.checked(*arguments, "--tolerance", "1e-6")
-            self.assertEqual(record["verdict"], "agrees")
-            self.assert_collides_as_it_should(record["files"][0], 1e-6)
-        self.assertEqual(self.checked(history)["verdict"], "not claimed")
+            subject = self.checked(*arguments, "--tolerance", "1e-6")
+            self.assertEqual(subject["assessment"]["verdict"], "agrees")
+            self.assert_six_collisions(runs(subject)[0], 1e-6)
+        self.assertEqual(self.checked(history)["assessment"]["verdict"], "not claimed")
 
-    def test_with_a_loose_tolerance_is_beyond_it(self):
+    def test_loose_tolerance_disagrees(self):
         history, events = self.histories("loose", 1e-3)
         self.checked(history, "--events", events, "--tolerance", "1e-6", exit_code=1)
 
-    def test_tolerances_are_levels(self):
+    def test_tolerances_as_steps_give_an_irregular_order(self):
         tolerances = [10**-(4 + n / 4) for n in range(25)]
         files = [self.histories(f"run{i}", rtol)[0] for i, rtol in enumerate(tolerances)]
         # The controller chooses order and steps anew for each tolerance: no line. Steps of order q
         # that keep a local error of rtol end with rtol^(q / (q + 1)), and q goes up to 5.
-        record = self.checked(*files, "--steps", ",".join(map(repr, tolerances)), "--expect",
+        subject = self.checked(*files, "--steps", ",".join(map(repr, tolerances)), "--expect",
                               "irregular:1")
-        order = record["assessment"]["displacement"]["order"]
+        order = subject["assessment"]["displacement"]["order"]
         self.assertTrue(0.7 < order < 1.0, order)
 
-    def test_with_six_digits_is_limited_by_them(self):
+    def test_six_printed_digits_are_undecided(self):
         history, _ = self.histories("six", 1e-11, digits=6)
-        record = self.checked(history, "--expect", "exact", exit_code=3)
-        self.assertEqual(record["reason"], "printed-digits")
-        file = record["files"][0]
-        self.assertLess(file["score"]["u_error"], 2 * file["printed_floor"])
+        subject = self.checked(history, "--expect", "exact", exit_code=3)
+        self.assertEqual(subject["assessment"]["reason"], "printed-digits")
+        run = runs(subject)[0]
+        self.assertLess(run["u_error"], 2 * run["file"]["printed_floor"])
 
-    def test_with_another_restitution_agrees_with_the_case_that_has_it(self):
+    def test_other_restitution_agrees_with_the_case_that_has_it(self):
         history, events = self.histories("soft", 1e-10, eta=0.5)
         arguments = (history, "--events", events, "--tolerance", "1e-6")
         # The collisions come at the same times, whatever the restitution.
-        record = self.checked(*arguments, exit_code=1)
-        self.assert_collides_as_it_should(record["files"][0], 1e-6)
+        subject = self.checked(*arguments, exit_code=1)
+        self.assert_six_collisions(runs(subject)[0], 1e-6)
         self.checked(*arguments, "--case", "synchronized-pair", "--set", "eta=0.5")
 
-    def test_that_stops_early_is_judged_as_far_as_it_goes(self):
+    def test_history_that_ends_early_is_assessed_to_its_end(self):
         history, events = self.histories("early", 1e-10, end=10.0)
-        record = self.checked(history, "--events", events, "--tolerance", "1e-6")
-        self.assertEqual(record["files"][0]["score"]["impacts"]["expected"], 3)
+        subject = self.checked(history, "--events", events, "--tolerance", "1e-6")
+        self.assertEqual(runs(subject)[0]["impacts"]["expected"], 3)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import unittest
 
-from peers import HERE, PeerTest, pair
+from peers import HERE, PeerTest, pair, runs
 
 
 def with_scipy():
@@ -32,26 +32,26 @@ class SolveIvp(PeerTest):
                         step, *files], check=True)
         return files
 
-    def test_with_a_tight_tolerance_is_the_true_motion(self):
+    def test_tight_tolerance_agrees(self):
         history, events = self.histories("tight", "DOP853", "rtol=1e-12")
-        record = self.checked(history, "--events", events, "--tolerance", "1e-9")
-        self.assert_collides_as_it_should(record["files"][0], 1e-9)
+        subject = self.checked(history, "--events", events, "--tolerance", "1e-9")
+        self.assert_six_collisions(runs(subject)[0], 1e-9)
 
-    def test_of_large_steps_is_not_refused_but_said_to_be_sparse(self):
+    def test_large_steps_are_noted_as_few_rows(self):
         # Its own steps, a few a period.
         history, _ = self.histories("sparse", "DOP853", "rtol=1e-6")
-        record = self.checked(history)
-        self.assertIn("rows a fast period", " ".join(record["files"][0]["notes"]))
+        subject = self.checked(history)
+        self.assertIn("few-rows-a-period", [note["code"] for note in runs(subject)[0]["file"]["notes"]])
 
-    def test_of_equal_steps_has_the_order_of_the_method(self):
+    def test_equal_steps_have_the_order_of_the_method(self):
         steps = [0.04 / 2**n for n in range(5)]
         files = [self.histories(f"h{h:g}", "RK45", repr(h)) for h in steps]
         histories, events = [f[0] for f in files], [f[1] for f in files]
         with_events = [word for file in events for word in ("--events", file)]
         for arguments in (histories, histories + with_events):
-            record = self.checked(*arguments, "--expect", "proper:5")
-            self.assertAlmostEqual(record["assessment"]["displacement"]["order"], 5.0, delta=0.1)
-            self.assertEqual([file["step_source"] for file in record["files"]], ["name"] * 5)
+            subject = self.checked(*arguments, "--expect", "proper:5")
+            self.assertAlmostEqual(subject["assessment"]["displacement"]["order"], 5.0, delta=0.1)
+            self.assertEqual([run["file"]["step_source"] for run in runs(subject)], ["name"] * 5)
         self.checked(*histories, "--expect", "proper:4", exit_code=1)
 
 

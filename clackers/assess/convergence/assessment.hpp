@@ -25,12 +25,29 @@ struct LadderFit {
   std::vector<double> steps, errors;  ///< of the upper envelope, a value a level
 };
 
-/// The judgement on one method.
+/// A fact, beside the fits, that the verdict rests on. Its numbers by code:
+///
+///     collisions-miscounted   step [s], collisions matched, expected, extra
+///     printed-digits          u_error of the finest history, what printing makes of it
+///     within-tolerance        u_error of the finest history, the tolerance, what printing makes of it
+///     beyond-tolerance        the same
+///     tolerance-not-resolved  the same: error and tolerance are nearer than what printing makes
+///     other-start             distance of the first row from the reference over the envelope
+///     other-collisions        collisions matched, expected, extra, of a history without a claim
+///     sparse-rows             none: rows too far apart to find collisions in them
+struct Evidence {
+  std::string code;
+  Verdict verdict = Verdict::not_claimed;  ///< of this alone
+  std::vector<double> numbers;
+};
+
+/// The assessment of one method, or of the histories of one.
 struct Assessment {
   LadderFit displacement;           ///< decides behaviour and verdict
   LadderFit velocity, impact_time;  ///< shown beside it
   Verdict verdict = Verdict::undecided;
-  std::string sentence;  ///< what was measured and how it compares with the claim, for a person
+  std::string reason;  ///< code of what decided, for `clackers explain`; empty when none is needed
+  std::vector<Evidence> evidence;
 };
 
 }  // namespace clackers::assess

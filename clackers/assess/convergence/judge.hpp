@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "clackers/assess/convergence/assessment.hpp"
 #include "clackers/assess/errors/score.hpp"
 #include "clackers/base/judgement.hpp"
@@ -21,22 +23,52 @@ inline constexpr double least_energy_ratio = 0.5, largest_energy_ratio = 2.0;
 /// An envelope whose order is uncertain by more than this share of the claim decides nothing.
 inline constexpr double envelope_spread = 0.5;
 
-/// Judges a method by its ladder, coarsest level first, against its claim through impacts
-/// (`undecided` claims nothing). `contact_time` [s] is that of a compliant contact, 0 for a rigid
-/// one.
+/// A first row after the start holds the error of some steps; beyond this share of the envelope it
+/// is of another motion.
+inline constexpr double far_start = 0.1;
+
+/// What is known of a history beside its score.
+struct HistoryFacts {
+  long long rows = 0;
+  double printed_floor = 0.0;           ///< part of u_error that printing alone may make
+  double first = 0.0;                   ///< time of the first row [s]
+  double start_error = 0.0;             ///< of the first row, relative to the envelopes
+  bool rows_resolve_collisions = true;  ///< false: rows too far apart to find collisions in them
+};
+
+/// What is known of a method or of histories beside their errors.
+struct Facts {
+  double contact_time = 0.0;             ///< of a compliant contact [s], 0 for a rigid one
+  std::optional<double> tolerance{};     ///< largest allowed u_error of the finest run
+  std::optional<HistoryFacts> finest{};  ///< of the finest history; nothing for a method
+};
+
+/// Assesses a method by its ladder, coarsest level first, against its claim through impacts
+/// (`undecided` claims nothing). Behaviour and verdict go by the displacement error; velocity and
+/// impact times are fitted beside it. The rules for the behaviour, first hit wins:
 ///
-/// Behaviour and verdict go by the displacement error; velocity and impact times are fitted beside
-/// it. Where displacements carry no line and most runs of both finest levels end with an energy
-/// outside [1/2, 2] of the true one, the behaviour is `divergent`.
+///     divergent [energy-growth]     no line, and most runs of both finest levels end with an energy
+///                                   outside [1/2, 2] of the true one
+///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
+///                                   printing makes, and the fit is exact, a floor or has too few
+///                                   levels
+///     reduced                       a straight line of the very order that is claimed as reduced
+///     what fit_ladder found         otherwise
 ///
-/// Verdict: `not claimed` without a claim; `undecided` where the behaviour is, where an exact
-/// motion met a claim of some order (nothing above rounding to measure it on), and where the spread
-/// of an envelope's order covers a claim beyond the tolerance; `agrees` where the behaviour is the
-/// claimed one with an order within the tolerance above, or the claimed reason of a floor;
+/// Verdict on the claim: `not claimed` without a claim; `undecided` where the behaviour is, where an
+/// exact motion met a claim of some order (nothing above rounding to measure it on), where printed
+/// digits hide the order, and where the spread of an envelope's order covers a claim beyond the
+/// tolerance; `agrees` where the behaviour is the claimed one with an order within the tolerance
+/// above, or the claimed reason of a floor (a floor without a claimed reason agrees with any);
 /// otherwise `disagrees`. A claim is two-sided: better than claimed is another behaviour and
 /// disagrees as well. Collisions missed or extra on the two finest levels disagree whatever the
 /// errors say, unless the claim is a floor and their number is right: then they came too late to be
 /// matched.
-Assessment judge(const Ladder& ladder, const Claim& claim, double contact_time);
+///
+/// A tolerance has a verdict of its own, `undecided` where printing makes more than the difference
+/// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of
+/// another motion: it starts far from the reference, misses a collision or has one too many. Of
+/// several verdicts counts the first of disagrees, undecided, agrees, not claimed.
+Assessment judge(const Ladder& ladder, const Claim& claim, const Facts& facts = {});
 
 }  // namespace clackers::assess

@@ -49,64 +49,62 @@ const Claim second{Behaviour::proper, 2.0, ""}, fourth{Behaviour::proper, 4.0, "
     floor_claim{Behaviour::stagnating, 0.0, "contact-stiffness"};
 
 TEST(Judge, WhatIsClaimedAndFoundAgrees) {
-  const auto found = judge(scores(power(2.0)), second, 0.0);
+  const auto found = judge(scores(power(2.0)), second);
   EXPECT_EQ(found.verdict, Verdict::agrees);
   EXPECT_EQ(found.displacement.behaviour, Behaviour::proper);
   EXPECT_EQ(found.velocity.behaviour, Behaviour::proper);
   EXPECT_EQ(found.impact_time.behaviour, Behaviour::proper);
   EXPECT_NEAR(found.velocity.constant, 2.0, 1e-9);
   EXPECT_NEAR(found.impact_time.constant, 3.0, 1e-9);
-  EXPECT_EQ(found.sentence,
-            "The displacement error falls as h^2.00 (+- 0.00) from h = 0.05 s to 0.000391 s. "
-            "Claimed: proper of order 2.");
+  EXPECT_TRUE(found.reason.empty());
+  EXPECT_TRUE(found.evidence.empty());
 }
 
 TEST(Judge, AnotherOrderDisagreesInBothDirections) {
-  const auto lower = judge(scores(power(1.0)), second, 0.0);
+  const auto lower = judge(scores(power(1.0)), second);
   EXPECT_EQ(lower.verdict, Verdict::disagrees);
   EXPECT_EQ(lower.displacement.behaviour, Behaviour::reduced);
-  const auto higher = judge(scores(power(4.0), {.levels = 6}), second, 0.0);
+  const auto higher = judge(scores(power(4.0), {.levels = 6}), second);
   EXPECT_EQ(higher.verdict, Verdict::disagrees);
   EXPECT_EQ(higher.displacement.behaviour, Behaviour::proper);
-  EXPECT_NE(higher.sentence.find("it converges faster"), std::string::npos) << higher.sentence;
 }
 
 TEST(Judge, AnOrderWithinATenthAgrees) {
-  EXPECT_EQ(judge(scores(power(1.81)), second, 0.0).verdict, Verdict::agrees);
-  EXPECT_EQ(judge(scores(power(2.19)), second, 0.0).verdict, Verdict::agrees);
-  EXPECT_EQ(judge(scores(power(1.79)), second, 0.0).verdict, Verdict::disagrees);
-  EXPECT_EQ(judge(scores(power(2.21)), second, 0.0).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(scores(power(1.81)), second).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(power(2.19)), second).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(power(1.79)), second).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(scores(power(2.21)), second).verdict, Verdict::disagrees);
 }
 
 TEST(Judge, AReducedOrderMayBeClaimed) {
   const Claim reduced{Behaviour::reduced, 1.5, ""};
-  const auto found = judge(scores(power(1.5)), reduced, 0.0);
+  const auto found = judge(scores(power(1.5)), reduced);
   EXPECT_EQ(found.verdict, Verdict::agrees);
   EXPECT_EQ(found.displacement.behaviour, Behaviour::reduced);
-  EXPECT_EQ(judge(scores(power(2.0)), reduced, 0.0).verdict, Verdict::disagrees);
-  EXPECT_EQ(judge(scores(power(2.0)), reduced, 0.0).displacement.behaviour, Behaviour::proper);
-  EXPECT_EQ(judge(scores(power(1.0)), reduced, 0.0).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(scores(power(2.0)), reduced).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(scores(power(2.0)), reduced).displacement.behaviour, Behaviour::proper);
+  EXPECT_EQ(judge(scores(power(1.0)), reduced).verdict, Verdict::disagrees);
 }
 
 TEST(Judge, AnIrregularClaimIsComparedWithTheEnvelope) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Scatter scatter(20.0, seed), again(20.0, seed);
-    const auto found = judge(scores([&](double h) { return h / scatter(); }), rough, 0.0);
-    EXPECT_NE(found.verdict, Verdict::disagrees) << found.sentence;
+    const auto found = judge(scores([&](double h) { return h / scatter(); }), rough);
+    EXPECT_NE(found.verdict, Verdict::disagrees);
     EXPECT_EQ(found.displacement.behaviour, Behaviour::irregular);
-    const auto claims_line = judge(scores([&](double h) { return h / again(); }), second, 0.0);
-    EXPECT_EQ(claims_line.verdict, Verdict::disagrees) << claims_line.sentence;
+    const auto claims_line = judge(scores([&](double h) { return h / again(); }), second);
+    EXPECT_EQ(claims_line.verdict, Verdict::disagrees);
   }
 }
 
 TEST(Judge, AnEnvelopeOfHalfTheOrderDisagreesAndOneTooUncertainIsUndecided) {
   Scatter scatter(10.0, 1), wild(1e4, 2);
-  const auto half = judge(scores([&](double h) { return std::sqrt(h) / scatter(); }), rough, 0.0);
+  const auto half = judge(scores([&](double h) { return std::sqrt(h) / scatter(); }), rough);
   EXPECT_EQ(half.displacement.behaviour, Behaviour::irregular);
-  EXPECT_EQ(half.verdict, Verdict::disagrees) << half.sentence;
-  const auto few = judge(scores([&](double h) { return h / wild(); }, {.levels = 4}), rough, 0.0);
-  EXPECT_EQ(few.verdict, Verdict::undecided) << few.sentence;
+  EXPECT_EQ(half.verdict, Verdict::disagrees);
+  const auto few = judge(scores([&](double h) { return h / wild(); }, {.levels = 4}), rough);
+  EXPECT_EQ(few.verdict, Verdict::undecided);
 }
 
 // Rough levels whose largest errors lie at factor e^(+-0.2) around h^order, in the pattern + - - +
@@ -125,18 +123,18 @@ Ladder uncertain(double order) {
 
 TEST(Judge, AnEnvelopeThatMayBeAnythingIsUndecided) {
   for (const double order : {1.0, 1.3}) {
-    const auto found = judge(uncertain(order), rough, 0.0);
+    const auto found = judge(uncertain(order), rough);
     EXPECT_EQ(found.displacement.behaviour, Behaviour::irregular);
     EXPECT_NEAR(found.displacement.order, order, 1e-9);
     EXPECT_NEAR(found.displacement.spread, 0.78, 0.01);
-    EXPECT_EQ(found.verdict, Verdict::undecided) << found.sentence;
+    EXPECT_EQ(found.verdict, Verdict::undecided);
   }
 }
 
 TEST(Judge, ImpactTimesHaveNoSizeOfTheMotion) {
   auto late = scores(power(2.0));
   every_run(late, 0, [](RunScore& run) { run.impacts->worst_time_error = 1.5; });
-  EXPECT_EQ(judge(late, second, 0.0).impact_time.behaviour, Behaviour::stagnating);
+  EXPECT_EQ(judge(late, second).impact_time.behaviour, Behaviour::stagnating);
 }
 
 TEST(Judge, WhatIsUndecidedStaysSoWhateverEnergyAndCollisions) {
@@ -145,7 +143,7 @@ TEST(Judge, WhatIsUndecidedStaysSoWhateverEnergyAndCollisions) {
     run.energy_ratio = 8.0;
     run.impacts->missed = 1;
   });
-  const auto found = judge(unresolved, floor_claim, 1e-4);
+  const auto found = judge(unresolved, floor_claim, {.contact_time = 1e-4});
   EXPECT_EQ(found.displacement.reason, "contact-not-resolved");
   EXPECT_EQ(found.verdict, Verdict::undecided);
 }
@@ -153,45 +151,43 @@ TEST(Judge, WhatIsUndecidedStaysSoWhateverEnergyAndCollisions) {
 TEST(Judge, AnExactMotionAtRestMayEndWithAnyEnergyRatio) {
   auto exact = scores([](double) { return 1e-16; });
   every_run(exact, 0, [](RunScore& run) { run.energy_ratio = 8.0; });
-  EXPECT_EQ(judge(exact, {Behaviour::exact, 0.0, ""}, 0.0).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(exact, {Behaviour::exact, 0.0, ""}).verdict, Verdict::agrees);
 }
 
 TEST(Judge, ALineWhereScatterIsClaimedDisagrees) {
-  const auto found = judge(scores(power(1.0)), rough, 0.0);
+  const auto found = judge(scores(power(1.0)), rough);
   EXPECT_EQ(found.displacement.behaviour, Behaviour::proper);
   EXPECT_EQ(found.verdict, Verdict::disagrees);
 }
 
 TEST(Judge, AFloorAgreesOnlyForTheClaimedReason) {
   const auto flat = scores([](double h) { return 0.3 + h; });
-  const auto found = judge(flat, floor_claim, 0.0157);
-  EXPECT_EQ(found.verdict, Verdict::agrees) << found.sentence;
+  const auto found = judge(flat, floor_claim, {.contact_time = 0.0157});
+  EXPECT_EQ(found.verdict, Verdict::agrees);
   EXPECT_EQ(found.displacement.reason, "contact-stiffness");
-  EXPECT_NE(found.sentence.find("stays at 0.3"), std::string::npos) << found.sentence;
-  EXPECT_EQ(judge(flat, floor_claim, 0.0).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(flat, floor_claim).verdict, Verdict::disagrees);
   const Claim tolerance{Behaviour::stagnating, 0.0, "tolerance-floor"};
-  EXPECT_EQ(judge(flat, tolerance, 0.0).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(flat, tolerance).verdict, Verdict::agrees);
 }
 
 TEST(Judge, AnUnresolvedContactIsUndecided) {
-  const auto found = judge(scores([](double h) { return 0.3 + h; }), floor_claim, 1e-4);
+  const auto found =
+      judge(scores([](double h) { return 0.3 + h; }), floor_claim, {.contact_time = 1e-4});
   EXPECT_EQ(found.verdict, Verdict::undecided);
   EXPECT_EQ(found.displacement.reason, "contact-not-resolved");
 }
 
 TEST(Judge, WithoutAClaimNothingIsCompared) {
-  const auto found = judge(scores(power(1.0)), {}, 0.0);
+  const auto found = judge(scores(power(1.0)), {});
   EXPECT_EQ(found.verdict, Verdict::not_claimed);
   EXPECT_EQ(found.displacement.behaviour, Behaviour::proper);
-  EXPECT_NE(found.sentence.find("Nothing is claimed."), std::string::npos);
 }
 
 TEST(Judge, AnExactMotionAgreesWithTheClaimOfOneAndTellsNothingOfAnOrder) {
   const auto exact = scores([](double) { return 1e-16; });
-  EXPECT_EQ(judge(exact, {Behaviour::exact, 0.0, ""}, 0.0).verdict, Verdict::agrees);
-  const auto found = judge(exact, second, 0.0);
+  EXPECT_EQ(judge(exact, {Behaviour::exact, 0.0, ""}).verdict, Verdict::agrees);
+  const auto found = judge(exact, second);
   EXPECT_EQ(found.verdict, Verdict::undecided);
-  EXPECT_NE(found.sentence.find("larger coarsest step"), std::string::npos) << found.sentence;
 }
 
 TEST(Judge, MissedOrExtraCollisionsOnTheFinestLevelsDisagree) {
@@ -201,32 +197,33 @@ TEST(Judge, MissedOrExtraCollisionsOnTheFinestLevelsDisagree) {
       auto& impacts = *ladder[level].runs[5].impacts;
       (extra ? impacts.extra : impacts.missed) = 1;
       if (!extra) impacts.matched = impacts.found = 5;
-      const auto found = judge(ladder, second, 0.0);
+      const auto found = judge(ladder, second);
       EXPECT_EQ(found.verdict, Verdict::disagrees) << level;
-      EXPECT_NE(found.sentence.find(extra ? "finds 6 of 6 collisions and 1 that did not happen"
-                                          : "finds 5 of 6 collisions and 0 that did not happen"),
-                std::string::npos)
-          << found.sentence;
+      ASSERT_EQ(found.evidence.size(), 1u);
+      EXPECT_EQ(found.evidence[0].code, "collisions-miscounted");
+      const auto& run = ladder[level].runs[5];
+      EXPECT_EQ(found.evidence[0].numbers,
+                (std::vector{run.step, extra ? 6.0 : 5.0, 6.0, extra ? 1.0 : 0.0}));
     }
   auto coarse = scores(power(2.0));
   coarse[5].runs[0].impacts->missed = 1;
-  EXPECT_EQ(judge(coarse, second, 0.0).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(coarse, second).verdict, Verdict::agrees);
 }
 
 TEST(Judge, LateCollisionsDoNotContradictAFloorButMissedOnesDo) {
   auto late = scores([](double) { return 0.9; });
   every_run(late, 0, [](RunScore& run) { run.impacts = ImpactScore{6, 6, 2, 4, 4}; });
-  EXPECT_EQ(judge(late, floor_claim, 0.0157).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(late, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::agrees);
   every_run(late, 0, [](RunScore& run) { run.impacts = ImpactScore{6, 2, 2, 4, 0}; });
-  EXPECT_EQ(judge(late, floor_claim, 0.0157).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(late, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::disagrees);
 }
 
 TEST(Judge, EnergyThatLeavesItsBoundsDiverges) {
   for (const double ratio : {0.4, 2.1, 8.0}) {
     auto ladder = scores([](double h) { return 1.7 + h; });
     every_run(ladder, 6, [&](RunScore& run) { run.energy_ratio = ratio; });
-    const auto found = judge(ladder, second, 0.0);
-    EXPECT_EQ(found.displacement.behaviour, Behaviour::divergent) << found.sentence;
+    const auto found = judge(ladder, second);
+    EXPECT_EQ(found.displacement.behaviour, Behaviour::divergent);
     EXPECT_EQ(found.displacement.reason, "energy-growth");
     EXPECT_EQ(found.verdict, Verdict::disagrees);
   }
@@ -235,15 +232,15 @@ TEST(Judge, EnergyThatLeavesItsBoundsDiverges) {
 TEST(Judge, EnergyDoesNotOverruleALineNorASingleLevelNorAMotionAtRest) {
   auto line = scores(power(2.0));
   every_run(line, 0, [](RunScore& run) { run.energy_ratio = 8.0; });
-  EXPECT_EQ(judge(line, second, 0.0).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(line, second).verdict, Verdict::agrees);
   for (const std::size_t level : {6u, 7u}) {
     auto flat = scores([](double h) { return 0.3 + h; });
     for (auto& run : flat[level].runs) run.energy_ratio = 8.0;
-    EXPECT_EQ(judge(flat, floor_claim, 0.0157).verdict, Verdict::agrees);
+    EXPECT_EQ(judge(flat, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::agrees);
   }
   auto rest = scores([](double h) { return 0.3 + h; });
   every_run(rest, 0, [](RunScore& run) { run.energy_ratio = nan; });
-  EXPECT_EQ(judge(rest, floor_claim, 0.0157).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(rest, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::agrees);
 }
 
 TEST(Judge, ARunThatFailedHasNoErrorHoweverSmall) {
@@ -255,36 +252,32 @@ TEST(Judge, ARunThatFailedHasNoErrorHoweverSmall) {
       run.failure_code = "diverged";
       run.failure = "left the finite numbers at t = 3 s.";
     }
-  EXPECT_EQ(judge(ladder, second, 0.0).verdict, Verdict::agrees);
-  EXPECT_EQ(judge(ladder, second, 0.0).displacement.first_level, 2);
+  EXPECT_EQ(judge(ladder, second).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(ladder, second).displacement.first_level, 2);
   every_run(ladder, 0, [](RunScore& run) { run.finished = false; });
-  const auto found = judge(ladder, second, 0.0);
+  const auto found = judge(ladder, second);
   EXPECT_EQ(found.verdict, Verdict::undecided);
   EXPECT_EQ(found.displacement.reason, "run-failed");
-  EXPECT_NE(found.sentence.find("First failure, h = 0.05 s: left the finite numbers at t = 3 s."),
-            std::string::npos)
-      << found.sentence;
 }
 
 TEST(Judge, WithoutReportedImpactsTheirTimesAreUndecided) {
   auto ladder = scores(power(2.0));
   every_run(ladder, 0, [](RunScore& run) { run.impacts.reset(); });
-  const auto found = judge(ladder, second, 0.0);
+  const auto found = judge(ladder, second);
   EXPECT_EQ(found.verdict, Verdict::agrees);
   EXPECT_EQ(found.impact_time.behaviour, Behaviour::undecided);
   EXPECT_FALSE(found.impact_time.has_line);
 }
 
 TEST(Judge, FewLevelsAreUndecided) {
-  const auto found = judge(scores(power(2.0), {.levels = 3}), second, 0.0);
+  const auto found = judge(scores(power(2.0), {.levels = 3}), second);
   EXPECT_EQ(found.verdict, Verdict::undecided);
-  EXPECT_NE(found.sentence.find("Fewer than four levels"), std::string::npos) << found.sentence;
-  EXPECT_EQ(judge({}, second, 0.0).verdict, Verdict::undecided);
+  EXPECT_EQ(judge({}, second).verdict, Verdict::undecided);
 }
 
 TEST(Judge, ADivergentClaimMayBeMade) {
   const auto found =
-      judge(scores([](double h) { return 1e-6 / h; }), {Behaviour::divergent, 0.0, ""}, 0.0);
+      judge(scores([](double h) { return 1e-6 / h; }), {Behaviour::divergent, 0.0, ""});
   EXPECT_EQ(found.verdict, Verdict::agrees);
 }
 

@@ -1,11 +1,9 @@
 #include "clackers/assess/convergence/richardson.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/convergence/window.hpp"
+#include "clackers/assess/convergence/fit/window.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
@@ -65,10 +63,9 @@ class Extrapolation {
   double q_;
 };
 
-Richardson refused(std::string reason, std::string_view because) {
+Richardson unbounded(std::string_view reason) {
   Richardson none;
-  none.sentence = fmt::format("No bound. {} [{}]", because, reason);
-  none.reason = std::move(reason);
+  none.reason = reason;
   return none;
 }
 
@@ -83,17 +80,12 @@ Richardson extrapolate(std::span<const Response> runs, const SelfContext& contex
   for (const auto& run : runs) levels.push_back({run});
   const auto self = self_convergence(levels, context);
   const auto& fit = self.differences;
-  if (!self.proper) {
-    const auto reason = fit.reason.empty() ? Code("improper-convergence").name() : fit.reason;
-    return refused(std::string(reason), self.sentence);
-  }
+  if (!self.proper)
+    return unbounded(fit.reason.empty() ? Code("improper-convergence").name() : fit.reason);
   const Extrapolation terms(runs, q);
   const int from = std::max(fit.first_level, fit.last_level - shortest_window + 1);
   for (int j = from; j < fit.last_level; ++j)
-    if (!terms.follows(j)) {
-      const Code turned = "differences-turn";
-      return refused(std::string(turned.name()), turned.meaning());
-    }
+    if (!terms.follows(j)) return unbounded(Code("differences-turn").name());
   const int j = fit.last_level;
   Richardson found;
   found.bounded = true;
@@ -102,11 +94,6 @@ Richardson extrapolate(std::span<const Response> runs, const SelfContext& contex
   found.bound = norm(terms.difference(j)) / terms.share(j, q) + terms.rounding(j);
   if (next_order)
     found.estimate = norm(sum(found.value, -1.0, terms.value(j - 1))) / terms.share(j, *next_order);
-  found.sentence = fmt::format(
-      "Extrapolated from h = {:.3g} s and {:.3g} s the values lie within {:.2g} of the limit of "
-      "the "
-      "runs.",
-      runs[std::size_t(j)].step, runs[std::size_t(j) + 1].step, found.bound);
   return found;
 }
 

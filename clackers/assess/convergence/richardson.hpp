@@ -13,7 +13,6 @@ namespace clackers::assess {
 struct Richardson {
   bool bounded = false;       ///< false: the numbers below mean nothing
   std::string reason;         ///< code, empty when bounded
-  std::string sentence;       ///< the bound with its range, or why there is none
   std::vector<double> value;  ///< R = U_{j+1} + (U_{j+1} - U_j) / (r^q - 1), unit of the values
   double bound = 0.0;         ///< of max |R - limit|, same unit, rounding of both runs included
   std::optional<double> estimate;  ///< of the same, from the order of the next term

@@ -27,7 +27,7 @@ TEST(Richardson, APurePowerIsExtrapolatedToItsLimit) {
                                    return Values{5.0 + h * h, -h * h};
                                  }),
                                  second, 3.0);
-  ASSERT_TRUE(found.bounded) << found.sentence;
+  ASSERT_TRUE(found.bounded);
   EXPECT_NEAR(found.value[0], 5.0, 1e-14);
   EXPECT_NEAR(found.value[1], 0.0, 1e-14);
   EXPECT_EQ(found.level, 7);
@@ -60,7 +60,7 @@ TEST(Richardson, TheBoundHoldsAndTheEstimateIsCloseForRandomExpansions) {
 TEST(Richardson, TheMidpointRuleGainsTwoOrders) {
   const auto found = extrapolate(
       chain(runs([](double h) { return Values{midpoint(h)}; }, 7, 1, 0.2)), second, 4.0);
-  ASSERT_TRUE(found.bounded) << found.sentence;
+  ASSERT_TRUE(found.bounded);
   const double off = std::abs(found.value[0] - std::cos(3.0));
   EXPECT_LT(off, 1e-3 * found.bound);
   EXPECT_NEAR(*found.estimate, off, 0.05 * off);
@@ -71,7 +71,7 @@ TEST(Richardson, UnevenRatiosAreTakenAsTheyAre) {
   for (const double h : {0.1, 0.07, 0.03, 0.02, 0.008, 0.003})
     made.push_back({h, {1.0 - 2.0 * h * h, 0.5 + h * h}, 0.0});
   const auto found = extrapolate(made, second);
-  ASSERT_TRUE(found.bounded) << found.sentence;
+  ASSERT_TRUE(found.bounded);
   EXPECT_NEAR(found.value[0], 1.0, 1e-14);
   EXPECT_NEAR(found.bound, 2.0 * 0.003 * 0.003, 1e-14);
   EXPECT_FALSE(found.estimate.has_value());
@@ -86,7 +86,6 @@ TEST(Richardson, AnErrorWhoseSignFlipsIsRefusedAlthoughItsDifferencesAreProper) 
   const auto found = extrapolate(made, second);
   EXPECT_FALSE(found.bounded);
   EXPECT_EQ(found.reason, "differences-turn");
-  EXPECT_NE(found.sentence.find("No bound"), std::string::npos) << found.sentence;
   // Rightly: extrapolation would leave 2/3 of h^2 of the coarser run, the bound says 5/12.
 }
 

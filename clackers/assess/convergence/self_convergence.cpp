@@ -1,14 +1,11 @@
 #include "clackers/assess/convergence/self_convergence.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "clackers/assess/convergence/judge.hpp"
 #include "clackers/assess/convergence/ladder_fit.hpp"
-#include "clackers/assess/convergence/sentence.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
@@ -68,19 +65,6 @@ bool converges(Behaviour behaviour) {
          behaviour == Behaviour::irregular || behaviour == Behaviour::exact;
 }
 
-std::string alone(const SelfConvergence& self) {
-  if (self.differences.behaviour == Behaviour::exact)
-    return "The runs do not differ beyond rounding. Whether they give the true motion, their "
-           "differences cannot tell.";
-  auto found = describe(self.differences, "difference between runs at successive steps");
-  if (self.proper)
-    return found + fmt::format(
-                       " The runs converge properly, at the end to within {:.2g} of their "
-                       "limit. Whether it is the true motion, differences cannot tell.",
-                       believed_factor * self.estimate);
-  return found + " The runs do not show proper convergence: their differences bound no error.";
-}
-
 }  // namespace
 
 SelfConvergence self_convergence(std::span<const ResponseLevel> runs, const SelfContext& context) {
@@ -103,7 +87,6 @@ SelfConvergence self_convergence(std::span<const ResponseLevel> runs, const Self
   self.proper = q > 0.0 && found.behaviour == Behaviour::proper &&
                 std::abs(found.order - q) <= order_tolerance * q;
   self.estimate = found.has_line ? found.errors[std::size_t(found.last_level)] : unknown;
-  self.sentence = alone(self);
   return self;
 }
 
@@ -134,32 +117,11 @@ SelfAgainstReference compare(const SelfConvergence& self, const LadderFit& refer
   const bool wrong_limit =
       converges(seen.behaviour) && reference.behaviour == Behaviour::stagnating;
   const bool grows = converges(seen.behaviour) && reference.behaviour == Behaviour::divergent;
-  const bool too_large = self.proper && both.error_ratio > believed_factor;
+  const bool too_large = self.proper && both.error_ratio > trust_factor;
   const bool same_but_wrong =
       seen.behaviour == Behaviour::exact && reference.behaviour != Behaviour::exact;
-  both.would_have_lied = wrong_limit || grows || too_large || same_but_wrong;
+  both.false_convergence = wrong_limit || grows || too_large || same_but_wrong;
   if (wrong_limit) both.reason = Code("wrong-limit").name();
-  both.sentence = "Without the true motion: " + self.sentence + " With it: " + describe(reference);
-  if (wrong_limit)
-    both.sentence += fmt::format(
-        " Self-convergence would have lied: the runs converge to a limit {:.2g} away from the true "
-        "motion.",
-        reference.errors.empty() ? reference.floor : reference.errors.back());
-  else if (too_large)
-    both.sentence += fmt::format(
-        " Self-convergence would have lied: the error is {:.2g} times what the differences say.",
-        both.error_ratio);
-  else if (both.would_have_lied)
-    both.sentence += " Self-convergence would have lied.";
-  else if (self.proper)
-    both.sentence += fmt::format(
-        " Self-convergence would have told the reference: the error is {:.2g} times what the "
-        "differences say.",
-        both.error_ratio);
-  else if (converges(reference.behaviour) && !converges(seen.behaviour))
-    both.sentence += " Self-convergence would have said less than is true.";
-  else
-    both.sentence += " Self-convergence would have promised nothing.";
   return both;
 }
 

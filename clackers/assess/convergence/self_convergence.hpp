@@ -39,7 +39,6 @@ struct SelfConvergence {
   /// The pseudo error of the finest level of their line, NaN without one: where the sequence is
   /// proper and its limit the true motion, the error of the finer run is at most twice this.
   double estimate = 0.0;
-  std::string sentence;  ///< what may be concluded without a true motion, and what may not
 };
 
 /// Judges runs by their differences, coarsest level first. Five levels are the least: four
@@ -63,14 +62,13 @@ LadderFit true_convergence(std::span<const ResponseLevel> runs, std::span<const 
 /// A true error above this many pseudo errors contradicts them: where successive differences shrink
 /// by r^-q within the departure that extrapolation allows (richardson.hpp), the error is at most
 /// twice the pseudo error.
-inline constexpr double believed_factor = 2.0;
+inline constexpr double trust_factor = 2.0;
 
-/// What self-convergence would have made a user believe, against the reference.
+/// What the differences promise, compared with the reference solution.
 struct SelfAgainstReference {
-  bool would_have_lied = false;
+  bool false_convergence = false;  ///< the differences promise what the errors do not keep
   std::string reason;        ///< "wrong-limit" where the errors stop and the differences do not
   double error_ratio = 0.0;  ///< true error over pseudo error at `estimate`; NaN without both
-  std::string sentence;      ///< both findings side by side, and which to believe
 };
 
 /// Compares what the differences say with the errors of the same runs (true_convergence).

@@ -16,10 +16,6 @@ using namespace synthetic;
 using std::pow;
 using Values = std::vector<double>;
 
-bool says(const std::string& sentence, std::string_view part) {
-  return sentence.find(part) != std::string::npos;
-}
-
 TEST(SelfConvergence, ThePseudoErrorOfAPowerIsTheErrorOfTheFinerRun) {
   for (const double q : {1.0, 2.0, 4.0}) {
     const auto made = runs([&](double h) { return Values{5.0 + 3.0 * pow(h, q)}; }, 6, 4);
@@ -63,7 +59,6 @@ TEST(SelfConvergence, AnotherOrderThanClaimedIsNotProper) {
     const auto self =
         self_convergence(runs([](double h) { return Values{h * h}; }), {.claimed_order = q});
     EXPECT_FALSE(self.proper) << q;
-    EXPECT_TRUE(says(self.sentence, "do not show proper convergence")) << self.sentence;
   }
 }
 
@@ -82,14 +77,14 @@ TEST(SelfConvergence, TheFloorsOfBothRunsEndTheLine) {
   EXPECT_FALSE(self_convergence(made, {.claimed_order = 2.0}).proper);
   for (auto& runs : made) runs[0].floor = 1e-6;
   const auto self = self_convergence(made, {.claimed_order = 2.0});
-  EXPECT_TRUE(self.proper) << self.sentence;
+  EXPECT_TRUE(self.proper);
   EXPECT_LT(self.differences.last_level, 7);
   EXPECT_GT(self.differences.floor, 2e-6 / 3.0);
   EXPECT_LT(self.differences.floor, rounding_slack * 2e-6 / 3.0);
   // Nothing above ten floors of both runs together: 2 / 3 of one of them each.
   for (auto& runs : made) runs[0].floor = 1.01 * 2.5e-3 / (10.0 * 2.0 / 3.0);
   const auto none = self_convergence(made, {.claimed_order = 2.0});
-  EXPECT_EQ(none.differences.behaviour, Behaviour::exact) << none.sentence;
+  EXPECT_EQ(none.differences.behaviour, Behaviour::exact);
   for (auto& runs : made) runs[0].floor *= 0.98;
   EXPECT_NE(self_convergence(made, {.claimed_order = 2.0}).differences.behaviour, Behaviour::exact);
 }

@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "clackers/model/run.hpp"
+
 namespace clackers::assess {
 
 /// What a ladder of steps is asked for.
@@ -19,8 +21,7 @@ struct StepLevel {
   std::vector<double> steps;      ///< end / n [s], coarsest first
 };
 
-/// No run has more steps than this.
-inline constexpr double most_steps = 1e9;
+using model::most_steps;
 
 /// The steps end / n of a study, n whole, so that every run ends on `end`.
 ///

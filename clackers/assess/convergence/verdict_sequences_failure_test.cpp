@@ -60,8 +60,7 @@ const VerdictSequence rows[] = {
      .claim = claims(2),
      .behaviour = undecided,
      .verdict = Verdict::undecided,
-     .reason = "run-failed",
-     .said = "First failure, h = 0.000391 s: left the finite numbers."},
+     .reason = "run-failed"},
     {.name = "infinite errors at the finest steps are not passed over",
      .make =
          [] {
@@ -140,7 +139,6 @@ const VerdictSequence rows[] = {
      .verdict = Verdict::disagrees,
      .order = 2.0,
      .within = 1e-9,
-     .said = "finds 5 of 6 collisions",
      .change = at_the_end([](RunScore& run) {
        run.impacts->found = run.impacts->matched = 5;
        run.impacts->missed = 1;

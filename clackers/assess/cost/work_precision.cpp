@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "clackers/base/check.hpp"
@@ -62,26 +61,21 @@ double cost(const RunScore& run, Counter counter) {
   return run.seconds;
 }
 
-WorkCurve work_curve(const Ladder& ladder, Counter counter, const ErrorMeasure& error) {
+WorkCurve work_curve(const Ladder& ladder, Counter counter) {
   WorkCurve curve;
-  curve.counter = counter;
   for (const auto& level : ladder) {
-    WorkLevel worst{.step = level.step};
-    for (const auto& run : level.runs) {
-      const double work = cost(run, counter);
-      const double off = error ? error(run) : run.u_error;
-      if (off < 0.0) refuse(who, "error", off, "0 or more");
-      curve.counts = curve.counts || work > 0.0;
-      worst.work = std::max(worst.work, work);
-      if (run.finished && std::isfinite(off)) {
-        worst.error = std::max(worst.error, off);
-        curve.runs.push_back({run.step, work, off});
-      } else {
-        worst.error = std::numeric_limits<double>::infinity();
-        curve.failures.push_back({run.step, work, run.failure_code});
-      }
+    if (level.runs.empty()) continue;
+    auto runs = level.runs;
+    for (auto& run : runs) {
+      if (run.u_error < 0.0) refuse(who, "error", run.u_error, "0 or more");
+      run.finished = run.finished && std::isfinite(run.u_error);
+      if (run.finished) curve.runs.push_back({run.step, cost(run, counter), run.u_error});
     }
-    if (!level.runs.empty()) curve.envelope.push_back(worst);
+    const auto largest = worst(runs);
+    curve.envelope.push_back({.step = level.step,
+                              .work = cost(largest, counter),
+                              .error = largest.u_error,
+                              .failed = int(std::ranges::count(runs, false, &RunScore::finished))});
   }
   std::ranges::stable_sort(
       curve.runs, {}, [](const WorkPoint& point) { return std::tuple(point.work, point.error); });
@@ -93,7 +87,7 @@ std::optional<double> work_for(const WorkCurve& curve, double error) {
   require_positive(who, "error to reach", error);
   std::optional<double> least;
   for (auto level = curve.envelope.rbegin(); level != curve.envelope.rend(); ++level) {
-    if (!(level->error <= error)) break;
+    if (level->failed > 0 || !(level->error <= error)) break;
     least = least ? std::min(*least, level->work) : level->work;
   }
   return least;

@@ -64,8 +64,6 @@ TEST(WorkPrecision, ACurveHasEveryRunInTheOrderOfItsWork) {
     EXPECT_EQ(curve.runs[i].on_front, front[i]) << i;
   }
   EXPECT_EQ(curve.runs[3].step, 0.15);
-  EXPECT_TRUE(curve.counts);
-  EXPECT_EQ(curve.counter, Counter::force_evaluations);
 }
 
 TEST(WorkPrecision, OfEqualWorkTheSmallerErrorIsOnTheFrontAndTwinsBothAre) {
@@ -91,31 +89,23 @@ TEST(WorkPrecision, TheEnvelopeIsTheWorstOfEachLevel) {
   }
 }
 
-TEST(WorkPrecision, FailuresAreKeptAndMakeTheirLevelInfinite) {
+TEST(WorkPrecision, FailedRunsAreCountedAndLeftOutOfTheEnvelope) {
   auto ladder = three_levels();
-  ladder[1].runs[1] = failed(0.15, 9);
+  ladder[1].runs[1] = failed(0.15, 900);
   ladder[0].runs[0].u_error = HUGE_VAL;
+  ladder[2].runs = {failed(0.1, 9)};
   const auto curve = work_curve(ladder, Counter::steps);
-  EXPECT_EQ(curve.runs.size(), 4u);
-  ASSERT_EQ(curve.failures.size(), 2u);
-  EXPECT_EQ(curve.failures[1].code, "diverged");
-  EXPECT_EQ(curve.failures[1].work, 9.0);
-  EXPECT_EQ(curve.failures[1].step, 0.15);
-  EXPECT_TRUE(std::isinf(curve.envelope[1].error));
+  EXPECT_EQ(curve.runs.size(), 2u);
+  EXPECT_EQ(curve.envelope[0].failed, 1);
+  EXPECT_EQ(curve.envelope[0].error, 3.0);
+  EXPECT_EQ(curve.envelope[1].failed, 1);
+  EXPECT_EQ(curve.envelope[1].error, 1.0);
   EXPECT_EQ(curve.envelope[1].work, 20.0);
+  EXPECT_TRUE(std::isnan(curve.envelope[2].error));
 }
 
-TEST(WorkPrecision, ACounterThatAMethodDoesNotHaveIsSaid) {
-  EXPECT_FALSE(work_curve(three_levels(), Counter::newton_iterations).counts);
-  EXPECT_FALSE(work_curve({}, Counter::steps).counts);
-}
-
-TEST(WorkPrecision, AnyErrorMayBeMeasured) {
-  const auto curve =
-      work_curve(three_levels(), Counter::steps, [](const RunScore& one) { return one.v_error; });
-  EXPECT_EQ(curve.envelope[0].error, 40.0);
-  EXPECT_THROW(work_curve(three_levels(), Counter::steps, [](const RunScore&) { return -1.0; }),
-               InputError);
+TEST(WorkPrecision, NegativeErrorIsRefused) {
+  EXPECT_THROW(work_curve({{0.1, {run(0.1, 1, -1.0)}}}, Counter::steps), InputError);
 }
 
 TEST(WorkPrecision, AnErrorIsReachedWhereAllFinerLevelsReachItToo) {

@@ -13,10 +13,10 @@
 #include "clackers/assess/testing/synthetic_ladder.hpp"
 #include "clackers/base/judgement.hpp"
 
-// Rows of the tables of errors that are built to fool a verdict, for tests.
+// Ladders of errors that a simple rule would misjudge, for tests.
 namespace clackers::assess {
 
-/// A ladder of errors, what is claimed of it, and what an expert says of it.
+/// A ladder of errors, what is claimed of it, and the verdict of an expert.
 struct VerdictSequence {
   std::string_view name;  ///< a sentence in lower case: how it is made, and what it is
   std::function<std::vector<ErrorLevel>()> make;
@@ -25,7 +25,6 @@ struct VerdictSequence {
   Verdict verdict = Verdict::undecided;
   std::string_view reason = {};              ///< code, empty for none
   double order = 0.0, within = 0.0;          ///< of the line; within 0: there is no line
-  std::string_view said = {};                ///< part of the sentence
   double contact_time = 0.0;                 ///< of a compliant contact [s]
   std::function<void(Ladder&)> change = {};  ///< what else is wrong with the runs
 };

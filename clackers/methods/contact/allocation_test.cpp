@@ -31,7 +31,7 @@ struct CountingSink : model::Sink {
   bool take(const model::ReportedImpact&) override { return ++impacts, true; }
 };
 
-// n masses between n stops, started apart from them.
+// n masses between n stops, started away from them.
 model::ImpactProblem<> masses(int n, double eta) {
   model::ImpactProblem<> p;
   p.system.mass = p.system.stiffness = Eigen::MatrixXd::Identity(n, n);

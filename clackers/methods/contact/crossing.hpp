@@ -7,14 +7,14 @@
 
 namespace clackers::methods {
 
-/// The opening of a contact at one instant of a step.
+/// The gap of a contact at one instant of a step.
 struct GapSample {
   double s = 0.0;     ///< after the start of the piece of the step that is looked at [s]
-  double g = 0.0;     ///< opening [m]
+  double g = 0.0;     ///< gap [m]
   double rate = 0.0;  ///< dg/ds [m/s]
 };
 
-/// Control points of the cubic that meets opening and rate at both ends. The cubic lies between
+/// Control points of the cubic that meets gap and gap rate at both ends. The cubic lies between
 /// the smallest and the largest of them; where all are >= 0 it does not cross 0.
 struct GapCubic {
   double first, second, third, last;

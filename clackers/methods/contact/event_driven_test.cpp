@@ -1,6 +1,8 @@
 #include "clackers/methods/contact/event_driven.hpp"
 
-#include "clackers/base/error.hpp"
+#include <functional>
+
+#include "clackers/base/testing/refusal.hpp"
 #include "clackers/methods/testing/runs.hpp"
 #include "clackers/methods/testing/stepper_checks.hpp"
 
@@ -11,8 +13,13 @@ using runs::mass_on_stop;
 using runs::RattlingMass;
 using runs::run;
 
-const auto integrators = {"newmark", "central-difference", "rk4", "generalized-alpha:rho=0.8",
-                          "generalized-alpha:rho=0"};
+// Every registered one, and two with parameters that matter here.
+const std::vector<std::string> integrators = [] {
+  std::vector<std::string> all{"generalized-alpha:rho=0.8", "generalized-alpha:rho=0"};
+  for (const auto& entry : entries())
+    if (entry.kind == "integrator") all.push_back(entry.name);
+  return all;
+}();
 
 // A mass thrown up under unit gravity, its floor at u = 0.
 model::ImpactProblem<> ball(double u, double v, double eta, double end) {
@@ -23,7 +30,7 @@ model::ImpactProblem<> ball(double u, double v, double eta, double end) {
 
 TEST(EventDriven, KeepsTheOrderOfTheIntegratorThroughImpacts) {
   for (const double eta : {1.0, 0.7})
-    for (const std::string name : integrators) {
+    for (const auto& name : integrators) {
       const RattlingMass reference{.sigma = 0.05, .eta = eta, .w = 1.3};
       const auto claim = method(name)->facts().through_impacts;
       EXPECT_EQ(claim.behaviour, Behaviour::proper);
@@ -46,15 +53,17 @@ TEST(EventDriven, KeepsTheOrderOfTheIntegratorThroughImpacts) {
     }
 }
 
-TEST(EventDriven, FiresOnceAnImpactAndMissesNone) {
+// An undamped mass hits its stop every half period. An integrator of order p shifts its frequency by
+// at most 0.5 (w h)^p: measured 0.44 for generalized-alpha:rho=0, the others less.
+TEST(EventDriven, FindsEveryImpactOnce) {
   const RattlingMass reference{.sigma = 0.0, .eta = 1.0, .w = 1.0};
-  for (const std::string name : integrators)
+  for (const auto& name : integrators)
     for (const double n : {997.0, 2000.0, 6283.0}) {
+      SCOPED_TRACE(testing::Message() << name << " n = " << n);
       const auto [path, outcome] = run(name, reference.problem(301.0), 300.0 / n);
+      const double shift = 0.5 * std::pow(300.0 / n, method(name)->facts().smooth_order);
       ASSERT_TRUE(outcome.finished);
-      if (name == "rk4") {
-        EXPECT_EQ(path.impacts->size(), 96u) << n;  // (2 k - 1) pi/2 in (1, 301)
-      }
+      EXPECT_NEAR(double(path.impacts->size()), 96.0, 0.5 + 96.0 * shift);  // (2 k - 1) pi/2 < 301
       for (std::size_t k = 0; k < path.impacts->size(); ++k) {
         const auto& impact = (*path.impacts)[k];
         EXPECT_LT(impact.v_before[0], 0.0);
@@ -62,7 +71,8 @@ TEST(EventDriven, FiresOnceAnImpactAndMissesNone) {
         EXPECT_NEAR(impact.impulse, 4.0 * impact.v_after[0], 1e-14);
         EXPECT_GE(impact.u[0], 0.0);
         if (k > 0) {
-          EXPECT_GT(impact.t - (*path.impacts)[k - 1].t, 2.5);
+          EXPECT_NEAR(impact.t - (*path.impacts)[k - 1].t, std::numbers::pi,
+                      std::numbers::pi * shift + 1e-12);
         }
       }
       for (const double u : path.u) EXPECT_GE(u, 0.0);
@@ -129,6 +139,41 @@ TEST(EventDriven, PassesAGrazeThatDoesNotTouch) {
   }
 }
 
+// A large step under a load that changes fast: the step map reaches the floor where its velocity is
+// upwards. This is grazing, and no impact.
+model::ImpactProblem<> grazing(double end, std::function<double(double)> load) {
+  auto p = mass_on_stop(1.0, 0.0, 0.0, 1.0, -1.0, 1.0, end);
+  p.system.add_load = [load](double t, std::span<double> f) { f[0] += load(t); };
+  return p;
+}
+
+// Average acceleration, u(s) = 1 - s + s^2/4 [f(0) + f(s)], is positive before s = 3 under this load
+// and crosses 0 there with v = 1/3. The flight from there is pulled down again.
+TEST(EventDriven, MeetsAnImpactAfterGrazingInTheSameStep) {
+  const auto load = [](double t) {
+    return t < 2.5 ? std::min(0.5 + 0.1 * t, 0.6) : 0.6 - (2.0 / 0.9 - 1.8) * (t - 2.5);
+  };
+  const auto [path, outcome] = run("newmark", grazing(10.0, load), 10.0);
+  ASSERT_TRUE(outcome.finished) << outcome.detail;
+  ASSERT_GE(path.impacts->size(), 1u);
+  EXPECT_GT(path.impacts->front().t, 3.0);
+  EXPECT_LT(path.impacts->front().v_before[0], 0.0);
+  EXPECT_GE(path.u.back(), 0.0);
+}
+
+TEST(EventDriven, MeetsAContactAgainThatGrazedBeforeAnImpactElsewhere) {
+  // The central difference grazes at t = 1. Thrown up from there, the mass comes back from a ceiling at u = 3 within the same step.
+  auto p = grazing(3.0, [](double t) { return 10.0 * t; });
+  p.contacts.push_back({Eigen::VectorXd::Constant(1, -1.0), -3.0, 1.0});
+  const auto [path, outcome] = run("central-difference", p, 3.0);
+  ASSERT_TRUE(outcome.finished) << outcome.detail;
+  ASSERT_GE(path.impacts->size(), 2u);
+  EXPECT_EQ((*path.impacts)[0].contact, 1);
+  EXPECT_EQ((*path.impacts)[1].contact, 0);
+  EXPECT_GE(path.u.back(), 0.0);
+  EXPECT_LE(path.u.back(), 3.0);
+}
+
 TEST(EventDriven, KeepsTheEnergyOfAnElasticImpact) {
   const RattlingMass reference{.sigma = 0.0, .eta = 1.0, .w = 1.0};
   const auto [path, outcome] = run("newmark", reference.problem(101.0), 0.1);
@@ -172,7 +217,7 @@ TEST(EventDriven, RepeatsARunToTheBit) {
 // Resting contact.
 
 TEST(EventDriven, RestsAfterAnImpactThatGivesNothingBack) {
-  for (const std::string name : integrators) {
+  for (const auto& name : integrators) {
     const auto [path, outcome] = run(name, ball(0.5, 0.0, 0.0, 3.0), 0.07);
     ASSERT_TRUE(outcome.finished) << outcome.detail;
     EXPECT_EQ(path.impacts->size(), 1u);
@@ -289,7 +334,7 @@ TEST(EventDriven, ObjectsToCoupledContactsClosedAtTheStart) {
   const auto no = method("rk4")->objection(p);
   ASSERT_TRUE(no);
   EXPECT_EQ(no->code, Code("simultaneous-contacts"));
-  EXPECT_THROW(method("rk4")->prepare(p, 0.1), InputError);
+  EXPECT_REFUSED(method("rk4")->prepare(p, 0.1), "simultaneous-contacts", no->sentence);
 }
 
 // How a run ends.
@@ -331,15 +376,33 @@ TEST(EventDriven, EndsAtTheImpactWhereTheSinkSaysSo) {
 }
 
 TEST(EventDriven, RunsANonlinearForceOfAnySize) {
-  auto p = mass_on_stop(1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 30.0);
-  p.system.nonlinear = std::make_shared<checks::CubicForce<model::any_dof>>();
-  p.system.damping.setZero();
-  for (const std::string name : {"newmark", "rk4"}) {
-    const auto [path, outcome] = run(name, p, 0.01);
-    EXPECT_TRUE(outcome.finished) << outcome.detail;
-    EXPECT_GT(path.impacts->size(), 3u);
-    EXPECT_EQ(outcome.work.newton_iterations > 0, name == "newmark");
-  }
+  for (const int n : {1, 2, 3})
+    for (const auto& name : integrators) {
+      SCOPED_TRACE(testing::Message() << name << " n = " << n);
+      // Equal masses on cubic springs; the first has a stop. Each moves by itself, so the first one
+      // does the same for every n.
+      model::ImpactProblem<> p;
+      p.system.mass = Eigen::MatrixXd::Identity(n, n);
+      p.system.damping = p.system.stiffness = Eigen::MatrixXd::Zero(n, n);
+      p.system.nonlinear = std::make_shared<checks::CubicForce<model::any_dof>>();
+      p.contacts = {{Eigen::VectorXd::Unit(n, 0), 0.0, 1.0}};
+      p.start = {0.0, Eigen::VectorXd::LinSpaced(n, 1.0, 1.5), Eigen::VectorXd::Zero(n)};
+      if (n == 1) p.start.u[0] = 1.0;
+      p.end = 10.0;
+      const auto [path, outcome] = run(name, p, 0.01);
+      ASSERT_TRUE(outcome.finished) << outcome.detail;
+      EXPECT_EQ(outcome.work.newton_iterations > 0, name != "rk4");
+      auto alone = p;
+      alone.system.mass = Eigen::MatrixXd::Identity(1, 1);
+      alone.system.damping = alone.system.stiffness = Eigen::MatrixXd::Zero(1, 1);
+      alone.contacts[0].direction = Eigen::VectorXd::Ones(1);
+      alone.start = {0.0, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
+      const auto reference = run("rk4", alone, 0.001).trajectory;
+      EXPECT_EQ(path.impacts->size(), reference.impacts->size());
+      EXPECT_GE(path.impacts->size(), 2u);
+      // Second order, (w h)^2 / 12 a radian with w below 2, over 10 s.
+      EXPECT_NEAR(path.u[path.u.size() - std::size_t(n)], reference.u.back(), 2e-3);
+    }
 }
 
 }  // namespace

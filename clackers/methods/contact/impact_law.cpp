@@ -16,8 +16,8 @@ std::vector<ImpactLaw<Dof>> impact_laws(const model::ImpactProblem<Dof>& problem
   std::vector<ImpactLaw<Dof>> laws;
   for (const auto& contact : problem.contacts) {
     ImpactLaw<Dof> law{contact, contact.direction, 0.0};
-    mass.solve_in_place(law.push);
-    law.mobility = contact.direction.dot(law.push);
+    mass.solve_in_place(law.inverse_mass_direction);
+    law.inverse_effective_mass = contact.direction.dot(law.inverse_mass_direction);
     laws.push_back(law);
   }
   return laws;
@@ -26,17 +26,17 @@ std::vector<ImpactLaw<Dof>> impact_laws(const model::ImpactProblem<Dof>& problem
 template <int Dof>
 bool are_coupled(const ImpactLaw<Dof>& one, const ImpactLaw<Dof>& other) {
   // Orthogonal rows leave n products' rounding; any real coupling is far larger.
-  const double size = std::sqrt(one.mobility * other.mobility);
-  const double n = double(one.push.size());
+  const double size = std::sqrt(one.inverse_effective_mass * other.inverse_effective_mass);
+  const double n = double(one.inverse_mass_direction.size());
   const double rounding = 16.0 * n * std::numeric_limits<double>::epsilon();
-  return std::abs(one.contact.direction.dot(other.push)) > rounding * size;
+  return std::abs(one.contact.direction.dot(other.inverse_mass_direction)) > rounding * size;
 }
 
-std::string simultaneous(double t, std::size_t one, std::size_t other) {
+std::string simultaneous(std::size_t one, std::size_t other) {
   return fmt::format(
-      "t = {} s: contacts {} and {} share a mass and are closed together, which needs a "
-      "complementarity solver",
-      t, one + 1, other + 1);
+      "contacts {} and {} share a mass and are closed together, which needs a complementarity "
+      "solver",
+      one + 1, other + 1);
 }
 
 std::optional<Objection> objection_to_closed_contacts(const std::string& who,
@@ -48,8 +48,8 @@ std::optional<Objection> objection_to_closed_contacts(const std::string& who,
   for (std::size_t i = 0; i < laws.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (is_closed(laws[i]) && is_closed(laws[j]) && are_coupled(laws[i], laws[j]))
-        return Objection{fmt::format("{}: {}. Start with one of them open.", who,
-                                     simultaneous(problem.start.t, j, i)),
+        return Objection{fmt::format("{}: t = {} s: {}. Start with one of them open.", who,
+                                     problem.start.t, simultaneous(j, i)),
                          "simultaneous-contacts"};
   return std::nullopt;
 }

@@ -18,17 +18,18 @@ struct ImpactLaw {
   using Vector = model::Vector<Dof>;
 
   model::Contact<Dof> contact;
-  Vector push;            ///< M^-1 b: the velocity that a unit impulse along b gives [1/kg]
-  double mobility = 0.0;  ///< b . M^-1 b [1/kg]
+  Vector inverse_mass_direction;  ///< M^-1 b: the velocity that a unit impulse along b gives [1/kg]
+  double inverse_effective_mass = 0.0;  ///< b . M^-1 b [1/kg]
 
   /// Turns the velocity before an impact into the one after it. Returns the impulse along b [N s].
   double apply(Vector& v) const {
-    const double impulse = -(1.0 + contact.restitution) * contact.gap_rate(v) / mobility;
-    v += impulse * push;
+    const double impulse =
+        -(1.0 + contact.restitution) * contact.gap_rate(v) / inverse_effective_mass;
+    v += impulse * inverse_mass_direction;
     return impulse;
   }
 
-  /// How far from 0 the opening can be by rounding alone [m]: n products and the gap, and as much
+  /// How far from 0 the gap can be by rounding alone [m]: n products and the gap, and as much
   /// again for u itself being rounded, twice.
   double rounding(const Vector& u) const {
     const double terms = contact.direction.cwiseAbs().dot(u.cwiseAbs()) + std::abs(contact.gap);
@@ -39,7 +40,7 @@ struct ImpactLaw {
 template <int Dof>
 std::vector<ImpactLaw<Dof>> impact_laws(const model::ImpactProblem<Dof>& problem);
 
-/// True where an impulse at one contact changes the opening rate at the other.
+/// True where an impulse at one contact changes the gap rate at the other.
 template <int Dof>
 bool are_coupled(const ImpactLaw<Dof>& one, const ImpactLaw<Dof>& other);
 
@@ -49,6 +50,6 @@ std::optional<Objection> objection_to_closed_contacts(const std::string& who,
                                                       const model::ImpactProblem<>& problem);
 
 /// What the same treatments say when it happens during a run.
-std::string simultaneous(double t, std::size_t one, std::size_t other);
+std::string simultaneous(std::size_t one, std::size_t other);
 
 }  // namespace clackers::methods

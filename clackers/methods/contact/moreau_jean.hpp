@@ -6,8 +6,6 @@
 
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
-#include "clackers/methods/recorder.hpp"
-#include "clackers/methods/step_plan.hpp"
 
 namespace clackers::methods {
 
@@ -20,8 +18,9 @@ namespace clackers::methods {
 ///     0 <= b.v1 + eta b.v0 _|_ P >= 0     otherwise
 ///
 /// The contact is thus decided by a predictor at half a step, and the impact happens somewhere in
-/// the step. It is reported at the end of the step. One contact is handled at a time: two whose
-/// impulses change each other's opening rate end the run where both need one in the same step.
+/// the step. It is reported at the end of the step. One contact is handled at a time: an impulse
+/// that changes the gap rate of another contact ends the run where that one has an impulse in the
+/// same step or, closed, needs one because of it.
 ///
 /// Order       1 of the upper envelope; in smooth motion 2 for theta = 1/2, otherwise 1.
 /// Stability   for every h.
@@ -33,7 +32,7 @@ struct MoreauJean {
   static constexpr std::string_view name = "moreau-jean";
   static constexpr std::string_view summary =
       "time-stepping with velocity impulses, impacts not located inside the step";
-  static const std::vector<ParameterOf<MoreauJean>>& parameters();
+  static const std::vector<Field<MoreauJean>>& fields();
 
   double theta = 0.5;  ///< in [1/2, 1]; below 1/2 the method is unstable for every h
 
@@ -41,7 +40,6 @@ struct MoreauJean {
   void validate() const;
   Facts facts() const;
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const;
-  double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
 
   template <int Dof>
   class TimeLoop;

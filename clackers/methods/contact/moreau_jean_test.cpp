@@ -1,6 +1,6 @@
 #include "clackers/methods/contact/moreau_jean.hpp"
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 #include "clackers/methods/testing/runs.hpp"
 #include "clackers/methods/testing/stepper_checks.hpp"
 
@@ -68,7 +68,7 @@ TEST(MoreauJean, IsStableAtALargeStep) {
   for (const std::string name : {"moreau-jean", "moreau-jean:theta=0.75"}) {
     const auto path = run(name, p, 100.0).trajectory;
     EXPECT_LT(std::abs(path.u.back()), 1e3);
-    EXPECT_TRUE(method(name)->facts().unconditionally_stable);
+    EXPECT_TRUE(method(name)->facts().is_unconditionally_stable());
   }
 }
 
@@ -120,7 +120,8 @@ TEST(MoreauJean, RefusesWhatItCannotTake) {
   ASSERT_TRUE(no);
   EXPECT_EQ(no->code, Code("linear-only"));
   for (const double theta : {0.49, 1.01, double(NAN)})
-    EXPECT_THROW(MoreauJean{theta}.validate(), InputError);
+    EXPECT_REFUSED(MoreauJean{theta}.validate(), theta != theta ? "not-a-number" : "out-of-range",
+                   "1/2 <= theta <= 1");
 }
 
 TEST(MoreauJean, EndsWhereTwoImpulsesChangeEachOther) {
@@ -136,6 +137,25 @@ TEST(MoreauJean, EndsWhereTwoImpulsesChangeEachOther) {
   const auto [path, outcome] = run("moreau-jean", p, 0.3);
   EXPECT_TRUE(outcome.finished);
   EXPECT_EQ(path.impacts->size(), 2u);
+}
+
+// Masses 1 and 2 touch at rest when mass 3 strikes mass 2 from below. That impulse makes the closed
+// contact close, whichever number it has.
+TEST(MoreauJean, DoesNotDependOnTheNumbersOfTheContacts) {
+  model::ImpactProblem<> p;
+  p.system.mass = Eigen::Matrix3d::Identity();
+  p.system.damping = p.system.stiffness = Eigen::Matrix3d::Zero();
+  p.contacts = {{Eigen::Vector3d(1, -1, 0), 0.0, 1.0}, {Eigen::Vector3d(0, 1, -1), 0.0, 1.0}};
+  p.start = {0.0, Eigen::Vector3d(0, 0, -2), Eigen::Vector3d(0, 0, 1)};
+  p.end = 6.0;
+  const auto one = run("moreau-jean", p, 0.3);
+  std::swap(p.contacts[0], p.contacts[1]);
+  const auto other = run("moreau-jean", p, 0.3);
+  EXPECT_EQ(one.outcome.reason, Code("simultaneous-contacts"));
+  EXPECT_FALSE(one.outcome.finished);
+  EXPECT_EQ(other.outcome.reason, Code("simultaneous-contacts"));
+  EXPECT_FALSE(other.outcome.finished);
+  EXPECT_EQ(one.trajectory.u, other.trajectory.u);
 }
 
 }  // namespace

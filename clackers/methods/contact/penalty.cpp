@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
 
 #include "clackers/base/check.hpp"
+#include "clackers/methods/rows.hpp"
 
 namespace clackers::methods {
 namespace {
 
-constexpr double standard_factor = 1e4;
+constexpr double default_factor = 1e4;
 
 // The degree of freedom whose stiffness sets the default of a contact.
 template <int Dof>
@@ -21,21 +24,73 @@ Eigen::Index first_touched(const model::Contact<Dof>& contact) {
   return i;
 }
 
+// Linear one-sided springs at the contacts, p = sum_j stiffness_j min(g_j, 0) b_j, in addition to
+// the force that a system has already.
+template <int Dof>
+class PenaltyForce final : public model::NonlinearForce<Dof> {
+ public:
+  using Vector = model::Vector<Dof>;
+  using Matrix = model::Matrix<Dof>;
+
+  // One stiffness a contact [N/m]. `other` may be empty.
+  PenaltyForce(std::vector<model::Contact<Dof>> contacts, std::vector<double> stiffnesses,
+               std::shared_ptr<const model::NonlinearForce<Dof>> other)
+      : contacts_(std::move(contacts)),
+        stiffnesses_(std::move(stiffnesses)),
+        other_(std::move(other)) {}
+
+  void add(const Vector& u, const Vector& v, Vector& p) const override;
+  void add_tangent(const Vector& u, const Vector& v, Matrix& dp_du, Matrix& dp_dv) const override;
+
+ private:
+  std::vector<model::Contact<Dof>> contacts_;
+  std::vector<double> stiffnesses_;
+  std::shared_ptr<const model::NonlinearForce<Dof>> other_;
+};
+
+template <int Dof>
+void PenaltyForce<Dof>::add(const Vector& u, const Vector& v, Vector& p) const {
+  if (other_) other_->add(u, v, p);
+  for (std::size_t j = 0; j < contacts_.size(); ++j)
+    if (const double g = contacts_[j].gap_at(u); g < 0.0)
+      p += stiffnesses_[j] * g * contacts_[j].direction;
+}
+
+template <int Dof>
+void PenaltyForce<Dof>::add_tangent(const Vector& u, const Vector& v, Matrix& dp_du,
+                                    Matrix& dp_dv) const {
+  if (other_) other_->add_tangent(u, v, dp_du, dp_dv);
+  for (std::size_t j = 0; j < contacts_.size(); ++j)
+    if (contacts_[j].gap_at(u) < 0.0)
+      dp_du += stiffnesses_[j] * contacts_[j].direction * contacts_[j].direction.transpose();
+}
+
 }  // namespace
 
-const std::vector<ParameterOf<Penalty>>& Penalty::parameters() {
-  static const std::vector<ParameterOf<Penalty>> all = {
-      {"stiffness", "0 < stiffness < infinity", "of the contact spring [N/m]",
-       [](const Penalty& x) { return x.stiffness; },
-       [](Penalty& x, double value) { x.stiffness = value; }, "1e4 k1"}};
+template <int Dof>
+model::ImpactProblem<Dof> with_springs(model::ImpactProblem<Dof> problem,
+                                       std::vector<double> stiffnesses) {
+  problem.system.nonlinear = std::make_shared<PenaltyForce<Dof>>(
+      problem.contacts, std::move(stiffnesses), std::move(problem.system.nonlinear));
+  return problem;
+}
+
+template model::ImpactProblem<1> with_springs(model::ImpactProblem<1>, std::vector<double>);
+template model::ImpactProblem<2> with_springs(model::ImpactProblem<2>, std::vector<double>);
+template model::ImpactProblem<> with_springs(model::ImpactProblem<>, std::vector<double>);
+
+const std::vector<Field<Penalty>>& Penalty::fields() {
+  static const std::vector<Field<Penalty>> all = {{"stiffness", "0 < stiffness < infinity",
+                                                   "of the contact spring [N/m]",
+                                                   &Penalty::stiffness, "1e4 k1"}};
   return all;
 }
 
 void Penalty::validate() const {
-  if (stiffness) require_positive(name, "stiffness", *stiffness);
+  if (!std::isnan(stiffness)) require_positive(name, "stiffness", stiffness);
 }
 
-Claim Penalty::claim(const IntegratorFacts&) const {
+Claim Penalty::claim(const Facts&) const {
   return {Behaviour::stagnating, 0.0, "contact-stiffness"};
 }
 
@@ -44,7 +99,8 @@ std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& proble
   std::vector<double> all;
   for (const auto& contact : problem.contacts) {
     const auto i = first_touched(contact);
-    all.push_back(stiffness ? *stiffness : standard_factor * problem.system.stiffness(i, i));
+    all.push_back(std::isnan(stiffness) ? default_factor * problem.system.stiffness(i, i)
+                                        : stiffness);
   }
   return all;
 }
@@ -76,7 +132,7 @@ double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
   const auto all = stiffnesses(problem);
   double shortest = 0.0;
   for (std::size_t j = 0; j < laws.size(); ++j) {
-    const double time = std::numbers::pi / std::sqrt(all[j] * laws[j].mobility);
+    const double time = std::numbers::pi / std::sqrt(all[j] * laws[j].inverse_effective_mass);
     shortest = j == 0 ? time : std::min(shortest, time);
   }
   return shortest;
@@ -85,5 +141,7 @@ double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<1>&) const;
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<2>&) const;
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<>&) const;
+
+template Row row<Penalty>();
 
 }  // namespace clackers::methods

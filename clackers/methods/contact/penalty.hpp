@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "clackers/methods/contact/impact_law.hpp"
-#include "clackers/methods/contact/penalty_force.hpp"
-#include "clackers/methods/integrators/integrator_facts.hpp"
+#include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
 #include "clackers/methods/time_loop.hpp"
 #include "clackers/numerics/roots.hpp"
@@ -21,7 +20,7 @@ namespace clackers::methods {
 ///     gap_j
 ///
 /// solved by Newton's iteration where the integrator is implicit in u. A contact lasts
-/// pi sqrt(m_e / stiffness), m_e = 1 / (b . M^-1 b). It gives back what it takes and stands for
+/// pi sqrt(m_e / stiffness), m_e = 1 / (b . M^-1 b). It is elastic and models
 /// eta = 1 alone. An impact is reported at the first touch of each contact, located on the step
 /// map, with equal velocities before and after and no impulse: the force acts later, over the
 /// contact time. The default stiffness of a contact is 1e4 times the diagonal stiffness of the
@@ -37,13 +36,14 @@ struct Penalty {
   static constexpr std::string_view name = "penalty";
   static constexpr std::string_view summary =
       "a linear one-sided spring in place of each contact, as in finite-element codes";
-  static const std::vector<ParameterOf<Penalty>>& parameters();
+  static const std::vector<Field<Penalty>>& fields();
 
-  std::optional<double> stiffness;  ///< [N/m], > 0; empty: the default above
+  /// [N/m], > 0; NaN: the default above.
+  double stiffness = std::numeric_limits<double>::quiet_NaN();
 
-  /// Throws InputError unless 0 < stiffness < infinity.
+  /// Throws InputError unless 0 < stiffness < infinity, or NaN.
   void validate() const;
-  Claim claim(const IntegratorFacts& integrator) const;
+  Claim claim(const Facts& integrator) const;
   std::optional<Objection> objection(const std::string& who,
                                      const model::ImpactProblem<>& problem) const;
   /// The shortest of the contacts' [s]; 0 without contacts.
@@ -55,6 +55,11 @@ struct Penalty {
   template <class Integrator, int Dof>
   class TimeLoop;
 };
+
+/// The problem with springs in its system; the contacts stay to be looked at.
+template <int Dof>
+model::ImpactProblem<Dof> with_springs(model::ImpactProblem<Dof> problem,
+                                       std::vector<double> stiffnesses);
 
 /// A run with penalty springs.
 template <class Integrator, int Dof>
@@ -128,7 +133,7 @@ class Penalty::TimeLoop {
       stepper_.step(now);
       now.t = t1;
     }
-    return stepper_.failed() ? out.fail_newton(now.t) : true;
+    return stepper_.failed() ? out.fail_step(now.t, stepper_.failure()) : true;
   }
 
   model::ImpactProblem<Dof> problem_;

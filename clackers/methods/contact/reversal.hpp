@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "clackers/methods/contact/impact_law.hpp"
-#include "clackers/methods/integrators/integrator_facts.hpp"
+#include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
 #include "clackers/methods/time_loop.hpp"
 
@@ -17,8 +17,9 @@ namespace clackers::methods {
 ///
 ///     g = b . u1 - gap < 0 and b . v1 < 0:   b . v1(+) = -eta b . v1(-),   M [v1(+) - v1(-)] = b P
 ///
-/// The penetration stays as it is. One contact is handled at a time: two that share a mass and
-/// fire in the same step end the run.
+/// The penetration stays as it is. Which contacts are reversed is decided by the end of the step as
+/// the integrator leaves it; one that starts to close by the impulse of another is looked at again
+/// at the end of the next step. Two that share a mass and are reversed in the same step end the run.
 ///
 /// Order       1 of the upper envelope whatever the integrator's; errors of neighbouring steps
 ///             scatter.
@@ -32,10 +33,10 @@ struct Reversal {
   static constexpr std::string_view name = "reversal";
   static constexpr std::string_view summary =
       "velocities reversed at the end of the step in which a contact is penetrated";
-  static const std::vector<ParameterOf<Reversal>>& parameters();
+  static const std::vector<Field<Reversal>>& fields();
 
   void validate() const {}
-  Claim claim(const IntegratorFacts& integrator) const;
+  Claim claim(const Facts& integrator) const;
   std::optional<Objection> objection(const std::string& who,
                                      const model::ImpactProblem<>& problem) const;
   double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
@@ -57,7 +58,8 @@ class Reversal::TimeLoop {
         plan_(plan),
         laws_(impact_laws(problem_)),
         stepper_(integrator, problem_.system, plan.h),
-        v_before_(problem_.start.v) {}
+        v_before_(problem_.start.v),
+        is_reversed_(laws_.size(), false) {}
   TimeLoop(const TimeLoop&) = delete;
   TimeLoop& operator=(const TimeLoop&) = delete;
 
@@ -75,17 +77,17 @@ class Reversal::TimeLoop {
   }
 
  private:
-  bool fires(std::size_t i, const State& now) const {
-    const auto& contact = laws_[i].contact;
-    return contact.gap_at(now.u) < 0.0 && contact.gap_rate(now.v) < 0.0;
-  }
-
   bool reverse(State& now, Recorder<Dof>& out) {
+    // Decided before any reversal, so that the numbers of the contacts do not matter.
     for (std::size_t i = 0; i < laws_.size(); ++i) {
-      if (!fires(i, now)) continue;
-      for (std::size_t j = 0; j < laws_.size(); ++j)
-        if (j != i && fires(j, now) && are_coupled(laws_[i], laws_[j]))
-          return out.fail("simultaneous-contacts", simultaneous(now.t, i, j));
+      const auto& contact = laws_[i].contact;
+      is_reversed_[i] = contact.gap_at(now.u) < 0.0 && contact.gap_rate(now.v) < 0.0;
+      for (std::size_t j = 0; j < i; ++j)
+        if (is_reversed_[i] && is_reversed_[j] && are_coupled(laws_[i], laws_[j]))
+          return out.fail("simultaneous-contacts", now.t, simultaneous(j, i));
+    }
+    for (std::size_t i = 0; i < laws_.size(); ++i) {
+      if (!is_reversed_[i]) continue;
       v_before_ = now.v;
       const double impulse = laws_[i].apply(now.v);
       if (!out.impact(now, static_cast<int>(i), v_before_, impulse)) return false;
@@ -99,6 +101,7 @@ class Reversal::TimeLoop {
   std::vector<ImpactLaw<Dof>> laws_;
   Stepper stepper_;
   model::Vector<Dof> v_before_;
+  std::vector<bool> is_reversed_;
   long long steps_ = 0;
 };
 

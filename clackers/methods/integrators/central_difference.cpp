@@ -4,13 +4,15 @@
 
 namespace clackers::methods {
 
-const std::vector<ParameterOf<CentralDifference>>& CentralDifference::parameters() {
-  static const std::vector<ParameterOf<CentralDifference>> none;
+const std::vector<Field<CentralDifference>>& CentralDifference::fields() {
+  static const std::vector<Field<CentralDifference>> none;
   return none;
 }
 
-IntegratorFacts CentralDifference::facts() const { return {spelled(*this), 2.0, false, 2.0}; }
+Facts CentralDifference::facts() const {
+  return {.name = specification(*this), .smooth_order = 2.0, .stability_limit = 2.0};
+}
 
-template IntegratorRow integrator_row<CentralDifference>();
+template Row row<CentralDifference>();
 
 }  // namespace clackers::methods

@@ -26,10 +26,10 @@ struct CentralDifference {
   static constexpr std::string_view name = "central-difference";
   static constexpr std::string_view summary =
       "explicit central difference with the velocity at the end of the step";
-  static const std::vector<ParameterOf<CentralDifference>>& parameters();
+  static const std::vector<Field<CentralDifference>>& fields();
 
   void validate() const {}
-  IntegratorFacts facts() const;
+  Facts facts() const;
 
   template <int Dof>
   class Stepper : public Newmark::Stepper<Dof> {

@@ -7,10 +7,10 @@
 
 namespace clackers::methods {
 
-const std::vector<ParameterOf<GeneralizedAlpha>>& GeneralizedAlpha::parameters() {
-  static const std::vector<ParameterOf<GeneralizedAlpha>> all = {
-      member_parameter<&GeneralizedAlpha::rho, GeneralizedAlpha>(
-          "rho", "0 <= rho <= 1", "spectral radius at infinite omega h; 1: no dissipation")};
+const std::vector<Field<GeneralizedAlpha>>& GeneralizedAlpha::fields() {
+  static const std::vector<Field<GeneralizedAlpha>> all = {
+      {"rho", "0 <= rho <= 1", "spectral radius at infinite omega h; 1: no dissipation",
+       &GeneralizedAlpha::rho}};
   return all;
 }
 
@@ -18,10 +18,12 @@ void GeneralizedAlpha::validate() const {
   if (!(rho >= 0.0 && rho <= 1.0)) refuse(name, "rho", rho, "0 <= rho <= 1");
 }
 
-IntegratorFacts GeneralizedAlpha::facts() const {
-  return {spelled(*this), 2.0, true, std::numeric_limits<double>::infinity()};
+Facts GeneralizedAlpha::facts() const {
+  return {.name = specification(*this),
+          .smooth_order = 2.0,
+          .stability_limit = std::numeric_limits<double>::infinity()};
 }
 
-template IntegratorRow integrator_row<GeneralizedAlpha>();
+template Row row<GeneralizedAlpha>();
 
 }  // namespace clackers::methods

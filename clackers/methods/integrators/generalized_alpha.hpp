@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "clackers/base/check.hpp"
-#include "clackers/methods/integrators/integrator_facts.hpp"
 #include "clackers/methods/integrators/motion_equation.hpp"
+#include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
 
 namespace clackers::methods {
@@ -30,7 +30,7 @@ struct GeneralizedAlpha {
   static constexpr std::string_view name = "generalized-alpha";
   static constexpr std::string_view summary =
       "generalised-alpha of Chung and Hulbert, dissipation of high frequencies set by rho";
-  static const std::vector<ParameterOf<GeneralizedAlpha>>& parameters();
+  static const std::vector<Field<GeneralizedAlpha>>& fields();
 
   double rho = 1.0;  ///< spectral radius at infinite omega h, in [0, 1]
 
@@ -43,7 +43,7 @@ struct GeneralizedAlpha {
 
   /// Throws InputError for rho outside [0, 1].
   void validate() const;
-  IntegratorFacts facts() const;
+  Facts facts() const;
 
   template <int Dof>
   class Stepper;
@@ -77,11 +77,12 @@ class GeneralizedAlpha::Stepper {
   /// Takes in changed matrices of the system.
   void rebuild() {
     equation_.rebuild();
-    require_definite("generalized-alpha", h_, equation_.factorize(weights(h_), whole_));
+    equation_.factorize(weights(h_), whole_);
+    require_definite("generalized-alpha", h_, equation_.failed());
   }
 
-  /// Starts at `from`, or starts again after a jump in velocity: the remembered acceleration is now
-  /// false. That a0 belongs to t0 and not to the shifted time costs h² in v once, not a step.
+  /// Starts at `from`, or starts again after a jump in velocity: the remembered acceleration no
+  /// longer holds. That a0 belongs to t0 and not to the shifted time costs h² in v once, not a step.
   void restart(const State& from) {
     equation_.accelerate(from.t, from.u, from.v, a_);
     start_ = from.t;
@@ -106,18 +107,16 @@ class GeneralizedAlpha::Stepper {
   const State& partial(const State& from, double s) {
     to_ = from;
     part_a_ = a_;
-    if (!equation_.factorize(weights(s), part_)) failed_ = true;
+    equation_.factorize(weights(s), part_);
     advance(to_, part_a_, s, part_);
     return to_;
   }
 
-  /// True after a step whose equations could not be solved; its state means nothing.
-  bool failed() const { return failed_; }
+  /// True after a step whose equations could not be solved; its state is meaningless.
+  bool failed() const { return equation_.failed(); }
+  Code failure() const { return equation_.failure(); }
   /// Forgets failures and counts, for a new run.
-  void reset() {
-    failed_ = false;
-    equation_.reset_work();
-  }
+  void reset() { equation_.reset(); }
   void add_work(model::Work& work) const { equation_.add_work(work); }
 
  private:
@@ -135,7 +134,7 @@ class GeneralizedAlpha::Stepper {
     x.u += h * x.v + h * h * (0.5 - beta_) * a;
     x.v += h * (1.0 - gamma_) * a;
     const double t_m = x.t + (1.0 - af_) * h;
-    if (!equation_.solve(t_m, weights(h), effective_mass, u_m_, v_m_, a, &shift_)) failed_ = true;
+    equation_.solve(t_m, weights(h), effective_mass, u_m_, v_m_, a, &shift_);
     x.u += h * h * beta_ * a;
     x.v += h * gamma_ * a;
     x.t += h;
@@ -148,7 +147,6 @@ class GeneralizedAlpha::Stepper {
   Vector a_, last_a_, part_a_, shift_, u_m_, v_m_;
   State to_;
   long long steps_ = 0;
-  bool failed_ = false;
 };
 
 }  // namespace clackers::methods

@@ -93,8 +93,8 @@ template class MotionEquation<1>;
 template class MotionEquation<2>;
 template class MotionEquation<model::any_dof>;
 
-void require_definite(std::string_view who, double h, bool is_definite) {
-  if (!is_definite)
+void require_definite(std::string_view who, double h, bool failed) {
+  if (failed)
     refuse(who, "h", h, "steps for which the effective mass matrix is positive definite",
            "Stiffness or damping has a negative part; use a smaller step.",
            "not-positive-definite");

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "clackers/base/codes.hpp"
 #include "clackers/model/run.hpp"
 #include "clackers/model/system.hpp"
 #include "clackers/numerics/spd_solver.hpp"
@@ -38,7 +39,6 @@ class MotionEquation {
   /// Takes in a changed mass matrix.
   void rebuild() { mass_.compute(s_.mass); }
 
-  bool is_linear() const { return !s_.nonlinear; }
   bool is_free() const { return !s_.nonlinear && !s_.add_load; }
 
   /// a becomes M^-1 (f(t) - C v - K u - p(u, v)).
@@ -52,19 +52,22 @@ class MotionEquation {
     ++evaluations_;
   }
 
-  /// Takes M a_weight + C v_weight + K u_weight in; false unless it is positive definite.
-  bool factorize(const Weights& w, Solver& effective) {
+  /// Takes M a_weight + C v_weight + K u_weight in. It fails unless that is positive definite.
+  void factorize(const Weights& w, Solver& effective) {
     matrix_ = w.a * s_.mass + w.v * s_.damping + w.u * s_.stiffness;
     ++factorizations_;
-    return effective.compute(matrix_);
+    if (!effective.compute(matrix_)) fail("not-positive-definite");
   }
 
   /// Solves  M (a_weight a + shift) + C v + K u + p(u, v) = f(t)  for a, with u = u0 + u_weight a
   /// and v = v0 + v_weight a; without `shift` it counts as 0. `effective` is the factorized matrix
-  /// of the same weights. False if Newton's iteration failed.
-  bool solve(double t, const Weights& w, const Solver& effective, const Vector& u0,
+  /// of the same weights. It fails where Newton's iteration finds no solution.
+  void solve(double t, const Weights& w, const Solver& effective, const Vector& u0,
              const Vector& v0, Vector& a, const Vector* shift = nullptr) {
-    if (s_.nonlinear) return solve_nonlinear(t, w, u0, v0, a, shift);
+    if (s_.nonlinear) {
+      if (!solve_nonlinear(t, w, u0, v0, a, shift)) fail("newton-failed");
+      return;
+    }
     a.noalias() = -(s_.damping * v0);
     a.noalias() -= s_.stiffness * u0;
     if (shift != nullptr) a.noalias() -= s_.mass * *shift;
@@ -72,10 +75,18 @@ class MotionEquation {
       s_.add_load(t, std::span<double>(a.data(), static_cast<std::size_t>(a.size())));
     effective.solve_in_place(a);
     ++evaluations_;
-    return true;
   }
 
-  void reset_work() { evaluations_ = factorizations_ = iterations_ = 0; }
+  /// True after something has failed; the state computed since is meaningless.
+  bool failed() const { return failed_; }
+  /// The first failure. Meaningful only where failed().
+  Code failure() const { return failure_; }
+
+  /// Forgets failures and counts.
+  void reset() {
+    failed_ = false;
+    evaluations_ = factorizations_ = iterations_ = 0;
+  }
   void add_work(model::Work& work) const {
     work.force_evaluations += evaluations_;
     work.factorizations += factorizations_;
@@ -88,6 +99,10 @@ class MotionEquation {
   const Solver& mass() const { return mass_; }
 
  private:
+  void fail(Code failure) {
+    if (!failed_) failure_ = failure;
+    failed_ = true;
+  }
   void subtract_nonlinear(const Vector& u, const Vector& v, Vector& r);
   bool solve_nonlinear(double t, const Weights& w, const Vector& u0, const Vector& v0, Vector& a,
                        const Vector* shift);
@@ -99,6 +114,8 @@ class MotionEquation {
   Vector r_, u_, v_, magnitude_, term_;
   Matrix matrix_, dp_du_, dp_dv_;
   Eigen::PartialPivLU<Matrix> tangent_;
+  bool failed_ = false;
+  Code failure_ = "run-failed";
   long long evaluations_ = 0, factorizations_ = 0, iterations_ = 0;
 };
 
@@ -106,7 +123,7 @@ extern template class MotionEquation<1>;
 extern template class MotionEquation<2>;
 extern template class MotionEquation<model::any_dof>;
 
-/// Throws InputError unless `is_definite`: the implicit matrix of a step has lost its definiteness.
-void require_definite(std::string_view who, double h, bool is_definite);
+/// Throws InputError if `failed`: the implicit matrix of a step of h is not positive definite.
+void require_definite(std::string_view who, double h, bool failed);
 
 }  // namespace clackers::methods

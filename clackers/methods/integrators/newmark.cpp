@@ -8,12 +8,10 @@
 
 namespace clackers::methods {
 
-const std::vector<ParameterOf<Newmark>>& Newmark::parameters() {
-  static const std::vector<ParameterOf<Newmark>> all = {
-      member_parameter<&Newmark::beta, Newmark>("beta", "0 <= beta <= 1/2",
-                                                "weight of the new acceleration in u"),
-      member_parameter<&Newmark::gamma, Newmark>("gamma", "1/2 <= gamma <= 1",
-                                                 "weight of the new acceleration in v")};
+const std::vector<Field<Newmark>>& Newmark::fields() {
+  static const std::vector<Field<Newmark>> all = {
+      {"beta", "0 <= beta <= 1/2", "weight of the new acceleration in u", &Newmark::beta},
+      {"gamma", "1/2 <= gamma <= 1", "weight of the new acceleration in v", &Newmark::gamma}};
   return all;
 }
 
@@ -25,12 +23,14 @@ void Newmark::validate() const {
            "dissipation.");
 }
 
-IntegratorFacts Newmark::facts() const {
+Facts Newmark::facts() const {
   const bool stable = 2.0 * beta >= gamma;
-  return {spelled(*this), gamma == 0.5 ? 2.0 : 1.0, stable,
-          stable ? std::numeric_limits<double>::infinity() : 1.0 / std::sqrt(0.5 * gamma - beta)};
+  return {.name = specification(*this),
+          .smooth_order = gamma == 0.5 ? 2.0 : 1.0,
+          .stability_limit = stable ? std::numeric_limits<double>::infinity()
+                                    : 1.0 / std::sqrt(0.5 * gamma - beta)};
 }
 
-template IntegratorRow integrator_row<Newmark>();
+template Row row<Newmark>();
 
 }  // namespace clackers::methods

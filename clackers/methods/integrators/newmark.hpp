@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "clackers/base/check.hpp"
-#include "clackers/methods/integrators/integrator_facts.hpp"
 #include "clackers/methods/integrators/motion_equation.hpp"
+#include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
 
 namespace clackers::methods {
@@ -29,14 +29,14 @@ struct Newmark {
   static constexpr std::string_view name = "newmark";
   static constexpr std::string_view summary =
       "Newmark's one-step family; average acceleration by default";
-  static const std::vector<ParameterOf<Newmark>>& parameters();
+  static const std::vector<Field<Newmark>>& fields();
 
   double beta = 0.25;  ///< in [0, 1/2]
   double gamma = 0.5;  ///< in [1/2, 1]; below 1/2 the method is unstable for every h
 
   /// Throws InputError for parameters outside the ranges above.
   void validate() const;
-  IntegratorFacts facts() const;
+  Facts facts() const;
 
   template <int Dof>
   class Stepper;
@@ -50,7 +50,7 @@ class Newmark::Stepper {
   using Vector = model::Vector<Dof>;
 
   /// The system must outlive the stepper. Throws InputError unless 0 < h < infinity, and for a
-  /// system whose effective mass at h is not positive definite; `who` speaks in its message.
+  /// system whose effective mass at h is not positive definite; `who` opens its message.
   Stepper(const Newmark& method, const model::SmoothSystem<Dof>& system, double h,
           std::string_view who = Newmark::name)
       : p_(method),
@@ -66,11 +66,12 @@ class Newmark::Stepper {
   /// Takes in changed matrices of the system.
   void rebuild() {
     equation_.rebuild();
-    require_definite(who_, h_, equation_.factorize(weights(h_), whole_));
+    equation_.factorize(weights(h_), whole_);
+    require_definite(who_, h_, equation_.failed());
   }
 
-  /// Starts at `from`, or starts again after a jump in velocity: the remembered acceleration is now
-  /// false.
+  /// Starts at `from`, or starts again after a jump in velocity: the remembered acceleration no
+  /// longer holds.
   void restart(const State& from) {
     equation_.accelerate(from.t, from.u, from.v, a_);
     start_ = from.t;
@@ -95,18 +96,16 @@ class Newmark::Stepper {
   const State& partial(const State& from, double s) {
     to_ = from;
     part_a_ = a_;
-    if (!equation_.factorize(weights(s), part_)) failed_ = true;
+    equation_.factorize(weights(s), part_);
     advance(to_, part_a_, s, part_);
     return to_;
   }
 
-  /// True after a step whose equations could not be solved; its state means nothing.
-  bool failed() const { return failed_; }
+  /// True after a step whose equations could not be solved; its state is meaningless.
+  bool failed() const { return equation_.failed(); }
+  Code failure() const { return equation_.failure(); }
   /// Forgets failures and counts, for a new run.
-  void reset() {
-    failed_ = false;
-    equation_.reset_work();
-  }
+  void reset() { equation_.reset(); }
   void add_work(model::Work& work) const { equation_.add_work(work); }
 
  private:
@@ -122,7 +121,7 @@ class Newmark::Stepper {
     x.v += h * (1.0 - p_.gamma) * a;
     x.t += h;
     // Equation of motion at the new time, solved for the new acceleration.
-    if (!equation_.solve(x.t, weights(h), effective_mass, x.u, x.v, a)) failed_ = true;
+    equation_.solve(x.t, weights(h), effective_mass, x.u, x.v, a);
     x.u += h * h * p_.beta * a;
     x.v += h * p_.gamma * a;
   }
@@ -135,7 +134,6 @@ class Newmark::Stepper {
   Vector a_, last_a_, part_a_;
   State to_;
   long long steps_ = 0;
-  bool failed_ = false;
 };
 
 }  // namespace clackers::methods

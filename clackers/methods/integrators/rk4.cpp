@@ -6,15 +6,17 @@
 
 namespace clackers::methods {
 
-const std::vector<ParameterOf<Rk4>>& Rk4::parameters() {
-  static const std::vector<ParameterOf<Rk4>> none;
+const std::vector<Field<Rk4>>& Rk4::fields() {
+  static const std::vector<Field<Rk4>> none;
   return none;
 }
 
-IntegratorFacts Rk4::facts() const {
-  return {spelled(*this), 4.0, false, 2.0 * std::numbers::sqrt2};
+Facts Rk4::facts() const {
+  return {.name = specification(*this),
+          .smooth_order = 4.0,
+          .stability_limit = 2.0 * std::numbers::sqrt2};
 }
 
-template IntegratorRow integrator_row<Rk4>();
+template Row row<Rk4>();
 
 }  // namespace clackers::methods

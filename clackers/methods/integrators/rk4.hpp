@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "clackers/base/check.hpp"
-#include "clackers/methods/integrators/integrator_facts.hpp"
 #include "clackers/methods/integrators/motion_equation.hpp"
+#include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
 
 namespace clackers::methods {
@@ -29,10 +29,10 @@ namespace clackers::methods {
 struct Rk4 {
   static constexpr std::string_view name = "rk4";
   static constexpr std::string_view summary = "the classical Runge-Kutta method of order four";
-  static const std::vector<ParameterOf<Rk4>>& parameters();
+  static const std::vector<Field<Rk4>>& fields();
 
   void validate() const {}
-  IntegratorFacts facts() const;
+  Facts facts() const;
 
   template <int Dof>
   class Stepper;
@@ -94,8 +94,9 @@ class Rk4::Stepper {
 
   /// An explicit step cannot fail.
   static constexpr bool failed() { return false; }
+  static constexpr Code failure() { return "run-failed"; }
   /// Forgets counts, for a new run.
-  void reset() { equation_.reset_work(); }
+  void reset() { equation_.reset(); }
   void add_work(model::Work& work) const { equation_.add_work(work); }
 
  private:

@@ -5,8 +5,9 @@
 const read = (id) => JSON.parse(document.getElementById(id).textContent);
 const data = read("data");
 const specifications = read("specifications");
-data.runs = data.runs.rows.map((row) =>
-  Object.fromEntries(data.runs.columns.map((name, i) => [name, row[i]])));
+for (const [name, { columns, rows }] of Object.entries(data))
+  if (columns)
+    data[name] = rows.map((row) => Object.fromEntries(columns.map((column, i) => [column, row[i]])));
 
 const embedded = {};  // name of a figure -> its Vega view
 
@@ -60,10 +61,11 @@ function complete(name) {
   return specification;
 }
 
+// Expressions are interpreted ("ast"), since the page's policy allows no code made of texts.
 async function draw(name) {
   const frame = document.querySelector(`[data-plot="${name}"]`);
   const result = await vegaEmbed(frame, complete(name), {
-    mode: "vega-lite", renderer: "svg", actions: false, patch: followCounter(name), config: configuration(false),
+    mode: "vega-lite", renderer: "svg", actions: false, ast: true, patch: followCounter(name), config: configuration(false),
     tooltip: { theme: "custom", disableDefaultStyle: false }
   });
   embedded[name] = result.view;
@@ -147,8 +149,10 @@ function standalone(name) {
 }
 
 async function asSvg(name) {
-  const view = new vega.View(vega.parse(vegaLite.compile(standalone(name)).spec), { renderer: "none" });
-  await view.runAsync();
+  const drawing = await vegaEmbed(document.createElement("div"), standalone(name), {
+    mode: "vega-lite", renderer: "svg", actions: false, ast: true, tooltip: false
+  });
+  const view = drawing.view;
   // The picture shows the stretch that is on the screen.
   for (const axis of ["x", "y"]) {
     const domain = embedded[name].signal(zoomSignal(name, axis));
@@ -156,7 +160,7 @@ async function asSvg(name) {
   }
   await view.runAsync();
   const text = await view.toSVG();
-  view.finalize();
+  drawing.finalize();
   return text;
 }
 

@@ -1,0 +1,111 @@
+#include "clackers/methods/contact/constrained_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "clackers/methods/integrators/rk4.hpp"
+
+namespace clackers::methods {
+namespace {
+
+// Two masses on springs of their own, a load on each, contact u1 - u2 >= 0.3. Held together they
+// are one mass on both springs.
+template <int Dof>
+model::ImpactProblem<Dof> two_masses() {
+  model::ImpactProblem<> p;
+  p.system.mass = Eigen::Vector2d(2.0, 3.0).asDiagonal();
+  p.system.damping = Eigen::Vector2d(0.1, 0.2).asDiagonal();
+  p.system.stiffness = Eigen::Vector2d(4.0, 5.0).asDiagonal();
+  p.system.add_load = [](double t, std::span<double> f) {
+    f[0] += std::sin(t);
+    f[1] -= 2.0 * t;
+  };
+  p.contacts = {{Eigen::Vector2d(1.0, -1.0), 0.3, 0.0}};
+  p.start = {1.0, Eigen::Vector2d(0.7, 0.4), Eigen::Vector2d(-0.5, -0.5)};
+  p.end = 3.0;
+  return model::with_dof<Dof>(p);
+}
+
+template <int Dof>
+void moves_as_one_mass() {
+  const auto problem = two_masses<Dof>();
+  const auto laws = impact_laws(problem);
+  ConstrainedSystem<Dof> constrained(problem.system, laws);
+  EXPECT_FALSE(constrained.is_any_active());
+  constrained.activate(0, problem.start.u);
+  EXPECT_TRUE(constrained.is_active(0) && constrained.is_any_active());
+
+  using Number = model::Matrix<1>;
+  const model::SmoothSystem<1> one{Number(5.0), Number(0.3), Number(9.0),
+                                   [](double t, std::span<double> f) {
+                                     f[0] += std::sin(t) - 2.0 * t - 4.0 * 0.3;  // k1 (u2 + gap)
+                                   }};
+  Rk4::Stepper<Dof> stepper({}, constrained.system(), 0.01);
+  Rk4::Stepper<1> reference({}, one, 0.01);
+  auto now = problem.start;
+  model::State<1> other{1.0, model::Vector<1>(0.4), model::Vector<1>(-0.5)};
+  stepper.restart(now);
+  reference.restart(other);
+  for (int i = 0; i < 200; ++i) {
+    stepper.step(now);
+    reference.step(other);
+  }
+  // 200 steps of some ten roundings of numbers below 4.
+  EXPECT_NEAR(now.u[0] - now.u[1], 0.3, 1e-13);
+  EXPECT_NEAR(now.u[1], other.u[0], 1e-13);
+  EXPECT_NEAR(now.v[1], other.v[0], 1e-13);
+
+  // The force is what mass 1 needs to accelerate with the other.
+  const double a = (std::sin(3.0) - 6.0 - 1.2 - 0.3 * now.v[1] - 9.0 * now.u[1]) / 5.0;
+  EXPECT_NEAR(constrained.contact_force(0, now),
+              2.0 * a + 0.1 * now.v[0] + 4.0 * now.u[0] - std::sin(3.0), 1e-11);
+  constrained.deactivate(0, now.u);
+  EXPECT_FALSE(constrained.is_any_active());
+  EXPECT_LT((constrained.system().stiffness - problem.system.stiffness).norm(), 1e-15);
+}
+
+TEST(ConstrainedSystem, MovesTwoMassesAsOne) {
+  moves_as_one_mass<2>();
+  moves_as_one_mass<model::any_dof>();
+}
+
+struct Spring : model::NonlinearForce<model::any_dof> {
+  using Vector = model::Vector<model::any_dof>;
+  using Matrix = model::Matrix<model::any_dof>;
+  void add(const Vector& u, const Vector&, Vector& p) const override {
+    p[0] += std::pow(u[0], 3);
+    p[1] += 2.0 * std::pow(u[1], 3);
+  }
+  void add_tangent(const Vector& u, const Vector&, Matrix& du, Matrix&) const override {
+    du(0, 0) += 3.0 * u[0] * u[0];
+    du(1, 1) += 6.0 * u[1] * u[1];
+  }
+};
+
+TEST(ConstrainedSystem, ProjectsANonlinearForceToo) {
+  auto problem = two_masses<model::any_dof>();
+  problem.system.nonlinear = std::make_shared<Spring>();
+  const auto laws = impact_laws(problem);
+  ConstrainedSystem<model::any_dof> constrained(problem.system, laws);
+  constrained.activate(0, problem.start.u);
+  const auto& s = constrained.system();
+  const auto& now = problem.start;
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(2), p = f, q = f;
+  s.add_load(now.t, {f.data(), 2});
+  s.nonlinear->add(now.u, now.v, p);
+  const Eigen::VectorXd a = s.mass.inverse() * (f - s.damping * now.v - s.stiffness * now.u - p);
+  EXPECT_NEAR(a[0], a[1], 1e-14);
+  const double force = std::sin(1.0) - 2.0 - 0.3 * -0.5 - 4.0 * 0.7 - 5.0 * 0.4 - std::pow(0.7, 3) -
+                       2.0 * std::pow(0.4, 3);
+  EXPECT_NEAR(a[0], force / 5.0, 1e-14);
+  // Its tangent is its derivative.
+  Eigen::MatrixXd du = Eigen::MatrixXd::Zero(2, 2), dv = du;
+  s.nonlinear->add_tangent(now.u, now.v, du, dv);
+  const Eigen::VectorXd shift = 1e-6 * Eigen::Vector2d(1.0, -2.0);
+  s.nonlinear->add(now.u + shift, now.v, q);
+  EXPECT_LT((q - p - du * shift).norm(), 2e-11);  // 3 |u| |shift|^2
+}
+
+}  // namespace
+}  // namespace clackers::methods

@@ -1,0 +1,255 @@
+#include "clackers/report/html/figure_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "clackers/assess/cost/work_precision.hpp"
+#include "clackers/report/columns.hpp"
+#include "clackers/report/html/counters.hpp"
+#include "clackers/study/reduced_curve.hpp"
+
+namespace clackers::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rounded_list(const std::vector<double>& values) {
+  Json out = Json::array();
+  for (const double value : values) out.push_back(rounded(value));
+  return out;
+}
+
+Json cell(const study::Cell& value) {
+  return std::visit(
+      [](const auto& x) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(x)>, std::monostate>)
+          return nullptr;
+        else
+          return x;
+      },
+      value);
+}
+
+bool is_drawable(const assess::RunScore& score) {
+  return score.finished && score.u_error > 0.0 && std::isfinite(score.u_error);
+}
+
+template <class Use>
+void for_each_run(const study::CaseRecord& problem, const Use& use) {
+  for (const auto& subject : problem.subjects)
+    for (const auto& level : subject.levels)
+      for (const auto& run : level.runs) use(run.score);
+}
+
+Json displacements(const study::Curve& whole) {
+  const auto curve = study::reduced(whole);
+  Json out = Json::array();
+  for (std::size_t mass = 0; mass < curve.y.size(); ++mass)
+    out.push_back({{"series", fmt::format("mass {}", mass + 1)},
+                   {"t", rounded_list(curve.t)},
+                   {"u", rounded_list(curve.y[mass])}});
+  return out;
+}
+
+Json collisions(const study::CaseSummary& problem) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < problem.impact_times.size(); ++k)
+    out.push_back(
+        {{"series", "collisions"}, {"k", k + 1}, {"t", rounded(problem.impact_times[k])}});
+  return out;
+}
+
+Json all_runs(const study::CaseRecord& problem) {
+  const auto sheet = run_sheet({&problem, 1}, false);
+  Json columns = Json::array(), rows = Json::array();
+  for (const auto& column : sheet.columns) columns.push_back(column.name);
+  for (const auto& row : sheet.rows) {
+    Json cells = Json::array();
+    for (const auto& value : row) cells.push_back(cell(value));
+    rows.push_back(std::move(cells));
+  }
+  return {{"columns", columns}, {"rows", rows}};
+}
+
+// The fit has no number for a level that it calls unusable.
+Json levels(const study::CaseRecord& problem) {
+  Json out = Json::array();
+  for (const auto& subject : problem.subjects) {
+    const auto& fit = subject.assessment.displacement;
+    for (std::size_t level = 0; level < std::min(fit.steps.size(), fit.errors.size()); ++level)
+      if (std::isfinite(fit.errors[level]))
+        out.push_back(
+            {{"method", subject.name},
+             {"level", level + 1},
+             {"step", fit.steps[level]},
+             {"steps_per_fast_period", rounded(problem.problem.fast_period / fit.steps[level])},
+             {"u_error", fit.errors[level]}});
+  }
+  return out;
+}
+
+// Triangles whose third side climbs with order 1, 2 and 4, in the lower right corner, where a
+// convergence plot is empty. The highest takes at most a third of the height.
+Json slopes(const study::CaseRecord& problem) {
+  double step = 0.0, lowest = INFINITY, highest = 0.0;
+  for_each_run(problem, [&](const assess::RunScore& score) {
+    if (!is_drawable(score)) return;
+    step = std::max(step, score.step);
+    lowest = std::min(lowest, score.u_error);
+    highest = std::max(highest, score.u_error);
+  });
+  Json out = Json::array();
+  if (!(step > 0.0)) return out;
+  const double decades = std::max(std::log10(highest) - std::log10(lowest), 1.0);
+  const double base = std::min(8.0, std::pow(10.0, decades / 3.0 / 4.0));
+  for (const int order : std::array{1, 2, 4}) {
+    const double left = step / base, top = lowest * std::pow(base, order);
+    // The base is the same for all three, so it is drawn once.
+    const bool whole = order == 4;
+    const Json steps = whole ? Json{step, left, step, step} : Json{left, step};
+    const Json errors = whole ? Json{lowest, lowest, top, lowest} : Json{lowest, top};
+    out.push_back({{"order", fmt::format("{}", order)},
+                   {"step", steps},
+                   {"u_error", errors},
+                   {"corner", whole ? Json{0, 1, 2, 3} : Json{1, 2}}});
+  }
+  return out;
+}
+
+Json history(const study::CaseRecord& problem) {
+  Json out = Json::array();
+  for (const auto& subject : problem.subjects) {
+    const auto* run = subject.shown_run();
+    if (run == nullptr) continue;
+    const auto curve = study::reduced(run->error_history);
+    for (std::size_t mass = 0; mass < curve.y.size(); ++mass)
+      out.push_back({{"method", subject.name},
+                     {"mass", mass + 1},
+                     {"step", rounded(run->score.step)},
+                     {"t", rounded_list(curve.t)},
+                     {"error", rounded_list(curve.y[mass])}});
+  }
+  return out;
+}
+
+Json work(const study::CaseRecord& problem, const std::vector<ShownCounter>& counters) {
+  Json out = Json::array();
+  for (const auto& subject : problem.subjects)
+    for (const auto& counter : counters) {
+      const auto curve = assess::work_curve(study::ladder_of(subject), counter.counter);
+      for (std::size_t level = 0; level < curve.envelope.size(); ++level) {
+        const auto& worst = curve.envelope[level];
+        if (worst.work > 0.0 && std::isfinite(worst.error))
+          out.push_back({{"method", subject.name},
+                         {"counter", counter.field},
+                         {"level", level + 1},
+                         {"step", worst.step},
+                         {"cost", worst.work},
+                         {"u_error", worst.error}});
+      }
+    }
+  return out;
+}
+
+Json front(const study::CaseRecord& problem, const std::vector<ShownCounter>& counters) {
+  assess::Ladder all;
+  for (const auto& subject : problem.subjects)
+    if (subject.kind == study::SubjectKind::method)
+      for (auto& level : study::ladder_of(subject)) all.push_back(std::move(level));
+  Json out = Json::array();
+  for (const auto& counter : counters)
+    for (const auto& run : assess::work_curve(all, counter.counter).runs)
+      if (run.on_front && run.work > 0.0 && run.error > 0.0)
+        out.push_back({{"counter", counter.field}, {"cost", run.work}, {"u_error", run.error}});
+  return out;
+}
+
+bool is_refused(std::span<const study::CaseRecord> cases, const std::string& name) {
+  bool known = false, refused = true;
+  for (const auto& problem : cases)
+    for (const auto& subject : problem.subjects)
+      if (subject.name == name) {
+        known = true;
+        refused = refused && !subject.refusal.empty();
+      }
+  return known && refused;
+}
+
+}  // namespace
+
+double rounded(double value) {
+  if (!std::isfinite(value)) return value;
+  const auto text = fmt::format("{:.5e}", value);
+  double out = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), out);
+  // Of the largest doubles six digits may be beyond all doubles.
+  return read.ec == std::errc() ? out : value;
+}
+
+// Lines from ratio 1 to a common end, so that the height at which a line stays can be seen.
+Json profile_data(const std::vector<study::Profile>& profiles,
+                  std::span<const study::CaseRecord> cases) {
+  Json out = Json::array();
+  for (const auto& profile : profiles) {
+    double end = 2.0;
+    for (const auto& method : profile.methods)
+      if (!method.steps.empty()) end = std::max(end, 1.25 * method.steps.back().ratio);
+    for (const auto& method : profile.methods) {
+      // A method that never ran has no entry in the legend; the text beside the figure names it.
+      if (is_refused(cases, method.method)) continue;
+      std::vector<assess::ProfileStep> line;
+      if (method.steps.empty() || method.steps.front().ratio > 1.0) line.push_back({1.0, 0.0});
+      line.insert(line.end(), method.steps.begin(), method.steps.end());
+      line.push_back({end, line.back().share});
+      Json ratio = Json::array(), share = Json::array(), solved = Json::array();
+      for (const auto& step : line) {
+        ratio.push_back(step.ratio);
+        share.push_back(step.share);
+        solved.push_back(std::llround(step.share * double(profile.tasks.size())));
+      }
+      out.push_back({{"counter", profile.counter},
+                     {"method", method.method},
+                     {"failed", method.failed},
+                     {"ratio", ratio},
+                     {"share", share},
+                     {"solved", solved}});
+    }
+  }
+  return out;
+}
+
+bool has_convergence(const study::CaseRecord& problem) {
+  int drawable = 0;
+  for_each_run(problem, [&](const assess::RunScore& score) { drawable += is_drawable(score); });
+  return drawable > 1;
+}
+
+const study::HistoryFile* drawn_history(const study::CaseRecord& problem) {
+  for (const auto& subject : problem.subjects) {
+    const auto* run = subject.shown_run();
+    if (run != nullptr && run->file && !run->file->history.t.empty()) return &*run->file;
+  }
+  return nullptr;
+}
+
+Json figure_data(const study::CaseRecord& problem) {
+  const auto counters = counters_of(problem);
+  const auto* rows = drawn_history(problem);
+  return {{"response", displacements(problem.response)},
+          {"history_rows", rows == nullptr ? Json::array() : displacements(rows->history)},
+          {"collisions", collisions(problem.problem)},
+          {"runs", all_runs(problem)},
+          {"levels", levels(problem)},
+          {"slopes", slopes(problem)},
+          {"history", history(problem)},
+          {"work", work(problem, counters)},
+          {"front", front(problem, counters)},
+          {"profile", profile_data(problem.profiles, {&problem, 1})}};
+}
+
+}  // namespace clackers::report

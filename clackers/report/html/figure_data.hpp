@@ -1,0 +1,39 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "clackers/study/record.hpp"
+
+namespace clackers::report {
+
+/// What the figures of a case draw, by the name that their specifications use. The errors of runs are
+/// whole, curves are rounded to six digits. "runs" is {"columns", "rows"}, all others are rows as
+/// Vega-Lite reads them:
+///
+///     response, history_rows   displacements, exact and of the finest history
+///     collisions               exact times
+///     runs                     every run
+///     levels                   the upper envelope of each subject, without levels that the fit
+///                              calls unusable
+///     slopes                   triangles of orders 1, 2 and 4
+///     history                  error against time, a curve a subject and mass
+///     work                     the envelopes of error against work, by every counter
+///     front                    the Pareto front over all runs of methods, by every counter
+///     profile                  the performance profiles of the case
+nlohmann::ordered_json figure_data(const study::CaseRecord& problem);
+
+/// Lines of profiles. Methods that refused every one of the cases have none.
+nlohmann::ordered_json profile_data(const std::vector<study::Profile>& profiles,
+                                    std::span<const study::CaseRecord> cases);
+
+/// Whether a convergence figure has anything to join: two runs with an error above zero.
+bool has_convergence(const study::CaseRecord& problem);
+/// The finest history with displacements of all masses; nullptr without one.
+const study::HistoryFile* drawn_history(const study::CaseRecord& problem);
+
+/// Six digits, which are finer than any screen; any double, subnormal or not finite too.
+double rounded(double value);
+
+}  // namespace clackers::report

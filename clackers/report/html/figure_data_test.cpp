@@ -1,0 +1,190 @@
+#include "clackers/report/html/figure_data.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "clackers/assess/cost/work_precision.hpp"
+#include "clackers/report/html/figure_specifications.hpp"
+#include "clackers/report/html/plot_style.hpp"
+#include "clackers/report/testing/sample_record.hpp"
+#include "clackers/study/reduced_curve.hpp"
+
+namespace clackers::report {
+namespace {
+
+study::CaseRecord sample() { return sample_record().cases[0]; }
+
+TEST(Rounded, AnyDoubleHasSixDigits) {
+  EXPECT_EQ(rounded(1.23456789), 1.23457);
+  EXPECT_EQ(rounded(5e-324), 5e-324);
+  EXPECT_EQ(rounded(-4.247828255331e-311), -4.24783e-311);
+  EXPECT_EQ(rounded(std::numeric_limits<double>::max()), std::numeric_limits<double>::max());
+  EXPECT_EQ(rounded(INFINITY), INFINITY);
+}
+
+TEST(FigureData, SubnormalNumbersAreDrawn) {
+  auto problem = sample();
+  for (auto& y : problem.response.y) y.assign(y.size(), 4.2e-311);
+  for (auto& subject : problem.subjects)
+    for (auto& level : subject.levels)
+      for (auto& run : level.runs) {
+        run.score.u_error = 1e-310;
+        for (auto& y : run.error_history.y) y.assign(y.size(), 1e-310);
+      }
+  EXPECT_EQ(figure_data(problem)["response"][0]["u"][0].get<double>(), 4.2e-311);
+}
+
+TEST(FigureData, RunsAreWholeToTheLastDigit) {
+  const auto problem = sample();
+  const auto runs = figure_data(problem)["runs"];
+  ASSERT_EQ(runs["rows"].size(), 6u * 64 + 24 + 1);
+  std::size_t column = 0;
+  while (runs["columns"][column] != "u_error") ++column;
+  EXPECT_EQ(runs["rows"][77][column].get<double>(),
+            problem.subjects[1].levels[1].runs[5].score.u_error);
+}
+
+TEST(FigureData, LevelsThatTheFitCallsUnusableAreSkipped) {
+  auto problem = sample();
+  auto& fit = problem.subjects[0].assessment.displacement;
+  const auto all = figure_data(problem)["levels"].size();
+  fit.errors[2] = std::nan("");
+  const auto levels = figure_data(problem)["levels"];
+  EXPECT_EQ(levels.size(), all - 1);
+  EXPECT_EQ(levels[2]["level"], 4);
+  EXPECT_EQ(levels[2]["u_error"], fit.errors[3]);
+}
+
+TEST(FigureData, TheLineOfWorkIsTheEnvelopeOfTheProfile) {
+  auto problem = sample();
+  auto& runs = problem.subjects[0].levels[2].runs;
+  runs[1].score.u_error = 5.0;                      // the largest error
+  runs[4].score.work.force_evaluations = 12345678;  // and of another run the largest cost
+  const auto curve =
+      assess::work_curve(study::ladder_of(problem.subjects[0]), assess::Counter::force_evaluations);
+  bool found = false;
+  const auto data = figure_data(problem);
+  for (const auto& row : data["work"])
+    if (row["method"] == "newmark" && row["counter"] == "force_evaluations" && row["level"] == 3) {
+      found = true;
+      EXPECT_EQ(row["u_error"], curve.envelope[2].error);
+      EXPECT_EQ(row["cost"], curve.envelope[2].work);
+      EXPECT_EQ(row["u_error"], 5.0);
+      EXPECT_EQ(row["cost"], 12345678.0);
+    }
+  EXPECT_TRUE(found);
+}
+
+TEST(FigureData, NoRunIsCheaperAndMoreAccurateThanTheFront) {
+  const auto problem = sample();
+  const auto front = figure_data(problem)["front"];
+  std::size_t points = 0;
+  for (const auto& point : front) {
+    if (point["counter"] != "steps") continue;
+    ++points;
+    for (const auto& subject : problem.subjects)
+      for (const auto& level : subject.levels)
+        for (const auto& run : level.runs)
+          EXPECT_FALSE(double(run.score.work.steps) < point["cost"].get<double>() &&
+                       run.score.u_error < point["u_error"].get<double>());
+  }
+  EXPECT_GT(points, 3u);
+}
+
+TEST(FigureData, TrianglesClimbWithTheirOrder) {
+  const auto slopes = figure_data(sample())["slopes"];
+  ASSERT_EQ(slopes.size(), 3u);
+  for (const auto& slope : slopes) {
+    // From the left end of the base to the top right corner, which is corner 2.
+    double left = 1e9, bottom = 1e9, right = 0, top = 0;
+    for (std::size_t i = 0; i < slope["corner"].size(); ++i) {
+      left = std::min(left, slope["step"][i].get<double>());
+      bottom = std::min(bottom, slope["u_error"][i].get<double>());
+      if (slope["corner"][i] == 2) right = slope["step"][i], top = slope["u_error"][i];
+    }
+    EXPECT_NEAR(std::log(top / bottom) / std::log(right / left),
+                std::stod(slope["order"].get<std::string>()),
+                1e-12);  // three logarithms and a power, each within 1e-15 relative of about 10
+  }
+  EXPECT_TRUE(figure_data({})["slopes"].empty());
+}
+
+TEST(FigureData, HistoriesHaveTheRowsOfTheFinest) {
+  const auto data = figure_data(sample_check().cases[0]);
+  ASSERT_EQ(data["history_rows"].size(), 2u);
+  EXPECT_EQ(data["history_rows"][1]["series"], "mass 2");
+  EXPECT_EQ(data["history_rows"][1]["t"].size(), 201u);
+  EXPECT_EQ(data["runs"]["rows"].size(), 2u);
+  EXPECT_TRUE(data["work"].empty());
+}
+
+TEST(ProfileData, LinesBeginAtTheLeastCostAndEndTogether) {
+  const std::vector<study::Profile> profiles{{"steps",
+                                              {"a", "b"},
+                                              {{"cheap", {1, 1}, {{1.0, 1.0}}, 2, 0},
+                                               {"dear", {4, INFINITY}, {{4.0, 0.5}}, 0, 1},
+                                               {"never", {INFINITY, INFINITY}, {}, 0, 2}}}};
+  const auto rows = profile_data(profiles, {});
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0]["ratio"], (nlohmann::ordered_json{1.0, 5.0}));
+  EXPECT_EQ(rows[1]["share"], (nlohmann::ordered_json{0.0, 0.5, 0.5}));
+  EXPECT_EQ(rows[1]["solved"], (nlohmann::ordered_json{0, 1, 1}));
+  EXPECT_EQ(rows[2]["failed"], 2);
+}
+
+TEST(ProfileData, AMethodThatRefusedEveryCaseHasNoLine) {
+  const auto problem = sample();
+  for (const auto& row : profile_data(problem.profiles, {&problem, 1}))
+    EXPECT_NE(row["method"], "newmark+penalty:stiffness=1e6");
+}
+
+TEST(FigureSpecifications, NoPlaceholderIsLeftAndTheirDataIsThere) {
+  for (const auto& problem : {sample(), sample_check().cases[0]}) {
+    const auto data = figure_data(problem);
+    const auto all = figure_specifications(problem);
+    for (const auto& [name, specification] : all.items()) {
+      const auto text = specification.dump();
+      EXPECT_FALSE(std::regex_search(text, std::regex("\"\\$(?!schema)"))) << name << text;
+      const std::regex named("\"data\":\\{\"name\":\"([a-z_]+)\"\\}");
+      for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at)
+        EXPECT_TRUE(data.contains((*at)[1].str())) << name << (*at)[1];
+    }
+  }
+}
+
+TEST(FigureSpecifications, ThereIsOneForWhatCanBeDrawn) {
+  auto check = sample_check().cases[0];
+  auto all = figure_specifications(check);
+  EXPECT_TRUE(all.contains("history") && all.contains("convergence"));
+  EXPECT_FALSE(all.contains("work") || all.contains("profile"));
+  check.subjects[0].levels.erase(check.subjects[0].levels.begin());
+  check.subjects[0].levels[0].runs[0].error_history = {};
+  all = figure_specifications(check);
+  EXPECT_FALSE(all.contains("convergence")) << "one point is no line";
+  EXPECT_FALSE(all.contains("history"));
+}
+
+TEST(FigureSpecifications, DataOfSeveralCasesIsToldApart) {
+  auto specification = figure_specifications(sample())["work"];
+  rename_data(specification, "-2");
+  const auto text = specification.dump();
+  EXPECT_NE(text.find("{\"name\":\"front-2\"}"), std::string::npos);
+  EXPECT_EQ(text.find("{\"name\":\"runs\"}"), std::string::npos);
+  EXPECT_NE(text.find("\"name\":\"zoom\""), std::string::npos) << "names of others stay";
+}
+
+TEST(PlotStyle, TheFirstTwentyFourAreDifferent) {
+  for (std::size_t i = 0; i < 24; ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto a = plot_style(i), b = plot_style(k);
+      // Colour may repeat, but then neither dash nor marker does.
+      EXPECT_TRUE(a.color != b.color || (a.dash != b.dash && a.shape != b.shape)) << i << " " << k;
+    }
+}
+
+}  // namespace
+}  // namespace clackers::report

@@ -1,0 +1,136 @@
+#include "clackers/report/html/figure_specifications.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "clackers/report/assets.hpp"
+#include "clackers/report/html/counters.hpp"
+#include "clackers/report/html/figure_data.hpp"
+#include "clackers/report/html/plot_style.hpp"
+
+namespace clackers::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A tick of a logarithmic axis: powers of ten, and between them only where few would be left.
+std::string power_label(const std::string& axis) {
+  const std::string exponent = "round(log(datum.value) / LN10)", digits = "'⁰¹²³⁴⁵⁶⁷⁸⁹'";
+  const auto digit = [&](const std::string& value) {
+    return "substring(" + digits + ", " + value + ", " + value + " + 1)";
+  };
+  const auto size = "abs(" + exponent + ")";
+  const auto power = "'10' + (" + exponent + " < 0 ? '⁻' : '') + (" + size + " >= 100 ? " +
+                     digit("floor(" + size + " / 100)") + " : '') + (" + size + " >= 10 ? " +
+                     digit("(floor(" + size + " / 10) % 10)") + " : '') + " +
+                     digit("(" + size + " % 10)");
+  return "abs(log(datum.value) / LN10 - " + exponent + ") < 1e-9 ? " + power + " : domain('" +
+         axis + "')[1] / domain('" + axis + "')[0] < 30 ? format(datum.value, '.2~e') : ''";
+}
+
+// A tick of an axis of ratios from 1: 1, 2, 5, 10, 20, 50, ...
+std::string ratio_label() {
+  const std::string power = "pow(10, floor(log(datum.value) / LN10 + 1e-9))";
+  return "datum.value > 0.999 && indexof([1, 2, 5], round(datum.value / " + power +
+         ")) >= 0 ? format(datum.value, '.3~g') : ''";
+}
+
+// Replaces every text "$name" by its value.
+void substitute(Json& json, const Json& values) {
+  if (json.is_structured()) {
+    for (auto& item : json) substitute(item, values);
+  } else if (json.is_string()) {
+    const auto text = json.get<std::string>();
+    if (text.size() > 1 && text.front() == '$') {
+      const auto value = values.find(text.substr(1));
+      if (value != values.end()) json = *value;
+    }
+  }
+}
+
+// Of a long curve a marker at every sixtieth point, at other points for every method.
+std::string marker_rows(const Json& names) {
+  const auto list = names.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return "datum.row % 60 === (7 * indexof(" + list + ", datum.method) + 15) % 60";
+}
+
+Json method_scales(const std::vector<std::string>& methods) {
+  Json names = Json::array(), colors = Json::array(), shapes = Json::array(),
+       dashes = Json::array();
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const auto style = plot_style(i);
+    names.push_back(methods[i]);
+    colors.push_back(style.color);
+    shapes.push_back(style.shape);
+    dashes.push_back(style.dash);
+  }
+  return {{"methods", names},
+          {"colors", colors},
+          {"shapes", shapes},
+          {"dashes", dashes},
+          {"marker_rows", marker_rows(names)},
+          {"x_power", power_label("x")},
+          {"x_ratio", ratio_label()},
+          {"y_power", power_label("y")}};
+}
+
+Json specification_of(std::string_view text, const std::vector<std::string>& methods,
+                      Json values = Json::object()) {
+  auto specification = Json::parse(text);
+  values.update(method_scales(methods));
+  substitute(specification, values);
+  return specification;
+}
+
+// What a figure of work needs beside its methods. `before` stands before each counter's title.
+Json counter_values(const std::vector<ShownCounter>& counters, const std::string& before) {
+  Json titles = Json::object();
+  for (const auto& counter : counters) titles[std::string(counter.field)] = before + counter.title;
+  const auto first = std::string(first_shown(counters).field);
+  return {{"counter", first},
+          {"titles", {{"counters", titles}}},
+          {"x_title", titles[first]},
+          {"drawable",
+           "datum.u_error > 0 && isFinite(datum.u_error) && datum.cost > 0 && "
+           "indexof(hidden, datum.method) < 0"}};
+}
+
+}  // namespace
+
+Json figure_specifications(const study::CaseRecord& problem) {
+  std::vector<std::string> names;
+  bool has_history = false;
+  for (const auto& subject : problem.subjects) {
+    names.push_back(subject.name);
+    const auto* run = subject.shown_run();
+    has_history = has_history || (run != nullptr && !run->error_history.t.empty());
+  }
+  Json all{{"response", specification_of(assets::response_vl_json, names)}};
+  if (drawn_history(problem) != nullptr)
+    all["response"]["layer"].push_back(Json::parse(assets::history_rows_vl_json));
+  if (has_convergence(problem))
+    all["convergence"] = specification_of(assets::convergence_vl_json, names);
+  if (has_history) all["history"] = specification_of(assets::history_vl_json, names);
+  if (const auto counters = counters_of(problem); !counters.empty())
+    all["work"] = specification_of(assets::work_vl_json, names, counter_values(counters, ""));
+  if (const auto counters = counters_of(problem.profiles); !counters.empty())
+    all["profile"] = specification_of(assets::profile_vl_json, names,
+                                      counter_values(counters, "times the least "));
+  return all;
+}
+
+Json profile_specification(const std::vector<study::Profile>& profiles) {
+  std::vector<std::string> names;
+  for (const auto& method : profiles.front().methods) names.push_back(method.method);
+  return specification_of(assets::profile_vl_json, names,
+                          counter_values(counters_of(profiles), "times the least "));
+}
+
+void rename_data(Json& specification, std::string_view suffix) {
+  if (!specification.is_structured()) return;
+  if (specification.is_object() && specification.contains("data"))
+    if (auto& data = specification["data"]; data.is_object() && data.contains("name"))
+      data["name"] = data["name"].get<std::string>() + std::string(suffix);
+  for (auto& item : specification) rename_data(item, suffix);
+}
+
+}  // namespace clackers::report

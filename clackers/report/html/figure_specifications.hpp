@@ -1,0 +1,24 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clackers/study/record.hpp"
+
+namespace clackers::report {
+
+/// The Vega-Lite specifications of a case by the name of the figure: "response", and where there is
+/// something to show "convergence", "history", "work" and "profile". usermeta.counters are the titles
+/// of a figure's counters. Each names its data sets; colours are variables of page.css.
+nlohmann::ordered_json figure_specifications(const study::CaseRecord& problem);
+
+/// That of profiles over several cases, which name the methods.
+nlohmann::ordered_json profile_specification(const std::vector<study::Profile>& profiles);
+
+/// Appends `suffix` to the names of the data sets, so that the figures of several cases can stand in
+/// one page.
+void rename_data(nlohmann::ordered_json& specification, std::string_view suffix);
+
+}  // namespace clackers::report

@@ -1,0 +1,42 @@
+#include "clackers/report/html/page.hpp"
+
+#include <fmt/format.h>
+
+#include "clackers/report/assets.hpp"
+#include "clackers/report/markup.hpp"
+
+namespace clackers::report {
+
+std::string page_html(const Page& page, const study::Provenance& from) {
+  std::string links, sections;
+  for (const auto& section : page.sections) {
+    links += fmt::format("      <a href=\"#{}\">{}</a>\n", section.id, escape(section.link));
+    sections +=
+        fill(assets::section_html,
+             {{"id", section.id}, {"title", escape(section.title)}, {"content", section.html}});
+  }
+  return fill(assets::page_html, {{"title", escape(page.title)},
+                                  {"script_hashes", std::string(assets::script_hashes)},
+                                  {"first", page.sections.front().id},
+                                  {"first_name", escape(page.sections.front().title)},
+                                  {"command", escape(page.command)},
+                                  {"links", links},
+                                  {"heading", page.heading},
+                                  {"lead", page.lead},
+                                  {"overall", page.overall},
+                                  {"sections", sections},
+                                  {"version", escape(from.version)},
+                                  {"date", escape(from.date)},
+                                  {"style", std::string(assets::page_css)},
+                                  {"theme", std::string(assets::theme_js)},
+                                  {"licences", escape(assets::licences)},
+                                  {"data", script_json(page.data)},
+                                  {"specifications", script_json(page.specifications)},
+                                  {"vega", std::string(assets::vega_min_js)},
+                                  {"vega_lite", std::string(assets::vega_lite_min_js)},
+                                  {"vega_embed", std::string(assets::vega_embed_min_js)},
+                                  {"figures_script", std::string(assets::figures_js)},
+                                  {"page_script", std::string(assets::page_js)}});
+}
+
+}  // namespace clackers::report

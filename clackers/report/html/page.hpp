@@ -1,0 +1,30 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "clackers/study/record.hpp"
+
+namespace clackers::report {
+
+/// A section of a page. `link` is its name in the bar above.
+struct PageSection {
+  std::string id, link, title;  ///< title and link are text
+  std::string html;
+};
+
+/// A page before it is put together: html where nothing else is said.
+struct Page {
+  std::string command;  ///< "verify"
+  std::string title;    ///< of the window, text
+  std::string heading, lead, overall;
+  std::vector<PageSection> sections;  ///< the first is what a reader of screens may skip to
+  nlohmann::ordered_json data, specifications;  ///< of the figures, by name
+};
+
+/// One self-contained page that opens without a network: style, libraries and figures inside. Its
+/// content security policy allows the scripts of this library and nothing else.
+std::string page_html(const Page& page, const study::Provenance& from);
+
+}  // namespace clackers::report

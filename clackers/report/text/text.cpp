@@ -1,0 +1,224 @@
+#include "clackers/report/text/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "clackers/assess/cost/performance_profile.hpp"
+#include "clackers/base/text.hpp"
+#include "clackers/report/columns.hpp"
+#include "clackers/report/format.hpp"
+#include "clackers/report/text/table.hpp"
+#include "clackers/report/words.hpp"
+
+namespace clackers::report {
+namespace {
+
+using Cells = std::vector<std::vector<TextCell>>;
+
+TextColor color_of(std::string_view verdict) {
+  if (verdict == "agrees") return TextColor::green;
+  if (verdict == "disagrees") return TextColor::red;
+  if (verdict == "not claimed") return TextColor::plain;
+  return TextColor::yellow;
+}
+
+std::string number_text(double value, Kind kind) {
+  return kind == Kind::error ? scientific(value) : short_number(value, 3, 8);
+}
+
+TextCell cell_of(const Column& shown, const Row& row) {
+  const auto cell = shown.get(row);
+  std::string text = "-";
+  if (const auto* real = std::get_if<double>(&cell)) text = number_text(*real, shown.kind);
+  if (const auto* whole = std::get_if<long long>(&cell)) text = short_count(*whole);
+  if (const auto* word = std::get_if<std::string>(&cell)) text = *word;
+  const auto color = shown.kind == Kind::name      ? TextColor::bold
+                     : shown.kind == Kind::verdict ? color_of(text)
+                                                   : TextColor::plain;
+  return {std::move(text), color};
+}
+
+void print(const Table& table, std::ostream& out, const Style& style) {
+  std::vector<TextColumn> columns;
+  for (const auto* shown : table.columns) {
+    auto header = std::string(shown->brief_heading());
+    if (!shown->unit.empty()) header += fmt::format("\n[{}]", shown->unit);
+    columns.push_back({std::move(header), is_number(shown->kind)});
+  }
+  Cells rows;
+  for (const auto& row : table.rows) {
+    auto& cells = rows.emplace_back();
+    for (const auto* shown : table.columns) cells.push_back(cell_of(*shown, row));
+  }
+  print_table(std::move(columns), rows, out, style);
+}
+
+void print_metrics(const study::Run& run, std::ostream& out, const Style& style) {
+  Cells rows;
+  std::vector<std::string> missing;
+  for (const auto& metric : run.metrics) {
+    if (std::isnan(metric.value)) {
+      missing.push_back(metric.name);
+      continue;
+    }
+    std::vector<std::string> masses;
+    for (const double value : metric.masses) masses.push_back(scientific(value, 2));
+    const bool is_count = metric.unit == "1" && metric.value == std::floor(metric.value);
+    rows.push_back({{metric.name + (metric.across_jumps ? "" : " *")},
+                    {is_count ? short_number(metric.value) : scientific(metric.value, 2)},
+                    {metric.unit == "1" ? "" : metric.unit},
+                    {fmt::format("{}", fmt::join(masses, "  "))}});
+  }
+  out << '\n';
+  print_table({{"metric"}, {"value", true}, {"unit"}, {"mass by mass"}}, rows, out, style);
+  if (!std::ranges::all_of(run.metrics, &study::MetricResult::across_jumps))
+    print_wrapped("* need not tend to zero while impacts are a little early or late.", out, style);
+  if (!missing.empty())
+    print_wrapped(fmt::format("Not measured: {}; why: --format json.", fmt::join(missing, ", ")),
+                  out, style);
+}
+
+void print_methods(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+  const auto table = summary_table(problem, study::SubjectKind::method);
+  if (table.rows.empty()) return;
+  out << '\n';
+  print(table, out, style);
+  out << '\n';
+  print_wrapped(
+      "Worst of the finest level's steps; errors relative to the initial envelope and energy; "
+      "order ± 95 %; collisions matched/exact.",
+      out, style);
+}
+
+void print_histories(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+  const auto table = summary_table(problem, study::SubjectKind::histories);
+  if (table.rows.empty()) return;
+  out << '\n';
+  print(table, out, style);
+  out << '\n';
+  print_wrapped(
+      "Errors relative to the initial envelope; v in the mean over time; collisions "
+      "matched/exact.",
+      out, style);
+  for (const auto& subject : problem.subjects) {
+    if (subject.kind != study::SubjectKind::histories) continue;
+    const auto notes = note_texts(subject);
+    if (!notes.empty()) out << '\n';
+    for (const auto& note : notes) print_wrapped(note, out, style);
+    const auto* shown = subject.shown_run();
+    if (shown != nullptr && !shown->metrics.empty()) print_metrics(*shown, out, style);
+  }
+}
+
+void print_findings(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+  for (const auto& texts : {&finding, &false_convergence}) {
+    bool is_first = true;
+    for (const auto& subject : problem.subjects)
+      if (const auto found = texts(subject)) {
+        if (is_first) out << '\n';
+        is_first = false;
+        print_wrapped(fmt::format("{}: {}", subject.name, text_of(*found)), out, style);
+      }
+  }
+}
+
+void print_case(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+  print_wrapped(case_text(problem.problem), out, style);
+  print_wrapped(length_text(problem.problem), out, style);
+  if (const auto plan = plan_text(problem); !plan.empty()) print_wrapped(plan, out, style);
+  print_methods(problem, out, style);
+  print_histories(problem, out, style);
+  print_findings(problem, out, style);
+}
+
+// Over all cases, by force evaluations where they are counted.
+void print_profile(const study::Record& record, std::ostream& out, const Style& style) {
+  out << '\n';
+  if (record.profiles.empty())
+    return print_wrapped(
+        "No performance profile: a study was interrupted, or no method reaches an error of 0.1 on "
+        "any case.",
+        out, style);
+  const auto counted_forces =
+      std::ranges::find(record.profiles, study::field_of(assess::Counter::force_evaluations),
+                        &study::Profile::counter);
+  const auto& profile =
+      counted_forces == record.profiles.end() ? record.profiles.front() : *counted_forces;
+  const auto tasks = std::ssize(profile.tasks);
+  print_wrapped(
+      fmt::format(
+          "Performance profile over {} and {}, by {}. A task is an error in u to reach on a "
+          "case: 0.1, 0.01, ... down to the smallest that some method reaches.",
+          counted(std::ssize(record.cases), "case"), counted(tasks, "task"),
+          column(profile.counter).heading),
+      out, style);
+  const auto percent = [](double share) { return fmt::format("{:.0f} %", 100.0 * share); };
+  Cells rows;
+  for (const auto& method : profile.methods)
+    rows.push_back({{method.method, TextColor::bold},
+                    {fmt::format("{}", method.best)},
+                    {percent(assess::share_within(method, 2.0))},
+                    {percent(assess::share_within(method, 10.0))},
+                    {fmt::format("{}/{}", tasks - method.failed, tasks)}});
+  out << '\n';
+  print_table({{"method"},
+               {"cheapest of all", true},
+               {"within 2 x", true},
+               {"within 10 x", true},
+               {"tasks solved", true}},
+              rows, out, style);
+  out << '\n';
+  print_wrapped(
+      "Shares of all tasks, solved at no more than so many times the least cost; what was refused "
+      "or failed counts as not solved.",
+      out, style);
+}
+
+}  // namespace
+
+void write_changes(const study::BaselineComparison& changes, std::ostream& out,
+                   const Style& style) {
+  print_wrapped(change_summary(changes), out, style);
+  const auto is_of_first_case = [&](const study::SubjectChange& change) {
+    return change.case_name == changes.subjects.front().case_name;
+  };
+  const bool one_case = std::ranges::all_of(changes.subjects, is_of_first_case);
+  for (const auto& change : changes.subjects) {
+    if (!change.any()) continue;
+    const auto who = one_case ? change.name : change.case_name + ", " + change.name;
+    for (const auto& text : change_texts(change))
+      print_wrapped(fmt::format("{}: {}", who, text), out, style);
+  }
+}
+
+void write_text(const study::Record& record, std::ostream& out, const Style& style,
+                const study::BaselineComparison* changes) {
+  if (record.interrupted)
+    print_wrapped("INTERRUPTED: only what was finished is shown [interrupted]", out, style,
+                  TextColor::yellow);
+  const char* between = "";
+  for (const auto& problem : record.cases) {
+    out << between;
+    print_case(problem, out, style);
+    between = "\n";
+  }
+  if (record.cases.size() > 1) print_profile(record, out, style);
+  if (changes != nullptr) {
+    out << '\n';
+    write_changes(*changes, out, style);
+  }
+  const auto line = verdict_line(record);
+  out << '\n';
+  if (!line.counts.empty()) print_wrapped(line.counts, out, style);
+  // A command is for copying, so it is not broken; of one that is too long only the change is named.
+  auto last = fmt::format("Verdict: {}. Next: {}", line.word, line.next);
+  if (display_width(printable(last)) > std::size_t(std::max(style.width, 20)))
+    last = fmt::format("Verdict: {}. Next: {}", line.word, line.next_in_words);
+  print_wrapped(last, out, style, color_of(line.word));
+}
+
+}  // namespace clackers::report

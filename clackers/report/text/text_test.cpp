@@ -1,0 +1,115 @@
+#include "clackers/report/text/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include "clackers/report/format.hpp"
+#include "clackers/report/testing/sample_record.hpp"
+#include "clackers/report/testing/written.hpp"
+
+namespace clackers::report {
+namespace {
+
+std::string text_of_record(const study::Record& record, const Style& style = {}) {
+  return written(record, Format::table, style);
+}
+
+TEST(Text, NoLineIsLongerThanEightyColumnsOrEndsInASpace) {
+  for (const auto& record : {sample_record(), sample_check(), sample_of_all()})
+    for (const auto& line : lines_of(text_of_record(record))) {
+      EXPECT_LE(display_width(line), 80u) << line;
+      EXPECT_FALSE(line.ends_with(' ')) << line;
+    }
+}
+
+TEST(Text, LongNamesAndThousandsOfCollisionsStayWithinTheWidth) {
+  auto record = sample_record();
+  record.provenance.command = "clackers verify " + std::string(100, 'n');
+  for (auto& subject : record.cases[0].subjects) {
+    subject.name += "+event-driven:tolerance=1e-12,limit=100";
+    for (auto& level : subject.levels)
+      for (auto& run : level.runs)
+        run.score.impacts = assess::ImpactScore{318309, 318310, 318309, 0, 1, 1e-12};
+  }
+  for (const int width : {40, 80, 120})
+    for (const auto& line : lines_of(text_of_record(record, {.color = false, .width = width})))
+      EXPECT_LE(display_width(line), std::size_t(width)) << line;
+}
+
+TEST(Text, ARowHasErrorOrderCollisionsCostBehaviourAndVerdict) {
+  // 0.8 h^2 at the finest level's largest step, 0.05/128 s: 1.2e-7; a third of it in the collision
+  // times, three times it in energy; 20 s / h forces at the smallest step, 2^(7/8) times smaller.
+  const auto text = text_of_record(sample_record());
+  EXPECT_TRUE(has(text, " 1.2e-7 2.01±0.01   6/6  4.1e-8  3.7e-7 93901 proper     agrees")) << text;
+}
+
+TEST(Text, AnInterruptedRecordIsMarked) {
+  auto record = sample_record();
+  EXPECT_TRUE(text_of_record(record).starts_with("INTERRUPTED"));
+  EXPECT_EQ(lines_of(text_of_record(record)).back(),
+            "Verdict: interrupted. Next: clackers verify --report report.html");
+  record.interrupted = false;
+  EXPECT_FALSE(has(text_of_record(record), "INTERRUPTED"));
+}
+
+TEST(Text, ACommandThatIsTooLongIsDescribed) {
+  auto record = sample_check();
+  record.interrupted = true;
+  record.provenance.command = "clackers check " + std::string(80, 'n');
+  EXPECT_EQ(lines_of(text_of_record(record)).back(),
+            "Verdict: interrupted. Next: the same command again");
+}
+
+TEST(Text, SeveralCasesHaveATableEachAndOneVerdict) {
+  auto record = sample_of_all();
+  const auto text = text_of_record(record);
+  EXPECT_TRUE(has(text, "three-parameter (N = 2"));
+  EXPECT_TRUE(has(text, "\nstop (N = 2"));
+  EXPECT_TRUE(has(text, "No performance profile"));
+  EXPECT_EQ(occurrences(text, "Verdict: "), 1u);
+  record.profiles = sample_record().cases[0].profiles;
+  record.cases.back() = record.cases.front();
+  EXPECT_TRUE(has(text_of_record(record), "Performance profile over 2 cases"));
+}
+
+TEST(Text, HistoriesHaveFilesNotesAndMetrics) {
+  const auto text = text_of_record(sample_check());
+  EXPECT_TRUE(has(text, "\nfine.csv ")) << text;
+  EXPECT_FALSE(has(text, "/a/long/way"));
+  EXPECT_TRUE(has(text, "No events file"));
+  EXPECT_TRUE(has(text, "v-max *"));
+  EXPECT_TRUE(has(text, "Not measured: decay-error, collision-spacing"));
+}
+
+TEST(Text, ColourIsPrintedOnlyWhenAsked) {
+  EXPECT_FALSE(has(text_of_record(sample_record()), "\x1b"));
+  const auto text = text_of_record(sample_record(), {.color = true});
+  EXPECT_TRUE(has(text, "\x1b[32magrees\x1b[0m"));
+  EXPECT_TRUE(has(text, "\x1b[31mdisagrees\x1b[0m"));
+}
+
+TEST(Text, NoControlCharacterOfOthersIsPrinted) {
+  const std::string evil = "\x1b[31m\x07\r\x7f\xc2\x9b\xe2\x80\xae\xff";
+  auto record = sample_of_all();
+  record.provenance.command = record.provenance.version = evil;
+  for (auto& problem : record.cases) {
+    problem.problem.name = evil;
+    for (auto& subject : problem.subjects) {
+      subject.name = subject.claim.reason = subject.assessment.reason = evil;
+      if (!subject.refusal.empty()) subject.refusal = subject.refusal_code = evil;
+      for (auto& level : subject.levels)
+        for (auto& run : level.runs) {
+          run.score.failure = evil;
+          if (!run.file) continue;
+          run.file->file = evil;
+          run.file->notes.push_back(study::note("columns-not-used", {}, evil));
+        }
+    }
+  }
+  const auto text = text_of_record(record);
+  for (const char c : text) EXPECT_TRUE(c == '\n' || c < 0 || (c >= ' ' && c != '\x7f')) << int(c);
+  for (const auto* part : {"\xc2\x9b", "\xe2\x80\xae", "\xff"}) EXPECT_FALSE(has(text, part));
+  EXPECT_TRUE(has(text, "\\x1b[31m\\x07\\x0d\\x7f\\xc2\\x9b"));
+}
+
+}  // namespace
+}  // namespace clackers::report

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clackers/study/baseline.hpp"
+#include "clackers/study/record.hpp"
+
+// Every sentence of a report, made of the codes and numbers of a record.
+namespace clackers::report {
+
+/// A sentence and the code that `clackers explain` knows; the code may be empty.
+struct Finding {
+  std::string sentence, code;
+};
+/// "Sentence. [code]".
+std::string text_of(const Finding& finding);
+
+/// "1 method", "7 methods", "2 histories".
+std::string counted(long long count, std::string_view noun);
+
+/// "2.00 ±0.01"; empty where there is no line.
+std::string order_text(const assess::LadderFit& fit, std::string_view space = " ");
+/// "proper, order 2.00 ±0.01", "stagnating at 3.1e-3 [contact-stiffness]".
+std::string fit_text(const assess::LadderFit& fit);
+/// "proper, order 2", "stagnating [contact-stiffness]", "nothing".
+std::string claim_text(const Claim& claim);
+
+/// "three-parameter (N = 2, xi1 = 0.05, a_t = 1 m)"; `space` stands around "=" and before units.
+std::string case_text(const study::CaseSummary& problem, std::string_view space = " ");
+/// "20 s with 6 collisions; fast period 1.258 s".
+std::string length_text(const study::CaseSummary& problem);
+/// "8 levels of 8 steps, h = 0.05 s to 0.00039 s, 13 to 1625 steps per fast period"; empty for
+/// histories.
+std::string plan_text(const study::CaseRecord& problem);
+
+/// What was measured of a subject, what decided the verdict, and how it compares with the claim.
+std::string assessment_text(const study::Subject& subject);
+/// What a reader must know of a subject beside its numbers; nothing for a method that is as it
+/// claims to be.
+std::optional<Finding> finding(const study::Subject& subject);
+/// Where the differences between runs show convergence and the errors do not.
+std::optional<Finding> false_convergence(const study::Subject& subject);
+/// What the differences between runs show, beside what the errors of the same runs show.
+std::string self_convergence_text(const study::SelfResult& result);
+
+/// The notes on the histories of a subject, one for each code; the finest history stands for
+/// others with the same.
+std::vector<std::string> note_texts(const study::Subject& subject);
+std::string note_text(const study::Note& note);
+
+/// The last line of a report.
+struct VerdictLine {
+  std::string word;           ///< "agrees", "disagrees", "undecided", "not claimed", "interrupted"
+  std::string counts;         ///< "Of 8 methods: 5 agree, 1 disagrees."; empty for one subject
+  std::string next;           ///< the command to type next
+  std::string next_in_words;  ///< the same where there is no room for a long command
+};
+VerdictLine verdict_line(const study::Record& record);
+
+/// "Against the baseline of 2025-11-21T09:43:00Z (clackers 0.1.0): 2 of 7 methods changed."
+std::string change_summary(const study::BaselineComparison& changes);
+/// What changed of a subject, a sentence each.
+std::vector<std::string> change_texts(const study::SubjectChange& change);
+
+/// A path without its folder.
+std::string short_path(std::string_view path);
+
+}  // namespace clackers::report

@@ -1,0 +1,164 @@
+#include "clackers/study/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "clackers/assess/convergence/judge.hpp"
+#include "clackers/base/check.hpp"
+#include "clackers/base/error.hpp"
+#include "clackers/study/check/history_run.hpp"
+#include "clackers/study/provenance.hpp"
+#include "clackers/study/reduced_curve.hpp"
+#include "clackers/study/respond.hpp"
+#include "clackers/study/verify/verify_plan.hpp"
+
+namespace clackers::study {
+namespace {
+
+void require_one_each(const char* option, std::size_t given, std::size_t files) {
+  if (given == 0 || given == files) return;
+  refuse("check", option, fmt::format("{} of them", given),
+         fmt::format("one a history, {} here, in the same order", files), {}, "wrong-size");
+}
+
+void validate(const CheckRequest& request) {
+  if (request.files.empty())
+    throw InputError("check needs a FILE with a time history.", "bad-syntax");
+  if (std::ranges::count(request.files, "-") + std::ranges::count(request.events, "-") > 1)
+    throw InputError("check: - stands more than once; allowed: standard input for one file.",
+                     "bad-syntax");
+  require_one_each("--events", request.events.size(), request.files.size());
+  require_one_each("--steps", request.steps.size(), request.files.size());
+  for (const double step : request.steps) require_step("check --steps", step);
+  if (request.tolerance) require_positive("check", "--tolerance", *request.tolerance);
+}
+
+void require_levels(const std::vector<Run>& runs) {
+  if (runs.size() < 2 || runs.front().score.step > 1.001 * runs.back().score.step) return;
+  refuse("check", "step of every history", runs.front().score.step,
+         "different steps, since several histories are levels of one method",
+         "Name the steps with --steps h1,h2,... in the order of the files.");
+}
+
+// Work to expect of a file: its bytes. Of standard input nothing is known.
+double cost_of(const std::string& file) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(file, error);
+  return error ? 1.0 : 1.0 + double(bytes);
+}
+
+std::vector<Run> runs_of(const CheckRequest& request, const cases::Case& problem,
+                         const CaseSummary& summary, const Progress& progress,
+                         const std::atomic<bool>* interrupt) {
+  double total = 0.0;
+  for (const auto& file : request.files) total += cost_of(file);
+  ProgressMeter meter(total, progress);
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < request.files.size(); ++i) {
+    HistoryTask task{.file = request.files[i], .events = {}, .step = 0.0};
+    if (!request.events.empty()) task.events = request.events[i];
+    if (!request.steps.empty()) task.step = request.steps[i];
+    const double cost = cost_of(task.file);
+    TaskShare share(meter, cost);
+    double done = 0.0;
+    const auto add = [&](double part) {
+      share.add(cost * (part - done));
+      done = part;
+    };
+    runs.push_back(history_run(task, request.columns, problem, summary, add, interrupt));
+  }
+  meter.finish();
+  std::ranges::stable_sort(runs, std::greater{}, [](const Run& run) { return run.score.step; });
+  return runs;
+}
+
+// Runs with neighbouring steps, of a ratio below 1.3, within a factor 2 are one level.
+std::vector<Level> levels_of(std::vector<Run> runs) {
+  constexpr double next_level = 1.3;
+  std::vector<Level> levels;
+  double last = 0.0;
+  for (auto& run : runs) {
+    const double h = run.score.step;
+    // Of eight samples in the ratio 2^(1/8) the ninth begins the next level.
+    const bool joins =
+        !levels.empty() && last / h < next_level && levels.back().step / h < std::exp2(15.0 / 16.0);
+    if (!joins) levels.push_back({h, {}});
+    levels.back().runs.push_back(std::move(run));
+    last = h;
+  }
+  return levels;
+}
+
+void assess_histories(Subject& subject) {
+  const auto& finest = *subject.levels.back().runs.back().file;
+  subject.contact_time = finest.contact_time;
+  subject.assessment = assess::judge(
+      ladder_of(subject), subject.claim,
+      {.contact_time = finest.contact_time,
+       .tolerance = subject.tolerance,
+       .finest = assess::HistoryFacts{.rows = finest.rows,
+                                      .printed_floor = finest.printed_floor,
+                                      .first = finest.first,
+                                      .start_error = finest.start_error,
+                                      .rows_resolve_collisions = finest.rows_resolve_collisions}});
+}
+
+}  // namespace
+
+Record check(const CheckRequest& request, const Progress& progress,
+             const std::atomic<bool>* interrupt) {
+  validate(request);
+  const auto problem = cases::make(
+      request.case_name.empty() ? cases::default_case() : request.case_name, request.settings);
+  CaseRecord one;
+  one.problem = summary_of(problem);
+  one.plan = no_refinement;
+  one.response = reduced(response_curve(problem, response_points));
+  Subject subject;
+  subject.kind = SubjectKind::histories;
+  subject.name = "histories";
+  subject.claim = request.expect.value_or(Claim{});
+  subject.tolerance = request.tolerance;
+  auto runs = runs_of(request, problem, one.problem, progress, interrupt);
+  require_levels(runs);
+  subject.levels = levels_of(std::move(runs));
+  assess_histories(subject);
+  one.subjects.push_back(std::move(subject));
+  Record record;
+  record.command = "check";
+  record.provenance = provenance(request.command);
+  record.cases.push_back(std::move(one));
+  return record;
+}
+
+Claim claim_from(std::string_view text) {
+  const auto colon = text.find(':');
+  Claim claim;
+  claim.behaviour = behaviour_from(text.substr(0, colon));
+  const bool has_line = claim.behaviour == Behaviour::proper ||
+                        claim.behaviour == Behaviour::reduced ||
+                        claim.behaviour == Behaviour::irregular;
+  if (claim.behaviour == Behaviour::undecided)
+    refuse("check", "--expect", text, "proper, reduced, irregular, exact, stagnating or divergent",
+           "Nothing to expect: leave --expect out.", "bad-syntax");
+  if (has_line != (colon != std::string_view::npos))
+    refuse("check", "--expect", text,
+           has_line ? "a behaviour with its order, as in proper:2"
+                    : fmt::format("{} without an order", to_string(claim.behaviour)),
+           {}, "bad-syntax");
+  if (!has_line) return claim;
+  const auto order = text.substr(colon + 1);
+  const auto [stop, error] =
+      std::from_chars(order.data(), order.data() + order.size(), claim.order);
+  if (error != std::errc() || stop != order.data() + order.size() ||
+      !(claim.order > 0.0 && claim.order <= 20.0))
+    refuse("check", "order of --expect", order, "0 < order <= 20");
+  return claim;
+}
+
+}  // namespace clackers::study

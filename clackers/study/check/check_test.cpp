@@ -1,0 +1,145 @@
+#include "clackers/study/check.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "clackers/base/error.hpp"
+
+namespace clackers::study {
+namespace {
+
+class Check : public testing::Test {
+ protected:
+  Check() : folder_(std::filesystem::temp_directory_path() / name()) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~Check() override { std::filesystem::remove_all(folder_); }
+
+  static std::string name() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    return fmt::format("clackers-check-{}-{}", test->name(), std::random_device()());
+  }
+
+  // The exact response of the default case with an error in u1 of order 2 in 8 h.
+  std::string write(double h, double factor = 0.0, const std::string& end = "\n") {
+    const auto problem = cases::make(cases::default_case());
+    std::ostringstream text;
+    text << "t,u1,v1,u2,v2";
+    for (long long i = 0; double(i) * h <= problem.motion->end(); ++i) {
+      const double t = double(i) * h;
+      const auto now = problem.motion->at(t, model::Side::right);
+      const double error = factor * 64.0 * h * h * std::sin(t);
+      text << fmt::format("\n{},{},{},{},{}", t, now.u[0] + error, now.v[0], now.u[1], now.v[1]);
+    }
+    const auto path = (folder_ / fmt::format("h{}.csv", h)).string();
+    std::ofstream(path) << text.str() << end;
+    return path;
+  }
+
+  std::filesystem::path folder_;
+};
+
+bool has(const Run& run, std::string_view code) {
+  return std::ranges::count(run.file->notes, code, &Note::code) > 0;
+}
+
+TEST_F(Check, FillsARecordOfOneCaseAndOneSubject) {
+  CheckRequest request;
+  request.files = {write(0.01)};
+  request.command = "clackers check";
+  const auto record = check(request);
+  EXPECT_EQ(record.command, "check");
+  EXPECT_EQ(record.provenance.command, "clackers check");
+  ASSERT_EQ(record.cases.size(), 1u);
+  EXPECT_EQ(record.cases[0].plan.levels, 0);
+  ASSERT_EQ(record.cases[0].subjects.size(), 1u);
+  const auto& subject = record.cases[0].subjects[0];
+  EXPECT_EQ(subject.kind, SubjectKind::histories);
+  EXPECT_EQ(subject.name, "histories");
+  EXPECT_EQ(subject.assessment.verdict, Verdict::not_claimed);
+  const auto* run = subject.shown_run();
+  ASSERT_NE(run, nullptr);
+  EXPECT_EQ(run->file->file, request.files[0]);
+  EXPECT_EQ(run->file->rows, 2001);
+  EXPECT_LT(run->score.u_error, 1e-14);
+  EXPECT_EQ(run->score.impacts->matched, 6);
+  EXPECT_TRUE(has(*run, "collisions-from-history"));
+  EXPECT_FALSE(has(*run, "last-line-incomplete"));
+  EXPECT_EQ(exit_code(record), 0);
+}
+
+TEST_F(Check, SeveralHistoriesAreLevelsCoarsestFirst) {
+  CheckRequest request;
+  for (const double h : {0.005, 0.01, 0.0025, 0.00125}) request.files.push_back(write(h, 1.0));
+  request.expect = claim_from("proper:2");
+  const auto& record = check(request);
+  const auto& subject = record.cases[0].subjects[0];
+  ASSERT_EQ(subject.levels.size(), 4u);
+  EXPECT_EQ(subject.levels[0].step, 0.01);
+  EXPECT_EQ(subject.levels[3].step, 0.00125);
+  EXPECT_EQ(subject.assessment.verdict, Verdict::agrees);
+  EXPECT_NEAR(subject.assessment.displacement.order, 2.0, 0.01);
+}
+
+TEST_F(Check, NeighbouringStepsAreOneLevel) {
+  CheckRequest request;
+  for (const double h : {0.02, 0.0175, 0.015, 0.01, 0.0085}) request.files.push_back(write(h, 1.0));
+  const auto record = check(request);
+  const auto& levels = record.cases[0].subjects[0].levels;
+  ASSERT_EQ(levels.size(), 2u);
+  EXPECT_EQ(levels[0].runs.size(), 3u);
+  EXPECT_EQ(levels[1].runs.size(), 2u);
+}
+
+TEST_F(Check, ALastLineWithoutLineFeedIsNoted) {
+  CheckRequest request;
+  request.files = {write(0.01, 0.0, "")};
+  const auto record = check(request);
+  EXPECT_TRUE(has(*record.cases[0].subjects[0].shown_run(), "last-line-incomplete"));
+}
+
+TEST_F(Check, ProgressRisesToOne) {
+  CheckRequest request;
+  request.files = {write(0.01), write(0.005)};
+  std::vector<double> shares;
+  check(request, [&](double share) { shares.push_back(share); });
+  ASSERT_FALSE(shares.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_EQ(shares.back(), 1.0);
+}
+
+TEST_F(Check, StopsAfterAnInterrupt) {
+  CheckRequest request;
+  request.files = {write(0.01)};
+  const std::atomic<bool> interrupt = true;
+  try {
+    check(request, {}, &interrupt);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code("interrupted"));
+  }
+}
+
+TEST_F(Check, StandardInputServesOneFile) {
+  CheckRequest request;
+  request.files = {"-", "-"};
+  EXPECT_THROW(check(request), InputError);
+}
+
+TEST(CheckExpectation, IsABehaviourWithAnOrderWhereItNeedsOne) {
+  EXPECT_EQ(claim_from("proper:2").behaviour, Behaviour::proper);
+  EXPECT_EQ(claim_from("irregular:1.5").order, 1.5);
+  EXPECT_EQ(claim_from("exact").behaviour, Behaviour::exact);
+  for (const auto* text : {"proper", "proper:", "proper:x", "proper:2x", "exact:2", "undecided",
+                           "proper:0", "proper:-1", "proper:nan", "nothing", ""})
+    EXPECT_THROW(claim_from(text), InputError) << text;
+}
+
+}  // namespace
+}  // namespace clackers::study

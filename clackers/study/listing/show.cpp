@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "clackers/methods/registry.hpp"
+#include "clackers/study/listing.hpp"
+#include "clackers/study/respond.hpp"
+#include "clackers/study/listing/show_sheets.hpp"
+
+namespace clackers::study {
+namespace {
+
+constexpr std::size_t collisions_shown = 6;
+
+Sheet parameter_sheet(const cases::Case& which) {
+  Sheet sheet{
+      "clackers/parameters/1",
+      fmt::format("{}, {}: {}", which.entry->name, which.entry->equations, which.entry->summary),
+      {{"parameter", "", "as typed after --set"},
+       {"value", "", "in use"},
+       {"unit", "", ""},
+       {"allowed", "", ""},
+       {"meaning", "", ""}},
+      {}};
+  for (std::size_t i = 0; i < which.values.size(); ++i) {
+    const auto& p = which.entry->parameters[i];
+    sheet.rows.push_back({p.name, which.values[i].second, p.unit, p.allowed, p.meaning});
+  }
+  return sheet;
+}
+
+Sheet constant_sheet(std::string schema, std::string title,
+                     const std::vector<cases::Constant>& constants) {
+  Sheet sheet{std::move(schema),
+              std::move(title),
+              {{"name", "", ""}, {"value", "", ""}, {"unit", "", ""}, {"meaning", "", ""}},
+              {}};
+  for (const auto& c : constants) sheet.rows.push_back({c.name, c.value, c.unit, c.meaning});
+  return sheet;
+}
+
+Sheet collision_sheet(const cases::Case& which) {
+  const auto rows = collisions(which);
+  const auto total = which.motion->impact_count(which.motion->end());
+  Sheet sheet{rows->schema(), {}, rows->columns(), {}};
+  std::vector<Cell> row;
+  while (sheet.rows.size() < collisions_shown && rows->next(row)) sheet.rows.push_back(row);
+  sheet.title = total <= static_cast<long long>(sheet.rows.size())
+                    ? fmt::format("Collisions: {}", total)
+                    : fmt::format(
+                          "Collisions: the first {} of {}; all: clackers respond {} "
+                          "--collisions",
+                          sheet.rows.size(), total, which.entry->name);
+  return sheet;
+}
+
+Sheet claim_sheet(const methods::Facts& facts) {
+  Sheet sheet{"clackers/facts/1",
+              facts.name,
+              {{"fact", "", ""}, {"value", "", ""}, {"meaning", "", ""}},
+              {}};
+  const auto& claim = facts.through_impacts;
+  sheet.rows.push_back(
+      {"smooth_order", facts.smooth_order, "order of u and v while nothing collides"});
+  sheet.rows.push_back({"stability_limit", facts.stability_limit,
+                        "largest omega h of undamped smooth motion; inf: every step is stable"});
+  sheet.rows.push_back({"behaviour", std::string(to_string(claim.behaviour)),
+                        "claimed through impacts; clackers explain tells what it means"});
+  if (claim.order > 0.0)
+    sheet.rows.push_back({"order", claim.order,
+                          claim.behaviour == Behaviour::irregular
+                              ? "claimed of the upper envelope of the displacement error"
+                              : "claimed of the displacement error"});
+  if (!claim.reason.empty())
+    sheet.rows.push_back({"reason", claim.reason, "of the claimed behaviour"});
+  sheet.rows.push_back({"reports_impacts", std::string(facts.reports_impacts ? "yes" : "no"),
+                        "whether a run says when the masses collide"});
+  return sheet;
+}
+
+void add_entry(std::vector<Sheet>& sheets, const methods::Entry& entry) {
+  Sheet parameters{"clackers/parameters/1",
+                   fmt::format("Parameters of {}", entry.name),
+                   {{"parameter", "", "as typed"},
+                    {"default", "", ""},
+                    {"allowed", "", ""},
+                    {"meaning", "", "with its unit"}},
+                   {}};
+  for (const auto& p : entry.parameters)
+    parameters.rows.push_back({p.name, p.default_text(), p.allowed, p.meaning});
+  if (!parameters.rows.empty()) sheets.push_back(std::move(parameters));
+  sheets.push_back({"clackers/card/1",
+                    fmt::format("{} ({}): {}", entry.name, entry.kind, entry.summary),
+                    {{"card", "", ""}},
+                    {{entry.card}}});
+}
+
+// The registered names of which a specification is made: "newmark:beta=0+penalty" has two.
+std::vector<std::string> parts(std::string_view full_name) {
+  std::vector<std::string> names;
+  for (const auto& entry : methods::entries()) {
+    std::size_t at = 0;
+    while ((at = full_name.find(entry.name, at)) != std::string_view::npos) {
+      const auto next = at + entry.name.size();
+      const bool starts = at == 0 || full_name[at - 1] == '+';
+      const bool ends =
+          next == full_name.size() || full_name[next] == ':' || full_name[next] == '+';
+      if (starts && ends) {
+        names.push_back(entry.name);
+        break;
+      }
+      at = next;
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
+                             double threshold) {
+  const auto which = cases::make(name, settings, threshold);
+  std::vector<Sheet> sheets{
+      parameter_sheet(which),
+      constant_sheet("clackers/constants/1", "Derived constants", which.constants),
+      constant_sheet("clackers/indicators/1", "Indicators", which.indicators),
+      collision_sheet(which)};
+  for (auto& more : {harmonic_sheet(which, threshold), conditioning_sheet(which)})
+    if (more) sheets.push_back(*more);
+  return sheets;
+}
+
+std::vector<Sheet> show_method(std::string_view specification) {
+  const auto is_contact = [&](const methods::Entry& entry) {
+    return entry.kind == "contact" && entry.name == specification;
+  };
+  std::vector<Sheet> sheets;
+  // A contact treatment alone is no method, yet it has a card to show.
+  if (const auto entries = methods::entries(); std::ranges::any_of(entries, is_contact)) {
+    add_entry(sheets, *std::ranges::find_if(entries, is_contact));
+    return sheets;
+  }
+  const auto facts = methods::method(specification)->facts();
+  sheets.push_back(claim_sheet(facts));
+  for (const auto& name : parts(facts.name)) {
+    const auto entries = methods::entries();
+    add_entry(sheets, *std::ranges::find(entries, name, &methods::Entry::name));
+  }
+  return sheets;
+}
+
+}  // namespace clackers::study

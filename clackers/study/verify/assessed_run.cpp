@@ -1,0 +1,96 @@
+#include "clackers/study/verify/assessed_run.hpp"
+
+#include <time.h>
+
+#include <cmath>
+
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/assess/errors/error_sink.hpp"
+#include "clackers/model/trajectory.hpp"
+#include "clackers/study/cause_metrics.hpp"
+#include "clackers/study/verify/run_sinks.hpp"
+
+namespace clackers::study {
+namespace {
+
+// Costs of a state, relative: with errors, for timing only, with metrics.
+constexpr double error_state = 1.0, timed_state = 0.2, measured_state = 10.0;
+
+// The clock of a thread costs and errs by less than a microsecond: a thousandth of this.
+constexpr double shortest_timing = 1e-3;  // [s]
+constexpr int most_repetitions = 1000;
+
+Curve curve_of(const assess::ErrorHistory& history, int dof) {
+  Curve curve;
+  curve.t = history.times();
+  for (int i = 0; i < dof; ++i) curve.y.push_back(history.largest(i));
+  return curve;
+}
+
+// Displacements over the initial envelopes.
+std::vector<double> relative(std::vector<double> u, const model::Motion& motion) {
+  const auto envelope = motion.envelope(0.0).u;
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] /= envelope[Eigen::Index(i)];
+  return u;
+}
+
+// Of this thread [s].
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+// Processor time of one run [s]; nothing when interrupted.
+std::optional<double> time_of(model::Run& run, model::Sink& sink) {
+  const double start = processor_time();
+  double used = 0.0;
+  int runs = 0;
+  while (used < shortest_timing && runs < most_repetitions) {
+    if (run.advance(sink).stopped_by_sink) return {};
+    used = processor_time() - start;
+    ++runs;
+  }
+  return used / runs;
+}
+
+}  // namespace
+
+double RunTask::cost() const {
+  return (error_state + timed_state + (metrics ? measured_state : 0.0)) * double(steps);
+}
+
+std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task, TaskShare& share,
+                                      const std::atomic<bool>* interrupt) {
+  if (interrupt != nullptr && *interrupt) return {};
+  const auto& method = plan.methods[task.method];
+  const auto& motion = *plan.problem.motion;
+  const auto run = method.method->prepare(plan.problem.problem, task.step);
+  assess::ErrorSink errors(
+      motion, plan.problem.problem, task.step,
+      {.impacts_are_reported = method.reports_impacts, .history_bins = task.history_bins});
+  model::TrajectorySink stored(method.reports_impacts);
+  RunRecorder recorder(errors, task.metrics ? &stored : nullptr);
+  WatchedSink watched(&recorder, share, error_state, interrupt);
+  const auto outcome = run->advance(watched);
+  if (outcome.stopped_by_sink) return {};
+  AssessedRun result;
+  result.run.score = errors.score(outcome);
+  if (task.history_bins > 0) result.run.error_history = curve_of(errors.history(), motion.dof());
+  if (!outcome.finished) return result;
+  result.end_u = relative(recorder.last_u(), motion);
+  // A state that is not finite is no row of a history.
+  if (task.metrics && std::isfinite(result.run.score.u_error)) {
+    auto metrics = all_metrics({stored.trajectory(), motion, plan.problem.problem},
+                               facts_of(plan.summary, method.subject.contact_time), {}, interrupt);
+    if (!metrics) return {};
+    result.run.metrics = std::move(*metrics);
+  }
+  WatchedSink timed(nullptr, share, timed_state, interrupt);
+  const auto seconds = time_of(*run, timed);
+  if (!seconds) return {};
+  result.run.score.seconds = *seconds;
+  return result;
+}
+
+}  // namespace clackers::study

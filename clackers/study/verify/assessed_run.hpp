@@ -1,0 +1,36 @@
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <vector>
+
+#include "clackers/study/progress.hpp"
+#include "clackers/study/verify/verify_plan.hpp"
+
+namespace clackers::study {
+
+/// One run of a study.
+struct RunTask {
+  std::size_t problem = 0, method = 0, level = 0, sample = 0;  ///< indices of the plan
+  double step = 0.0;                                           ///< [s]
+  long long steps = 0;
+  int history_bins = 0;  ///< of the error against time, 0 for none
+  bool metrics = false;  ///< measure all of them: the run is stored whole
+
+  /// Work to expect, in states with errors. Only the progress shown depends on it.
+  double cost() const;
+};
+
+/// A run and what self-convergence needs of it.
+struct AssessedRun {
+  Run run;
+  /// Displacements at the end over the initial envelopes; empty for a run that failed.
+  std::vector<double> end_u;
+};
+
+/// Runs a method once with its errors measured and, if it finished, again without for its processor
+/// time (short runs several times, for a time that the clock resolves). Nothing when interrupted.
+std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task, TaskShare& share,
+                                      const std::atomic<bool>* interrupt);
+
+}  // namespace clackers::study

@@ -1,0 +1,161 @@
+#include "clackers/study/verify/assessed_run.hpp"
+
+#include <gtest/gtest.h>
+#include <time.h>
+
+#include <cmath>
+#include <functional>
+
+#include "clackers/assess/metrics/metric.hpp"
+#include "clackers/study/cause_metrics.hpp"
+#include "clackers/study/testing/toy_motion.hpp"
+
+namespace clackers::study {
+namespace {
+
+// A method whose runs deliver one state and then do what a test wants; it knows how often they ran.
+class ScriptedMethod : public methods::Method {
+ public:
+  using Script = std::function<bool(int runs)>;
+  explicit ScriptedMethod(Script script) : script_(std::move(script)) {}
+
+  methods::Facts facts() const override { return {}; }
+  std::optional<methods::Objection> objection(const model::ImpactProblem<>&) const override {
+    return {};
+  }
+  std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>&, double) const override {
+    ++prepared;
+    return std::make_unique<ScriptedRun>(script_);
+  }
+
+  mutable int prepared = 0;
+
+ private:
+  class ScriptedRun : public model::Run {
+   public:
+    explicit ScriptedRun(const Script& script) : script_(script) {}
+    model::Outcome advance(model::Sink& sink) override {
+      const std::vector<double> times{0.0, 4.0}, u{0.0, 3.0}, ones{1.0, 1.0};
+      const bool goes_well = script_(++runs_);
+      model::Outcome outcome;
+      outcome.finished = goes_well;
+      if (!sink.take(model::SampleBlock{1, times, u, ones})) {
+        outcome.finished = false;
+        outcome.stopped_by_sink = true;
+      }
+      return outcome;
+    }
+
+   private:
+    const Script& script_;
+    int runs_ = 0;
+  };
+
+  Script script_;
+};
+
+// Of this thread [s].
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+class AssessedRuns : public testing::Test {
+ protected:
+  std::optional<AssessedRun> assessed(ScriptedMethod::Script script, bool metrics = false) {
+    method_ = std::make_shared<ScriptedMethod>(std::move(script));
+    CasePlan plan;
+    plan.problem.motion = std::make_shared<ToyMotion>(1, 8.0, std::vector<double>{});
+    auto& problem = plan.problem.problem;
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(1, 1);
+    problem.system = {unit, unit, unit};
+    problem.start = {0.0, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)};
+    problem.end = 8.0;
+    plan.methods.emplace_back();
+    plan.methods[0].method = method_;
+    ProgressMeter meter(1.0, {});
+    TaskShare share(meter, 1.0);
+    return assess_run(plan, {0, 0, 0, 0, 4.0, 2, 0, metrics}, share, &interrupt_);
+  }
+
+  std::shared_ptr<ScriptedMethod> method_;
+  std::atomic<bool> interrupt_ = false;
+};
+
+TEST_F(AssessedRuns, AreTimedUntilTheClockResolvesThem) {
+  int runs = 0;
+  const auto result = assessed([&](int count) {
+    runs = count;
+    const double start = processor_time();
+    while (processor_time() < start + 2e-4) {
+    }
+    return true;
+  });
+  ASSERT_TRUE(result.has_value());
+  // One with errors; the others together fill a millisecond, so that each counts for less.
+  EXPECT_GE(runs, 3);
+  EXPECT_GE(result->run.score.seconds, 2e-4);
+  EXPECT_LT(result->run.score.seconds, 1e-3);
+}
+
+TEST_F(AssessedRuns, AreNotTimedWhenTheyFailed) {
+  int runs = 0;
+  const auto result = assessed([&](int count) {
+    runs = count;
+    return false;
+  });
+  ASSERT_TRUE(result.has_value());
+  EXPECT_FALSE(result->run.score.finished);
+  EXPECT_EQ(result->run.score.seconds, 0.0);
+  EXPECT_EQ(runs, 1);
+}
+
+TEST_F(AssessedRuns, HoldWhereTheyEndedOverTheInitialEnvelope) {
+  // The envelope of the toy's mass 1 is 4 m.
+  EXPECT_EQ(assessed([](int) { return true; })->end_u, (std::vector<double>{0.75}));
+  EXPECT_TRUE(assessed([](int) { return false; })->end_u.empty());
+}
+
+TEST_F(AssessedRuns, AreMeasuredByAllMetricsWhereThatIsAskedFor) {
+  const auto result = assessed([](int) { return true; }, true);
+  const auto of_history = assess::metrics().size();
+  ASSERT_EQ(result->run.metrics.size(), of_history + cause_metrics().size());
+  EXPECT_EQ(result->run.metrics[0].name, "u-max");
+  EXPECT_EQ(result->run.metrics[0].value, 1.0);  // 3 m where the reference is at 4 m
+  EXPECT_EQ(result->run.metrics[0].masses, (std::vector<double>{1.0}));
+  EXPECT_EQ(result->run.metrics[0].unit, "m");
+  for (std::size_t i = 0; i < result->run.metrics.size(); ++i) {
+    const auto& metric = result->run.metrics[i];
+    EXPECT_EQ(metric.across_jumps, i >= of_history || assess::metrics()[i].across_jumps);
+    EXPECT_EQ(std::isnan(metric.value), !metric.reason.empty()) << metric.name;
+  }
+  EXPECT_TRUE(assessed([](int) { return true; }, false)->run.metrics.empty());
+  EXPECT_TRUE(assessed([](int) { return false; }, true)->run.metrics.empty());
+}
+
+TEST_F(AssessedRuns, CostMoreWhereMetricsAreMeasured) {
+  RunTask task{0, 0, 0, 0, 0.1, 100, 0, false};
+  const double plain = task.cost();
+  task.metrics = true;
+  EXPECT_GT(task.cost(), plain);
+}
+
+TEST_F(AssessedRuns, AreNothingWhenInterruptedInEitherRun) {
+  for (const int when : {1, 2}) {
+    interrupt_ = false;
+    EXPECT_FALSE(assessed([&](int count) {
+      interrupt_ = count == when;
+      return true;
+    }));
+  }
+}
+
+TEST_F(AssessedRuns, AreNotEvenPreparedAfterAnInterrupt) {
+  interrupt_ = true;
+  EXPECT_FALSE(assessed([](int) { return true; }));
+  EXPECT_EQ(method_->prepared, 0);
+}
+
+}  // namespace
+}  // namespace clackers::study

@@ -1,0 +1,126 @@
+#include "clackers/study/verify/verify_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/base/error.hpp"
+#include "clackers/methods/registry.hpp"
+
+namespace clackers::study {
+namespace {
+
+constexpr long long most_impact_times = 1000;
+
+void require_steps(const RefinementPlan& plan, double end) {
+  if (!(plan.coarsest > 0.0 && plan.coarsest <= end))
+    refuse("verify", "coarsest", plan.coarsest,
+           fmt::format("0 < coarsest <= {} s, the length of the run", end), {},
+           "step-not-positive");
+  if (plan.levels < 1)
+    refuse("verify", "levels", fmt::format("{}", plan.levels), "a whole number, 1 or more",
+           "A verdict needs at least four.");
+  if (plan.samples_per_level < 1 || plan.samples_per_level > 64)
+    refuse("verify", "neighbours", fmt::format("{}", plan.samples_per_level),
+           "1 <= neighbours <= 64");
+}
+
+Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
+
+// While nothing collides a method is held to its smooth order, not to what it does at impacts.
+Claim claim_of(const methods::Facts& facts, bool collides) {
+  if (collides) return facts.through_impacts;
+  return {Behaviour::proper, facts.smooth_order, {}};
+}
+
+PlannedMethod planned(const std::string& specification, const model::ImpactProblem<>& problem,
+                      bool collides) {
+  PlannedMethod planned;
+  planned.method = methods::method(specification);
+  const auto facts = planned.method->facts();
+  planned.reports_impacts = facts.reports_impacts;
+  auto& subject = planned.subject;
+  subject.name = short_name(facts.name);
+  subject.claim = claim_of(facts, collides);
+  if (const auto objection = planned.method->objection(problem)) {
+    subject.refusal = objection->sentence;
+    subject.refusal_code = objection->code.name();
+  } else if (collides) {
+    subject.contact_time = planned.method->contact_time(problem);
+  }
+  return planned;
+}
+
+// One refusal beside other methods is a row of the record; nothing but refusals is refused input.
+void require_some_method(const std::vector<PlannedMethod>& all,
+                         const model::ImpactProblem<>& problem) {
+  const auto takes = [](const PlannedMethod& one) { return one.subject.refusal.empty(); };
+  if (std::ranges::any_of(all, takes)) return;
+  const auto objection = all.front().method->objection(problem);
+  throw InputError(objection->sentence, objection->code);
+}
+
+CasePlan plan_of(const VerifyRequest& request, const std::string& case_name) {
+  CasePlan plan;
+  plan.problem = cases::make(case_name, request.settings);
+  plan.summary = summary_of(plan.problem);
+  require_steps(request.plan, plan.summary.end);
+  for (const auto& specification :
+       request.methods.empty() ? methods::default_panel() : request.methods) {
+    auto method = planned(specification, plan.problem.problem, plan.summary.impact_count > 0);
+    const auto same = [&](const PlannedMethod& one) {
+      return one.subject.name == method.subject.name;
+    };
+    if (std::ranges::any_of(plan.methods, same))
+      refuse("verify", "method", specification, "each method once",
+             fmt::format("{} was named before.", method.subject.name), "bad-syntax");
+    plan.methods.push_back(std::move(method));
+  }
+  require_some_method(plan.methods, plan.problem.problem);
+  plan.levels = assess::step_ladder(
+      {request.plan.coarsest, request.plan.levels, request.plan.samples_per_level},
+      plan.summary.end, plan.summary.impact_times);
+  return plan;
+}
+
+}  // namespace
+
+std::string short_name(const std::string& name) {
+  constexpr std::string_view understood = "+event-driven";
+  return name.ends_with(understood) ? name.substr(0, name.size() - understood.size()) : name;
+}
+
+CaseSummary summary_of(const cases::Case& problem) {
+  CaseSummary summary;
+  summary.name = problem.entry->name;
+  summary.summary = problem.entry->summary;
+  summary.equations = problem.entry->equations;
+  for (std::size_t i = 0; i < problem.values.size(); ++i) {
+    const auto& parameter = problem.entry->parameters[i];
+    summary.parameters.push_back(
+        {parameter.name, problem.values[i].second, parameter.unit, parameter.meaning});
+  }
+  for (const auto& c : problem.constants) summary.constants.push_back(quantity(c));
+  for (const auto& c : problem.indicators) summary.constants.push_back(quantity(c));
+  summary.end = problem.motion->end();
+  summary.fast_period = *std::ranges::min_element(problem.damped_periods);
+  summary.impact_count = problem.motion->impact_count(summary.end);
+  for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k)
+    summary.impact_times.push_back(problem.motion->impact(k).t);
+  return summary;
+}
+
+std::vector<CasePlan> plans_of(const VerifyRequest& request) {
+  auto names = request.cases;
+  if (names.empty()) names.emplace_back(cases::default_case());
+  std::vector<CasePlan> plans;
+  for (const auto& name : names) {
+    if (std::ranges::count(names, name) > 1)
+      refuse("verify", "case", name, "each case once", {}, "bad-syntax");
+    plans.push_back(plan_of(request, name));
+  }
+  return plans;
+}
+
+}  // namespace clackers::study

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "clackers/assess/convergence/step_ladder.hpp"
+#include "clackers/methods/method.hpp"
+#include "clackers/study/verify.hpp"
+
+namespace clackers::study {
+
+/// A method of a study before its runs.
+struct PlannedMethod {
+  std::shared_ptr<const methods::Method> method;
+  Subject subject;  ///< name, claim, contact time and refusal
+  bool reports_impacts = true;
+};
+
+/// One case of a request, ready to run.
+struct CasePlan {
+  cases::Case problem;
+  CaseSummary summary;
+  std::vector<PlannedMethod> methods;
+  std::vector<assess::StepLevel> levels;
+};
+
+/// The plan of a case whose subjects are histories.
+inline constexpr RefinementPlan no_refinement{0.0, 0, 0};
+
+CaseSummary summary_of(const cases::Case& problem);
+
+/// The name of a method in every output: as one would type it, without "+event-driven".
+std::string short_name(const std::string& name);
+
+/// Throws InputError for what verify() refuses.
+std::vector<CasePlan> plans_of(const VerifyRequest& request);
+
+}  // namespace clackers::study

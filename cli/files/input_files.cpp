@@ -1,0 +1,55 @@
+#include "cli/files/input_files.hpp"
+
+#include <fmt/format.h>
+
+#include "clackers/base/error.hpp"
+#include "clackers/exchange/input_file.hpp"
+#include "clackers/exchange/separation.hpp"
+#include "clackers/exchange/text_lines.hpp"
+#include "clackers/study/record_json.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/values.hpp"
+
+namespace clackers::cli {
+
+std::vector<double> read_times(const std::string& path, double end) {
+  exchange::TextLines lines(path, &interrupt_flag());
+  std::vector<double> times;
+  while (lines.next()) {
+    const auto text = exchange::trimmed(lines.text());
+    if (text.empty()) continue;
+    const double t = read_number(lines.place(), text);
+    if (!(t >= 0.0 && t <= end))
+      refuse("clackers", lines.place(), t, fmt::format("0 <= t <= {} s", end),
+             "Set t_end or a_t of the case for a longer run.", "time-outside");
+    times.push_back(t);
+  }
+  if (times.empty())
+    throw InputError(lines.name() + " has no times in it; allowed: one time a line, in seconds.",
+                     "bad-syntax");
+  return times;
+}
+
+study::Record read_baseline(const std::string& path) {
+  exchange::InputFile file(path, &interrupt_flag());
+  std::string text;
+  std::size_t size = 0, count = 0;
+  do {
+    size += count;
+    if (size > study::longest_record)
+      throw InputError(fmt::format("baseline {}: is longer than {} bytes; allowed: json as written "
+                                   "by clackers verify or check with --format json.",
+                                   path, study::longest_record),
+                       "not-a-record");
+    text.resize(size + (1 << 16));
+    count = file.read(text.data() + size, text.size() - size);
+  } while (count > 0);
+  text.resize(size);
+  try {
+    return study::record_from_json(text, &interrupt_flag());
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("baseline {}: {}", path, error.what()), error.code());
+  }
+}
+
+}  // namespace clackers::cli

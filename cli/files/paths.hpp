@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace clackers::cli {
+
+/// Throws FileError: the file, the system's reason for `error_number` and what to do about it.
+[[noreturn]] void fail_to_write(const std::string& file, int error_number);
+
+/// The file that `path` means: links are followed, also one to a file that does not exist yet.
+std::filesystem::path followed(std::filesystem::path path);
+
+/// A path beside `target` that no other run chooses: ".clackers-0123456789abcdef.tmp".
+std::string temporary_beside(const std::filesystem::path& target);
+
+/// Makes the names in a folder survive a power cut, where the file system can.
+void sync_folder(const std::filesystem::path& folder);
+
+/// A file and the option that named it.
+struct NamedFile {
+  std::string option;  ///< "--out"
+  std::string path;    ///< "-" is standard input
+};
+
+/// Throws InputError when an output is also an input or another output, by whatever name or link.
+/// A baseline may be --out, which updates it.
+void require_distinct_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
+
+}  // namespace clackers::cli

@@ -1,0 +1,31 @@
+#include "cli/files/record_output.hpp"
+
+#include <sstream>
+
+#include "cli/messages.hpp"
+
+namespace clackers::cli {
+
+RecordOutput::RecordOutput(const study::Record& record,
+                           const std::optional<study::Record>& baseline,
+                           const CommonOptions& options)
+    : record_(record), quiet_(options.quiet) {
+  if (baseline) changes_ = study::compare(record, *baseline);
+}
+
+std::string RecordOutput::html() const { return report::html(record_, changes()); }
+
+void RecordOutput::write(Results& to) const {
+  report::write(record_, to.format(), to.stream(), to.style(), changes());
+  to.finish();
+}
+
+void RecordOutput::note_changes(report::Format format) const {
+  if (!changes_ || quiet_ || report::shows_changes(format)) return;
+  std::ostringstream text;
+  report::write_changes(*changes_, text, {});
+  std::istringstream lines(text.str());
+  for (std::string line; std::getline(lines, line);) note(line);
+}
+
+}  // namespace clackers::cli

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "clackers/report/write.hpp"
+#include "clackers/study/baseline.hpp"
+#include "cli/files/input_files.hpp"
+#include "cli/files/results.hpp"
+
+namespace clackers::cli {
+
+/// The record of --baseline, which is of the same study; nothing for an empty path. Called before the
+/// work: what cannot be compared must not be found out afterwards. Throws as read_baseline and
+/// study::require_same_study do.
+template <class Request>
+std::optional<study::Record> baseline_of(const std::string& path, const Request& request) {
+  if (path.empty()) return {};
+  auto baseline = read_baseline(path);
+  study::require_same_study(request, baseline);
+  return baseline;
+}
+
+/// A record of verify or check with what changed since its baseline. The record must outlive it.
+class RecordOutput {
+ public:
+  RecordOutput(const study::Record& record, const std::optional<study::Record>& baseline,
+               const CommonOptions& options);
+
+  std::string html() const;
+  void write(Results& to) const;
+  /// On standard error, where the format has no place for changes.
+  void note_changes(report::Format format) const;
+
+ private:
+  const study::BaselineComparison* changes() const { return changes_ ? &*changes_ : nullptr; }
+
+  const study::Record& record_;
+  std::optional<study::BaselineComparison> changes_;
+  bool quiet_;
+};
+
+}  // namespace clackers::cli

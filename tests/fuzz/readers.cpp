@@ -1,0 +1,105 @@
+// Everything small that reads foreign text.
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/cases/case.hpp"
+#include "clackers/exchange/events.hpp"
+#include "clackers/exchange/history.hpp"
+#include "clackers/methods/method_specification.hpp"
+#include "clackers/methods/registry.hpp"
+#include "cli/files/times_file.hpp"
+#include "cli/values.hpp"
+#include "target.hpp"
+
+namespace clackers::fuzz {
+namespace {
+
+bool finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+// The parts of a text between commas.
+std::vector<std::string> parts(std::string_view text) {
+  std::vector<std::string> out{{}};
+  for (const char c : text)
+    if (c == ',')
+      out.emplace_back();
+    else
+      out.back() += c;
+  return out;
+}
+
+}  // namespace
+
+// The first byte chooses the masses, whether there is a step, and whether the next line names the
+// columns.
+void read_history(std::string_view bytes) {
+  if (bytes.empty()) return;
+  const unsigned choice = static_cast<unsigned char>(bytes.front());
+  bytes.remove_prefix(1);
+  exchange::HistoryOptions options{.dof = choice % 2 == 0 ? 2 : 1};
+  if (choice / 2 % 2 == 1) options.step = 0.01;
+  if (choice / 4 % 2 == 1) {
+    options.columns = parts(bytes.substr(0, bytes.find('\n')));
+    bytes.remove_prefix(std::min(bytes.size(), bytes.find('\n')));
+  }
+  const MemoryFile file(bytes);
+  const auto history = exchange::read_history(file.path(), options);
+  const auto& motion = history.motion;
+  const auto rows = motion.t.size(), cells = rows * std::size_t(options.dof);
+  require(rows >= 2, "a history has two rows");
+  require(motion.u.size() == cells, "u has a value a row and mass");
+  require(motion.v.empty() || motion.v.size() == cells, "v is empty or whole");
+  require(motion.a.empty() || motion.a.size() == cells, "a is empty or whole");
+  require(history.has_u.size() == std::size_t(options.dof), "has_u has an entry a mass");
+  require(finite(motion.t) && finite(motion.u) && finite(motion.v) && finite(motion.a),
+          "numbers are finite");
+  require(std::ranges::is_sorted(motion.t), "times ascend");
+  require(history.spacing > 0.0, "the spacing is positive");
+}
+
+void read_events(std::string_view bytes) {
+  const MemoryFile file(bytes);
+  const auto events = exchange::read_events(file.path(), 2);
+  double last = -INFINITY;
+  for (const auto& event : events) {
+    require(std::isfinite(event.t) && event.t >= last, "times of collisions ascend");
+    require(event.u.empty() || event.u.size() == 2, "u is empty or has a value a mass");
+    require(event.v_before.empty() || event.v_before.size() == 2, "v- is empty or whole");
+    require(event.v_after.empty() || event.v_after.size() == 2, "v+ is empty or whole");
+    last = event.t;
+  }
+}
+
+void read_specification(std::string_view bytes) {
+  const auto terms = methods::parse_specification(bytes);
+  require(!terms.first.name.empty(), "a specification has a name");
+  for (const auto& [name, value] : terms.first.settings)
+    require(!name.empty() && std::isfinite(value), "a parameter has a name and a finite value");
+  const auto method = methods::method(bytes);
+  const auto again = methods::method(method->facts().name);
+  require(again->facts().name == method->facts().name, "a method's name is its specification");
+}
+
+void read_settings(std::string_view bytes) {
+  const auto settings = cli::read_settings({std::string(bytes)});
+  require(!settings.empty(), "one setting a part");
+  for (const auto& [name, value] : settings) {
+    require(!name.empty() && name.find('=') == std::string::npos, "a name holds no =");
+    const auto text = bytes.substr(bytes.rfind('=') + 1);
+    if (std::isfinite(value) && value == std::floor(value) && std::abs(value) < 1e15 &&
+        &name == &settings.back().first)
+      require(double(cli::read_whole(name, text, -1'000'000'000'000'000, 1'000'000'000'000'000)) ==
+                  value,
+              "a whole number is read as itself");
+  }
+}
+
+void read_times(std::string_view bytes) {
+  const MemoryFile file(bytes);
+  const auto times = cli::read_times(file.path(), 20.0);
+  require(!times.empty(), "an empty file is refused");
+  for (const double t : times) require(t >= 0.0 && t <= 20.0, "times lie within the run");
+}
+
+}  // namespace clackers::fuzz
