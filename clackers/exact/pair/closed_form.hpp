@@ -10,8 +10,8 @@ namespace clackers::exact {
 /// which all masses pass equilibrium together. The base of all motions of this module.
 ///
 /// Evaluation: the phase Omega t / pi is formed with 159 bits and reduced exactly, sines, cosines
-/// and powers carry 63 bits or more, and the result is rounded once at the end; mathematics.md,
-/// section 8. Const, without allocation, safe to share between threads.
+/// and powers carry 63 bits or more, and the result is rounded once at the end; evaluation.md.
+/// Const, without allocation, safe to share between threads.
 class ClosedForm : public model::Motion {
  public:
   int dof() const override { return static_cast<int>(c_.masses.size()); }
