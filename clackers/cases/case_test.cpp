@@ -394,7 +394,7 @@ TEST(Cases, RefuseAThresholdThatIsNoShare) {
 }
 
 TEST(Admissibility, IsKnownOnBothSidesOfTheLimit) {
-  // r*(3) = 3 exactly, docs/manual/derivations/admissibility.md. 1 - r/3 is rounded twice.
+  // r*(3) = 3 exactly, admissibility.md. 1 - r/3 is rounded twice.
   EXPECT_EQ(admissibility(3.0, 1.5).r_star, 3.0);
   EXPECT_NEAR(admissibility(3.0, 1.5).margin, 0.5, 2e-16);
   EXPECT_NEAR(admissibility(3.0, 6.0).margin, -1.0, 4e-16);

@@ -116,7 +116,7 @@ def codes(command):
 def columns(command):
     """The columns of a run, which output.md includes."""
     return {"reference/columns.md": (
-        "# Columns\n\nThe columns of a run in csv, in their order; json and the report use the same names.\n\n" +
+        "# Columns\n\nThe columns of csv and json, in the order of csv. Reports use the same names.\n\n" +
         sheet_table(command.json("list", "columns")))}
 
 
