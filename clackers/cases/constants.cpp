@@ -21,7 +21,7 @@ Constant collision_count(const Case& which) {
           "number of collisions up to t_end"};
 }
 
-// What a user may attribute to the solver: docs/manual/derivations/conditioning.md.
+// What a user may attribute to the solver: docs/manual/explanation/derivations/conditioning.md.
 std::vector<Constant> conditioning_of(const Case& which, const exact::PairConstants& c, double r) {
   const double eta = restitution(which);
   const double rate = exact::detuning_rate(c.ratio, r);
