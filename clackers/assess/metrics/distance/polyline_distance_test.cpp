@@ -165,7 +165,8 @@ TEST(PolylineDistance, AgreesWithEveryPairOfSegments) {
 }
 
 TEST(PolylineDistance, AgreesWithEveryPairWhereOneLineFollowsTheOther) {
-  // Points lie at other parts of the curve, and one of them is off it, by more or less than the rest.
+  // Points lie at other parts of the curve, and one of them is off it, by more or less than the
+  // rest.
   for (const double shift : {0.002, 0.008})
     for (const double off : {0.003, 0.05}) {
       Polyline one, other;
