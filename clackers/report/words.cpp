@@ -55,7 +55,7 @@ std::string behaviour_sentence(const assess::LadderFit& fit) {
       text = "Diverges.";
       break;
     case Behaviour::undecided:
-      text = "Undecided.";
+      text = "The behaviour is undecided.";
       break;
   }
   add(text, meaning_of(fit.reason));

@@ -70,7 +70,8 @@ Comparison::Comparison(const model::Trajectory& history, const model::Motion& re
   u_envelope_ = entries(scale.u);
   v_envelope_ = entries(scale.v);
   a_envelope_ = entries(scale.a);
-  collect_impacts();  // before the samples: both at once would hold more memory than either
+  // The search for collisions needs memory for a while; the reference comes after it.
+  collect_impacts();
   sample_reference();
 }
 
