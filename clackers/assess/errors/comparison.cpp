@@ -70,8 +70,8 @@ Comparison::Comparison(const model::Trajectory& history, const model::Motion& re
   u_envelope_ = entries(scale.u);
   v_envelope_ = entries(scale.v);
   a_envelope_ = entries(scale.a);
+  collect_impacts();  // before the samples: both at once would hold more memory than either
   sample_reference();
-  collect_impacts();
 }
 
 // Each row once, in blocks of one side.

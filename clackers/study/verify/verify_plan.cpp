@@ -29,7 +29,7 @@ void require_steps(const RefinementPlan& plan, double end) {
 Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
 
 // While nothing collides a method is held to its smooth order, not to what it does at impacts.
-methods::Claim claim_of(const methods::Facts& facts, bool collides) {
+Claim claim_of(const methods::Facts& facts, bool collides) {
   if (collides) return facts.through_impacts;
   return {Behaviour::proper, facts.smooth_order, {}};
 }
