@@ -346,7 +346,7 @@ TEST(Cases, SayWhatAnErrorMayBeBlamedOn) {
   EXPECT_EQ(find(neutral, "detuning_rate"), nullptr);
   const auto growing = make("synchronized-pair", {{"eta", 0.5}});
   EXPECT_EQ(constant(growing.constants, "perturbation_growth"), 2.0);
-  EXPECT_EQ(find(growing, "detuning_rate"), nullptr);
+  expect_near(constant(growing.constants, "detuning_rate"), 1.5 * std::numbers::pi, "lambda");
   EXPECT_TRUE(std::isinf(
       constant(make("symmetric-pair", {{"eta", 0.0}}).constants, "perturbation_growth")));
   // A rigid stop has no common motion that an impact could leave unscaled.
@@ -411,7 +411,7 @@ TEST(Cases, RefuseWhatLiesJustOutside) {
   for (const auto* name : {"sdof", "stop", "symmetric-pair", "two-parameter", "three-parameter",
                            "synchronized-pair"}) {
     const auto text = refusal(name, {{"xi1", 1.0}});
-    EXPECT_EQ(text.find(std::string(name) + ": xi1 = 1; allowed: 0 <= xi1 < 1."), 0u) << text;
+    EXPECT_EQ(text.find(std::string(name) + ": xi1 = 1; allowed: 0 or 1e-60 <= xi1 < 1."), 0u) << text;
     EXPECT_EQ(refusal(name, {{"xi1", 0.0}}), "accepted") << name;
   }
   for (const auto* name : {"stop", "symmetric-pair", "synchronized-pair", "exact-data-pair"}) {

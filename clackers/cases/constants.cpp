@@ -31,10 +31,17 @@ std::vector<Constant> conditioning_of(const Case& which, const exact::PairConsta
       return {{"perturbation_growth", 1.0, "",
                "conditioning: neutral; an error at one collision, relative to the motion, is as "
                "large at the next"}};
-    case exact::Conditioning::growing:
-      return {{"perturbation_growth", eta > 0.0 ? 1.0 / eta : endless, "",
-               "conditioning: growing; an error relative to the motion is multiplied by 1/eta at "
-               "each collision, after k by eta^-k"}};
+    case exact::Conditioning::growing: {
+      std::vector<Constant> list{
+          {"perturbation_growth", eta > 0.0 ? 1.0 / eta : endless, "",
+           "conditioning: growing; an error relative to the motion is multiplied by 1/eta at "
+           "each collision, after k by eta^-k"}};
+      if (rate > 0.0)
+        list.push_back({"detuning_rate", rate, "",
+                        "lambda: a solver that shifts omega_D2/omega_D1 by a relative eps loses "
+                        "synchrony by a factor exp(lambda |eps|)/eta at each collision"});
+      return list;
+    }
     case exact::Conditioning::detuning_fragile:
       break;
   }

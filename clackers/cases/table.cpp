@@ -6,7 +6,7 @@ namespace clackers::cases {
 namespace {
 
 // A parameter of the same name means the same in every case.
-CaseParameter xi1() { return {"xi1", 0.05, "", "0 <= xi1 < 1", "damping ratio of mass 1"}; }
+CaseParameter xi1() { return {"xi1", 0.05, "", "0 or 1e-60 <= xi1 < 1", "damping ratio of mass 1"}; }
 CaseParameter eta() { return {"eta", 1.0, "", "0 <= eta <= 1", "restitution; 1 is elastic"}; }
 CaseParameter t_end() { return {"t_end", 20.0, "s", "0 < t_end < infinity", "end of the run"}; }
 CaseParameter whole_N() {

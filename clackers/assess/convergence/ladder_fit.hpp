@@ -3,11 +3,11 @@
 #include <span>
 
 #include "clackers/assess/convergence/assessment.hpp"
-#include "clackers/assess/convergence/error_ladder.hpp"
+#include "clackers/assess/convergence/fit/error_ladder.hpp"
 
 namespace clackers::assess {
 
-/// What the fitter may know beside the errors.
+/// What the fit may know beside the errors.
 struct FitContext {
   /// Order that the method claims; 0 or less when it claims none. Without a claim every straight
   /// converging line is `proper`, with the order it has.
@@ -16,8 +16,8 @@ struct FitContext {
   double contact_time = 0.0;
   /// The method states an iteration tolerance as the cause of its floor.
   bool states_tolerance = false;
-  /// Errors as large as the motion itself say nothing of a floor: a flat ladder above this is one
-  /// that does not converge yet. Infinite for an error that is not relative to the motion.
+  /// Errors as large as the motion itself show no floor: a flat ladder above this one does not
+  /// converge yet. Infinite for an error that is not relative to the motion.
   double saturation = 1.0;
 };
 
@@ -36,27 +36,36 @@ inline constexpr double highest_flat_slope = 0.3, lowest_flat_slope = -0.5;
 /// Growth whose finest rate is less than this share of the first one of its window settles.
 inline constexpr double settling_share = 0.5;
 
-/// What a ladder of errors says. The levels come coarsest first; the finest ones decide.
+/// The behaviour that a ladder of errors shows, levels coarsest first. These rules are tried in this
+/// order; the first that applies decides. `clear` levels are the consecutive finest ones above the
+/// rounding floor in which at least half of the runs came to an end.
 ///
-/// Levels in which most runs failed are left out at the coarse end (a stability limit) and make the
-/// ladder `undecided` at the fine end. Then, over the finest consecutive levels above the rounding
-/// floor:
-///   exact       every level at the rounding floor;
-///   proper      at least four levels, all rates of adjacent levels within 0.1 of the claimed order
-///               (relative) and raw points within a factor 1.5 of the line. A straight line steeper
-///               than claimed is proper too, with the order it has: the verdict compares;
-///   reduced     the same with a lower slope, beyond its own spread, rates within 0.2 of it;
-///   `undecided` while the finest
-///               rates agree with the claim or still move towards it;
-///   stagnating  at least three finest levels flat (rates within 0.2 of 0), or rough but flat;
-///   irregular   raw points scatter further, from step to step or in swings over whole levels; the
-///               line is that of the largest error of each level (leading levels with errors as
-///               large as the motion left out), and its slope is positive beyond its own spread;
-///   divergent   errors grow over the finest levels, without settling;
-///   undecided   anything else, with the reason.
+///  1 no level, or steps that do not resolve a compliant contact: undecided
+///  2 most runs of the finest level failed: divergent if the errors before them grow, else undecided
+///  3 no clear level: exact if every level is at the rounding floor, else undecided (run-failed)
+///  4 the claimed line over at least four levels, all rates of adjacent levels within a tenth of the
+///    claimed order and raw points within a factor 1.5 of the line: proper
+///  5 fewer than four clear levels: undecided
+///  6 a straight line over at least four finest clear levels, rates within 0.2 of its slope:
+///    a flat one (slope within 0.2 of 0): stagnating
+///    one that may still reach the claim: as rule 8 or 12, else undecided
+///    one that grows: divergent; one below the claim: reduced; any other: proper with its own order
+///  7 at least three finest clear levels flat: stagnating
+///  8 raw points that zigzag from step to step: the envelope decides
+///  9 errors that grow over four levels without settling: divergent
+/// 10 a straight line but for a few raw points far above it: the envelope decides
+/// 11 errors that swing over whole levels: the envelope decides
+/// 12 the claimed line up to two levels before the floor, where rounding bends the last ones: proper
+/// 13 rates that exceed the claim and rise: undecided (no-fixed-order)
+/// 14 anything else: undecided, too few levels if the last rate is the claimed one
+///
+/// The envelope decides: stagnating where the raw points of the last four levels are flat; irregular
+/// where the line of the largest error of each level (leading levels with errors as large as the
+/// motion left out) falls by more than its own spread; divergent where it rises by as much; else
+/// undecided.
 ///
 /// Throws InputError for steps that are not positive, for negative errors and for levels that do
-/// not descend (view() of error_ladder.hpp says how).
+/// not descend (view() of error_ladder.hpp).
 LadderFit fit_ladder(std::span<const ErrorLevel> ladder, const FitContext& context);
 
 }  // namespace clackers::assess

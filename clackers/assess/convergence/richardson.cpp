@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/convergence/window.hpp"
+#include "clackers/assess/convergence/fit/window.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 

@@ -11,7 +11,7 @@ using std::pow;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// Rounding of a run to 20 s that adds up, every step one way, or as a random walk.
+// Rounding of a run to 20 s that adds up, every step one way, or at random.
 double adds_up(double h) { return 2.0 * epsilon * 20.0 / h; }
 
 // Errors read off numbers printed with six decimals: whole units of the last one.
@@ -36,12 +36,12 @@ const VerdictSequence rows[] = {
      .verdict = Verdict::agrees,
      .order = 2.0,
      .within = 0.05},
-    {.name = "order four above rounding that walks at random is proper",
+    {.name = "order four above rounding that grows at random is proper",
      .make =
          [] {
-           Scatter walk(4.0, 3);
+           Scatter drift(4.0, 3);
            return ladder([=](double h) mutable {
-             return 20.0 * pow(h, 4) + walk() * epsilon * std::sqrt(20.0 / h);
+             return 20.0 * pow(h, 4) + drift() * epsilon * std::sqrt(20.0 / h);
            });
          },
      .claim = claims(4),
@@ -82,7 +82,7 @@ const VerdictSequence rows[] = {
      .behaviour = stagnating,
      .verdict = Verdict::agrees,
      .reason = "tolerance-floor"},
-    {.name = "an iteration tolerance that nobody states is an unexplained floor",
+    {.name = "an iteration tolerance that is not stated is an unexplained floor",
      .make = [] { return ladder([](double h) { return 5.0 * h * h + 1e-4; }); },
      .claim = claims(2),
      .behaviour = stagnating,
@@ -122,7 +122,7 @@ const VerdictSequence rows[] = {
      .claim = {exact, 0.0, ""},
      .behaviour = exact,
      .verdict = Verdict::agrees},
-    {.name = "one zero among the errors is luck",
+    {.name = "one zero among the errors is left out",
      .make =
          [] {
            auto made = ladder([](double h) { return h * h; });
@@ -134,7 +134,7 @@ const VerdictSequence rows[] = {
      .verdict = Verdict::agrees,
      .order = 2.0,
      .within = 1e-9},
-    {.name = "a level of zeros in the middle is luck",
+    {.name = "a level of zeros in the middle is left out",
      .make =
          [] {
            auto made = ladder([](double h) { return h * h; });
@@ -159,7 +159,7 @@ const VerdictSequence rows[] = {
      .verdict = Verdict::agrees,
      .reason = "contact-stiffness",
      .contact_time = 0.0157},
-    {.name = "a line through a contact that no step resolves is worth nothing",
+    {.name = "a line through a contact that no step resolves decides nothing",
      .make = [] { return ladder([](double h) { return h * h; }); },
      .claim = claims(2),
      .behaviour = undecided,

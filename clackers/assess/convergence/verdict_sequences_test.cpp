@@ -18,12 +18,12 @@ TEST_P(VerdictSequences, IsJudgedAsAnExpertWould) {
   if (row.change) row.change(ladder);
   const auto found = judge(ladder, row.claim, {.contact_time = row.contact_time});
   const auto& fit = found.displacement;
-  EXPECT_EQ(to_string(fit.behaviour), to_string(row.behaviour)) << told(fit);
-  EXPECT_EQ(fit.reason, row.reason) << told(fit);
-  EXPECT_EQ(to_string(found.verdict), to_string(row.verdict)) << told(fit);
-  EXPECT_EQ(fit.has_line, row.within > 0.0) << told(fit);
+  EXPECT_EQ(to_string(fit.behaviour), to_string(row.behaviour)) << text(fit);
+  EXPECT_EQ(fit.reason, row.reason) << text(fit);
+  EXPECT_EQ(to_string(found.verdict), to_string(row.verdict)) << text(fit);
+  EXPECT_EQ(fit.has_line, row.within > 0.0) << text(fit);
   if (row.within > 0.0) {
-    EXPECT_NEAR(fit.order, row.order, row.within) << told(fit);
+    EXPECT_NEAR(fit.order, row.order, row.within) << text(fit);
   }
 }
 

@@ -1,12 +1,14 @@
 #include "clackers/assess/errors/comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "clackers/assess/errors/history_check.hpp"
+#include "clackers/assess/errors/vectors.hpp"
 #include "clackers/assess/impacts/collision_finder.hpp"
-#include "clackers/assess/impacts/contact_rest.hpp"
 #include "clackers/assess/impacts/impact_matcher.hpp"
 #include "clackers/assess/impacts/jump_limits.hpp"
 
@@ -16,21 +18,15 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t block_size = 4096;  // rows of reference that fit a cache
 
-std::vector<double> entries(const Eigen::VectorXd& vector) {
-  return {vector.data(), vector.data() + vector.size()};
-}
-
 double median_difference(const std::vector<double>& t) {
   std::vector<double> differences;
   differences.reserve(t.size());
   for (std::size_t i = 1; i < t.size(); ++i)
     if (t[i] > t[i - 1]) differences.push_back(t[i] - t[i - 1]);
-  const auto middle = differences.begin() + std::ssize(differences) / 2;
-  std::nth_element(differences.begin(), middle, differences.end());
-  return *middle;
+  return median(std::move(differences));
 }
 
-// Vectors with a hole say nothing.
+// Vectors with an entry that is not finite count as not known.
 void forget_what_is_not_finite(model::Impact& impact) {
   for (auto* vector : {&impact.u, &impact.v_before, &impact.v_after})
     if (!std::ranges::all_of(*vector, [](double x) { return std::isfinite(x); })) vector->clear();
@@ -39,16 +35,41 @@ void forget_what_is_not_finite(model::Impact& impact) {
 
 }  // namespace
 
+model::Kinematics reference_scale(const model::Motion& reference) {
+  auto scale = reference.envelope(0.0);
+  const auto all = {&model::Kinematics::u, &model::Kinematics::v, &model::Kinematics::a};
+  const auto is_complete = [&](auto part) { return ((scale.*part).array() > 0.0).all(); };
+  if (std::ranges::all_of(all, is_complete)) return scale;
+  auto largest = scale;
+  constexpr int parts = 1024;
+  for (int i = 1; i <= parts; ++i) {
+    const auto now = reference.envelope(reference.end() * i / parts);
+    for (const auto part : all) largest.*part = (largest.*part).cwiseMax(now.*part);
+  }
+  for (const auto part : all)
+    scale.*part = ((scale.*part).array() > 0.0).select(scale.*part, largest.*part);
+  return scale;
+}
+
+double relative_bound(const model::Motion& reference, const model::Kinematics& scale, double t) {
+  const auto bound = reference.error_bound(std::clamp(t, 0.0, reference.end()));
+  double largest = 0.0;
+  for (const auto part : {&model::Kinematics::u, &model::Kinematics::v})
+    for (Eigen::Index i = 0; i < (scale.*part).size(); ++i)
+      if ((scale.*part)[i] > 0.0) largest = std::max(largest, (bound.*part)[i] / (scale.*part)[i]);
+  return largest;
+}
+
 Comparison::Comparison(const model::Trajectory& history, const model::Motion& reference,
                        const model::ImpactProblem<>& problem)
     : given_(history), reference_(reference), problem_(problem) {
   require_comparable(history, reference, problem);
   step_ = median_difference(history.t);
   widened_ = with_jump_limits(history);
-  const auto envelope = reference.envelope(0.0);
-  u_envelope_ = entries(envelope.u);
-  v_envelope_ = entries(envelope.v);
-  a_envelope_ = entries(envelope.a);
+  const auto scale = reference_scale(reference);
+  u_envelope_ = entries(scale.u);
+  v_envelope_ = entries(scale.v);
+  a_envelope_ = entries(scale.a);
   sample_reference();
   collect_impacts();
 }
@@ -57,9 +78,9 @@ Comparison::Comparison(const model::Trajectory& history, const model::Motion& re
 void Comparison::sample_reference() {
   const auto& t = history().t;
   const auto size = t.size() * dof();
-  true_u_.resize(size);
-  true_v_.resize(size);
-  if (has_accelerations()) true_a_.resize(size);
+  reference_u_.resize(size);
+  reference_v_.resize(size);
+  if (has_accelerations()) reference_a_.resize(size);
   std::vector<double> times;
   for (std::size_t from = 0; from < t.size(); from += times.size()) {
     const bool left = is_left_limit(from);
@@ -73,8 +94,24 @@ void Comparison::sample_reference() {
                          : std::span(all).subspan(from * dof(), times.size() * dof());
     };
     reference_.sample(times, left ? model::Side::left : model::Side::right,
-                      {part(true_u_), part(true_v_), part(true_a_)});
+                      {part(reference_u_), part(reference_v_), part(reference_a_)});
   }
+}
+
+double Comparison::collision_period() const {
+  if (collision_period_ == 0.0)
+    collision_period_ = reference_.impact_count(reference_.end()) < 2
+                            ? reference_.end()
+                            : reference_.impact(2).t - reference_.impact(1).t;
+  return collision_period_;
+}
+
+std::string Comparison::objection_to_sparse_rows() const {
+  const auto& t = history().t;
+  const auto expected = reference_.impact_count(std::min(t.back(), reference_.end())) -
+                        reference_.impact_count(t.front());
+  if (double(expected) <= 10.0 * double(rows()) + 1000.0) return {};
+  return fmt::format("The history has {} rows for {} true impacts.", rows(), expected);
 }
 
 void Comparison::collect_impacts() {
@@ -96,8 +133,8 @@ void Comparison::collect_impacts() {
   std::ranges::stable_sort(reports, {}, &model::Impact::t);
   for (auto& report : reports) {
     forget_what_is_not_finite(report);
-    // The matcher's own rule.
-    if (!impacts_.empty() && report.t - impact_ends_.back() < (2.0 - 1e-6) * step) {
+    if (!impacts_.empty() && impacts_.back().contact == report.contact &&
+        report.t - impact_ends_.back() < one_collision * step) {
       impacts_.back().v_after = std::move(report.v_after);
       impacts_.back().impulse += report.impulse;
       impact_ends_.back() = report.t;
@@ -111,13 +148,15 @@ void Comparison::collect_impacts() {
 
 void Comparison::match_impacts(double step) {
   const auto& t = given_.t;
-  ImpactMatcher matcher(reference_, step, t.front());
+  ImpactMatcher matcher(reference_, step, t.front(), int(problem_.contacts.size()));
   matcher.keep_pairs();
   for (const auto& impact : impacts_)
     matcher.take(impact.t,
-                 rests_in_contact(reference_, problem_.contacts, impact.contact, impact.t));
+                 rests_in_contact(reference_, problem_.contacts, impact.contact, impact.t),
+                 impact.contact);
   // Each row may be off by a unit of its envelope; at worst they add up.
-  score_ = matcher.score(t.back(), std::numeric_limits<double>::epsilon() * double(t.size()));
+  const double rounding = std::numeric_limits<double>::epsilon() * double(t.size());
+  score_ = matcher.score(t.back(), rounding);
   for (const auto& pair : matcher.pairs(t.back()))
     matches_.push_back({pair.report, reference_.impact(pair.reference)});
 }

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "clackers/assess/errors/score.hpp"
@@ -10,6 +13,14 @@
 #include "clackers/model/trajectory.hpp"
 
 namespace clackers::assess {
+
+/// What errors are divided by, component by component: the envelope of the reference at t = 0, or
+/// where that is 0, as of a mass that starts at rest, the largest at 1024 equal parts of the run.
+model::Kinematics reference_scale(const model::Motion& reference);
+
+/// The largest proved error of the reference at time t over that scale, of u and v of all masses;
+/// components without a scale are left out.
+double relative_bound(const model::Motion& reference, const model::Kinematics& scale, double t);
 
 /// A collision of the history and the true one it belongs to.
 struct MatchedImpact {
@@ -20,8 +31,8 @@ struct MatchedImpact {
 /// Where the impacts of a comparison come from.
 enum class ImpactSource { reported, found_in_history };
 
-/// A stored history beside the true motion: what several metrics need, worked out once. History,
-/// motion and problem must outlive it.
+/// A stored history and the reference at its times: what several metrics need, computed once.
+/// History, motion and problem must outlive it. Not for several threads at once.
 class Comparison {
  public:
   /// Throws InputError unless the history has the problem's number of masses, at least two times,
@@ -31,7 +42,7 @@ class Comparison {
              const model::ImpactProblem<>& problem);
 
   /// The history; where its rows lack the limits of jumps that it reports whole, with these rows
-  /// (with_jump_limits says when).
+  /// (see with_jump_limits()).
   const model::Trajectory& history() const { return widened_ ? *widened_ : given_; }
   const model::Motion& reference() const { return reference_; }
   const model::ImpactProblem<>& problem() const { return problem_; }
@@ -41,6 +52,19 @@ class Comparison {
   bool has_accelerations() const { return !given_.a.empty(); }
   /// Median of the given history's differences between times, without zeros [s].
   double step() const { return step_; }
+  /// The time T that distances in time are divided by [s]: between the first two true impacts, or
+  /// the whole motion where it has fewer.
+  double collision_period() const;
+  /// The result of make(*this), computed at the first call and kept: what several metrics share.
+  template <class Result>
+  const Result& shared(Result (*make)(const Comparison&)) const {
+    auto& kept = shared_[reinterpret_cast<void (*)()>(make)];
+    if (!kept) kept = std::make_shared<const Result>(make(*this));
+    return *static_cast<const Result*>(kept.get());
+  }
+  /// Why a history is too sparse to be compared flight by flight: far fewer rows than true impacts
+  /// in its time, each of which needs several rows. A sentence, or empty.
+  std::string objection_to_sparse_rows() const;
   /// First row of two with one time: the left limit of a jump.
   bool is_left_limit(std::size_t row) const {
     return row + 1 < rows() && history().t[row + 1] == history().t[row];
@@ -53,11 +77,11 @@ class Comparison {
   /// True states at the times of history(), row-major (time, mass). Of two rows with one time the
   /// first is the left limit, the second the right one; elsewhere the flight that truly holds, and
   /// the right limit at the double nearest to an impact.
-  std::span<const double> true_u() const { return true_u_; }
-  std::span<const double> true_v() const { return true_v_; }
+  std::span<const double> reference_u() const { return reference_u_; }
+  std::span<const double> reference_v() const { return reference_v_; }
   /// Empty unless the history has accelerations.
-  std::span<const double> true_a() const { return true_a_; }
-  /// Envelopes of the true motion at t = 0, one a mass: what relative errors are divided by.
+  std::span<const double> reference_a() const { return reference_a_; }
+  /// What relative errors are divided by, one a mass: see reference_scale().
   std::span<const double> u_envelope() const { return u_envelope_; }
   std::span<const double> v_envelope() const { return v_envelope_; }
   std::span<const double> a_envelope() const { return a_envelope_; }
@@ -72,7 +96,7 @@ class Comparison {
   ImpactSource impact_source() const { return source_; }
   /// Pairs in order of time; the rule is ImpactMatcher's.
   const std::vector<MatchedImpact>& matches() const { return matches_; }
-  /// What was matched, missed and found beside; ImpactMatcher says what is expected.
+  /// Numbers of matched, missed and extra impacts, as ImpactMatcher counts.
   const ImpactScore& impact_score() const { return score_; }
   /// True impacts that the history should have: up to its last time.
   long long expected() const { return score_.expected; }
@@ -87,12 +111,15 @@ class Comparison {
   const model::Motion& reference_;
   const model::ImpactProblem<>& problem_;
   double step_ = 0.0;
-  std::vector<double> true_u_, true_v_, true_a_, u_envelope_, v_envelope_, a_envelope_;
+  mutable double collision_period_ = 0.0;  ///< 0 until asked for
+  std::vector<double> reference_u_, reference_v_, reference_a_, u_envelope_, v_envelope_,
+      a_envelope_;
   std::vector<model::Impact> impacts_;
   std::vector<double> impact_ends_;
   ImpactSource source_ = ImpactSource::reported;
   std::vector<MatchedImpact> matches_;
   ImpactScore score_;
+  mutable std::map<void (*)(), std::shared_ptr<const void>> shared_;
 };
 
 }  // namespace clackers::assess

@@ -17,17 +17,16 @@ constexpr double pi = std::numbers::pi, nan = std::numeric_limits<double>::quiet
 TEST(Comparison, AsksForBothLimitsWhereATimeStandsTwice) {
   const ToyMotion reference(5.0);
   const auto problem = toy_problem(5.0);
-  const auto history =
-      true_history(reference, {0.0, 1.0, pi / 2, pi / 2, 2.0, 2.0, 3 * pi / 2, 5.0});
+  const auto history = history_of(reference, {0.0, 1.0, pi / 2, pi / 2, 2.0, 2.0, 3 * pi / 2, 5.0});
   const Comparison comparison(history, reference, problem);
   for (std::size_t i = 0; i < history.u.size(); ++i) {
-    EXPECT_EQ(comparison.true_u()[i], history.u[i]) << i;
-    EXPECT_EQ(comparison.true_v()[i], history.v[i]) << i;
-    EXPECT_EQ(comparison.true_a()[i], history.a[i]) << i;
+    EXPECT_EQ(comparison.reference_u()[i], history.u[i]) << i;
+    EXPECT_EQ(comparison.reference_v()[i], history.v[i]) << i;
+    EXPECT_EQ(comparison.reference_a()[i], history.a[i]) << i;
   }
-  EXPECT_EQ(comparison.true_v()[2 * 2], -1.0);
-  EXPECT_EQ(comparison.true_v()[2 * 3], 1.0);
-  EXPECT_EQ(comparison.true_v()[2 * 6], 1.0);  // alone at an impact: after it
+  EXPECT_EQ(comparison.reference_v()[2 * 2], -1.0);
+  EXPECT_EQ(comparison.reference_v()[2 * 3], 1.0);
+  EXPECT_EQ(comparison.reference_v()[2 * 6], 1.0);  // alone at an impact: after it
   for (std::size_t row = 0; row < 8; ++row) {
     EXPECT_EQ(comparison.is_left_limit(row), row == 2 || row == 4) << row;
     EXPECT_EQ(comparison.is_right_limit(row), row == 3 || row == 5) << row;
@@ -40,11 +39,11 @@ TEST(Comparison, AsksForEachTimeOnceAndInBlocks) {
   const auto problem = toy_problem(5.0);
   std::vector<double> times;
   for (int i = 0; i <= 20000; ++i) times.push_back(5.0 * i / 20000.0);
-  auto history = true_history(reference, times);
+  auto history = history_of(reference, times);
   history.a.clear();
   reference.samples = 0;
   const Comparison comparison(history, reference, problem);
-  EXPECT_TRUE(comparison.true_a().empty());
+  EXPECT_TRUE(comparison.reference_a().empty());
   EXPECT_LE(reference.samples, 20);  // 5 blocks, and the limits of impacts
   EXPECT_NEAR(comparison.step(), 5.0 / 20000.0, 1e-12);
 }
@@ -52,16 +51,16 @@ TEST(Comparison, AsksForEachTimeOnceAndInBlocks) {
 TEST(Comparison, TakesARoundingBeyondTheEndForTheEnd) {
   const ToyMotion reference(5.0);
   const auto problem = toy_problem(5.0);
-  auto history = true_history(reference, {0.0, 5.0});
+  auto history = history_of(reference, {0.0, 5.0});
   history.t.back() = 5.0 * (1.0 + 0x1p-51);
-  EXPECT_EQ(Comparison(history, reference, problem).true_u()[2], history.u[2]);
+  EXPECT_EQ(Comparison(history, reference, problem).reference_u()[2], history.u[2]);
 }
 
 // Impacts of the reference at pi/2, 3pi/2 and 5pi/2; rows 0.05 apart.
 model::Trajectory with_reports(const ToyMotion& reference, std::vector<model::Impact> reports) {
   std::vector<double> times;
   for (int i = 0; i <= 180; ++i) times.push_back(0.05 * i);
-  auto history = true_history(reference, times);
+  auto history = history_of(reference, times);
   history.a.clear();
   history.impacts = std::move(reports);
   return history;
@@ -106,11 +105,11 @@ TEST(Comparison, JoinsReportsOfAdjacentSteps) {
   EXPECT_EQ(comparison.matches().size(), 1u);
 }
 
-// Output every 1.5 s says nothing of the steps of the method: 4.5 and 4.9 stay two.
+// Output every 1.5 s does not show the steps of the method: 4.5 and 4.9 stay two.
 TEST(Comparison, DoesNotJoinReportsBecauseRowsAreFew) {
   const ToyMotion reference(20.0);
   const auto problem = toy_problem();
-  auto history = true_history(reference, {0.0, 1.5, 3.0, 4.5, 6.0, 7.5, 9.0});
+  auto history = history_of(reference, {0.0, 1.5, 3.0, 4.5, 6.0, 7.5, 9.0});
   history.impacts = {{1.6, 0, {}, {}, {}, nan},
                      {4.4, 0, {}, {}, {}, nan},
                      {4.9, 0, {}, {}, {}, nan},
@@ -150,7 +149,7 @@ TEST(Comparison, FindsWhatIsNotReported) {
 TEST(Comparison, ExpectsNothingBeforeAHistoryThatStartsLate) {
   const ToyMotion reference(9.0);
   const auto problem = toy_problem(9.0);
-  auto history = true_history(reference, {2.0, 2.1, 2.2, 3.0, 9.0});
+  auto history = history_of(reference, {2.0, 2.1, 2.2, 3.0, 9.0});
   EXPECT_EQ(Comparison(history, reference, problem).expected(), 2);
   // Though one found just behind its start belongs to the impact before it.
   history.impacts = {{2.05, 0, {}, {}, {}, nan}};
@@ -167,7 +166,7 @@ TEST(Comparison, AddsTheLimitsOfReportedJumps) {
   EXPECT_EQ(comparison.rows(), 183u);
   EXPECT_TRUE(comparison.is_left_limit(32));
   EXPECT_EQ(comparison.history().t[32], 1.58);
-  EXPECT_EQ(comparison.true_v().size(), 2 * 183u);
+  EXPECT_EQ(comparison.reference_v().size(), 2 * 183u);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/impacts/contact_rest.hpp"
+#include "clackers/assess/errors/comparison.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
@@ -14,10 +14,17 @@ constexpr auto who = "error sink";
 constexpr std::size_t block_size = 256;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::vector<double> positive_entries(std::string_view name, const Eigen::VectorXd& vector) {
-  std::vector<double> entries;
-  for (const double entry : vector) entries.push_back(require_positive(who, name, entry));
-  return entries;
+// Of the reference at the start; where it starts without energy the largest at 1024 equal parts.
+double energy_scale(const MechanicalEnergy& energy, const model::Motion& reference, double start) {
+  const auto at = [&](double t) {
+    const auto now = reference.at(t, model::Side::right);
+    return energy.total(now.u.data(), now.v.data());
+  };
+  double scale = at(start);
+  constexpr int parts = 1024;
+  if (!(scale > 0.0))
+    for (int i = 1; i <= parts; ++i) scale = std::max(scale, at(reference.end() * i / parts));
+  return require_positive(who, "energy of the reference", scale);
 }
 
 }  // namespace
@@ -30,23 +37,23 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
       options_(options),
       contacts_(problem.contacts),
       energy_(problem.system),
-      u_envelope_(positive_entries("initial envelope of u", reference.envelope(0.0).u)),
-      v_envelope_(positive_entries("initial envelope of v", reference.envelope(0.0).v)),
+      scale_(reference_scale(reference)),
       start_(problem.start.t),
       times_(block_size),
-      u_true_(block_size * dof_),
-      v_true_(block_size * dof_),
+      u_reference_(block_size * dof_),
+      v_reference_(block_size * dof_),
       relative_(dof_),
+      u_error_(dof_),
       last_(start_),
       velocity_(reference),
-      impacts_(reference, step),
+      impacts_(reference, step, 0.0, int(problem.contacts.size())),
       history_(options.history_bins, reference.dof(), problem.start.t, problem.end) {
   if (problem.dof() != reference.dof())
-    refuse(who, "masses of the problem", double(problem.dof()), "as many as the true motion has",
-           {}, "wrong-size");
-  const auto at_start = reference.at(start_, model::Side::right);
-  first_energy_ = require_positive(who, "true energy at the start",
-                                   energy_.total(at_start.u.data(), at_start.v.data()));
+    refuse(who, "masses of the problem", double(problem.dof()), "as many as the reference has", {},
+           "wrong-size");
+  for (const double scale : scale_.u) require_positive(who, "envelope of u", scale);
+  for (const double scale : scale_.v) require_positive(who, "envelope of v", scale);
+  energy_scale_ = energy_scale(energy_, reference, start_);
 }
 
 void ErrorSink::sample_reference(std::span<const double> times) {
@@ -56,48 +63,52 @@ void ErrorSink::sample_reference(std::span<const double> times) {
     times_[i] = times[i] > end && times[i] <= end + slack ? end : times[i];
   const auto size = times.size() * dof_;
   reference_.sample({times_.data(), times.size()}, model::Side::right,
-                    {{u_true_.data(), size}, {v_true_.data(), size}, {}});
+                    {{u_reference_.data(), size}, {v_reference_.data(), size}, {}});
 }
 
 bool ErrorSink::take(const model::SampleBlock& block) {
   if (std::size_t(block.dof) != dof_)
-    refuse(who, "masses of the block", double(block.dof), "as many as the true motion has", {},
+    refuse(who, "masses of the block", double(block.dof), "as many as the reference has", {},
            "wrong-size");
-  for (std::size_t from = 0; from < block.t.size(); from += block_size) {
-    if (!goes_on()) return false;
+  for (std::size_t from = 0; from < block.t.size(); from += block_size)
     take_part(block, from, std::min(block_size, block.t.size() - from));
-  }
-  return goes_on();
+  return true;
 }
 
 void ErrorSink::take_part(const model::SampleBlock& block, std::size_t from, std::size_t count) {
-  sample_reference(block.t.subspan(from, count));
+  const auto t = block.t.subspan(from, count);
+  const auto u = block.u.subspan(from * dof_, count * dof_);
+  const auto v = block.v.subspan(from * dof_, count * dof_);
+  sample_reference(t);
+  velocity_.take(t, v, v_reference_);
   for (std::size_t i = 0; i < count; ++i) {
-    const double* u = block.u.data() + (from + i) * dof_;
-    const double* v = block.v.data() + (from + i) * dof_;
-    const double* u_true = u_true_.data() + i * dof_;
-    const double* v_true = v_true_.data() + i * dof_;
-    last_ = block.t[from + i];
+    const std::size_t row = i * dof_;
     for (std::size_t j = 0; j < dof_; ++j) {
-      const double error = std::abs(u[j] - u_true[j]);
-      relative_[j] = error / u_envelope_[j];
-      u_absolute_ = std::max(u_absolute_, error);
-      u_error_ = std::max(u_error_, relative_[j]);
-      finite_ = finite_ && std::isfinite(error) && std::isfinite(v[j]);
+      const double error = std::abs(u[row + j] - u_reference_[row + j]);
+      u_error_[j] = std::max(u_error_[j], error);
+      // The difference of a number that is not finite and itself is NaN.
+      finite_ += (error - error) + (v[row + j] - v[row + j]);
     }
-    velocity_.take(last_, {v, dof_}, {v_true, dof_});
-    const double found = energy_.total(u, v), expected = energy_.total(u_true, v_true);
-    energy_error_ = std::max(energy_error_, std::abs(found - expected) / first_energy_);
+    const double found = energy_.total(&u[row], &v[row]);
+    const double expected = energy_.total(&u_reference_[row], &v_reference_[row]);
+    energy_error_ = std::max(energy_error_, std::abs(found - expected));
     energy_ratio_ = expected > 0.0 ? found / expected : std::numeric_limits<double>::quiet_NaN();
-    history_.take(last_, relative_);
+    if (options_.history_bins > 0) {
+      for (std::size_t j = 0; j < dof_; ++j)
+        relative_[j] = std::abs(u[row + j] - u_reference_[row + j]) / scale_.u[Eigen::Index(j)];
+      history_.take(t[i], relative_);
+    }
   }
+  last_ = t.back();
+  bound_ = std::max(bound_, relative_bound(reference_, scale_, last_));
   states_ += static_cast<long long>(count);
 }
 
 bool ErrorSink::take(const model::ReportedImpact& impact) {
   velocity_.take(impact);
-  impacts_.take(impact.t, rests_in_contact(reference_, contacts_, impact.contact, impact.t));
-  return goes_on();
+  impacts_.take(impact.t, rests_in_contact(reference_, contacts_, impact.contact, impact.t),
+                impact.contact);
+  return true;
 }
 
 RunScore ErrorSink::score(const model::Outcome& outcome) const {
@@ -109,18 +120,21 @@ RunScore ErrorSink::score(const model::Outcome& outcome) const {
     score.failure = outcome.detail;
   }
   score.work = outcome.work;
-  score.u_error = finite_ ? u_error_ : infinity;
-  score.u_error_absolute = finite_ ? u_absolute_ : infinity;
-  score.energy_error = finite_ ? energy_error_ : infinity;
+  score.energy_error = energy_error_ / energy_scale_;
   score.energy_ratio = energy_ratio_;
   // Each step rounds the state by about one unit; at worst they all add up.
-  score.rounding_floor = std::numeric_limits<double>::epsilon() * double(states_);
+  score.rounding_floor = std::max(std::numeric_limits<double>::epsilon() * double(states_), bound_);
   const double length = last_ - start_;
-  for (std::size_t j = 0; j < dof_; ++j)
+  for (std::size_t j = 0; j < dof_; ++j) {
+    const auto mass = Eigen::Index(j);
+    score.u_error_absolute = std::max(score.u_error_absolute, u_error_[j]);
+    score.u_error = std::max(score.u_error, u_error_[j] / scale_.u[mass]);
     if (length > 0.0)
       score.v_error =
-          std::max(score.v_error, velocity_.integral(int(j)) / (length * v_envelope_[j]));
-  if (!finite_) score.v_error = infinity;
+          std::max(score.v_error, velocity_.integral(int(j)) / (length * scale_.v[mass]));
+  }
+  if (finite_ != 0.0)
+    score.u_error = score.u_error_absolute = score.v_error = score.energy_error = infinity;
   if (options_.impacts_are_reported) score.impacts = impacts_.score(last_, score.rounding_floor);
   return score;
 }

@@ -226,20 +226,6 @@ TEST(ErrorSink, TheLastTimeMayPassTheEndByRoundingAndNoFurther) {
   EXPECT_THROW(sink.take(model::SampleBlock{2, {&outside, 1}, u, v}), InputError);
 }
 
-TEST(ErrorSink, AnAbortEndsTheRun) {
-  const ToyMotion reference;
-  std::atomic<bool> abort{false};
-  ErrorSink sink(reference, toy_problem(), 0.1, {.abort = &abort});
-  const History history(reference, 0.1, 200);
-  const std::vector<double> zero{0.0, 0.0};
-  EXPECT_TRUE(history.deliver(sink));
-  abort = true;
-  reference.samples = 0;
-  EXPECT_FALSE(history.deliver(sink));
-  EXPECT_EQ(reference.samples, 0);
-  EXPECT_FALSE(sink.take(model::ReportedImpact{20.0, 0, zero, zero, zero, 0.0}));
-}
-
 TEST(ErrorSink, KeepsTheErrorAgainstTimeWhenAsked) {
   const ToyMotion reference;
   History history(reference, 0.1, 200);
@@ -263,7 +249,38 @@ TEST(ErrorSink, RefusesAMotionWithoutAScale) {
   EXPECT_THROW(ErrorSink(Still(), toy_problem(), 0.1), InputError);
   auto weightless = toy_problem();
   weightless.system.stiffness.setZero();
+  weightless.system.mass.setZero();
   EXPECT_THROW(ErrorSink(ToyMotion(), weightless, 0.1), InputError);
+}
+
+TEST(ErrorSink, FloorIsTheBoundOfTheReferenceWhereThatIsLarger) {
+  struct Rough : ToyMotion {
+    model::Kinematics error_bound(double t) const override {
+      const Eigen::Vector2d bound(1e-9 * t, 0.0);
+      return {bound, bound, bound};
+    }
+  };
+  const Rough reference;
+  ErrorSink sink(reference, toy_problem(), 0.1);
+  History(reference, 0.1, 200).deliver(sink);
+  const auto score = sink.score({});
+  EXPECT_DOUBLE_EQ(score.rounding_floor, 2e-8);
+  EXPECT_GT(score.impacts->rounding_floor, 2e-9);  // 20 s and 6 impacts: 2e-8 * 20/6 / pi
+}
+
+TEST(ErrorSink, AMassThatStartsAtRestIsRelativeToItsLargestEnvelope) {
+  struct StartsAtRest : ToyMotion {
+    model::Kinematics envelope(double t) const override {
+      const Eigen::Vector2d now(1.0, t < 2.0 ? 0.0 : t < 10.0 ? 0.5 : 0.25);
+      return {now, now, now};
+    }
+  };
+  const StartsAtRest reference;
+  History history(reference, 0.1, 200);
+  history.u[2 * 55 + 1] += 0.03;
+  ErrorSink sink(reference, toy_problem(), 0.1);
+  history.deliver(sink);
+  EXPECT_NEAR(sink.score({}).u_error, 0.06, 1e-14);
 }
 
 TEST(ErrorSink, RefusesAnotherNumberOfMassesAndAStepThatIsNotPositive) {

@@ -32,7 +32,7 @@ void require_times(const std::vector<double>& t, const model::Motion& reference)
     if (!std::isfinite(t[i])) require_finite(who, fmt::format("t in row {}", i + 1), t[i]);
     if (!(t[i] >= 0.0 && t[i] <= latest_time(reference)))
       refuse(who, fmt::format("t in row {}", i + 1), t[i],
-             fmt::format("0 to {}, where the true motion is known", reference.end()), {},
+             fmt::format("0 to {}, where the reference is known", reference.end()), {},
              "time-outside");
     if (i > 0 && t[i] < t[i - 1])
       refuse(who, fmt::format("t in row {}", i + 1), t[i],
@@ -69,10 +69,10 @@ double latest_time(const model::Motion& reference) {
 void require_comparable(const model::Trajectory& history, const model::Motion& reference,
                         const model::ImpactProblem<>& problem) {
   if (history.dof != reference.dof() || problem.dof() != reference.dof())
-    refuse(who, "masses", double(history.dof),
-           fmt::format("{}, as the true motion has; the problem has {}", reference.dof(),
-                       problem.dof()),
-           {}, "wrong-size");
+    refuse(
+        who, "masses", double(history.dof),
+        fmt::format("{}, as the reference has; the problem has {}", reference.dof(), problem.dof()),
+        {}, "wrong-size");
   const auto dof = std::size_t(history.dof), size = history.t.size() * dof;
   require_size("u", history.u.size(), size);
   if (!history.v.empty()) require_size("v", history.v.size(), size);

@@ -58,7 +58,7 @@ const std::vector<Refusal> refusals = {
 TEST(HistoryCheck, RefusesInWordsWhatCannotBeCompared) {
   const ToyMotion reference(4.0);
   const auto problem = toy_problem(4.0);
-  const auto sound = true_history(reference, {0.0, 1.0, 2.0, 2.0, 4.0});
+  const auto sound = history_of(reference, {0.0, 1.0, 2.0, 2.0, 4.0});
   EXPECT_NO_THROW(require_comparable(sound, reference, problem));
   for (const auto& refusal : refusals) {
     auto history = sound;
@@ -78,7 +78,7 @@ TEST(HistoryCheck, AsksForTwoDifferentTimes) {
   const auto problem = toy_problem(4.0);
   for (const auto& times : {std::vector<double>{}, {1.0}, {1.0, 1.0}}) {
     try {
-      require_comparable(true_history(reference, times), reference, problem);
+      require_comparable(history_of(reference, times), reference, problem);
       ADD_FAILURE() << times.size();
     } catch (const InputError& error) {
       EXPECT_EQ(error.code().name(), "too-short") << error.what();
@@ -88,7 +88,7 @@ TEST(HistoryCheck, AsksForTwoDifferentTimes) {
 
 TEST(HistoryCheck, LetsVelocitiesAndAccelerationsBeMissing) {
   const ToyMotion reference(4.0);
-  auto history = true_history(reference, {0.0, 4.0});
+  auto history = history_of(reference, {0.0, 4.0});
   history.v.clear();
   history.a.clear();
   history.impacts.reset();
@@ -97,7 +97,7 @@ TEST(HistoryCheck, LetsVelocitiesAndAccelerationsBeMissing) {
 
 TEST(HistoryCheck, LetsTheLastTimePassTheEndByARounding) {
   const ToyMotion reference(4.0);
-  auto history = true_history(reference, {0.0, 4.0});
+  auto history = history_of(reference, {0.0, 4.0});
   history.t.back() = 4.0 * (1.0 + 0x1p-50);
   EXPECT_NO_THROW(require_comparable(history, reference, toy_problem(4.0)));
   history.t.back() = 4.0 * (1.0 + 0x1p-49);
@@ -108,7 +108,7 @@ TEST(HistoryCheck, RefusesAProblemOfAnotherSize) {
   const ToyMotion reference(4.0);
   auto problem = toy_problem(4.0);
   problem.system.mass = Eigen::MatrixXd::Identity(3, 3);
-  EXPECT_THROW(require_comparable(true_history(reference, {0.0, 4.0}), reference, problem),
+  EXPECT_THROW(require_comparable(history_of(reference, {0.0, 4.0}), reference, problem),
                InputError);
 }
 

@@ -22,19 +22,22 @@ struct ImpactScore {
 struct RunScore {
   double step = 0.0;  ///< h [s]
   bool finished = false;
-  std::string failure_code;       ///< of a run that failed: "diverged", "newton-failed", ...
-  std::string failure;            ///< and its sentence
-  double u_error = 0.0;           ///< max over masses and own times of |error| / envelope at t = 0
+  std::string failure_code;  ///< of a run that failed: "diverged", "newton-failed", ...
+  std::string failure;       ///< and its sentence
+  /// Largest over masses and output times of |error in u| over its scale, see reference_scale().
+  double u_error = 0.0;
   double u_error_absolute = 0.0;  ///< the same, not divided [m]
-  double v_error = 0.0;  ///< L1 over time by the trapezoidal rule, over the run's length and the
-                         ///< initial envelope; max over masses; both limits at reported impacts
-                         ///< (VelocityError says how)
-  double energy_error = 0.0;           ///< max over own times of |E - E true| / E true at t = 0
-  double energy_ratio = 1.0;           ///< E / E true at the last state; NaN where E true is 0
-  double rounding_floor = 0.0;         ///< of u_error, estimated for this many steps
+  /// L1 over time by the rule of VelocityError, over the run's length and the scale of v; largest
+  /// over masses.
+  double v_error = 0.0;
+  double energy_error = 0.0;  ///< largest over output times of |E - E*| / E* at t = 0
+  double energy_ratio = 1.0;  ///< E / E* at the last state; NaN where E* is 0
+  /// Below it errors show nothing: the larger of an estimate of rounding for this many steps and
+  /// of the reference's own error bound, relative as u_error and v_error are.
+  double rounding_floor = 0.0;
   std::optional<ImpactScore> impacts;  ///< empty: the run does not report impacts
   model::Work work;
-  double seconds = 0.0;  ///< processor time of the run without its judgement
+  double seconds = 0.0;  ///< processor time of the run alone
 };
 
 /// Neighbouring steps around one nominal step.

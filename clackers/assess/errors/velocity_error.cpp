@@ -14,10 +14,6 @@ std::vector<double> distance(std::span<const double> one, std::span<const double
   return errors;
 }
 
-std::span<const double> entries(const Eigen::VectorXd& v) {
-  return {v.data(), std::size_t(v.size())};
-}
-
 }  // namespace
 
 VelocityError::VelocityError(const model::Motion& reference, JumpingQuantity quantity)
@@ -31,10 +27,30 @@ VelocityError::VelocityError(const model::Motion& reference, JumpingQuantity qua
       squares_(dof_) {}
 
 std::span<const double> VelocityError::part(const model::Kinematics& now) const {
-  return entries(quantity_ == JumpingQuantity::velocity ? now.v : now.a);
+  const auto& part = quantity_ == JumpingQuantity::velocity ? now.v : now.a;
+  return {part.data(), std::size_t(part.size())};
 }
 
-void VelocityError::take(double t, std::span<const double> v, std::span<const double> v_true) {
+void VelocityError::take(std::span<const double> t, std::span<const double> v,
+                         std::span<const double> v_reference) {
+  // The interval in front of them, and that between them, may hold an impact.
+  const auto slow = std::min<std::size_t>(2, t.size());
+  for (std::size_t i = 0; i < slow; ++i) take_first(t[i], &v[i * dof_], &v_reference[i * dof_]);
+  for (std::size_t i = slow; i < t.size(); ++i) {
+    const double half = 0.5 * (to_ - from_);
+    for (std::size_t j = 0; j < dof_; ++j) {
+      const double left = from_error_[j], right = to_error_[j];
+      sum_[j] += half * (left + right);
+      squares_[j] += half * (left * left + right * right);
+      from_error_[j] = right;
+      to_error_[j] = std::abs(v[i * dof_ + j] - v_reference[i * dof_ + j]);
+    }
+    from_ = to_;
+    to_ = t[i];
+  }
+}
+
+void VelocityError::take_first(double t, const double* v, const double* v_reference) {
   if (taken_ > 0) {
     close();
     from_ = to_;
@@ -43,7 +59,7 @@ void VelocityError::take(double t, std::span<const double> v, std::span<const do
   }
   taken_ = std::min(taken_ + 1, 2);
   to_ = t;
-  for (std::size_t i = 0; i < dof_; ++i) to_error_[i] = std::abs(v[i] - v_true[i]);
+  for (std::size_t i = 0; i < dof_; ++i) to_error_[i] = std::abs(v[i] - v_reference[i]);
 }
 
 void VelocityError::take(const model::ReportedImpact& impact) {
@@ -80,7 +96,7 @@ void VelocityError::close() {
   }
   double from = from_;
   for (const auto& jump : jumps_) pass(jump, from, from_error_);
-  // A jump at the own time itself has said what holds on both sides of it.
+  // A jump at the output time itself has the limits of both sides.
   if (from >= to_) return;
   add(to_ - from, from_error_, to_error_);
   std::swap(from_error_, to_error_);
@@ -109,6 +125,8 @@ void VelocityError::pass(const Jump& jump, double& from, Errors& error) {
 
 // The first true impact in [from, to_] that has not been joined yet, or nothing.
 const model::MotionImpact* VelocityError::join(double from) {
+  next_true_ =
+      std::max(next_true_, reference_.impact_count(std::clamp(from, 0.0, reference_.end())));
   for (; next_true_ <= known_; ++next_true_) {
     if (true_impact_.index != next_true_) true_impact_ = reference_.impact(next_true_);
     if (true_impact_.t > to_) return nullptr;

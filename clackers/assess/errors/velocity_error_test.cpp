@@ -20,7 +20,7 @@ struct Report {
 };
 
 // Feeds a run that knows its own velocity of mass 1 and reports impacts; mass 2 moves with minus
-// half of it. A report at an own time comes before or after the state of that time.
+// half of it. A report at an output time comes before or after the state of that time.
 double integral(const std::function<double(double)>& v, double h, int steps,
                 const std::vector<Report>& reports, int mass = 0, bool report_first = false) {
   const ToyMotion reference;
@@ -92,8 +92,8 @@ TEST(VelocityError, AnImpactReportedAtAnOwnTimeCountsTheSameWhicheverSideIsDeliv
 }
 
 TEST(VelocityError, AnImpactReportedStepsLaterCountsAllTimesBetween) {
-  // The run bounces at 1.81 instead of 1.5708: own times 1.6, 1.7, 1.8 and its left limit are off
-  // by 2 sin t, by the rule from the own time before the true impact on.
+  // The run bounces at 1.81 instead of 1.5708: output times 1.6, 1.7, 1.8 and its left limit are off
+  // by 2 sin t, by the rule from the output time before the true impact on.
   const double when = 1.81;
   const auto found = integral(jumping(when), 0.1, 30, {{when, -std::sin(when), std::sin(when)}});
   const auto off = [](double t) { return 2.0 * std::sin(t); };
@@ -102,7 +102,7 @@ TEST(VelocityError, AnImpactReportedStepsLaterCountsAllTimesBetween) {
 
 TEST(VelocityError, BetweenOwnAndTrueImpactTheRightLimitsAreCompared) {
   // The run comes back with 1/2 instead of 1. Late by 0.02 it is off by 2 meanwhile, early by 1.5;
-  // behind both it is off by 1/2, falling to nothing at the own time 1.6.
+  // behind both it is off by 1/2, falling to nothing at the output time 1.6.
   const double late = first + 0.02, early = first - 0.02;
   EXPECT_NEAR(integral(jumping(first), 0.1, 30, {{late, -1.0, 0.5}}), 0.04 + 0.25 * (1.6 - late),
               1e-12);
@@ -127,7 +127,7 @@ TEST(VelocityError, AnImpactReportedStepsTooEarlyCountsAllTimesBetween) {
 }
 
 TEST(VelocityError, WithoutAReportTheOwnTimesAloneCount) {
-  // Nothing at all is off at own times, although the run never tells of its impact.
+  // Nothing at all is off at output times, although the run does not report its impact.
   EXPECT_NEAR(integral(jumping(first), 0.1, 30, {}), 0.0, 1e-15);
   // It misses the impact: from 1.6 on it is off by 2 sin t, and the rule adds half the step before.
   // Its own error over [1.6, 3]: h^2 / 12 times the change of slope, 2 (cos 1.6 - cos 3) = 1.92.

@@ -5,7 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "clackers/assess/errors/free_motion.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
+#include "clackers/assess/errors/vectors.hpp"
 #include "clackers/assess/impacts/gap_history.hpp"
 
 namespace clackers::assess {
@@ -14,10 +15,6 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<double> entries(const VectorXd& vector) {
-  return {vector.data(), vector.data() + vector.size()};
-}
 
 // The collisions of one contact.
 class ContactScan {
@@ -38,7 +35,7 @@ class ContactScan {
     for (std::size_t i = 0; i + 1 < gaps_.size(); ++i) {
       if (!strikes(i)) continue;
       const auto span = whole(has_velocities_ ? i : steepest(i), free);
-      if (auto collision = judged(span)) {
+      if (auto collision = collision_in(span)) {
         found.push_back(std::move(*collision));
         free = span.last;
         i = has_velocities_ ? span.last - 1 : span.last;
@@ -57,7 +54,7 @@ class ContactScan {
   bool strikes(std::size_t i) const {
     const double closing = -gaps_.before[i];
     if (!(closing > 0.0)) return false;  // also where it is not known
-    if (!(gaps_.push(i) > 0.5 * closing + gaps_.doubt(i))) return false;
+    if (!(gaps_.contact_change(i) > 0.5 * closing + gaps_.uncertainty(i))) return false;
     // Near: closed within two steps at the speed of either side.
     double step = gaps_.length(i);
     if (i > 0) step = std::max(step, gaps_.length(i - 1));
@@ -66,15 +63,15 @@ class ContactScan {
     return std::min(gaps_.g[i], gaps_.g[i + 1]) <= 2.0 * step * speed;
   }
 
-  // A slope over a jump belongs to neither side, so that without velocities a jump pushes in the
-  // steps beside its own, too, though less.
+  // A slope over a jump belongs to neither side, so that without velocities a jump changes the rate in
+  // the steps beside its own, too, though less.
   std::size_t steepest(std::size_t i) const {
-    while (i + 2 < gaps_.size() && gaps_.push(i + 1) > gaps_.push(i)) ++i;
+    while (i + 2 < gaps_.size() && gaps_.contact_change(i + 1) > gaps_.contact_change(i)) ++i;
     return i;
   }
 
   // All rows of the collision that strikes in step i: back to the last open row, forward until the
-  // contact is open, or closes on without a push. A contact that has come to rest still pushes.
+  // contact is open, or closes on without a force. A contact at rest still has a force.
   Span whole(std::size_t i, std::size_t free) const {
     if (gaps_.length(i) == 0.0) return {i, i + 1, false};
     Span span{i, i + 1, false};
@@ -84,11 +81,12 @@ class ContactScan {
       return std::abs(gaps_.after[row]) <= gaps_.noise[row] + 1e-9 * closing;
     };
     while (span.last + 1 < gaps_.size()) {
-      const double push = gaps_.push(span.last), doubt = gaps_.doubt(span.last);
+      const double change = gaps_.contact_change(span.last),
+                   uncertainty = gaps_.uncertainty(span.last);
       const bool rests_on = rests(span.last) && rests(span.last + 1);
       const bool opens = gaps_.after[span.last] > 0.0;
-      const bool closed = gaps_.g[span.last] < 0.0 && !rests_on && (opens || push > doubt);
-      const bool goes_on = has_velocities_ && push > 0.1 * closing + doubt;
+      const bool closed = gaps_.g[span.last] < 0.0 && !rests_on && (opens || change > uncertainty);
+      const bool goes_on = has_velocities_ && change > 0.1 * closing + uncertainty;
       if (!closed && !goes_on) break;
       ++span.last;
     }
@@ -96,18 +94,18 @@ class ContactScan {
     return span;
   }
 
-  std::optional<FoundCollision> judged(const Span& span) const {
+  std::optional<FoundCollision> collision_in(const Span& span) const {
     const auto before = struck(span);
     const double closing = -contact_.gap_rate(before.v);
-    double push = 0.0, doubt = 0.0;
+    double change = 0.0, uncertainty = 0.0;
     for (auto i = span.first; i < span.last; ++i) {
       const bool is_first = i == span.first, is_last = i + 1 == span.last;
       // Rates inside the collision cancel in the sum over its steps.
-      push += (is_last ? gaps_.after[i + 1] : 0.0) - (is_first ? gaps_.before[i] : 0.0) -
-              0.5 * gaps_.length(i) * (gaps_.acceleration[i] + gaps_.acceleration[i + 1]);
-      doubt += gaps_.doubt(i);
+      change += (is_last ? gaps_.after[i + 1] : 0.0) - (is_first ? gaps_.before[i] : 0.0) -
+                0.5 * gaps_.length(i) * (gaps_.acceleration[i] + gaps_.acceleration[i + 1]);
+      uncertainty += gaps_.uncertainty(i);
     }
-    if (!(push > 0.5 * closing + doubt)) return {};
+    if (!(change > 0.5 * closing + uncertainty)) return {};
     FoundCollision found;
     found.impact.t = found.end = before.t;
     found.impact.contact = number_;
@@ -123,7 +121,7 @@ class ContactScan {
     found.end = after.t;
     found.impact.v_after = entries(after.v);
     const double gained =
-        span.penetrates ? push : contact_.gap_rate(after.v) - contact_.gap_rate(before.v);
+        span.penetrates ? change : contact_.gap_rate(after.v) - contact_.gap_rate(before.v);
     found.impact.impulse = gained / contact_.direction.dot(motion_.response(contact_.direction));
     return found;
   }

@@ -18,7 +18,7 @@ struct FoundCollision {
 /// The collisions of a history, in order of time, read from its rows, the equation of motion and
 /// the contacts; what the history reports is not looked at.
 ///
-/// A collision is where a contact near closure pushes: the relative velocity rises by at least half
+/// A collision is where a contact near closure has a force: the relative velocity rises by at least half
 /// the closing speed (Newton's law gives 1 + eta of it) beyond what free motion could do between
 /// the rows and beyond rounding. So nothing is found in masses that oscillate freely, or pass
 /// through each other. A jump between two rows, a jump given as two rows of one time, and a
@@ -31,8 +31,8 @@ struct FoundCollision {
 /// these is not seen.
 ///
 /// Limits: a closing speed below 1e-5 of the velocities, or below what free motion does in a step
-/// (about (omega h)^3 / 4 of the velocity of a mass of frequency omega), is not told from free
-/// motion. Ten rows a period of the fastest motion at a contact are enough.
+/// (about (omega h)^3 / 4 of the velocity of a mass of frequency omega), is not distinguished from
+/// free motion. Ten rows a period of the fastest motion at a contact are enough.
 ///
 /// The history has sound sizes and times (require_comparable). Cost: linear in rows and masses.
 std::vector<FoundCollision> find_collisions(const model::Trajectory& history,

@@ -17,7 +17,8 @@ TEST(CollisionFinder, InventsNothingInFreeMotion) {
       for (const double a_period : {10.0, 11.7, 30.0, 300.0})
         for (const bool velocities : {true, false}) {
           const double step = 2.0 * pi / (w2 * a_period);
-          const auto history = sampled(ghosts(1.0, w2, phase), 40.0, step, velocities);
+          const auto history =
+              sampled(unconstrained_motion(1.0, w2, phase), 40.0, step, velocities);
           EXPECT_EQ(find_collisions(history, masses(1.0, w2)).size(), 0u)
               << "w2 " << w2 << " phase " << phase << " rows a period " << a_period
               << (velocities ? " with" : " without") << " velocities";
@@ -27,8 +28,8 @@ TEST(CollisionFinder, InventsNothingInFreeMotion) {
 TEST(CollisionFinder, InventsNothingInSixDigits) {
   for (const double a_period : {10.0, 300.0, 3000.0})
     for (const bool velocities : {true, false}) {
-      const auto history =
-          sampled(ghosts(1.0, 5.0, 0.7), 10.0, 2.0 * pi / (5.0 * a_period), velocities);
+      const auto history = sampled(unconstrained_motion(1.0, 5.0, 0.7), 10.0,
+                                   2.0 * pi / (5.0 * a_period), velocities);
       EXPECT_EQ(find_collisions(printed(history, 6), masses(1.0, 5.0)).size(), 0u)
           << a_period << (velocities ? " with" : " without") << " velocities";
     }
@@ -105,7 +106,7 @@ TEST(CollisionFinder, TakesTheEndOfAFallForItsWholeCollision) {
 
 // Masses that pass through each other with one wrong velocity while they turn.
 TEST(CollisionFinder, TakesAKickInsideForNoCollision) {
-  auto history = sampled(ghosts(1.0, 1.0, 0.0), 6.0, 0.05, true);
+  auto history = sampled(unconstrained_motion(1.0, 1.0, 0.0), 6.0, 0.05, true);
   history.v[2 * 63] += 0.1;  // t = 3.15, just behind the deepest point
   EXPECT_EQ(find_collisions(history, equal_masses()).size(), 0u);
 }
@@ -162,7 +163,9 @@ TEST(CollisionFinder, KnowsLoadsAndForces) {
 TEST(CollisionFinder, HasNothingToFindWithoutAContact) {
   auto problem = masses(1.0, 2.0);
   problem.contacts.clear();
-  EXPECT_TRUE(find_collisions(sampled(ghosts(1.0, 2.0, 0.0), 10.0, 0.1, true), problem).empty());
+  EXPECT_TRUE(
+      find_collisions(sampled(unconstrained_motion(1.0, 2.0, 0.0), 10.0, 0.1, true), problem)
+          .empty());
 }
 
 TEST(FreeMotion, IsThatOfTheEquationOfMotion) {
@@ -175,7 +178,7 @@ TEST(FreeMotion, IsThatOfTheEquationOfMotion) {
   EXPECT_NEAR(a[1], (6.0 - (0.1 + 0.4) - 9.0) / 0.5, 1e-14);
   const auto undamped = masses(1.0, 3.0);
   const FreeMotion free(undamped.system);
-  const auto state = ghosts(1.0, 3.0, 0.4);
+  const auto state = unconstrained_motion(1.0, 3.0, 0.4);
   for (const double s : {0.02, -0.02}) {
     const auto to = free.moved(state(1.0), s), reference = state(1.0 + s);
     EXPECT_NEAR((to.u - reference.u).norm(), 0.0, 1e-8);

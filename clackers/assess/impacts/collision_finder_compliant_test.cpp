@@ -31,7 +31,7 @@ TEST(CollisionFinder, TakesACompliantContactForOneCollisionAtItsBeginning) {
       }
 }
 
-// Slopes of neighbouring rows are off by more than the speed: longer steps tell more.
+// Slopes of neighbouring rows are off by more than the speed: longer steps show more.
 TEST(CollisionFinder, JoinsRowsWhereDigitsAreFew) {
   const Penalty motion{1e12};
   const auto found =

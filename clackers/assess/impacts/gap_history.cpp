@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "clackers/assess/errors/vectors.hpp"
 
 namespace clackers::assess {
 namespace {
@@ -83,13 +86,6 @@ void find_rates(GapHistory& gaps) {
   }
 }
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // In free motion both rates are the same, so that half of all rows being collisions or less leaves
 // the median to rounding. It is local, since a motion may decay; the factor covers the tail of a
 // normal distribution down to 1e-7 (5.3 deviations, one deviation being 1.5 medians).
@@ -106,21 +102,21 @@ double find_noise(GapHistory& gaps) {
       block.push_back(std::abs(gaps.after[i] - gaps.before[i]));
     all.insert(all.end(), block.begin(), block.end());
     std::fill(gaps.noise.begin() + std::ptrdiff_t(from), gaps.noise.begin() + std::ptrdiff_t(to),
-              noise_factor * median(block));
+              block.empty() ? 0.0 : noise_factor * median(block));
   }
-  return median(all);
+  return all.empty() ? 0.0 : median(std::move(all));
 }
 
 }  // namespace
 
-double GapHistory::push(std::size_t i) const {
+double GapHistory::contact_change(std::size_t i) const {
   return after[i + 1] - before[i] - 0.5 * length(i) * (acceleration[i] + acceleration[i + 1]);
 }
 
 // The trapezoidal rule is off by h^3 a'' / 12, the two rates from displacements by h^3 a'' / 24
 // each, so h times a sixth of the second difference of a in all; a quarter allows for h^2 a'' being
 // taken from beside the interval.
-double GapHistory::doubt(std::size_t i) const {
+double GapHistory::uncertainty(std::size_t i) const {
   double bend = 0.0;
   for (const auto middle : {i, i + 1})
     if (middle > 0 && middle + 1 < size())

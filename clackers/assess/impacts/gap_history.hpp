@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "clackers/assess/errors/free_motion.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/trajectory.hpp"
 
@@ -23,12 +23,12 @@ struct GapHistory {
 
   std::size_t size() const { return t.size(); }
   double length(std::size_t i) const { return t[i + 1] - t[i]; }
-  /// What between rows i and i + 1 was added to the rate beyond free motion: positive where a
-  /// contact pushes the masses apart [m/s].
-  double push(std::size_t i) const;
-  /// Bound on |push(i)| where nothing collides: the rule that integrates the acceleration, and the
+  /// Change of the rate between rows i and i + 1 beyond that of free motion: positive where a
+  /// contact accelerates the masses apart [m/s].
+  double contact_change(std::size_t i) const;
+  /// Bound on |contact_change(i)| where nothing collides: the rule that integrates the acceleration, and the
   /// noise [m/s].
-  double doubt(std::size_t i) const;
+  double uncertainty(std::size_t i) const;
 };
 
 /// Every row of a history with velocities. Velocities are taken to be printed with six digits, and

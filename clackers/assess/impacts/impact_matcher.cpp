@@ -5,67 +5,108 @@
 #include <numbers>
 
 #include "clackers/base/check.hpp"
+#include "clackers/base/error.hpp"
 
 namespace clackers::assess {
 
-ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double start)
+bool rests_in_contact(const model::Motion& reference, const std::vector<model::Contact<>>& contacts,
+                      int contact, double t) {
+  if (contact < 0 || contact >= std::ssize(contacts))
+    refuse("impact", "contact", double(contact), "a row of the problem's contacts");
+  const auto& row = contacts[std::size_t(contact)];
+  const auto now = reference.at(std::clamp(t, 0.0, reference.end()), model::Side::right);
+  return row.gap_at(now.u) == 0.0 && row.gap_rate(now.v) == 0.0;
+}
+
+ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double start,
+                             int contacts)
     : reference_(reference),
       step_(require_step("impact matcher", step)),
       start_(start),
       known_(reference.impact_count(reference.end())),
-      more_(known_ > 0) {
+      tracks_(std::size_t(std::max(contacts, 1))) {
   // The impact before the start may still be found late.
-  if (more_) now_ = target(start > 0.0 ? std::max(1LL, reference.impact_count(start)) : 1);
+  const auto first = start > 0.0 ? std::max(1LL, reference.impact_count(start)) : 1;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) tracks_[i].target = target(int(i), first);
 }
 
-ImpactMatcher::Target ImpactMatcher::target(long long index) const {
-  Target found{.index = index, .t = reference_.impact(index).t, .reach = reference_.end()};
-  if (index > 1) found.reach = std::min(found.reach, found.t - reference_.impact(index - 1).t);
-  if (index < known_) found.reach = std::min(found.reach, reference_.impact(index + 1).t - found.t);
-  found.reach *= 0.25;
-  return found;
+// The first impact of a contact from an index on, upwards or downwards.
+std::optional<model::MotionImpact> ImpactMatcher::impact_of(int contact, long long from,
+                                                            int direction) const {
+  for (auto index = from; index >= 1 && index <= known_; index += direction)
+    if (auto impact = reference_.impact(index); tracks_.size() == 1 || impact.contact == contact)
+      return impact;
+  return {};
 }
 
-// Books the true impact `now_` with what was found for it.
-void ImpactMatcher::settle() {
-  if (!nearest_ && now_.t <= start_) return;
+std::optional<ImpactMatcher::Target> ImpactMatcher::target(int contact, long long from) const {
+  const auto impact = impact_of(contact, from, 1);
+  if (!impact) return {};
+  double spacing = reference_.end();
+  if (const auto before = impact_of(contact, impact->index - 1, -1))
+    spacing = std::min(spacing, impact->t - before->t);
+  if (const auto after = impact_of(contact, impact->index + 1, 1))
+    spacing = std::min(spacing, after->t - impact->t);
+  return Target{impact->index, impact->t, 0.25 * spacing, impact->when.hi - impact->when.lo};
+}
+
+// Counts the true impact of a track with what was found for it.
+void ImpactMatcher::settle(const Track& track) {
+  const auto& [target, nearest, last_report] = track;
+  if (!nearest && target->t <= start_) return;
   ++sum_.expected;
-  if (!nearest_) {
+  if (!nearest) {
     ++sum_.missed;
     return;
   }
   ++sum_.matched;
-  sum_.worst_time_error = std::max(sum_.worst_time_error, std::abs(nearest_->t - now_.t));
-  if (keeps_pairs_) pairs_.push_back({now_.index, nearest_->number});
+  sum_.worst_time_error = std::max(sum_.worst_time_error, std::abs(nearest->t - target->t));
+  sum_.rounding_floor = std::max(sum_.rounding_floor, target->uncertainty);
+  if (keeps_pairs_) pairs_.push_back({target->index, nearest->number});
 }
 
-void ImpactMatcher::move_on() {
-  settle();
-  nearest_.reset();
-  more_ = now_.index < known_;
-  if (more_) now_ = target(now_.index + 1);
+// Moves on to the next true impact of a contact. Those before the last one up to t are out of reach
+// from t on and missed; with one contact they need not be asked for one by one.
+void ImpactMatcher::advance(int contact, double t) {
+  auto& track = tracks_[std::size_t(contact)];
+  settle(track);
+  track.nearest.reset();
+  auto next = track.target->index + 1;
+  if (tracks_.size() == 1) {
+    const auto skipped = reference_.impact_count(std::clamp(t, 0.0, reference_.end())) - next;
+    if (skipped > 0) {
+      sum_.expected += skipped;
+      sum_.missed += skipped;
+      next += skipped;
+    }
+  }
+  track.target = target(contact, next);
 }
 
-void ImpactMatcher::take(double t, bool resting) {
+void ImpactMatcher::take(double t, bool resting, int contact) {
   const auto number = reports_++;
-  // A little less than two steps, so that reports two whole steps apart stay two.
-  const bool same = last_report_ && t - *last_report_ < (2.0 - 1e-6) * step_;
-  last_report_ = t;
+  auto& [target, nearest, last_report] = tracks_.at(std::size_t(contact));
+  const bool same = last_report && t - *last_report < one_collision * step_;
+  last_report = t;
   if (same) return;
-  while (more_ && t > now_.t + now_.reach) move_on();
-  const bool near = more_ && t >= now_.t - now_.reach;
-  if (resting && !(near && !nearest_)) return;
+  while (target && t > target->t + target->reach) advance(contact, t);
+  const bool near = target && t >= target->t - target->reach;
+  if (resting && !(near && !nearest)) return;
   ++sum_.found;
-  if (!near || nearest_) ++sum_.extra;
-  if (near && (!nearest_ || std::abs(t - now_.t) < std::abs(nearest_->t - now_.t)))
-    nearest_ = Report{t, number};
+  if (!near || nearest) ++sum_.extra;
+  if (near && (!nearest || std::abs(t - target->t) < std::abs(nearest->t - target->t)))
+    nearest = Report{t, number};
 }
 
 // The matcher after the last report it will get.
 ImpactMatcher ImpactMatcher::ended(double end) const {
   ImpactMatcher rest = *this;
   // What was found although it truly happens in the last two steps or just behind them counts.
-  while (rest.more_ && (rest.nearest_ || rest.now_.t <= end - 2.0 * step_)) rest.move_on();
+  const double seen = end - 2.0 * step_;
+  for (std::size_t i = 0; i < rest.tracks_.size(); ++i) {
+    const auto& track = rest.tracks_[i];
+    while (track.target && (track.nearest || track.target->t <= seen)) rest.advance(int(i), seen);
+  }
   return rest;
 }
 
@@ -74,10 +115,14 @@ ImpactScore ImpactMatcher::score(double end, double rounding) const {
   // A displacement error d of a mass that passes with amplitude times frequency moves its passage
   // by d / (A pi / T), T the time between impacts.
   const double spacing = end / double(std::max(1LL, score.expected));
-  score.rounding_floor = rounding * spacing / std::numbers::pi;
+  score.rounding_floor = std::max(score.rounding_floor, rounding * spacing / std::numbers::pi);
   return score;
 }
 
-std::vector<ImpactPair> ImpactMatcher::pairs(double end) const { return ended(end).pairs_; }
+std::vector<ImpactPair> ImpactMatcher::pairs(double end) const {
+  auto pairs = ended(end).pairs_;
+  std::ranges::sort(pairs, {}, &ImpactPair::report);
+  return pairs;
+}
 
 }  // namespace clackers::assess

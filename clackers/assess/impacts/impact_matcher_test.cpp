@@ -186,6 +186,52 @@ TEST(ImpactMatcher, ARunThatStartsLateOwesNothingBefore) {
   EXPECT_SCORE(matcher.score(20.0, 0.0), 4, 4, 4, 0, 0);
 }
 
+// Impacts of two contacts in turn.
+class TwoContacts : public ToyMotion {
+ public:
+  TwoContacts() : ToyMotion(20.0, {2.0, 2.1, 4.0, 4.1, 6.0, 6.1}) {}
+  model::MotionImpact impact(long long index) const override {
+    auto impact = ToyMotion::impact(index);
+    impact.contact = int((index + 1) % 2);
+    return impact;
+  }
+};
+
+TEST(ImpactMatcher, ReportsMatchImpactsOfTheirOwnContact) {
+  const TwoContacts reference;
+  ImpactMatcher matcher(reference, 0.06, 0.0, 2);
+  matcher.keep_pairs();
+  // 0.2 s late: within a quarter of the 2 s to the next impact of the same contact.
+  matcher.take(2.2, false, 0);
+  matcher.take(2.3, false, 1);
+  matcher.take(4.1, false, 1);
+  const auto score = matcher.score(5.0, 0.0);
+  EXPECT_EQ(score.expected, 4);
+  EXPECT_EQ(score.matched, 3);
+  EXPECT_EQ(score.missed, 1);  // contact 0 at 4
+  EXPECT_EQ(score.extra, 0);
+  EXPECT_NEAR(score.worst_time_error, 0.2, 1e-14);
+  const auto pairs = matcher.pairs(5.0);
+  ASSERT_EQ(pairs.size(), 3u);
+  EXPECT_EQ(pairs[0].reference, 1);
+  EXPECT_EQ(pairs[1].reference, 2);
+  EXPECT_EQ(pairs[2].reference, 4);
+}
+
+TEST(ImpactMatcher, TimeFloorIsTheUncertaintyOfTheTrueInstantWhereThatIsLarger) {
+  struct Vague : ToyMotion {
+    model::MotionImpact impact(long long index) const override {
+      auto impact = ToyMotion::impact(index);
+      impact.when = {impact.t - 1e-6, impact.t + 1e-6};
+      return impact;
+    }
+  };
+  const Vague reference;
+  ImpactMatcher matcher(reference, 0.01);
+  matcher.take(1.57);
+  EXPECT_NEAR(matcher.score(3.0, 1e-16).rounding_floor, 2e-6, 1e-12);
+}
+
 TEST(ImpactMatcher, RefusesAStepThatIsNotPositive) {
   const ToyMotion reference;
   EXPECT_THROW(ImpactMatcher(reference, 0.0), InputError);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -19,15 +20,23 @@ struct MetricValue {
 };
 
 /// A way to measure how far a history is from the reference: a row of the table `metrics()`.
+///
+/// Names are QUANTITY-MEASURE, or QUANTITY-MEASURE-relative where the value is divided by the scale
+/// of the quantity and has no unit; lower case, words joined by hyphens. QUANTITY is what is
+/// compared: u, v, a, energy, impact-time, period, ... MEASURE is how its error becomes a number:
+/// max, l1, l2, end, count, fit (a least-squares line), or the name of a distance. In definitions a
+/// star marks the reference; U and V are the envelopes of u* and v* at t = 0, E0 the energy then,
+/// T the time between collisions.
 struct Metric {
-  std::string_view name;        ///< "u-max"
-  std::string_view unit;        ///< "m", "m/s", "s", "1"
-  std::string_view definition;  ///< one sentence, with the formula
+  std::string name;        ///< "u-max"
+  std::string_view unit;   ///< "m", "m/s", "s", "1"
+  std::string definition;  ///< the formula in one line
   /// Whether it tends to zero for every history that converges, though its velocities jump at
   /// slightly other instants than the true ones.
   bool across_jumps;
   std::string_view source;  ///< who defined it; "common" for norms
-  MetricValue (*measure)(const Comparison&);
+  bool in_reports;          ///< shown in reports by default
+  std::function<MetricValue(const Comparison&)> measure;
 };
 
 /// All metrics, in the order of a report.
@@ -35,5 +44,15 @@ std::span<const Metric> metrics();
 
 /// The metric of that name. Throws InputError with a suggestion for an unknown one.
 const Metric& metric(std::string_view name);
+
+/// A value of the whole structure. One that is NaN, because numbers of the history overflow, is not
+/// measured.
+MetricValue measured(double value);
+/// One value a mass; the largest stands for all.
+MetricValue measured(std::vector<double> masses);
+/// Nothing, with the reason, a sentence.
+MetricValue not_measured(std::string reason);
+/// `value` divided mass by mass by an envelope; not measured where one is not positive.
+MetricValue relative_to(const MetricValue& value, std::span<const double> envelope);
 
 }  // namespace clackers::assess

@@ -8,7 +8,7 @@ namespace clackers::assess {
 /// Displacement [m], velocity [m/s] or acceleration [m/s^2].
 enum class Quantity { u, v, a };
 
-/// How the error e(t) of one mass becomes a number, over the history's own times from t0 to t1:
+/// How the error e(t) of one mass becomes a number, over the history's output times from t0 to t1:
 ///
 /// - `max`  max |e|
 /// - `l1`   (integral of |e|) / (t1 - t0), the mean
@@ -28,7 +28,7 @@ enum class Norm { max, l1, l2, end };
 
 /// The error of each mass; not measured where the history lacks the quantity.
 MetricValue norm_error(const Comparison& comparison, Quantity quantity, Norm norm);
-/// The same relative to the envelope of the true motion at t = 0.
+/// The same relative to the envelope of the reference at t = 0.
 MetricValue relative_norm_error(const Comparison& comparison, Quantity quantity, Norm norm);
 
 }  // namespace clackers::assess

@@ -32,7 +32,7 @@ void expect(const MetricValue& found, double first, double second) {
 // Errors 0.1, -0.2, 0.4 of mass 1 and 0, 0, 0.3 of mass 2 at 0, 0.5 and 1.5; envelopes 1 and 0.5.
 TEST(NormError, IsWhatAHandComputes) {
   for (const auto quantity : {Quantity::u, Quantity::v, Quantity::a}) {
-    auto history = true_history(reference, {0.0, 0.5, 1.5});
+    auto history = history_of(reference, {0.0, 0.5, 1.5});
     auto& x = column(history, quantity);
     x[0] += 0.1;
     x[2] -= 0.2;
@@ -56,7 +56,7 @@ TEST(NormError, IsWhatAHandComputes) {
 }
 
 TEST(NormError, IsAMeanOverTheHistoryAlone) {
-  auto history = true_history(reference, {0.5, 1.5});
+  auto history = history_of(reference, {0.5, 1.5});
   history.u[2] += 0.2;
   expect(norm_error({history, reference, problem}, Quantity::u, Norm::l1), 0.1, 0.0);
 }
@@ -64,7 +64,7 @@ TEST(NormError, IsAMeanOverTheHistoryAlone) {
 // The velocities of mass 1 differ by 2 from pi/2 to the history's jump 0.1 s later, those of mass
 // 2 by 1; the accelerations by twice the displacement, which is small there.
 TEST(NormError, CountsAShiftedJumpForTheTimeBetween) {
-  auto history = true_history(reference, {1.0, half_pi, half_pi, 2.2});
+  auto history = history_of(reference, {1.0, half_pi, half_pi, 2.2});
   history.t[1] = history.t[2] = half_pi + 0.1;
   const Comparison comparison(history, reference, problem);
   expect(norm_error(comparison, Quantity::v, Norm::l1), 0.2 / 1.2, 0.1 / 1.2);
@@ -75,7 +75,7 @@ TEST(NormError, CountsAShiftedJumpForTheTimeBetween) {
 }
 
 TEST(NormError, OfAccelerationsLooksAtTheirOwnJumps) {
-  auto history = true_history(reference, {1.0, half_pi, half_pi, 2.2});
+  auto history = history_of(reference, {1.0, half_pi, half_pi, 2.2});
   for (std::size_t i = 2; i < 4; ++i) history.a[i] += 0.5;  // left limits
   for (std::size_t i = 4; i < 6; ++i) history.a[i] -= 0.25;
   const double first = 0.5 * (half_pi - 1.0) * 0.5, second = 0.5 * (2.2 - half_pi) * 0.25;
@@ -86,7 +86,7 @@ TEST(NormError, OfAccelerationsLooksAtTheirOwnJumps) {
 // Jumps in the first and last rows: what lies before the one and behind the other has no length.
 TEST(NormError, TakesJumpsAtTheEndsOfAHistory) {
   const double last = 3.0 * half_pi;
-  auto history = true_history(reference, {half_pi, half_pi, 2.5, last, last});
+  auto history = history_of(reference, {half_pi, half_pi, 2.5, last, last});
   expect(norm_error({history, reference, problem}, Quantity::v, Norm::l1), 0.0, 0.0);
   history.v[0] += 5.0;
   history.v[8] += 9.0;
@@ -97,7 +97,7 @@ TEST(NormError, TakesJumpsAtTheEndsOfAHistory) {
          (0.1 * (2.5 - half_pi) + 0.2 * (last - 2.5)) / (last - half_pi), 0.0);
 }
 
-// A run that a method streams and the same run stored are judged alike.
+// A run that a method streams and the same run stored are measured alike.
 TEST(NormError, IsThatOfARunJudgedWhileItHappens) {
   const auto history =
       shifted(reference, {.step = 0.05, .delay = 0.013, .limits = false, .reports = true});
@@ -118,7 +118,7 @@ TEST(NormError, IsThatOfARunJudgedWhileItHappens) {
 }
 
 TEST(NormError, SaysWhatTheHistoryLacks) {
-  auto history = true_history(reference, {0.0, 1.0});
+  auto history = history_of(reference, {0.0, 1.0});
   history.v.clear();
   history.a.clear();
   const Comparison comparison(history, reference, problem);
@@ -137,7 +137,7 @@ class StillMass : public ToyMotion {
 
 TEST(NormError, IsRelativeToNothingWhereAMassDoesNotMove) {
   const StillMass still;
-  const auto history = true_history(still, {0.0, 1.0});
+  const auto history = history_of(still, {0.0, 1.0});
   const auto found = relative_norm_error({history, still, problem}, Quantity::u, Norm::max);
   EXPECT_TRUE(std::isnan(found.value));
   EXPECT_NE(found.reason.find("mass 2"), std::string::npos) << found.reason;

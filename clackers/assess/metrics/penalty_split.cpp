@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "clackers/assess/metrics/value.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/base/error.hpp"
 
 namespace clackers::assess {
@@ -59,9 +59,9 @@ PenaltySplit penalty_split(const Comparison& comparison, const model::Motion& pe
 
   const Distances distances(comparison);
   PenaltySplit split;
-  split.model_u = distances.largest(u, comparison.true_u());
+  split.model_u = distances.largest(u, comparison.reference_u());
   split.integration_u = distances.largest(history.u, u);
-  split.model_v = distances.mean(v, comparison.true_v());
+  split.model_v = distances.mean(v, comparison.reference_v());
   split.integration_v = comparison.has_velocities()
                             ? distances.mean(history.v, v)
                             : not_measured("The history has no velocities.");

@@ -1,11 +1,9 @@
+#include "clackers/assess/metrics/structure_error.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "clackers/assess/errors/mechanical_energy.hpp"
-#include "clackers/assess/metrics/energy_error.hpp"
-#include "clackers/assess/metrics/momentum_error.hpp"
-#include "clackers/assess/metrics/penetration.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
 #include "clackers/assess/testing/reference_history.hpp"
 #include "clackers/assess/testing/toy_motion.hpp"
 
@@ -25,7 +23,7 @@ struct Load : model::NonlinearForce<model::any_dof> {
 TEST(EnergyError, SplitsIntoKineticAndPotential) {
   const auto problem = toy_problem();
   for (const double u1 : {1.2, 0.8}) {
-    auto history = true_history(reference, {0.0, 1.0});
+    auto history = history_of(reference, {0.0, 1.0});
     history.u[0] = u1;
     history.v[1] = 0.3;
     const double potential = 0.5 * (u1 * u1 - 1.0), kinetic = 0.09;
@@ -40,14 +38,14 @@ TEST(EnergyError, SplitsIntoKineticAndPotential) {
 }
 
 TEST(EnergyError, IsTheWorstOfAllTimes) {
-  auto history = true_history(reference, {0.0, 1.0, 2.0});
+  auto history = history_of(reference, {0.0, 1.0, 2.0});
   history.v[2] = 0.0;  // sin(1)^2 / 2 missing
   EXPECT_NEAR(energy_error({history, reference, toy_problem()}, Energy::total).value,
               0.5 * std::pow(std::sin(1.0), 2) / 0.75, 1e-15);
 }
 
 TEST(EnergyError, SaysWhyItIsNotMeasured) {
-  auto history = true_history(reference, {0.0, 1.0});
+  auto history = history_of(reference, {0.0, 1.0});
   history.v.clear();
   auto problem = toy_problem();
   const Comparison comparison(history, reference, problem);
@@ -77,7 +75,7 @@ TEST(MechanicalEnergy, TakesFullMatrices) {
 
 // 0.3 m1 - 0.05 m2 = 0.2 of m1 V1 + m2 V2 = 1 + 2 / 2.
 TEST(MomentumError, IsThatOfTheSumOfAllMasses) {
-  auto history = true_history(reference, {0.0, 1.0});
+  auto history = history_of(reference, {0.0, 1.0});
   history.v[2] -= 0.3;
   history.v[3] += 0.05;
   auto problem = toy_problem();
@@ -89,7 +87,7 @@ TEST(MomentumError, IsThatOfTheSumOfAllMasses) {
 }
 
 TEST(Penetration, IsTheDeepestOfAllContactsAndTimes) {
-  auto history = true_history(reference, {0.0, 1.0, 1.2});
+  auto history = history_of(reference, {0.0, 1.0, 1.2});
   auto problem = toy_problem();
   EXPECT_EQ(penetration({history, reference, problem}).value, 0.0);
   history.u[2] = -0.1;

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/assess/metrics/collision_period.hpp"
-#include "clackers/assess/metrics/value.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
@@ -66,7 +65,7 @@ SynchronyLoss synchrony_loss(const Comparison& comparison) {
   const auto& t = comparison.history().t;
   const auto first = reference.impact_count(t.front());
   const auto known = reference.impact_count(reference.end());
-  SynchronyWatch watch(collision_period(reference), t.front());
+  SynchronyWatch watch(comparison.collision_period(), t.front());
   for (std::size_t k = 0; k < comparison.impacts().size(); ++k) {
     const auto index = first + static_cast<long long>(k) + 1;
     if (index > known) break;
@@ -85,7 +84,7 @@ DetuningPart explained_by_detuning(const SynchronyLoss& loss, const DetuningFact
   if (!(size > 0.0 && size < 1.0)) refuse("detuning", "eps", facts.eps, "0 < |eps| < 1");
   if (!(facts.eta > 0.0 && facts.eta <= 1.0)) refuse("detuning", "eta", facts.eta, "0 < eta <= 1");
   DetuningPart part;
-  part.growth = facts.eta < 1.0 ? -std::log(facts.eta) : facts.rate * size;
+  part.growth = facts.rate * size - std::log(facts.eta);
   part.collision =
       size >= lost_synchrony ? 0.0 : std::ceil(std::log(lost_synchrony / size) / part.growth);
   part.share = part.growth / loss.growth;

@@ -47,7 +47,7 @@ class SynchronyWatch {
 double relative_momentum(const model::SmoothSystem<>& system, std::span<const double> v);
 
 /// The loss of the history's collisions against the true ones, number by number, T as in
-/// collision_period(). Stops at the shorter list.
+/// Comparison::collision_period(). Stops at the shorter list.
 SynchronyLoss synchrony_loss(const Comparison& comparison);
 
 /// What is known of a pair, and of a method on it, for the part that detuning explains.
@@ -59,7 +59,7 @@ struct DetuningFacts {
 
 /// The part of a loss of synchrony that a method's own frequencies explain.
 struct DetuningPart {
-  double growth = 0.0;  ///< predicted, per collision: rate |eps|, or ln(1/eta) where eta < 1
+  double growth = 0.0;  ///< predicted, per collision: rate |eps| + ln(1/eta)
   /// Predicted loss: ln(0.1/|eps|)/growth rounded up, as exact::collisions_until_detuning;
   /// infinite where nothing grows, 0 for |eps| >= 0.1.
   double collision = 0.0;

@@ -148,7 +148,7 @@ TEST(Synchrony, PredictsFromDetuningWhatTheRoomOfReferencePredicts) {
     for (const double eta : {1.0, 0.9}) {
       const auto part = explained_by_detuning(loss, {.rate = rate, .eta = eta, .eps = eps});
       EXPECT_EQ(part.collision, exact::collisions_until_detuning(ratio, 3.0, eta, eps));
-      EXPECT_NEAR(part.share * 0.08, eta < 1.0 ? -std::log(0.9) : rate * std::abs(eps), 1e-15);
+      EXPECT_NEAR(part.share * 0.08, rate * std::abs(eps) - std::log(eta), 1e-15);
     }
   }
   EXPECT_EQ(explained_by_detuning(loss, {.rate = 0.0, .eta = 1.0, .eps = 0.01}).collision,

@@ -9,7 +9,7 @@
 // For tests of the fitter.
 namespace clackers::assess {
 
-inline std::string told(const LadderFit& fit) {
+inline std::string text(const LadderFit& fit) {
   return std::string(to_string(fit.behaviour)) + " (" + fit.reason + ") order " +
          std::to_string(fit.order) + " +- " + std::to_string(fit.spread) + " scatter " +
          std::to_string(fit.scatter) + " levels " + std::to_string(fit.first_level) + ".." +
@@ -22,6 +22,6 @@ inline std::string told(const LadderFit& fit) {
 #define EXPECT_BEHAVIOUR(fit, expected, why)                                   \
   do {                                                                         \
     const auto found = (fit);                                                  \
-    EXPECT_EQ(to_string(found.behaviour), to_string(expected)) << told(found); \
-    EXPECT_EQ(found.reason, why) << told(found);                               \
+    EXPECT_EQ(to_string(found.behaviour), to_string(expected)) << text(found); \
+    EXPECT_EQ(found.reason, why) << text(found);                               \
   } while (false)

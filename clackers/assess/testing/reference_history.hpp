@@ -11,7 +11,7 @@ namespace clackers::assess {
 
 /// The motion itself at these times, accelerations and an empty list of impacts included; of two
 /// equal times the first is the left limit.
-inline model::Trajectory true_history(const model::Motion& reference, std::vector<double> times) {
+inline model::Trajectory history_of(const model::Motion& reference, std::vector<double> times) {
   model::Trajectory history;
   history.dof = reference.dof();
   history.t = std::move(times);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "clackers/assess/errors/free_motion.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/trajectory.hpp"
 
@@ -40,7 +40,7 @@ inline model::Trajectory sampled(const StateAt& state, double end, double step, 
 }
 
 /// Masses that pass through each other as if there were no contact.
-inline StateAt ghosts(double w1, double w2, double phase) {
+inline StateAt unconstrained_motion(double w1, double w2, double phase) {
   return [=](double t) {
     return FreeState{t, Eigen::Vector2d(std::cos(w1 * t), -std::cos(w2 * t + phase)),
                      Eigen::Vector2d(-w1 * std::sin(w1 * t), w2 * std::sin(w2 * t + phase))};

@@ -6,7 +6,7 @@
 #include "clackers/model/motion.hpp"
 #include "clackers/model/trajectory.hpp"
 
-// Histories made of a true motion whose impacts are moved, for tests.
+// Histories made of a reference whose impacts are moved, for tests.
 namespace clackers::assess {
 
 struct ShiftedHistory {

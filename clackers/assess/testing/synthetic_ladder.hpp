@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "clackers/assess/convergence/error_ladder.hpp"
+#include "clackers/assess/convergence/fit/error_ladder.hpp"
 
 // Ladders of errors made by hand, for tests.
 namespace clackers::assess::synthetic {

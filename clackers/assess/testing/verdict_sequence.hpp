@@ -13,10 +13,10 @@
 #include "clackers/assess/testing/synthetic_ladder.hpp"
 #include "clackers/base/judgement.hpp"
 
-// Rows of the tables of errors that are built to fool a verdict, for tests.
+// Ladders of errors that a simple rule would misjudge, for tests.
 namespace clackers::assess {
 
-/// A ladder of errors, what is claimed of it, and what an expert says of it.
+/// A ladder of errors, what is claimed of it, and the verdict of an expert.
 struct VerdictSequence {
   std::string_view name;  ///< a sentence in lower case: how it is made, and what it is
   std::function<std::vector<ErrorLevel>()> make;

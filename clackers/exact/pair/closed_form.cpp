@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "clackers/base/error.hpp"
+#include "clackers/exact/pair/sampling.hpp"
 #include "clackers/numerics/exp2.hpp"
 #include "clackers/numerics/sincospi.hpp"
 
@@ -19,7 +21,10 @@ using numerics::Scaled;
 
 namespace {
 
-double rounded(const DoubleDouble& x, int exponent) { return numerics::scale(x.hi, exponent); }
+// Never -0, which would be printed as such.
+double rounded(const DoubleDouble& x, int exponent) {
+  return numerics::scale(x.hi, exponent) + 0.0;
+}
 
 // E of flight k at time t as a number of any size. Below 2^-4000 every product with a constant
 // (all below 1e300) is nearer to 0 than to the smallest subnormal.
@@ -102,20 +107,40 @@ void ClosedForm::sample(std::span<const double> times, Side side, model::SampleB
                     out.u.size(), out.v.size(), out.a.size(), size),
         "wrong-size");
 
-  std::size_t at = 0;
-  for (const double t : times) {
-    require_inside(t);
-    const auto [flight, half_turns] = flight_at(t, side);
-    const bool rests = c_.eta == 0.0 && flight > 0.0;
-    const auto [e, exponent] = rests ? Scaled{} : power(c_.log2_eta * flight - c_.decay * t);
-    for (const auto& mass : c_.masses) {
-      const auto [sine, cosine] = numerics::sincospi(half_turns * mass.multiple);
-      const auto ec = e * cosine, es = e * sine;
-      out.u[at] = rounded(mass.b * ec, exponent);
-      out.v[at] = rounded(mass.v_cos * ec + mass.v_sin * es, exponent);
-      if (!out.a.empty()) out.a[at] = rounded(mass.a_cos * ec + mass.a_sin * es, exponent);
-      ++at;
+  const auto one = [&](std::size_t i) {
+    const auto at = i * masses;
+    sample_one(times[i], side, &out.u[at], &out.v[at], out.a.empty() ? nullptr : &out.a[at]);
+  };
+  // A vector takes as long as some single numbers.
+  constexpr std::size_t few = 3;
+  for (std::size_t i = 0; i < times.size(); i += most_in_block) {
+    const auto count = std::min(most_in_block, times.size() - i);
+    if (count <= few) {
+      for (std::size_t j = i; j < i + count; ++j) one(j);
+      continue;
     }
+    const auto at = i * masses;
+    auto left_out = sample_block(c_, &times[i], count, &out.u[at], &out.v[at],
+                                 out.a.empty() ? nullptr : &out.a[at]);
+    for (; left_out != 0; left_out &= left_out - 1)
+      one(i + static_cast<std::size_t>(std::countr_zero(left_out)));
+  }
+}
+
+void ClosedForm::sample_one(double t, Side side, double* u, double* v, double* a) const {
+  require_inside(t);
+  const auto [k, half_turns] = c_.collides ? flight_at(t, side) : phase_at(t);
+  const bool rests = c_.eta == 0.0 && k > 0.0;
+  const double flight = c_.collides ? k : 0.0;
+  auto [e, exponent] = rests ? Scaled{} : power(c_.log2_eta * flight - c_.decay * t);
+  // Without a stop an odd number of half turns changes the sign.
+  if (!c_.collides && std::fmod(k, 2.0) != 0.0) e = -e;
+  for (const auto& mass : c_.masses) {
+    const auto [sine, cosine] = numerics::sincospi(half_turns * mass.multiple);
+    const auto ec = e * cosine, es = e * sine;
+    *u++ = rounded(mass.b * ec, exponent);
+    *v++ = rounded(mass.v_cos * ec + mass.v_sin * es, exponent);
+    if (a != nullptr) *a++ = rounded(mass.a_cos * ec + mass.a_sin * es, exponent);
   }
 }
 

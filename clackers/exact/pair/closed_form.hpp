@@ -17,6 +17,8 @@ class ClosedForm : public model::Motion {
   int dof() const override { return static_cast<int>(c_.masses.size()); }
   double end() const override { return c_.end; }
 
+  /// With the widest vectors of the processor (sampling.hpp); the same bits on every processor and
+  /// however many times there are.
   void sample(std::span<const double> times, model::Side side,
               model::SampleBuffers out) const override;
 
@@ -42,7 +44,7 @@ class ClosedForm : public model::Motion {
   /// What a method is given: the system and its start, each number the nearest double.
   model::ImpactProblem<> problem() const { return problem_; }
 
-  /// What evaluating it needs; PairBatch takes them.
+  /// What evaluating it needs.
   const FlightConstants& flight() const { return c_; }
 
   /// Flight k, counted as a double to avoid conversions, and theta / pi in it.
@@ -63,6 +65,7 @@ class ClosedForm : public model::Motion {
   Phase flight_at(double t, model::Side side) const;
   numerics::Neighbour instant(double k) const;
   void require_inside(double t) const;
+  void sample_one(double t, model::Side side, double* u, double* v, double* a) const;
 
   FlightConstants c_;
   model::ImpactProblem<> problem_;

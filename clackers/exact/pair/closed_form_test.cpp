@@ -350,6 +350,25 @@ TEST(ClosedForm, RefusesTimesOutsideImpactsBeyondAndBuffersThatDoNotFit) {
   expect_refused([&] { motion.sample(t, Side::left, {four, four, three}); }, "wrong-size", "3");
 }
 
+TEST(ClosedForm, NeverGivesANegativeZero) {
+  const auto expect_positive_zeros = [](const model::Kinematics& now) {
+    for (const auto* part : {&now.u, &now.v, &now.a})
+      for (const double x : *part) EXPECT_FALSE(x == 0.0 && std::signbit(x));
+  };
+  for (const double xi1 : {0.0, 0.05})
+    for (const double eta : {0.0, 1.0})
+      for (const double X : {5.0, 7.0}) {
+        const SynchronizedPair motion({.xi1 = xi1, .X = X, .eta = eta});
+        for (const double t : {0.0, 1.0, motion.impact(1).t, 7.0, 20.0})
+          for (const auto side : {Side::left, Side::right})
+            expect_positive_zeros(motion.at(t, side));
+        const auto hit = motion.impact(1);
+        expect_positive_zeros(hit.before);
+        expect_positive_zeros(hit.after);
+        EXPECT_FALSE(std::signbit(hit.energy_after));
+      }
+}
+
 TEST(ClosedForm, MayBeAskedFromSeveralThreadsAtOnce) {
   const SynchronizedPair motion({.X = 401.0, .t_end = 1e6});
   std::vector<double> t(2000);

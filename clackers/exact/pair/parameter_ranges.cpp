@@ -16,9 +16,9 @@ void require_scale(std::string_view who, std::string_view name, double value, do
 
 void require_damping_ratio(std::string_view who, double xi1) {
   if (xi1 == 0.0 || (xi1 >= smallest_scale && xi1 < 1.0)) return;
-  refuse(who, "xi1", xi1, "0 <= xi1 < 1",
+  refuse(who, "xi1", xi1, "0 or 1e-60 <= xi1 < 1",
          xi1 >= 1.0  ? "At 1 and beyond mass 1 does not oscillate, so nothing collides again."
-         : xi1 > 0.0 ? "Values between 0 and 1e-60 are not taken; use 0."
+         : xi1 > 0.0 ? "Below 1e-60 use 0."
                      : "A negative damping ratio would feed energy in.");
 }
 

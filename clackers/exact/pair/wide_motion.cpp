@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <boost/math/constants/constants.hpp>
 
 #include "clackers/base/check.hpp"
@@ -26,8 +28,8 @@ void require_end(std::string_view who, const WideMotion& motion) {
   const Wide half_periods = motion.omega * motion.end / pi();
   if (half_periods > most_half_periods)
     refuse(who, "t_end", motion.end,
-           fmt::format("0 < t_end <= {:.6g} s, which is 2^50 half periods",
-                       to_double(most_half_periods * pi() / motion.omega)),
+           fmt::format("0 < t_end <= {} s, which is 2^50 half periods",
+                       std::nextafter(to_double(most_half_periods * pi() / motion.omega), 0.0)),
            "Beyond, collisions lie closer together than double precision can tell their times.");
 }
 

@@ -83,18 +83,22 @@ class ClassSensitivity : public Sensitivity {
     // Smaller than every double.
     if (halvings.hi < -4000.0) return d;
     const auto [significand, exponent] = numerics::exp2(halvings);
-    const double size = numerics::scale(significand.hi, exponent);
     const double sigma = c.decay.hi * std::log(2.0), omega = c.turns.hi * numerics::pi.hi;
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto& mass = c.masses[static_cast<std::size_t>(i)];
       const auto [sine, cosine] = numerics::sincospi(half_turns * mass.multiple);
-      const Complex U = mass.b.hi * size * Complex(cosine.hi, sine.hi);
+      // Without 2^exponent, which may leave the doubles where the derivative does not.
+      const Complex U = significand.hi * Complex(cosine.hi, sine.hi);
+      const double b = mass.b.hi;
       const Complex lambda(-sigma, mass.multiple * omega);
       const Complex change(-rates_.sigma, mass.multiple * rates_.omega);
       const Complex growth = rates_.log_start[i] + flight * rates_.log_eta + t * change;
-      d.u[i] = (growth * U).real();
-      d.v[i] = ((change + lambda * growth) * U).real();
-      d.a[i] = (lambda * (2.0 * change + lambda * growth) * U).real();
+      const auto scaled = [&, e = exponent](const Complex& factor) {
+        return numerics::scale((b * factor * U).real(), e) + 0.0;  // no -0
+      };
+      d.u[i] = scaled(growth);
+      d.v[i] = scaled(change + lambda * growth);
+      d.a[i] = scaled(lambda * (2.0 * change + lambda * growth));
     }
     return d;
   }
@@ -122,7 +126,8 @@ std::unique_ptr<Sensitivity> class_sensitivity(const ClosedForm& motion,
     for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
     refuse_name("class parameter to differentiate by", parameter, names, list);
   }
-  if (parameter == "eta" && motion.flight().eta == 0.0)
+  if (parameter == "eta" && motion.flight().eta == 0.0 &&
+      motion.phase(motion.end(), Side::right).flight > 0.0)
     throw InputError(
         "sensitivity to eta: eta = 0; allowed: 0 < eta <= 1. At 0 the masses come to rest together "
         "and restitution can only grow: there is no derivative. Use a small eta instead.",

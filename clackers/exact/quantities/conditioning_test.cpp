@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
+#include "clackers/exact/testing/impact_simulator.hpp"
 
 namespace clackers::exact {
 namespace {
@@ -150,7 +151,8 @@ TEST(Conditioning, APerturbationReachesATenthWhenEtaHasMultipliedItThere) {
   // 0.1/1e-6 = 1e5 lies between 2^16 and 2^17.
   EXPECT_EQ(collisions_until_perturbation(0.5, 1e-6), 17.0);
   EXPECT_EQ(collisions_until_perturbation(1.0, 1e-6), INFINITY);
-  EXPECT_EQ(collisions_until_perturbation(0.0, 1e-6), 0.0);
+  // The next collision after it cannot come before it.
+  EXPECT_EQ(collisions_until_perturbation(0.0, 1e-6), 1.0);
   EXPECT_EQ(collisions_until_perturbation(1.0, 0.1), 0.0);
   // A simulation whose first mass is pushed by 1e-6 after a collision.
   const auto run = simulate(5.0, 0.5, 0.5, 0.0, 1e-6, 20);
@@ -168,6 +170,95 @@ TEST(Conditioning, APerturbationReachesATenthWhenEtaHasMultipliedItThere) {
   EXPECT_NEAR(lost, 17, 1);
   // Each collision adds the detuning anew, each multiplies it by 1/eta.
   EXPECT_EQ(collisions_until_detuning({9.0, false}, 0.5, 0.5, -1e-6), 17.0);
+}
+
+// The collision after which a detuned pair is first spaced wrongly by a tenth, from the exact start
+// at t = 0: the gap is sampled 40 times a fast half period, and bisected where it changes its sign.
+double sampled_loss(double X, double r, double eta, double eps, int most) {
+  const double w = X * (1.0 + eps), step = std::numbers::pi / (40.0 * X);
+  const double s = std::fmod(X, 4.0) == 1.0 ? 1.0 : -1.0;
+  double a1 = 1.0, b1 = 0.0, a2 = -s * r / X, b2 = 0.0, start = -0.5 * std::numbers::pi;
+  for (int k = 1; k <= most; ++k) {
+    const auto u1 = [&](double t) { return a1 * std::cos(t) + b1 * std::sin(t); };
+    const auto gap = [&](double t) { return u1(t) - a2 * std::cos(w * t) - b2 * std::sin(w * t); };
+    double above = step;
+    // A graze at the start of a flight is no contact: sampling begins a step after it.
+    while (gap(above) > 0.0) above += step;
+    double below = above - step;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (below + above);
+      (middle > 0.1 * step && gap(middle) <= 0.0 ? above : below) = middle;
+    }
+    const double u = u1(above);
+    const double v1 = b1 * std::cos(above) - a1 * std::sin(above);
+    const double v2 = w * (b2 * std::cos(w * above) - a2 * std::sin(w * above));
+    const double impulse = -(1.0 + eta) * (v1 - v2) * r / (1.0 + r);
+    a1 = a2 = u;
+    b1 = v1 + impulse / r;
+    b2 = (v2 - impulse) / w;
+    if (std::abs((above - start) / std::numbers::pi - 1.0) > lost_synchrony) return k;
+    start = 0.0;
+  }
+  return INFINITY;
+}
+
+TEST(Conditioning, DetuningAndRestitutionTogetherLoseSynchronyAsSimulated) {
+  const struct {
+    double X, r, eta, eps;
+  } table[] = {{9.0, 3.0, 0.999999, 0.01}, {9.0, 3.0, 0.999999, 0.001}, {21.0, 3.0, 0.999, 0.01},
+               {9.0, 3.0, 0.99, 0.01},     {9.0, 0.5, 0.9, 0.01},       {9.0, 3.0, 0.5, 0.001}};
+  for (const auto& [X, r, eta, eps] : table)
+    for (const double signed_eps : {eps, -eps}) {
+      const double found = collisions_until_detuning({X, false}, r, eta, signed_eps);
+      // Detuning alone starts below |eps|: at most 2.6 times later (r < 1: the growth oscillates).
+      const double seen = sampled_loss(X, r, eta, signed_eps, 2000);
+      EXPECT_LE(found, seen) << X << " " << r << " " << eta << " " << signed_eps;
+      EXPECT_GE(found, seen / 2.6) << X << " " << r << " " << eta << " " << signed_eps;
+    }
+  // Numbers of another simulation: 48, 950, 15, 40.
+  EXPECT_NEAR(collisions_until_detuning({9.0, false}, 3.0, 0.999999, 0.01), 48.0, 2.0);
+  EXPECT_NEAR(collisions_until_detuning({9.0, false}, 3.0, 0.999999, 0.001), 950.0, 40.0);
+  EXPECT_NEAR(collisions_until_detuning({21.0, false}, 3.0, 0.999, 0.01), 15.0, 5.0);
+  EXPECT_NEAR(collisions_until_detuning({9.0, false}, 3.0, 0.99, 0.01), 40.0, 2.0);
+}
+
+// The same with 90 digits and no sampling, so that no short contact is missed.
+double proved_loss(double X, double r, double eps, int most) {
+  using testing_oracle::Real;
+  const Real w = Real(X) * (1 + Real(eps)), m2 = 1 / Real(r);
+  const Real pi(
+      "3.14159265358979323846264338327950288419716939937510582097494459230781640628620899");
+  const double s = std::fmod(X, 4.0) == 1.0 ? 1.0 : -1.0;
+  testing_oracle::ImpactSimulator simulator(
+      {1, m2, 1, m2 * w * w, 0, 0, 1, 0, 1, -s * Real(r) / Real(X), 0, 0});
+  Real last = -pi / 2;
+  for (int k = 1; k <= most; ++k) {
+    const auto hit = simulator.next(Real(1e6));
+    if (abs((hit->before.t - last) / pi - 1) > lost_synchrony) return k;
+    last = hit->before.t;
+  }
+  return INFINITY;
+}
+
+TEST(Conditioning, DetuningNearTheLimitOfAdmissibilityIsLostAsSimulated) {
+  const double below_3 = std::nextafter(3.0, 0.0);
+  for (const double eps : {-0.01, -0.001, 0.01})
+    EXPECT_EQ(collisions_until_detuning({3.0, false}, below_3, 1.0, eps),
+              proved_loss(3.0, below_3, eps, 100))
+        << eps;
+  for (const double eps : {-0.01, 0.01}) {
+    const double found = collisions_until_detuning({5.0, false}, 3.9999, 1.0, eps);
+    EXPECT_EQ(found, proved_loss(5.0, 3.9999, eps, 100)) << eps;
+    EXPECT_EQ(collisions_until_detuning({5.0, true}, 1.0 / 3.9999, 1.0, eps), found) << eps;
+  }
+  EXPECT_EQ(collisions_until_detuning({5.0, false}, 3.9999, 1.0, -0.01), 1.0);
+}
+
+TEST(Conditioning, APlasticPairIsNotLostBeforeItsFirstCollision) {
+  for (const double eta : {0.0, 1e-300}) {
+    EXPECT_EQ(collisions_until_perturbation(eta, 0x1p-53), 1.0) << eta;
+    EXPECT_EQ(collisions_until_detuning({9.0, false}, 3.0, eta, 1e-6), 1.0) << eta;
+  }
 }
 
 TEST(Conditioning, RefusesSizesThatAreNone) {

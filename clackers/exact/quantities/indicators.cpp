@@ -1,5 +1,7 @@
 #include "clackers/exact/quantities/indicators.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -9,12 +11,21 @@
 namespace clackers::exact {
 namespace {
 
+// |X^2 - 4 n^2| of the largest harmonic.
+double peak_distance(double odd) { return odd == 1.0 ? 3.0 : 2.0 * odd - 1.0; }
+
+// To two decimal digits.
+double rounded_up(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1.0);
+  return std::ceil(x / unit) * unit;
+}
+
 // The largest n whose harmonic 2 n Omega, |a_n| = (4X/pi) / |X^2 - 4 n^2|, reaches eps of the peak.
 // The peak is at 2n = X - 1 where |X^2 - 4 n^2| = 2X - 1, and for X = 1 taken at n = 1 where it
 // is 3.
 double highest_harmonic(double odd, double eps) {
   const Wide X = odd;
-  const Wide at_peak = odd == 1.0 ? Wide(3) : 2 * X - 1;
+  const Wide at_peak = peak_distance(odd);
   Wide n = floor(sqrt(X * X + at_peak / eps) / 2);
   // The root is rounded, these products are exact.
   const auto counts = [&](const Wide& m) { return (4 * m * m - X * X) * eps <= at_peak; };
@@ -29,6 +40,14 @@ Indicators indicators(double odd, double omega, double end, double threshold) {
   if (!(threshold > 0.0 && threshold < 1.0))
     refuse("indicators", "threshold", threshold,
            "0 < threshold < 1, a fraction of the spectral peak");
+  // Beyond so many harmonics neighbouring frequencies are one double.
+  constexpr double most = 5e14;
+  const double smallest =
+      rounded_up(peak_distance(odd) / ((2.0 * most - odd) * (2.0 * most + odd)));
+  if (threshold < smallest * (1.0 - 1e-12))
+    refuse("indicators", "threshold", threshold,
+           fmt::format("{:.1e} <= threshold < 1 for X = {}", smallest, odd),
+           fmt::format("Below it more than {:.0e} harmonics count. Set it by --threshold.", most));
   Indicators result;
   result.threshold = threshold;
   result.stiffness_ratio = odd;

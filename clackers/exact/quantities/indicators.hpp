@@ -16,7 +16,8 @@ struct Indicators {
 };
 
 /// `odd` is the frequency ratio fast over slow, `omega` the damped frequency of the slow mass
-/// [1/s], `end` in s. Throws InputError unless 0 < threshold < 1.
+/// [1/s], `end` in s. Throws InputError unless 0 < threshold < 1,
+/// and where more than 5e14 harmonics would reach it.
 Indicators indicators(double odd, double omega, double end, double threshold);
 
 }  // namespace clackers::exact

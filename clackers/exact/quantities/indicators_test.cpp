@@ -76,6 +76,27 @@ TEST(Indicators, AHarmonicIsCountedToTheLastBitOfTheThreshold) {
   EXPECT_EQ(indicators(3.0, 1.0, 1.0, std::nextafter(below, 1.0)).highest_harmonic, 1.0);
 }
 
+TEST(Indicators, RefuseThresholdsThatTooManyHarmonicsReach) {
+  for (const double X : {1.0, 9.0, 999999999.0})
+    for (const double threshold : {1e-300, 1e-60, 1e-30}) {
+      SCOPED_TRACE(testing::Message() << X << " " << threshold);
+      std::string text;
+      try {
+        indicators(X, 1.0, 20.0, threshold);
+      } catch (const InputError& error) {
+        text = error.what();
+      }
+      EXPECT_NE(text.find("--threshold"), std::string::npos) << text;
+      // What the message allows is accepted.
+      const auto at = text.find("allowed: ");
+      ASSERT_NE(at, std::string::npos);
+      const double allowed = std::stod(text.substr(at + 9));
+      const double n = indicators(X, 1.0, 20.0, allowed).highest_harmonic;
+      EXPECT_GT(n, 4e14);
+      EXPECT_LE(n, 5e14);
+    }
+}
+
 TEST(Indicators, RefuseThresholdsThatAreNoFraction) {
   for (const double threshold : {0.0, 1.0, -0.1, 2.0, double(NAN), double(INFINITY)})
     EXPECT_THROW(indicators(9.0, 1.0, 20.0, threshold), InputError) << threshold;

@@ -161,17 +161,26 @@ class RawSensitivity : public Sensitivity {
         {{s.C.u + one * s.R.u, s.C.v + one * s.R.v}, {s.C.u - two * s.R.u, s.C.v - two * s.R.v}}};
   }
 
-  // Just after the first collision, and what every later flight adds.
+  // Just after the first collision, and what every later flight adds. Of C only the part that is
+  // not shared with the later flights.
   void prepare_collisions(const FlightConstants& c) {
     const double e = power(c.period_decay * -0.5);
     a_1_ = -c.masses[0].v_hit.hi * eta_ * e;
-    std::array<Deviation, 2> hit, later;
+    std::array<Deviation, 2> hit, rest, later;
     for (std::size_t i = 0; i < n_; ++i) {
       const auto& b = bodies_[i];
       const double s = quarter_sine(b.multiple);
       const auto z = fly(b, b.initial, e, 0.0, s);
       const auto y = first_change(b, 0.5 * period_, e, 0.0, s);
       hit[i] = {z.u + y.u, z.v + y.v};
+      // An even later flight would add C(Y) a_1/(1 + eta): what differs from it is left, formed
+      // without that sum, which would cancel for eta near 1.
+      const double part = (1.0 - eta_) / (2.0 * eta_ * (1.0 + eta_));
+      const double over = 1.0 / (eta_ * b.w * b.w), shift = period_ * b.w_p / b.w;
+      rest[i] = {
+          z.u + a_1_ * b.V * (b.sigma_p * over - shift * part),
+          z.v + a_1_ * b.V *
+                    ((period_ * b.sigma_p + b.sigma * shift) * part - 0.5 * b.square_p * over)};
       // Over the whole period, without the decay over it.
       later[i] = {-b.V * period_ * b.w_p / b.w,
                   b.V * period_ * (b.sigma_p + b.sigma * b.w_p / b.w)};
@@ -180,8 +189,8 @@ class RawSensitivity : public Sensitivity {
     later_ = split(later, r_);
     first_.R.u = -eta_ * first_.R.u + rho_.R.u;
     first_.R.v = -eta_ * first_.R.v + a_1_ * rho_.R.v;
-    first_.C.v += a_1_ * rho_.C.v;
-    log_eta_ = std::log(eta_);
+    first_.C = split(rest, r_).C;
+    first_.C.v += a_1_ * rho_.C.v / (1.0 + eta_);
     log_q_ = std::log(2.0) * (c.log2_eta - c.period_decay).hi;
   }
 
@@ -191,13 +200,11 @@ class RawSensitivity : public Sensitivity {
     const auto& c = motion_.flight();
     const double n = flight - 1.0;
     const double e_n = power(-(c.period_decay * n)), eta_n = power(c.log2_eta * n);
-    const bool even = std::fmod(n, 2.0) == 0.0;
-    // (eta^n - (-1)^n)/(1 + eta)
-    const double G = (even ? std::expm1(n * log_eta_) : eta_n + 1.0) / (1.0 + eta_);
-    const double turn = even ? e_n : -e_n, q_n = e_n * eta_n;
+    const double turn = std::fmod(n, 2.0) == 0.0 ? e_n : -e_n, q_n = e_n * eta_n;
+    const double share = q_n * a_1_ / (1.0 + eta_);
     Split z;
-    z.C.u = turn * first_.C.u + e_n * G * a_1_ * later_.C.u;
-    z.C.v = turn * first_.C.v + e_n * G * a_1_ * (later_.C.v + eta_ * rho_.C.v);
+    z.C.u = turn * first_.C.u + share * later_.C.u;
+    z.C.v = turn * first_.C.v + share * (later_.C.v + eta_ * rho_.C.v);
     z.R.u = q_n * (first_.R.u - n * a_1_ * later_.R.u);
     z.R.v = q_n * (first_.R.v + n * a_1_ * (rho_.R.v - later_.R.v));
     // A moved contact adds to every impact the same: 1 + q + ... + q^(n-1) of it.
@@ -208,7 +215,7 @@ class RawSensitivity : public Sensitivity {
 
   const ClosedForm& motion_;
   std::size_t n_ = 0;
-  double eta_ = 1.0, r_ = 0.0, period_ = 0.0, a_1_ = 0.0, log_eta_ = 0.0, log_q_ = 0.0;
+  double eta_ = 1.0, r_ = 0.0, period_ = 0.0, a_1_ = 0.0, log_q_ = 0.0;
   std::array<Body, 2> bodies_;
   Split rho_, first_, later_;
 };
@@ -230,7 +237,7 @@ std::unique_ptr<Sensitivity> raw_sensitivity(const ClosedForm& motion, std::stri
     for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
     refuse_name("parameter to differentiate by", parameter, names, list);
   }
-  if (motion.flight().collides && motion.flight().eta == 0.0)
+  if (motion.flight().eta == 0.0 && motion.phase(motion.end(), Side::right).flight > 0.0)
     throw InputError(
         fmt::format(
             "sensitivity to {}: eta = 0; allowed: 0 < eta <= 1. At 0 the masses stay in "

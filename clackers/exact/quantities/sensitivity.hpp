@@ -13,7 +13,8 @@ namespace clackers::exact {
 /// of p. Impacts mix the masses, so errors are relative to both: with D and D' the largest |du/dp|
 /// and |dv/dp| of either mass in the same flight and omega the undamped frequency of a mass, its
 /// du/dp is within S = 1e-13 (D + D'/omega), its dv/dp within omega S, its da/dp within omega^2 S and
-/// 1e-13 of its largest in that flight.
+/// 1e-13 of its largest in that flight. Below 1e-290 no digit is promised, and none of derivatives by
+/// raw parameters once the motion itself is that small.
 class Sensitivity {
  public:
   virtual ~Sensitivity() = default;

@@ -86,18 +86,29 @@ std::array<Complex, 2> Spectrum::at(double omega) const {
   for (std::size_t i = 0; i < c.masses.size(); ++i) {
     const double q = c.masses[i].multiple, w = q * omega_;
     const auto near = h - DoubleDouble{q, 0.0}, far = h + DoubleDouble{q, 0.0};
-    // Integrals of exp(-(z -+ iw) t), z = sigma + i omega.
+    // Integrals of exp(-(z -+ iw) t).
     const auto integral = [&](const DoubleDouble& detuning, const DoubleDouble& length) {
       return T * length.hi * psi(sigma_ * T * length.hi, detuning * length);
     };
-    Complex sum = 0.5 * (integral(near, first) + integral(far, first));
+    // z - iw and z + iw, z = sigma + i omega.
+    const Complex slow(sigma_, omega_ * near.hi), quick(sigma_, omega_ * far.hi);
+    Complex sum;
+    if (std::abs(slow) * T * first.hi > 1.0) {
+      // The sum of the two integrals, each of size 1/w, would cancel to z/w^2 far from resonance.
+      const Complex z(sigma_, omega);
+      const auto [sine, cosine] = turned(first * q);
+      const auto left = wave(-(c.period_decay * first), h * first);
+      sum = (z - left * (z * cosine.hi - w * sine.hi)) / slow / quick;
+    } else {
+      sum = 0.5 * (integral(near, first) + integral(far, first));
+    }
     if (flies_on) {
       // Over a whole flight exp(i w T) = -1 leaves the one factor that resonates.
-      const Complex flight = T * psi(sigma_ * T, near) / Complex(sigma_, omega_ * far.hi);
+      const Complex flight = T * psi(sigma_ * T, near) / quick;
       const Complex tail = (integral(near, last_) - integral(far, last_)) / Complex(0.0, 2.0 * w);
       sum += w * quarter_sine(q) * (whole * flight + last * tail);
     }
-    result[i] = c.masses[i].b.hi * sum;
+    result[i] = c.masses[i].b.hi * sum + Complex(0.0, 0.0);  // no -0
   }
   return result;
 }

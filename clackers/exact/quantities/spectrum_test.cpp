@@ -112,6 +112,19 @@ TEST(Spectrum, IsRightBesideEveryResonanceOfALongRun) {
     }
 }
 
+TEST(Spectrum, OfHeavyDampingAndAFastMassIsRightFarFromResonance) {
+  // The first flight is z/w^2 between integrals of size 1/w.
+  const struct {
+    double X, xi1;
+  } table[] = {{400001.0, 0.99}, {62423.0, 0.9943}, {999999997.0, 0.9965}, {999999997.0, 0.999}};
+  for (const auto& [X, xi1] : table) {
+    const PairParameters p{.xi1 = xi1, .X = X, .r = 1.0, .t_end = 100.0};
+    const SynchronizedPair motion(p);
+    for (const double omega : {0.0, 1e-3, 1.0, 30.0, 0.14 * X})
+      expect_transform(motion, oracle_of(p), omega);
+  }
+}
+
 // The transform by Gauss's rule of five points on short pieces of each flight of the motion itself.
 std::array<std::complex<double>, 2> quadrature(const ClosedForm& motion, double omega,
                                                double piece) {

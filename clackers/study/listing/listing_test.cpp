@@ -114,7 +114,7 @@ TEST(ShowCase, TellsParametersConstantsIndicatorsAndCollisions) {
   ASSERT_EQ(sheets.size(), 6u);
   EXPECT_EQ(cell(sheets[0], "N", "value"), Cell{5.0});
   EXPECT_EQ(cell(sheets[0], "xi1", "value"), Cell{0.05});
-  EXPECT_EQ(cell(sheets[0], "xi1", "allowed"), Cell{std::string("0 <= xi1 < 1")});
+  EXPECT_EQ(cell(sheets[0], "xi1", "allowed"), Cell{std::string("0 or 1e-60 <= xi1 < 1")});
   EXPECT_NE(sheets[0].title.find("Eq. (25)-(26)"), std::string::npos);
   EXPECT_EQ(cell(sheets[1], "X", "value"), Cell{21.0});
   EXPECT_EQ(cell(sheets[1], "T", "unit"), Cell{std::string("s")});

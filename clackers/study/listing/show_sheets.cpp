@@ -26,6 +26,10 @@ std::optional<Pair> pair_of(const cases::Case& which) {
   return std::nullopt;
 }
 
+double lost_after(const Pair& pair, double eps) {
+  return exact::collisions_until_detuning(pair.constants.ratio, pair.r, pair.eta, eps);
+}
+
 }  // namespace
 
 std::optional<Sheet> harmonic_sheet(const cases::Case& which, double threshold) {
@@ -52,7 +56,7 @@ std::optional<Sheet> harmonic_sheet(const cases::Case& which, double threshold) 
     for (double n = std::max(next, centre - 3.0); n <= centre + 3.0; n += 1.0) {
       const double amplitude = exact::harmonic_amplitude(odd, n);
       sheet.rows.push_back({static_cast<long long>(n), 2.0 * n * omega, amplitude, amplitude / size,
-                            std::string(n <= last ? "yes" : "no")});
+                            std::string(amplitude >= threshold * size ? "yes" : "no")});
       next = n + 1.0;
     }
   return sheet;
@@ -71,9 +75,8 @@ std::optional<Sheet> conditioning_sheet(const cases::Case& which) {
     sheet.rows.push_back({std::string("of the state at one collision"), size,
                           exact::collisions_until_perturbation(pair->eta, size)});
   for (const double size : {1e-2, 1e-3, 1e-4, 1e-6})
-    sheet.rows.push_back(
-        {std::string("of omega_D2/omega_D1, as a solver's dispersion makes"), size,
-         exact::collisions_until_detuning(pair->constants.ratio, pair->r, pair->eta, size)});
+    sheet.rows.push_back({std::string("of omega_D2/omega_D1, as a solver's dispersion makes"), size,
+                          std::min(lost_after(*pair, size), lost_after(*pair, -size))});
   return sheet;
 }
 

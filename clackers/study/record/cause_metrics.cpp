@@ -14,7 +14,6 @@
 #include "clackers/assess/metrics/metric.hpp"
 #include "clackers/assess/metrics/penalty_split.hpp"
 #include "clackers/assess/metrics/synchrony.hpp"
-#include "clackers/assess/metrics/value.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/penalized/penalized_motion.hpp"
 

@@ -100,36 +100,6 @@ TEST_F(FilledGraph, TellsWhichSideHasWhatTheOtherHasNot) {
   EXPECT_EQ(measure_filled_graph(comparison).value, has.value);
 }
 
-TEST_F(FilledGraph, AgainstTheCurveContainsWhatIsCutOffBetweenRows) {
-  for (const double h : {0.5, 0.1}) {
-    const auto history = toy_history({.h = h});
-    const Comparison comparison(history, reference_, problem_);
-    // v'' = -v, so an arc of length h is h^2/8 |v| beside its chord, upwards; where it is steep the
-    // farthest coordinate is less.
-    const double cut = h * h / 8.0;
-    EXPECT_NEAR(chord_of_rows(comparison, 0), cut, 1e-12);
-    EXPECT_NEAR(chord_of_rows(comparison, 1), cut, 1e-12);
-    const auto found = distance_to_curve(comparison, 0);
-    EXPECT_TRUE(found.resolved);
-    EXPECT_LE(found.chord, 0.01 * found.value);
-    EXPECT_LT(found.value, cut + found.chord);
-    EXPECT_GT(found.value, 0.4 * cut);
-  }
-}
-
-TEST_F(FilledGraph, SaysWhenTheCurveCannotBeResolved) {
-  const auto history = toy_history({.end = 2.0, .h = 0.01});
-  const Comparison comparison(history, reference_, problem_);
-  EXPECT_TRUE(distance_to_curve(comparison, 1, 4000.0).resolved);
-  const auto found = distance_to_curve(comparison, 1, 400.0);
-  EXPECT_FALSE(found.resolved);
-  EXPECT_NEAR(found.chord, 0.005 * 0.005 / 8.0, 1e-12);
-  problem_.system.add_load = [](double, std::span<double>) {};
-  const Comparison loaded(history, reference_, problem_);
-  EXPECT_TRUE(std::isnan(jerk_bound(loaded, 0)));
-  EXPECT_TRUE(std::isnan(distance_to_curve(loaded, 0).value));
-}
-
 TEST_F(FilledGraph, IsNotMeasuredWithoutWhatItNeeds) {
   auto history = toy_history({});
   history.v.clear();

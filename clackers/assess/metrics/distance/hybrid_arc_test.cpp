@@ -32,9 +32,12 @@ TEST_F(HybridCloseness, IsZeroForTheReference) {
 TEST_F(HybridCloseness, FlightsEndAndStartWithTheLimitsOfImpacts) {
   const auto history = toy_history({.end = 3.0, .h = 0.1, .delay = 0.02});
   const Comparison comparison(history, reference_, problem_);
-  const auto found = history_arc(comparison), reference = true_arc(comparison);
-  ASSERT_EQ(found.size(), 2u);
-  ASSERT_EQ(reference.size(), 2u);
+  auto found_arc = HybridArc::of_history(comparison);
+  auto reference_arc = HybridArc::of_reference(comparison);
+  ASSERT_EQ(found_arc.flights(), 2u);
+  ASSERT_EQ(reference_arc.flights(), 2u);
+  const Polyline found[] = {found_arc.next(), found_arc.next()};
+  const Polyline reference[] = {reference_arc.next(), reference_arc.next()};
   ASSERT_EQ(found[0].dimension, 5u);
   const auto last = found[0].point(found[0].size() - 1), next = found[1].point(0);
   EXPECT_NEAR(last[0], (0.5 * pi + 0.02) / pi, 1e-15);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/errors/free_motion.hpp"
-#include "clackers/assess/metrics/value.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::assess {
 namespace {
@@ -45,7 +45,7 @@ MetricValue jump_invariant_distance(const Comparison& comparison) {
   if (comparison.problem().contacts.empty()) return not_measured("The problem has no contact.");
   const auto u_scale = comparison.u_envelope(), v_scale = comparison.v_envelope();
   if (!all_positive(u_scale) || !all_positive(v_scale))
-    return not_measured("A mass of the true motion has no extent at t = 0 to divide by.");
+    return not_measured("A mass of the reference has no extent at t = 0 to divide by.");
 
   const FreeMotion motion(comparison.problem().system);
   std::vector<ImpactMap> maps;
@@ -56,14 +56,14 @@ MetricValue jump_invariant_distance(const Comparison& comparison) {
   double worst = 0.0;
   for (std::size_t i = 0; i < history.u.size(); i += dof) {
     const double* v = &history.v[i];
-    const double* v_true = &comparison.true_v()[i];
-    const double apart = distance(&history.u[i], &comparison.true_u()[i], u_scale);
-    double least = distance(v, v_true, v_scale);
+    const double* v_reference = &comparison.reference_v()[i];
+    const double apart = distance(&history.u[i], &comparison.reference_u()[i], u_scale);
+    double least = distance(v, v_reference, v_scale);
     if (std::max(apart, least) <= worst) continue;  // a map could only make it less
     for (const auto& map : maps) {
       map.apply(v, image);
-      least = std::min(least, distance(image.data(), v_true, v_scale));
-      map.apply(v_true, image);
+      least = std::min(least, distance(image.data(), v_reference, v_scale));
+      map.apply(v_reference, image);
       least = std::min(least, distance(v, image.data(), v_scale));
     }
     worst = std::max(worst, std::max(apart, least));

@@ -10,11 +10,13 @@
 namespace clackers::assess {
 
 /// Distances max_i |p_i - q_i| from points to segments, for a number of coordinates known at compile
-/// time, or 0 for any. Points are pointers to `dimension` doubles.
+/// time, or 0 for any. Points are pointers to `dimension` doubles. Extents of a segment of at most
+/// `negligible` count as 0 where they would be divided by.
 template <std::size_t Dimension>
 class SegmentDistance {
  public:
-  explicit SegmentDistance(std::size_t dimension) : dimension_(dimension) {}
+  explicit SegmentDistance(std::size_t dimension, double negligible = 0.0)
+      : dimension_(dimension), negligible_(negligible) {}
 
   std::size_t dimension() const {
     if constexpr (Dimension > 0)
@@ -27,6 +29,14 @@ class SegmentDistance {
     double farthest = 0.0;
     for (std::size_t i = 0; i < dimension(); ++i)
       farthest = std::max(farthest, std::abs(p[i] - q[i]));
+    return farthest;
+  }
+
+  /// The distance from p to the smallest box that holds the segment: no more than that to it.
+  double to_box(const double* p, const double* q0, const double* q1) const {
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < dimension(); ++i)
+      farthest = std::max({farthest, std::min(q0[i], q1[i]) - p[i], p[i] - std::max(q0[i], q1[i])});
     return farthest;
   }
 
@@ -48,7 +58,7 @@ class SegmentDistance {
     Part part;
     for (std::size_t i = 0; i < dimension(); ++i) {
       const double a = p0[i] - q0[i], c = p1[i] - p0[i], b = q1[i] - q0[i];
-      if (b == 0.0) {
+      if (std::abs(b) <= negligible_) {
         keep(part, {radius - a, -c});
         keep(part, {radius + a, c});
         continue;
@@ -137,6 +147,7 @@ class SegmentDistance {
   }
 
   std::size_t dimension_;
+  double negligible_;
 };
 
 }  // namespace clackers::assess

@@ -18,7 +18,7 @@ const auto problem = toy_problem(12.0);
 // The reference until pi/2, then on through the contact until it turns 0.1 s later: its displacement is
 // -cos t until then, and that of the reference 0.1 s ago from there on.
 model::Trajectory late() {
-  auto history = true_history(reference, {0.0, 1.0, 1.6, pi / 2, pi / 2, 3.0});
+  auto history = history_of(reference, {0.0, 1.0, 1.6, pi / 2, pi / 2, 3.0});
   history.t[3] = history.t[4] = pi / 2 + 0.1;
   const double v = -std::sin(history.t[3]), turned = std::cos(0.1);
   history.u = {
@@ -47,13 +47,13 @@ TEST(UnfoldedVelocity, CountsAMissedCollisionForGood) {
 }
 
 TEST(UnfoldedVelocity, TakesARowAloneAtAnImpactForTheSideBehindIt) {
-  auto history = true_history(reference, {0.0, pi / 2, 3.0});
+  auto history = history_of(reference, {0.0, pi / 2, 3.0});
   history.impacts = {{pi / 2, 0, {}, {}, {}, 2.0}};
   EXPECT_LE(unfolded_velocity_error({history, reference, problem}).value, 1e-15);
 }
 
 TEST(UnfoldedVelocity, OfAHistoryThatStartsLateCountsFromThere) {
-  auto history = true_history(reference, {2.0, 3.0, 3 * pi / 2, 3 * pi / 2, 6.0});
+  auto history = history_of(reference, {2.0, 3.0, 3 * pi / 2, 3 * pi / 2, 6.0});
   history.impacts = {{3 * pi / 2, 0, {}, {}, {}, 2.0}};
   EXPECT_LE(unfolded_velocity_error({history, reference, problem}).value, 1e-15);
 }
@@ -69,7 +69,7 @@ class Passing : public ToyMotion {
 
 TEST(UnfoldedVelocity, IsDefinedWhereAnImpactReversesAll) {
   const auto reason = [](const model::Motion& motion, const model::ImpactProblem<>& which) {
-    return unfolded_velocity_error({true_history(motion, {0.0, 1.0}), motion, which}).reason;
+    return unfolded_velocity_error({history_of(motion, {0.0, 1.0}), motion, which}).reason;
   };
   auto lossy = problem, two = problem;
   lossy.contacts[0].restitution = 0.9;
@@ -97,7 +97,7 @@ TEST(JumpInvariantDistance, KnowsWhichSideIsWhich) {
   lossy.contacts[0].restitution = 0.5;
   const double s = std::sin(1.0);
   for (const double v : {2.0 * s, 0.5 * s, -s}) {
-    auto history = true_history(reference, {0.0, 1.0});
+    auto history = history_of(reference, {0.0, 1.0});
     history.v[2] = v;
     history.v[3] = -0.5 * v;
     EXPECT_NEAR(jump_invariant_distance({history, reference, lossy}).value, 0.0, 1e-15) << v;
@@ -106,7 +106,7 @@ TEST(JumpInvariantDistance, KnowsWhichSideIsWhich) {
 }
 
 TEST(JumpInvariantDistance, IsRelativeToTheEnvelopesAndTakesTheWorst) {
-  auto history = true_history(reference, {0.0, 1.0, 1.2});
+  auto history = history_of(reference, {0.0, 1.0, 1.2});
   history.v[3] += 0.1;
   history.u[5] -= 0.02;
   EXPECT_NEAR(jump_invariant_distance({history, reference, problem}).value, 0.2, 1e-15);
@@ -117,7 +117,7 @@ TEST(JumpInvariantDistance, IsRelativeToTheEnvelopesAndTakesTheWorst) {
 TEST(JumpInvariantDistance, TriesEveryContact) {
   auto both = problem;
   both.contacts.insert(both.contacts.begin(), {Eigen::Vector2d(1.0, 0.0), -9.0, 1.0});
-  auto history = true_history(reference, {0.0, 1.0});
+  auto history = history_of(reference, {0.0, 1.0});
   history.v[2] *= -1.0;  // mass 1 alone, as a stop would
   EXPECT_NEAR(jump_invariant_distance({history, reference, both}).value, 0.0, 1e-15);
   history.v[3] *= -1.0;  // both, as they do to each other
@@ -125,7 +125,7 @@ TEST(JumpInvariantDistance, TriesEveryContact) {
 }
 
 TEST(JumpInvariantDistance, SaysWhyItIsNotMeasured) {
-  auto history = true_history(reference, {0.0, 1.0});
+  auto history = history_of(reference, {0.0, 1.0});
   auto free = problem;
   free.contacts.clear();
   EXPECT_EQ(jump_invariant_distance({history, reference, free}).reason,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/assess/metrics/value.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 
 namespace clackers::assess {
 namespace {
@@ -25,7 +25,8 @@ std::string objection(const Comparison& comparison) {
   const auto& reference = comparison.reference();
   bool all = reference.impact_count(reference.end()) == 0 || reverses_all(reference.impact(1));
   for (const auto& match : comparison.matches()) all = all && reverses_all(match.reference);
-  return all ? "" : "Unfolding is defined where an impact reverses every velocity; here some pass.";
+  if (all) return comparison.objection_to_sparse_rows();
+  return "Unfolding is defined where an impact reverses every velocity; here some pass.";
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ MetricValue unfolded_velocity_error(const Comparison& comparison) {
       same_sign = !same_sign;
     for (; is_passed(next_true); next_true = true_time(++true_passed)) same_sign = !same_sign;
     for (std::size_t j = 0; j < dof; ++j) {
-      const double found = history.v[i * dof + j], exact = comparison.true_v()[i * dof + j];
+      const double found = history.v[i * dof + j], exact = comparison.reference_v()[i * dof + j];
       errors[j] = std::max(errors[j], std::abs(same_sign ? found - exact : found + exact));
     }
   }

@@ -5,7 +5,7 @@
 
 namespace clackers::assess {
 
-/// max |(-1)^k v - (-1)^k* v*| [m/s] over the history's own times, mass by mass; k and k* count the
+/// max |(-1)^k v - (-1)^k* v*| [m/s] over the history's output times, mass by mass; k and k* count the
 /// impacts of each motion so far. An impact that reverses every velocity disappears: the unfolded
 /// true velocity is continuous, and a jump at a slightly wrong time costs no more than that time.
 ///

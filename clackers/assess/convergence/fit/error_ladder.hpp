@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace clackers::assess {
+
+/// One measured error of a run with step h.
+struct ErrorPoint {
+  double step = 0.0;   ///< h > 0
+  double error = 0.0;  ///< >= 0; NaN or infinite for a run that failed
+  double floor = 0.0;  ///< what rounding alone may make of it, 0 when not known
+};
+
+/// The errors of neighbouring steps around one nominal step.
+using ErrorLevel = std::vector<ErrorPoint>;
+
+/// Errors within this factor of their rounding floor count as rounding: the estimate (steps times
+/// 2^-52) leaves out how a motion magnifies a rounding error.
+inline constexpr double rounding_slack = 10.0;
+
+/// Rounding at its worst, `rounding_slack` floors, bends a line by less than a tenth only where errors
+/// are this many floors. Between the two, levels that leave a line may do so by rounding.
+inline constexpr double bending_slack = rounding_slack * rounding_slack;
+
+/// A level as the fit sees it, in logarithmic axes.
+struct LevelView {
+  std::vector<double> x, y;  ///< ln step descending, ln error; failed runs and zero errors left out
+  double step = 0.0;         ///< of the largest error; of the first point when there is none
+  double error = 0.0;        ///< the upper envelope: the largest error, NaN when not usable
+  bool usable = false;       ///< at least half of its runs came to an end with a finite error
+  bool at_floor = false;     ///< usable, and no error above rounding_slack times its floor
+  bool near_floor = false;   ///< usable, and at least a quarter of the errors is not above it
+  bool may_bend = false;     ///< the same with bending_slack
+};
+
+/// Throws InputError unless every step is positive and finite, every error >= 0 or not finite, every
+/// floor >= 0, and every step of a level is smaller than all steps of the levels before it. A ladder
+/// given finest first is not reversed: its errors may belong to other steps. A step may stand twice in one level.
+std::vector<LevelView> view(std::span<const ErrorLevel> ladder);
+
+}  // namespace clackers::assess

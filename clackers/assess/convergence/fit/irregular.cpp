@@ -1,0 +1,105 @@
+#include "clackers/assess/convergence/fit/irregular.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "clackers/assess/convergence/fit/window.hpp"
+#include "clackers/assess/errors/vectors.hpp"
+
+namespace clackers::assess {
+namespace {
+
+// How far each inner point lies above the chord of its two neighbours.
+std::vector<double> bends(std::span<const double> x, std::span<const double> y) {
+  std::vector<double> found;
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+    const double share = (x[i] - x[i - 1]) / (x[i + 1] - x[i - 1]);
+    found.push_back(y[i] - (y[i - 1] + share * (y[i + 1] - y[i - 1])));
+  }
+  return found;
+}
+
+numerics::LineFit line_of_largest(std::span<const LevelView> levels, int first, int last) {
+  std::vector<double> x, y;
+  for (int i = first; i <= last; ++i) {
+    x.push_back(std::log(levels[std::size_t(i)].step));
+    y.push_back(std::log(levels[std::size_t(i)].error));
+  }
+  return numerics::fit_line(x, y);
+}
+
+// Whether the coarsest level lies more than a factor `leading_level` off the line of medians (Theil and Sen), to
+// which two levels of eight that lie elsewhere do nothing.
+bool first_lies_off(std::span<const LevelView> levels, int first, int last) {
+  std::vector<double> x, y, slopes, heights;
+  for (int i = first; i <= last; ++i) {
+    x.push_back(std::log(levels[std::size_t(i)].step));
+    y.push_back(std::log(levels[std::size_t(i)].error));
+  }
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) slopes.push_back((y[i] - y[j]) / (x[i] - x[j]));
+  const double slope = median(slopes);
+  for (std::size_t i = 0; i < x.size(); ++i) heights.push_back(y[i] - slope * x[i]);
+  return std::abs(heights.front() - median(heights)) > std::log(leading_level);
+}
+
+}  // namespace
+
+bool zigzags(std::span<const LevelView> levels, int first, int last) {
+  std::vector<double> x, y;
+  for (int i = last; i >= first && (last - i < shortest_window || std::ssize(x) < enough_points);
+       --i) {
+    const auto& level = levels[std::size_t(i)];
+    x.insert(x.begin(), level.x.begin(), level.x.end());
+    y.insert(y.begin(), level.y.begin(), level.y.end());
+  }
+  const auto bend = bends(x, y);
+  const double least = std::log(zigzag_bend);
+  int places = 0, zigs = 0;
+  for (std::size_t i = 1; i < bend.size(); ++i) {
+    ++places;
+    zigs +=
+        bend[i] * bend[i - 1] < 0.0 && std::min(std::abs(bend[i]), std::abs(bend[i - 1])) > least;
+  }
+  return zigs >= least_turns && zigs > zigzag_share * places;
+}
+
+bool swings(std::span<const LevelView> levels, int first, int last) {
+  std::vector<double> x, y;
+  for (int i = first; i <= last; ++i) {
+    const auto& level = levels[std::size_t(i)];
+    x.insert(x.end(), level.x.begin(), level.x.end());
+    y.insert(y.end(), level.y.begin(), level.y.end());
+  }
+  if (std::ssize(x) < enough_points) return false;
+  const auto line = numerics::fit_line(x, y);
+  const double least = 0.5 * std::log(straight_scatter);
+  int turns = 0;
+  double side = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double residual = y[i] - line.at(x[i]);
+    if (std::abs(residual) <= least) continue;
+    turns += side * residual < 0.0;
+    side = residual;
+  }
+  return turns >= least_turns;
+}
+
+std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, int last) {
+  for (int i = last; i >= first; --i)
+    if (!(levels[std::size_t(i)].usable && levels[std::size_t(i)].error > 0.0)) first = i + 1;
+  if (last - first + 1 < shortest_window) return {};
+  while (last - first + 1 > shortest_window && first_lies_off(levels, first, last)) ++first;
+  Envelope found{.first = first, .last = last, .line = line_of_largest(levels, first, last)};
+  double furthest = 0.0;
+  for (int i = first; i <= last; ++i) {
+    const auto& level = levels[std::size_t(i)];
+    for (std::size_t j = 0; j < level.x.size(); ++j)
+      furthest = std::max(furthest, std::abs(level.y[j] - found.line.at(level.x[j])));
+  }
+  found.scatter = std::exp(furthest);
+  return found;
+}
+
+}  // namespace clackers::assess
