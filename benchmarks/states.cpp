@@ -136,7 +136,7 @@ void race_runs() {
                     },
                     0,
                     {}});
-    rows.push_back({"the same, every state judged",
+    rows.push_back({"the same, every state assessed",
                     [&, run] {
                       assess::ErrorSink sink(motion, problem, h);
                       run->advance(sink);
@@ -144,7 +144,7 @@ void race_runs() {
                     rows.size() - 1,
                     {}});
   }
-  race("Making states and judging them: default pair, 200 000 steps", double(steps), rows);
+  race("Making states and assessing them: default pair, 200 000 steps", double(steps), rows);
 }
 
 double seconds_of(const std::function<void()>& work) {

@@ -39,7 +39,7 @@ list(JOIN test_headers "|" test_headers)
 foreach(module IN LISTS modules)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
     ${PROJECT_SOURCE_DIR}/clackers/${module}/*.hpp)
-  list(FILTER headers EXCLUDE REGEX "/(${test_headers})\\.hpp$")
+  list(FILTER headers EXCLUDE REGEX "/(${test_headers})\\.hpp$|/testing/")
   foreach(header IN LISTS headers)
     get_filename_component(folder ${header} DIRECTORY)
     install(FILES ${PROJECT_SOURCE_DIR}/${header} COMPONENT development

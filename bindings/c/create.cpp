@@ -49,11 +49,11 @@ clackers_status clackers_pair_defaults(clackers_pair* pair) {
     constexpr auto who = "clackers_pair_defaults";
     require_pointer(who, "pair", pair);
     require_size(who, *pair);
-    clackers_pair standard{};
+    clackers_pair defaults{};
     for (const auto& parameter : cases::entry(pair_case).parameters)
       for (const auto& member : members)
-        if (parameter.name == member.name) standard.*member.place = parameter.default_value;
-    write_versioned(*pair, standard);
+        if (parameter.name == member.name) defaults.*member.place = parameter.default_value;
+    write_versioned(*pair, defaults);
   });
 }
 

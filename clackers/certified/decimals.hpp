@@ -16,7 +16,7 @@ struct Fraction {
 };
 
 /// The number that `value` holds, correctly rounded to n >= 1 significant digits, half to even;
-/// nothing when the ball is too wide to tell. Without `fraction` the number must not lie halfway,
+/// nothing when the ball is too wide to decide. Without `fraction` the number must not lie halfway,
 /// unless the ball is exact. From 1e-5 to below 10^n as in 0.0012300, else as in 1.2300e-17; 0 is 0.
 std::optional<std::string> decimals(const Ball& value, int n,
                                     const std::optional<Fraction>& fraction = {});

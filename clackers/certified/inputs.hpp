@@ -26,7 +26,7 @@ struct Inputs {
   double r = 1.0;          ///< m1/m2
   double stiffness = 1.0;  ///< k1; not of exact data
   double damping = 0.0;    ///< xi1; of exact data sigma
-  double frequency = 1.0;  ///< Omega; of exact data alone
+  double frequency = 1.0;  ///< Omega; of exact data only
   double amplitude = 1.0;  ///< A; of exact data A/X
   double eta = 1.0;
 };

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <span>
 
 namespace clackers::model {
@@ -26,7 +25,7 @@ struct TimeEnclosure {
   double lo = 0.0, hi = 0.0;
 };
 
-/// One impact of a true motion.
+/// One impact of a motion.
 struct MotionImpact {
   long long index = 0;                             ///< 1 for the first
   double t = 0.0;                                  ///< the double nearest to the true instant [s]
@@ -38,7 +37,7 @@ struct MotionImpact {
   double energy_before = 0.0, energy_after = 0.0;  ///< of the whole structure [J]
 };
 
-/// A true motion: what happens, to the last digit, with a proved bound on what is missing.
+/// A reference solution: the motion itself, with a bound on its error.
 /// It may have 3e8 impacts, so they are asked for one by one.
 class Motion {
  public:
@@ -53,19 +52,23 @@ class Motion {
   /// flight that truly holds. Throws InputError outside.
   virtual void sample(std::span<const double> times, Side side, SampleBuffers out) const = 0;
   /// One state; the same rules.
-  Kinematics at(double t, Side side) const;
+  Kinematics at(double t, Side side) const {
+    const auto n = dof();
+    Kinematics now{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+    const auto size = static_cast<std::size_t>(n);
+    sample({&t, 1}, side, {{now.u.data(), size}, {now.v.data(), size}, {now.a.data(), size}});
+    return now;
+  }
 
-  /// The amplitude that each component has around t; for the numbers of errors relative to it.
+  /// The amplitude that each component has around t; for errors relative to it.
   virtual Kinematics envelope(double t) const = 0;
-  /// Proved bound on |computed - true| of each component at t.
+  /// Bound on |computed - true| of each component at t. Each solution says how it is derived.
   virtual Kinematics error_bound(double t) const = 0;
 
   /// Number of impacts in [0, t].
   virtual long long impact_count(double t) const = 0;
   /// Impact `index` = 1, 2, ... Throws InputError beyond impact_count(end()).
   virtual MotionImpact impact(long long index) const = 0;
-  /// The instant up to which no impact can have been missed.
-  virtual double complete_until() const { return end(); }
 };
 
 }  // namespace clackers::model

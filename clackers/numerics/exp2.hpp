@@ -50,4 +50,11 @@ inline double scale(double x, int exponent) {
   return x * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
+/// 2^x rounded to a double, 0 where it is below all of them; x < 1024.
+inline double exp2_rounded(const DoubleDouble& x) {
+  if (x.hi < -1100.0) return 0.0;
+  const auto [significand, exponent] = exp2(x);
+  return scale(significand.hi, exponent);
+}
+
 }  // namespace clackers::numerics

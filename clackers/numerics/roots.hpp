@@ -22,7 +22,7 @@ struct Bracket {
 template <class Function>
 Bracket shrink(Function&& f, Bracket k, double width) {
   const double epsilon = 0.5 * width, k1 = 0.2 / k.width();
-  // How far the bisection that may not be outlived by more than n0 = 1 step still has to go.
+  // Half of the width that bisection would have left, n0 = 1 step ago: no step may do worse.
   double allowance =
       2.0 * epsilon * std::exp2(std::max(0.0, std::ceil(std::log2(k.width() / width))));
   while (k.width() > width) {

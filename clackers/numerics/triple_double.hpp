@@ -33,7 +33,7 @@ struct Neighbour {
 
 /// `x` as the product above returns it, so that mid is at most half an ulp of hi.
 constexpr Neighbour nearest_double(const TripleDouble& x) {
-  // Half way between two doubles (hi and hi + 2 mid) only the last part can tell.
+  // Half way between two doubles (hi and hi + 2 mid) only the last part decides.
   const auto next = two_sum(x.hi, 2.0 * x.mid);
   if (x.mid != 0.0 && next.lo == 0.0 && x.lo * x.mid > 0.0) return {next.hi, x.lo - x.mid};
   return {x.hi, x.mid + x.lo};

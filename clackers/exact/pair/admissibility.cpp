@@ -30,7 +30,7 @@ std::string explain(bool grazes, bool is_inverse, double factor, double t, doubl
   const auto value = grazes ? std::string("exactly on it: the masses would graze")
                             : fmt::format("{:.6g} times it: the masses would {}", factor,
                                           t == 0.0 ? "touch or overlap already" : "touch");
-  const auto end = grazes ? "so that no computation can tell contact from none"
+  const auto end = grazes ? "so that no computation can distinguish contact from none"
                           : "and the closed form would not hold";
   return fmt::format(
       "The value is {} at t = {:.6g} s, where u1 = u2 = {:.6g} m, away from equilibrium, {}. "

@@ -66,7 +66,7 @@ TEST(Admissibility, LimitsRiseStrictly) {
 }
 
 // The first time the gap closes, by walking in steps of 1/400 of the fast half wave and bisecting.
-long double walked_contact(long double X, long double r, long double s) {
+long double searched_contact(long double X, long double r, long double s) {
   const auto gap = [&](long double angle) {
     return std::cos(angle) + s * r / X * std::cos(X * angle);
   };
@@ -82,13 +82,13 @@ long double walked_contact(long double X, long double r, long double s) {
   return to;
 }
 
-TEST(Admissibility, BeyondTheLimitTheFirstContactIsWhereAWalkFindsIt) {
+TEST(Admissibility, BeyondTheLimitTheFirstContactIsWhereASearchFindsIt) {
   for (const double X : {3.0, 5.0, 7.0, 9.0, 11.0, 21.0, 23.0, 401.0})
     for (const double factor : {1.00001, 1.01, 1.2, 1.9, 3.0, 10.0, 100.0}) {
       const double r = factor * r_star(X);
       const long double s = std::fmod(X, 4.0) == 1.0 ? 1.0L : -1.0L;
       // The gap is zero to 1e-16 relative at the angle; its slope is of order sqrt(factor - 1).
-      EXPECT_NEAR(first_contact_angle(X, r), double(walked_contact(X, r, s)), 1e-12)
+      EXPECT_NEAR(first_contact_angle(X, r), double(searched_contact(X, r, s)), 1e-12)
           << "X = " << X << " factor " << factor;
       if (X == 3.0) {
         EXPECT_EQ(first_contact_angle(X, r), 0.0);
@@ -130,18 +130,19 @@ TEST(Admissibility, IsDecidedToTheLastBitOfTheMassRatio) {
   EXPECT_EQ(refusal({.X = 1.0, .r = 1e60}), "accepted");
 }
 
-TEST(Admissibility, RefusalTellsHowFarWhenWhereAndWhatToChange) {
+TEST(Admissibility, RefusalSaysHowFarWhenWhereAndWhatToChange) {
   EXPECT_EQ(
       refusal({.r = 5.0}),
       "synchronized-pair: r = 5; allowed: 0 < r < r*(9) = 4.413677812. The value is 1.13284 times "
       "it: the masses would touch at t = 1.01421 s, where u1 = u2 = 0.50319 m, away from "
       "equilibrium, and the closed form would not hold. Take r below the limit, or X = 1, which "
       "takes every r. [not-admissible]");
-  EXPECT_EQ(refusal({.X = 3.0, .r = 3.0}),
-            "synchronized-pair: r = 3; allowed: 0 < r < r*(3) = 3. The value is exactly on it: the "
-            "masses would graze at t = 0 s, where u1 = u2 = 1 m, away from equilibrium, so that no "
-            "computation can tell contact from none. Take r below the limit, or X = 1, which takes "
-            "every r. [not-admissible]");
+  EXPECT_EQ(
+      refusal({.X = 3.0, .r = 3.0}),
+      "synchronized-pair: r = 3; allowed: 0 < r < r*(3) = 3. The value is exactly on it: the "
+      "masses would graze at t = 0 s, where u1 = u2 = 1 m, away from equilibrium, so that no "
+      "computation can distinguish contact from none. Take r below the limit, or X = 1, which takes "
+      "every r. [not-admissible]");
   EXPECT_NE(refusal({.X = 3.0, .r = 4.0}).find("touch or overlap already at t = 0 s"),
             std::string::npos);
 }

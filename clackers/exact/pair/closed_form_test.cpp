@@ -279,7 +279,6 @@ TEST(ClosedForm, CollisionsAreCountedByTheTrueInstantUpToTheLast) {
   EXPECT_EQ(motion.impact_count(motion.impact(1).when.lo), 0);
   EXPECT_EQ(motion.impact_count(motion.impact(1).when.hi), 1);
   EXPECT_EQ(motion.impact_count(20.0), 6);
-  EXPECT_EQ(motion.complete_until(), 20.0);
   EXPECT_EQ(FreeMass({}).impact_count(20.0), 0);
   EXPECT_EQ(RigidStop({}).impact_count(20.0), 6);
 }

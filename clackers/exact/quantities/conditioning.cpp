@@ -77,7 +77,7 @@ class DetunedPair {
 double simulated_loss(double X, double r, double eta, double eps, double most) {
   using std::numbers::pi;
   DetunedPair pair(X, r, eta, X * (1.0 + eps));
-  int evaluations = 100000;
+  int evaluations = 30000;
   // The first collision ends half a spacing.
   double start = -0.5 * pi;
   for (double k = 1.0; k <= most; k += 1.0) {

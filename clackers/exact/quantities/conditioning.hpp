@@ -35,7 +35,7 @@ double collisions_until_perturbation(double eta, double size);
 /// - a loss of |eps| that grows by exp(lambda |eps|)/eta at each collision. Average-acceleration
 ///   Newmark restarted at each impact lost synchrony within 5 % of it (X = 9, r = 3, eta = 1, 20 to
 ///   160 steps a fast period);
-/// - the loss in a simulation of the detuned pair from its exact start, followed for 1e5 evaluations
+/// - the loss in a simulation of the detuned pair from its exact start, followed for 3e4 evaluations
 ///   of the gap. It is the smaller one near r*, where the masses touch away from equilibrium;
 ///   elsewhere it takes 1.2 to 1.7 times as many collisions, as it starts below |eps|.
 /// Infinity where neither loses it.

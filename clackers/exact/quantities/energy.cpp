@@ -10,6 +10,7 @@ namespace clackers::exact {
 
 using model::Side;
 using numerics::DoubleDouble;
+using numerics::exp2_rounded;
 
 namespace {
 
@@ -18,13 +19,6 @@ constexpr double nodes[] = {0.1488743389816312, 0.4333953941292472, 0.6794095682
                             0.8650633666889845, 0.9739065285171717};
 constexpr double weights[] = {0.2955242247147529, 0.2692667193099963, 0.2190863625159820,
                               0.1494513491505806, 0.0666713443086881};
-
-// exp(x ln 2) for x <= 0; 0 where it is below every double.
-double power(const DoubleDouble& halvings) {
-  if (halvings.hi < -1100.0) return 0.0;
-  const auto [significand, exponent] = numerics::exp2(halvings);
-  return numerics::scale(significand.hi, exponent);
-}
 
 }  // namespace
 
@@ -41,7 +35,7 @@ EnergyAccount::EnergyAccount(const ClosedForm& motion) : motion_(motion) {
     in_first_half_ += 0.5 * system.mass(i, i) * mass.b.hi * mass.b.hi *
                       (-w * w * std::expm1(-sigma_ * period_) + 2.0 * sigma_ * sigma_);
   }
-  at_first_hit_ = c.energy.hi * power(-c.period_decay);
+  at_first_hit_ = c.energy.hi * exp2_rounded(-c.period_decay);
 }
 
 // 1 + g + ... + g^(count - 1) with g = eta^2 exp(-2 sigma T).
@@ -98,7 +92,7 @@ EnergySplit EnergyAccount::at(double t, Side side) const {
   const auto part = theta_over_pi + DoubleDouble{0.5, 0.0};
   const double x = std::max(0.0, part.hi) * period_;
   const double decayed = -std::expm1(-2.0 * sigma_ * x), left = std::exp(-2.0 * sigma_ * x);
-  const double after = power(c.log2_eta * flight - c.period_decay * (flight - 0.5));
+  const double after = exp2_rounded(c.log2_eta * flight - c.period_decay * (flight - 0.5));
   for (std::size_t i = 0; i < count_; ++i) {
     const auto [sine, cosine] = numerics::sincospi(part * bodies_[i].multiple);
     const double V = c.masses[i].v_hit.hi * after, q = sigma_ / bodies_[i].frequency;

@@ -17,6 +17,7 @@ namespace {
 using model::Kinematics;
 using model::Side;
 using numerics::DoubleDouble;
+using numerics::exp2_rounded;
 
 // One mass: a deviation of its displacement and velocity.
 struct Deviation {
@@ -38,12 +39,6 @@ struct Body {
   double sigma_p = 0.0, w_p = 0.0, square_p = 0.0;
   Deviation initial;
 };
-
-double power(const DoubleDouble& halvings) {
-  if (halvings.hi < -1100.0) return 0.0;
-  const auto [significand, exponent] = numerics::exp2(halvings);
-  return numerics::scale(significand.hi, exponent);
-}
 
 // Free flight over a time after which exp(-sigma t) = e and the angle wt has this cosine and sine.
 Deviation fly(const Body& b, const Deviation& z, double e, double c, double s) {
@@ -104,11 +99,11 @@ class RawSensitivity : public Sensitivity {
     // What is left of the flight's start, and the angle since.
     const bool first = flight == 0.0;
     const auto part = first ? theta_over_pi : theta_over_pi + DoubleDouble{0.5, 0.0};
-    const double e = power(first ? -(c.decay * t) : -(c.period_decay * part));
+    const double e = exp2_rounded(first ? -(c.decay * t) : -(c.period_decay * part));
     const auto z = first ? std::array<Deviation, 2>{} : both(after(flight));
     const double a = first ? 0.0
-                           : a_1_ * power(c.log2_eta * (flight - 1.0)) *
-                                 power(-(c.period_decay * (flight - 1.0)));
+                           : a_1_ * exp2_rounded(c.log2_eta * (flight - 1.0)) *
+                                 exp2_rounded(-(c.period_decay * (flight - 1.0)));
     for (std::size_t i = 0; i < n_; ++i) {
       const auto& b = bodies_[i];
       const auto [sine, cosine] = numerics::sincospi(part * b.multiple);
@@ -118,8 +113,8 @@ class RawSensitivity : public Sensitivity {
       x.u += y.u;
       x.v += y.v;
       const auto at = static_cast<Eigen::Index>(i);
-      d.u[at] = x.u;
-      d.v[at] = x.v;
+      d.u[at] = x.u + 0.0;  // no -0
+      d.v[at] = x.v + 0.0;
       // a = -2 sigma v - square u, differentiated.
       d.a[at] = -2.0 * b.sigma * x.v - b.square * x.u - 2.0 * b.sigma_p * state.v[at] -
                 b.square_p * state.u[at];
@@ -164,7 +159,7 @@ class RawSensitivity : public Sensitivity {
   // Just after the first collision, and what every later flight adds. Of C only the part that is
   // not shared with the later flights.
   void prepare_collisions(const FlightConstants& c) {
-    const double e = power(c.period_decay * -0.5);
+    const double e = exp2_rounded(c.period_decay * -0.5);
     a_1_ = -c.masses[0].v_hit.hi * eta_ * e;
     std::array<Deviation, 2> hit, rest, later;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -199,7 +194,7 @@ class RawSensitivity : public Sensitivity {
   Split after(double flight) const {
     const auto& c = motion_.flight();
     const double n = flight - 1.0;
-    const double e_n = power(-(c.period_decay * n)), eta_n = power(c.log2_eta * n);
+    const double e_n = exp2_rounded(-(c.period_decay * n)), eta_n = exp2_rounded(c.log2_eta * n);
     const double turn = std::fmod(n, 2.0) == 0.0 ? e_n : -e_n, q_n = e_n * eta_n;
     const double share = q_n * a_1_ / (1.0 + eta_);
     Split z;

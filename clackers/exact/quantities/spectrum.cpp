@@ -40,10 +40,8 @@ Complex psi(double alpha, const DoubleDouble& turns) {
 
 // 2^halvings exp(-i pi turns)
 Complex wave(const DoubleDouble& halvings, const DoubleDouble& turns) {
-  if (halvings.hi < -1100.0) return 0.0;
-  const auto [significand, exponent] = numerics::exp2(halvings);
   const auto [sine, cosine] = turned(turns);
-  return numerics::scale(significand.hi, exponent) * Complex(cosine.hi, -sine.hi);
+  return numerics::exp2_rounded(halvings) * Complex(cosine.hi, -sine.hi);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ class FreeMass90 {
 
 /// Goes from impact to impact. The first contact of a flight cannot be missed: with a number `rate`
 /// that both masses decay at least with, G(s) = e^(rate s) (u1 - u2 + gap) has the zeros of the
-/// opening, and |G''| <= M from s on (M below). From a known s it stays positive as long as
+/// gap, and |G''| <= M from s on (M below). From a known s it stays positive as long as
 /// G + G' x - M x^2 / 2 does, so s moves to the zero x of that parabola, again and again. Near a
 /// crossing these steps are Newton's, from the safe side, and converge as fast. No sampling.
 class ImpactSimulator {
@@ -93,8 +93,7 @@ class ImpactSimulator {
     mpfr_set_emax(mpfr_get_emax_max());
     fly_from({Real(0), {p.u10, p.u20}, {p.v10, p.v20}, {}});
     // Allowed to start touching, as after an impact.
-    if (opening(start_) < -tiny())
-      throw std::domain_error("simulator: the masses overlap at t = 0");
+    if (gap(start_) < -tiny()) throw std::domain_error("simulator: the masses overlap at t = 0");
   }
 
   /// The state at t, within the present flight: t >= flight_start(), and no contact before t.
@@ -109,7 +108,7 @@ class ImpactSimulator {
   Real energy(const RawState& x) const { return masses_[0].energy(x, 0) + masses_[1].energy(x, 1); }
 
   /// Goes through the next contact if it is not later than `until`; otherwise stays where it is and
-  /// returns nothing. Throws std::domain_error for a graze, where the opening comes within 1e-70 of
+  /// returns nothing. Throws std::domain_error for a graze, where the gap comes within 1e-70 of
   /// the amplitudes and nothing proves a crossing, and for what follows an impact with eta = 0.
   std::optional<RawCollision> next(const Real& until) {
     if (eta_ == 0 && hits_ > 0) throw std::domain_error("simulator: the masses may stick");
@@ -143,16 +142,16 @@ class ImpactSimulator {
       bound_ += mass.amplitude() * rate * rate;
     }
   }
-  Real opening(const RawState& x) const { return x.u[0] - x.u[1] + gap_; }
-  // What rounding may do to an opening: amplitudes times 2^-300, and 20 decades of care.
+  Real gap(const RawState& x) const { return x.u[0] - x.u[1] + gap_; }
+  // What rounding may do to a gap: amplitudes times 2^-300, and 20 decades of care.
   Real tiny() const {
     static const Real care("1e-70");
     return (masses_[0].amplitude() + masses_[1].amplitude() + abs(gap_)) * care;
   }
 
   std::optional<Real> first_contact(const Real& until) const {
-    // Where a flight starts touching and opening, the first step is over 0 by its slope alone.
-    Real s = 0, value = opening(start_), slope = start_.v[0] - start_.v[1] + shift_ * value;
+    // Where a flight starts touching with the gap growing, the first step is over 0 by its slope alone.
+    Real s = 0, value = gap(start_), slope = start_.v[0] - start_.v[1] + shift_ * value;
     const bool touching = value < tiny();
     if (touching) value = 0;
     const Real span = until - start_.t;
@@ -171,7 +170,7 @@ class ImpactSimulator {
       s += slope > 0 ? (slope + root) / bound_ : 2 * value / (root - slope);
       if (s > span) return std::nullopt;
       const RawState x = at(start_.t + s);
-      const Real scale = shift_ == 0 ? Real(1) : exp(shift_ * s), g = opening(x);
+      const Real scale = shift_ == 0 ? Real(1) : exp(shift_ * s), g = gap(x);
       value = scale * g;
       slope = scale * (x.v[0] - x.v[1] + shift_ * g);
     }

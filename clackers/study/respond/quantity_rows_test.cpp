@@ -171,6 +171,11 @@ TEST(HarmonicSheet, HasThePeakAndTheLastThatCounts) {
   // Far apart, rows between the two groups are left out.
   EXPECT_EQ(harmonic_sheet(cases::make("synchronized-pair", {{"X", 401.0}}), 0.001)->rows.size(),
             14u);
+  // Below the peak, too, only what reaches the threshold counts.
+  const auto high =
+      harmonic_sheet(cases::make("synchronized-pair", {{"X", 195.0}, {"r", 1.0}}), 0.9);
+  for (const auto& row : high->rows)
+    EXPECT_EQ(std::get<std::string>(row[4]) == "yes", std::get<double>(row[3]) >= 0.9);
   EXPECT_FALSE(harmonic_sheet(cases::make("stop"), 0.1));
 }
 
