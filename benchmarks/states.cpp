@@ -4,6 +4,7 @@
 //   clackers_benchmark_states [PROGRAM]     PROGRAM: the command clackers, for the rows on writing
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <boost/numeric/odeint/util/copy.hpp>
@@ -18,7 +19,7 @@
 #include "benchmarks/measure.hpp"
 #include "benchmarks/naive_pair.hpp"
 #include "clackers/assess/errors/error_sink.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/numerics/testing/forced_target.hpp"
 

@@ -62,7 +62,7 @@ TEST(CConstants, AMisspelledNameIsToldTheNearest) {
 
 TEST(CConstants, AdmissibilityIsToldOnBothSidesOfTheLimit) {
   double limit = 0.0, margin = 0.0;
-  // r*(3) = 3 exactly, admissibility.md.
+  // r*(3) = 3 exactly, docs/manual/explanation/derivations/admissibility.md.
   EXPECT_EQ(clackers_admissibility(3.0, 6.0, &limit, &margin), CLACKERS_OK);
   EXPECT_EQ(limit, 3.0);
   EXPECT_EQ(margin, -1.0);

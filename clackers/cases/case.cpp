@@ -11,10 +11,8 @@
 #include "clackers/base/suggest.hpp"
 #include "clackers/cases/constants.hpp"
 #include "clackers/exact/pair/admissibility.hpp"
-#include "clackers/exact/pair/exact_data_pair.hpp"
-#include "clackers/exact/pair/parameter_ranges.hpp"
-#include "clackers/exact/pair/single_mass.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
+#include "clackers/exact/pair/parameters.hpp"
 
 namespace clackers::cases {
 namespace {

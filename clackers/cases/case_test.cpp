@@ -359,7 +359,8 @@ TEST(Cases, RefuseWhatLiesJustOutside) {
   for (const auto* name : {"sdof", "stop", "symmetric-pair", "two-parameter", "three-parameter",
                            "synchronized-pair"}) {
     const auto text = refusal(name, {{"xi1", 1.0}});
-    EXPECT_EQ(text.find(std::string(name) + ": xi1 = 1; allowed: 0 or 1e-60 <= xi1 < 1."), 0u) << text;
+    EXPECT_EQ(text.find(std::string(name) + ": xi1 = 1; allowed: 0 or 1e-60 <= xi1 < 1."), 0u)
+        << text;
     EXPECT_EQ(refusal(name, {{"xi1", 0.0}}), "accepted") << name;
   }
   for (const auto* name : {"stop", "symmetric-pair", "synchronized-pair", "exact-data-pair"}) {

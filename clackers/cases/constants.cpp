@@ -21,7 +21,7 @@ Constant collision_count(const Case& which) {
           "number of collisions up to t_end"};
 }
 
-// What a user may attribute to the solver and what to the problem: conditioning.md.
+// What a user may attribute to the solver: docs/manual/explanation/derivations/conditioning.md.
 std::vector<Constant> conditioning_of(const Case& which, const exact::PairConstants& c, double r) {
   const double eta = restitution(which);
   const double rate = exact::detuning_rate(c.ratio, r);
@@ -57,7 +57,7 @@ std::vector<Constant> conditioning_of(const Case& which, const exact::PairConsta
 }  // namespace
 
 std::vector<Constant> pair_constants(const Case& which, const exact::PairConstants& c, double r) {
-  const auto limit = c.ratio.exchanged
+  const auto limit = c.ratio.is_inverse
                          ? "limit of m2/m1, the slow mass over the fast one; the closed "
                            "form holds below it (sharp form of Eq. 18)"
                          : "limit of the mass ratio r; the closed form holds below it "
@@ -80,7 +80,7 @@ std::vector<Constant> pair_constants(const Case& which, const exact::PairConstan
       {"d2", c.u2, "m", "initial displacement u2(0) of mass 2, Eq. (13)"},
       {"v1(0)", c.v1, "m/s", "initial velocity of mass 1, -sigma u1(0)"},
       {"v2(0)", c.v2, "m/s", "initial velocity of mass 2, -sigma u2(0), Eq. (17)"},
-      {"X", c.ratio.exchanged ? 1.0 / c.ratio.odd : c.ratio.odd, "", "omega_D2/omega_D1"},
+      {"X", c.ratio.is_inverse ? 1.0 / c.ratio.odd : c.ratio.odd, "", "omega_D2/omega_D1"},
       {"r", r, "", "mass ratio m1/m2"},
       {"eta", restitution(which), "", "restitution"},
       {"r*", c.r_star, "", limit},

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "clackers/cases/case.hpp"
-#include "clackers/exact/pair/pair_constants.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::cases {
 

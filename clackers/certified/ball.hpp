@@ -124,12 +124,5 @@ inline Ball scaled(const Ball& a, long n) {
   arb_mul_2exp_si(c.get(), a.get(), n);
   return c;
 }
-/// The smallest ball of few bits that holds [low, high].
-inline Ball hull(double low, double high) {
-  Ball c;
-  const Ball a(low), b(high);
-  arb_set_interval_arf(c.get(), arb_midref(a.get()), arb_midref(b.get()), WorkingBits::now());
-  return c;
-}
 
 }  // namespace clackers::certified

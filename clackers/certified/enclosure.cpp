@@ -131,7 +131,7 @@ Ball Enclosure::decay_now(long long k, const Ball& t) {
 KinematicBalls Enclosure::at_now(long long k, double t) {
   const auto& c = constants();
   KinematicBalls now;
-  // Each collision turns the motion about: the sgn of Eq. (22).
+  // Each collision reverses the sign of the motion: the sgn of Eq. (22).
   const Ball e = (k % 2 == 0 ? decay_now(k, t) : -decay_now(k, t));
   for (std::size_t i = 0; i < static_cast<std::size_t>(in_.dof); ++i) {
     const Ball &w = c.frequency[i], &sigma = c.sigma, amplitude = e * c.start[i];
@@ -156,7 +156,7 @@ ImpactBalls Enclosure::impact_now(long long k) {
   hit.t = instant_now(k);
   const Ball e = decay_now(k - 1, hit.t), eta = in_.eta;
   for (std::size_t i = 0; i < static_cast<std::size_t>(in_.dof); ++i) {
-    // sin(w t_k) turns about from one collision to the next, and so does the motion.
+    // The sign of sin(w t_k) alternates from one collision to the next, and so does the motion's.
     const double s = quarter_sine(in_.multiple(i));
     const Ball v = Ball(-s) * c.start[i] * c.frequency[i] * e;
     for (auto* side : {&hit.before, &hit.after}) side->u.emplace_back();

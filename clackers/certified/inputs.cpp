@@ -34,19 +34,14 @@ Inputs::Inputs(const exact::RigidStopParameters& p) : damping(p.xi1), eta(p.eta)
 Inputs::Inputs(const exact::FreeMassParameters& p) : collides(false), damping(p.xi1) {}
 
 Inputs::Inputs(const model::Motion& motion) {
-  const auto use = [&](const auto* known) {
-    if (known != nullptr) *this = Inputs(known->parameters());
-    return known != nullptr;
-  };
-  if (use(dynamic_cast<const exact::SynchronizedPair*>(&motion)) ||
-      use(dynamic_cast<const exact::ExactDataPair*>(&motion)) ||
-      use(dynamic_cast<const exact::RigidStop*>(&motion)) ||
-      use(dynamic_cast<const exact::FreeMass*>(&motion)))
-    return;
-  throw InputError(
-      "digits: this motion is known to double precision only; allowed: the cases of one mass and "
-      "of the synchronized pair.",
-      "no-enclosure");
+  const auto* known = exact::as_closed_form(motion);
+  if (known == nullptr)
+    throw InputError(
+        "digits: this motion is known to double precision only; allowed: the cases of one mass and "
+        "of the synchronized pair.",
+        "no-enclosure");
+  *this =
+      std::visit([](const auto& parameters) { return Inputs(parameters); }, known->parameters());
 }
 
 }  // namespace clackers::certified

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "clackers/exact/pair/exact_data_pair.hpp"
-#include "clackers/exact/pair/single_mass.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::certified {
 

@@ -7,19 +7,76 @@
 // shown that F_r* > 0 outside [4, 5], convex on it, and that its minimum there is 0.
 #ifdef CLACKERS_HAS_ARB
 
-#include "clackers/certified/r_star.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/certified/ball.hpp"
 #include "clackers/exact/pair/admissibility.hpp"
+#include "clackers/exact/pair/high_precision.hpp"
 
 namespace clackers::certified {
 namespace {
 
 constexpr double largest = 1001.0;
+
+Ball stationary(const Ball& X, const Ball& x) {
+  const Ball theta = x / X;
+  return X * sin(theta) * cos(x) - sin(x) * cos(theta);
+}
+
+Ball slope_of_stationary(const Ball& X, const Ball& x) {
+  return -((X - Ball(1.0) / X) * sin(x / X) * sin(x));
+}
+
+Ball middle_of(const Ball& x) {
+  Ball m;
+  arb_get_mid_arb(m.get(), x.get());
+  return m;
+}
+
+// Where sin(x) / (X sin(x/X)) has its minimum, x = X theta: the only zero in (pi, 3 pi/2) of
+// h(x) = X sin(x/X) cos(x) - sin(x) cos(x/X), for odd X >= 5. It is the only one because
+// h' = -(X - 1/X) sin(x/X) sin(x) > 0 there. Certain to `bits`.
+Ball graze_angle(double X_odd, long bits) {
+  for (long working = bits + 64;; working *= 2) {
+    const WorkingBits scope(working);
+    const Ball X = X_odd;
+    // Newton from a point in the middle of where the zeros of all X lie, without any proof.
+    Ball x = 4.5;
+    for (long known = 1; known < 2 * working; known *= 2)
+      x = middle_of(x - stationary(X, x) / slope_of_stationary(X, x));
+    // The proof: h is rising and changes its sign within this distance, all within (pi, 3 pi/2).
+    const Ball reach = scaled(Ball(1.0), -(bits + 8));
+    const Ball low = x - reach, high = x + reach;
+    if (pi() < low && high < Ball(1.5) * pi() && stationary(X, low).is_negative() &&
+        stationary(X, high).is_positive()) {
+      arb_add_error_2exp_si(x.get(), -(bits + 8));
+      return x;
+    }
+  }
+}
+
+// r*(X) = sqrt(1 + (X^2 - 1) sin^2(x/X)) at that x, for odd X >= 3; exactly 3 for X = 3, where
+// x = 3 pi/2. Certain to `bits`.
+Ball r_star(double X_odd, long bits) {
+  if (X_odd == 3.0) return 3.0;
+  // r* changes less than x does, relative to itself (the minimum is flat), and sin and sqrt lose a
+  // few bits.
+  const Ball x = graze_angle(X_odd, bits + 16);
+  const WorkingBits scope(bits + 96);
+  const Ball X = X_odd, sine = sin(x / X);
+  return sqrt(Ball(1.0) + (X * X - 1.0) * sine * sine);
+}
+
+// The smallest ball of few bits that holds [low, high].
+Ball hull(double low, double high) {
+  Ball c;
+  const Ball a(low), b(high);
+  arb_set_interval_arf(c.get(), arb_midref(a.get()), arb_midref(b.get()), WorkingBits::now());
+  return c;
+}
 
 Ball separation(const Ball& X, const Ball& r, const Ball& x) { return X * sin(x / X) + r * sin(x); }
 Ball slope(const Ball& X, const Ball& r, const Ball& x) { return cos(x / X) + r * cos(x); }

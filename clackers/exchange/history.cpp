@@ -47,7 +47,7 @@ class Reader {
       if (rows_ == rows_before_guess) reserve();
       if (rows_ % rows_a_report == 0) report();
     }
-    if (table_.lines().without_line_end())
+    if (table_.lines().ends_without_line_feed())
       history_.notes.push_back(
           {.code = "last-line-incomplete", .numbers = {double(table_.line())}});
     finish();

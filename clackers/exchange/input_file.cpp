@@ -32,8 +32,10 @@ auto call_again(const std::atomic<bool>* interrupt, const Call& call) {
 
 }  // namespace
 
+std::string shown_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+
 InputFile::InputFile(const std::string& path, const std::atomic<bool>* interrupt)
-    : name_(path == "-" ? "standard input" : path), interrupt_(interrupt) {
+    : name_(shown_name(path)), interrupt_(interrupt) {
   descriptor_ = call_again(interrupt_, [&] {
     // A copy of standard input, so that closing it at the end is right in both cases.
     return path == "-" ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3)

@@ -6,6 +6,9 @@
 
 namespace clackers::exchange {
 
+/// What messages call a path: "standard input" for "-".
+std::string shown_name(const std::string& path);
+
 /// A file that is read once, from its beginning to its end; "-" is standard input.
 ///
 /// Where reading waits for another program (a pipe, a terminal), a signal ends it: Error with code

@@ -27,6 +27,7 @@ std::vector<std::string> plain_names(const Separation& separation, std::string_v
   std::vector<std::string_view> fields;
   separation.split(line, fields);
   std::vector<std::string> names;
+  names.reserve(fields.size());
   for (const auto field : fields) names.push_back(plain_name(field));
   return names;
 }
@@ -107,7 +108,7 @@ void TableReader::require_fields() const {
   // Decimal commas make fields, and never fewer.
   if (fields_.size() > names_.size() && separation_.is_comma())
     hint = decimal_comma_hint;
-  else if (lines_.without_line_end())
+  else if (lines_.ends_without_line_feed())
     hint =
         "The file ends without a line feed: it may have been cut here, or is still being written.";
   throw InputError(

@@ -45,8 +45,6 @@ void refuse_other_formats(const std::string& name, std::string_view bytes) {
 
 }  // namespace
 
-std::string shown_name(const std::string& path) { return path == "-" ? "standard input" : path; }
-
 TextLines::TextLines(const std::string& path, const std::atomic<bool>* interrupt)
     : file_(path, interrupt), bytes_(block) {}
 
@@ -97,7 +95,10 @@ bool TextLines::next() {
     looked = have_ - at_;
     if (length != std::string_view::npos || looked > longest_line || !fill()) break;
   }
-  if (length == std::string_view::npos && at_ == have_) return false;
+  if (length == std::string_view::npos && at_ == have_) {
+    --number_;
+    return false;
+  }
   without_line_end_ = length == std::string_view::npos;
   length = std::min(length, have_ - at_);
   if (length > longest_line)

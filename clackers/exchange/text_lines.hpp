@@ -14,12 +14,9 @@ namespace clackers::exchange {
 /// filling the memory.
 inline constexpr std::size_t longest_line = std::size_t{1} << 24;
 
-/// What messages call a path: "standard input" for "-".
-std::string shown_name(const std::string& path);
-
-/// The lines of a text file, of standard input for the path "-", read a block at a time: without
-/// their ends (LF, CRLF, CR alone where the file has no LF, or none at the end of the file), without
-/// a byte order mark, and without what follows # or %.
+/// The lines of a text file, read a block at a time: without their ends (LF, CRLF, CR alone where
+/// the file has no LF, or none at the end of the file), without a byte order mark, and without what
+/// follows # or %.
 class TextLines {
  public:
   /// `path` is "-" for standard input. Throws FileError (cannot-read) as InputFile does. When
@@ -34,16 +31,16 @@ class TextLines {
   std::string_view text() const { return text_; }
   /// What follows the # or % of a line, empty without one; valid as long as text().
   std::string_view comment() const { return comment_; }
+  /// Of the present line, from 1; after the last line still that.
   long long number() const { return number_; }
-  /// The line that next() last moved to is the last of the file and has no line end: the file may
-  /// have been cut there.
-  bool without_line_end() const { return without_line_end_; }
   /// "FILE line 3", of the present line.
   std::string place() const;
   /// The path, or "standard input".
   const std::string& name() const { return file_.name(); }
   /// Bytes of the file, 0 when it is no regular file.
   long long file_size() const { return file_.size(); }
+  /// The present line is the last and has no line end: the file may have been cut there.
+  bool ends_without_line_feed() const { return without_line_end_; }
   /// Bytes of the lines so far.
   long long consumed() const { return consumed_; }
 

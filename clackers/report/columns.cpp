@@ -132,7 +132,7 @@ const Column all[] = {
     {"behaviour", "", "behaviour", "", "measured on all levels", word, true, [](const Row& row) { return is_assessed(row) ? text(to_string(row.subject->assessment.displacement.behaviour)) : Cell(); }},
     {"order", "", "order", "", "slope of the line of error in u against step", Kind::number, true, line<&Fit::order>},
     {"order_spread", "", "spread", "", "half width of the order's 95 % interval", Kind::number, true, line<&Fit::spread>},
-    {"order_range", "", "order", "", "order and half width of its 95 % interval", word, false, [](const Row& row) { return is_assessed(row) ? text(order_text(row.subject->assessment.displacement, "")) : Cell(); }},
+    {"order_range", "", "order", "", "order and half width of its 95 % interval", Kind::number, false, [](const Row& row) { return is_assessed(row) ? text(order_text(row.subject->assessment.displacement, "")) : Cell(); }},
     {"verdict", "", "verdict", "", "agrees, disagrees, not claimed, undecided, refused or interrupted", Kind::verdict, true, [](const Row& row) { return text(verdict_word(*row.subject)); }},
     {"reason", "", "reason", "", "code of what decided behaviour or verdict", word, true, [](const Row& row) { return text(row.subject->assessment.reason); }},
     {"refusal_code", "", "refusal", "", "why the method cannot take the case", word, true, [](const Row& row) { return text(row.subject->refusal_code); }},

@@ -78,14 +78,14 @@ std::string evidence_sentence(const assess::Evidence& evidence) {
         "may make {}.",
         scientific(number(0)), scientific(number(1)));
   if (code == "within-tolerance")
-    return fmt::format("Within the tolerance: the error in u is {}, allowed are {}.", text(0),
+    return fmt::format("Within the tolerance: the error in u is {}, the tolerance {}.", text(0),
                        text(1));
   if (code == "beyond-tolerance")
-    return fmt::format("Beyond the tolerance: the error in u is {}, allowed are {}.", text(0),
+    return fmt::format("Beyond the tolerance: the error in u is {}, the tolerance {}.", text(0),
                        text(1));
   if (code == "tolerance-not-resolved")
     return fmt::format(
-        "The printed digits are too few for this tolerance: the error in u is {}, allowed are {}, "
+        "The printed digits are too few for this tolerance: the error in u is {}, the tolerance {}, "
         "printing alone may make {}.",
         text(0), text(1), scientific(number(2)));
   if (code == "other-start")
@@ -306,10 +306,11 @@ VerdictLine verdict_line(const study::Record& record) {
     if (count > 0)
       parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, count == 1 ? one : several);
   if (!is_check)
-    line.counts = fmt::format("Of {}{}: {}.", counted(all.total(), "method"),
-                              record.cases.size() > 1
-                                  ? fmt::format(" on {}", counted(std::ssize(record.cases), "case"))
-                                  : "",
+    line.counts = fmt::format("Of {}: {}.",
+                              record.cases.size() == 1
+                                  ? counted(all.total(), "method")
+                                  : fmt::format("{} on {}", counted(all.total(), "verdict"),
+                                                counted(std::ssize(record.cases), "case")),
                               parts.empty() ? "none was assessed" : parts);
 
   // First what decides the verdict, then the page, then what a word in the table means.

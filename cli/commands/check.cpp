@@ -100,9 +100,9 @@ void add_check(Grammar& root) {
            "3 when undecided.",
        .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
                 "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...]\n"
-                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x]\n"
-                 "           [--baseline FILE.json] [--report FILE.html]\n"});
-  app->add_option("FILE", options->files, "Time histories, text; - reads standard input.")
+                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x]\n"
+                "           [--baseline FILE.json] [--report FILE.html]\n"});
+  app->add_option("FILE", options->files, "Time histories, text; - for standard input.")
       ->reads_file("");
   app->add_option("--case", options->case_name,
                   "The case (clackers list cases). Default: three-parameter.")
@@ -133,7 +133,7 @@ void add_check(Grammar& root) {
                   "An earlier record of check (--format json) of the same case, - for standard "
                   "input: says in words what changed since. The exit code stays that of the "
                   "verdicts.")
-      ->option_text("FILE.json");
+      ->reads_file("FILE.json");
   add_common_options(*app, options->common);
   add_verdict_formats(*app);
   app->run = [options](const std::string& line) { return run(*options, line); };

@@ -56,12 +56,12 @@ int run(const Options& options) {
 void add_list(Grammar& root) {
   const auto options = std::make_shared<Options>();
   auto* app = root.add_subcommand("list", "[KIND]", "what there is: cases, methods, metrics");
-  set_help(
-      *app,
-      {.examples = "  clackers list cases\n"
-                   "  clackers list pairs --format csv\n",
-       .about = "Lists what there is, one line each.",
-       .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|columns|figures]\n"});
+  set_help(*app,
+           {.examples = "  clackers list cases\n"
+                        "  clackers list pairs --format csv\n",
+            .about = "Lists what there is, one line each.",
+            .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|columns|\n"
+                     "                 figures]\n"});
   app->add_option(
       "KIND", options->kind,
       "cases, methods (integrators, contact treatments, methods that stand alone, and which are "

@@ -139,7 +139,7 @@ void write(study::RowSource& rows, Results& results, bool quiet) {
   ProgressLine line("respond", quiet || rows_are_seen);
   rows.progress = [&](double share) {
     if (interrupt_flag()) throw Interrupted();
-    line.tell(share);
+    line.report(share);
   };
   report::write(rows, results.format(), results.stream(), results.style());
 }

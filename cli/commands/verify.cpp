@@ -66,9 +66,8 @@ void check(const Options& options) {
 }
 
 study::Record run_study(const Options& options, const study::VerifyRequest& request) {
-  ProgressLine line("verify", options.common.quiet);
-  return study::verify(
-      request, [&](double share) { line.report(share); }, &interrupt_flag());
+  ProgressLine progress("verify", options.common.quiet);
+  return study::verify(request, progress.callback(), &interrupt_flag());
 }
 
 int run(const Options& options, const std::string& line) {

@@ -124,7 +124,7 @@ std::vector<std::string> completions(const Grammar& grammar, std::vector<std::st
   add_all(grammar, words, candidates);
   auto lines = candidates.lines();
   for (auto& line : lines)
-    if (line != ":files") line = (option + line).substr(hidden);
+    if (line != ":files") line.insert(0, option).erase(0, hidden);
   return lines;
 }
 

@@ -50,5 +50,15 @@ class CheckTest(CommandTest):
             self.fail(f"{arguments}: {done.returncode} {done.stderr}\n" + run("check", *arguments).stdout)
         return json.loads(done.stdout)
 
+    def runs(self, record):
+        """The histories of a record, coarsest first."""
+        subject, = record["cases"][0]["subjects"]
+        return [run for level in subject["levels"] for run in level["runs"]]
+
+    def assessment(self, record):
+        return record["cases"][0]["subjects"][0]["assessment"]
+
     def notes(self, record):
-        return " ".join(note for file in record["files"] for note in file["notes"])
+        """The notes of all histories: numbers and text by code."""
+        return {note["code"]: (note["numbers"], note["text"])
+                for run in self.runs(record) for note in run["file"]["notes"]}

@@ -9,53 +9,54 @@ import jsonschema  # Debian: python3-jsonschema
 from command import rows, run
 from histories import COLUMNS, CheckTest
 
-SCHEMA = os.path.join(os.path.dirname(__file__), "../../docs/schemas/check-1.json")
+SCHEMA = os.path.join(os.path.dirname(__file__), "../../docs/schemas/record-1.json")
 
 
 class Verdicts(CheckTest):
     def test_without_a_claim_is_not_claimed(self):
         record = self.checked(self.history("exact.csv"))
-        self.assertEqual((record["schema"], record["verdict"]), ("clackers/check/1", "not claimed"))
-        self.assertLess(record["files"][0]["score"]["u_error"], 1e-14)
-        impacts = record["files"][0]["score"]["impacts"]
+        self.assertEqual((record["schema"], record["command"]), ("clackers/record/1", "check"))
+        self.assertEqual(self.assessment(record)["verdict"], "not claimed")
+        self.assertLess(self.runs(record)[0]["u_error"], 1e-14)
+        impacts = self.runs(record)[0]["impacts"]
         self.assertEqual((impacts["expected"], impacts["matched"], impacts["extra"]), (6, 6, 0))
 
     def test_on_several_files_give_the_order(self):
         record = self.checked(*self.converging(), "--expect", "proper:2")
-        self.assertEqual(record["verdict"], "agrees")
-        self.assertAlmostEqual(record["assessment"]["displacement"]["order"], 2.0, delta=0.01)
-        self.assertEqual([round(0.01 / file["score"]["step"]) for file in record["files"]],
+        self.assertEqual(self.assessment(record)["verdict"], "agrees")
+        self.assertAlmostEqual(self.assessment(record)["displacement"]["order"], 2.0, delta=0.01)
+        self.assertEqual([round(0.01 / found["step"]) for found in self.runs(record)],
                          [2**n for n in range(6)])
 
     def test_go_by_what_is_expected(self):
         files = self.converging(order=1)
         self.checked(*files, "--expect", "proper:2", exit_code=1)
         self.checked(*files, "--expect", "reduced:1")
-        self.assertEqual(self.checked(*files)["verdict"], "not claimed")
+        self.assertEqual(self.assessment(self.checked(*files))["verdict"], "not claimed")
         self.checked(files[0], "--expect", "proper:2", exit_code=3)
 
     def test_go_by_the_tolerance(self):
         file = self.converging(levels=1)[0]
-        error = self.checked(file)["files"][0]["score"]["u_error"]
+        error = self.runs(self.checked(file))[0]["u_error"]
         self.checked(file, "--tolerance", repr(error * 1.01))
         self.checked(file, "--tolerance", repr(error * 0.99), exit_code=1)
 
     def test_on_an_error_that_printing_blurs_is_undecided(self):
         file = self.history("coarse.csv", digits=4)
         record = self.checked(file, "--tolerance", "5e-4", exit_code=3)
-        self.assertEqual(record["reason"], "printed-digits")
+        self.assertEqual(self.assessment(record)["reason"], "printed-digits")
         self.checked(file, "--tolerance", "1e-2")
 
     def test_on_digits_too_few_for_the_order_name_them(self):
         files = self.converging(digits=5, factor=1e-3)
         record = self.checked(*files, "--expect", "proper:2", exit_code=3)
-        self.assertEqual(record["assessment"]["displacement"]["behaviour"], "stagnating")
-        self.assertEqual(record["reason"], "printed-digits")
+        self.assertEqual(self.assessment(record)["displacement"]["behaviour"], "stagnating")
+        self.assertEqual(self.assessment(record)["reason"], "printed-digits")
         self.checked(*files, "--expect", "stagnating")
 
     def test_on_exact_histories_is_exact(self):
         record = self.checked(self.history("exact.csv"), "--expect", "exact")
-        self.assertEqual(record["verdict"], "agrees")
+        self.assertEqual(self.assessment(record)["verdict"], "agrees")
 
     def test_on_another_motion_disagrees(self):
         # The masses pass through each other as if the other were not there.
@@ -65,34 +66,37 @@ class Verdicts(CheckTest):
             return {name: value if name in ("t", "side") else sign * value
                     for name, value in row.items()}
         record = self.checked(self.history("through.csv", change=through), exit_code=1)
-        self.assertEqual(record["verdict"], "disagrees")
-        self.assertIn("another motion", record["sentence"])
-        self.assertEqual(record["files"][0]["score"]["impacts"]["found"], 0)
+        self.assertEqual(self.assessment(record)["verdict"], "disagrees")
+        self.assertEqual(self.assessment(record)["evidence"][0]["code"], "other-collisions")
+        self.assertEqual(self.runs(record)[0]["impacts"]["found"], 0)
 
     def test_on_missing_events_disagrees(self):
         lines = self.hits.splitlines()
         events = self.write("hits.csv", "\n".join(lines[:3] + lines[4:]) + "\n")
         record = self.checked(self.history("exact.csv"), "--events", events, exit_code=1)
-        self.assertEqual(record["files"][0]["score"]["impacts"]["missed"], 1)
+        self.assertEqual(self.runs(record)[0]["impacts"]["missed"], 1)
         none = self.write("none.csv", lines[0] + "\n")
         record = self.checked(self.history("exact.csv"), "--events", none, exit_code=1)
-        self.assertIn("reports no collision, while 6 happen", self.notes(record))
+        self.assertEqual(self.notes(record)["no-collisions-reported"], ([6], ""))
 
     def test_with_the_exact_events_agree(self):
         events = self.write("hits.csv", self.hits)
         record = self.checked(self.history("exact.csv"), "--events", events)
-        self.assertEqual(record["files"][0]["collision_source"], "events")
-        self.assertEqual(record["files"][0]["score"]["impacts"]["worst_time_error"], 0)
-        self.assertLess(record["files"][0]["score"]["v_error"], 1e-12)
+        self.assertEqual(self.runs(record)[0]["file"]["collision_source"], "events")
+        self.assertEqual(self.runs(record)[0]["impacts"]["worst_time_error"], 0)
+        self.assertLess(self.runs(record)[0]["v_error"], 1e-12)
 
 
 class Formats(CheckTest):
     def test_output_of_respond_is_valid_input(self):
         record = self.checked(self.write("r.csv", self.response))
-        self.assertLess(record["files"][0]["score"]["u_error"], 1e-14)
+        self.assertLess(self.runs(record)[0]["u_error"], 1e-14)
 
-    def test_of_text_do_not_change_the_judgement(self):
-        expected = self.checked(self.history("plain.csv"))["files"][0]["score"]
+    def test_of_text_do_not_change_the_errors(self):
+        def score(path):
+            found = self.runs(self.checked(path))[0]
+            return {name: found[name] for name in ("u_error", "v_error", "energy_error", "impacts")}
+        expected = score(self.history("plain.csv"))
         with open(self.path("plain.csv")) as file:
             text = file.read()
         for name, bytes_ in (("semicolon", text.replace(",", ";").encode()),
@@ -105,36 +109,36 @@ class Formats(CheckTest):
                              ("savetxt", b"# " + text.encode()),
                              ("case", text.replace("t,u1", "TIME,U1").encode())):
             path = self.write(name, bytes_, "wb")
-            self.assertEqual(self.checked(path)["files"][0]["score"], expected, name)
+            self.assertEqual(score(path), expected, name)
 
     def test_without_a_header_need_names(self):
         path = self.history("bare.out", header=False, between=" ")
         self.refused("check", path, code="no-column", says=("5 columns", "--columns"))
         named = self.checked(path, "--columns", ",".join(COLUMNS))
-        self.assertLess(named["files"][0]["score"]["u_error"], 1e-14)
+        self.assertLess(self.runs(named)[0]["u_error"], 1e-14)
         skipped = self.checked(path, "--columns", "t,u1,_,u2,_")
-        self.assertFalse(skipped["files"][0]["has_velocities"])
-        self.assertEqual(skipped["files"][0]["score"]["v_error"], "nan")
+        self.assertFalse(self.runs(skipped)[0]["file"]["has_velocities"])
+        self.assertEqual(self.runs(skipped)[0]["v_error"], "nan")
 
     def test_of_opensees_need_no_time(self):
         # A recorder: six digits, no header, no time, the first row after the first step.
         path = self.history("disp.out", digits=6, header=False, between=" ", columns=("u1", "u2"))
         self.refused("check", path, "--columns", "u1,u2", code="no-column", says="--steps")
         started = self.checked(path, "--columns", "u1,u2", "--steps", "0.01")
-        self.assertIn("the first at 0", self.notes(started))
+        self.assertEqual(self.notes(started)["no-times"], ([0.01, 0], ""))
         with open(path) as file:
             later = self.write("later.out", "".join(file.readlines()[1:]))
         record = self.checked(later, "--columns", "u1,u2", "--steps", "0.01")
-        self.assertIn("one step after the start", self.notes(record))
-        file = record["files"][0]
-        self.assertEqual(file["columns"][0]["digits"], 6)
-        self.assertLess(file["score"]["u_error"], file["printed_floor"] * 1.01)
+        self.assertEqual(self.notes(record)["no-times"], ([0.01, 0.01], ""))
+        found = self.runs(record)[0]
+        self.assertEqual(found["file"]["columns"][0]["digits"], 6)
+        self.assertLess(found["u_error"], found["file"]["printed_floor"] * 1.01)
 
     def test_of_numbers_in_fortran_are_read(self):
         path = self.history("f.txt", between=" ")
         with open(path) as file:
             text = file.read().replace("e", "D")
-        self.assertLess(self.checked(self.write("d.txt", text))["files"][0]["score"]["u_error"], 1e-14)
+        self.assertLess(self.runs(self.checked(self.write("d.txt", text)))[0]["u_error"], 1e-14)
 
     def test_of_results(self):
         files = self.converging(levels=4)
@@ -163,8 +167,8 @@ class Formats(CheckTest):
 
 class Steps(CheckTest):
     def steps(self, *arguments):
-        return [(file["score"]["step"], file["step_source"])
-                for file in self.checked(*arguments)["files"]]
+        return [(found["step"], found["file"]["step_source"])
+                for found in self.runs(self.checked(*arguments))]
 
     def test_come_from_the_option_the_name_and_the_rows(self):
         path = self.history("run.csv")
@@ -176,8 +180,8 @@ class Steps(CheckTest):
 
     def test_longer_than_the_time_between_rows_are_not_taken_from_a_name(self):
         record = self.checked(self.history("h2.csv"))
-        self.assertEqual(record["files"][0]["step_source"], "data")
-        self.assertIn("not taken for the step", self.notes(record))
+        self.assertEqual(self.runs(record)[0]["file"]["step_source"], "data")
+        self.assertEqual(self.notes(record)["step-in-name-ignored"][0][0], 2)
 
     def test_sort_the_files(self):
         files = [self.history(f"run{n}.csv", every=n) for n in (1, 4, 2)]

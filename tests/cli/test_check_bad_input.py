@@ -1,4 +1,4 @@
-"""check: what is refused, and what is said of a history that limits its own judgement."""
+"""check: what is refused, and what is noted of a history that limits its own assessment."""
 import math
 import os
 import signal
@@ -37,15 +37,15 @@ class BadInput(CheckTest):
             os.chmod(path, 0)
             self.refused("check", path, code="cannot-read", exit_code=4, says="Permission")
 
-    def test_from_another_state_names_the_parameter(self):
+    def test_from_another_state_names_the_number_that_differs(self):
         other = run("respond", "three-parameter", "--set", "N=3", "--step", "0.01", "--format",
                     "csv").stdout
         self.refused("check", self.write("n3.csv", other), code="not-this-case",
-                     says=("n3.csv: ", "--set N=3 "))
+                     says=("n3.csv: u2 starts at -0.230769", "at -0.333333: 0.31 of the envelope", "--set"))
         other = run("respond", "synchronized-pair", "--set", "A=2", "--step", "0.01", "--format",
                     "csv").stdout
         self.refused("check", self.write("a2.csv", other), "--case", "synchronized-pair",
-                     code="not-this-case", says=("u1 starts at 2", "--set A=2 "))
+                     code="not-this-case", says=("u1 starts at 2", "clackers show synchronized-pair"))
         def still(row):
             row["v1"] += 0.05 * (row["t"] == 0)
             return row
@@ -56,36 +56,45 @@ class BadInput(CheckTest):
         def off(row):
             row["u2"] += 1e-5
             return row
-        self.assertIn("initial state is off by 3e-05", self.notes(self.checked(
-            self.history("off.csv", change=off))))
+        (error,), _ = self.notes(self.checked(self.history("off.csv", change=off)))["start-differs"]
+        self.assertAlmostEqual(error, 3e-5, delta=1e-6)
 
     def test_that_ends_early_or_late_is_said(self):
         early = self.checked(self.history("early.csv", until=10.005))
-        self.assertIn("ends at 10 s, the case at 20 s", self.notes(early))
-        self.assertEqual(early["files"][0]["score"]["impacts"]["expected"], 3)
+        self.assertEqual(self.notes(early)["ends-early"], ([10, 20], ""))
+        self.assertEqual(self.runs(early)[0]["impacts"]["expected"], 3)
         late = self.checked(self.history("late.csv"), "--set", "a_t=0.5")
-        self.assertIn("1000 rows lie after the case's end, 10 s", self.notes(late))
-        self.assertEqual(late["files"][0]["rows"], 1001)
+        self.assertEqual(self.notes(late)["rows-beyond-end"], ([1000, 10], ""))
+        self.assertEqual(self.runs(late)[0]["file"]["rows"], 1001)
         before = self.checked(self.history("before.csv", until=1.0))
-        self.assertIn("nothing is said of impacts", self.notes(before))
+        self.assertIn("no-collisions", self.notes(before))
         self.refused("check", self.write("beyond.csv", "t,u1,u2\n30,1,1\n31,1,1\n"),
                      code="too-short", says="t_end")
 
     def test_that_is_sampled_too_coarsely_is_said(self):
         record = self.checked(self.history("coarse.csv", every=50))
-        self.assertEqual(record["reason"], "sparse-rows")
-        self.assertIn("rows a fast period", self.notes(record))
-        self.assertFalse(record["files"][0]["rows_resolve_collisions"])
+        self.assertEqual(self.assessment(record)["reason"], "sparse-rows")
+        self.assertIn("few-rows-a-period", self.notes(record))
+        self.assertFalse(self.runs(record)[0]["file"]["rows_resolve_collisions"])
+
+    def test_whose_last_line_has_no_line_feed_is_noted(self):
+        path = self.history("cut.csv")
+        self.assertNotIn("last-line-incomplete", self.notes(self.checked(path)))
+        with open(path) as file:
+            text = file.read()
+        self.write("cut.csv", text[:-3])  # its last number lost digits
+        self.assertEqual(self.notes(self.checked(path))["last-line-incomplete"], ([2002], ""))
+        self.assertIn("line feed", run("check", path).stdout)
 
     def test_with_few_digits_is_said(self):
         notes = self.notes(self.checked(self.history("six.csv", digits=6)))
-        self.assertIn("u1 is printed with 6 digits", notes)
+        self.assertEqual((notes["printed-digits"][0][:2], notes["printed-digits"][1]), ([6, 0], "u1"))
         def single_precision(row):
             for name in ("u1", "u2"):
                 row[name], = struct.unpack("f", struct.pack("f", row[name]))
             return row
         single = self.history("single.csv", change=single_precision)
-        self.assertIn("single precision", self.notes(self.checked(single)))
+        self.assertEqual(self.notes(self.checked(single))["printed-digits"][0][1], 1)
 
     def test_options_that_make_no_sense_are_refused(self):
         path = self.history("exact.csv")

@@ -36,9 +36,9 @@ class Progress(CommandTest):
         code, text = run_on_terminal("verify", "rk4", "--coarsest", "1e-3", "--levels", "4",
                                      stream="stderr")
         self.assertIn(code, (0, 3))
-        told = re.findall(r"(\d+) %, (\d+) s elapsed, about (\d+) s left", text)
-        self.assertTrue(told)
-        for share, elapsed, left in ([int(number) for number in line] for line in told):
+        shown = re.findall(r"(\d+) %, (\d+) s elapsed, about (\d+) s left", text)
+        self.assertTrue(shown)
+        for share, elapsed, left in ([int(number) for number in line] for line in shown):
             # All three are rounded to whole numbers.
             def rest(e, s):
                 return e * (100 - s) / s
@@ -47,6 +47,14 @@ class Progress(CommandTest):
         self.assertTrue(text.endswith(" " * 79 + "\r"))
         for line in text.replace("\n", "\r").split("\r"):
             self.assertLess(len(line), 80)
+
+    def test_of_check_is_shown(self):
+        history = self.path("h.csv")
+        self.good("respond", "three-parameter", "--samples", "20000", "--format", "csv", "--quiet", "--out", history)
+        code, text = run_on_terminal("check", history, stream="stderr")
+        self.assertEqual(code, 0)
+        self.assertRegex(text, r"\rcheck +\d+ %, \d+ s elapsed")
+        self.assertTrue(text.endswith(" " * 79 + "\r"))
 
     def test_is_silent_when_standard_error_is_no_terminal(self):
         done = run("verify", "rk4", *SHORT_LADDER)

@@ -40,7 +40,7 @@ class Verdicts(CommandTest):
     def test_all_is_every_pair(self):
         record = json.loads(run("verify", "--all", "--coarsest", "0.5", "--levels", "1",
                                 "--neighbours", "1", "--format", "json").stdout)
-        names = [method["name"] for method in record["methods"]]
+        names = [subject["name"] for subject in record["cases"][0]["subjects"]]
         self.assertEqual(len(names), len(self.json_of("list", "pairs")["rows"]))
         self.refused("verify", "--all", "rk4", code="bad-syntax", says="--all")
 
@@ -52,14 +52,15 @@ class Record(CommandTest):
     def test_holds_the_request(self):
         record = self.record("rk4", "newmark", "--case", "two-parameter", "--set", "N=1,xi1=0.1",
                              "--coarsest", "0.04", "--levels", "2", "--neighbours", "3", "--jobs", "1")
-        self.assertEqual(record["schema"], "clackers/verify/1")
-        self.assertEqual(record["plan"], {"coarsest": 0.04, "levels": 2, "neighbours": 3})
-        self.assertEqual(record["case"]["name"], "two-parameter")
-        self.assertEqual({p["name"]: p["value"] for p in record["case"]["parameters"]},
+        self.assertEqual((record["schema"], record["command"]), ("clackers/record/1", "verify"))
+        case, = record["cases"]
+        self.assertEqual(case["plan"], {"coarsest": 0.04, "levels": 2, "samples_per_level": 3})
+        self.assertEqual(case["problem"]["name"], "two-parameter")
+        self.assertEqual({p["name"]: p["value"] for p in case["problem"]["parameters"]},
                          {"N": 1, "xi1": 0.1})
-        self.assertEqual([m["name"].split("+")[0] for m in record["methods"]], ["rk4", "newmark"])
-        for method in record["methods"]:
-            self.assertEqual([len(level["runs"]) for level in method["ladder"]], [3, 3])
+        self.assertEqual([m["name"] for m in case["subjects"]], ["rk4", "newmark"])
+        for subject in case["subjects"]:
+            self.assertEqual([len(level["runs"]) for level in subject["levels"]], [3, 3])
         self.assertFalse(record["interrupted"])
 
     def test_holds_the_command_as_a_shell_reads_it(self):
@@ -78,10 +79,9 @@ class Record(CommandTest):
 
     def test_without_arguments_is_the_default_panel_on_the_default_case(self):
         record = self.record(*SHORT_LADDER)
-        self.assertEqual(record["case"]["name"], "three-parameter")
-        # Their full names, with the treatment that is understood.
-        self.assertEqual([m["name"] for m in record["methods"]],
-                         [n if "+" in n or n == "moreau-jean" else n + "+event-driven" for n in PANEL])
+        case, = record["cases"]
+        self.assertEqual(case["problem"]["name"], "three-parameter")
+        self.assertEqual(tuple(m["name"] for m in case["subjects"]), PANEL)
 
 
 class Report(CommandTest):
@@ -160,7 +160,7 @@ class Interrupted(CommandTest):
             self.assertIn(b"interrupted; the finished rows were kept. [interrupted]\n", error)
             with open(self.path("r.json")) as file:
                 record = json.load(file)
-            self.assertEqual((record["schema"], record["interrupted"]), ("clackers/verify/1", True))
+            self.assertEqual((record["schema"], record["interrupted"]), ("clackers/record/1", True))
             with open(self.path("r.html")) as file:
                 self.assertIn("interrupted", file.read())
             self.assertEqual(self.files(), ["r.html", "r.json"])

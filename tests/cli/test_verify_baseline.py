@@ -1,9 +1,11 @@
-"""verify --baseline: what changed since an earlier record, in words."""
+"""verify --baseline, check --baseline: what changed since an earlier record, in words."""
 import json
+import math
 import os
 import unittest
 
 from command import LONG_LADDER, CommandTest, run
+from histories import CheckTest
 
 QUICK = ("--coarsest", "0.05", "--levels", "5", "--neighbours", "2", "--jobs", "1")
 
@@ -36,10 +38,10 @@ class Baseline(CommandTest):
         before = run("verify", "rk4", "moreau-jean", *QUICK).returncode
 
         def change(record):
-            method = record["methods"][0]
+            method = record["cases"][0]["subjects"][0]
             method["assessment"]["verdict"] = "disagrees"
             method["assessment"]["displacement"]["behaviour"] = "reduced"
-            finest = method["ladder"][-1]["runs"][-1]
+            finest = method["levels"][-1]["runs"][-1]
             finest["u_error"] /= 4
             finest["impacts"]["missed"] = 2
         self.bend(change)
@@ -73,7 +75,7 @@ class Baseline(CommandTest):
         with open(self.path("r.html")) as file:
             page = file.read()
         self.assertIn('<section id="changes"', page)
-        self.assertIn("newmark+event-driven</dt><dd><ul><li>is gone", page)
+        self.assertIn("newmark</dt><dd><ul><li>is gone", page)
 
     def test_may_come_from_standard_input(self):
         with open(self.old) as file:
@@ -84,7 +86,38 @@ class Baseline(CommandTest):
         done = run("verify", "rk4", *QUICK, "--baseline", self.old, "--format", "json", "--out", self.old)
         self.assertIn("1 of 2 methods changed", done.stderr.replace("\n", " "))
         with open(self.old) as file:
-            self.assertEqual(len(json.load(file)["methods"]), 1)
+            self.assertEqual(len(json.load(file)["cases"][0]["subjects"]), 1)
+
+
+class Cases(CommandTest):
+    def test_are_compared_by_their_names(self):
+        old = self.path("old.json")
+        both = ("--case", "stop", "--case", "symmetric-pair")
+        run("verify", "rk4", "newmark", *QUICK, *both, "--format", "json", "--out", old, "--quiet")
+        done = run("verify", "rk4", "newmark", *QUICK, *both, "--baseline", old)
+        self.assertIn("nothing changed", done.stdout.replace("\n", " "))
+        done = run("verify", "rk4", *QUICK, "--case", "stop", "--baseline", old)
+        self.assertIn("newmark", done.stdout.split("Against the baseline")[1])
+        self.refused("verify", "rk4", *QUICK, "--case", "sdof", "--baseline", old,
+                     code="other-study", says="another case")
+
+
+class Histories(CheckTest):
+    def test_are_compared_with_an_earlier_record(self):
+        old, path = self.path("old.json"), self.history("run.csv")
+        run("check", path, "--format", "json", "--out", old, "--quiet")
+        done = run("check", path, "--baseline", old)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("nothing changed", done.stdout.replace("\n", " "))
+        def worse(row):
+            row["u1"] += 1e-3 * math.sin(row["t"])
+            return row
+        done = run("check", self.history("run.csv", change=worse), "--baseline", old, "--format", "csv")
+        self.assertRegex(done.stderr, r"histories: error in u at h = 0\.01 s: 1\.00e-3, before 0\.")
+        self.refused("check", path, "--case", "stop", "--baseline", old, code="other-study",
+                     says="another case")
+        self.refused("verify", "rk4", *QUICK, "--baseline", old, code="other-study",
+                     says="another command: clackers check")
 
 
 class Refusals(CommandTest):

@@ -1,4 +1,4 @@
-"""The json of verify is what docs/schemas/verify-1.json says, and nothing else is."""
+"""The json of a record is what docs/schemas/record-1.json says, and nothing else is."""
 import copy
 import json
 import os
@@ -8,19 +8,10 @@ import jsonschema  # Debian: python3-jsonschema
 
 from command import CommandTest, run
 
-SCHEMA = os.path.join(os.path.dirname(__file__), "../../docs/schemas/verify-1.json")
+SCHEMA = os.path.join(os.path.dirname(__file__), "../../docs/schemas/record-1.json")
 
 # Values that some other field might have; of them a bent record is made.
 OTHERS = (None, True, 7, 0.5, "text", [], {})
-
-# Fields of a method that records of earlier versions lack.
-LATER = (("self_convergence",), ("metrics",), ("metrics_step",))
-
-
-def is_later(path):
-    """Whether records of earlier versions lack the field."""
-    return path == ("profiles",) or (path[0] == "methods" and path[2:] in LATER)
-
 
 def places(value, path=()):
     """The paths of all values inside json, of each list the first item only."""
@@ -53,16 +44,19 @@ class Schema(CommandTest):
         cls.record = json.loads(done.stdout)
         # Small, so that it can be bent in every place: one method that ran, one that refused.
         cls.whole = copy.deepcopy(cls.record)
-        del cls.record["methods"][-1]
-        del cls.record["case"]["constants"][1:]
-        for method in cls.record["methods"]:
-            method["ladder"] = method["ladder"][:1]
-            for level in method["ladder"]:
+        case, = cls.record["cases"]
+        del case["subjects"][-1]
+        del case["problem"]["constants"][1:]
+        for subject in case["subjects"]:
+            # The finest level: its first run has the metrics.
+            subject["levels"] = subject["levels"][-1:]
+            for level in subject["levels"]:
                 del level["runs"][1:]
-            method["metrics"] = method["metrics"][:1]
-            method["error_history"] = {name: rows[:2] for name, rows in method["error_history"].items()}
-        del cls.record["profiles"][1:]
-        cls.record["response"] = {"t": [0.0, 1.0], "y": [[1.0, "nan"], ["inf", "-inf"]]}
+                for found in level["runs"]:
+                    del found["metrics"][1:]
+                    found["error_history"] = {k: v[:2] for k, v in found["error_history"].items()}
+        del case["profiles"][1:]
+        case["response"] = {"t": [0.0, 1.0], "y": [[1.0, "nan"], ["inf", "-inf"]]}
 
     def good_record(self):
         return copy.deepcopy(self.record)
@@ -73,7 +67,7 @@ class Schema(CommandTest):
     def test_takes_what_verify_writes(self):
         self.validator.validate(self.whole)
         self.validator.validate(self.record)
-        self.assertTrue(any(method["refusal"] for method in self.record["methods"]))
+        self.assertTrue(any(subject["refusal"] for subject in self.record["cases"][0]["subjects"]))
 
     def test_takes_the_default_panel_and_every_pair(self):
         for methods in ((), ("--all",)):
@@ -83,30 +77,21 @@ class Schema(CommandTest):
 
     def test_takes_a_run_that_reports_no_collisions(self):
         record = self.good_record()
-        record["methods"][0]["ladder"][0]["runs"][0]["impacts"] = None
+        record["cases"][0]["subjects"][0]["levels"][0]["runs"][0]["impacts"] = None
         self.assertTrue(self.is_valid(record))
 
-    def test_takes_a_record_of_an_earlier_version(self):
-        record = self.good_record()
-        for method in record["methods"]:
-            for (field,) in LATER:
-                del method[field]
-        del record["profiles"]
-        self.assertTrue(self.is_valid(record))
-
-    def test_tells_metrics_and_what_the_runs_say_of_themselves(self):
-        method = self.whole["methods"][0]
+    def test_the_first_run_of_the_finest_level_has_the_listed_metrics(self):
+        subject = self.whole["cases"][0]["subjects"][0]
         listed = {row[0] for row in json.loads(
             run("list", "metrics", "--format", "json").stdout)["rows"]}
-        names = [metric["name"] for metric in method["metrics"]]
-        self.assertEqual(len(names), 57)
+        names = [metric["name"] for metric in subject["levels"][-1]["runs"][0]["metrics"]]
+        self.assertTrue(names)
         self.assertLessEqual(set(names), listed)
-        self.assertEqual(method["metrics_step"], method["ladder"][-1]["runs"][0]["step"])
-        self.assertIsNotNone(method["self_convergence"])
+        self.assertIsNotNone(subject["self_convergence"])
 
     def test_refuses_a_record_without_any_one_of_its_fields(self):
         for path in places(self.record):
-            if path and isinstance(path[-1], str) and not is_later(path):
+            if path and isinstance(path[-1], str):
                 bent = self.good_record()
                 del holder(bent, path)[path[-1]]
                 self.assertFalse(self.is_valid(bent), path)
@@ -129,9 +114,9 @@ class Schema(CommandTest):
                 number = number or was in ("nan", "inf", "-inf")
                 # No estimate is made of an extrapolation; a number may stand there as well.
                 open_estimate = path[-2:] == ("extrapolation", "estimate")
-                number = number or open_estimate
+                number = number or open_estimate or path[-1] == "tolerance"
                 same = type(other) is type(was) or (number and type(other) in (int, float))
-                if path[-1] in ("impacts", "self_convergence") or open_estimate:
+                if path[-1] in ("impacts", "self_convergence", "file", "tolerance") or open_estimate:
                     same = same or other is None
                 # A count is whole; the other numbers need not be.
                 if same and not isinstance(other, (list, dict)) and not path[-1] == "schema":
@@ -145,27 +130,27 @@ class Schema(CommandTest):
     def test_takes_every_behaviour_and_verdict(self):
         for name in ("exact", "proper", "reduced", "irregular", "stagnating", "divergent", "undecided"):
             record = self.good_record()
-            record["methods"][0]["claim"]["behaviour"] = name
-            record["methods"][0]["assessment"]["impact_time"]["behaviour"] = name
+            record["cases"][0]["subjects"][0]["claim"]["behaviour"] = name
+            record["cases"][0]["subjects"][0]["assessment"]["impact_time"]["behaviour"] = name
             self.assertTrue(self.is_valid(record), name)
         for name in ("agrees", "disagrees", "not claimed", "undecided"):
             record = self.good_record()
-            record["methods"][0]["assessment"]["verdict"] = name
+            record["cases"][0]["subjects"][0]["assessment"]["verdict"] = name
             self.assertTrue(self.is_valid(record), name)
 
     def test_refuses_other_words_and_counts_that_are_not_whole(self):
-        for path, value in ((("schema",), "clackers/verify/2"),
-                            (("methods", 0, "assessment", "verdict"), "maybe"),
-                            (("methods", 0, "claim", "behaviour"), "fine"),
-                            (("methods", 0, "assessment", "velocity", "behaviour"), "agrees"),
-                            (("plan", "levels"), 7.5),
-                            (("plan", "levels"), 0),
-                            (("plan", "neighbours"), 65),
-                            (("case", "impact_count"), -1),
-                            (("case", "end"), "NaN"),
-                            (("methods", 0, "ladder", 0, "runs", 0, "work", "steps"), 1.5),
-                            (("methods", 0, "ladder", 0, "runs", 0, "impacts", "missed"), -1),
-                            (("response", "y", 0, 0), None)):
+        for path, value in ((("schema",), "clackers/verify/1"),
+                            (("cases", 0, "subjects", 0, "assessment", "verdict"), "maybe"),
+                            (("cases", 0, "subjects", 0, "claim", "behaviour"), "fine"),
+                            (("cases", 0, "subjects", 0, "assessment", "velocity", "behaviour"), "agrees"),
+                            (("cases", 0, "plan", "levels"), 7.5),
+                            (("cases", 0, "plan", "levels"), -1),
+                            (("cases", 0, "plan", "samples_per_level"), 65),
+                            (("cases", 0, "problem", "impact_count"), -1),
+                            (("cases", 0, "problem", "end"), "NaN"),
+                            (("cases", 0, "subjects", 0, "levels", 0, "runs", 0, "work", "steps"), 1.5),
+                            (("cases", 0, "subjects", 0, "levels", 0, "runs", 0, "impacts", "missed"), -1),
+                            (("cases", 0, "response", "y", 0, 0), None)):
             bent = self.good_record()
             holder(bent, path)[path[-1]] = value
             self.assertFalse(self.is_valid(bent), (path, value))
@@ -174,11 +159,11 @@ class Schema(CommandTest):
         for change in ("missing", "unknown", "kind", "schema"):
             bent = self.good_record()
             if change == "missing":
-                del bent["methods"][0]["claim"]["order"]
+                del bent["cases"][0]["subjects"][0]["claim"]["order"]
             elif change == "unknown":
-                bent["case"]["extra"] = 1
+                bent["cases"][0]["problem"]["extra"] = 1
             elif change == "kind":
-                bent["methods"][0]["ladder"][0]["runs"][0]["seconds"] = [1]
+                bent["cases"][0]["subjects"][0]["levels"][0]["runs"][0]["seconds"] = [1]
             else:
                 bent["schema"] = "clackers/check/1"
             self.assertFalse(self.is_valid(bent))

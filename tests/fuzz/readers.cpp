@@ -7,7 +7,7 @@
 #include "clackers/exchange/history.hpp"
 #include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
-#include "cli/files/times_file.hpp"
+#include "cli/files/input_files.hpp"
 #include "cli/values.hpp"
 #include "target.hpp"
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "target.hpp"
 
@@ -26,11 +27,9 @@ void replay(const clackers::fuzz::Target& target, const fs::path& file) {
 int main(int argc, char** argv) {
   const auto& target = clackers::fuzz::target(argc > 1 ? argv[1] : "");
   for (int i = 2; i < argc; ++i) {
-    if (!fs::is_directory(argv[i])) {
-      replay(target, argv[i]);
-      continue;
-    }
-    for (const auto& file : fs::directory_iterator(argv[i])) replay(target, file.path());
+    std::set<fs::path> files{argv[i]};
+    if (fs::is_directory(argv[i])) files = {fs::directory_iterator(argv[i]), {}};
+    for (const auto& file : files) replay(target, file);
   }
   if (count > 0) return 0;
   std::fputs("fuzz: no file was replayed\n", stderr);

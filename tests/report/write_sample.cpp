@@ -2,7 +2,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "clackers/report/sample_record.hpp"
+#include "clackers/report/testing/sample_record.hpp"
 #include "clackers/report/write.hpp"
 
 int main(int count, char** arguments) {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "clackers/assess/convergence/error_ladder.hpp"
+#include "clackers/assess/convergence/fit/error_ladder.hpp"
 #include "clackers/assess/convergence/ladder_fit.hpp"
 #include "clackers/base/codes.hpp"
 

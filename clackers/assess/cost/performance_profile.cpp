@@ -42,29 +42,28 @@ std::vector<ProfileStep> steps_of(std::vector<double> ratios) {
 
 }  // namespace
 
-PerformanceProfile performance_profile(const CostTable& table) {
+std::vector<MethodProfile> performance_profile(const CostTable& table) {
   validate(table);
-  PerformanceProfile found;
+  std::vector<MethodProfile> methods;
   for (const auto& name : table.methods) {
-    found.methods.emplace_back();
-    found.methods.back().method = name;
+    methods.emplace_back();
+    methods.back().method = name;
   }
   for (std::size_t task = 0; task < table.tasks.size(); ++task) {
     double least = failure;
     for (const auto& row : table.costs)
       if (row[task] < least) least = row[task];
-    if (least == failure) found.unsolved.push_back(table.tasks[task]);
     for (std::size_t i = 0; i < table.methods.size(); ++i) {
       const double cost = table.costs[i][task];
       const bool solved = std::isfinite(cost);
-      auto& method = found.methods[i];
+      auto& method = methods[i];
       method.ratios.push_back(solved ? cost / least : failure);
       method.best += solved && cost == least;
       method.failed += !solved;
     }
   }
-  for (auto& method : found.methods) method.steps = steps_of(method.ratios);
-  return found;
+  for (auto& method : methods) method.steps = steps_of(method.ratios);
+  return methods;
 }
 
 double share_within(const MethodProfile& profile, double ratio) {

@@ -98,6 +98,14 @@ void Comparison::sample_reference() {
   }
 }
 
+double Comparison::rounding_floor() const {
+  double floor = std::numeric_limits<double>::epsilon() * double(rows());
+  const auto scale = reference_scale(reference_);
+  for (const double t : {given_.t.front(), given_.t.back()})
+    floor = std::max(floor, relative_bound(reference_, scale, t));
+  return floor;
+}
+
 double Comparison::collision_period() const {
   if (collision_period_ == 0.0)
     collision_period_ = reference_.impact_count(reference_.end()) < 2
@@ -154,9 +162,7 @@ void Comparison::match_impacts(double step) {
     matcher.take(impact.t,
                  rests_in_contact(reference_, problem_.contacts, impact.contact, impact.t),
                  impact.contact);
-  // Each row may be off by a unit of its envelope; at worst they add up.
-  const double rounding = std::numeric_limits<double>::epsilon() * double(t.size());
-  score_ = matcher.score(t.back(), rounding);
+  score_ = matcher.score(t.back(), rounding_floor());
   for (const auto& pair : matcher.pairs(t.back()))
     matches_.push_back({pair.report, reference_.impact(pair.reference)});
 }

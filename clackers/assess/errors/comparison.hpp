@@ -65,6 +65,9 @@ class Comparison {
   /// Why a history is too sparse to be compared flight by flight: far fewer rows than true impacts
   /// in its time, each of which needs several rows. A sentence, or empty.
   std::string objection_to_sparse_rows() const;
+  /// What errors relative to their scale may be by rounding, a unit of each row, or by the error
+  /// bound of the reference at both ends of the history, whichever is larger.
+  double rounding_floor() const;
   /// First row of two with one time: the left limit of a jump.
   bool is_left_limit(std::size_t row) const {
     return row + 1 < rows() && history().t[row + 1] == history().t[row];

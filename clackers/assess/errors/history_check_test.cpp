@@ -5,7 +5,6 @@
 #include <functional>
 #include <limits>
 
-#include "clackers/assess/testing/reference_history.hpp"
 #include "clackers/assess/testing/toy_motion.hpp"
 
 namespace clackers::assess {

@@ -6,23 +6,12 @@
 #include <numbers>
 #include <string>
 
+#include "clackers/assess/testing/sampled_motion.hpp"
 #include "clackers/assess/testing/shifted_history.hpp"
-#include "clackers/exact/pair/single_mass.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::assess {
 namespace {
-
-// Every number as a program with `digits` digits prints it.
-model::Trajectory printed(model::Trajectory history, int digits) {
-  for (auto* column : {&history.t, &history.u, &history.v})
-    for (double& entry : *column) {
-      char text[40];
-      std::snprintf(text, sizeof text, "%.*g", digits, entry);
-      entry = std::stod(text);
-    }
-  return history;
-}
 
 // How far the found collisions are from the true ones, which must be as many.
 double worst_time_error(const std::vector<FoundCollision>& found, const model::Motion& reference) {

@@ -7,7 +7,7 @@
 #include "clackers/assess/errors/comparison.hpp"
 #include "clackers/assess/metrics/metric.hpp"
 #include "clackers/assess/testing/shifted_history.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 // No input of a kilobyte, about 20 rows, takes a second, whatever its numbers are.
 namespace clackers::assess {

@@ -8,8 +8,7 @@
 
 #include "clackers/assess/metrics/distance/filled_graph.hpp"
 #include "clackers/assess/metrics/distance/hybrid_arc.hpp"
-#include "clackers/assess/metrics/distance/jump_invariant_distance.hpp"
-#include "clackers/assess/metrics/distance/unfolded_velocity.hpp"
+#include "clackers/assess/metrics/distance/undone_jumps.hpp"
 #include "clackers/assess/metrics/impacts/event_report.hpp"
 #include "clackers/assess/metrics/impacts/flight_error.hpp"
 #include "clackers/assess/metrics/impacts/phase_error.hpp"

@@ -10,8 +10,7 @@
 #include "clackers/assess/metrics/metric.hpp"
 #include "clackers/assess/testing/shifted_history.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/pair/single_mass.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::assess {
 namespace {

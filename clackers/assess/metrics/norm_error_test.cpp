@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "clackers/assess/errors/error_sink.hpp"
-#include "clackers/assess/testing/reference_history.hpp"
 #include "clackers/assess/testing/shifted_history.hpp"
 #include "clackers/assess/testing/toy_motion.hpp"
 

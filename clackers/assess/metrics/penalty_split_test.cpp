@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "clackers/assess/testing/toy_history.hpp"
+#include "clackers/assess/testing/toy_motion.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/exact/penalized/penalized_motion.hpp"
 #include "clackers/methods/registry.hpp"
 

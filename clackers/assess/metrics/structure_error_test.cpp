@@ -1,10 +1,10 @@
 #include "clackers/assess/metrics/structure_error.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "clackers/assess/errors/mechanics.hpp"
-#include "clackers/assess/testing/reference_history.hpp"
 #include "clackers/assess/testing/toy_motion.hpp"
 
 namespace clackers::assess {

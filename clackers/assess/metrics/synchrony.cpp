@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "clackers/assess/metrics/metric.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/numerics/line_fit.hpp"
 
 namespace clackers::assess {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double visible = 0.025;  // relative momentum from which on growth is fitted
-constexpr double fewest = 3.0;     // points of a fit
+constexpr std::size_t fewest = 3;  // points of a fit
 
 }  // namespace
 
@@ -32,25 +34,19 @@ void SynchronyWatch::take(double found, double reference, double momentum) {
     return;
   }
   const double size = std::abs(momentum);
-  if (!(size > visible)) {
-    n_ = k_ = kk_ = y_ = ky_ = 0.0;
-    return;
-  }
-  // Counted from the first one of the fit, so that the sums keep their digits.
-  const double k = n_, y = std::log(size);
-  n_ += 1.0;
-  k_ += k;
-  kk_ += k * k;
-  y_ += y;
-  ky_ += k * y;
+  if (size > visible)
+    momenta_.push_back(std::log(size));
+  else
+    momenta_.clear();
 }
 
 SynchronyLoss SynchronyWatch::loss() const {
-  const double spread = n_ * kk_ - k_ * k_;
+  std::vector<double> numbers(momenta_.size());
+  std::iota(numbers.begin(), numbers.end(), 0.0);
   return {.collisions = count_,
           .lost = lost_,
           .worst = worst_,
-          .growth = n_ >= fewest ? (n_ * ky_ - k_ * y_) / spread : nan};
+          .growth = numbers.size() >= fewest ? numerics::fit_line(numbers, momenta_).slope : nan};
 }
 
 double relative_momentum(const model::SmoothSystem<>& system, std::span<const double> v) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "clackers/assess/errors/comparison.hpp"
 #include "clackers/assess/metrics/metric.hpp"
@@ -24,7 +25,7 @@ struct SynchronyLoss {
   double growth = 0.0;
 };
 
-/// Looks at collisions as they come and needs no memory of them. The spacing of a collision is the
+/// Looks at collisions as they come. The spacing of a collision is the
 /// time since the one before it, of the first one since the start.
 class SynchronyWatch {
  public:
@@ -40,7 +41,7 @@ class SynchronyWatch {
   double period_, found_, reference_, worst_ = 0.0;
   long long count_ = 0;
   std::optional<long long> lost_;
-  double n_ = 0.0, k_ = 0.0, kk_ = 0.0, y_ = 0.0, ky_ = 0.0;  // sums of the line fit
+  std::vector<double> momenta_;  ///< ln|p| since it last rose
 };
 
 /// p after an impact: sum of (M v)_i over sum of |(M v)_i|; NaN for one mass, and at rest.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/assess/testing/toy_history.hpp"
+#include "clackers/assess/testing/toy_motion.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/quantities/conditioning.hpp"
 #include "clackers/methods/registry.hpp"

@@ -47,9 +47,9 @@ inline StateAt unconstrained_motion(double w1, double w2, double phase) {
   };
 }
 
-/// Every displacement and velocity as a program with so many digits prints it.
+/// Every time, displacement and velocity as a program with so many digits prints it.
 inline model::Trajectory printed(model::Trajectory history, int digits) {
-  for (auto* column : {&history.u, &history.v})
+  for (auto* column : {&history.t, &history.u, &history.v})
     for (double& entry : *column) {
       char text[40];
       std::snprintf(text, sizeof text, "%.*g", digits, entry);

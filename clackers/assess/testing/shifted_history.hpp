@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "clackers/assess/errors/vectors.hpp"
 #include "clackers/model/motion.hpp"
 #include "clackers/model/trajectory.hpp"
 
@@ -32,9 +33,6 @@ inline model::Trajectory shifted(const model::Motion& reference, const ShiftedHi
       if (how.accelerations) history.a.push_back(now.a[i]);
     }
   };
-  const auto list = [](const Eigen::VectorXd& x) {
-    return std::vector<double>(x.data(), x.data() + x.size());
-  };
   const auto known = reference.impact_count(reference.end());
   const auto rows = std::llround(std::floor(reference.end() / how.step * (1.0 + 1e-12)));
   long long passed = 0, row = 0;
@@ -60,8 +58,8 @@ inline model::Trajectory shifted(const model::Motion& reference, const ShiftedHi
       add(at, next.after);
     }
     if (how.reports)
-      history.impacts->push_back({at, next.contact, list(next.before.u), list(next.before.v),
-                                  list(next.after.v), next.impulse});
+      history.impacts->push_back({at, next.contact, entries(next.before.u), entries(next.before.v),
+                                  entries(next.after.v), next.impulse});
     from = at;
     true_from = next.t;
     ++passed;

@@ -7,8 +7,7 @@
 #include <string>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/pair/exact_data_pair.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::exact {
 namespace {

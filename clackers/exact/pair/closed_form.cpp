@@ -39,8 +39,18 @@ Kinematics make_kinematics(int n) {
 
 }  // namespace
 
-ClosedForm::ClosedForm(const WideMotion& motion)
-    : c_(flight_constants(motion)), problem_(impact_problem(motion)) {}
+ClosedForm::ClosedForm(const Parameters& parameters, std::string_view who)
+    : ClosedForm(parameters, derive(who, parameters)) {}
+
+ClosedForm::ClosedForm(const Parameters& parameters, Derived derived)
+    : parameters_(parameters),
+      c_(std::move(derived.flight)),
+      problem_(std::move(derived.problem)),
+      pair_(derived.pair) {}
+
+const ClosedForm* as_closed_form(const model::Motion& motion) {
+  return dynamic_cast<const ClosedForm*>(&motion);
+}
 
 ClosedForm::Phase ClosedForm::phase_at(double t) const {
   const auto turns = c_.turns * t;
@@ -68,19 +78,19 @@ ClosedForm::Phase ClosedForm::flight_at(double t, Side side) const {
   const double natural = phase.flight;
   if (!c_.collides) {
     phase.flight = 0.0;
-    // Whole turns change nothing; an odd number of half turns is one.
+    // An even number of half turns changes nothing, an odd one is a half turn.
     if (std::fmod(natural, 2.0) != 0.0)
-      phase.half_turns = phase.half_turns + DoubleDouble{1.0, 0.0};
+      phase.theta_over_pi = phase.theta_over_pi + DoubleDouble{1.0, 0.0};
     return phase;
   }
   // Half an ulp of t is at most 2^-53 Omega t / pi < 2^-53 (k + 1) half turns; twice that filters.
   constexpr double two_to_minus_52 = 0x1p-52;
-  const double y = phase.half_turns.hi;
+  const double y = phase.theta_over_pi.hi;
   if (0.5 - std::abs(y) <= (natural + 1.0) * two_to_minus_52) {
     const double k = y > 0.0 ? natural + 1.0 : natural;
     if (instant(k).nearest == t) {
       phase.flight = side == Side::left ? k - 1.0 : k;
-      phase.half_turns = phase.half_turns + DoubleDouble{natural - phase.flight, 0.0};
+      phase.theta_over_pi = phase.theta_over_pi + DoubleDouble{natural - phase.flight, 0.0};
     }
   }
   return phase;
@@ -129,14 +139,14 @@ void ClosedForm::sample(std::span<const double> times, Side side, model::SampleB
 
 void ClosedForm::sample_one(double t, Side side, double* u, double* v, double* a) const {
   require_inside(t);
-  const auto [k, half_turns] = c_.collides ? flight_at(t, side) : phase_at(t);
+  const auto [k, theta_over_pi] = c_.collides ? flight_at(t, side) : phase_at(t);
   const bool rests = c_.eta == 0.0 && k > 0.0;
   const double flight = c_.collides ? k : 0.0;
   auto [e, exponent] = rests ? Scaled{} : power(c_.log2_eta * flight - c_.decay * t);
   // Without a stop an odd number of half turns changes the sign.
   if (!c_.collides && std::fmod(k, 2.0) != 0.0) e = -e;
   for (const auto& mass : c_.masses) {
-    const auto [sine, cosine] = numerics::sincospi(half_turns * mass.multiple);
+    const auto [sine, cosine] = numerics::sincospi(theta_over_pi * mass.multiple);
     const auto ec = e * cosine, es = e * sine;
     *u++ = rounded(mass.b * ec, exponent);
     *v++ = rounded(mass.v_cos * ec + mass.v_sin * es, exponent);

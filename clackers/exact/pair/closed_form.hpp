@@ -1,6 +1,8 @@
 #pragma once
 
-#include "clackers/exact/pair/flight_constants.hpp"
+#include <string_view>
+
+#include "clackers/exact/pair/high_precision.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
 
@@ -10,8 +12,8 @@ namespace clackers::exact {
 /// which all masses pass equilibrium together. The base of all motions of this module.
 ///
 /// Evaluation: the phase Omega t / pi is formed with 159 bits and reduced exactly, sines, cosines
-/// and powers carry 63 bits or more, and the result is rounded once at the end; evaluation.md.
-/// Const, without allocation, safe to share between threads.
+/// and powers carry 63 bits or more, and the result is rounded once at the end;
+/// evaluation.md. Const, without allocation, safe to share between threads.
 class ClosedForm : public model::Motion {
  public:
   int dof() const override { return static_cast<int>(c_.masses.size()); }
@@ -42,15 +44,19 @@ class ClosedForm : public model::Motion {
   model::MotionImpact impact(long long index) const override;
 
   /// What a method is given: the system and its start, each number the nearest double.
-  model::ImpactProblem<> problem() const { return problem_; }
+  const model::ImpactProblem<>& problem() const { return problem_; }
 
   /// What evaluating it needs.
   const FlightConstants& flight() const { return c_; }
 
+  /// The free parameters, and what follows from those of two masses.
+  const Parameters& parameters() const { return parameters_; }
+  const std::optional<PairConstants>& pair() const { return pair_; }
+
   /// Flight k, counted as a double to avoid conversions, and theta / pi in it.
   struct Phase {
     double flight = 0.0;
-    numerics::DoubleDouble half_turns;
+    numerics::DoubleDouble theta_over_pi;
   };
   /// The flight that holds at t, or that `side` means where t is the double nearest to a collision.
   /// theta / pi lies in [-1/2, 1/2], without a stop in [-1, 1]. Throws InputError outside
@@ -58,17 +64,65 @@ class ClosedForm : public model::Motion {
   Phase phase(double t, model::Side side) const;
 
  protected:
-  explicit ClosedForm(const WideMotion& motion);
+  /// Throws InputError as derive() does.
+  ClosedForm(const Parameters& parameters, std::string_view who);
 
  private:
+  ClosedForm(const Parameters& parameters, Derived derived);
   Phase phase_at(double t) const;
   Phase flight_at(double t, model::Side side) const;
   numerics::Neighbour instant(double k) const;
   void require_inside(double t) const;
   void sample_one(double t, model::Side side, double* u, double* v, double* a) const;
 
+  Parameters parameters_;
   FlightConstants c_;
   model::ImpactProblem<> problem_;
+  std::optional<PairConstants> pair_;
+};
+
+/// The motion as one in closed form, or null.
+const ClosedForm* as_closed_form(const model::Motion& motion);
+
+/// u'' + 2 xi1 u' + u = 0, u(0) = 1, u'(0) = -xi1 with no stop: Eq. (3), solved by Eq. (4).
+class FreeMass : public ClosedForm {
+ public:
+  explicit FreeMass(const FreeMassParameters& parameters, std::string_view who = "sdof")
+      : ClosedForm(parameters, who) {}
+};
+
+/// The same mass above a rigid stop at its equilibrium: Eq. (5), for any restitution.
+class RigidStop : public ClosedForm {
+ public:
+  explicit RigidStop(const RigidStopParameters& parameters, std::string_view who = "stop")
+      : ClosedForm(parameters, who) {}
+};
+
+/// The exact motion of two masses, each on its own spring and dashpot, that collide only at their
+/// common equilibrium: Eq. (9), (12), (13), (15)-(17) with any mass ratio, restitution and odd X.
+/// It is exact for the binary64 values of the parameters, and X = 1/odd stands for that fraction.
+/// u1(0) = A and u2(0) = -s r A/X with s = (-1)^((odd-1)/2), except for X = 1/odd, where they are
+/// s A and -r A/X: mass 2 is the slow one then and starts below.
+class SynchronizedPair : public ClosedForm {
+ public:
+  explicit SynchronizedPair(const PairParameters& parameters,
+                            std::string_view who = "synchronized-pair")
+      : ClosedForm(parameters, who) {}
+  const PairConstants& constants() const { return *pair(); }
+};
+
+/// A synchronized pair all of whose model inputs (masses, dampings, stiffnesses, initial state) are
+/// exactly binary64 numbers, so that a method receives the true system: m1 = r m2, c_i = 2 m_i
+/// sigma, k1 = m1 (Omega^2 + sigma^2), k2 = m2 (X^2 Omega^2 + sigma^2), u1(0) = X (A/X), u2(0) =
+/// -s r (A/X), v_i(0) = -sigma u_i(0). Any rounding of k2 alone would move the phase by X Omega t
+/// times 5e-17. Throws InputError (not-exact-data) for parameters with which some input is no binary64
+/// number, naming the input.
+class ExactDataPair : public ClosedForm {
+ public:
+  explicit ExactDataPair(const ExactDataParameters& parameters,
+                         std::string_view who = "exact-data-pair")
+      : ClosedForm(parameters, who) {}
+  const PairConstants& constants() const { return *pair(); }
 };
 
 }  // namespace clackers::exact

@@ -267,8 +267,8 @@ TEST(ClosedForm, EarlyCollisionsAreCountedOnTheRightSideOfTheirInstants) {
     const RigidStop motion({.xi1 = box.uniform(0.0, 0.9), .t_end = 100.0});
     for (long long k = 1; k <= 5; ++k) {
       const auto when = motion.impact(k).when;
-      EXPECT_EQ(motion.impact_count(when.lo), k - 1) << motion.parameters().xi1 << " seed " << seed;
-      EXPECT_EQ(motion.impact_count(when.hi), k) << motion.parameters().xi1 << " seed " << seed;
+      EXPECT_EQ(motion.impact_count(when.lo), k - 1) << "trial " << i << " seed " << seed;
+      EXPECT_EQ(motion.impact_count(when.hi), k) << "trial " << i << " seed " << seed;
     }
   }
 }

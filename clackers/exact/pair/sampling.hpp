@@ -2,10 +2,44 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
-#include "clackers/exact/pair/flight_constants.hpp"
+#include "clackers/numerics/double_double.hpp"
+#include "clackers/numerics/triple_double.hpp"
 
 namespace clackers::exact {
+
+/// One mass of a motion u = b E cos(p theta), with theta = Omega t - k pi in [-pi/2, pi/2),
+/// E = eta^k exp(-sigma t) and k the collisions so far. Per unit of E:
+///     u = b C,   v = v_cos C + v_sin S,   a = a_cos C + a_sin S,   C, S = cos, sin(p theta).
+struct MassConstants {
+  double multiple = 1.0;         ///< p = damped frequency / Omega, odd
+  numerics::DoubleDouble b;      ///< u(0) [m]
+  numerics::DoubleDouble v_cos;  ///< -b sigma
+  numerics::DoubleDouble v_sin;  ///< -b p Omega
+  numerics::DoubleDouble a_cos;  ///< b (sigma^2 - p^2 Omega^2)
+  numerics::DoubleDouble a_sin;  ///< 2 b sigma p Omega
+  numerics::DoubleDouble v_hit;  ///< velocity before a collision: -b p Omega sin(p pi/2)
+  numerics::DoubleDouble a_hit;  ///< acceleration there: -2 sigma v_hit
+  double u_envelope = 0.0;       ///< |b|
+  double v_envelope = 0.0;       ///< |b| omega, omega^2 = p^2 Omega^2 + sigma^2
+  double a_envelope = 0.0;       ///< |b| omega^2
+};
+
+/// All that evaluating a motion needs, each constant to its full length.
+struct FlightConstants {
+  std::vector<MassConstants> masses;  ///< one or two
+  bool collides = true;               ///< false: the free mass
+  double eta = 1.0;
+  double end = 0.0;                     ///< [s]
+  numerics::TripleDouble turns;         ///< Omega / pi, half turns a second
+  numerics::TripleDouble period;        ///< T = pi / Omega [s], time between collisions
+  numerics::DoubleDouble decay;         ///< sigma / ln 2, halvings a second
+  numerics::DoubleDouble period_decay;  ///< sigma T / ln 2
+  numerics::DoubleDouble log2_eta;      ///< 0 when eta = 0, where it is not used
+  numerics::DoubleDouble impulse;       ///< (1 + eta) m1 |v_hit| of mass 1 [N s]
+  numerics::DoubleDouble energy;        ///< sum of m v_hit^2 / 2 [J]
+};
 
 /// How many times sample_block() takes at most: a bit each in its result.
 inline constexpr std::size_t most_in_block = 64;

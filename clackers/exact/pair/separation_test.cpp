@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::exact {
 namespace {

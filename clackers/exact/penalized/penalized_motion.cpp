@@ -57,7 +57,7 @@ PenalizedMotion::PenalizedMotion(const model::ImpactProblem<>& problem, double s
   shortest_step_ = 1e-6 / std::max(regimes_[0].omega.maxCoeff(), regimes_[1].omega.maxCoeff());
 
   phases_.push_back(begin(start_.t, false, start_.u, start_.v));
-  phases_[0].spread = MatrixXd::Zero(2 * dof(), 2 * dof());
+  phases_[0].error_covariance = MatrixXd::Zero(2 * dof(), 2 * dof());
   VectorXd y, rate;
   while (const auto s = phase_end(phases_.back())) {
     const Phase& now = phases_.back();
@@ -67,8 +67,9 @@ PenalizedMotion::PenalizedMotion(const model::ImpactProblem<>& problem, double s
       refuse(who, "end", end_, "as many seconds as 1e6 contacts take");
     modes(now, t - now.t, y, rate);
     const auto& regime = of(now);
-    auto next = begin(t, !now.closed, regime.rest + regime.shapes * y, regime.shapes * rate);
-    next.spread = spread_after(now, t - now.t);
+    auto next =
+        begin(t, !now.closed, regime.static_displacement + regime.shapes * y, regime.shapes * rate);
+    next.error_covariance = error_after(now, t - now.t);
     if (next.closed) contacts_.push_back(phases_.size());
     phases_.push_back(std::move(next));
   }
@@ -77,11 +78,11 @@ PenalizedMotion::PenalizedMotion(const model::ImpactProblem<>& problem, double s
 PenalizedMotion::Regime PenalizedMotion::regime(bool closed) const {
   Regime made;
   made.stiffness = system_.stiffness;
-  made.rest = VectorXd::Zero(dof());
+  made.static_displacement = VectorXd::Zero(dof());
   const auto& b = contact_.direction;
   if (closed) {
     made.stiffness += stiffness_ * b * b.transpose();
-    made.rest = made.stiffness.ldlt().solve(stiffness_ * contact_.gap * b);
+    made.static_displacement = made.stiffness.ldlt().solve(stiffness_ * contact_.gap * b);
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(made.stiffness, system_.mass);
   made.shapes = solver.eigenvectors();
@@ -92,12 +93,13 @@ PenalizedMotion::Regime PenalizedMotion::regime(bool closed) const {
            "Every mode must be underdamped.");
   made.omega = squares.cwiseSqrt();
   made.w = (squares.array() - sigma_ * sigma_).sqrt();
-  made.opening = made.shapes.transpose() * b;
+  made.gap_shape = made.shapes.transpose() * b;
   // Eigenvalues of a full matrix have the absolute error of the largest, of which omega has half the
   // relative one.
   const bool uncoupled = is_diagonal(made.stiffness) && is_diagonal(system_.mass);
-  made.blur = VectorXd::Constant(dof(), 4.0 * epsilon);
-  if (!uncoupled) made.blur = made.blur.array() * squares.maxCoeff() / squares.array();
+  made.omega_error = VectorXd::Constant(dof(), 4.0 * epsilon);
+  if (!uncoupled)
+    made.omega_error = made.omega_error.array() * squares.maxCoeff() / squares.array();
   return made;
 }
 
@@ -107,7 +109,7 @@ PenalizedMotion::Phase PenalizedMotion::begin(double t, bool closed, const Vecto
   made.t = t;
   made.closed = closed;
   const auto& regime = of(made);
-  made.p = regime.shapes.transpose() * (system_.mass * (u - regime.rest));
+  made.p = regime.shapes.transpose() * (system_.mass * (u - regime.static_displacement));
   const VectorXd rate = regime.shapes.transpose() * (system_.mass * v);
   made.q = (rate + sigma_ * made.p).cwiseQuotient(regime.w);
   return made;
@@ -125,33 +127,33 @@ void PenalizedMotion::modes(const Phase& phase, double s, VectorXd& y, VectorXd&
   }
 }
 
-std::pair<double, double> PenalizedMotion::margin(const Phase& phase, double s) const {
+std::pair<double, double> PenalizedMotion::signed_gap(const Phase& phase, double s) const {
   VectorXd y, rate;
   modes(phase, s, y, rate);
   const auto& regime = of(phase);
   const double sign = phase.closed ? -1.0 : 1.0;
-  return {sign * (contact_.gap_at(regime.rest) + regime.opening.dot(y)),
-          sign * regime.opening.dot(rate)};
+  return {sign * (contact_.gap_at(regime.static_displacement) + regime.gap_shape.dot(y)),
+          sign * regime.gap_shape.dot(rate)};
 }
 
 std::optional<double> PenalizedMotion::phase_end(const Phase& phase) const {
   const auto& regime = of(phase);
   double bound = 0.0;
   for (Eigen::Index j = 0; j < dof(); ++j)
-    bound += std::abs(regime.opening[j]) * std::hypot(phase.p[j], phase.q[j]) * regime.omega[j] *
+    bound += std::abs(regime.gap_shape[j]) * std::hypot(phase.p[j], phase.q[j]) * regime.omega[j] *
              regime.omega[j];
   if (!(bound > 0.0)) return std::nullopt;  // rests for ever
   double s = 0.0;
-  auto [value, slope] = margin(phase, 0.0);
+  auto [value, slope] = signed_gap(phase, 0.0);
   value = std::max(value, 0.0);  // a phase starts at 0, give or take a rounding
   while (phase.t + s <= end_) {
     const double root = std::sqrt(slope * slope + 2.0 * bound * value);
     // Both forms of the parabola's zero; neither subtracts.
     const double safe = slope > 0.0 ? (slope + root) / bound : 2.0 * value / (root - slope);
     const double next = s + (safe > shortest_step_ ? safe : shortest_step_);
-    const auto [new_value, new_slope] = margin(phase, next);
+    const auto [new_value, new_slope] = signed_gap(phase, next);
     if (new_value < 0.0) {
-      const auto sign = [&](double x) { return margin(phase, x).first; };
+      const auto sign = [&](double x) { return signed_gap(phase, x).first; };
       return numerics::shrink(sign, {s, value, next, new_value}, epsilon * (phase.t + next)).b;
     }
     s = next;
@@ -188,7 +190,7 @@ void PenalizedMotion::sample(std::span<const double> times, model::Side,
     const auto& regime = of(phase);
     modes(phase, times[i] - phase.t, y, rate);
     Eigen::Map<VectorXd> u(out.u.data() + i * n, dof()), v(out.v.data() + i * n, dof());
-    u = regime.rest;
+    u = regime.static_displacement;
     u.noalias() += regime.shapes * y;
     v.noalias() = regime.shapes * rate;
     if (out.a.empty()) continue;

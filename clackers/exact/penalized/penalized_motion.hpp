@@ -15,10 +15,10 @@ namespace clackers::exact {
 ///
 /// The motion consists of phases without and with contact. In each, displacements are a sum of
 /// modes e^(-sigma s) (p cos w s + q sin w s), so damping must be C = 2 sigma M and every mode
-/// underdamped; masses may be coupled. No phase ends unnoticed: from a known opening g with rate g'
+/// underdamped; masses may be coupled. No phase ends unnoticed: from a known gap g with rate g'
 /// the next zero is not before that of the parabola g + g' x - B x^2/2, where |g''| <= B = sum over
 /// modes of |b . shape| amplitude omega^2 for the rest of the phase. Steps go from one such zero to
-/// the next, never less than 1e-6/omega of the fastest mode: within such a step an opening dips by no
+/// the next, never less than 1e-6/omega of the fastest mode: within such a step a gap dips by no
 /// more than B x^2/8, 1.3e-13 of the amplitudes, less than rounding does to velocities.
 ///
 /// The force is continuous where phases meet, so a wrong switching time has no effect of first order,
@@ -47,35 +47,33 @@ class PenalizedMotion : public model::Motion {
   /// The beginning of a contact: both limits are the same and the impulse is 0, since the force acts
   /// later. `when` is the switching time with its error by error_bound().
   model::MotionImpact impact(long long index) const override;
-  /// The end of that contact [s]; nothing if it lasts beyond end().
-  std::optional<double> release(long long index) const;
 
  private:
   // The structure in one of the two regimes, mode by mode.
   struct Regime {
-    Eigen::MatrixXd shapes;     // columns, normalised with the mass matrix
-    Eigen::VectorXd omega, w;   // undamped and damped [1/s]
-    Eigen::VectorXd rest;       // displacement at rest [m]
-    Eigen::VectorXd opening;    // b . shape
-    Eigen::MatrixXd stiffness;  // [N/m]
-    Eigen::VectorXd blur;       // relative error of omega
+    Eigen::MatrixXd shapes;               // columns, normalised with the mass matrix
+    Eigen::VectorXd omega, w;             // undamped and damped [1/s]
+    Eigen::VectorXd static_displacement;  // displacement at rest [m]
+    Eigen::VectorXd gap_shape;            // b . shape
+    Eigen::MatrixXd stiffness;            // [N/m]
+    Eigen::VectorXd omega_error;          // relative error of omega
   };
   struct Phase {
     double t = 0.0;
     bool closed = false;
     Eigen::VectorXd p, q;
-    Eigen::MatrixXd spread;  // sum of D D' of errors so far, of (u, v) at t
+    Eigen::MatrixXd error_covariance;  // sum of D D' of errors so far, of (u, v) at t
   };
 
   Regime regime(bool closed) const;
   const Regime& of(const Phase& phase) const { return regimes_[phase.closed ? 1 : 0]; }
   Phase begin(double t, bool closed, const Eigen::VectorXd& u, const Eigen::VectorXd& v) const;
   void modes(const Phase& phase, double s, Eigen::VectorXd& y, Eigen::VectorXd& rate) const;
-  // Opening and its rate s seconds into a phase, positive as long as the phase lasts.
-  std::pair<double, double> margin(const Phase& phase, double s) const;
+  // The gap and its rate s seconds into a phase, with the sign that is positive during the phase.
+  std::pair<double, double> signed_gap(const Phase& phase, double s) const;
   std::optional<double> phase_end(const Phase& phase) const;
   Eigen::MatrixXd flow(const Phase& phase, double s) const;
-  Eigen::MatrixXd spread_after(const Phase& phase, double s) const;
+  Eigen::MatrixXd error_after(const Phase& phase, double s) const;
   void require_inside(double t) const;
   std::size_t phase_at(double t) const;
   void require_index(long long index) const;

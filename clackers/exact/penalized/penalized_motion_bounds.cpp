@@ -26,11 +26,12 @@ model::Kinematics PenalizedMotion::envelope(double t) const {
   const double decay = std::exp(-sigma_ * (t - phase.t));
   const VectorXd amplitude = decay * (phase.p.cwiseAbs2() + phase.q.cwiseAbs2()).cwiseSqrt();
   const MatrixXd size = regime.shapes.cwiseAbs();
-  return {regime.rest.cwiseAbs() + size * amplitude, size * amplitude.cwiseProduct(regime.omega),
+  return {regime.static_displacement.cwiseAbs() + size * amplitude,
+          size * amplitude.cwiseProduct(regime.omega),
           size * amplitude.cwiseProduct(regime.omega.cwiseAbs2())};
 }
 
-// The linear map of (u - rest, v) over s seconds of a phase.
+// The linear map of (u - static displacement, v) over s seconds of a phase.
 MatrixXd PenalizedMotion::flow(const Phase& phase, double s) const {
   const auto& regime = of(phase);
   const auto n = dof();
@@ -39,7 +40,7 @@ MatrixXd PenalizedMotion::flow(const Phase& phase, double s) const {
   VectorXd y, rate;
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
     const VectorXd z = VectorXd::Unit(2 * n, i);
-    unit = begin(phase.t, phase.closed, regime.rest + z.head(n), z.tail(n));
+    unit = begin(phase.t, phase.closed, regime.static_displacement + z.head(n), z.tail(n));
     modes(unit, s, y, rate);
     map.col(i) << regime.shapes * y, regime.shapes * rate;
   }
@@ -47,22 +48,24 @@ MatrixXd PenalizedMotion::flow(const Phase& phase, double s) const {
 }
 
 // Errors d of one phase have |d| <= D, entry by entry, with D from what is rounded: omega and the
-// product omega s turn a mode by omega s (blur + epsilon); the exponential has sigma s epsilon; the
+// product omega s turn a mode by omega s (omega_error + epsilon); the exponential has sigma s epsilon; the
 // change to modes and back, sine, cosine and sums have 4 (n + 2) epsilon of the amplitudes, of which
 // a displacement sees the sum over modes and a velocity the sum with omega.
-MatrixXd PenalizedMotion::spread_after(const Phase& phase, double s) const {
+MatrixXd PenalizedMotion::error_after(const Phase& phase, double s) const {
   const auto& regime = of(phase);
   const auto n = dof();
   const MatrixXd map = flow(phase, s);
   const VectorXd amplitude = (phase.p.cwiseAbs2() + phase.q.cwiseAbs2()).cwiseSqrt();
-  const VectorXd turn = s * regime.omega.cwiseProduct(
-                                regime.blur + VectorXd::Constant(n, (1.0 + sigma_ * s) * epsilon));
+  const VectorXd phase_error =
+      s * regime.omega.cwiseProduct(regime.omega_error +
+                                    VectorXd::Constant(n, (1.0 + sigma_ * s) * epsilon));
   const VectorXd part =
-      amplitude.cwiseProduct(turn + VectorXd::Constant(n, 4.0 * double(n + 2) * epsilon));
+      amplitude.cwiseProduct(phase_error + VectorXd::Constant(n, 4.0 * double(n + 2) * epsilon));
   const MatrixXd size = regime.shapes.cwiseAbs();
   VectorXd d(2 * n);
-  d << size * part + epsilon * regime.rest.cwiseAbs(), size * part.cwiseProduct(regime.omega);
-  return map * phase.spread * map.transpose() + MatrixXd(d.cwiseAbs2().asDiagonal());
+  d << size * part + epsilon * regime.static_displacement.cwiseAbs(),
+      size * part.cwiseProduct(regime.omega);
+  return map * phase.error_covariance * map.transpose() + MatrixXd(d.cwiseAbs2().asDiagonal());
 }
 
 // With K phases of errors d_k, each carried on by a map F_k, Cauchy and Schwarz give
@@ -71,13 +74,15 @@ model::Kinematics PenalizedMotion::error_bound(double t) const {
   const auto at = phase_at(t);
   const Phase& phase = phases_[at];
   const auto n = dof();
-  const MatrixXd spread = spread_after(phase, t - phase.t);
-  const VectorXd bound = (2.0 * double(n) * double(at + 1) * spread.diagonal()).cwiseSqrt();
+  const MatrixXd error_covariance = error_after(phase, t - phase.t);
+  const VectorXd bound =
+      (2.0 * double(n) * double(at + 1) * error_covariance.diagonal()).cwiseSqrt();
   model::Kinematics result;
   result.u = bound.head(n);
   result.v = bound.tail(n);
-  const MatrixXd pull = (system_.mass.inverse() * of(phase).stiffness).cwiseAbs();
-  result.a = 2.0 * sigma_ * result.v + pull * result.u + 8.0 * epsilon * envelope(t).a;
+  const MatrixXd stiffness_over_mass = (system_.mass.inverse() * of(phase).stiffness).cwiseAbs();
+  result.a =
+      2.0 * sigma_ * result.v + stiffness_over_mass * result.u + 8.0 * epsilon * envelope(t).a;
   return result;
 }
 
@@ -105,20 +110,13 @@ model::MotionImpact PenalizedMotion::impact(long long index) const {
   hit.t = t;
   hit.before = hit.after = at(t, Side::right);
   const auto bound = error_bound(t);
-  const double blur =
+  const double time_error =
       contact_.direction.cwiseAbs().dot(bound.u) / std::abs(contact_.gap_rate(hit.before.v)) +
       2.0 * epsilon * t;
-  hit.when = {t - blur, t + blur};
+  hit.when = {t - time_error, t + time_error};
   hit.energy_before = hit.energy_after = 0.5 * (hit.before.v.dot(system_.mass * hit.before.v) +
                                                 hit.before.u.dot(system_.stiffness * hit.before.u));
   return hit;
-}
-
-std::optional<double> PenalizedMotion::release(long long index) const {
-  require_index(index);
-  const auto next = contacts_[static_cast<std::size_t>(index - 1)] + 1;
-  if (next >= phases_.size()) return std::nullopt;
-  return phases_[next].t;
 }
 
 }  // namespace clackers::exact

@@ -5,9 +5,6 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
-#include "clackers/exact/pair/exact_data_pair.hpp"
-#include "clackers/exact/pair/single_mass.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/numerics/exp2.hpp"
 #include "clackers/numerics/sincospi.hpp"
@@ -37,34 +34,36 @@ Rates rates_of_damping_ratio(double omega, double omega1, double xi1) {
   return {.omega = -omega * xi1 / ((1.0 - xi1) * (1.0 + xi1)), .sigma = omega1};
 }
 
+std::vector<Named> table(double omega, double sigma, const PairParameters& p) {
+  return {{"m1", {.omega = -0.5 * omega / p.m1, .sigma = -0.5 * sigma / p.m1}},
+          {"k1", {.omega = 0.5 * omega / p.k1, .sigma = 0.5 * sigma / p.k1}},
+          {"xi1", rates_of_damping_ratio(omega, std::sqrt(p.k1 / p.m1), p.xi1)},
+          {"A", {.log_start = {1.0 / p.A, 1.0 / p.A}}},
+          {"r", {.log_start = {0.0, 1.0 / p.r}}},
+          {"eta", {.log_eta = over(p.eta)}}};
+}
+
+std::vector<Named> table(double, double, const ExactDataParameters& p) {
+  return {{"m2", {}},
+          {"Omega", {.omega = 1.0}},
+          {"sigma", {.sigma = 1.0}},
+          {"A_over_X", {.log_start = {1.0 / p.A_over_X, 1.0 / p.A_over_X}}},
+          {"r", {.log_start = {0.0, 1.0 / p.r}}},
+          {"eta", {.log_eta = over(p.eta)}}};
+}
+
+std::vector<Named> table(double omega, double, const RigidStopParameters& p) {
+  return {{"xi1", rates_of_damping_ratio(omega, 1.0, p.xi1)}, {"eta", {.log_eta = over(p.eta)}}};
+}
+
+std::vector<Named> table(double omega, double, const FreeMassParameters& p) {
+  return {{"xi1", rates_of_damping_ratio(omega, 1.0, p.xi1)}};
+}
+
 std::vector<Named> table(const ClosedForm& motion) {
   const auto& c = motion.flight();
   const double omega = c.turns.hi * numerics::pi.hi, sigma = c.decay.hi * std::log(2.0);
-  if (const auto* pair = dynamic_cast<const SynchronizedPair*>(&motion)) {
-    const auto& p = pair->parameters();
-    return {{"m1", {.omega = -0.5 * omega / p.m1, .sigma = -0.5 * sigma / p.m1}},
-            {"k1", {.omega = 0.5 * omega / p.k1, .sigma = 0.5 * sigma / p.k1}},
-            {"xi1", rates_of_damping_ratio(omega, std::sqrt(p.k1 / p.m1), p.xi1)},
-            {"A", {.log_start = {1.0 / p.A, 1.0 / p.A}}},
-            {"r", {.log_start = {0.0, 1.0 / p.r}}},
-            {"eta", {.log_eta = over(p.eta)}}};
-  }
-  if (const auto* pair = dynamic_cast<const ExactDataPair*>(&motion)) {
-    const auto& p = pair->parameters();
-    return {{"m2", {}},
-            {"Omega", {.omega = 1.0}},
-            {"sigma", {.sigma = 1.0}},
-            {"A_over_X", {.log_start = {1.0 / p.A_over_X, 1.0 / p.A_over_X}}},
-            {"r", {.log_start = {0.0, 1.0 / p.r}}},
-            {"eta", {.log_eta = over(p.eta)}}};
-  }
-  if (const auto* stop = dynamic_cast<const RigidStop*>(&motion)) {
-    const auto& p = stop->parameters();
-    return {{"xi1", rates_of_damping_ratio(omega, 1.0, p.xi1)}, {"eta", {.log_eta = over(p.eta)}}};
-  }
-  if (const auto* free = dynamic_cast<const FreeMass*>(&motion))
-    return {{"xi1", rates_of_damping_ratio(omega, 1.0, free->parameters().xi1)}};
-  return {};
+  return std::visit([&](const auto& p) { return table(omega, sigma, p); }, motion.parameters());
 }
 
 // Of U = b eta^k exp(lambda t - i p k pi), lambda = -sigma + i p Omega, the motion is the real part:
@@ -74,7 +73,7 @@ class ClassSensitivity : public Sensitivity {
   ClassSensitivity(const ClosedForm& motion, const Rates& rates) : motion_(motion), rates_(rates) {}
 
   Kinematics at(double t, Side side) const override {
-    const auto [flight, half_turns] = motion_.phase(t, side);
+    const auto [flight, theta_over_pi] = motion_.phase(t, side);
     const auto& c = motion_.flight();
     const auto n = static_cast<Eigen::Index>(c.masses.size());
     Kinematics d{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
@@ -86,7 +85,7 @@ class ClassSensitivity : public Sensitivity {
     const double sigma = c.decay.hi * std::log(2.0), omega = c.turns.hi * numerics::pi.hi;
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto& mass = c.masses[static_cast<std::size_t>(i)];
-      const auto [sine, cosine] = numerics::sincospi(half_turns * mass.multiple);
+      const auto [sine, cosine] = numerics::sincospi(theta_over_pi * mass.multiple);
       // Without 2^exponent, which may leave the doubles where the derivative does not.
       const Complex U = significand.hi * Complex(cosine.hi, sine.hi);
       const double b = mass.b.hi;

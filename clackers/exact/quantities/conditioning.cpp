@@ -13,7 +13,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double slow_over_fast(const FrequencyRatio& ratio, double r) {
-  return ratio.exchanged ? 1.0 / r : r;
+  return ratio.is_inverse ? 1.0 / r : r;
 }
 
 // Collisions until `size` has grown to lost_synchrony, the logarithm growing by `rate` at each.

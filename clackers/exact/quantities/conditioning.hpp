@@ -1,19 +1,19 @@
 #pragma once
 
-#include "clackers/exact/pair/frequency_ratio.hpp"
+#include "clackers/exact/pair/parameters.hpp"
 
 namespace clackers::exact {
 
-/// What becomes of small errors at the collisions of a synchronized pair, and so what a user may
-/// blame on a solver. Relative means: against the decaying amplitude of the motion.
+/// What becomes of small errors at the collisions of a synchronized pair, and so which errors
+/// a user may attribute to a solver. Relative means: against the decaying amplitude of the motion.
 enum class Conditioning {
   neutral,           ///< elastic with r <= 1 or X = 1: a relative error stays what it is
   growing,           ///< eta < 1: a relative error grows by 1/eta at each collision
   detuning_fragile,  ///< elastic with r > 1 and X >= 3: a detuned frequency destroys synchrony
 };
 
-/// The kind of a pair with slow over fast mass `r` > 0 and restitution `eta` in [0, 1]; with
-/// exchanged roles r is still m1/m2 and counts as 1/r.
+/// The kind of a pair with slow over fast mass `r` > 0 and restitution `eta` in [0, 1]; for
+/// X = 1/odd r is still m1/m2 and counts as 1/r.
 Conditioning conditioning(const FrequencyRatio& ratio, double r, double eta);
 
 /// lambda = pi sqrt((r - 1) (X^2 - r^2) / (1 + r)^3), r slow over fast mass: in an elastic pair

@@ -136,7 +136,7 @@ TEST(Conditioning, DetuningLosesSynchronyAboutWhenItSays) {
 }
 
 TEST(Conditioning, DispersionLosesSynchronyWhenASolverWasSeenToLoseIt) {
-  // conditioning.md: average-acceleration Newmark, X = 9, r = 3, steps a fast period. Its
+  // average-acceleration Newmark, X = 9, r = 3, steps a fast period. Its
   // frequency is (2/h) atan(omega h/2).
   for (const auto& [steps, seen] :
        {std::pair{20.0, 64.0}, {40.0, 396.0}, {80.0, 2152.0}, {160.0, 10920.0}}) {

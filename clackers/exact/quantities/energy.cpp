@@ -53,7 +53,7 @@ double EnergyAccount::sum_over_collisions(double count) const {
 
 // The integral of 2 m sigma v^2 from 0 to t, v = -b exp(-sigma t) (sigma cos wt + w sin wt).
 double EnergyAccount::dissipated_in_first_flight(const Body& body, double t,
-                                                 const DoubleDouble& half_turns) const {
+                                                 const DoubleDouble& theta_over_pi) const {
   const double w = body.frequency, s = sigma_, scale = 0.5 * body.mass * body.start * body.start;
   if (std::max(s, w) * t <= 0.5) {
     // In closed form this is a difference of nearly equal numbers. The integrand is positive, and
@@ -68,14 +68,14 @@ double EnergyAccount::dissipated_in_first_flight(const Body& body, double t,
       }
     return scale * 2.0 * s * t * sum;
   }
-  const auto [sine, cosine] = numerics::sincospi(half_turns * body.multiple);
+  const auto [sine, cosine] = numerics::sincospi(theta_over_pi * body.multiple);
   const double decayed = -std::expm1(-2.0 * s * t);
   return scale * ((w * w + 2.0 * s * s) * decayed +
                   std::exp(-2.0 * s * t) * 2.0 * s * sine.hi * (s * sine.hi - w * cosine.hi));
 }
 
 EnergySplit EnergyAccount::at(double t, Side side) const {
-  const auto [flight, half_turns] = motion_.phase(t, side);
+  const auto [flight, theta_over_pi] = motion_.phase(t, side);
   const auto state = motion_.at(t, side);
   const auto& c = motion_.flight();
   EnergySplit split;
@@ -83,7 +83,7 @@ EnergySplit EnergyAccount::at(double t, Side side) const {
     const auto at = static_cast<Eigen::Index>(i);
     split.kinetic += 0.5 * bodies_[i].mass * state.v[at] * state.v[at];
     split.potential += 0.5 * bodies_[i].stiffness * state.u[at] * state.u[at];
-    if (flight == 0.0) split.dissipated += dissipated_in_first_flight(bodies_[i], t, half_turns);
+    if (flight == 0.0) split.dissipated += dissipated_in_first_flight(bodies_[i], t, theta_over_pi);
   }
   if (flight == 0.0) return split;
 
@@ -95,7 +95,7 @@ EnergySplit EnergyAccount::at(double t, Side side) const {
 
   // From the collision on: m V^2/2 times 1 - exp(-2 sigma x) [1 - (s/w) sin 2wx + 2 (s/w)^2 sin^2
   // wx], V the velocity just after it.
-  const auto part = half_turns + DoubleDouble{0.5, 0.0};
+  const auto part = theta_over_pi + DoubleDouble{0.5, 0.0};
   const double x = std::max(0.0, part.hi) * period_;
   const double decayed = -std::expm1(-2.0 * sigma_ * x), left = std::exp(-2.0 * sigma_ * x);
   const double after = power(c.log2_eta * flight - c.period_decay * (flight - 0.5));

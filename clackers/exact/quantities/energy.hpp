@@ -17,7 +17,7 @@ struct EnergySplit {
 };
 
 /// Energy and momentum of a motion in flights, exact at every time: sums over collisions are
-/// geometric, and what a dashpot took in a part of a flight is told without subtracting energies;
+/// geometric, and what a dashpot dissipated in a part of a flight is formed without subtracting energies;
 /// energy-and-spectrum.md. Relative errors: dissipated and lost at most 64 units of 2^-52;
 /// kinetic and potential at most 8 of the largest each reaches around t, since errors of u and v are
 /// relative to their envelopes. Below 1e-290 J, where squares leave the normal numbers, no digit is
@@ -42,7 +42,7 @@ class EnergyAccount {
     double mass, stiffness, frequency, multiple, start;  ///< frequency: damped
   };
   double dissipated_in_first_flight(const Body& body, double t,
-                                    const numerics::DoubleDouble& half_turns) const;
+                                    const numerics::DoubleDouble& theta_over_pi) const;
   double sum_over_collisions(double count) const;
 
   const ClosedForm& motion_;

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/pair/exact_data_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/exact/quantities/indicators.hpp"
 
 namespace clackers::exact {

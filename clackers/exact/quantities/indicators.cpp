@@ -6,32 +6,18 @@
 #include <numbers>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/pair/wide.hpp"
+#include "clackers/exact/pair/high_precision.hpp"
 
 namespace clackers::exact {
 namespace {
 
-// |X^2 - 4 n^2| of the largest harmonic.
+// |X^2 - 4 n^2| of the largest harmonic: 2n = X - 1, and n = 1 for X = 1.
 double peak_distance(double odd) { return odd == 1.0 ? 3.0 : 2.0 * odd - 1.0; }
 
 // To two decimal digits.
 double rounded_up(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1.0);
   return std::ceil(x / unit) * unit;
-}
-
-// The largest n whose harmonic 2 n Omega, |a_n| = (4X/pi) / |X^2 - 4 n^2|, reaches eps of the peak.
-// The peak is at 2n = X - 1 where |X^2 - 4 n^2| = 2X - 1, and for X = 1 taken at n = 1 where it
-// is 3.
-double highest_harmonic(double odd, double eps) {
-  const Wide X = odd;
-  const Wide at_peak = peak_distance(odd);
-  Wide n = floor(sqrt(X * X + at_peak / eps) / 2);
-  // The root is rounded, these products are exact.
-  const auto counts = [&](const Wide& m) { return (4 * m * m - X * X) * eps <= at_peak; };
-  while (!counts(n)) n -= 1;
-  while (counts(n + 1)) n += 1;
-  return to_double(n);
 }
 
 }  // namespace
@@ -52,7 +38,8 @@ Indicators indicators(double odd, double omega, double end, double threshold) {
   result.threshold = threshold;
   result.stiffness_ratio = odd;
   result.longest_period = std::numbers::pi / omega;
-  result.highest_harmonic = highest_harmonic(odd, threshold);
+  // The largest n whose amplitude (4X/pi) / |X^2 - 4 n^2| reaches the threshold.
+  result.highest_harmonic = highest_harmonic(odd, peak_distance(odd), threshold);
   result.shortest_period = std::numbers::pi / (result.highest_harmonic * omega);
   result.oscillations = end / result.shortest_period;
   result.bound_holds = result.stiffness_ratio >= result.highest_harmonic;

@@ -4,7 +4,7 @@ namespace clackers::exact {
 
 /// The paper's indicators of a pair. "Non-trivially contributing" (Eq. 11) needs a threshold: the
 /// harmonics of the fast mass counted are those with at least `threshold` of the spectral peak, of
-/// the elastic undamped motion; energy-and-spectrum.md.
+/// the elastic undamped motion; docs/manual/explanation/derivations/energy-and-spectrum.md.
 struct Indicators {
   double threshold = 0.0;         ///< of the spectral peak
   double stiffness_ratio = 1.0;   ///< I_ms, Eq. (10): fast over slow damped frequency

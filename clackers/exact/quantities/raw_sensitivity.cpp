@@ -6,7 +6,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
-#include "clackers/exact/pair/frequency_ratio.hpp"
+#include "clackers/exact/pair/parameters.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/numerics/exp2.hpp"
 #include "clackers/numerics/sincospi.hpp"
@@ -23,8 +23,8 @@ struct Deviation {
   double u = 0.0, v = 0.0;
 };
 
-// Of both masses, as the common part C that an impact keeps and the relative one R that it turns
-// about: x1 = C + R/(1 + r), x2 = C - r R/(1 + r). A stop is a mass 2 of endless mass: r = 0.
+// Of both masses, as the common part C that an impact keeps and the relative one R whose sign it
+// reverses: x1 = C + R/(1 + r), x2 = C - r R/(1 + r). A stop is a second mass of infinite mass: r = 0.
 struct Split {
   Deviation C, R;
 };
@@ -95,7 +95,7 @@ class RawSensitivity : public Sensitivity {
   }
 
   Kinematics at(double t, Side side) const override {
-    const auto [flight, half_turns] = motion_.phase(t, side);
+    const auto [flight, theta_over_pi] = motion_.phase(t, side);
     const auto& c = motion_.flight();
     const auto size = static_cast<Eigen::Index>(n_);
     const auto state = motion_.at(t, side);
@@ -103,7 +103,7 @@ class RawSensitivity : public Sensitivity {
                  Eigen::VectorXd::Zero(size)};
     // What is left of the flight's start, and the angle since.
     const bool first = flight == 0.0;
-    const auto part = first ? half_turns : half_turns + DoubleDouble{0.5, 0.0};
+    const auto part = first ? theta_over_pi : theta_over_pi + DoubleDouble{0.5, 0.0};
     const double e = power(first ? -(c.decay * t) : -(c.period_decay * part));
     const auto z = first ? std::array<Deviation, 2>{} : both(after(flight));
     const double a = first ? 0.0
@@ -194,8 +194,8 @@ class RawSensitivity : public Sensitivity {
     log_q_ = std::log(2.0) * (c.log2_eta - c.period_decay).hi;
   }
 
-  // Just after collision `flight`: every flight turns all about and adds to it, every impact turns
-  // R about once more; n flights later the sums are geometric.
+  // Just after collision `flight`: every flight reverses all signs and adds to it, every impact reverses
+  // R once more; n flights later the sums are geometric.
   Split after(double flight) const {
     const auto& c = motion_.flight();
     const double n = flight - 1.0;

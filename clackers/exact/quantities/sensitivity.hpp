@@ -28,11 +28,11 @@ class Sensitivity {
 std::vector<std::string> raw_parameters(const ClosedForm& motion);
 
 /// The free parameters of the motion's class that the motion depends on smoothly, all that follows
-/// from them (m2, k2, c1, u2(0), ...) following. None for a ClosedForm of no known class.
+/// from them (m2, k2, c1, u2(0), ...) following.
 std::vector<std::string> class_parameters(const ClosedForm& motion);
 
 /// The derivative with respect to a raw parameter, through the impacts: the times of the collisions
-/// move, and what is lost is synchrony too; conditioning.md. The motion must outlive it.
+/// move, and the changed motion is no longer synchronized; conditioning.md. The motion must outlive it.
 /// Throws InputError for an unknown name, and for eta = 0 where something collides.
 std::unique_ptr<Sensitivity> raw_sensitivity(const ClosedForm& motion, std::string_view parameter);
 

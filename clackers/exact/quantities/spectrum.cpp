@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/pair/frequency_ratio.hpp"
+#include "clackers/exact/pair/parameters.hpp"
 #include "clackers/numerics/exp2.hpp"
 #include "clackers/numerics/sincospi.hpp"
 
@@ -56,7 +56,7 @@ Spectrum::Spectrum(const ClosedForm& motion) : motion_(motion) {
   const auto phase = motion.phase(c.end, model::Side::right);
   collisions_ = phase.flight;
   const auto all = c.turns * c.end;
-  last_ = collisions_ > 0.0 ? phase.half_turns + DoubleDouble{0.5, 0.0}
+  last_ = collisions_ > 0.0 ? phase.theta_over_pi + DoubleDouble{0.5, 0.0}
                             : numerics::quick_two_sum(all.hi, all.mid);
 }
 

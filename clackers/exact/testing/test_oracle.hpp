@@ -5,9 +5,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "clackers/exact/pair/exact_data_pair.hpp"
-#include "clackers/exact/pair/single_mass.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 // For tests: the closed form by MPFR with 90 digits (300 bits), written as the paper writes it (Eq.
 // (22) with its sign function), with nothing taken from the code under test but its parameters.

@@ -162,7 +162,8 @@ TEST(EventDriven, MeetsAnImpactAfterGrazingInTheSameStep) {
 }
 
 TEST(EventDriven, MeetsAContactAgainThatGrazedBeforeAnImpactElsewhere) {
-  // The central difference grazes at t = 1. Thrown up from there, the mass comes back from a ceiling at u = 3 within the same step.
+  // The central difference grazes at t = 1. Thrown up from there, the mass comes back from a ceiling
+  // at u = 3 within the same step.
   auto p = grazing(3.0, [](double t) { return 10.0 * t; });
   p.contacts.push_back({Eigen::VectorXd::Constant(1, -1.0), -3.0, 1.0});
   const auto [path, outcome] = run("central-difference", p, 3.0);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/cases/admissibility.hpp"
+#include "clackers/cases/case.hpp"
 #include "clackers/paper/catalogue.hpp"
 #include "clackers/paper/figures/curves.hpp"
 

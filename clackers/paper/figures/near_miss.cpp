@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "clackers/cases/admissibility.hpp"
+#include "clackers/cases/case.hpp"
 #include "clackers/paper/catalogue.hpp"
 #include "clackers/paper/figures/curves.hpp"
 

@@ -67,7 +67,7 @@ double rule_bound(double amplitude, double w, double omega) {
 
 Compared compare(int N, std::string label) {
   const auto test_case = cases::make("one-parameter", {{"N", double(N)}});
-  const exact::Spectrum spectrum(dynamic_cast<const exact::ClosedForm&>(*test_case.motion));
+  const exact::Spectrum spectrum(*exact::as_closed_form(*test_case.motion));
   Compared out;
   out.N = N;
   out.time = response_panel(test_case, Quantity::displacement, std::move(label),
@@ -115,7 +115,7 @@ Compared compare(int N, std::string label) {
 Claim upper_bound() {
   Claim claim{"Eq. (11): I_ms is an upper bound of T_L/T_S.", {}, false};
   bool everywhere = true;
-  for (const double threshold : {cases::standard_threshold, 0.001}) {
+  for (const double threshold : {cases::default_threshold, 0.001}) {
     claim.measured += fmt::format(
         "{}hreshold {} of the spectral peak:", claim.measured.empty() ? "T" : "; t", threshold);
     for (const int N : {0, 1, 2, 10}) {

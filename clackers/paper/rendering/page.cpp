@@ -6,7 +6,7 @@
 #include <map>
 #include <string_view>
 
-#include "clackers/cases/admissibility.hpp"
+#include "clackers/cases/case.hpp"
 #include "clackers/exact/quantities/indicators.hpp"
 #include "clackers/paper/rendering/assets.hpp"
 #include "clackers/paper/table.hpp"

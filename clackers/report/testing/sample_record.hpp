@@ -220,9 +220,9 @@ inline study::Record sample_record(const SampleSize& size = {}) {
     if (method.name == "moreau-jean") of_method.levels = std::min(3, size.levels);
     problem.subjects.push_back(sample_method(method, of_method));
   }
-  problem.subjects.back().complete = false;
   problem.subjects.push_back(sample_refusal());
   problem.profiles = study::profiles_of({&problem, 1});
+  problem.subjects[6].complete = false;
   return record;
 }
 

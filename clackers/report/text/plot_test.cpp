@@ -5,7 +5,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/report/sample_record.hpp"
+#include "clackers/report/testing/sample_record.hpp"
 #include "clackers/report/write.hpp"
 
 namespace clackers::report {
@@ -32,7 +32,7 @@ std::string at(const std::string& line, std::size_t place) {
 }
 
 TEST(Plot, FitsItsWidthInAboutTwentyLines) {
-  const auto record = sample_record();
+  const auto record = sample_record().cases[0];
   for (const int width : {40, 80, 132}) {
     const auto out =
         lines(plot(record.response, record.problem.impact_times, {.color = false, .width = width}));
@@ -61,7 +61,7 @@ TEST(Plot, DrawsASteepFallAsOneColumnOfDots) {
 }
 
 TEST(Plot, MarksCollisionsOnTheAxis) {
-  const auto record = sample_record();
+  const auto record = sample_record().cases[0];
   const auto text = plot(record.response, record.problem.impact_times);
   const auto axis = lines(text)[16];
   std::size_t marks = 0, from = 0;
@@ -74,12 +74,12 @@ TEST(Plot, MarksCollisionsOnTheAxis) {
 }
 
 TEST(Plot, TellsTheMassesApartWithoutColour) {
-  const auto text = plot(sample_record().response, {});
+  const auto text = plot(sample_record().cases[0].response, {});
   const auto body = text.substr(text.find('\n'));
   EXPECT_GE(std::ranges::count(body.substr(0, body.find("└")), '1'), 3);
   EXPECT_NE(body.find('2'), std::string::npos);
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
-  const auto colored = plot(sample_record().response, {}, {.color = true});
+  const auto colored = plot(sample_record().cases[0].response, {}, {.color = true});
   EXPECT_NE(colored.find("\x1b[34m"), std::string::npos);
   EXPECT_NE(colored.find("\x1b[33m"), std::string::npos);
 }

@@ -74,7 +74,8 @@ void print_wrapped(std::string_view text, std::ostream& out, const Style& style,
 
 void print_table(std::vector<TextColumn> columns, const std::vector<std::vector<TextCell>>& rows,
                  std::ostream& out, const Style& style) {
-  constexpr std::size_t least_text = 8, gap = 1;
+  constexpr std::size_t least_text = 8;
+  std::size_t gap = 2;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     auto& column = columns[c];
     const auto header = widest_word(column.header);
@@ -85,6 +86,9 @@ void print_table(std::vector<TextColumn> columns, const std::vector<std::vector<
     column.least = may_wrap ? std::max(header, least_text) : column.natural;
   }
   const auto width = std::size_t(std::max(style.width, 1));
+  // Rather than a wrapped name a narrower gap.
+  const auto is_whole = [](const TextColumn& column) { return column.width == column.natural; };
+  if (!fit(columns, gap, width) || !std::ranges::all_of(columns, is_whole)) gap = 1;
   if (!fit(columns, gap, width)) {
     for (auto& column : columns) column.least = 3;
     fit(columns, gap, width);

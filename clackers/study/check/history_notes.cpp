@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/convergence/error_ladder.hpp"
+#include "clackers/assess/convergence/fit/error_ladder.hpp"
 #include "clackers/study/check/history_run.hpp"
 #include "clackers/study/notes.hpp"
 

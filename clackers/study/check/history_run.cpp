@@ -234,7 +234,7 @@ class HistoryReader {
     run_.error_history =
         reduced(comparison.rows(), dof, time, [&](std::size_t mass, std::size_t row) {
           const auto at = row * dof + mass;
-          return std::abs(u[at] - comparison.true_u()[at]) / comparison.u_envelope()[mass];
+          return std::abs(u[at] - comparison.reference_u()[at]) / comparison.u_envelope()[mass];
         });
   }
 

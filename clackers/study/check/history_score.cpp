@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/assess/errors/mechanical_energy.hpp"
+#include "clackers/assess/errors/mechanics.hpp"
 #include "clackers/assess/errors/velocity_error.hpp"
 
 namespace clackers::study {
@@ -15,7 +15,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 void measure_u(const assess::Comparison& comparison, const std::vector<bool>& has_u,
                assess::RunScore& score) {
   const auto& u = comparison.history().u;
-  const auto reference = comparison.true_u();
+  const auto reference = comparison.reference_u();
   for (std::size_t mass = 0; mass < comparison.dof(); ++mass) {
     if (!has_u[mass]) continue;
     double largest = 0.0;
@@ -36,7 +36,7 @@ void measure_v(const assess::Comparison& comparison, assess::RunScore& score) {
   const auto dof = comparison.dof();
   const auto row = [&](std::size_t i) {
     return Rows{std::span(history.v).subspan(i * dof, dof),
-                comparison.true_v().subspan(i * dof, dof)};
+                comparison.reference_v().subspan(i * dof, dof)};
   };
   assess::VelocityError error(comparison.reference());
   const bool reported = comparison.impact_source() == assess::ImpactSource::reported;
@@ -86,7 +86,7 @@ void measure_energy(const assess::Comparison& comparison, assess::RunScore& scor
     if (limit && !end) continue;
     const double found = energy.total(&history.u[i * dof], &history.v[i * dof]);
     const double expected =
-        energy.total(&comparison.true_u()[i * dof], &comparison.true_v()[i * dof]);
+        energy.total(&comparison.reference_u()[i * dof], &comparison.reference_v()[i * dof]);
     score.energy_error = std::max(score.energy_error, std::abs(found - expected) / scale);
     score.energy_ratio = expected > 0.0 ? found / expected : unknown;
   }
@@ -99,7 +99,7 @@ assess::RunScore history_score(const assess::Comparison& comparison, const std::
   assess::RunScore score;
   score.step = step;
   score.finished = true;
-  score.rounding_floor = std::numeric_limits<double>::epsilon() * double(comparison.rows());
+  score.rounding_floor = comparison.rounding_floor();
   score.v_error = score.energy_error = score.energy_ratio = unknown;
   measure_u(comparison, has_u, score);
   if (!comparison.has_velocities()) return score;

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "clackers/exact/pair/exact_data_pair.hpp"
-#include "clackers/exact/pair/synchronized_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/exact/quantities/conditioning.hpp"
 #include "clackers/exact/quantities/harmonics.hpp"
 #include "clackers/exact/quantities/indicators.hpp"
@@ -13,29 +12,23 @@
 namespace clackers::study {
 namespace {
 
-struct Pair {
-  exact::PairConstants constants;
-  double r = 1.0, eta = 1.0;
-};
-
-std::optional<Pair> pair_of(const cases::Case& which) {
-  if (const auto* pair = dynamic_cast<const exact::SynchronizedPair*>(which.motion.get()))
-    return Pair{pair->constants(), pair->parameters().r, pair->parameters().eta};
-  if (const auto* pair = dynamic_cast<const exact::ExactDataPair*>(which.motion.get()))
-    return Pair{pair->constants(), pair->parameters().r, pair->parameters().eta};
-  return std::nullopt;
+// A pair in closed form, or null.
+const exact::ClosedForm* pair_of(const cases::Case& which) {
+  const auto* motion = exact::as_closed_form(*which.motion);
+  return motion != nullptr && motion->pair() ? motion : nullptr;
 }
 
-double lost_after(const Pair& pair, double eps) {
-  return exact::collisions_until_detuning(pair.constants.ratio, pair.r, pair.eta, eps);
+double lost_after(const exact::ClosedForm& motion, double eps) {
+  const auto& pair = *motion.pair();
+  return exact::collisions_until_detuning(pair.ratio, pair.r, motion.flight().eta, eps);
 }
 
 }  // namespace
 
 std::optional<Sheet> harmonic_sheet(const cases::Case& which, double threshold) {
-  const auto pair = pair_of(which);
-  if (!pair) return std::nullopt;
-  const auto& c = pair->constants;
+  const auto* motion = pair_of(which);
+  if (motion == nullptr) return std::nullopt;
+  const auto& c = *motion->pair();
   const double odd = c.ratio.odd, omega = std::min(c.omega_D1, c.omega_D2);
   const double last = exact::indicators(odd, omega, 1.0, threshold).highest_harmonic;
   const double peak = exact::peak_harmonic(odd), size = exact::harmonic_amplitude(odd, peak);
@@ -63,8 +56,8 @@ std::optional<Sheet> harmonic_sheet(const cases::Case& which, double threshold) 
 }
 
 std::optional<Sheet> conditioning_sheet(const cases::Case& which) {
-  const auto pair = pair_of(which);
-  if (!pair) return std::nullopt;
+  const auto* motion = pair_of(which);
+  if (motion == nullptr) return std::nullopt;
   Sheet sheet{"clackers/conditioning/1",
               "Synchrony lost: collisions spaced wrongly by a tenth",
               {{"disturbance", "", "of what"},
@@ -73,10 +66,10 @@ std::optional<Sheet> conditioning_sheet(const cases::Case& which) {
               {}};
   for (const double size : {1e-3, 1e-6, 1e-9, 0x1p-53})
     sheet.rows.push_back({std::string("of the state at one collision"), size,
-                          exact::collisions_until_perturbation(pair->eta, size)});
+                          exact::collisions_until_perturbation(motion->flight().eta, size)});
   for (const double size : {1e-2, 1e-3, 1e-4, 1e-6})
     sheet.rows.push_back({std::string("of omega_D2/omega_D1, as a solver's dispersion makes"), size,
-                          std::min(lost_after(*pair, size), lost_after(*pair, -size))});
+                          std::min(lost_after(*motion, size), lost_after(*motion, -size))});
   return sheet;
 }
 

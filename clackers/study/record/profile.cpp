@@ -68,9 +68,9 @@ std::vector<Profile> profiles_of(std::span<const CaseRecord> cases) {
     table.costs.resize(table.methods.size());
     for (const auto& one : cases) add_tasks(table, one, counter);
     if (!has_profile(table)) continue;
-    auto found = assess::performance_profile(table);
+    auto methods = assess::performance_profile(table);
     profiles.push_back(
-        {std::string(field_of(counter)), std::move(table.tasks), std::move(found.methods)});
+        {std::string(field_of(counter)), std::move(table.tasks), std::move(methods)});
   }
   return profiles;
 }

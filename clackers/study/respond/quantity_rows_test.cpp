@@ -39,7 +39,7 @@ std::string units(const RowSource& rows) {
 using test::refusal_of;
 
 const exact::ClosedForm& motion_of(const cases::Case& which) {
-  return dynamic_cast<const exact::ClosedForm&>(*which.motion);
+  return *exact::as_closed_form(*which.motion);
 }
 
 TEST(EnergyRows, AreTheSplitAtEveryTimeAndOnBothSidesOfACollision) {

@@ -9,7 +9,7 @@
 namespace clackers::study {
 
 const exact::ClosedForm& closed_form(const cases::Case& which, std::string_view wanted) {
-  const auto* motion = dynamic_cast<const exact::ClosedForm*>(which.motion.get());
+  const auto* motion = exact::as_closed_form(*which.motion);
   if (motion == nullptr)
     throw InputError(fmt::format("respond: {} is known for motions in closed form; {} is none.",
                                  wanted, which.entry->name),

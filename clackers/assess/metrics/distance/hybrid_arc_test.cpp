@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/assess/testing/toy_history.hpp"
+#include "clackers/assess/testing/toy_motion.hpp"
 
 namespace clackers::assess {
 namespace {

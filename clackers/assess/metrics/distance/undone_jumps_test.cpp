@@ -1,11 +1,10 @@
+#include "clackers/assess/metrics/distance/undone_jumps.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "clackers/assess/metrics/distance/jump_invariant_distance.hpp"
-#include "clackers/assess/metrics/distance/unfolded_velocity.hpp"
-#include "clackers/assess/testing/reference_history.hpp"
 #include "clackers/assess/testing/toy_motion.hpp"
 
 namespace clackers::assess {

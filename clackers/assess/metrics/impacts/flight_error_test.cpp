@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "clackers/assess/testing/reference_history.hpp"
 #include "clackers/assess/testing/toy_motion.hpp"
 
 namespace clackers::assess {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/assess/testing/toy_history.hpp"
-#include "clackers/exact/pair/single_mass.hpp"
+#include "clackers/assess/testing/toy_motion.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::assess {
 namespace {
