@@ -45,7 +45,7 @@ void add_single_mass(Case& which, double xi1) {
 template <class Pair>
 void use_pair(Case& which, std::shared_ptr<const Pair> pair, double threshold) {
   const auto& c = pair->constants();
-  const double r = pair->parameters().r;
+  const double r = c.r;
   use(which, pair);
   which.damped_periods = {2.0 * std::numbers::pi / c.omega_D1, 2.0 * std::numbers::pi / c.omega_D2};
   which.constants = pair_constants(which, c, r);
