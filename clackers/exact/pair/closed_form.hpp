@@ -13,7 +13,7 @@ namespace clackers::exact {
 ///
 /// Evaluation: the phase Omega t / pi is formed with 159 bits and reduced exactly, sines, cosines
 /// and powers carry 63 bits or more, and the result is rounded once at the end;
-/// evaluation.md. Const, without allocation, safe to share between threads.
+/// docs/manual/explanation/derivations/evaluation.md. Const, without allocation, safe to share between threads.
 class ClosedForm : public model::Motion {
  public:
   int dof() const override { return static_cast<int>(c_.masses.size()); }

@@ -16,7 +16,7 @@ struct RigidStopParameters {
   double t_end = 20.0;  ///< [s]
 };
 
-/// The free parameters of a synchronized pair (motion.md; Eq. (25) is m1 =
+/// The free parameters of a synchronized pair (docs/manual/explanation/derivations/motion.md; Eq. (25) is m1 =
 /// k1 = A = 1, r = 3, eta = 1, X = 4N + 1).
 struct PairParameters {
   double m1 = 1.0;      ///< mass 1, above [kg], 1e-60 to 1e60

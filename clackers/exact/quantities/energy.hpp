@@ -18,7 +18,7 @@ struct EnergySplit {
 
 /// Energy and momentum of a motion in flights, exact at every time: sums over collisions are
 /// geometric, and what a dashpot dissipated in a part of a flight is formed without subtracting energies;
-/// energy-and-spectrum.md. Relative errors: dissipated and lost at most 64 units of 2^-52;
+/// docs/manual/explanation/derivations/energy-and-spectrum.md. Relative errors: dissipated and lost at most 64 units of 2^-52;
 /// kinetic and potential at most 8 of the largest each reaches around t, since errors of u and v are
 /// relative to their envelopes. Below 1e-290 J, where squares leave the normal numbers, no digit is
 /// promised.

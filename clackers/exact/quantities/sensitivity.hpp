@@ -32,7 +32,7 @@ std::vector<std::string> raw_parameters(const ClosedForm& motion);
 std::vector<std::string> class_parameters(const ClosedForm& motion);
 
 /// The derivative with respect to a raw parameter, through the impacts: the times of the collisions
-/// move, and the changed motion is no longer synchronized; conditioning.md. The motion must outlive it.
+/// move, and the changed motion is no longer synchronized; docs/manual/explanation/derivations/conditioning.md. The motion must outlive it.
 /// Throws InputError for an unknown name, and for eta = 0 where something collides.
 std::unique_ptr<Sensitivity> raw_sensitivity(const ClosedForm& motion, std::string_view parameter);
 

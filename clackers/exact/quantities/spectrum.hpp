@@ -9,7 +9,7 @@ namespace clackers::exact {
 
 /// The Fourier transform of the displacements over the run,
 ///     F_i(omega) = integral from 0 to t_end of u_i(t) exp(-i omega t) dt   [m s],
-/// in closed form, the sum over all flights being geometric; energy-and-spectrum.md. Every phase is
+/// in closed form, the sum over all flights being geometric; docs/manual/explanation/derivations/energy-and-spectrum.md. Every phase is
 /// formed in double-double, and no step divides by what vanishes at resonance (omega a damped
 /// frequency, sigma = 0) or where all flights add up (omega a multiple of 2 Omega).
 class Spectrum {
