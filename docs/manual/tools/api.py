@@ -8,8 +8,8 @@ MODULES = {
               ["system", "impact_problem", "motion", "run", "sink", "trajectory"]),
     "cases": ("Cases", "Named problems with their reference solutions.", ["case"]),
     "exact": ("Reference solutions", "Exact motions in closed form.",
-              ["synchronized_pair", "single_mass", "closed_form", "admissibility", "indicators", "conditioning",
-               "energy", "sensitivity", "spectrum"]),
+              ["parameters", "closed_form", "admissibility", "indicators", "conditioning", "energy", "sensitivity",
+               "spectrum"]),
     "methods": ("Methods", "Time integrators and contact treatments, and the interface of a new method.",
                 ["method", "registry"]),
 }
