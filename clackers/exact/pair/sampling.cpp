@@ -112,7 +112,7 @@ std::uint64_t sample(const FlightConstants& c, const double* times, std::size_t 
   for (std::size_t i = 0; i < masses; ++i) {
     a != nullptr ? finish<true>(c.masses[i], block, whole, values)
                  : finish<false>(c.masses[i], block, whole, values);
-    double* const to[3] = {u + i, v + i, a + i};
+    double* const to[3] = {u + i, v + i, a == nullptr ? nullptr : a + i};
     for (int part = 0; part < (a != nullptr ? 3 : 2); ++part)
       for (std::size_t j = 0; j < count; ++j) to[part][j * masses] = values[part][j];
   }

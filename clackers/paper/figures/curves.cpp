@@ -108,11 +108,9 @@ Panel response_panel(const cases::Case& test_case, Quantity quantity, std::strin
                      std::string note, std::vector<double> range) {
   Panel panel{std::move(label),
               std::move(note),
-              time_axis(),
+              time_axis(0.0, test_case.motion->end()),
               quantity == Quantity::displacement ? displacement_axis() : velocity_axis(),
               {}};
-  panel.x.lowest = 0.0;
-  panel.x.highest = test_case.motion->end();
   if (!range.empty()) {
     panel.y.lowest = range.at(0);
     panel.y.highest = range.at(1);

@@ -53,7 +53,7 @@ double constant(const cases::Case& test_case, const std::string& name);
 std::string number(double value);
 
 // Axes that most figures share.
-inline Axis time_axis() { return {.title = "time t [s]"}; }
+inline Axis time_axis(double from, double to) { return {"time t [s]", from, to}; }
 inline Axis displacement_axis() { return {.title = "displacement u [m]"}; }
 inline Axis velocity_axis() { return {.title = "velocity v [m/s]"}; }
 

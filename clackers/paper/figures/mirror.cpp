@@ -41,9 +41,7 @@ Figure mirrored_response() {
   const auto test_case = paper_case();
   const double t1 = test_case.motion->impact(1).t, t2 = test_case.motion->impact(2).t;
   Panel panel;
-  panel.x = time_axis();
-  panel.x.lowest = 0.0;
-  panel.x.highest = t2;
+  panel.x = time_axis(0.0, t2);
   panel.y = displacement_axis();
   double difference = 0.0;
   for (int mass = 1; mass <= 2; ++mass) {
@@ -105,11 +103,9 @@ Figure coincidence() {
     }
     Panel panel{mass == 1 ? "a" : "b",
                 mass == 1 ? "the first mass" : "the second mass",
-                time_axis(),
+                time_axis(0.0, motion.end()),
                 displacement_axis(),
                 {free, actual, points}};
-    panel.x.lowest = 0.0;
-    panel.x.highest = motion.end();
     figure.panels.push_back(panel);
     figure.claims.push_back(
         {fmt::format(

@@ -76,9 +76,7 @@ Figure near_miss() {
   }
   const auto near = nearest(test_case);
   Panel panel;
-  panel.x = time_axis();
-  panel.x.lowest = from;
-  panel.x.highest = to;
+  panel.x = time_axis(from, to);
   panel.y = displacement_axis();
   panel.series = {first, second, grazing};
   panel.series.push_back({"nearest miss",

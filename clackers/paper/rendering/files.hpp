@@ -7,7 +7,7 @@
 namespace clackers::paper {
 
 /// Writes a whole file. Throws FileError with the system's reason.
-void write_file(const std::filesystem::path& path, std::string_view text);
+void write_file(const std::filesystem::path& path, std::string_view bytes);
 /// The whole of a file. Throws FileError.
 std::string read_file(const std::filesystem::path& path);
 /// Makes a folder whose parent exists. Throws FileError.
