@@ -23,6 +23,7 @@ Format format_from(std::string_view text, Content content = Content::rows);
 struct Style {
   bool color = false;
   int width = 80;
+  bool all_metrics = false;  ///< of histories, not only those marked for reports
 };
 
 /// Rows, one by one: a table at 80 columns, csv with a header line, or json with the schema, the

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/suggest.hpp"
 #include "cli/command.hpp"
 #include "cli/files/record_output.hpp"
 #include "cli/files/report_page.hpp"
@@ -23,7 +24,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> files, settings, events;
-  std::string case_name, columns, steps, expect, tolerance, report, baseline;
+  std::string case_name, columns, steps, expect, tolerance, metrics, report, baseline;
 };
 
 // The parts between commas. Throws InputError for an empty one.
@@ -52,6 +53,8 @@ study::CheckRequest request_of(const Options& options, const std::string& line) 
       request.steps.push_back(read_number("--steps", part));
   if (!options.expect.empty()) request.expect = study::claim_from(options.expect);
   if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
+  if (!options.metrics.empty() && options.metrics != "all")
+    refuse_name("metrics", options.metrics, {"all"}, "clackers check --help");
   request.command = line;
   return request;
 }
@@ -67,7 +70,7 @@ int run(const Options& options, const std::string& line) {
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
   const auto record = run_check(options, request);
-  const RecordOutput output(record, baseline, options.common);
+  const RecordOutput output(record, baseline, options.common, options.metrics == "all");
   const bool written = !page.wanted() || page.write(output.html());
   try {
     output.write(results);
@@ -100,7 +103,7 @@ void add_check(Grammar& root) {
            "3 when undecided.",
        .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
                 "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...]\n"
-                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x]\n"
+                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--metrics all]\n"
                 "           [--baseline FILE.json] [--report FILE.html]\n"});
   app->add_option("FILE", options->files, "Time histories, text; - for standard input.")
       ->reads_file("");
@@ -128,6 +131,11 @@ void add_check(Grammar& root) {
   app->add_option("--tolerance", options->tolerance,
                   "Largest error in u, relative to the initial envelope, of the finest history.")
       ->option_text("x");
+  app->add_option(
+         "--metrics", options->metrics,
+         "all: every metric in the table, not only those that reports show first (clackers "
+         "list metrics). csv and json always hold all.")
+      ->option_text("all");
   add_report_option(*app, options->report);
   app->add_option("--baseline", options->baseline,
                   "An earlier record of check (--format json) of the same case, - for standard "

@@ -8,15 +8,17 @@ namespace clackers::cli {
 
 RecordOutput::RecordOutput(const study::Record& record,
                            const std::optional<study::Record>& baseline,
-                           const CommonOptions& options)
-    : record_(record), quiet_(options.quiet) {
+                           const CommonOptions& options, bool all_metrics)
+    : record_(record), quiet_(options.quiet), all_metrics_(all_metrics) {
   if (baseline) changes_ = study::compare(record, *baseline);
 }
 
 std::string RecordOutput::html() const { return report::html(record_, changes()); }
 
 void RecordOutput::write(Results& to) const {
-  report::write(record_, to.format(), to.stream(), to.style(), changes());
+  auto style = to.style();
+  style.all_metrics = all_metrics_;
+  report::write(record_, to.format(), to.stream(), style, changes());
   to.finish();
 }
 

@@ -25,7 +25,7 @@ std::optional<study::Record> baseline_of(const std::string& path, const Request&
 class RecordOutput {
  public:
   RecordOutput(const study::Record& record, const std::optional<study::Record>& baseline,
-               const CommonOptions& options);
+               const CommonOptions& options, bool all_metrics = false);
 
   std::string html() const;
   void write(Results& to) const;
@@ -37,7 +37,7 @@ class RecordOutput {
 
   const study::Record& record_;
   std::optional<study::BaselineComparison> changes_;
-  bool quiet_;
+  bool quiet_, all_metrics_;
 };
 
 }  // namespace clackers::cli

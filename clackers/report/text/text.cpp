@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "clackers/assess/cost/performance_profile.hpp"
+#include "clackers/assess/metrics/metric.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
@@ -57,10 +58,22 @@ void print(const Table& table, std::ostream& out, const Style& style) {
   print_table(std::move(columns), rows, out, style);
 }
 
+bool is_in_reports(const study::MetricResult& metric) {
+  const auto row = std::ranges::find(assess::metrics(), metric.name, &assess::Metric::name);
+  return row != assess::metrics().end() && row->in_reports;
+}
+
 void print_metrics(const study::Run& run, std::ostream& out, const Style& style) {
   Cells rows;
   std::vector<std::string> missing;
+  std::size_t hidden = 0;
+  bool has_mark = false;
   for (const auto& metric : run.metrics) {
+    if (!style.all_metrics && !is_in_reports(metric)) {
+      ++hidden;
+      continue;
+    }
+    has_mark = has_mark || !metric.across_jumps;
     if (std::isnan(metric.value)) {
       missing.push_back(metric.name);
       continue;
@@ -75,11 +88,12 @@ void print_metrics(const study::Run& run, std::ostream& out, const Style& style)
   }
   out << '\n';
   print_table({{"metric"}, {"value", true}, {"unit"}, {"mass by mass"}}, rows, out, style);
-  if (!std::ranges::all_of(run.metrics, &study::MetricResult::across_jumps))
+  if (has_mark)
     print_wrapped("* need not tend to zero while impacts are a little early or late.", out, style);
   if (!missing.empty())
     print_wrapped(fmt::format("Not measured: {}; why: --format json.", fmt::join(missing, ", ")),
                   out, style);
+  if (hidden > 0) print_wrapped(fmt::format("{} more: --metrics all.", hidden), out, style);
 }
 
 void print_methods(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
