@@ -7,8 +7,8 @@
 #include "clackers/exact/quantities/energy.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/exact/quantities/spectrum.hpp"
-#include "clackers/study/respond.hpp"
 #include "clackers/study/listing/show_sheets.hpp"
+#include "clackers/study/respond.hpp"
 #include "clackers/study/respond/timed_rows.hpp"
 #include "clackers/study/testing/toy_motion.hpp"
 

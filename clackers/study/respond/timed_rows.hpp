@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "clackers/exact/pair/closed_form.hpp"
-#include "clackers/study/respond/impact_finder.hpp"
 #include "clackers/study/respond.hpp"
+#include "clackers/study/respond/impact_finder.hpp"
 
 namespace clackers::study {
 

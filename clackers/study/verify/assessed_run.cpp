@@ -14,7 +14,7 @@ namespace clackers::study {
 namespace {
 
 // Costs of a state, relative: with errors, for timing only, with metrics.
-constexpr double error_state = 1.0, timed_state = 0.2, measured_state = 10.0;
+constexpr double error_state = 1.0, timed_state = 0.5, measured_state = 10.0;
 
 // The clock of a thread costs and errs by less than a microsecond: a thousandth of this.
 constexpr double shortest_timing = 1e-3;  // [s]
