@@ -90,8 +90,10 @@ extern "C" void on_abort(int) {
       "[internal-error]\n");
 }
 
-// Objects that exist before main() allocate, too.
-[[gnu::constructor(101)]] void set_terminate_early() { std::set_terminate(on_terminate); }
+// Objects that exist before main() allocate, too, those of shared libraries among them.
+void set_terminate_early() { std::set_terminate(on_terminate); }
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const before_libraries)() = set_terminate_early;
 
 void handle(int signal, void (*handler)(int), int flags) {
   struct sigaction ours {};

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exchange/number.hpp"
+#include "clackers/exchange/text/number.hpp"
 
 namespace clackers::cli {
 namespace {

@@ -32,7 +32,7 @@ install(EXPORT clackers-cpp NAMESPACE clackers:: DESTINATION ${package_dir} COMP
 
 # Headers that only tests of this project include stay here; tests/package finds any that is not
 # named.
-set(test_headers test_[a-z_]* toy_motion sample_record record_fingerprint synthetic_ladder
+set(test_headers testing/[a-z_]+ test_[a-z_]* toy_motion sample_record record_fingerprint synthetic_ladder
   expect_behaviour impact_simulator stepper_checks contact/runs toy_history sampled_motion
   shifted_history synthetic_runs true_history verdict_sequence sample_check)
 list(JOIN test_headers "|" test_headers)

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exchange/number.hpp"
-#include "clackers/exchange/table_reader.hpp"
+#include "clackers/exchange/text/number.hpp"
+#include "clackers/exchange/text/table_reader.hpp"
 
 namespace clackers::exchange {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/exchange/history_columns.hpp"
-#include "clackers/exchange/printed_digits.hpp"
-#include "clackers/exchange/table_reader.hpp"
+#include "clackers/exchange/text/printed_digits.hpp"
+#include "clackers/exchange/text/table_reader.hpp"
 
 namespace clackers::exchange {
 namespace {

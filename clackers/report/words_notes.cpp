@@ -130,9 +130,8 @@ std::vector<std::string> note_texts(const study::Subject& subject) {
     const auto others = group.files - 1;
     const bool of_all = group.same && group.files == files;
     if (others > 0 && !of_all)
-      text += fmt::format(
-          " The same{} of {}.", group.same ? "" : ", with other numbers,",
-          others == 1 ? std::string("1 other history") : fmt::format("{} other histories", others));
+      text += fmt::format(" Also in {}{}.", counted(others, "other history"),
+                          group.same ? "" : ", with other numbers");
     out.push_back(std::move(text));
   }
   return out;

@@ -23,7 +23,7 @@ struct SelfResult {
   double extrapolation_error = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Judges runs of one method, coarsest level first; values are relative, `exact` too. Levels with
+/// Assesses runs of one method, coarsest level first; values are relative, `exact` too. Levels with
 /// fewer runs than the finest one are left out: their runs have no partner at the next step. Throws
 /// InputError unless context.claimed_order > 0, and as assess::self_convergence does.
 SelfResult self_result(std::vector<assess::ResponseLevel> runs, std::span<const double> exact,

@@ -36,14 +36,38 @@ study::Sheet list(const std::string& kind) {
   return study::list(kind);
 }
 
+// Metrics as people read them at 80 columns: a mark and the source are in the texts, so that the
+// definitions have the width of the page.
+study::Sheet for_people(const study::Sheet& metrics) {
+  study::Sheet out{metrics.schema,
+                   "Metrics (* need not vanish while impacts are a little early or late)",
+                   {{"name", "", ""}, {"unit", "", ""}, {"meaning", "", "and who defined it"}},
+                   {}};
+  for (const auto& row : metrics.rows) {
+    const auto text = [&](std::size_t column) {
+      const auto* found = std::get_if<std::string>(&row[column]);
+      return found == nullptr ? std::string() : *found;
+    };
+    const auto source = text(4) == "common" ? std::string() : fmt::format(" ({})", text(4));
+    out.rows.push_back({text(0) + (text(2) == "no" ? " *" : ""), text(1), text(3) + source});
+  }
+  return out;
+}
+
+study::Sheet shown(study::Sheet sheet, report::Format format) {
+  const bool is_metrics = sheet.schema == "clackers/metrics/1";
+  return is_metrics && format == report::Format::table ? for_people(sheet) : sheet;
+}
+
 int run(const Options& options) {
   Results results(options.common, OnInterrupt::stop);
   if (options.kind.empty()) {
     std::vector<study::Sheet> sheets;
-    for (const auto* kind : shown_together) sheets.push_back(study::list(kind));
+    for (const auto* kind : shown_together)
+      sheets.push_back(shown(study::list(kind), results.format()));
     report::write(sheets, "clackers/list/1", results.format(), results.stream(), results.style());
   } else {
-    const auto sheet = list(options.kind);
+    const auto sheet = shown(list(options.kind), results.format());
     study::SheetRows rows(sheet);
     report::write(rows, results.format(), results.stream(), results.style());
   }
@@ -56,12 +80,11 @@ int run(const Options& options) {
 void add_list(Grammar& root) {
   const auto options = std::make_shared<Options>();
   auto* app = root.add_subcommand("list", "[KIND]", "what there is: cases, methods, metrics");
-  set_help(*app,
-           {.examples = "  clackers list cases\n"
-                        "  clackers list pairs --format csv\n",
-            .about = "Lists what there is, one line each.",
-            .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|columns|\n"
-                     "                 figures]\n"});
+  set_help(*app, {.examples = "  clackers list cases\n"
+                              "  clackers list pairs --format csv\n",
+                  .about = "Lists what there is, one line each.",
+                  .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|\n"
+                           "           columns|figures]\n"});
   app->add_option(
       "KIND", options->kind,
       "cases, methods (integrators, contact treatments, methods that stand alone, and which are "

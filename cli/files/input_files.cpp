@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exchange/input_file.hpp"
-#include "clackers/exchange/separation.hpp"
-#include "clackers/exchange/text_lines.hpp"
+#include "clackers/exchange/text/input_file.hpp"
+#include "clackers/exchange/text/separation.hpp"
+#include "clackers/exchange/text/text_lines.hpp"
 #include "clackers/study/record_json.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/values.hpp"

@@ -153,7 +153,7 @@ class Interrupted(CommandTest):
             with start("verify", "rk4", "newmark", *LONG_LADDER, "--format", "json", "--out",
                        self.path("r.json"), "--report", self.path("r.html"),
                        stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-                self.wait_for(lambda: len(self.files()) == 2)
+                self.wait_for(lambda: len(self.open_files(process)) == 2)
                 process.send_signal(sign)
                 out, error = process.communicate(timeout=20)
             self.assertEqual((process.returncode, out), (130, b""), error)
@@ -171,7 +171,7 @@ class Interrupted(CommandTest):
         process = start("verify", "rk4", *LONG_LADDER, "--out", "/dev/stdout", "--report",
                         self.path("r.html"), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                         env=environment())
-        self.wait_for(self.files)
+        self.wait_for(lambda: self.open_files(process))
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=20)
         self.assertEqual(process.returncode, 130)

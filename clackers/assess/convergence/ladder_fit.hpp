@@ -36,33 +36,33 @@ inline constexpr double highest_flat_slope = 0.3, lowest_flat_slope = -0.5;
 /// Growth whose finest rate is less than this share of the first one of its window settles.
 inline constexpr double settling_share = 0.5;
 
-/// The behaviour that a ladder of errors shows, levels coarsest first. These rules are tried in this
-/// order; the first that applies decides. `clear` levels are the consecutive finest ones above the
-/// rounding floor in which at least half of the runs came to an end.
+/// The behaviour that a ladder of errors shows, levels coarsest first. These rules are tried in
+/// this order; the first that applies decides. `clear` levels are the consecutive finest ones above
+/// the rounding floor in which at least half of the runs came to an end.
 ///
 ///  1 no level, or steps that do not resolve a compliant contact: undecided
-///  2 most runs of the finest level failed: divergent if the errors before them grow, else undecided
-///  3 no clear level: exact if every level is at the rounding floor, else undecided (run-failed)
-///  4 the claimed line over at least four levels, all rates of adjacent levels within a tenth of the
-///    claimed order and raw points within a factor 1.5 of the line: proper
+///  2 most runs of the finest level failed: divergent if the errors before them grow, or undecided
+///  3 no clear level: exact if every level is at the rounding floor, or undecided (run-failed)
+///  4 the claimed line over at least four levels, all rates of adjacent levels within a tenth of
+///    the claimed order and raw points within a factor 1.5 of the line: proper
 ///  5 fewer than four clear levels: undecided
 ///  6 a straight line over at least four finest clear levels, rates within 0.2 of its slope:
 ///    a flat one (slope within 0.2 of 0): stagnating
-///    one that may still reach the claim: as rule 8 or 12, else undecided
-///    one that grows: divergent; one below the claim: reduced; any other: proper with its own order
+///    one that may still reach the claim: as rule 8 or 12, or undecided
+///    one that grows: divergent; one below the claim: reduced; any other: proper, its own order
 ///  7 at least three finest clear levels flat: stagnating
 ///  8 raw points that zigzag from step to step: the envelope decides
 ///  9 errors that grow over four levels without settling: divergent
 /// 10 a straight line but for a few raw points far above it: the envelope decides
 /// 11 errors that swing over whole levels: the envelope decides
-/// 12 the claimed line up to two levels before the floor, where rounding bends the last ones: proper
+/// 12 the claimed line up to two levels before the floor, which rounding bends: proper
 /// 13 rates that exceed the claim and rise: undecided (no-fixed-order)
 /// 14 anything else: undecided, too few levels if the last rate is the claimed one
 ///
-/// The envelope decides: stagnating where the raw points of the last four levels are flat; irregular
-/// where the line of the largest error of each level (leading levels with errors as large as the
-/// motion left out) falls by more than its own spread; divergent where it rises by as much; else
-/// undecided.
+/// The envelope decides: stagnating where the raw points of the last four levels are flat;
+/// irregular where the line of the largest error of each level (leading levels with errors as large
+/// as the motion left out) falls by more than its own spread; divergent where it rises by as much;
+/// else undecided.
 ///
 /// Throws InputError for steps that are not positive, for negative errors and for levels that do
 /// not descend (view() of error_ladder.hpp).

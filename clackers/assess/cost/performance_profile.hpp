@@ -29,9 +29,9 @@ struct MethodProfile {
 
 /// The performance profile of E. D. Dolan and J. J. More, Math. Program. 91, 201-213 (2002). A
 /// failure is an infinite ratio: it lowers the share that a line reaches and is never left out.
-/// Tasks that no method solves count in all shares. Methods come in
-/// the order of the table. Throws InputError for rows or columns that do not fit the names, no tasks, and costs of 0 or
-/// less, to which there is no ratio.
+/// Tasks that no method solves count in all shares. Methods come in the order of the table. Throws
+/// InputError for rows or columns that do not fit the names, no tasks, and costs of 0 or less, to
+/// which there is no ratio.
 std::vector<MethodProfile> performance_profile(const CostTable& table);
 
 /// The share of all tasks solved within `ratio` times the best cost; infinity asks for all that are

@@ -70,8 +70,9 @@ Comparison::Comparison(const model::Trajectory& history, const model::Motion& re
   u_envelope_ = entries(scale.u);
   v_envelope_ = entries(scale.v);
   a_envelope_ = entries(scale.a);
-  sample_reference();
+  // The search for collisions needs memory for a while; the reference comes after it.
   collect_impacts();
+  sample_reference();
 }
 
 // Each row once, in blocks of one side.

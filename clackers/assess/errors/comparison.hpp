@@ -36,8 +36,8 @@ enum class ImpactSource { reported, found_in_history };
 class Comparison {
  public:
   /// Throws InputError unless the history has the problem's number of masses, at least two times,
-  /// finite numbers, times that do not descend and lie within [0, reference.end()] (or beyond it by a
-  /// rounding), and at most two rows a time. `history.v` may be empty: velocities are not known.
+  /// finite numbers, times that do not descend and lie within [0, reference.end()] (or beyond it by
+  /// a rounding), and at most two rows a time. `history.v` may be empty: velocities are not known.
   Comparison(const model::Trajectory& history, const model::Motion& reference,
              const model::ImpactProblem<>& problem);
 

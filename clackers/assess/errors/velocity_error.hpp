@@ -11,8 +11,8 @@ namespace clackers::assess {
 /// What jumps at an impact.
 enum class JumpingQuantity { velocity, acceleration };
 
-/// The integral over time of |v - v true|, or of its square, mass by mass, by the trapezoidal rule over a run's own
-/// times and, on both sides of them, its reported impacts. Valid across jumps.
+/// The integral over time of |v - v*|, or of its square, mass by mass, by the trapezoidal rule
+/// over a run's output times and, on both sides of them, its reported impacts. Valid across jumps.
 ///
 /// - True velocities at output times are right limits.
 /// - Where a reported impact at time s lies in the same interval between output times as its true
@@ -32,14 +32,15 @@ class VelocityError {
   explicit VelocityError(const model::Motion& reference,
                          JumpingQuantity quantity = JumpingQuantity::velocity);
 
-  /// Takes the states at output times with the true velocities, right limits, row-major (time, mass).
-  /// Times ascend. No impact taken later may lie before the last but one of them.
+  /// Takes the states at output times with the true velocities, right limits, row-major (time,
+  /// mass). Times ascend. No impact taken later may lie before the last but one of them.
   void take(std::span<const double> t, std::span<const double> v,
             std::span<const double> v_reference);
   void take(double t, std::span<const double> v, std::span<const double> v_reference) {
     take({&t, 1}, v, v_reference);
   }
-  /// Takes an impact after the output times before it, before or after an output time equal to its own.
+  /// Takes an impact after the output times before it, before or after an output time equal to its
+  /// own.
   void take(const model::ReportedImpact& impact);
   /// The integral [m] of one mass up to the last output time.
   double integral(int mass) const;

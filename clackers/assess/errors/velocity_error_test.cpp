@@ -92,8 +92,8 @@ TEST(VelocityError, AnImpactReportedAtAnOwnTimeCountsTheSameWhicheverSideIsDeliv
 }
 
 TEST(VelocityError, AnImpactReportedStepsLaterCountsAllTimesBetween) {
-  // The run bounces at 1.81 instead of 1.5708: output times 1.6, 1.7, 1.8 and its left limit are off
-  // by 2 sin t, by the rule from the output time before the true impact on.
+  // The run bounces at 1.81 instead of 1.5708: output times 1.6, 1.7, 1.8 and its left limit are
+  // off by 2 sin t, by the rule from the output time before the true impact on.
   const double when = 1.81;
   const auto found = integral(jumping(when), 0.1, 30, {{when, -std::sin(when), std::sin(when)}});
   const auto off = [](double t) { return 2.0 * std::sin(t); };
@@ -136,8 +136,8 @@ TEST(VelocityError, WithoutAReportTheOwnTimesAloneCount) {
 }
 
 TEST(VelocityError, FiringTwiceInOneStepCountsTheTimeBetweenTheShots) {
-  // Back at 1.58, forth again at 1.59: the second and third are compared with the reference of their
-  // time.
+  // Back at 1.58, forth again at 1.59: the second and third are compared with the reference of
+  // their time.
   const std::vector<Report> reports{{first, -1.0, 1.0}, {1.58, 1.0, -1.0}, {1.59, -1.0, 1.0}};
   const double a = std::sin(1.58), b = std::sin(1.59);
   const double expected =

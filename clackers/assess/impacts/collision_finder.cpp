@@ -63,8 +63,8 @@ class ContactScan {
     return std::min(gaps_.g[i], gaps_.g[i + 1]) <= 2.0 * step * speed;
   }
 
-  // A slope over a jump belongs to neither side, so that without velocities a jump changes the rate in
-  // the steps beside its own, too, though less.
+  // A slope over a jump belongs to neither side, so that without velocities a jump changes the rate
+  // in the steps beside its own, too, though less.
   std::size_t steepest(std::size_t i) const {
     while (i + 2 < gaps_.size() && gaps_.contact_change(i + 1) > gaps_.contact_change(i)) ++i;
     return i;

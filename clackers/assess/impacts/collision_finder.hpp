@@ -18,10 +18,10 @@ struct FoundCollision {
 /// The collisions of a history, in order of time, read from its rows, the equation of motion and
 /// the contacts; what the history reports is not looked at.
 ///
-/// A collision is where a contact near closure has a force: the relative velocity rises by at least half
-/// the closing speed (Newton's law gives 1 + eta of it) beyond what free motion could do between
-/// the rows and beyond rounding. So nothing is found in masses that oscillate freely, or pass
-/// through each other. A jump between two rows, a jump given as two rows of one time, and a
+/// A collision is where a contact near closure has a force: the relative velocity rises by at least
+/// half the closing speed (Newton's law gives 1 + eta of it) beyond what free motion could do
+/// between the rows and beyond rounding. So nothing is found in masses that oscillate freely, or
+/// pass through each other. A jump between two rows, a jump given as two rows of one time, and a
 /// compliant contact over many rows are one collision each, timed at first contact.
 ///
 /// Timing: exact for two rows of one time. Else free motion from the last row before it, followed

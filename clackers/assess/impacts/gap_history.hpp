@@ -26,8 +26,8 @@ struct GapHistory {
   /// Change of the rate between rows i and i + 1 beyond that of free motion: positive where a
   /// contact accelerates the masses apart [m/s].
   double contact_change(std::size_t i) const;
-  /// Bound on |contact_change(i)| where nothing collides: the rule that integrates the acceleration, and the
-  /// noise [m/s].
+  /// Bound on |contact_change(i)| where nothing collides: the rule that integrates the
+  /// acceleration, and the noise [m/s].
   double uncertainty(std::size_t i) const;
 };
 

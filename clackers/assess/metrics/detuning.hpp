@@ -13,8 +13,8 @@ struct FlightFrequencies {
   std::string reason;          ///< why they were not measured, a sentence
 };
 
-/// Adds up, over all intervals between rows of one flight, how far each mass turns in the plane
-/// (u, (v + sigma u)/omega_D), in which free motion is a spiral of steady rate omega_D, and compares
+/// Adds up, over all intervals between rows of one flight, how far each mass turns in the plane (u,
+/// (v + sigma u)/omega_D), in which free motion is a spiral of steady rate omega_D, and compares
 /// with omega_D times the time. A method whose velocity has another scale turns unsteadily but
 /// keeps its mean over half turns; flights that are reported with their limits start and end on
 /// half turns of all masses. Not measured for coupled masses, loads, nonlinear forces, masses that

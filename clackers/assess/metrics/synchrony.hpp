@@ -18,10 +18,10 @@ struct SynchronyLoss {
   std::optional<long long> lost;  ///< the first one, from 1, whose spacing is wrong
   double worst = 0.0;             ///< largest error of a spacing, over T, up to the loss
   /// Growth per collision of what ends in the loss, the momentum after impacts: the slope of ln|p|,
-  /// p = sum of m v over sum of |m v|, 0 in synchrony, over the collisions since |p| last rose above
-  /// 0.025 and before the loss. Below that the growth is not yet exponential, since the method feeds
-  /// it all the time. The spacing itself hardly changes until masses touch where they should not.
-  /// NaN for fewer than 3 collisions, and where momenta are not known.
+  /// p = sum of m v over sum of |m v|, 0 in synchrony, over the collisions since |p| last rose
+  /// above 0.025 and before the loss. Below that the growth is not yet exponential, since the
+  /// method feeds it all the time. The spacing itself hardly changes until masses touch where they
+  /// should not. NaN for fewer than 3 collisions, and where momenta are not known.
   double growth = 0.0;
 };
 
@@ -69,8 +69,8 @@ struct DetuningPart {
   double share = 0.0;
 };
 
-/// Throws InputError unless rate >= 0, 0 < eta <= 1 and 0 < |eps| < 1.
-/// Source: to first order in eps, from the saltation matrices of the pair; exact/quantities/conditioning.hpp.
+/// Throws InputError unless rate >= 0, 0 < eta <= 1 and 0 < |eps| < 1. Source: to first order in
+/// eps, from the saltation matrices of the pair; exact/quantities/conditioning.hpp.
 DetuningPart explained_by_detuning(const SynchronyLoss& loss, const DetuningFacts& facts);
 
 /// Row of the table of metrics: the largest error of a spacing over T, to the loss if there is one.

@@ -39,31 +39,25 @@ class PenaltyForce final : public model::NonlinearForce<Dof> {
         stiffnesses_(std::move(stiffnesses)),
         other_(std::move(other)) {}
 
-  void add(const Vector& u, const Vector& v, Vector& p) const override;
-  void add_tangent(const Vector& u, const Vector& v, Matrix& dp_du, Matrix& dp_dv) const override;
+  void add(const Vector& u, const Vector& v, Vector& p) const override {
+    if (other_) other_->add(u, v, p);
+    for (std::size_t j = 0; j < contacts_.size(); ++j)
+      if (const double g = contacts_[j].gap_at(u); g < 0.0)
+        p += stiffnesses_[j] * g * contacts_[j].direction;
+  }
+
+  void add_tangent(const Vector& u, const Vector& v, Matrix& dp_du, Matrix& dp_dv) const override {
+    if (other_) other_->add_tangent(u, v, dp_du, dp_dv);
+    for (std::size_t j = 0; j < contacts_.size(); ++j)
+      if (contacts_[j].gap_at(u) < 0.0)
+        dp_du += stiffnesses_[j] * contacts_[j].direction * contacts_[j].direction.transpose();
+  }
 
  private:
   std::vector<model::Contact<Dof>> contacts_;
   std::vector<double> stiffnesses_;
   std::shared_ptr<const model::NonlinearForce<Dof>> other_;
 };
-
-template <int Dof>
-void PenaltyForce<Dof>::add(const Vector& u, const Vector& v, Vector& p) const {
-  if (other_) other_->add(u, v, p);
-  for (std::size_t j = 0; j < contacts_.size(); ++j)
-    if (const double g = contacts_[j].gap_at(u); g < 0.0)
-      p += stiffnesses_[j] * g * contacts_[j].direction;
-}
-
-template <int Dof>
-void PenaltyForce<Dof>::add_tangent(const Vector& u, const Vector& v, Matrix& dp_du,
-                                    Matrix& dp_dv) const {
-  if (other_) other_->add_tangent(u, v, dp_du, dp_dv);
-  for (std::size_t j = 0; j < contacts_.size(); ++j)
-    if (contacts_[j].gap_at(u) < 0.0)
-      dp_du += stiffnesses_[j] * contacts_[j].direction * contacts_[j].direction.transpose();
-}
 
 }  // namespace
 

@@ -115,13 +115,15 @@ void print_histories(const study::CaseRecord& problem, std::ostream& out, const 
 }
 
 void print_findings(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+  // The name of the only subject of `check` says nothing.
+  const bool is_named = problem.plan.levels > 0 || problem.subjects.size() > 1;
   for (const auto& texts : {&finding, &false_convergence}) {
     bool is_first = true;
     for (const auto& subject : problem.subjects)
       if (const auto found = texts(subject)) {
         if (is_first) out << '\n';
         is_first = false;
-        print_wrapped(fmt::format("{}: {}", subject.name, text_of(*found)), out, style);
+        print_wrapped((is_named ? subject.name + ": " : "") + text_of(*found), out, style);
       }
   }
 }

@@ -13,7 +13,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/exchange/events.hpp"
 #include "clackers/exchange/history.hpp"
-#include "clackers/exchange/text_lines.hpp"
+#include "clackers/exchange/text/text_lines.hpp"
 #include "clackers/study/cause_metrics.hpp"
 #include "clackers/study/check/history_score.hpp"
 #include "clackers/study/check/initial_state.hpp"

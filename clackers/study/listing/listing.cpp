@@ -68,7 +68,7 @@ Sheet list_methods() {
   return sheet;
 }
 
-// Whole methods as they can be judged: what each claims through impacts.
+// Whole methods with what each claims through impacts.
 Sheet list_pairs() {
   Sheet sheet{"clackers/pairs/1",
               "Every method, with default parameters",

@@ -4,8 +4,8 @@
 
 #include "clackers/methods/registry.hpp"
 #include "clackers/study/listing.hpp"
-#include "clackers/study/respond.hpp"
 #include "clackers/study/listing/show_sheets.hpp"
+#include "clackers/study/respond.hpp"
 
 namespace clackers::study {
 namespace {

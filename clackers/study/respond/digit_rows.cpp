@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "clackers/certified/digits.hpp"
 
 namespace clackers::study {
@@ -13,11 +15,14 @@ using certified::Digits;
 // which side each is of, is decided once.
 class DigitRows : public RowSource {
  public:
-  DigitRows(const cases::Case& which, std::unique_ptr<RowSource> rows, long long digits)
+  // `about` is the number of rows, second rows at collisions left out.
+  DigitRows(const cases::Case& which, std::unique_ptr<RowSource> rows, long long digits,
+            long long about)
       : rows_(std::move(rows)),
         digits_(*which.motion, digits),
         columns_(rows_->columns()),
-        title_(fmt::format("{} to {} digits", rows_->title(), digits)) {
+        title_(fmt::format("{} to {} digits", rows_->title(), digits)),
+        about_(about) {
     for (auto& column : columns_) column.kind = ColumnKind::any;
   }
 
@@ -25,10 +30,9 @@ class DigitRows : public RowSource {
   const std::vector<Column>& columns() const override { return columns_; }
 
   bool next(std::vector<Cell>& row) final {
-    if (total_ == 0) total_ = rows_->numbers()->count();
     if (!rows_->next(row)) return false;
     round(row);
-    report(++done_, total_);
+    report(std::min(++done_, about_), about_);
     return true;
   }
 
@@ -41,7 +45,7 @@ class DigitRows : public RowSource {
 
  private:
   std::string title_;
-  long long done_ = 0, total_ = 0;
+  long long about_, done_ = 0;
 };
 
 class ResponseDigits : public DigitRows {
@@ -63,8 +67,9 @@ class ResponseDigits : public DigitRows {
 
 class CollisionDigits : public DigitRows {
  public:
-  CollisionDigits(const cases::Case& which, std::unique_ptr<RowSource> rows, long long digits)
-      : DigitRows(which, std::move(rows), digits) {
+  CollisionDigits(const cases::Case& which, std::unique_ptr<RowSource> rows, long long digits,
+                  long long about)
+      : DigitRows(which, std::move(rows), digits, about) {
     columns_[1].meaning = "its time";
   }
   std::string schema() const override { return "clackers/collisions-digits/1"; }
@@ -87,11 +92,12 @@ class CollisionDigits : public DigitRows {
 
 std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& grid,
                                    long long digits) {
-  return std::make_unique<ResponseDigits>(which, respond(which, grid), digits);
+  return std::make_unique<ResponseDigits>(which, respond(which, grid), digits, grid.size());
 }
 
 std::unique_ptr<RowSource> collisions(const cases::Case& which, long long digits) {
-  return std::make_unique<CollisionDigits>(which, collisions(which), digits);
+  return std::make_unique<CollisionDigits>(which, collisions(which), digits,
+                                           which.motion->impact_count(which.motion->end()));
 }
 
 }  // namespace clackers::study

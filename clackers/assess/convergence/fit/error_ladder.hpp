@@ -19,8 +19,8 @@ using ErrorLevel = std::vector<ErrorPoint>;
 /// 2^-52) leaves out how a motion magnifies a rounding error.
 inline constexpr double rounding_slack = 10.0;
 
-/// Rounding at its worst, `rounding_slack` floors, bends a line by less than a tenth only where errors
-/// are this many floors. Between the two, levels that leave a line may do so by rounding.
+/// Rounding at its worst, `rounding_slack` floors, bends a line by less than a tenth only where
+/// errors are this many floors. Between the two, levels that leave a line may do so by rounding.
 inline constexpr double bending_slack = rounding_slack * rounding_slack;
 
 /// A level as the fit sees it, in logarithmic axes.
@@ -34,9 +34,10 @@ struct LevelView {
   bool may_bend = false;     ///< the same with bending_slack
 };
 
-/// Throws InputError unless every step is positive and finite, every error >= 0 or not finite, every
-/// floor >= 0, and every step of a level is smaller than all steps of the levels before it. A ladder
-/// given finest first is not reversed: its errors may belong to other steps. A step may stand twice in one level.
+/// Throws InputError unless every step is positive and finite, every error >= 0 or not finite,
+/// every floor >= 0, and every step of a level is smaller than all steps of the levels before it. A
+/// ladder given finest first is not reversed: its errors may belong to other steps. A step may
+/// stand twice in one level.
 std::vector<LevelView> view(std::span<const ErrorLevel> ladder);
 
 }  // namespace clackers::assess

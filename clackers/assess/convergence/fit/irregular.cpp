@@ -29,8 +29,8 @@ numerics::LineFit line_of_largest(std::span<const LevelView> levels, int first, 
   return numerics::fit_line(x, y);
 }
 
-// Whether the coarsest level lies more than a factor `leading_level` off the line of medians (Theil and Sen), to
-// which two levels of eight that lie elsewhere do nothing.
+// Whether the coarsest level lies more than a factor `leading_level` off the line of medians (Theil
+// and Sen), to which two levels of eight that lie elsewhere do nothing.
 bool first_lies_off(std::span<const LevelView> levels, int first, int last) {
   std::vector<double> x, y, slopes, heights;
   for (int i = first; i <= last; ++i) {

@@ -11,16 +11,16 @@ namespace clackers::assess {
 /// A bend of raw points by less than this factor is no zigzag: points within 1.05 of a line, as
 /// methods that locate impacts leave them, bend by at most 1.05^2.
 inline constexpr double zigzag_bend = 1.1;
-/// Rough points zigzag at more than this share of their places. Independent scatter does so at about
-/// 0.6; a smooth curve nowhere.
+/// Rough points zigzag at more than this share of their places. Independent scatter does so at
+/// about 0.6; a smooth curve nowhere.
 inline constexpr double zigzag_share = 0.25;
 /// And at this many places at least; a curve that passes through zero does so at two. Swings about
 /// a line are counted alike.
 inline constexpr int least_turns = 4;
 /// Fewer raw points than this may lie in any way by chance.
 inline constexpr int enough_points = 10;
-/// A leading level further than this factor from the line of medians is no part of an envelope: four
-/// standard deviations of what the largest of eight errors within a factor 30 scatters.
+/// A leading level further than this factor from the line of medians is no part of an envelope:
+/// four standard deviations of what the largest of eight errors within a factor 30 scatters.
 inline constexpr double leading_level = 4.0;
 
 /// Whether the raw points of the finest levels (four of them, or more until `enough_points` are

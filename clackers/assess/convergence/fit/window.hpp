@@ -10,8 +10,8 @@
 namespace clackers::assess {
 
 /// Consecutive levels [first, last] of a ladder, zero-based, and the line through their raw points
-/// in logarithmic axes. Up to one point in `outlier_share` that lies far below all others, as an error
-/// near a passage through zero does, is left out of the line; a point far above never is.
+/// in logarithmic axes. Up to one point in `outlier_share` that lies far below all others, as an
+/// error near a passage through zero does, is left out of the line; a point far above never is.
 struct Window {
   int first = 0, last = 0;
   numerics::LineFit line;
@@ -25,8 +25,8 @@ struct Window {
   int levels() const { return last - first + 1; }
 };
 
-/// A line is not straight where a raw error lies further than this factor from it. Methods that locate
-/// impacts were measured to stay within 1.05 in their asymptotic range, those that do not to
+/// A line is not straight where a raw error lies further than this factor from it. Methods that
+/// locate impacts were measured to stay within 1.05 in their asymptotic range, those that do not to
 /// scatter by 10 to 30.
 inline constexpr double straight_scatter = 1.5;
 /// One raw point in this many may lie far below a line, and few enough far above leave its order
@@ -48,8 +48,8 @@ struct Straightness {
   int outliers_of = 0;  ///< when positive, one point in this many may lie far above
 };
 
-/// Whether the rates are as asked, at most one raw point in `outlier_share` lies far below the line, and
-/// none (or as few as asked) far above.
+/// Whether the rates are as asked, at most one raw point in `outlier_share` lies far below the
+/// line, and none (or as few as asked) far above.
 bool is_straight(const Window& window, const Straightness& asked);
 
 /// The longest straight window that ends at level `last` and begins at `first` or later. A third

@@ -9,15 +9,15 @@
 namespace clackers::assess {
 
 /// The filled graph of a velocity: the set of (t/T, v/V) with vertical segments from the left limit
-/// to the right one at jumps. T is Comparison::collision_period(), V the mass's true envelope at t = 0. The
-/// Hausdorff distance of two filled graphs, with points as far apart as the farther of their two
-/// coordinates, tends to zero when jumps come slightly early or late, take two steps or are smeared
-/// over a contact time; a distance of d says that neither graph leaves the other by more than d T
-/// in time and d V in velocity at once. Where a history ends so near to an impact that it has it and
-/// the reference has not, or the other way round, the graph that has it ends with its left limit: a last
-/// impact within the last two steps that has no match does not count.
-/// Source: J. J. Moreau, Approximation en graphe d'une evolution discontinue, RAIRO Anal. numer. 12,
-/// 75-84 (1978).
+/// to the right one at jumps. T is Comparison::collision_period(), V the mass's true envelope at t
+/// = 0. The Hausdorff distance of two filled graphs, with points as far apart as the farther of
+/// their two coordinates, tends to zero when jumps come slightly early or late, take two steps or
+/// are smeared over a contact time; a distance of d says that neither graph leaves the other by
+/// more than d T in time and d V in velocity at once. Where a history ends so near to an impact
+/// that it has it and the reference has not, or the other way round, the graph that has it ends
+/// with its left limit: a last impact within the last two steps that has no match does not count.
+/// Source: J. J. Moreau, Approximation en graphe d'une evolution discontinue, RAIRO Anal. numer.
+/// 12, 75-84 (1978).
 ///
 /// Both graphs have their points at the same instants, the history's rows, each also at its own
 /// jumps, and straight lines between them. What the lines cut off of the curves is nearly the same

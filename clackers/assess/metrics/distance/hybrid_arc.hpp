@@ -49,10 +49,10 @@ class HybridArc {
   std::size_t passed_ = 0, row_ = 0;  // impacts and rows in the flights so far
 };
 
-/// The smallest epsilon for which history and reference are (tau, epsilon)-close, tau the end of the
-/// history: for every point (t, j) of the one there is an (s, j) of the other, j the same number of
-/// impacts so far, with |t - s| <= epsilon T and each state within epsilon of its scale, and the
-/// other way round. Both end with the history. Lines are joined as in filled_graphs(), and
+/// The smallest epsilon for which history and reference are (tau, epsilon)-close, tau the end of
+/// the history: for every point (t, j) of the one there is an (s, j) of the other, j the same
+/// number of impacts so far, with |t - s| <= epsilon T and each state within epsilon of its scale,
+/// and the other way round. Both end with the history. Lines are joined as in filled_graphs(), and
 /// the value is as close to the smallest one as one_sided_distance() is.
 ///
 /// Stricter than the filled graph: impacts must come one for one, each a jump. Impacts at slightly

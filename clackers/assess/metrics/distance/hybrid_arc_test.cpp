@@ -63,7 +63,8 @@ TEST_F(HybridCloseness, OfImpactsThatComeLateIsTheirDelay) {
 }
 
 TEST_F(HybridCloseness, OfTooLongPeriodsIsTheErrorAtTheEndWhereNothingLaterCanBeCompared) {
-  // Impact k comes 1e-3 (k - 1/2) pi late, at most 2.5e-3 T; at the end the reference is ahead by 1e-3 t.
+  // Impact k comes 1e-3 (k - 1/2) pi late, at most 2.5e-3 T; at the end the reference is ahead by
+  // 1e-3 t.
   for (const double end : {6.0, 9.0}) {
     const double error = std::abs(std::sin(end / 1.001) / 1.001 - std::sin(end));
     const auto found = measure({.end = end, .h = 0.01, .stretch = 1.001});

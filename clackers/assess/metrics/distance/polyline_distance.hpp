@@ -36,8 +36,8 @@ inline constexpr auto too_far_apart =
 /// distance of one side as `at_least` of the other, the two-sided one costs little more than one.
 ///
 /// Method. The distance to one segment, a convex set, is convex along another one. So the part of a
-/// segment of `from` that lies within the largest distance seen so far of one segment of `to` is one
-/// interval, and its ends follow from the coordinates in closed form. Each segment of `from` is
+/// segment of `from` that lies within the largest distance seen so far of one segment of `to` is
+/// one interval, and its ends follow from the coordinates in closed form. Each segment of `from` is
 /// covered by such parts, first of the segment of `to` used last, then of those after it and of the
 /// one at the same time. Only where none covers it, segments of `to` are searched outwards from the
 /// time of the point, until one is within the largest distance seen or those left are farther in

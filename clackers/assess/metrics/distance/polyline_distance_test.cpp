@@ -165,7 +165,8 @@ TEST(PolylineDistance, AgreesWithEveryPairOfSegments) {
 }
 
 TEST(PolylineDistance, AgreesWithEveryPairWhereOneLineFollowsTheOther) {
-  // Points lie at other parts of the curve, and one of them is off it, by more or less than the rest.
+  // Points lie at other parts of the curve, and one of them is off it, by more or less than the
+  // rest.
   for (const double shift : {0.002, 0.008})
     for (const double off : {0.003, 0.05}) {
       Polyline one, other;
@@ -185,6 +186,40 @@ TEST(PolylineDistance, AgreesWithEveryPairWhereOneLineFollowsTheOther) {
         EXPECT_NEAR(found.bound, found.value, 2e-6 * found.value + 1e-14);
       }
     }
+}
+
+TEST(PolylineDistance, ScalesWithCoordinatesOfAnySize) {
+  std::mt19937 generator(3);
+  const auto one = random_line(generator, 3, 30), other = random_line(generator, 3, 20);
+  const double value = one_sided_distance(one, other).value;
+  const auto times = [](Polyline line, int exponent) {
+    for (double& x : line.points) x = std::ldexp(x, exponent);
+    return line;
+  };
+  // At 2^-1060 coordinates have ten binary digits or more left.
+  for (const int exponent : {-1060, -1000, -300, 300, 1000}) {
+    const double found = one_sided_distance(times(one, exponent), times(other, exponent)).value;
+    EXPECT_NEAR(std::ldexp(found, -exponent), value, exponent < -1022 ? 0.01 : 1e-9) << exponent;
+  }
+}
+
+TEST(PolylineDistance, SubnormalSegmentsOfALineAreCovered) {
+  const auto one = line({{450, 3e-311}, {453, 8e-313}}), other = line({{450, 0}, {453, -5e-324}});
+  EXPECT_LT(hausdorff_distance(one, other).value, 1e-300);
+  EXPECT_NEAR(hausdorff_distance(one, line({{450, 1}, {453, 1}})).value, 1.0, 1e-12);
+}
+
+TEST(PolylineDistance, SearchOfLinesFarApartIsGivenUp) {
+  // Every other point is farther away than all before it, and all of the other line is nearer in
+  // time than that.
+  Polyline one, other;
+  for (int i = 0; i < 100000; ++i) {
+    one.points.insert(one.points.end(), {1e-3 * i, i % 2 == 0 ? 1e3 + 1e-2 * i : 0.0});
+    other.points.insert(other.points.end(), {1e-3 * i, 0.0});
+  }
+  EXPECT_FALSE(one_sided_distance(one, other).complete);
+  EXPECT_FALSE(hausdorff_distance(one, other).complete);
+  EXPECT_TRUE(one_sided_distance(other, one).complete);
 }
 
 TEST(SegmentDistance, IsTheMinimumOverTheSegmentAndDecidesAlike) {

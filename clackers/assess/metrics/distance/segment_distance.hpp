@@ -9,9 +9,9 @@
 
 namespace clackers::assess {
 
-/// Distances max_i |p_i - q_i| from points to segments, for a number of coordinates known at compile
-/// time, or 0 for any. Points are pointers to `dimension` doubles. Extents of a segment of at most
-/// `negligible` count as 0 where they would be divided by.
+/// Distances max_i |p_i - q_i| from points to segments, for a number of coordinates known at
+/// compile time, or 0 for any. Points are pointers to `dimension` doubles. Extents of a segment of
+/// at most `negligible` count as 0 where they would be divided by.
 template <std::size_t Dimension>
 class SegmentDistance {
  public:

@@ -6,9 +6,10 @@
 // Distances after the jumps of both motions are undone.
 namespace clackers::assess {
 
-/// max |(-1)^k v - (-1)^k* v*| [m/s] over the history's output times, mass by mass; k and k* count the
-/// impacts of each motion so far. An impact that reverses every velocity disappears: the unfolded
-/// true velocity is continuous, and a jump at a slightly wrong time costs no more than that time.
+/// max |(-1)^k v - (-1)^k* v*| [m/s] over the history's output times, mass by mass; k and k* count
+/// the impacts of each motion so far. An impact that reverses every velocity disappears: the
+/// unfolded true velocity is continuous, and a jump at a slightly wrong time costs no more than
+/// that time.
 ///
 /// Defined where each impact reverses the velocity of every mass: one contact, restitution 1, and
 /// v(+) = -v(-) at the true impacts, as where total momentum is zero at each (the synchronized
@@ -23,8 +24,8 @@ namespace clackers::assess {
 /// Source: V. F. Zhuravlev's and A. P. Ivanov's non-smooth coordinate change.
 MetricValue unfolded_velocity_error(const Comparison& comparison);
 
-/// max over the history's output times of min(|x - y|, |J(x) - y|, |x - J(y)|), x the state (u, v) of
-/// the history and y that of the reference. J is the impact map of a contact by Newton's law,
+/// max over the history's output times of min(|x - y|, |J(x) - y|, |x - J(y)|), x the state (u, v)
+/// of the history and y that of the reference. J is the impact map of a contact by Newton's law,
 ///
 ///     u -> u,   v -> v - (1 + eta) M^-1 b (b . v) / (b . M^-1 b),
 ///

@@ -14,8 +14,8 @@ constexpr double pi = std::numbers::pi;
 const ToyMotion reference(12.0);
 const auto problem = toy_problem(12.0);
 
-// The reference until pi/2, then on through the contact until it turns 0.1 s later: its displacement is
-// -cos t until then, and that of the reference 0.1 s ago from there on.
+// The reference until pi/2, then on through the contact until it turns 0.1 s later: its
+// displacement is -cos t until then, and that of the reference 0.1 s ago from there on.
 model::Trajectory late() {
   auto history = history_of(reference, {0.0, 1.0, 1.6, pi / 2, pi / 2, 3.0});
   history.t[3] = history.t[4] = pi / 2 + 0.1;

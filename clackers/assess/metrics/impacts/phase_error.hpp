@@ -8,8 +8,8 @@
 
 namespace clackers::assess {
 
-/// Instants that come once or twice a period, in the history and in the reference, with the speed of a
-/// mass there.
+/// Instants that come once or twice a period, in the history and in the reference, with the speed
+/// of a mass there.
 struct PhaseMarks {
   std::vector<double> index;                    ///< number of the mark, ascending
   std::vector<double> found, reference;         ///< [s]
@@ -18,14 +18,14 @@ struct PhaseMarks {
   std::string reason;                           ///< why there are none, a sentence
 };
 
-/// The marks of one mass. Where the reference collides at least twice: matched collisions, a period is
-/// the time T between collisions, the speed is that before impact. Otherwise zero crossings of the
-/// displacement, two a period, interpolated linearly between rows in the history and, at the same
-/// rows, in the reference, so that the interpolation hardly differs; speeds likewise.
+/// The marks of one mass. Where the reference collides at least twice: matched collisions, a period
+/// is the time T between collisions, the speed is that before impact. Otherwise zero crossings of
+/// the displacement, two a period, interpolated linearly between rows in the history and, at the
+/// same rows, in the reference, so that the interpolation hardly differs; speeds likewise.
 PhaseMarks phase_marks(const Comparison& comparison, std::size_t mass);
 
-/// Rows of the table of metrics. The numbers of single masses are signed, the value is their largest
-/// size. Lag is found minus true time, T the true period, both fitted by a least-squares
+/// Rows of the table of metrics. The numbers of single masses are signed, the value is their
+/// largest size. Lag is found minus true time, T the true period, both fitted by a least-squares
 /// line over the number of the mark, which spreads the error of a single mark.
 ///
 /// - period: (T found - T)/T, the slope of the lag over T. Positive: slow.

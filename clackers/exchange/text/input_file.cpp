@@ -1,4 +1,4 @@
-#include "clackers/exchange/input_file.hpp"
+#include "clackers/exchange/text/input_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

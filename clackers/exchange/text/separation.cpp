@@ -1,4 +1,4 @@
-#include "clackers/exchange/separation.hpp"
+#include "clackers/exchange/text/separation.hpp"
 
 namespace clackers::exchange {
 namespace {

@@ -1,9 +1,9 @@
-#include "clackers/exchange/table_reader.hpp"
+#include "clackers/exchange/text/table_reader.hpp"
 
 #include <gtest/gtest.h>
 
-#include "clackers/exchange/number.hpp"
 #include "clackers/exchange/testing/test_file.hpp"
+#include "clackers/exchange/text/number.hpp"
 
 namespace clackers::exchange {
 namespace {

@@ -1,11 +1,11 @@
-#include "clackers/exchange/table_reader.hpp"
+#include "clackers/exchange/text/table_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 
-#include "clackers/exchange/number.hpp"
+#include "clackers/exchange/text/number.hpp"
 
 namespace clackers::exchange {
 namespace {

@@ -1,4 +1,4 @@
-#include "clackers/exchange/number.hpp"
+#include "clackers/exchange/text/number.hpp"
 
 #include <array>
 #include <charconv>

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/exchange/input_file.hpp"
+#include "clackers/exchange/text/input_file.hpp"
 
 namespace clackers::exchange {
 

@@ -1,4 +1,4 @@
-#include "clackers/exchange/text_lines.hpp"
+#include "clackers/exchange/text/text_lines.hpp"
 
 #include <fmt/format.h>
 

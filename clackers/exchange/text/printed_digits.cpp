@@ -1,4 +1,4 @@
-#include "clackers/exchange/printed_digits.hpp"
+#include "clackers/exchange/text/printed_digits.hpp"
 
 namespace clackers::exchange {
 

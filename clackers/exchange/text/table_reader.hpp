@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exchange/separation.hpp"
-#include "clackers/exchange/text_lines.hpp"
+#include "clackers/exchange/text/separation.hpp"
+#include "clackers/exchange/text/text_lines.hpp"
 
 namespace clackers::exchange {
 

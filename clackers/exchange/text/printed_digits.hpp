@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/exchange/number.hpp"
+#include "clackers/exchange/text/number.hpp"
 
 namespace clackers::exchange {
 

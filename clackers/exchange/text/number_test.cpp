@@ -1,8 +1,8 @@
-#include "clackers/exchange/number.hpp"
+#include "clackers/exchange/text/number.hpp"
 
 #include <gtest/gtest.h>
 
-#include "clackers/exchange/printed_digits.hpp"
+#include "clackers/exchange/text/printed_digits.hpp"
 
 namespace clackers::exchange {
 namespace {

@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "clackers/base/codes.hpp"
+#include "clackers/report/format.hpp"
+#include "clackers/report/words.hpp"
+
+namespace clackers::report {
+namespace {
+
+void add(std::string& text, std::string_view sentence) {
+  if (sentence.empty()) return;
+  if (!text.empty()) text += ' ';
+  text += sentence;
+}
+
+std::string meaning_of(std::string_view code) {
+  const auto* entry = find_code(code);
+  return entry == nullptr ? std::string() : std::string(entry->meaning);
+}
+
+std::string range_text(const assess::LadderFit& fit) {
+  const auto step = [&](int level) {
+    return std::size_t(level) < fit.steps.size() ? short_number(fit.steps[std::size_t(level)], 3)
+                                                 : std::string("?");
+  };
+  return fmt::format("h = {} s to {} s", step(fit.first_level), step(fit.last_level));
+}
+
+std::string behaviour_sentence(const assess::LadderFit& fit) {
+  const auto order = [&] { return fmt::format("{} ({})", order_text(fit), range_text(fit)); };
+  std::string text;
+  switch (fit.behaviour) {
+    case Behaviour::exact:
+      return "Exact: the error in u is at the rounding floor at every level.";
+    case Behaviour::proper:
+      return fmt::format("Converges with order {}.", order());
+    case Behaviour::reduced:
+      return fmt::format("Converges with the reduced order {}.", order());
+    case Behaviour::irregular:
+      return fmt::format(
+          "Converges irregularly: the upper envelope has order {}, neighbouring steps differ by up "
+          "to a factor {}.",
+          order(), short_number(fit.scatter, 2));
+    case Behaviour::stagnating:
+      text = fmt::format("Stagnates at an error in u of {} ({}).", scientific(fit.floor),
+                         range_text(fit));
+      break;
+    case Behaviour::divergent:
+      text = "Diverges.";
+      break;
+    case Behaviour::undecided:
+      text = "The behaviour is undecided.";
+      break;
+  }
+  add(text, meaning_of(fit.reason));
+  return text;
+}
+
+// The numbers of an Evidence as its table in assessment.hpp has them.
+std::string evidence_sentence(const assess::Evidence& evidence) {
+  const auto& code = evidence.code;
+  const auto number = [&](std::size_t i) {
+    return i < evidence.numbers.size() ? evidence.numbers[i] : std::nan("");
+  };
+  const auto text = [&](std::size_t i, int digits = 3) { return short_number(number(i), digits); };
+  if (code == "collisions-miscounted")
+    return fmt::format("Wrong collisions at h = {} s: {} of {} matched, {} extra.", text(0),
+                       text(1, 15), text(2, 15), text(3, 15));
+  if (code == "printed-digits")
+    return fmt::format(
+        "Limited by the printed digits: the error in u of the finest history is {}, printing alone "
+        "may make {}.",
+        scientific(number(0)), scientific(number(1)));
+  if (code == "within-tolerance")
+    return fmt::format("Within the tolerance: the error in u is {}, the tolerance {}.", text(0),
+                       text(1));
+  if (code == "beyond-tolerance")
+    return fmt::format("Beyond the tolerance: the error in u is {}, the tolerance {}.", text(0),
+                       text(1));
+  if (code == "tolerance-not-resolved")
+    return fmt::format(
+        "The printed digits are too few for this tolerance: the error in u is {}, the tolerance {}, "
+        "printing alone may make {}.",
+        text(0), text(1), scientific(number(2)));
+  if (code == "other-start")
+    return fmt::format("Another motion: the first row is {} of the envelope off.", text(0, 2));
+  if (code == "other-collisions")
+    return fmt::format("Another motion: {} of {} collisions matched, {} extra.", text(0, 15),
+                       text(1, 15), text(2, 15));
+  if (code == "sparse-rows") return "The rows are too far apart to find the collisions in them.";
+  return meaning_of(code);
+}
+
+const study::Run* first_failure(const study::Subject& subject) {
+  for (const auto& level : subject.levels)
+    for (const auto& run : level.runs)
+      if (!run.score.failure.empty()) return &run;
+  return nullptr;
+}
+
+std::string claim_sentence(const study::Subject& subject) {
+  const auto& [claim, assessment] = std::tie(subject.claim, subject.assessment);
+  if (claim.behaviour == Behaviour::undecided)
+    return subject.tolerance ? std::string() : "Nothing is claimed.";
+  const auto& fit = assessment.displacement;
+  const auto claimed =
+      fmt::format("{}: {}", subject.kind == study::SubjectKind::method ? "Claimed" : "Expected",
+                  claim_text(claim));
+  if (assessment.verdict == Verdict::undecided && fit.behaviour == Behaviour::exact)
+    return claimed + "; a larger coarsest step is needed to measure it.";
+  if (assessment.verdict == Verdict::undecided && fit.behaviour == Behaviour::irregular)
+    return claimed + "; more levels are needed.";
+  if (assessment.verdict == Verdict::disagrees && fit.behaviour == Behaviour::proper &&
+      claim.behaviour == Behaviour::proper && fit.order > claim.order)
+    return claimed +
+           "; it converges faster than that: the claim is too low, or errors cancel here.";
+  return claimed + ".";
+}
+
+long long run_count(const study::Subject& subject) {
+  long long runs = 0;
+  for (const auto& level : subject.levels) runs += static_cast<long long>(level.runs.size());
+  return runs;
+}
+
+}  // namespace
+
+std::string assessment_text(const study::Subject& subject) {
+  const auto& assessment = subject.assessment;
+  const auto& fit = assessment.displacement;
+  std::string text;
+  for (const auto& evidence : assessment.evidence) add(text, evidence_sentence(evidence));
+  const bool is_method = subject.kind == study::SubjectKind::method;
+  const bool has_claim = subject.claim.behaviour != Behaviour::undecided;
+  const bool in_evidence = fit.reason == Code("printed-digits").name() && !text.empty();
+  // One history without a claim has no levels to compare.
+  if ((is_method || has_claim || run_count(subject) > 1) && !in_evidence)
+    add(text, behaviour_sentence(fit));
+  const auto* failed = first_failure(subject);
+  if (failed != nullptr && fit.reason == Code("run-failed").name())
+    add(text, fmt::format("First failure, h = {} s: {}", short_number(failed->score.step, 3),
+                          failed->score.failure));
+  add(text, claim_sentence(subject));
+  return text;
+}
+
+std::optional<Finding> finding(const study::Subject& subject) {
+  if (!subject.refusal.empty()) return Finding{subject.refusal, subject.refusal_code};
+  if (!subject.complete)
+    return Finding{"Interrupted before the last level; only the finished levels are assessed.",
+                   std::string(Code("interrupted").name())};
+  const auto& assessment = subject.assessment;
+  const auto& fit = assessment.displacement;
+  const bool as_claimed = assessment.verdict == Verdict::agrees && fit.reason.empty() &&
+                          (fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::exact);
+  if (subject.kind == study::SubjectKind::histories)
+    return Finding{assessment_text(subject), assessment.reason};
+  if (as_claimed) return {};
+  auto code = assessment.reason;
+  if (code.empty()) code = fit.reason.empty() ? to_string(fit.behaviour) : fit.reason;
+  return Finding{assessment_text(subject), code};
+}
+
+std::optional<Finding> false_convergence(const study::Subject& subject) {
+  if (!subject.self_convergence) return {};
+  const auto& result = *subject.self_convergence;
+  const auto& comparison = result.against_reference;
+  if (!comparison.false_convergence) return {};
+  const auto& errors = result.errors;
+  if (comparison.reason == Code("wrong-limit").name())
+    return Finding{
+        fmt::format("False convergence: the runs converge to a limit {} away from the "
+                    "reference solution.",
+                    short_number(errors.errors.empty() ? errors.floor : errors.errors.back(), 2)),
+        comparison.reason};
+  if (result.self.proper && comparison.error_ratio > assess::trust_factor)
+    return Finding{fmt::format("False convergence: the error is {} times the estimate from the "
+                               "differences between runs.",
+                               short_number(comparison.error_ratio, 2)),
+                   comparison.reason};
+  return Finding{"False convergence: the differences between runs shrink, the errors do not.",
+                 comparison.reason};
+}
+
+std::string self_convergence_text(const study::SelfResult& result) {
+  auto text = fmt::format("Differences between runs: {}. Errors of the same runs: {}.",
+                          fit_text(result.self.differences), fit_text(result.errors));
+  if (result.against_reference.false_convergence) return text;
+  if (result.self.proper)
+    add(text, fmt::format("The estimate holds: the error is {} times it.",
+                          short_number(result.against_reference.error_ratio, 2)));
+  else
+    add(text, "The differences bound no error.");
+  return text;
+}
+
+}  // namespace clackers::report
