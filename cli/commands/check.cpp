@@ -54,7 +54,7 @@ study::CheckRequest request_of(const Options& options, const std::string& line) 
   if (!options.expect.empty()) request.expect = study::claim_from(options.expect);
   if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
   if (!options.metrics.empty() && options.metrics != "all")
-    refuse_name("metrics", options.metrics, {"all"}, "clackers check --help");
+    refuse_name("metrics", options.metrics, std::vector<std::string>{"all"}, "all");
   request.command = line;
   return request;
 }

@@ -12,9 +12,9 @@ namespace {
 
 // Coarsest step with `per_period` steps in a period of the fast mass.
 VerifyRequest request(double N, double xi1, std::vector<std::string> methods, double per_period,
-                      LadderPlan plan) {
+                      RefinementPlan plan) {
   VerifyRequest request;
-  request.case_name = "three-parameter";
+  request.cases = {"three-parameter"};
   request.settings = {{"N", N}, {"xi1", xi1}, {"a_t", 1.0}};
   request.methods = std::move(methods);
   const double fast = (4.0 * N + 1.0) * std::sqrt(1.0 - xi1 * xi1);
@@ -31,31 +31,32 @@ class PaperSystems : public testing::TestWithParam<PaperSystem> {};
 
 TEST_P(PaperSystems, Rk4WithLocatedImpactsIsProperAtFour) {
   const auto [N, xi1] = GetParam();
-  const auto record = verify(request(N, xi1, {"rk4"}, 20.0, {.levels = 5, .neighbours = 3}));
-  const auto& assessment = record.methods[0].assessment;
-  EXPECT_EQ(assessment.displacement.behaviour, Behaviour::proper) << assessment.sentence;
-  EXPECT_NEAR(assessment.displacement.order, 4.0, 0.4) << assessment.sentence;
-  EXPECT_EQ(assessment.verdict, Verdict::agrees) << assessment.sentence;
+  const auto record = verify(request(N, xi1, {"rk4"}, 20.0, {.levels = 5, .samples_per_level = 3}));
+  const auto& assessment = record.cases.at(0).subjects.at(0).assessment;
+  EXPECT_EQ(assessment.displacement.behaviour, Behaviour::proper) << assessment.displacement.reason;
+  EXPECT_NEAR(assessment.displacement.order, 4.0, 0.4) << assessment.displacement.reason;
+  EXPECT_EQ(assessment.verdict, Verdict::agrees) << assessment.displacement.reason;
   EXPECT_EQ(exit_code(record), 0);
   // T = pi / sqrt(1 - xi1^2): the last collision before 20 s is number floor(20/T + 1/2).
   const auto expected =
       std::llround(std::floor(20.0 * std::sqrt(1.0 - xi1 * xi1) / std::numbers::pi + 0.5));
-  EXPECT_EQ(record.problem.impact_count, expected);
-  for (const auto& run : record.methods[0].ladder.back().runs) {
-    ASSERT_TRUE(run.impacts.has_value());
-    EXPECT_EQ(run.impacts->found, expected);
-    EXPECT_EQ(run.impacts->matched, expected);
-    EXPECT_EQ(run.impacts->missed + run.impacts->extra, 0);
+  EXPECT_EQ(record.cases.at(0).problem.impact_count, expected);
+  for (const auto& run : record.cases.at(0).subjects.at(0).levels.back().runs) {
+    ASSERT_TRUE(run.score.impacts.has_value());
+    EXPECT_EQ(run.score.impacts->found, expected);
+    EXPECT_EQ(run.score.impacts->matched, expected);
+    EXPECT_EQ(run.score.impacts->missed + run.score.impacts->extra, 0);
   }
 }
 
 TEST_P(PaperSystems, NewmarkWithLocatedImpactsIsProperAtTwo) {
   const auto [N, xi1] = GetParam();
-  const auto record = verify(request(N, xi1, {"newmark"}, 80.0, {.levels = 5, .neighbours = 3}));
-  const auto& assessment = record.methods[0].assessment;
-  EXPECT_EQ(assessment.displacement.behaviour, Behaviour::proper) << assessment.sentence;
-  EXPECT_NEAR(assessment.displacement.order, 2.0, 0.2) << assessment.sentence;
-  EXPECT_EQ(assessment.verdict, Verdict::agrees) << assessment.sentence;
+  const auto record =
+      verify(request(N, xi1, {"newmark"}, 80.0, {.levels = 5, .samples_per_level = 3}));
+  const auto& assessment = record.cases.at(0).subjects.at(0).assessment;
+  EXPECT_EQ(assessment.displacement.behaviour, Behaviour::proper) << assessment.displacement.reason;
+  EXPECT_NEAR(assessment.displacement.order, 2.0, 0.2) << assessment.displacement.reason;
+  EXPECT_EQ(assessment.verdict, Verdict::agrees) << assessment.displacement.reason;
 }
 
 constexpr PaperSystem systems[] = {{0, 0.0},  {0, 0.05}, {0, 0.25}, {1, 0.0},   {1, 0.05},
@@ -70,11 +71,11 @@ INSTANTIATE_TEST_SUITE_P(Eq25, PaperSystems, testing::ValuesIn(systems), [](cons
 TEST(PaperSystem, ThePanelBehavesAsEachMethodClaimsOnTheDefaultCase) {
   const auto record = verify({});
   const auto behaviour = [&](std::size_t i) {
-    return record.methods.at(i).assessment.displacement.behaviour;
+    return record.cases.at(0).subjects.at(i).assessment.displacement.behaviour;
   };
-  for (const auto& method : record.methods)
+  for (const auto& method : record.cases.at(0).subjects)
     EXPECT_EQ(method.assessment.verdict, Verdict::agrees)
-        << method.name << ": " << method.assessment.sentence;
+        << method.name << ": " << method.assessment.displacement.reason;
   EXPECT_EQ(behaviour(0), Behaviour::proper);      // newmark
   EXPECT_EQ(behaviour(1), Behaviour::proper);      // central-difference
   EXPECT_EQ(behaviour(2), Behaviour::proper);      // rk4
@@ -82,7 +83,7 @@ TEST(PaperSystem, ThePanelBehavesAsEachMethodClaimsOnTheDefaultCase) {
   EXPECT_EQ(behaviour(4), Behaviour::irregular);   // newmark+reversal
   EXPECT_EQ(behaviour(5), Behaviour::stagnating);  // newmark+penalty
   EXPECT_EQ(behaviour(6), Behaviour::irregular);   // moreau-jean
-  EXPECT_EQ(record.methods[5].assessment.displacement.reason, "contact-stiffness");
+  EXPECT_EQ(record.cases.at(0).subjects[5].assessment.displacement.reason, "contact-stiffness");
   EXPECT_EQ(exit_code(record), 0);
 }
 
