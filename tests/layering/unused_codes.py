@@ -19,7 +19,7 @@ FOLDERS = ["clackers", "cli", "bindings"]
 
 def rows(text):
     """Names and kinds of all rows; every row must be understood."""
-    body = text[text.index("constexpr auto rows ="):]
+    body = text[text.index("constexpr auto rows"):]
     body = body[:body.index("});")]
     found = ROW.findall(body)
     starts = len(re.findall(r'^\s*\{"', body, re.MULTILINE))

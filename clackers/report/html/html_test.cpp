@@ -122,8 +122,8 @@ TEST(Html, EveryMethodThatRanHasItsMetrics) {
   EXPECT_EQ(occurrences(page, "<details class=\"metrics\">"), 7u);
   EXPECT_EQ(occurrences(page, "<code>v-max</code> *</th>"), 7u);
   EXPECT_EQ(occurrences(page,
-                        "<p>There are no collisions. Not measured: <code>decay-error</code>, "
-                        "<code>collision-spacing</code>.</p>"),
+                        "<p>There are no collisions. Not measured: <code>period-fit-relative</code>, "
+                        "<code>impact-spacing-max-relative</code>.</p>"),
             7u);
 }
 

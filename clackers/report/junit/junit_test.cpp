@@ -95,7 +95,7 @@ TEST(Junit, HistoriesAreOneTestWithALineAFile) {
   const auto test = test_of(document, "histories");
   EXPECT_STREQ(test.attribute("classname").value(), "clackers.check.three-parameter");
   EXPECT_EQ(property(test, "metric:u-max"), "1e-06");
-  EXPECT_EQ(property(test, "metric:decay-error"), "") << "not measured";
+  EXPECT_EQ(property(test, "metric:period-fit-relative"), "") << "not measured";
   const std::string log = test.child("failure").text().get();
   EXPECT_TRUE(has(log, "fine.csv: h = 0.01 s: error in u 1.00e-3, 4 of 6 collisions matched\n"));
   EXPECT_TRUE(has(log, "No events file"));

@@ -107,9 +107,9 @@ inline std::vector<study::MetricResult> sample_metrics() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return {{"u-max", "m", 1e-6, {1e-6, 5e-7}, "", true},
           {"v-max", "m/s", 2.0, {2.0, 1.0}, "", false},
-          {"collisions-missed", "1", 2.0, {}, "", true},
-          {"decay-error", "1", nan, {}, "There are no collisions.", true},
-          {"collision-spacing", "s", nan, {}, "There are no collisions.", true}};
+          {"energy-max-relative", "1", 2.0, {}, "", false},
+          {"period-fit-relative", "1", nan, {}, "There are no collisions.", true},
+          {"impact-spacing-max-relative", "1", nan, {}, "There are no collisions.", true}};
 }
 
 inline study::Curve sample_error_history(const SampleMethod& method, double step,

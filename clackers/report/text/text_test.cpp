@@ -76,8 +76,13 @@ TEST(Text, HistoriesHaveFilesNotesAndMetrics) {
   EXPECT_TRUE(has(text, "\nfine.csv ")) << text;
   EXPECT_FALSE(has(text, "/a/long/way"));
   EXPECT_TRUE(has(text, "No events file"));
-  EXPECT_TRUE(has(text, "v-max *"));
-  EXPECT_TRUE(has(text, "Not measured: decay-error, collision-spacing"));
+  EXPECT_TRUE(has(text, "energy-max-relative *"));
+  EXPECT_TRUE(has(text, "Not measured: period-fit-relative, impact-spacing-max-relative"));
+  EXPECT_FALSE(has(text, "v-max *"));
+  EXPECT_TRUE(has(text, "2 more: --metrics all."));
+  const auto all = text_of_record(sample_check(), {.all_metrics = true});
+  EXPECT_TRUE(has(all, "v-max *"));
+  EXPECT_FALSE(has(all, "--metrics all"));
 }
 
 TEST(Text, ColourIsPrintedOnlyWhenAsked) {
