@@ -192,7 +192,7 @@ class Long(CommandTest):
     def interrupted(self, *arguments):
         process = start("respond", "three-parameter", *arguments, "--out", self.path("rows"),
                         stderr=subprocess.PIPE)
-        self.wait_for(self.files)
+        self.wait_for(lambda: self.open_files(process))
         time.sleep(0.3)
         process.send_signal(signal.SIGINT)
         begin = time.monotonic()
