@@ -3,7 +3,7 @@
  *
  * Every function that can fail returns a clackers_status and never ends the program. After a status
  * other than CLACKERS_OK nothing was created and no output but buffers of numbers was touched (those
- * may be partly written); clackers_last_error() tells in words what was wrong and what is allowed,
+ * may be partly written); clackers_last_error() says in words what was wrong and what is allowed,
  * for the last such call on the same thread.
  *
  * A structure begins with struct_size, which the caller sets to sizeof the structure before the

@@ -51,7 +51,7 @@ long long low_exponent(const Ball& x) {
   arb_log(logarithm.get(), x.get(), WorkingBits::now());
   arb_const_log10(log_10.get(), WorkingBits::now());
   const double e = (logarithm / log_10).middle();
-  constexpr double most = 1e15;  // doubles tell neighbouring exponents from each other
+  constexpr double most = 1e15;  // doubles hold neighbouring exponents apart
   if (!(std::abs(e) < most))
     throw InputError(
         fmt::format("digits: a value is about 10^({:.3g}); allowed: 1e-1000000000000000 to "

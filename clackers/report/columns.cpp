@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {

@@ -11,7 +11,7 @@
 namespace clackers::report {
 namespace {
 
-// "1.2e-07" as "1.2e-7": the zero and the plus sign tell nothing and cost the width of a column.
+// "1.2e-07" as "1.2e-7": the zero and the plus sign carry nothing and cost the width of a column.
 std::string without_padding(std::string text) {
   const auto e = text.find('e');
   if (e == std::string::npos) return text;

@@ -13,7 +13,7 @@
 #include "clackers/report/columns.hpp"
 #include "clackers/report/junit/junit.hpp"
 #include "clackers/report/latex/latex.hpp"
-#include "clackers/report/rows.hpp"
+#include "clackers/report/rows/rows.hpp"
 #include "clackers/report/text/text.hpp"
 #include "clackers/study/record_json.hpp"
 

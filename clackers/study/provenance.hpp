@@ -6,8 +6,8 @@
 
 namespace clackers::study {
 
-/// Who computes here and now: version, compiler, machine, processor, date. What the machine does
-/// not tell stays "unknown".
+/// Who computes here and now: version, compiler, machine, processor, date. What the machine
+/// does not provide stays "unknown".
 Provenance provenance(std::string command);
 
 /// The processor's name in the text of /proc/cpuinfo, or "unknown".

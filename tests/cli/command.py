@@ -12,7 +12,7 @@ import unittest
 
 PROGRAM = os.environ["CLACKERS"]
 
-# The methods judged when none is named.
+# The methods assessed when none is named.
 PANEL = ("newmark", "central-difference", "rk4", "generalized-alpha:rho=0.8", "newmark+reversal",
          "newmark+penalty", "moreau-jean")
 

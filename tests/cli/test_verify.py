@@ -8,12 +8,12 @@ import unittest
 from command import LONG_LADDER, PANEL, SHORT_LADDER, CommandTest, environment, run, start
 
 # Enough levels for a judgement on RK4, and quick.
-JUDGED = ("--levels", "6", "--neighbours", "2")
+SHORT = ("--levels", "6", "--neighbours", "2")
 
 
 class Verdicts(CommandTest):
     def test_agreement_is_exit_code_0(self):
-        done = run("verify", "rk4", *JUDGED)
+        done = run("verify", "rk4", *SHORT)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("agrees", done.stdout)
         self.assertIn("proper", done.stdout)

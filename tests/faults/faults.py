@@ -36,7 +36,7 @@ class Failure(Exception):
 
 
 def is_whole(path):
-    """A complete new output, judged by its end."""
+    """A complete new output, recognized by its end."""
     if path.is_dir():
         listed = json.loads((path / "paper.json").read_text())["files"]
         if not {each.name for each in path.iterdir()} <= set(listed):

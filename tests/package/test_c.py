@@ -57,8 +57,8 @@ class CLibrary(unittest.TestCase):
         self.check(installed.run(build / "collisions"))
 
     def test_pkg_config_has_the_version_of_the_command(self):
-        told = installed.run("pkg-config", "--modversion", "clackers", env=tree.environment()).strip()
-        self.assertIn(told, installed.run(tree.prefix / "bin/clackers", "--version"))
+        version = installed.run("pkg-config", "--modversion", "clackers", env=tree.environment()).strip()
+        self.assertIn(version, installed.run(tree.prefix / "bin/clackers", "--version"))
 
     def test_library_has_a_soname(self):
         self.assertIn("Library soname: [libclackers.so.0]", installed.run("readelf", "-d", tree.lib / "libclackers.so"))

@@ -183,7 +183,7 @@ int severity(Verdict verdict) {
 void decide(Assessment& found, const Claim& claim, const Ladder& ladder, bool is_history) {
   const auto& fit = found.displacement;
   found.verdict = compare(fit, claim);
-  // One history without a claim was not fitted to tell its order.
+  // One history without a claim was not fitted for its order.
   const bool one_history = is_history && claim.behaviour == Behaviour::undecided &&
                            ladder.size() == 1 && ladder.front().runs.size() == 1;
   if (!one_history) found.reason = fit.reason;

@@ -30,8 +30,8 @@ Ladder levels(double order, double floor = 0.0, double printed = 0.0) {
 
 Ladder one(const RunScore& score) { return {{score.step, {score}}}; }
 
-Assessment judged(const Ladder& ladder, const Claim& claim = {},
-                  std::optional<double> tolerance = {}, HistoryFacts finest = {}) {
+Assessment assessed(const Ladder& ladder, const Claim& claim = {},
+                    std::optional<double> tolerance = {}, HistoryFacts finest = {}) {
   finest.rows = std::llround(20.0 / ladder.back().step);
   return judge(ladder, claim, {.tolerance = tolerance, .finest = finest});
 }
@@ -40,19 +40,19 @@ const Claim proper_2{Behaviour::proper, 2.0, {}}, exact{Behaviour::exact, 0.0, {
     any_floor{Behaviour::stagnating, 0.0, {}};
 
 TEST(JudgeHistories, GoByTheExpectation) {
-  EXPECT_EQ(judged(levels(2.0), proper_2).verdict, Verdict::agrees);
-  EXPECT_EQ(judged(levels(1.0), proper_2).verdict, Verdict::disagrees);
-  EXPECT_EQ(judged(levels(1.0), {Behaviour::reduced, 1.0, {}}).verdict, Verdict::agrees);
-  EXPECT_EQ(judged(one(run(0.01, 1e-4)), proper_2).verdict, Verdict::undecided);
-  EXPECT_EQ(judged(levels(2.0)).verdict, Verdict::not_claimed);
-  EXPECT_TRUE(judged(one(run(0.01, 1e-4))).reason.empty());
+  EXPECT_EQ(assessed(levels(2.0), proper_2).verdict, Verdict::agrees);
+  EXPECT_EQ(assessed(levels(1.0), proper_2).verdict, Verdict::disagrees);
+  EXPECT_EQ(assessed(levels(1.0), {Behaviour::reduced, 1.0, {}}).verdict, Verdict::agrees);
+  EXPECT_EQ(assessed(one(run(0.01, 1e-4)), proper_2).verdict, Verdict::undecided);
+  EXPECT_EQ(assessed(levels(2.0)).verdict, Verdict::not_claimed);
+  EXPECT_TRUE(assessed(one(run(0.01, 1e-4))).reason.empty());
 }
 
 TEST(JudgeHistories, PrintedDigitsThatStopTheLevelsAreNamed) {
   // Errors of order 2 and of printing, which adds up to its floor.
   const HistoryFacts printed{.printed_floor = 5e-5};
   for (const auto& claim : {Claim{}, proper_2}) {
-    const auto found = judged(levels(2.0, 5e-5, 5e-5), claim, {}, printed);
+    const auto found = assessed(levels(2.0, 5e-5, 5e-5), claim, {}, printed);
     EXPECT_EQ(found.displacement.behaviour, Behaviour::stagnating);
     EXPECT_EQ(found.reason, "printed-digits");
     EXPECT_EQ(found.verdict, claim.order > 0.0 ? Verdict::undecided : Verdict::not_claimed);
@@ -60,39 +60,39 @@ TEST(JudgeHistories, PrintedDigitsThatStopTheLevelsAreNamed) {
     EXPECT_EQ(found.evidence[0].code, "printed-digits");
     EXPECT_EQ(found.evidence[0].numbers[1], 5e-5);
   }
-  EXPECT_EQ(judged(levels(2.0, 5e-5, 5e-5), any_floor, {}, printed).verdict, Verdict::agrees);
+  EXPECT_EQ(assessed(levels(2.0, 5e-5, 5e-5), any_floor, {}, printed).verdict, Verdict::agrees);
   // The same floor with all digits is not printing's.
-  EXPECT_NE(judged(levels(2.0, 5e-3)).reason, "printed-digits");
+  EXPECT_NE(assessed(levels(2.0, 5e-3)).reason, "printed-digits");
   // A line that is long enough above the floor stays a line.
   const HistoryFacts fine{.printed_floor = 1e-9};
-  EXPECT_EQ(judged(levels(2.0, 1e-9, 1e-9), proper_2, {}, fine).verdict, Verdict::agrees);
+  EXPECT_EQ(assessed(levels(2.0, 1e-9, 1e-9), proper_2, {}, fine).verdict, Verdict::agrees);
 }
 
 TEST(JudgeHistories, PrintedDigitsThroughoutAreNotExact) {
   const auto found =
-      judged(one(run(0.01, 4e-6, 5e-6)), exact, {}, HistoryFacts{.printed_floor = 5e-6});
+      assessed(one(run(0.01, 4e-6, 5e-6)), exact, {}, HistoryFacts{.printed_floor = 5e-6});
   EXPECT_EQ(found.verdict, Verdict::undecided);
   EXPECT_EQ(found.reason, "printed-digits");
-  EXPECT_EQ(judged(one(run(0.01, 1e-13)), exact).verdict, Verdict::agrees);
+  EXPECT_EQ(assessed(one(run(0.01, 1e-13)), exact).verdict, Verdict::agrees);
 }
 
 TEST(JudgeHistories, GoByTheToleranceOfTheFinestUnlessPrintingHidesIt) {
   const Ladder two{{0.02, {run(0.02, 1e-1)}}, {0.01, {run(0.01, 1e-3)}}};
-  EXPECT_EQ(judged(two, {}, 2e-3).verdict, Verdict::agrees);
-  EXPECT_EQ(judged(one(run(0.01, 3e-3)), {}, 2e-3).verdict, Verdict::disagrees);
-  EXPECT_EQ(judged(one(run(0.01, 2e-3)), {}, 2e-3).verdict, Verdict::undecided)
+  EXPECT_EQ(assessed(two, {}, 2e-3).verdict, Verdict::agrees);
+  EXPECT_EQ(assessed(one(run(0.01, 3e-3)), {}, 2e-3).verdict, Verdict::disagrees);
+  EXPECT_EQ(assessed(one(run(0.01, 2e-3)), {}, 2e-3).verdict, Verdict::undecided)
       << "rounded numbers do not decide equality";
   const HistoryFacts coarse{.printed_floor = 5e-4};
   for (const double error : {1.8e-3, 2.2e-3})
-    EXPECT_EQ(judged(one(run(0.01, error)), {}, 2e-3, coarse).reason, "printed-digits");
-  EXPECT_EQ(judged(one(run(0.01, 1e-3)), {}, 2e-3, coarse).verdict, Verdict::agrees);
+    EXPECT_EQ(assessed(one(run(0.01, error)), {}, 2e-3, coarse).reason, "printed-digits");
+  EXPECT_EQ(assessed(one(run(0.01, 1e-3)), {}, 2e-3, coarse).verdict, Verdict::agrees);
 }
 
 TEST(JudgeHistories, VerdictIsTheWorseOfExpectationAndTolerance) {
-  EXPECT_EQ(judged(levels(2.0), proper_2, 1e-9).verdict, Verdict::disagrees);
-  EXPECT_EQ(judged(levels(1.0), proper_2, 1.0).verdict, Verdict::disagrees);
-  EXPECT_EQ(judged(one(run(0.01, 1e-4)), proper_2, 1.0).verdict, Verdict::undecided);
-  EXPECT_EQ(judged(levels(2.0), proper_2, 1.0).verdict, Verdict::agrees);
+  EXPECT_EQ(assessed(levels(2.0), proper_2, 1e-9).verdict, Verdict::disagrees);
+  EXPECT_EQ(assessed(levels(1.0), proper_2, 1.0).verdict, Verdict::disagrees);
+  EXPECT_EQ(assessed(one(run(0.01, 1e-4)), proper_2, 1.0).verdict, Verdict::undecided);
+  EXPECT_EQ(assessed(levels(2.0), proper_2, 1.0).verdict, Verdict::agrees);
 }
 
 TEST(JudgeHistories, AnotherMotionDisagreesThoughNothingIsClaimed) {
@@ -100,19 +100,19 @@ TEST(JudgeHistories, AnotherMotionDisagreesThoughNothingIsClaimed) {
   missed.impacts->missed = 1;
   extra.impacts->extra = 1;
   for (const auto& wrong : {missed, extra}) {
-    EXPECT_EQ(judged(one(wrong)).verdict, Verdict::disagrees);
-    EXPECT_EQ(judged(one(wrong)).evidence.at(0).code, "other-collisions");
-    EXPECT_EQ(judged(one(wrong), {}, 1.0).verdict, Verdict::disagrees);
-    EXPECT_EQ(judged({{0.02, {run(0.02, 0.3)}}, {0.01, {wrong}}}).verdict, Verdict::disagrees);
-    EXPECT_EQ(judged({{0.01, {wrong}}, {0.005, {run(0.005, 0.1)}}}).verdict, Verdict::not_claimed)
+    EXPECT_EQ(assessed(one(wrong)).verdict, Verdict::disagrees);
+    EXPECT_EQ(assessed(one(wrong)).evidence.at(0).code, "other-collisions");
+    EXPECT_EQ(assessed(one(wrong), {}, 1.0).verdict, Verdict::disagrees);
+    EXPECT_EQ(assessed({{0.02, {run(0.02, 0.3)}}, {0.01, {wrong}}}).verdict, Verdict::disagrees);
+    EXPECT_EQ(assessed({{0.01, {wrong}}, {0.005, {run(0.005, 0.1)}}}).verdict, Verdict::not_claimed)
         << "the finest history decides";
   }
   const HistoryFacts away{.first = 1.0, .start_error = 0.5};
-  EXPECT_EQ(judged(one(run(0.01, 0.3)), {}, {}, away).verdict, Verdict::disagrees);
+  EXPECT_EQ(assessed(one(run(0.01, 0.3)), {}, {}, away).verdict, Verdict::disagrees);
   const HistoryFacts sparse{.rows_resolve_collisions = false};
-  EXPECT_EQ(judged(one(missed), {}, {}, sparse).verdict, Verdict::not_claimed);
-  EXPECT_EQ(judged(one(missed), {}, {}, sparse).reason, "sparse-rows");
-  EXPECT_EQ(judged(one(run(0.01, 0.3))).verdict, Verdict::not_claimed);
+  EXPECT_EQ(assessed(one(missed), {}, {}, sparse).verdict, Verdict::not_claimed);
+  EXPECT_EQ(assessed(one(missed), {}, {}, sparse).reason, "sparse-rows");
+  EXPECT_EQ(assessed(one(run(0.01, 0.3))).verdict, Verdict::not_claimed);
 }
 
 TEST(JudgeHistories, AFloorOfCompliantContactsAgreesWithAnExpectedFloor) {

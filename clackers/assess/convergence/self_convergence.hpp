@@ -6,7 +6,7 @@
 
 #include "clackers/assess/convergence/assessment.hpp"
 
-// Convergence judged from the runs alone, by the differences between runs at successive steps, and
+// Convergence assessed from the runs alone, by the differences between runs at successive steps, and
 // beside it what the true motion says of the same runs.
 namespace clackers::assess {
 

@@ -239,7 +239,7 @@ TEST(ClosedForm, ImpactsAreTrueAndTheirTimesEnclosed) {
       Real energy_before = 0, energy_after = 0;
       for (int m = 0; m < 2; ++m) {
         const auto& mass = o.mass[m];
-        // At odd multiples of pi/2 of the slow mass; each flight starts anew, so t_1 tells the
+        // At odd multiples of pi/2 of the slow mass; each flight starts anew, so t_1 shows the
         // sign.
         const Real hit_v = -mass.start * mass.frequency * sin(mass.frequency * o.instant(1.0));
         EXPECT_EQ(hit.before.u[m], 0.0);

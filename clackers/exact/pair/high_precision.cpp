@@ -67,7 +67,7 @@ void require_end(std::string_view who, const RealMotion& motion) {
     refuse(who, "t_end", motion.end,
            fmt::format("0 < t_end <= {} s, which is 2^50 half periods",
                        std::nextafter(to_double(most_half_periods * pi() / motion.omega), 0.0)),
-           "Beyond, collisions lie closer together than double precision can tell their times.");
+           "Beyond, collisions lie closer together than double precision resolves their times.");
 }
 
 RealMotion unit_mass(double xi1, double eta, double end, bool collides) {

@@ -109,13 +109,13 @@ TEST_P(Sampling, IsTrueToHalfAnUlpOfTheEnvelope) {
     States found(2 * times.size());
     motion.sample(times, Side::right, found.buffers());
     for (std::size_t j = 0; j < times.size(); ++j) {
-      const auto truth = oracle.state(times[j], Side::right);
+      const auto expected = oracle.state(times[j], Side::right);
       const auto bound = motion.error_bound(times[j]);
       for (std::size_t m = 0; m < 2; ++m) {
         const auto at = Eigen::Index(m);
-        EXPECT_LE(abs(truth.u[m] - Real(found.u[2 * j + m])), Real(bound.u[at]));
-        EXPECT_LE(abs(truth.v[m] - Real(found.v[2 * j + m])), Real(bound.v[at]));
-        EXPECT_LE(abs(truth.a[m] - Real(found.a[2 * j + m])), Real(bound.a[at]));
+        EXPECT_LE(abs(expected.u[m] - Real(found.u[2 * j + m])), Real(bound.u[at]));
+        EXPECT_LE(abs(expected.v[m] - Real(found.v[2 * j + m])), Real(bound.v[at]));
+        EXPECT_LE(abs(expected.a[m] - Real(found.a[2 * j + m])), Real(bound.a[at]));
       }
     }
     if (HasFailure()) return;

@@ -127,9 +127,10 @@ TEST(Conditioning, DetuningLosesSynchronyAboutWhenItSays) {
                {13.0, 4.0, 1e-3, 1.345},     {3.0, 2.0, 1e-3, 1.533},
                {9.0, 1.5, 1e-3, 1.212}};
   for (const auto& [X, r, eps, seen] : table) {
-    const double told = collisions_until_detuning({X, false}, r, 1.0, eps);
-    const double lost = lost_after(X, r, eps, static_cast<int>(3.0 * told));
-    EXPECT_NEAR(lost / told, seen, 0.01) << X << " " << r << " " << eps << " told " << told;
+    const double predicted = collisions_until_detuning({X, false}, r, 1.0, eps);
+    const double lost = lost_after(X, r, eps, static_cast<int>(3.0 * predicted));
+    EXPECT_NEAR(lost / predicted, seen, 0.01)
+        << X << " " << r << " " << eps << " predicted " << predicted;
   }
   EXPECT_EQ(lost_after(9.0, 0.5, 1e-3, 20000), INFINITY);
   EXPECT_EQ(collisions_until_detuning({9.0, false}, 0.5, 1.0, 1e-3), INFINITY);

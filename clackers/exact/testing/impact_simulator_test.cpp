@@ -102,7 +102,7 @@ TEST(ImpactSimulator, FindsTheContactThatAWalkInTinyStepsFinds) {
                                .v10 = speed(one),
                                .v20 = speed(two)});
     // The opening's second derivative is below 2 * 1.5 * 64: between two points 1e-4 apart it can
-    // dip by at most 2.4e-7, and what dips that little below 0 is told apart by neither.
+    // dip by at most 2.4e-7, and neither resolves what dips that little below 0.
     constexpr double step = 1e-4, end = 12.0;
     const auto opening = [&](double t) { return one.at(t) - two.at(t) + gap; };
     double walked = step, lowest = 1.0;

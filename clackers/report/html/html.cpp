@@ -7,7 +7,7 @@
 #include "clackers/report/html/subjects.hpp"
 #include "clackers/report/html/tables.hpp"
 #include "clackers/report/markup.hpp"
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 #include "clackers/report/write.hpp"
 
 namespace clackers::report {

@@ -7,7 +7,7 @@
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/markup.hpp"
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clackers/report/columns.hpp"
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 

@@ -10,7 +10,7 @@
 
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {

@@ -9,7 +9,7 @@
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/latex/tex.hpp"
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {

@@ -13,7 +13,7 @@
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/text/table.hpp"
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {

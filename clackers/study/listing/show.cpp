@@ -65,7 +65,7 @@ Sheet claim_sheet(const methods::Facts& facts) {
   sheet.rows.push_back({"stability_limit", facts.stability_limit,
                         "largest omega h of undamped smooth motion; inf: every step is stable"});
   sheet.rows.push_back({"behaviour", std::string(to_string(claim.behaviour)),
-                        "claimed through impacts; clackers explain tells what it means"});
+                        "claimed through impacts; clackers explain says what it means"});
   if (claim.order > 0.0)
     sheet.rows.push_back({"order", claim.order,
                           claim.behaviour == Behaviour::irregular

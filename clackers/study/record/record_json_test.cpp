@@ -25,10 +25,12 @@ std::string refusal_of(const std::string& text) {
   return "accepted";
 }
 
-// Converts to any member, so that an aggregate takes as many of them as it has members.
+// Converts to any member, so that an aggregate takes as many of them as it has members. Never run.
 struct Anything {
   template <class T>
-  operator T() const;
+  operator T() const {
+    return {};
+  }
 };
 template <class T, class... Values>
 constexpr std::size_t members(Values... values) {

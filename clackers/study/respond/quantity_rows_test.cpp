@@ -1,4 +1,4 @@
-// Rows of energies, sensitivities and spectra, and what `show` tells of harmonics and conditioning.
+// Rows of energies, sensitivities and spectra, and what `show` prints of harmonics and conditioning.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -120,11 +120,11 @@ TEST(Respond, ReportsTheShareOfItsRowsAndEndsWhereTheCallerThrows) {
 
 TEST(Respond, RefusesTimesOutsideTheRunBeforeAnyRow) {
   const auto which = toy(1, 4.0, {});
-  for (const auto& [t, code] : {std::pair{4.5, "time-outside"},
-                                {-0.5, "time-outside"},
-                                {double(NAN), "not-a-number"},
-                                {double(INFINITY), "not-finite"}}) {
-    EXPECT_REFUSED(respond(which, {0.0, 0, 0.0, {1.0, t, 2.0}}), code);
+  for (const auto& row : {std::pair{4.5, "time-outside"},
+                          {-0.5, "time-outside"},
+                          {double(NAN), "not-a-number"},
+                          {double(INFINITY), "not-finite"}}) {
+    EXPECT_REFUSED(respond(which, {0.0, 0, 0.0, {1.0, row.first, 2.0}}), row.second);
   }
   EXPECT_REFUSED(
       respond(which, {0.0, 0, 0.0, {4.5}}), "time-outside",

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "clackers/base/error.hpp"
-#include "clackers/report/rows.hpp"
+#include "clackers/report/rows/rows.hpp"
 
 namespace clackers::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "clackers/report/format.hpp"
-#include "clackers/report/rows.hpp"
+#include "clackers/report/rows/rows.hpp"
 #include "clackers/report/text/table.hpp"
 
 namespace clackers::report {

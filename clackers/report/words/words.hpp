@@ -56,7 +56,7 @@ struct VerdictLine {
   std::string word;           ///< "agrees", "disagrees", "undecided", "not claimed", "interrupted"
   std::string counts;         ///< "Of 8 methods: 5 agree, 1 disagrees."; empty for one subject
   std::string next;           ///< the command to type next
-  std::string next_in_words;  ///< the same where there is no room for a long command
+  std::string next_in_words;  ///< the same where a long command does not fit
 };
 VerdictLine verdict_line(const study::Record& record);
 

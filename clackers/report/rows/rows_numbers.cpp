@@ -1,4 +1,4 @@
-#include "clackers/report/rows_numbers.hpp"
+#include "clackers/report/rows/rows_numbers.hpp"
 
 #include <fmt/compile.h>
 

@@ -3,7 +3,7 @@
 #include "clackers/report/format.hpp"
 #include "clackers/report/testing/sample_record.hpp"
 #include "clackers/report/testing/written.hpp"
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {

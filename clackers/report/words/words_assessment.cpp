@@ -5,7 +5,7 @@
 
 #include "clackers/base/codes.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "clackers/report/format.hpp"
-#include "clackers/report/words.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {
