@@ -50,7 +50,8 @@ TEST(Junit, TotalsAreThoseOfTheTests) {
 TEST(Junit, AFailureHasItsCodeAndALineALevel) {
   auto record = sample_record();
   record.cases[0].subjects[3].levels[1].runs[2].score.finished = false;
-  const auto failure = test_of(parsed(record), "generalized-alpha:rho=0.8").child("failure");
+  const auto document = parsed(record);
+  const auto failure = test_of(document, "generalized-alpha:rho=0.8").child("failure");
   EXPECT_STREQ(failure.attribute("type").value(), "reduced");
   EXPECT_TRUE(has(failure.attribute("message").value(), "[reduced]"));
   EXPECT_EQ(occurrences(failure.text().get(), "\nh = "), 8u);
@@ -84,7 +85,8 @@ TEST(Junit, PropertiesReadBackToTheSameNumbers) {
 TEST(Junit, WhatWasNotMeasuredIsLeftOut) {
   auto record = sample_record();
   for (auto& run : record.cases[0].subjects[0].levels.back().runs) run.score.finished = false;
-  const auto test = test_of(parsed(record), "newmark");
+  const auto document = parsed(record);
+  const auto test = test_of(document, "newmark");
   EXPECT_EQ(property(test, "u_error"), "");
   for (const auto& each : test.child("properties"))
     EXPECT_FALSE(has(each.attribute("value").value(), "nan")) << each.attribute("name").value();
