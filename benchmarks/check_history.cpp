@@ -56,8 +56,9 @@ void run(const std::string& path) {
   const double memory = peak_memory();
   fmt::print("check: {:.2f} s  <= 3 s  {}; {:.0f} MB  <= 200 MB  {}\n", whole * 1e-9,
              word(whole < 3e9), memory, word(memory < 200.0));
-  fmt::print("error in u {}, {} metrics\n", report::scientific(record.files.front().score.u_error),
-             record.files.front().metrics.size());
+  const auto& run = record.cases.front().subjects.front().levels.back().runs.back();
+  fmt::print("error in u {}, {} metrics\n", report::scientific(run.score.u_error),
+             run.metrics.size());
 }
 
 }  // namespace
