@@ -1,7 +1,5 @@
 #include "clackers/study/respond.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -87,7 +85,7 @@ void check_format(const Options& options, const Results& results) {
   const bool npy = results.format() == report::Format::npy;
   if (npy && !options.digits.empty())
     refuse_usage("--digits is text and --format npy holds doubles. Use csv or json.");
-  if (npy && !results.is_file() && ::isatty(STDOUT_FILENO) != 0)
+  if (npy && results.is_terminal())
     refuse_usage(
         "--format npy is bytes that a terminal cannot show. Add --out FILE, or send them "
         "to a program.");
@@ -135,8 +133,7 @@ std::string picture(const cases::Case& which, const report::Style& style) {
 
 void write(study::RowSource& rows, Results& results, bool quiet) {
   // Rows on a terminal show the progress themselves.
-  const bool rows_are_seen = !results.is_file() && ::isatty(STDOUT_FILENO) != 0;
-  ProgressLine line("respond", quiet || rows_are_seen);
+  ProgressLine line("respond", quiet || results.is_terminal());
   rows.progress = [&](double share) {
     if (interrupt_flag()) throw Interrupted();
     line.report(share);
