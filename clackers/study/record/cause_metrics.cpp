@@ -25,29 +25,31 @@ using assess::MetricValue;
 using assess::not_measured;
 
 constexpr auto table = std::to_array<CauseMetric>({
-    {"synchrony-lost", "1",
+    {"synchrony-loss-index", "1",
      "the first collision, by number, whose time since the one before is wrong by more than 0.1 T",
      "ours"},
-    {"synchrony-growth", "1",
+    {"momentum-growth-fit", "1",
      "growth per collision of ln|p|, p = sum m v / sum |m v| after impacts, up to the loss",
      "ours"},
-    {"detuning", "1",
+    {"detuning-fit", "1",
      "eps: the method's own damped frequencies in flight are in the ratio X (1 + eps)", "ours"},
-    {"detuning-lost", "1",
+    {"detuning-loss-index", "1",
      "ln(0.1/|eps|)/growth: where eps alone loses synchrony if the first disturbance is as large",
      "saltation matrices of the pair"},
     {"detuning-share", "1",
-     "growth that eps alone predicts over synchrony-growth: 1 where it explains all of the loss",
+     "growth that eps alone predicts over momentum-growth-fit: 1 where it explains all of the loss",
      "saltation matrices of the pair"},
-    {"penalty-model-u", "1",
+    {"u-penalty-model-max-relative", "1",
      "max |u of the exact motion with the run's contact spring - u*| / U: no step makes it smaller",
      "common; the exact penalized motion is ours"},
-    {"penalty-integration-u", "1",
+    {"u-penalty-integration-max-relative", "1",
      "max |u - u of the exact motion with the run's contact spring| / U: what the step is to blame "
      "for",
      "common; the exact penalized motion is ours"},
-    {"penalty-model-v", "1", "the same for v, integral over time / length / V", "common"},
-    {"penalty-integration-v", "1", "the same for v, integral over time / length / V", "common"},
+    {"v-penalty-model-l1-relative", "1", "the same for v, integral over time / length / V",
+     "common"},
+    {"v-penalty-integration-l1-relative", "1", "the same for v, integral over time / length / V",
+     "common"},
 });
 
 struct Synchrony {
