@@ -11,7 +11,7 @@ namespace clackers {
 /// What a code stands for: `clackers explain CODE` prints it, `explain` alone lists all.
 struct CodeEntry {
   std::string_view name;     ///< kebab-case, never reused for another meaning
-  std::string_view kind;     ///< "refusal", "failure", "behaviour", "reason" or "verdict"
+  std::string_view kind;     ///< "refusal", "failure", "behaviour", "reason", "diagnosis" or "verdict"
   std::string_view meaning;  ///< what happened and what to do about it
 };
 
@@ -31,7 +31,16 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "penalty-needs-elastic", "no-default-stiffness", "linear-only", "beyond-last-impact",
     "no-closed-form", "no-derivative", "needs-arb", "no-enclosure", "time-outside", "three-limits",
     "not-text", "no-column", "ragged-row", "decimal-comma", "not-sorted", "too-short",
-    "not-this-case", "printed-digits", "sparse-rows", "cannot-write", "cannot-read", "no-renderer",
+    "not-this-case", "printed-digits", "sparse-rows",
+    "restitution-differs", "mass-ratio-differs", "frequency-differs", "damping-differs",
+    "damping-changes-at-impact", "time-shifted", "time-unit", "time-drifts", "unit-scaled",
+    "columns-exchanged", "masses-exchanged", "sign-reversed", "velocity-at-half-steps",
+    "velocity-order-lower", "starts-at-rest", "impact-missed", "impact-doubled",
+    "impact-impulse-wrong", "impact-at-step-end", "impact-interpolated", "impact-tolerance",
+    "contact-compliant", "contact-in-tension", "single-precision", "noise-floor",
+    "commensurate-steps", "numerical-damping", "period-error", "unstable-coarse-steps",
+    "ends-early", "output-resampled",
+    "cannot-write", "cannot-read", "no-renderer",
     "render-failed", "foreign-folder", "out-of-memory", "internal-error", "interrupted",
 });
 // clang-format on

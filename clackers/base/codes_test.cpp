@@ -22,8 +22,8 @@ TEST(Codes, EveryNameStandsOnce) {
 }
 
 TEST(Codes, EveryKindIsOneOfFive) {
-  constexpr std::array<std::string_view, 5> kinds{"refusal", "failure", "behaviour", "reason",
-                                                  "verdict"};
+  constexpr std::array<std::string_view, 6> kinds{"refusal", "failure",   "behaviour",
+                                                  "reason",  "diagnosis", "verdict"};
   for (const auto& entry : code_table())
     EXPECT_NE(std::ranges::find(kinds, entry.kind), kinds.end()) << entry.name;
 }

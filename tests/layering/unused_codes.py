@@ -12,7 +12,7 @@ import sys
 
 TABLE = pathlib.PurePosixPath("clackers/base/codes.cpp")
 NAMES = pathlib.PurePosixPath("clackers/base/codes.hpp")
-ROW = re.compile(r'\{"([^"]+)",\s*"(refusal|failure|behaviour|reason|verdict)",')
+ROW = re.compile(r'\{"([^"]+)",\s*"(refusal|failure|behaviour|reason|diagnosis|verdict)",')
 LITERAL = re.compile(r'"([^"\\\n]*)"')
 FOLDERS = ["clackers", "cli", "bindings"]
 
