@@ -48,7 +48,7 @@ struct History {
   /// Rounding error of the times by printing [s]; 0 when they are equally spaced to the last digit,
   /// since such times were hardly rounded.
   double time_half_unit = 0.0;
-  double spacing = 0.0;  ///< median time between rows [s]
+  double spacing = 0.0;    ///< median time between rows [s]
   std::string not_finite;  ///< where the first such number stands, a sentence; empty for none
   std::vector<ReadNote> notes;
 };
