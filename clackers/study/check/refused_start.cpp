@@ -26,9 +26,9 @@ std::string sentence(const Diagnosis& cause, const std::string& case_name) {
     const auto unit = text == "u" || text == "v" ? std::string() : text.substr(blank + 1);
     const auto numbers =
         is_part ? (text[0] == 'u' ? "All displacements" : "All velocities") : "All numbers";
-    return fmt::format("{} of the first row are {:.6g} times those of {}{}. Divide them by {:.6g}.",
+    return fmt::format("{} of the first row are {:.6g} times those of {}{} Divide them by {:.6g}.",
                        numbers, cause.value, case_name,
-                       unit.empty() ? "" : fmt::format(": in {}?", unit), cause.value);
+                       unit.empty() ? "." : fmt::format(": in {}?", unit), cause.value);
   }
   if (is("columns-exchanged"))
     return fmt::format("Columns are exchanged{}: --columns {}.", factor, text);
@@ -56,8 +56,8 @@ std::string sentence(const Diagnosis& cause, const std::string& case_name) {
         "state at t = 0.",
         std::abs(cause.value), cause.unit, cause.value < 0.0 ? "later" : "earlier");
   if (is("time-unit"))
-    return fmt::format("Times are {:.6g} times those of {}{}. Convert them to seconds.",
-                       cause.value, case_name, text.empty() ? "" : fmt::format(": in {}?", text));
+    return fmt::format("Times are {:.6g} times those of {}{} Convert them to seconds.",
+                       cause.value, case_name, text.empty() ? "." : fmt::format(": in {}?", text));
   return {};
 }
 
