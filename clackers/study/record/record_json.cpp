@@ -151,6 +151,12 @@ class Reader {
   static void read(const Json& json, const std::string& where, SubjectKind& x) {
     read_word(json, where, x, {SubjectKind::method, SubjectKind::histories});
   }
+  static void read(const Json& json, const std::string& where, RefinementEnd& x) {
+    read_word(
+        json, where, x,
+        {RefinementEnd::decided, RefinementEnd::budget, RefinementEnd::rounding_floor,
+         RefinementEnd::too_many_steps, RefinementEnd::run_failed, RefinementEnd::interrupted});
+  }
   template <class T>
   static void read(const Json& json, const std::string& where, std::optional<T>& x) {
     if (!json.is_null()) read(json, where, x.emplace());
