@@ -19,6 +19,7 @@
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/requirements.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
@@ -28,7 +29,7 @@ constexpr double default_budget = 20.0;  // [s]
 
 struct Options {
   CommonOptions common;
-  std::vector<std::string> methods, cases, settings;
+  std::vector<std::string> methods, cases, settings, requirements;
   std::string levels, coarsest, neighbours, budget, jobs, report, baseline;
   bool all = false;
 };
@@ -80,6 +81,7 @@ study::Record run_study(const Options& options, const study::VerifyRequest& requ
 int run(const Options& options, const std::string& line) {
   check(options);
   const auto request = request_of(options, line);
+  const auto requirements = read_requirements(options.requirements);
   // Before the work: where it cannot go must not be found out afterwards.
   Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
   const auto baseline = baseline_of(options.baseline, request);
@@ -104,7 +106,7 @@ int run(const Options& options, const std::string& line) {
   }
   output.note_changes(results.format());
   if (record.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
-  return written ? study::exit_code(record) : 4;
+  return written ? exit_code(record, requirements) : 4;
 }
 
 }  // namespace
@@ -128,7 +130,8 @@ void add_verify(Grammar& root) {
            "one disagrees, 3 when one stays undecided.",
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--neighbours n] [--budget TIME]\n"
-                "           [--jobs n] [--baseline FILE.json] [--report FILE.html]\n"});
+                "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
+                "           [--report FILE.html]\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods).");
@@ -156,6 +159,7 @@ void add_verify(Grammar& root) {
                   "seconds or as 30s, 2min; 0: none. Default: 20s, and 0 with --levels.")
       ->option_text("TIME");
   app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
+  add_require_option(*app, options->requirements);
   add_report_option(*app, options->report);
   app->add_option(
          "--baseline", options->baseline,
