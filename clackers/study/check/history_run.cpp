@@ -50,18 +50,19 @@ class HistoryReader {
       file_.columns.push_back({c.name, c.digits, c.single, c.half_unit});
   }
 
-  Run run() {
+  ComparedHistory run() {
     if (!h_.has_time) start_times();
     find_printed_floor();
     cut_at_end();
     require_start();
-    choose_step();
+    run_.score.step = task_.step > 0.0 ? task_.step : file_.spacing;
+    if (task_.step > 0.0) file_.step_source = StepSource::option;
     if (!task_.events.empty()) take_events();
     if (!all_u_) complete_u();
     measure();
     add_notes(file_, run_.score, summary_);
     run_.file = std::move(file_);
-    return std::move(run_);
+    return {std::move(run_), std::move(observation_)};
   }
 
  private:
@@ -139,24 +140,6 @@ class HistoryReader {
           "not-this-case");
   }
 
-  void choose_step() {
-    run_.score.step = file_.spacing;
-    if (task_.step > 0.0) {
-      run_.score.step = task_.step;
-      file_.step_source = StepSource::option;
-      return;
-    }
-    const auto named = step_in_name(task_.file);
-    if (!named) return;
-    // A number in a name that is longer than the time between rows is no step of this history.
-    if (*named <= 1.01 * file_.spacing) {
-      run_.score.step = *named;
-      file_.step_source = StepSource::name;
-    } else {
-      file_.notes.push_back(note("step-in-name-ignored", {*named, file_.spacing}));
-    }
-  }
-
   void take_events() {
     auto& m = h_.motion;
     auto impacts = exchange::read_events(task_.events, m.dof, interrupt_);
@@ -212,6 +195,7 @@ class HistoryReader {
     }
     take_collisions(comparison);
     take_curves(comparison);
+    observe(comparison);
     report(compared_share);
     auto metrics = all_metrics(
         comparison, facts_of(summary_, 0.0),
@@ -236,6 +220,18 @@ class HistoryReader {
           const auto at = row * dof + mass;
           return std::abs(u[at] - comparison.reference_u()[at]) / comparison.u_envelope()[mass];
         });
+  }
+
+  void observe(const assess::Comparison& comparison) {
+    diagnose::FileFacts facts{.step = 0.0,
+                              .spacing = file_.spacing,
+                              .floor = file_.printed_floor,
+                              .time_half_unit = h_.time_half_unit,
+                              .columns = {},
+                              .contact_time = file_.contact_time};
+    for (const auto& column : file_.columns)
+      facts.columns.push_back({column.name, column.digits, column.single, column.half_unit});
+    observation_ = diagnose::observe(comparison, facts);
   }
 
   // A contact of fewer rows than four is an impact whose limits are rows apart.
@@ -274,6 +270,7 @@ class HistoryReader {
   const std::atomic<bool>* interrupt_;
   HistoryFile file_;
   Run run_;
+  std::optional<diagnose::Observation> observation_;
 };
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
@@ -281,11 +278,13 @@ bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0;
 
 }  // namespace
 
-Run history_run(const HistoryTask& task, const std::vector<std::string>& columns,
-                const cases::Case& problem, const CaseSummary& summary, const Progress& progress,
-                const std::atomic<bool>* interrupt) {
-  exchange::HistoryOptions options{
-      .dof = problem.motion->dof(), .columns = columns, .step = task.step, .interrupt = interrupt};
+ComparedHistory history_run(const HistoryTask& task, const std::vector<std::string>& columns,
+                            const cases::Case& problem, const CaseSummary& summary,
+                            const Progress& progress, const std::atomic<bool>* interrupt) {
+  exchange::HistoryOptions options{.dof = problem.motion->dof(),
+                                   .columns = columns,
+                                   .step = task.step_is_tolerance ? 0.0 : task.step,
+                                   .interrupt = interrupt};
   if (progress) options.progress = [&](double share) { progress(read_share * share); };
   auto history = exchange::read_history(task.file, options);
   return HistoryReader(task, problem, summary, std::move(history), progress, interrupt).run();

@@ -32,7 +32,12 @@ std::string_view to_string(CollisionSource source) {
 }
 
 std::string_view to_string(SubjectKind kind) {
-  return kind == SubjectKind::method ? "method" : "histories";
+  constexpr std::string_view names[] = {"method", "histories", "program"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::string_view to_string(Resolution resolution) {
+  return resolution == Resolution::step ? "step" : "tolerance";
 }
 
 std::string_view to_string(RefinementEnd end) {

@@ -13,7 +13,8 @@ concept Like = std::same_as<std::remove_const_t<T>, Base>;
 
 // Every struct of a record and the names of its fields in json. `fields(archive, x)` calls
 // archive(name, member) for each; record_json_test.cpp compares their number with that of the
-// members, so that none is forgotten.
+// members, so that none is forgotten. archive.added(name, member) is a field that records of earlier
+// versions lack.
 
 template <class Archive>
 void fields(Archive& archive, Like<Quantity> auto& x) {
@@ -160,6 +161,7 @@ void fields(Archive& archive, Like<Run> auto& x) {
   archive("file", x.file);
   archive("metrics", x.metrics);
   archive("error_history", x.error_history);
+  archive.added("printed", x.printed);
 }
 
 template <class Archive>
@@ -253,10 +255,12 @@ void fields(Archive& archive, Like<Subject> auto& x) {
   archive("refusal", x.refusal);
   archive("refusal_code", x.refusal_code);
   archive("complete", x.complete);
+  archive.added("resolution", x.resolution);
   archive("levels", x.levels);
-  archive("refinement", x.refinement);
+  archive.added("refinement", x.refinement);
   archive("assessment", x.assessment);
   archive("self_convergence", x.self_convergence);
+  archive.added("diagnoses", x.diagnoses);
 }
 
 template <class Archive>

@@ -74,10 +74,10 @@ inline Record sample_record() {
   file.contact_time = 0.016;
   file.notes = {{"rows-beyond-end", {7.0, 20.0}, ""}, {"columns-not-used", {}, "energy"}};
   file.history = {{0.25}, {{1.0}, {0.5}}};
-  method.levels = {
-      {0.05,
-       {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}}, {silent, {}, {}, {}}}},
-      {0.025, {{run, file, {}, {}}}}};
+  method.levels = {{0.05,
+                    {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}},
+                     {silent, {}, {}, {}, "Segmentation fault"}}},
+                   {0.025, {{run, file, {}, {}}}}};
   method.refinement = {2, 1, 16, RefinementEnd::budget, 12.5};
   method.assessment = {fit,
                        second,
@@ -92,6 +92,16 @@ inline Record sample_record() {
   without.against_reference = {true, "wrong-limit", 7.25};
   without.extrapolation = {true, "differences-turn", {0.3, -tiny}, 1e-9, 2e-10, 6};
   without.extrapolation_error = 3e-9;
+  method.resolution = Resolution::tolerance;
+  method.diagnoses = {
+      {"restitution-differs",
+       0.99,
+       "1",
+       0.9375,
+       {{"gain", 9e7}, {"uncertainty", tiny}},
+       "t,u2",
+       "damping-differs"},
+      {"wrong-limit", std::numeric_limits<double>::quiet_NaN(), "", 0.5, {}, "", ""}};
   auto histories = method;
   histories.kind = SubjectKind::histories;
   histories.name = "histories";
