@@ -34,9 +34,15 @@ FileSample::FileSample(const Observation& history, const model::Motion& motion)
       scale_(assess::reference_scale(motion)),
       reference_(reference_rows(motion, history.sample.t)),
       distance_(distance(rows(), reference_, 0)) {
+  const auto masses = std::size_t(rows().dof);
+  std::vector<double> errors(rows().t.size(), 0.0);
   for (std::size_t i = 0; i < rows().u.size(); ++i)
-    largest_ = std::max(largest_, std::abs(rows().u[i] - reference_.u[i]) /
-                                      scale_.u[Eigen::Index(i % std::size_t(rows().dof))]);
+    errors[i / masses] = std::max(errors[i / masses], std::abs(rows().u[i] - reference_.u[i]) /
+                                                          scale_.u[Eigen::Index(i % masses)]);
+  largest_ = std::ranges::max(errors);
+  const auto middle = errors.begin() + std::ssize(errors) / 2;
+  std::ranges::nth_element(errors, middle);
+  median_ = *middle;
 }
 
 RowDistance FileSample::distance(const model::Trajectory& found, const model::Trajectory& reference,

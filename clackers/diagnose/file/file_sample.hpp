@@ -28,6 +28,8 @@ class FileSample {
   const RowDistance& distance() const { return distance_; }
   /// Largest |u - reference| over the scale.
   double largest_error() const { return largest_; }
+  /// The median over the rows of the largest over the masses.
+  double median_error() const { return median_; }
   /// From the reference at other times, one a row; those outside the motion are moved to its ends.
   RowDistance distance_at(const std::vector<double>& times) const;
   /// Of other rows, those of another reading of the file, from the reference; row 0 left out.
@@ -47,7 +49,7 @@ class FileSample {
   model::Kinematics scale_;
   model::Trajectory reference_;
   RowDistance distance_;
-  double largest_ = 0.0;
+  double largest_ = 0.0, median_ = 0.0;
 };
 
 /// At most eight of the histories, the finest first, the coarsest last.

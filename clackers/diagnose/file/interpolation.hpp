@@ -17,8 +17,8 @@ struct Interpolation {
 /// Looks for them in the opening rows. Differences of order degree + 1 of equally spaced rows vanish
 /// within a polynomial, up to rounding, and do not around its nodes. Told where at least a quarter of
 /// the differences vanish, in a displacement that moves, there are far more nodes than impacts, and
-/// what does not vanish is at least a thousand times rounding: so the intervals between nodes have
-/// more than two rows (linear) or five (cubic).
+/// half of the nodes have differences of at least 30 times what rounding or printing makes. So the
+/// intervals between nodes have more than two rows (linear) or five (cubic).
 ///
 /// The error follows from the jumps J of the derivative of order `degree` at nodes H apart: J H / 8
 /// of straight lines, J H^3 / 384 of Hermite's cubics.

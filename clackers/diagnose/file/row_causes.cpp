@@ -27,15 +27,14 @@ std::optional<Diagnosis> ends_early(const std::vector<FileSample>& files, bool b
   return cause;
 }
 
-// Rows between the nodes of a straight or cubic interpolation, where its error is a good part of the
-// history's.
+// Rows between the nodes of a straight or cubic interpolation, where its error is at least that of
+// half of the rows.
 std::optional<Diagnosis> resampled(const std::vector<FileSample>& files) {
-  constexpr double relevant = 0.3;
   std::optional<Diagnosis> first;
   double count = 0.0;
   for (const auto& file : files) {
     const auto nodes = interpolation_of(file.history(), file.scale());
-    if (!nodes || !(nodes->error > relevant * file.largest_error())) continue;
+    if (!nodes || !(nodes->error > file.median_error())) continue;
     ++count;
     if (first) continue;
     first.emplace();

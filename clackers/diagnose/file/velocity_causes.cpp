@@ -19,8 +19,9 @@ model::Trajectory early_rows(const FileSample& file) {
   constexpr std::size_t most = 200;
   const auto& opening = file.history().opening;
   const auto& motion = file.motion();
-  // Two time scales of the slowest mass.
-  double end = 2.0 * file.scale().u.cwiseQuotient(file.scale().v).maxCoeff();
+  // Two time scales of the fastest mass, but a few rows.
+  double end = std::max(2.0 * file.scale().u.cwiseQuotient(file.scale().v).minCoeff(),
+                        8.0 * file.history().facts.spacing);
   if (motion.impact_count(motion.end()) > 0) end = std::min(end, part * motion.impact(1).t);
   std::size_t count = 0;
   while (count < opening.t.size() && opening.t[count] <= end) ++count;
