@@ -83,7 +83,7 @@ int run(const Options& options, const std::string& line) {
     // `check | head`: the reader had enough, the verdict still counts.
   }
   output.note_changes(results.format());
-  return written ? exit_code(record, requirements) : 4;
+  return written ? required_exit_code(record, requirements) : 4;
 }
 
 }  // namespace
@@ -108,9 +108,10 @@ void add_check(Grammar& root) {
            "3 when undecided.",
        .usage =
            "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
-           "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...|--tolerances a,b,...]\n"
-           "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--metrics all]\n"
-           "           [--baseline FILE.json] [--report FILE.html]\n"});
+           "           [--columns t,u1,...] [--events FILE]\n"
+           "           [--steps h1,h2,...|--tolerances a,b,...]\n"
+           "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
+           "           [--metrics all] [--baseline FILE.json] [--report FILE.html]\n"});
   app->add_option("FILE", options->files, "Time histories, text; - for standard input.")
       ->reads_file("");
   app->add_option("--case", options->case_name,

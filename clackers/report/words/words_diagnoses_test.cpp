@@ -64,7 +64,9 @@ TEST(DiagnosisText, EveryCodeHasASentenceWithACure) {
     // All that a cause may have, and nothing.
     Diagnosis full{std::string(code.name()), 1.5, "1", 0.9, {}, "<name>", ""};
     for (const auto name : diagnose::fact_names) full.evidence.push_back({std::string(name), 2.0});
-    for (const auto& cause : {full, Diagnosis{std::string(code.name())}}) {
+    Diagnosis bare;
+    bare.code = code.name();
+    for (const auto& cause : {full, bare}) {
       const auto found = diagnosis_text(cause);
       EXPECT_EQ(found.code, code.name());
       EXPECT_TRUE(found.sentence.ends_with('.')) << found.sentence;
