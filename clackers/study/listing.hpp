@@ -9,8 +9,8 @@
 
 namespace clackers::study {
 
-/// What `clackers list KIND` shows; KIND is cases, integrators, contacts, methods, pairs or
-/// metrics. Throws InputError with did-you-mean for any other.
+/// What `clackers list KIND` shows; KIND is cases, integrators, contacts, methods, pairs,
+/// metrics or diagnoses. Throws InputError with did-you-mean for any other.
 Sheet list(std::string_view kind);
 
 /// What `kind` may be, in the order of the help.

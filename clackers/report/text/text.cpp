@@ -119,7 +119,7 @@ void print_histories(const study::CaseRecord& problem, std::ostream& out, const 
       "matched/exact.",
       out, style);
   for (const auto& subject : problem.subjects) {
-    if (subject.kind != study::SubjectKind::histories) continue;
+    if (subject.kind == study::SubjectKind::method) continue;
     const auto notes = note_texts(subject);
     if (!notes.empty()) out << '\n';
     for (const auto& note : notes) print_wrapped(note, out, style);
