@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -57,6 +55,7 @@ class HistoryReader {
     require_start();
     run_.score.step = task_.step > 0.0 ? task_.step : file_.spacing;
     if (task_.step > 0.0) file_.step_source = StepSource::option;
+    if (!h_.not_finite.empty()) return failed();
     if (!task_.events.empty()) take_events();
     if (!all_u_) complete_u();
     measure();
@@ -66,6 +65,13 @@ class HistoryReader {
   }
 
  private:
+  ComparedHistory failed() {
+    run_.score.failure_code = Code("not-finite").name();
+    run_.score.failure = std::move(h_.not_finite);
+    run_.file = std::move(file_);
+    return {std::move(run_), {}};
+  }
+
   FirstRow first_row() const {
     const auto dof = std::size_t(h_.motion.dof);
     FirstRow row{h_.motion.t.front(), {}, {}};
@@ -273,9 +279,6 @@ class HistoryReader {
   std::optional<diagnose::Observation> observation_;
 };
 
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
-
 }  // namespace
 
 ComparedHistory history_run(const HistoryTask& task, const std::vector<std::string>& columns,
@@ -284,24 +287,11 @@ ComparedHistory history_run(const HistoryTask& task, const std::vector<std::stri
   exchange::HistoryOptions options{.dof = problem.motion->dof(),
                                    .columns = columns,
                                    .step = task.step_is_tolerance ? 0.0 : task.step,
+                                   .until_not_finite = true,
                                    .interrupt = interrupt};
   if (progress) options.progress = [&](double share) { progress(read_share * share); };
   auto history = exchange::read_history(task.file, options);
   return HistoryReader(task, problem, summary, std::move(history), progress, interrupt).run();
-}
-
-std::optional<double> step_in_name(std::string_view path) {
-  auto name = path.substr(path.find_last_of('/') + 1);
-  for (std::size_t at = 0; at < name.size(); ++at) {
-    if (name[at] != 'h' || (at > 0 && is_letter(name[at - 1]))) continue;
-    auto rest = name.substr(at + 1);
-    if (rest.starts_with('=') || rest.starts_with('_')) rest.remove_prefix(1);
-    if (rest.empty() || !(is_digit(rest[0]) || rest[0] == '.')) continue;
-    double step = 0.0;
-    const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), step);
-    if (error == std::errc() && step > 0.0 && std::isfinite(step)) return step;
-  }
-  return {};
 }
 
 }  // namespace clackers::study
