@@ -50,6 +50,12 @@ std::string_view to_string(Resolution resolution) {
   return resolution == Resolution::step ? "step" : "tolerance";
 }
 
+std::string_view to_string(RefinementEnd end) {
+  constexpr std::string_view names[] = {"decided",        "budget",     "rounding-floor",
+                                        "too-many-steps", "run-failed", "interrupted"};
+  return names[static_cast<std::size_t>(end)];
+}
+
 const Run* Subject::shown_run() const {
   for (auto level = levels.rbegin(); level != levels.rend(); ++level)
     for (auto run = level->runs.rbegin(); run != level->runs.rend(); ++run)

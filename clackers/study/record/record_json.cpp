@@ -177,6 +177,12 @@ class Reader {
   static void read(const Json& json, const std::string& where, SubjectKind& x) {
     read_word(json, where, x, {SubjectKind::method, SubjectKind::histories, SubjectKind::program});
   }
+  static void read(const Json& json, const std::string& where, RefinementEnd& x) {
+    read_word(
+        json, where, x,
+        {RefinementEnd::decided, RefinementEnd::budget, RefinementEnd::rounding_floor,
+         RefinementEnd::too_many_steps, RefinementEnd::run_failed, RefinementEnd::interrupted});
+  }
   static void read(const Json& json, const std::string& where, Resolution& x) {
     read_word(json, where, x, {Resolution::step, Resolution::tolerance});
   }
