@@ -213,7 +213,7 @@ class Reader {
     }
     if (count <= 0) return 0;
     const auto size = static_cast<std::size_t>(count);
-    if (is_output && (taken_ += size) > most_output) result_.end = End::flooded;
+    if (is_output && file_.is_open() && (taken_ += size) > most_output) result_.end = End::flooded;
     if (is_output && file_.is_open())
       write(size);
     else

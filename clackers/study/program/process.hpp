@@ -20,7 +20,7 @@ struct ProcessResult {
     signalled,    ///< `status` is the signal that ended it
     timed_out,    ///< killed after the timeout
     interrupted,  ///< killed since `interrupt` became true
-    flooded,      ///< killed after `most_output` bytes on standard output
+    flooded,      ///< killed after `most_output` bytes for the file of its standard output
     not_started   ///< `status` is the system's error number
   };
   End end = End::exited;

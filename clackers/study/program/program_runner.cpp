@@ -51,6 +51,8 @@ void take_end(ProgramOutput& output, const ProcessResult& result, double timeout
   switch (result.end) {
     case ProcessResult::End::exited:
       if (result.status != 0) set_failure(output, "program-failed", exit_text(result.status));
+      // What a shell returns for commands that it does not find or may not execute.
+      output.would_repeat = result.status == 126 || result.status == 127;
       break;
     case ProcessResult::End::signalled:
       set_failure(output, "program-failed", "ended by " + signal_text(result.status));
@@ -58,6 +60,7 @@ void take_end(ProgramOutput& output, const ProcessResult& result, double timeout
     case ProcessResult::End::timed_out:
       set_failure(output, "program-timeout",
                   fmt::format("still running after {:g} s, see --timeout", timeout));
+      output.would_repeat = true;
       break;
     case ProcessResult::End::interrupted:
       output.interrupted = true;
@@ -69,6 +72,7 @@ void take_end(ProgramOutput& output, const ProcessResult& result, double timeout
     case ProcessResult::End::not_started:
       set_failure(output, "program-failed",
                   "not started: " + std::generic_category().message(result.status));
+      output.would_repeat = true;
       break;
   }
 }

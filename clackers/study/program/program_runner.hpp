@@ -27,6 +27,7 @@ struct ProgramOutput {
   std::string failure;            ///< in a sentence
   std::string printed;            ///< the last bytes that it printed; empty for a reused run
   bool reused = false;
+  bool would_repeat = false;  ///< the failure is one that smaller steps share
 };
 
 /// Runs one program on one case. run() may be called from several threads.
