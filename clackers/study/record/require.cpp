@@ -14,6 +14,7 @@
 namespace clackers::study {
 namespace {
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr auto forms = "agrees, order:2, error:1e-3, or a behaviour such as proper";
 
 double number_of(std::string_view whole, std::string_view digits, double most) {
@@ -43,7 +44,6 @@ double tolerance_of(const assess::LadderFit& fit) {
 
 // What was found instead of what is required; nothing when it is met.
 std::optional<Unmet> shortfall(const Subject& subject, const Requirement& requirement) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const auto instead = [&](std::string_view found, double value = unknown) {
     return Unmet{{}, subject.name, std::string(found), value};
   };
