@@ -16,6 +16,11 @@
 #include "clackers/study/profile.hpp"
 #include "clackers/study/self_result.hpp"
 
+namespace clackers::assess {
+/// "", "behaviour", "lower-order", "higher-order", "floor-reason", "evidence".
+std::string_view to_string(Mismatch mismatch);
+}  // namespace clackers::assess
+
 // The one record of every study: verify and check fill it, for one case or for several; every
 // output format, --report and --baseline reads it.
 namespace clackers::study {

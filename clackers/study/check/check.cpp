@@ -31,7 +31,12 @@ void validate(const CheckRequest& request) {
                      "bad-syntax");
   require_one_each("--events", request.events.size(), request.files.size());
   require_one_each("--steps", request.steps.size(), request.files.size());
+  require_one_each("--tolerances", request.tolerances.size(), request.files.size());
+  if (!request.steps.empty() && !request.tolerances.empty())
+    throw InputError("check: --steps and --tolerances; allowed: one of them.", "bad-syntax");
   for (const double step : request.steps) require_step("check --steps", step);
+  for (const double t : request.tolerances)
+    if (!(t > 0.0 && t < 1.0)) refuse("check", "--tolerances", t, "0 < tolerance < 1");
   if (request.tolerance) require_positive("check", "--tolerance", *request.tolerance);
 }
 
@@ -51,6 +56,8 @@ void read_all(const CheckRequest& request, HistorySet& histories, const Progress
     task.file = request.files[i];
     if (!request.events.empty()) task.events = request.events[i];
     if (!request.steps.empty()) task.step = request.steps[i];
+    if (!request.tolerances.empty()) task.step = request.tolerances[i];
+    task.step_is_tolerance = !request.tolerances.empty();
     const double cost = cost_of(task.file);
     TaskShare share(meter, cost);
     double done = 0.0;
@@ -76,7 +83,8 @@ Record check(const CheckRequest& request, const Progress& progress,
   HistorySet histories(problem, one.problem, request.columns, interrupt);
   read_all(request, histories, progress);
   one.subjects.push_back(histories.assess(SubjectKind::histories, "histories",
-                                          request.expect.value_or(Claim{}), request.tolerance));
+                                          request.expect.value_or(Claim{}), request.tolerance,
+                                          !request.tolerances.empty()));
   Record record;
   record.command = "check";
   record.provenance = provenance(request.command);

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "clackers/cases/case.hpp"
@@ -22,8 +21,8 @@ struct HistoryTask {
   bool step_is_tolerance = false;
 };
 
-/// A history that was read and compared. Its score's step is the one of the task, else the time
-/// between rows.
+/// A history that was read and compared, or a failed run where it has NaN or infinite numbers
+/// (not-finite). Its score's step is the one of the task, else the time between rows.
 struct ComparedHistory {
   Run run;
   /// What diagnosis needs; nothing without the displacements of all masses. Its step is not set.
@@ -35,10 +34,6 @@ struct ComparedHistory {
 ComparedHistory history_run(const HistoryTask& task, const std::vector<std::string>& columns,
                             const cases::Case& problem, const CaseSummary& summary,
                             const Progress& progress, const std::atomic<bool>* interrupt);
-
-/// The step in a file's name: the number behind an "h" that begins a word, as in h0.01.csv,
-/// run-h=1e-3.txt or disp_h0.005.out [s]. Nothing without one, and for 0.
-std::optional<double> step_in_name(std::string_view path);
 
 /// Adds to `file.notes` what follows from its other members and the score.
 void add_notes(HistoryFile& file, const assess::RunScore& score, const CaseSummary& problem);

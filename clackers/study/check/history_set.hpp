@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "clackers/assess/convergence/judge.hpp"
-#include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/study/check/history_run.hpp"
+#include "clackers/study/check/named_resolution.hpp"
 #include "clackers/study/progress.hpp"
 #include "clackers/study/record.hpp"
 
@@ -27,28 +26,29 @@ class HistorySet {
   const CaseSummary& summary() const { return summary_; }
 
   /// Adds a history. One with NaN or infinite numbers is a failed run of its step (not-finite).
-  /// Throws as check() does for any other file that cannot be read or compared.
+  /// Throws as check() does for a file that cannot be read or compared.
   void read(const HistoryTask& task, const Progress& progress = {});
 
   /// Adds a run that left no history: its step [s] or tolerance, the code and the sentence of the
   /// failure, and the last lines that it printed.
   void add_failed(double step, std::string code, std::string sentence, std::string printed = {});
 
-  /// Sorts the runs into levels, judges them and looks for causes. `by_tolerance`: steps of the
-  /// runs are tolerances. Call once, when all runs are there. Throws InputError where every history
-  /// that was read is not finite, and for several histories of one step.
+  /// Sorts the runs into levels, judges them and looks for causes. `by_tolerance`: the steps of the
+  /// tasks and of failed runs are tolerances; names of files may say it, too. May be called again
+  /// after more runs. Throws InputError for several histories of one step and, unless the subject is
+  /// a program, where every history is not finite.
   Subject assess(SubjectKind kind, std::string name, const Claim& claim,
                  std::optional<double> tolerance = {}, bool by_tolerance = false);
 
  private:
   struct Entry {
-    ComparedHistory history;
-    std::optional<double> named_step;
+    Run run;
+    NamedResolution named;
+    bool step_is_given = false;
+    std::optional<std::size_t> observation{};  ///< index into observations_
   };
-  void add(Entry entry);
-  void choose_steps();
-  assess::Facts facts(const Subject& subject) const;
-  std::vector<diagnose::Diagnosis> diagnoses(const Subject& subject);
+  void add(Entry entry, std::optional<diagnose::Observation> observation);
+  void choose_steps(Resolution& resolution);
 
   cases::Case problem_;
   CaseSummary summary_;
@@ -56,9 +56,7 @@ class HistorySet {
   const std::atomic<bool>* interrupt_;
   std::mutex guard_;
   std::vector<Entry> entries_;
-  std::optional<InputError> refusal_;                ///< of the first history that is not finite
-  std::vector<diagnose::Observation> observations_;  ///< coarsest first
-  std::optional<HistoryFile> finest_;                ///< of the finest finished history
+  std::vector<diagnose::Observation> observations_;
 };
 
 }  // namespace clackers::study

@@ -2,6 +2,16 @@
 
 #include <algorithm>
 
+namespace clackers::assess {
+
+std::string_view to_string(Mismatch mismatch) {
+  constexpr std::string_view names[] = {
+      "", "behaviour", "lower-order", "higher-order", "floor-reason", "evidence"};
+  return names[static_cast<std::size_t>(mismatch)];
+}
+
+}  // namespace clackers::assess
+
 namespace clackers::study {
 namespace {
 

@@ -189,7 +189,11 @@ void fields(Archive& archive, Like<assess::LadderFit> auto& x) {
   archive("constant", x.constant);
   archive("first_level", x.first_level);
   archive("last_level", x.last_level);
+  archive.added("largest_step", x.largest_step);
+  archive.added("smallest_step", x.smallest_step);
   archive("floor", x.floor);
+  archive.added("floor_step", x.floor_step);
+  archive.added("floor_scatter", x.floor_scatter);
   archive("steps", x.steps);
   archive("errors", x.errors);
 }
@@ -207,6 +211,7 @@ void fields(Archive& archive, Like<assess::Assessment> auto& x) {
   archive("velocity", x.velocity);
   archive("impact_time", x.impact_time);
   archive("verdict", x.verdict);
+  archive.added("mismatch", x.mismatch);
   archive("reason", x.reason);
   archive("evidence", x.evidence);
 }

@@ -186,6 +186,10 @@ class Reader {
   static void read(const Json& json, const std::string& where, Resolution& x) {
     read_word(json, where, x, {Resolution::step, Resolution::tolerance});
   }
+  static void read(const Json& json, const std::string& where, assess::Mismatch& x) {
+    using enum assess::Mismatch;
+    read_word(json, where, x, {none, behaviour, lower_order, higher_order, floor_reason, evidence});
+  }
   static void read(const Json& json, const std::string& where, diagnose::Diagnosis& x) {
     Json evidence;
     Reader reader(json, where);

@@ -38,7 +38,11 @@ inline Record sample_record() {
   fit.constant = 0.123456789012345678;
   fit.first_level = 2;
   fit.last_level = 7;
+  fit.largest_step = 0.0125;
+  fit.smallest_step = 4e-4;
   fit.floor = 1e-15;
+  fit.floor_step = 2e-4;
+  fit.floor_scatter = 3.5;
   fit.steps = {0.05, 0.025};
   fit.errors = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   auto second = fit, third = fit;
@@ -83,6 +87,7 @@ inline Record sample_record() {
                        second,
                        third,
                        Verdict::not_claimed,
+                       assess::Mismatch::lower_order,
                        "printed-digits",
                        {{"within-tolerance", Verdict::agrees, {1e-4, 1e-3, 1e-6}}}};
   auto& without = method.self_convergence.emplace();
