@@ -112,7 +112,7 @@ int run(const Options& options, const std::string& line) {
   }
   output.note_changes(results.format());
   if (record.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
-  const int code = exit_code_of_programs(record, exit_code(record, requirements));
+  const int code = exit_code_of_programs(record, required_exit_code(record, requirements));
   return written ? code : 4;
 }
 
