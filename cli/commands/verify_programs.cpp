@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "clackers/base/error.hpp"
+#include "clackers/report/words/words.hpp"
 #include "clackers/study/check.hpp"
 #include "cli/messages.hpp"
 #include "cli/values.hpp"
@@ -89,30 +88,13 @@ study::RefinementRequest program_plan(study::RefinementRequest plan, bool has_ne
   return plan;
 }
 
-namespace {
-
-// The last lines of a text on one line.
-std::string last_lines(std::string_view text) {
-  constexpr std::size_t most = 400;
-  text.remove_prefix(text.size() - std::min(text.size(), most));
-  std::string line;
-  for (const char c : text)
-    if (c != '\n')
-      line += c;
-    else if (!line.empty() && !line.ends_with(" / "))
-      line += " / ";
-  if (line.ends_with(" / ")) line.resize(line.size() - 3);
-  return line;
-}
-
-}  // namespace
-
 int exit_code_of_programs(const study::Record& record, int exit_code) {
   const auto* failure = study::failure_of_all(record);
   if (failure == nullptr || record.interrupted) return exit_code;
-  const auto printed = last_lines(failure->printed);
-  report_error(fmt::format("every run failed; the first one: {}{}", failure->score.failure,
-                           printed.empty() ? "." : ". It printed: " + printed),
+  const auto printed = report::printed_text(failure->printed);
+  auto sentence = "every run failed; the first one: " + failure->score.failure;
+  if (!sentence.ends_with('.')) sentence += '.';
+  report_error(sentence + (printed.empty() ? "" : " It printed: " + printed),
                failure->score.failure_code);
   return 4;
 }

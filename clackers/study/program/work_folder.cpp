@@ -94,8 +94,8 @@ RunFolder::RunFolder(WorkFolder& work, std::string_view title, std::string_view 
   path_ = work.path_ / fmt::format(".running-{}-{}", ::getpid(), work.next_++);
   std::error_code error;
   fs::remove_all(path_, error);  // of a process of that number that was killed
-  fs::create_directory(path_, error);
-  if (error) fail(path_, error);
+  const bool is_made = fs::create_directory(path_, error);
+  if (!is_made) fail(path_, error ? error : std::make_error_code(std::errc::file_exists));
 }
 
 RunFolder::~RunFolder() {
