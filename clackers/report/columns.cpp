@@ -253,7 +253,8 @@ Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind) {
                            "collisions", "collision_time_error", "collision_source"}),
               {}};
   for (const auto& subject : problem.subjects) {
-    if ((subject.kind == study::SubjectKind::method) != methods) continue;
+    // A program is a method of others.
+    if ((subject.kind != study::SubjectKind::histories) != methods) continue;
     if (methods)
       table.rows.push_back(subject_row(problem, subject));
     else

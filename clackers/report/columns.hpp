@@ -60,7 +60,7 @@ struct Table {
   std::vector<const Column*> columns;
   std::vector<Row> rows;
 };
-/// A row a method; for histories, of programs as well, a row a file.
+/// A row a subject of the kind; for histories a row a file.
 Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind);
 /// The levels of one subject.
 Table level_table(const study::CaseRecord& problem, const study::Subject& subject);

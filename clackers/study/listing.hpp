@@ -21,6 +21,10 @@ std::vector<std::string> list_kinds();
 std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
                              double threshold);
 
+/// What `clackers show NAME --format json` has beside it, and the programs of verify --exec read: the
+/// text of the json object `problem` (program/problem_text.hpp).
+std::string show_problem(std::string_view name, const cases::Settings& settings);
+
 /// What `clackers show NAME` shows of a method: its claim, parameters and card. The card is a
 /// sheet of one text column.
 std::vector<Sheet> show_method(std::string_view specification);

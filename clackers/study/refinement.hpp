@@ -41,12 +41,19 @@ struct NextPlan {
   RefinementEnd end = RefinementEnd::decided;  ///< where there is no plan
 };
 
+/// What a record says of a refinement from the ladder `asked` to `now`; nothing where the first was
+/// enough. `next_seconds` is what did not fit into the budget.
+std::optional<Refinement> refinement_of(const RefinementPlan& asked, const RefinementPlan& now,
+                                        RefinementEnd end, double next_seconds = 0.0);
+
 /// The next ladder of a subject whose levels are those of `plan`; depends on nothing else, so that
 /// it is the same on every machine. The first rule that applies decides:
 ///
 ///  1 refused, incomplete, or decided: nothing. Undecided are the verdict `undecided` and an
 ///    agreement on an envelope whose order is more uncertain than the tolerance of envelopes.
-///  2 a compliant contact that too few levels resolve: as many finer levels as are missing
+///  2 a compliant contact that too few levels resolve: as many finer levels as are missing. Such a
+///    ladder is not decided by a disagreement: steps that do not resolve a contact miscount
+///    collisions.
 ///  3 the finest level has a failed run: nothing
 ///  4 an envelope with an order more uncertain than its tolerance: twice the steps a level
 ///  5 the finest level is at the rounding floor: a coarser first level, while it has two steps a

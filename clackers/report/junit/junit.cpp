@@ -128,7 +128,7 @@ std::string log_text(const study::Subject& subject) {
   text += fmt::format("claimed: {}\nfound: {}\n", claim_text(subject.claim),
                       fit_text(subject.assessment.displacement));
   for (const auto& level : subject.levels) {
-    if (subject.kind != study::SubjectKind::method) {
+    if (subject.kind == study::SubjectKind::histories) {
       for (const auto& run : level.runs)
         text += (run.file ? run.file->file + ": " : "") + run_line(run.score, 1, 0);
     } else {

@@ -127,7 +127,7 @@ void write_histories(const study::CaseRecord& problem, std::ostream& out) {
               "check-" + problem.problem.name,
               {}};
   for (const auto& subject : problem.subjects) {
-    if (subject.kind == study::SubjectKind::method) continue;
+    if (subject.kind != study::SubjectKind::histories) continue;
     for (const auto& cause : diagnosis_texts(subject))
       frame.notes += fmt::format("  \\par {}\n", tex_text(text_of(cause)));
     frame.notes += fmt::format("  \\par Verdict: {}. {}\n", study::verdict_word(subject),
