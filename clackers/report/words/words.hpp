@@ -39,6 +39,11 @@ std::string plan_text(const study::CaseRecord& problem);
 
 /// What was measured of a subject, what decided the verdict, and how it compares with the claim.
 std::string assessment_text(const study::Subject& subject);
+/// The histories to add so that more can be said, with their steps: of one or a few levels the
+/// finer ones, of one step a level those between. Empty for methods and programs, whose steps verify chooses, and where enough are there.
+std::string hint_text(const study::Subject& subject);
+/// Finer levels that a study added on its own, and what kept it from more; empty for none.
+std::string refinement_text(const study::Subject& subject);
 /// What a reader must know of a subject beside its numbers; nothing for a method that is as it
 /// claims to be.
 std::optional<Finding> finding(const study::Subject& subject);

@@ -37,7 +37,7 @@ std::string printed_text(std::string_view printed) {
 }
 
 std::vector<std::string> failure_texts(const study::Subject& subject) {
-  if (subject.kind != study::SubjectKind::program) return {};
+  if (subject.kind == study::SubjectKind::method) return {};
   std::vector<Failures> kinds;
   int runs = 0;
   for (const auto& level : subject.levels)
