@@ -98,7 +98,7 @@ class Answer:
             subject = json.loads(done.stdout)["cases"][0]["subjects"][0]
             assessment = subject["assessment"]
             fit = assessment["displacement"]
-            self.behaviour, self.verdict = fit["behaviour"], assessment["verdict"]
+            self.behaviour, self.verdict = fit["behaviour"], assessment["verdict"].replace(" ", "-")
             self.reason, self.order = fit["reason"] or assessment["reason"], fit["order"] if fit["has_line"] else None
             self.diagnoses = {d["code"]: d for d in subject.get("diagnoses", ())}
 
