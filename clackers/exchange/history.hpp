@@ -22,6 +22,8 @@ struct HistoryOptions {
   std::vector<std::string> columns{};  ///< names that replace or stand for a header; "_" skips one
   /// Of a file without a time column [s]: row n = 0, 1, ... is at n step. 0: there must be one.
   double step = 0.0;
+  /// The first NaN or infinite number ends the history, if two times stand above it.
+  bool until_not_finite = false;
   const std::atomic<bool>* interrupt = nullptr;  ///< ends the reading with Error (interrupted)
   /// Called now and then with the share that is read, in [0, 1]; never for a file of unknown size.
   std::function<void(double share)> progress{};
@@ -47,6 +49,7 @@ struct History {
   /// since such times were hardly rounded.
   double time_half_unit = 0.0;
   double spacing = 0.0;  ///< median time between rows [s]
+  std::string not_finite;  ///< where the first such number stands, a sentence; empty for none
   std::vector<ReadNote> notes;
 };
 

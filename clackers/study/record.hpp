@@ -11,9 +11,15 @@
 #include "clackers/assess/convergence/assessment.hpp"
 #include "clackers/assess/errors/score.hpp"
 #include "clackers/base/judgement.hpp"
+#include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/study/metric_result.hpp"
 #include "clackers/study/profile.hpp"
 #include "clackers/study/self_result.hpp"
+
+namespace clackers::assess {
+/// "", "behaviour", "lower-order", "higher-order", "floor-reason", "evidence".
+std::string_view to_string(Mismatch mismatch);
+}  // namespace clackers::assess
 
 // The one record of every study: verify and check fill it, for one case or for several; every
 // output format, --report and --baseline reads it.
@@ -106,7 +112,8 @@ struct Run {
   assess::RunScore score;             ///< NaN where a history lacks what an error needs
   std::optional<HistoryFile> file;    ///< of a history
   std::vector<MetricResult> metrics;  ///< empty where none were measured
-  Curve error_history;  ///< |error in u| / envelope against time; empty where none was kept
+  Curve error_history;    ///< |error in u| / envelope against time; empty where none was kept
+  std::string printed{};  ///< last lines that a program printed whose run failed
 };
 
 /// Runs with steps around one nominal step.
@@ -115,9 +122,14 @@ struct Level {
   std::vector<Run> runs;  ///< coarsest first
 };
 
-/// What is assessed: a method of the catalogue, or a set of histories.
-enum class SubjectKind { method, histories };
-std::string_view to_string(SubjectKind kind);  ///< "method", "histories"
+/// What is assessed: a method of the catalogue, a set of histories, or a program that writes them.
+enum class SubjectKind { method, histories, program };
+std::string_view to_string(SubjectKind kind);  ///< "method", "histories", "program"
+
+/// What the levels of a subject refine: steps [s], or the tolerances of an adaptive solver, which
+/// then stand in every `step`.
+enum class Resolution { step, tolerance };
+std::string_view to_string(Resolution resolution);  ///< "step", "tolerance"
 
 struct Subject {
   SubjectKind kind = SubjectKind::method;
@@ -129,12 +141,15 @@ struct Subject {
   double contact_time = 0.0;          ///< [s], 0 for rigid contact
   std::string refusal, refusal_code;  ///< why a method cannot take the case; empty when it can
   bool complete = true;               ///< false: interrupted before its last level
-  std::vector<Level> levels;          ///< coarsest first
+  Resolution resolution = Resolution::step;
+  std::vector<Level> levels;  ///< coarsest first
   /// Behaviour, verdict, reason (a code) and numbers; `assessment.verdict` is the verdict.
   assess::Assessment assessment;
   /// Without the reference solution; nothing where no level was finished, or where no order is
   /// claimed that differences could be compared with.
   std::optional<SelfResult> self_convergence;
+  /// Causes of what the runs show, strongest first; empty where nothing was found or looked for.
+  std::vector<diagnose::Diagnosis> diagnoses;
 
   /// The run that error history and metrics of the subject are taken from: the finest one that has
   /// them; nullptr where none has.

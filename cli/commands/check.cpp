@@ -24,7 +24,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> files, settings, events;
-  std::string case_name, columns, steps, expect, tolerance, metrics, report, baseline;
+  std::string case_name, columns, steps, tolerances, expect, tolerance, metrics, report, baseline;
 };
 
 // The parts between commas. Throws InputError for an empty one.
@@ -51,6 +51,9 @@ study::CheckRequest request_of(const Options& options, const std::string& line) 
   if (!options.steps.empty())
     for (const auto& part : parts_of("--steps", options.steps))
       request.steps.push_back(read_number("--steps", part));
+  if (!options.tolerances.empty())
+    for (const auto& part : parts_of("--tolerances", options.tolerances))
+      request.tolerances.push_back(read_number("--tolerances", part));
   if (!options.expect.empty()) request.expect = study::claim_from(options.expect);
   if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
   if (!options.metrics.empty() && options.metrics != "all")
@@ -102,7 +105,7 @@ void add_check(Grammar& root) {
            "history agrees or nothing is expected, 1 when it disagrees or is of another motion, "
            "3 when undecided.",
        .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
-                "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...]\n"
+                "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...|--tolerances a,b,...]\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--metrics all]\n"
                 "           [--baseline FILE.json] [--report FILE.html]\n"});
   app->add_option("FILE", options->files, "Time histories, text; - for standard input.")
@@ -121,9 +124,13 @@ void add_check(Grammar& root) {
       ->reads_file("FILE");
   app->add_option("--steps", options->steps,
                   "Step of each history [s], in the order of the files; also the time between rows "
-                  "of files without a column t. Default: h0.01 in a file's name, else the median "
-                  "time between rows.")
+                  "of files without a column t. Default: h0.01, dt=0.01 or N400 (steps) in a file's "
+                  "name, else the median time between rows.")
       ->option_text("h1,h2,...");
+  app->add_option("--tolerances", options->tolerances,
+                  "Tolerance of each history of an adaptive solver, in the order of the files: the "
+                  "levels are tolerances then. Default: rtol1e-06 in the files' names.")
+      ->option_text("a,b,...");
   app->add_option("--expect", options->expect,
                   "What the histories should show: proper:2, reduced:1, irregular:1, exact, "
                   "stagnating or divergent.")

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -50,21 +48,30 @@ class HistoryReader {
       file_.columns.push_back({c.name, c.digits, c.single, c.half_unit});
   }
 
-  Run run() {
+  ComparedHistory run() {
     if (!h_.has_time) start_times();
     find_printed_floor();
     cut_at_end();
     require_start();
-    choose_step();
+    run_.score.step = task_.step > 0.0 ? task_.step : file_.spacing;
+    if (task_.step > 0.0) file_.step_source = StepSource::option;
+    if (!h_.not_finite.empty()) return failed();
     if (!task_.events.empty()) take_events();
     if (!all_u_) complete_u();
     measure();
     add_notes(file_, run_.score, summary_);
     run_.file = std::move(file_);
-    return std::move(run_);
+    return {std::move(run_), std::move(observation_)};
   }
 
  private:
+  ComparedHistory failed() {
+    run_.score.failure_code = Code("not-finite").name();
+    run_.score.failure = std::move(h_.not_finite);
+    run_.file = std::move(file_);
+    return {std::move(run_), {}};
+  }
+
   FirstRow first_row() const {
     const auto dof = std::size_t(h_.motion.dof);
     FirstRow row{h_.motion.t.front(), {}, {}};
@@ -139,24 +146,6 @@ class HistoryReader {
           "not-this-case");
   }
 
-  void choose_step() {
-    run_.score.step = file_.spacing;
-    if (task_.step > 0.0) {
-      run_.score.step = task_.step;
-      file_.step_source = StepSource::option;
-      return;
-    }
-    const auto named = step_in_name(task_.file);
-    if (!named) return;
-    // A number in a name that is longer than the time between rows is no step of this history.
-    if (*named <= 1.01 * file_.spacing) {
-      run_.score.step = *named;
-      file_.step_source = StepSource::name;
-    } else {
-      file_.notes.push_back(note("step-in-name-ignored", {*named, file_.spacing}));
-    }
-  }
-
   void take_events() {
     auto& m = h_.motion;
     auto impacts = exchange::read_events(task_.events, m.dof, interrupt_);
@@ -212,6 +201,7 @@ class HistoryReader {
     }
     take_collisions(comparison);
     take_curves(comparison);
+    observe(comparison);
     report(compared_share);
     auto metrics = all_metrics(
         comparison, facts_of(summary_, 0.0),
@@ -236,6 +226,18 @@ class HistoryReader {
           const auto at = row * dof + mass;
           return std::abs(u[at] - comparison.reference_u()[at]) / comparison.u_envelope()[mass];
         });
+  }
+
+  void observe(const assess::Comparison& comparison) {
+    diagnose::FileFacts facts{.step = 0.0,
+                              .spacing = file_.spacing,
+                              .floor = file_.printed_floor,
+                              .time_half_unit = h_.time_half_unit,
+                              .columns = {},
+                              .contact_time = file_.contact_time};
+    for (const auto& column : file_.columns)
+      facts.columns.push_back({column.name, column.digits, column.single, column.half_unit});
+    observation_ = diagnose::observe(comparison, facts);
   }
 
   // A contact of fewer rows than four is an impact whose limits are rows apart.
@@ -274,35 +276,22 @@ class HistoryReader {
   const std::atomic<bool>* interrupt_;
   HistoryFile file_;
   Run run_;
+  std::optional<diagnose::Observation> observation_;
 };
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 }  // namespace
 
-Run history_run(const HistoryTask& task, const std::vector<std::string>& columns,
-                const cases::Case& problem, const CaseSummary& summary, const Progress& progress,
-                const std::atomic<bool>* interrupt) {
-  exchange::HistoryOptions options{
-      .dof = problem.motion->dof(), .columns = columns, .step = task.step, .interrupt = interrupt};
+ComparedHistory history_run(const HistoryTask& task, const std::vector<std::string>& columns,
+                            const cases::Case& problem, const CaseSummary& summary,
+                            const Progress& progress, const std::atomic<bool>* interrupt) {
+  exchange::HistoryOptions options{.dof = problem.motion->dof(),
+                                   .columns = columns,
+                                   .step = task.step_is_tolerance ? 0.0 : task.step,
+                                   .until_not_finite = true,
+                                   .interrupt = interrupt};
   if (progress) options.progress = [&](double share) { progress(read_share * share); };
   auto history = exchange::read_history(task.file, options);
   return HistoryReader(task, problem, summary, std::move(history), progress, interrupt).run();
-}
-
-std::optional<double> step_in_name(std::string_view path) {
-  auto name = path.substr(path.find_last_of('/') + 1);
-  for (std::size_t at = 0; at < name.size(); ++at) {
-    if (name[at] != 'h' || (at > 0 && is_letter(name[at - 1]))) continue;
-    auto rest = name.substr(at + 1);
-    if (rest.starts_with('=') || rest.starts_with('_')) rest.remove_prefix(1);
-    if (rest.empty() || !(is_digit(rest[0]) || rest[0] == '.')) continue;
-    double step = 0.0;
-    const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), step);
-    if (error == std::errc() && step > 0.0 && std::isfinite(step)) return step;
-  }
-  return {};
 }
 
 }  // namespace clackers::study
