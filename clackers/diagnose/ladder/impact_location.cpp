@@ -136,9 +136,10 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
   };
   for (std::size_t k = 0; k < times.size() && found.impacts.size() < most_impacts; ++k) {
     const auto& impact = (*sample.impacts)[k];
-    const auto& rows = !seen.opening.v.empty() && seen.opening.t.back() > impact.t + 20.0 * seen.facts.spacing
-                           ? seen.opening
-                           : sample;
+    const auto& rows =
+        !seen.opening.v.empty() && seen.opening.t.back() > impact.t + 20.0 * seen.facts.spacing
+            ? seen.opening
+            : sample;
     if (impact.contact < 0 || std::size_t(impact.contact) >= problem.contacts.size()) continue;
     const auto& contact = problem.contacts[std::size_t(impact.contact)];
     const auto around = rows_around(rows, impact.t, locator, contact);
