@@ -29,6 +29,7 @@ class Reader {
         table_(path, options.columns, TableKind::history, options.interrupt),
         columns_(history_columns(table_.path(), table_.names(), options, history_.notes)) {
     if (table_.names_from_comment()) history_.notes.push_back({.code = "columns-from-comment"});
+    history_.names = table_.names();
     history_.motion.dof = options.dof;
     history_.has_time = columns_.t.has_value();
     auto& motion = history_.motion;

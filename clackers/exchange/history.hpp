@@ -44,11 +44,12 @@ struct History {
   model::Trajectory motion;
   std::vector<bool> has_u;           ///< one entry a mass
   bool has_time = true;              ///< false: times are n step
+  std::vector<std::string> names;    ///< of all columns in the file's order, "_" for a skipped one
   std::vector<ColumnPrint> columns;  ///< those that were used, time first if there is one
   /// Rounding error of the times by printing [s]; 0 when they are equally spaced to the last digit,
   /// since such times were hardly rounded.
   double time_half_unit = 0.0;
-  double spacing = 0.0;  ///< median time between rows [s]
+  double spacing = 0.0;    ///< median time between rows [s]
   std::string not_finite;  ///< where the first such number stands, a sentence; empty for none
   std::vector<ReadNote> notes;
 };

@@ -154,7 +154,7 @@ const Column all[] = {
     {"u_error", "", "error in u", "", "largest |error in u| / initial envelope over masses and own times", error, true, score<&Score::u_error>},
     {"u_error_absolute", "m", "error in u", "", "the same, not divided", error, true, score<&Score::u_error_absolute>},
     {"v_error", "", "error in v", "", "L1 over time / length / initial envelope, largest over masses", error, true, score<&Score::v_error>},
-    {"energy_error", "", "energy error", "", "largest |E - E exact| / E exact at t = 0", error, true, score<&Score::energy_error>},
+    {"energy_error", "", "energy error", "", "largest |E - E exact| / E exact at t = 0; stays of order one where restitution < 1", error, true, score<&Score::energy_error>},
     {"energy_ratio", "", "energy ratio", "", "E / E exact at the last state", Kind::number, true, score<&Score::energy_ratio>},
     {"rounding_floor", "", "rounding floor", "", "of u_error, estimated", error, true, score<&Score::rounding_floor>},
     {"collision_source", "", "collisions from", "", "events, history (found in it) or unknown", word, true, [](const Row& row) { return file_of(row) ? text(to_string(file_of(row)->collisions)) : Cell(); }},

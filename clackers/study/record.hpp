@@ -57,6 +57,26 @@ struct RefinementPlan {
   int samples_per_level = 8;  ///< steps a level, ratio 2^(1/samples_per_level)
 };
 
+/// Why refinement beyond the plan ended.
+enum class RefinementEnd {
+  decided,
+  budget,
+  rounding_floor,
+  too_many_steps,
+  run_failed,
+  interrupted
+};
+/// "decided", "budget", "rounding-floor", "too-many-steps", "run-failed", "interrupted"
+std::string_view to_string(RefinementEnd end);
+
+/// What was run of a subject beyond the plan of its case, because the plan left it undecided.
+struct Refinement {
+  int finer_levels = 0, coarser_levels = 0;  ///< added at either end
+  int samples_per_level = 0;                 ///< now
+  RefinementEnd end = RefinementEnd::decided;
+  double next_seconds = 0.0;  ///< expected time of what did not fit into the budget [s], else 0
+};
+
 /// A curve for a figure.
 struct Curve {
   std::vector<double> t;               ///< [s]
@@ -136,13 +156,14 @@ struct Subject {
   /// The one name in every output. A method as one would type it, without "+event-driven", which is
   /// what a name without "+contact" means; "histories" for histories.
   std::string name;
-  Claim claim;                        ///< of the method, or what --expect says of the histories
-  std::optional<double> tolerance;    ///< largest allowed u_error, where one was asked for
-  double contact_time = 0.0;          ///< [s], 0 for rigid contact
-  std::string refusal, refusal_code;  ///< why a method cannot take the case; empty when it can
-  bool complete = true;               ///< false: interrupted before its last level
+  Claim claim;                           ///< of the method, or what --expect says of the histories
+  std::optional<double> tolerance;       ///< largest allowed u_error, where one was asked for
+  double contact_time = 0.0;             ///< [s], 0 for rigid contact
+  std::string refusal, refusal_code;     ///< why a method cannot take the case; empty when it can
+  bool complete = true;                  ///< false: interrupted before its last level
   Resolution resolution = Resolution::step;
-  std::vector<Level> levels;  ///< coarsest first
+  std::vector<Level> levels;             ///< coarsest first
+  std::optional<Refinement> refinement;  ///< nothing where the plan of the case was enough
   /// Behaviour, verdict, reason (a code) and numbers; `assessment.verdict` is the verdict.
   assess::Assessment assessment;
   /// Without the reference solution; nothing where no level was finished, or where no order is
@@ -165,7 +186,7 @@ struct Counts {
 /// One case with everything that was assessed on it.
 struct CaseRecord {
   CaseSummary problem;
-  RefinementPlan plan;  ///< of methods; levels = 0 for histories
+  RefinementPlan plan;  ///< of methods on this case, before refinement; levels = 0 for histories
   Curve response;       ///< exact displacements, one row a mass [m]
   std::vector<Subject> subjects;
   std::vector<Profile> profiles;  ///< of this case alone

@@ -104,10 +104,11 @@ void add_check(Grammar& root) {
            "Several files are levels of one method and give an order. Exit code 0 when the "
            "history agrees or nothing is expected, 1 when it disagrees or is of another motion, "
            "3 when undecided.",
-       .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
-                "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...|--tolerances a,b,...]\n"
-                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--metrics all]\n"
-                "           [--baseline FILE.json] [--report FILE.html]\n"});
+       .usage =
+           "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
+           "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...|--tolerances a,b,...]\n"
+           "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--metrics all]\n"
+           "           [--baseline FILE.json] [--report FILE.html]\n"});
   app->add_option("FILE", options->files, "Time histories, text; - for standard input.")
       ->reads_file("");
   app->add_option("--case", options->case_name,
@@ -122,10 +123,11 @@ void add_check(Grammar& root) {
                   "Of several histories one file each, in their order. Without it collisions are "
                   "found in the history.")
       ->reads_file("FILE");
-  app->add_option("--steps", options->steps,
-                  "Step of each history [s], in the order of the files; also the time between rows "
-                  "of files without a column t. Default: h0.01, dt=0.01 or N400 (steps) in a file's "
-                  "name, else the median time between rows.")
+  app->add_option(
+         "--steps", options->steps,
+         "Step of each history [s], in the order of the files; also the time between rows "
+         "of files without a column t. Default: h0.01, dt=0.01 or N400 (steps) in a file's "
+         "name, else the median time between rows.")
       ->option_text("h1,h2,...");
   app->add_option("--tolerances", options->tolerances,
                   "Tolerance of each history of an adaptive solver, in the order of the files: the "

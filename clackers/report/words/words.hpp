@@ -7,6 +7,7 @@
 
 #include "clackers/study/baseline.hpp"
 #include "clackers/study/record.hpp"
+#include "clackers/study/require.hpp"
 
 // Every sentence of a report, made of the codes and numbers of a record.
 namespace clackers::report {
@@ -59,6 +60,10 @@ struct VerdictLine {
   std::string next_in_words;  ///< the same where a long command does not fit
 };
 VerdictLine verdict_line(const study::Record& record);
+
+/// "Required: order:2. Not met by 1 of 7: moreau-jean (order 0.99)."; of subjects that do not meet it.
+std::string requirement_text(const study::Record& record, const study::Requirement& requirement,
+                             const std::vector<study::Unmet>& unmet);
 
 /// "Against the baseline of 2025-11-21T09:43:00Z (clackers 0.1.0): 2 of 7 methods changed."
 std::string change_summary(const study::BaselineComparison& changes);

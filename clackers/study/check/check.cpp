@@ -83,7 +83,8 @@ Record check(const CheckRequest& request, const Progress& progress,
   HistorySet histories(problem, one.problem, request.columns, interrupt);
   read_all(request, histories, progress);
   one.subjects.push_back(histories.assess(SubjectKind::histories, "histories",
-                                          request.expect.value_or(Claim{}), request.tolerance, !request.tolerances.empty()));
+                                          request.expect.value_or(Claim{}), request.tolerance,
+                                          !request.tolerances.empty()));
   Record record;
   record.command = "check";
   record.provenance = provenance(request.command);

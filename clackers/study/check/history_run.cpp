@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "clackers/assess/convergence/judge.hpp"
 #include "clackers/assess/errors/comparison.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exchange/events.hpp"
@@ -15,6 +16,7 @@
 #include "clackers/study/cause_metrics.hpp"
 #include "clackers/study/check/history_score.hpp"
 #include "clackers/study/check/initial_state.hpp"
+#include "clackers/study/check/refused_start.hpp"
 #include "clackers/study/notes.hpp"
 #include "clackers/study/reduced_curve.hpp"
 
@@ -51,6 +53,7 @@ class HistoryReader {
   ComparedHistory run() {
     if (!h_.has_time) start_times();
     find_printed_floor();
+    take_opening();
     cut_at_end();
     require_start();
     run_.score.step = task_.step > 0.0 ? task_.step : file_.spacing;
@@ -108,12 +111,43 @@ class HistoryReader {
     }
   }
 
+  void take_opening() {
+    const auto& m = h_.motion;
+    const auto rows = std::min(m.t.size(), diagnose::most_opening_rows);
+    const auto numbers = std::ptrdiff_t(rows * std::size_t(m.dof));
+    auto& opening = opening_.rows;
+    opening.dof = m.dof;
+    opening.t.assign(m.t.begin(), m.t.begin() + std::ptrdiff_t(rows));
+    opening.u.assign(m.u.begin(), m.u.begin() + numbers);
+    if (!m.v.empty()) opening.v.assign(m.v.begin(), m.v.begin() + numbers);
+    opening_.step = task_.step > 0.0 && !task_.step_is_tolerance ? task_.step : file_.spacing;
+    opening_.has_u = h_.has_u;
+    opening_.printed_floor = file_.printed_floor;
+    opening_.columns = h_.names;
+  }
+
+  // A run of the length of the case, its times in thousandths or millionths of a second.
+  void require_seconds(std::size_t kept) const {
+    const auto& t = h_.motion.t;
+    constexpr double most_kept = 0.1, slack = 0.02;
+    if (double(kept) > most_kept * double(t.size())) return;
+    for (const auto& [factor, unit] : {std::pair{1e3, "milliseconds"}, {1e6, "microseconds"}}) {
+      const double length = factor * problem_.motion->end();
+      if (std::abs(t.back() / length - 1.0) < slack)
+        throw InputError(fmt::format("{}: times go up to {:.6g}, and {} ends at {:.6g} s: in {}? "
+                                     "Convert them to seconds.",
+                                     name(), t.back(), summary_.name, summary_.end, unit),
+                         "time-unit");
+    }
+  }
+
   // Rows after the end of the case are left out; a time that only printing carries past it stays.
   void cut_at_end() {
     auto& m = h_.motion;
     const double end = problem_.motion->end();
     const double slack = h_.time_half_unit + 4.0 * std::numeric_limits<double>::epsilon() * end;
     const auto kept = std::size_t(std::ranges::upper_bound(m.t, end + slack) - m.t.begin());
+    require_seconds(kept);
     file_.rows_beyond = static_cast<long long>(m.t.size() - kept);
     const auto dof = std::size_t(m.dof);
     m.t.resize(kept);
@@ -137,13 +171,9 @@ class HistoryReader {
     const auto most = start_difference(row, problem_);
     file_.start_error = most.relative;
     if (row.t == 0.0 && most.relative > start_tolerance + 2.0 * file_.printed_floor)
-      throw InputError(
-          fmt::format("{}: {} starts at {:.6g}, and that of {} at {:.6g}: {:.2g} of the envelope "
-                      "apart. Give the case the parameters of the run with --set; they are listed "
-                      "by: clackers show {}.",
-                      name(), most.name, most.given, summary_.name, most.expected, most.relative,
-                      summary_.name),
-          "not-this-case");
+      refuse_start(name(), opening_, problem_, most);
+    if (row.t > 0.0 && most.relative > assess::far_start)
+      refuse_reading(name(), opening_, problem_);
   }
 
   void take_events() {
@@ -275,6 +305,7 @@ class HistoryReader {
   const Progress& progress_;
   const std::atomic<bool>* interrupt_;
   HistoryFile file_;
+  diagnose::Opening opening_;
   Run run_;
   std::optional<diagnose::Observation> observation_;
 };

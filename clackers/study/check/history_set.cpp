@@ -46,16 +46,15 @@ assess::Facts facts_of(const HistoryFile* file, const Subject& subject,
   if (file == nullptr) return facts;
   const auto& motion = *problem.motion;
   facts.contact_time = file->contact_time;
-  facts.finest =
-      assess::HistoryFacts{.rows = file->rows,
-                           .printed_floor = file->printed_floor,
-                           .first = file->first,
-                           .start_error = file->start_error,
-                           .rows_resolve_collisions = file->rows_resolve_collisions,
-                           .last = file->last,
-                           .end = motion.end(),
-                           .expected_to_last = motion.impact_count(file->last),
-                           .expected = motion.impact_count(motion.end())};
+  facts.finest = assess::HistoryFacts{.rows = file->rows,
+                                      .printed_floor = file->printed_floor,
+                                      .first = file->first,
+                                      .start_error = file->start_error,
+                                      .rows_resolve_collisions = file->rows_resolve_collisions,
+                                      .last = file->last,
+                                      .end = motion.end(),
+                                      .expected_to_last = motion.impact_count(file->last),
+                                      .expected = motion.impact_count(motion.end())};
   return facts;
 }
 

@@ -14,8 +14,7 @@ namespace {
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-constexpr std::array<std::string_view, 5> step_words = {"h",        "dt",        "step",
-                                                        "timestep", "stepsize"};
+constexpr std::array<std::string_view, 5> step_words = {"h", "dt", "step", "timestep", "stepsize"};
 constexpr std::array<std::string_view, 5> count_words = {"n", "nt", "steps", "nsteps", "nstep"};
 constexpr std::array<std::string_view, 7> tolerance_words = {
     "tol", "rtol", "atol", "reltol", "abstol", "tolerance", "eps"};
@@ -37,8 +36,7 @@ std::optional<double> leading_number(std::string_view text) {
   if (text.empty() || !(is_digit(text[0]) || text[0] == '.')) return {};
   const auto number = with_decimal_point(text);
   double value = 0.0;
-  const auto [stop, error] =
-      std::from_chars(number.data(), number.data() + number.size(), value);
+  const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (error != std::errc() || !(value > 0.0) || !std::isfinite(value)) return {};
   return value;
 }

@@ -5,8 +5,8 @@
 namespace clackers::assess {
 
 std::string_view to_string(Mismatch mismatch) {
-  constexpr std::string_view names[] = {"",             "behaviour",    "lower-order",
-                                        "higher-order", "floor-reason", "evidence"};
+  constexpr std::string_view names[] = {
+      "", "behaviour", "lower-order", "higher-order", "floor-reason", "evidence"};
   return names[static_cast<std::size_t>(mismatch)];
 }
 
@@ -48,6 +48,12 @@ std::string_view to_string(SubjectKind kind) {
 
 std::string_view to_string(Resolution resolution) {
   return resolution == Resolution::step ? "step" : "tolerance";
+}
+
+std::string_view to_string(RefinementEnd end) {
+  constexpr std::string_view names[] = {"decided",        "budget",     "rounding-floor",
+                                        "too-many-steps", "run-failed", "interrupted"};
+  return names[static_cast<std::size_t>(end)];
 }
 
 const Run* Subject::shown_run() const {

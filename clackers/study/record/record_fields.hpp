@@ -55,6 +55,15 @@ void fields(Archive& archive, Like<RefinementPlan> auto& x) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Like<Refinement> auto& x) {
+  archive("finer_levels", x.finer_levels);
+  archive("coarser_levels", x.coarser_levels);
+  archive("samples_per_level", x.samples_per_level);
+  archive("end", x.end);
+  archive("next_seconds", x.next_seconds);
+}
+
+template <class Archive>
 void fields(Archive& archive, Like<Curve> auto& x) {
   archive("t", x.t);
   archive("y", x.y);
@@ -253,6 +262,7 @@ void fields(Archive& archive, Like<Subject> auto& x) {
   archive("complete", x.complete);
   archive.added("resolution", x.resolution);
   archive("levels", x.levels);
+  archive.added("refinement", x.refinement);
   archive("assessment", x.assessment);
   archive("self_convergence", x.self_convergence);
   archive.added("diagnoses", x.diagnoses);

@@ -177,13 +177,18 @@ class Reader {
   static void read(const Json& json, const std::string& where, SubjectKind& x) {
     read_word(json, where, x, {SubjectKind::method, SubjectKind::histories, SubjectKind::program});
   }
+  static void read(const Json& json, const std::string& where, RefinementEnd& x) {
+    read_word(
+        json, where, x,
+        {RefinementEnd::decided, RefinementEnd::budget, RefinementEnd::rounding_floor,
+         RefinementEnd::too_many_steps, RefinementEnd::run_failed, RefinementEnd::interrupted});
+  }
   static void read(const Json& json, const std::string& where, Resolution& x) {
     read_word(json, where, x, {Resolution::step, Resolution::tolerance});
   }
   static void read(const Json& json, const std::string& where, assess::Mismatch& x) {
     using enum assess::Mismatch;
-    read_word(json, where, x,
-              {none, behaviour, lower_order, higher_order, floor_reason, evidence});
+    read_word(json, where, x, {none, behaviour, lower_order, higher_order, floor_reason, evidence});
   }
   static void read(const Json& json, const std::string& where, diagnose::Diagnosis& x) {
     Json evidence;

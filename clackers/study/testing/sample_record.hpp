@@ -82,6 +82,7 @@ inline Record sample_record() {
                     {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}},
                      {silent, {}, {}, {}, "Segmentation fault"}}},
                    {0.025, {{run, file, {}, {}}}}};
+  method.refinement = {2, 1, 16, RefinementEnd::budget, 12.5};
   method.assessment = {fit,
                        second,
                        third,
@@ -111,6 +112,7 @@ inline Record sample_record() {
   histories.name = "histories";
   histories.tolerance.reset();
   histories.self_convergence.reset();
+  histories.refinement.reset();
   CaseRecord one;
   one.problem = {"three-parameter",
                  "two masses",
