@@ -15,7 +15,7 @@ struct History {
 
 /// Newton's impact law with the faults of `o`, at the impact `number` (from 1).
 inline void apply_impact(System& s, const Options& o, State& x, int number) {
-  const double closing = s.gap(x.v);
+  const double closing = s.speed(x.v);
   const Vec w = solve(s.M, s.normal);
   double impulse = -(1.0 + s.eta) * closing / dot(s.normal, w) * o.number("impulse", 1.0);
   if (number == o.number("at", 0.0)) impulse *= o.number("impulse-at", 1.0);
@@ -111,13 +111,13 @@ inline History run_steps(System s, const Options& o, double h, long n) {
       if (crossed && ++number == missed) {
         armed = false;
       } else if (crossed && at_end) {
-        if (s.gap(y.v) < 0.0) {
+        if (s.speed(y.v) < 0.0) {
           apply_impact(s, o, y, number);
           out.impacts.push_back(y);
           out.impacts.back().t = h * static_cast<double>(i);
         }
       } else if (crossed && at_start) {
-        if (s.gap(x.v) < 0.0) {
+        if (s.speed(x.v) < 0.0) {
           apply_impact(s, o, x, number);
           out.impacts.push_back(x);
           out.impacts.back().t = h * static_cast<double>(i - 1);
@@ -151,6 +151,44 @@ inline History run_steps(System s, const Options& o, double h, long n) {
   return out;
 }
 
+/// A full step begins at each impact, so that rows leave the grid; the last step ends at the end.
+inline History run_restarted(System s, const Options& o, double h) {
+  const Step step = make_step(o);
+  History out;
+  State x;
+  x.u = s.u0;
+  x.v = s.v0;
+  x.a = s.acceleration(x.u, x.v, false);
+  out.rows.push_back(x);
+  bool armed = true;
+  double base = 0.0;
+  for (long since = 1; x.t < s.end;) {
+    const double t = std::min(base + h * static_cast<double>(since), s.end), left = t - x.t;
+    State y = step(s, x, left);
+    y.t = t;
+    if (s.contact && armed && s.gap(y.u) < 0.0) {
+      double tau = 0.0;
+      State z = locate(s, o, step, x, y, left, tau);
+      z.t = x.t + tau;
+      out.rows.push_back(z);
+      apply_impact(s, o, z, static_cast<int>(out.impacts.size()) + 1);
+      out.rows.push_back(z);
+      out.impacts.push_back(z);
+      base = z.t;
+      since = 1;
+      armed = false;
+      x = z;
+      continue;
+    }
+    if (s.gap(y.u) > 0.0) armed = true;
+    out.rows.push_back(y);
+    x = y;
+    ++since;
+  }
+  out.nodes = out.rows;
+  return out;
+}
+
 /// Moreau-Jean theta method, contact predicted at half a step.
 inline History run_moreau(const System& s, const Options& o, double h, long n) {
   const double theta = o.number("theta", 0.5);
@@ -168,7 +206,7 @@ inline History run_moreau(const System& s, const Options& o, double h, long n) {
     Vec v = solve(left, s.M * x.v - h * (1.0 - theta) * (s.C * x.v) - h * (s.K * x.u) -
                             h * h * theta * (1.0 - theta) * (s.K * x.v));
     if (s.contact && s.gap(x.u + 0.5 * h * x.v) <= 0.0) {
-      const double p = std::max(0.0, (-s.eta * s.gap(x.v) - s.gap(v)) / dot(s.normal, w));
+      const double p = std::max(0.0, (-s.eta * s.speed(x.v) - s.speed(v)) / dot(s.normal, w));
       v = v + p * w;
       if (p > 0.0) out.impacts.push_back(x);
     }
@@ -212,7 +250,7 @@ inline History run_adaptive(System s, const Options& o, double tolerance, double
   const auto low = [](const System& system, const State& x, double h) {
     return runge_kutta_step(system, x, h, 7, dopri_a, dopri_low);
   };
-  const bool resampled = o.has("hermite-output");
+  const bool resampled = o.has("hermite-output"), own_steps = o.has("own-steps");
   History out;
   State x;
   x.u = s.u0;
@@ -245,6 +283,12 @@ inline History run_adaptive(System s, const Options& o, double tolerance, double
                     o.number("event-tolerance", 0.0));
       y = step(s, x, used);
     }
+    if (own_steps) {
+      State row = y;
+      row.t = x.t + used;
+      out.rows.push_back(row);
+      if (row.t >= s.end) break;
+    }
     for (; next <= rows && static_cast<double>(next) * spacing <= x.t + used * (1.0 + 1e-14);
          ++next) {
       State row = step(s, x, static_cast<double>(next) * spacing - x.t);
@@ -253,7 +297,7 @@ inline History run_adaptive(System s, const Options& o, double tolerance, double
         row.v = hermite(x.v, x.a, y.v, y.a, used, static_cast<double>(next) * spacing - x.t);
       }
       row.t = static_cast<double>(next) * spacing;
-      out.rows.push_back(row);
+      if (!own_steps) out.rows.push_back(row);
     }
     y.t = x.t + used;
     if (hit) {

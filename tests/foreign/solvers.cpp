@@ -177,11 +177,12 @@ void solve_line(const std::string& line) {
   const long n = std::lround(o.number("n", 1000.0));
   const double h = s.end / static_cast<double>(n);
   const std::string contact = o.text("contact", "exact");
-  const History history = o.has("tolerance")    ? run_adaptive(s, o, o.number("tolerance", 1e-6),
-                                                               o.number("spacing", 0.01))
-                          : contact == "moreau" ? run_moreau(s, o, h, n)
-                          : contact == "paoli"  ? run_paoli(s, o, h, n)
-                                                : run_steps(s, o, h, n);
+  const History history = o.has("tolerance")      ? run_adaptive(s, o, o.number("tolerance", 1e-6),
+                                                                 o.number("spacing", 0.01))
+                          : contact == "moreau"   ? run_moreau(s, o, h, n)
+                          : o.has("restart-grid") ? run_restarted(s, o, h)
+                          : contact == "paoli"    ? run_paoli(s, o, h, n)
+                                                  : run_steps(s, o, h, n);
   std::vector<State> rows = o.has("resample") ? resampled(history, o)
                             : o.has("jumps")  ? history.nodes
                                               : history.rows;

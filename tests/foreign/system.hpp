@@ -52,9 +52,12 @@ struct System {
   double release = 0.0;                ///< gap up to which a closed penalty contact pulls
   bool clip = false;                   ///< a contact force below zero is set to zero
 
-  double gap(Vec u) const { return dot(normal, u); }
+  double clearance = 0.0;  ///< added to the gap by mistake [m]
+
+  double gap(Vec u) const { return dot(normal, u) + clearance; }
+  double speed(Vec v) const { return dot(normal, v); }
   double force(Vec u, Vec v) const {
-    const double pressed = -spring * gap(u) - dashpot * gap(v);
+    const double pressed = -spring * gap(u) - dashpot * speed(v);
     return clip && pressed < 0.0 ? 0.0 : pressed;
   }
   Vec acceleration(Vec u, Vec v, bool closed) const {
@@ -98,6 +101,7 @@ inline System make_system(const Options& o) {
   s.eta = o.number("solver-eta", s.eta);
   if (o.has("rest")) s.v0 = {};
   if (o.has("no-contact")) s.contact = false;
+  s.clearance = o.number("clearance", 0.0);
   s.spring = o.number("spring", 0.0);
   s.dashpot = o.number("dashpot", 0.0);
   s.release = o.number("release", 0.0);
