@@ -123,7 +123,7 @@ void append(std::string& text, double number, const Options& o, bool time) {
     text.append(buffer, static_cast<std::size_t>(size));
     return;
   }
-  const bool single = o.has("single-output") || (time && o.has("float-time"));
+  const bool single = time ? o.has("single-time") || o.has("float-time") : o.has("single-output");
   const auto done = single
                         ? std::to_chars(buffer, buffer + sizeof buffer, static_cast<float>(number))
                         : std::to_chars(buffer, buffer + sizeof buffer, number);
