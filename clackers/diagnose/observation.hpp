@@ -24,6 +24,8 @@ struct FileFacts {
   double floor = 0.0;           ///< part of u_error that printing alone may make
   double time_half_unit = 0.0;  ///< of printing t [s]
   std::vector<ColumnDigits> columns;
+  /// Names of all columns in the file's order, as they were read; empty: t, u1, v1, u2, v2, ...
+  std::vector<std::string> order{};
   double contact_time = 0.0;  ///< median length of the contacts in it [s], 0 for instants
 };
 

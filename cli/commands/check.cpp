@@ -16,6 +16,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/requirements.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
@@ -23,7 +24,7 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::vector<std::string> files, settings, events;
+  std::vector<std::string> files, settings, events, requirements;
   std::string case_name, columns, steps, tolerances, expect, tolerance, metrics, report, baseline;
 };
 
@@ -69,6 +70,7 @@ study::Record run_check(const Options& options, const study::CheckRequest& reque
 
 int run(const Options& options, const std::string& line) {
   const auto request = request_of(options, line);
+  const auto requirements = read_requirements(options.requirements);
   const auto baseline = baseline_of(options.baseline, request);
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
@@ -81,7 +83,7 @@ int run(const Options& options, const std::string& line) {
     // `check | head`: the reader had enough, the verdict still counts.
   }
   output.note_changes(results.format());
-  return written ? study::exit_code(record) : 4;
+  return written ? required_exit_code(record, requirements) : 4;
 }
 
 }  // namespace
@@ -106,9 +108,10 @@ void add_check(Grammar& root) {
            "3 when undecided.",
        .usage =
            "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
-           "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...|--tolerances a,b,...]\n"
-           "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--metrics all]\n"
-           "           [--baseline FILE.json] [--report FILE.html]\n"});
+           "           [--columns t,u1,...] [--events FILE]\n"
+           "           [--steps h1,h2,...|--tolerances a,b,...]\n"
+           "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
+           "           [--metrics all] [--baseline FILE.json] [--report FILE.html]\n"});
   app->add_option("FILE", options->files, "Time histories, text; - for standard input.")
       ->reads_file("");
   app->add_option("--case", options->case_name,
@@ -145,6 +148,7 @@ void add_check(Grammar& root) {
          "all: every metric in the table, not only those that reports show first (clackers "
          "list metrics). csv and json always hold all.")
       ->option_text("all");
+  add_require_option(*app, options->requirements);
   add_report_option(*app, options->report);
   app->add_option("--baseline", options->baseline,
                   "An earlier record of check (--format json) of the same case, - for standard "

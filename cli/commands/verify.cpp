@@ -106,7 +106,7 @@ int run(const Options& options, const std::string& line) {
   }
   output.note_changes(results.format());
   if (record.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
-  return written ? exit_code(record, requirements) : 4;
+  return written ? required_exit_code(record, requirements) : 4;
 }
 
 }  // namespace

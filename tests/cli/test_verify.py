@@ -45,6 +45,73 @@ class Verdicts(CommandTest):
         self.refused("verify", "--all", "rk4", code="bad-syntax", says="--all")
 
 
+class DefaultLadder(CommandTest):
+    def test_all_of_the_panel_agree_for_every_ratio_of_masses(self):
+        for N, coarsest in ((0, 0.45), (1, 0.09), (2, 0.05), (5, 0.021), (20, 0.0055), (100, 0.0011)):
+            with self.subTest(N=N):
+                done = run("verify", "--set", f"N={N}", "--format", "json", timeout=110)
+                case, = json.loads(done.stdout)["cases"]
+                self.assertEqual({s["name"]: s["assessment"]["verdict"] for s in case["subjects"]},
+                                 {name: "agrees" for name in PANEL})
+                self.assertEqual(case["plan"]["coarsest"], coarsest)
+                self.assertEqual(done.returncode, 0)
+
+    def test_refines_what_is_undecided_and_says_so(self):
+        subject, = self.subjects("newmark:beta=0.5,gamma=1", "--budget", "1min")
+        self.assertEqual(subject["assessment"]["verdict"], "agrees")
+        self.assertGreater(subject["refinement"]["finer_levels"], 0)
+        self.assertEqual(len(subject["levels"]), 8 + subject["refinement"]["finer_levels"])
+        self.assertEqual(subject["refinement"]["end"], "decided")
+
+    def test_a_stiff_contact_gets_the_steps_that_resolve_it(self):
+        subject, = self.subjects("newmark+penalty:stiffness=1e5")
+        self.assertEqual(subject["assessment"]["verdict"], "agrees")
+        resolved = [level for level in subject["levels"] if level["step"] <= subject["contact_time"] / 25]
+        self.assertGreaterEqual(len(resolved), 3)
+
+    def test_levels_that_are_asked_for_are_those_that_are_run(self):
+        subject, = self.subjects("rk4", "--levels", "2", "--neighbours", "1")
+        self.assertEqual((len(subject["levels"]), subject["refinement"]), (2, None))
+        subject, = self.subjects("rk4", "--levels", "2", "--neighbours", "1", "--budget", "1min")
+        self.assertEqual(subject["assessment"]["verdict"], "agrees")
+        self.assertGreater(len(subject["levels"]), 2)
+
+    def test_a_budget_that_is_too_small_ends_refinement(self):
+        subject, = self.subjects("newmark+penalty:stiffness=1e9", "--budget", "1")
+        self.assertEqual(subject["refinement"]["end"], "budget")
+        self.assertGreater(subject["refinement"]["next_seconds"], 0.5)
+        subject, = self.subjects("newmark+penalty:stiffness=1e9", "--budget", "0")
+        self.assertIsNone(subject["refinement"])
+        self.refused("verify", "rk4", "--budget", "-1", code="out-of-range", says="--budget")
+        self.refused("verify", "rk4", "--budget", "1day", code="not-a-number", says="--budget")
+
+    def subjects(self, *arguments):
+        done = run("verify", *arguments, "--format", "json", timeout=110)
+        return json.loads(done.stdout)["cases"][0]["subjects"]
+
+
+class Requirements(CommandTest):
+    def test_decide_the_exit_code_and_name_what_fails(self):
+        done = run("verify", "rk4", *SHORT, "--require", "agrees", "--require", "order:4")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = run("verify", "rk4", *SHORT_LADDER, "--require", "agrees")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "Required: agrees. Not met by 1 of 1: rk4 (undecided).\n")
+        done = run("verify", "rk4", *SHORT, "--require", "order:5", "--require", "proper", "--quiet")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"^Required: order:5\. Not met by 1 of 1: rk4 \(order 4\.0.\)\.\n$")
+
+    def test_count_refused_methods(self):
+        both = ("rk4", "newmark+penalty", "--case", "stop", "--set", "eta=0.5", *SHORT)
+        self.assertEqual(run("verify", *both).returncode, 0)
+        done = run("verify", *both, "--require", "error:0.1")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("newmark+penalty (refused)", done.stderr)
+
+    def test_are_refused_before_the_work(self):
+        self.refused("verify", *LONG_LADDER, "--require", "agree", code="unknown-name", says='"agrees"')
+
+
 class Record(CommandTest):
     def record(self, *arguments):
         return json.loads(run("verify", *arguments, "--format", "json").stdout)

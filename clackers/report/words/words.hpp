@@ -47,6 +47,14 @@ std::optional<Finding> false_convergence(const study::Subject& subject);
 /// What the differences between runs show, beside what the errors of the same runs show.
 std::string self_convergence_text(const study::SelfResult& result);
 
+/// A cause with its value, its uncertainty, how much better it explains the history, and the cure:
+/// "Restitution looks like 0.9900 ±0.0001 instead of 1 (explains the history 9e7 times better): check
+/// the impact law and its coefficient."
+Finding diagnosis_text(const diagnose::Diagnosis& cause);
+/// Of the strongest causes of a subject, `most_shown_diagnoses` at most.
+std::vector<Finding> diagnosis_texts(const study::Subject& subject);
+inline constexpr std::size_t most_shown_diagnoses = 3;
+
 /// The notes on the histories of a subject, one for each code; the finest history stands for
 /// others with the same.
 std::vector<std::string> note_texts(const study::Subject& subject);

@@ -264,6 +264,7 @@ class HistoryReader {
                               .floor = file_.printed_floor,
                               .time_half_unit = h_.time_half_unit,
                               .columns = {},
+                              .order = h_.names,
                               .contact_time = file_.contact_time};
     for (const auto& column : file_.columns)
       facts.columns.push_back({column.name, column.digits, column.single, column.half_unit});

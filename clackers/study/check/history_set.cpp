@@ -7,6 +7,7 @@
 #include "clackers/assess/convergence/step_levels.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/diagnose/diagnose.hpp"
+#include "clackers/diagnose/ladder/limit.hpp"
 #include "clackers/study/notes.hpp"
 
 namespace clackers::study {
@@ -147,7 +148,9 @@ Subject HistorySet::assess(SubjectKind kind, std::string name, const Claim& clai
   subject.contact_time = file != nullptr ? file->contact_time : 0.0;
   subject.levels = levels_of(runs);
   const auto ladder = ladder_of(subject);
-  subject.assessment = assess::judge(ladder, claim, facts_of(file, subject, problem_));
+  auto facts = facts_of(file, subject, problem_);
+  facts.wrong_limit = diagnose::limit_of(histories, problem_.problem, *problem_.motion).wrong;
+  subject.assessment = assess::judge(ladder, claim, facts);
   subject.diagnoses =
       diagnose::diagnose({.problem = problem_.problem,
                           .motion = *problem_.motion,

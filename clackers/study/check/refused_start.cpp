@@ -56,8 +56,8 @@ std::string sentence(const Diagnosis& cause, const std::string& case_name) {
         "state at t = 0.",
         std::abs(cause.value), cause.unit, cause.value < 0.0 ? "later" : "earlier");
   if (is("time-unit"))
-    return fmt::format("Times are {:.6g} times those of {}{} Convert them to seconds.",
-                       cause.value, case_name, text.empty() ? "." : fmt::format(": in {}?", text));
+    return fmt::format("Times are {:.6g} times those of {}{} Convert them to seconds.", cause.value,
+                       case_name, text.empty() ? "." : fmt::format(": in {}?", text));
   return {};
 }
 
