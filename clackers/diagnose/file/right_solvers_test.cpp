@@ -4,7 +4,7 @@
 #include "clackers/diagnose/testing/histories.hpp"
 #include "clackers/methods/testing/runs.hpp"
 
-// Files of solvers that are right show no cause: methods of different order and contact treatment,
+// Files of solvers that are right, or right solvers of another system, show no cause: methods of different order and contact treatment,
 // cases, steps, digits, rows at each or each fifth step, with and without velocities.
 namespace clackers::diagnose {
 namespace {
@@ -62,6 +62,31 @@ INSTANTIATE_TEST_SUITE_P(Methods, RightSolvers,
                                                               "generalized-alpha:rho=0.5",
                                                               "newmark:gamma=0.6,beta=0.31"),
                                             ::testing::Range(0, 10)));
+
+// Another restitution, stiffness, mass or damping is no matter of the file.
+TEST(RightSolversOfAnotherSystem, ShowNoCause) {
+  const auto changes = std::vector<void (*)(model::ImpactProblem<>&)>{
+      [](model::ImpactProblem<>& p) {
+        for (auto& contact : p.contacts) contact.restitution *= 0.9;
+      },
+      [](model::ImpactProblem<>& p) { p.system.stiffness *= 1.01; },
+      [](model::ImpactProblem<>& p) { p.system.mass(0, 0) *= 0.97; },
+      [](model::ImpactProblem<>& p) { p.system.damping.setZero(); },
+  };
+  for (const auto& problem : testing::assorted_cases())
+    for (const auto change : changes) {
+      auto other = problem.problem;
+      change(other);
+      Files files{problem};
+      for (const double n : {400.0, 1000.0}) {
+        auto rows = methods::runs::run("rk4", other, other.end / n).trajectory;
+        rows.impacts.reset();
+        files.add(rows, other.end / n);
+      }
+      for (const auto& cause : file_causes(files.question()))
+        ADD_FAILURE() << problem.entry->name << ' ' << cause.code << ' ' << cause.text;
+    }
+}
 
 }  // namespace
 }  // namespace clackers::diagnose

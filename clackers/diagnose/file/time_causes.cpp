@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "clackers/diagnose/file/file_sample.hpp"
 #include "clackers/diagnose/file/reading.hpp"
@@ -114,22 +115,30 @@ std::optional<Diagnosis> time_drift(const FileSample& file) {
   const auto distance = [&](double h) { return file.distance_at(times_for(h)).u; };
   // Golden sections between steps that the drift allows: rounded steps err by at most the bend.
   const double reach = 20.0 * bent / grid.n.back();
-  double low = line.slope - reach, high = line.slope + reach;
   constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 40; ++i) {
-    const double left = high - golden * (high - low), right = low + golden * (high - low);
-    if (distance(left) < distance(right))
-      high = right;
-    else
-      low = left;
+  double low = line.slope - reach, high = line.slope + reach;
+  double a = high - golden * (high - low), b = low + golden * (high - low);
+  double at_a = distance(a), at_b = distance(b);
+  for (int i = 0; i < 25; ++i) {
+    if (at_a < at_b) {
+      high = std::exchange(b, a);
+      at_b = at_a;
+      a = high - golden * (high - low);
+      at_a = distance(a);
+    } else {
+      low = std::exchange(a, b);
+      at_a = at_b;
+      b = low + golden * (high - low);
+      at_b = distance(b);
+    }
   }
-  const double h = 0.5 * (low + high), left = distance(h);
+  const double h = at_a < at_b ? a : b, left = std::min(at_a, at_b);
   // The same for times that are only scaled.
   double scaled_left = INFINITY;
-  for (int i = -20; i <= 20; ++i)
+  for (int i = -10; i <= 10; ++i)
     scaled_left = std::min(
         scaled_left,
-        file.distance_at(scaled(history.sample.t, 1.0 + reach / line.slope * double(i) / 20.0)).u);
+        file.distance_at(scaled(history.sample.t, 1.0 + reach / line.slope * double(i) / 10.0)).u);
   const double gain = file.distance().u / left;
   if (!(gain > least_gain) || !(scaled_left > 2.0 * left)) return {};
   Diagnosis cause;
