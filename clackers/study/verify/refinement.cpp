@@ -76,11 +76,11 @@ RefinementPlan plan_for(const RefinementRequest& request, const CaseSummary& pro
 }
 
 NextPlan next_plan(const Subject& subject, const RefinementPlan& plan, const CaseSummary& problem) {
-  if (!subject.refusal.empty() || !subject.complete || subject.levels.empty() ||
-      is_decided(subject))
-    return {};
-  if (const int missing = missing_contact_levels(subject, plan); missing > 0)
+  if (!subject.refusal.empty() || !subject.complete || subject.levels.empty()) return {};
+  if (const int missing = missing_contact_levels(subject, plan);
+      missing > 0 && subject.assessment.verdict != Verdict::agrees)
     return with_finer(plan, missing, problem.end);
+  if (is_decided(subject)) return {};
   const auto& finest = subject.levels.back();
   if (worst(finest).failed > 0) return {{}, RefinementEnd::run_failed};
   if (has_weak_envelope(subject) && 2 * plan.samples_per_level <= most_samples_per_level)

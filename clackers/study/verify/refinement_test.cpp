@@ -112,7 +112,15 @@ TEST(NextPlan, AddsAllLevelsThatACompliantContactNeeds) {
   auto subject = undecided(plan);
   subject.contact_time = 0.025;
   EXPECT_EQ(next(subject, plan), (Steps{0.05, 9, 8}));
-  EXPECT_EQ(next(undecided({0.05, 9, 8}), {0.05, 9, 8}), (Steps{0.05, 10, 8}));
+  subject.assessment.verdict = Verdict::disagrees;
+  EXPECT_EQ(next(subject, plan), (Steps{0.05, 9, 8})) << "collisions are not counted yet";
+  subject.assessment.verdict = Verdict::agrees;
+  EXPECT_EQ(next(subject, plan), Steps{});
+  auto resolved = undecided({0.05, 9, 8});
+  resolved.contact_time = 0.025;
+  EXPECT_EQ(next(resolved, {0.05, 9, 8}), (Steps{0.05, 10, 8}));
+  resolved.assessment.verdict = Verdict::disagrees;
+  EXPECT_EQ(next(resolved, {0.05, 9, 8}), Steps{});
 }
 
 TEST(NextPlan, TakesMoreStepsALevelWhereTheEnvelopeIsUncertain) {
