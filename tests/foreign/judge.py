@@ -9,6 +9,7 @@ import argparse
 import concurrent.futures
 import functools
 import json
+import math
 import os
 import pathlib
 import shlex
@@ -97,6 +98,12 @@ def generate(one, system, folder, solvers):
     return command
 
 
+def number(diagnosis):
+    """The value of a cause; NaN for none."""
+    value = diagnosis["value"]
+    return math.nan if value is None else float(value)
+
+
 class Answer:
     """What the command said of a set."""
 
@@ -118,7 +125,7 @@ class Answer:
             return f"refused {self.refused}" if self.refused else f"exit {self.exit}: {self.text[-200:]}"
         order = "" if self.order is None else f" {self.order:.2f}"
         reason = f" [{self.reason}]" if self.reason else ""
-        causes = ", ".join(f"{code} {d['value']:.5g}{d.get('unit') or ''}" if d["value"] is not None else code
+        causes = ", ".join(code if math.isnan(number(d)) else f"{code} {number(d):.5g} {d.get('unit') or ''}".rstrip()
                            for code, d in self.diagnoses.items())
         return f"{self.behaviour}{order}{reason}, {self.verdict}, {self.exit}" + (f"; {causes}" if causes else "")
 
@@ -135,11 +142,9 @@ def expert(one):
 
 
 def value_fits(code, diagnosis, values):
-    value = diagnosis["value"]
+    value = number(diagnosis)
     if not values:
         return True
-    if value is None:
-        return False
     if diagnosis.get("unit") == "%":
         value /= 100.0
     if code in ("time-shifted", "time-drifts"):
