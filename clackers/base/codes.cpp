@@ -41,6 +41,20 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"no-convergence-yet", "reason",
      "The error has not started to shrink in a regular way. Use smaller steps; of verify: "
      "more --levels or a smaller --coarsest."},
+    {"larger-than-motion", "reason",
+     "The error is as large as the motion itself, so that nothing follows it yet. Use smaller steps, well below the fastest period."},
+    {"one-sample-a-level", "reason",
+     "There is one step a level, and the errors go up and down: scatter cannot be told from order. "
+     "Add three steps between each two, in the ratio 2^(1/4) (h, h/1.19, h/1.41, h/1.68, h/2)."},
+    {"more-neighbours", "reason",
+     "The errors scatter so much between neighbouring steps that the order is uncertain. "
+     "Add neighbouring steps to each level: eight in the ratio 2^(1/8) halve the uncertainty of two."},
+    {"errors-cancel", "reason",
+     "The signed error passes zero near a step, where two of its terms cancel; the order is that of the term that is left below it. "
+     "Steps around it say nothing; use smaller ones."},
+    {"error-grows-again", "reason",
+     "The error falls and then grows again with smaller steps: something grows with their number, as summed times, single precision or a tolerance of each step do. "
+     "Smaller steps make it worse."},
     {"no-fixed-order", "reason",
      "The error falls faster with every refinement, beyond the claimed order, and no power of the step describes it: "
      "exponential convergence, or a bend before a line of higher order."},

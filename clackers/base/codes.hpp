@@ -21,7 +21,8 @@ struct CodeEntry {
 inline constexpr auto code_names = std::to_array<std::string_view>({
     "exact", "proper", "reduced", "irregular", "stagnating", "divergent", "undecided",
     "contact-stiffness", "tolerance-floor", "unexplained-floor", "too-few-levels",
-    "contact-not-resolved", "no-convergence-yet", "no-fixed-order", "wrong-limit",
+    "contact-not-resolved", "no-convergence-yet", "larger-than-motion", "one-sample-a-level",
+    "more-neighbours", "errors-cancel", "error-grows-again", "no-fixed-order", "wrong-limit",
     "improper-convergence", "differences-turn", "run-failed", "energy-growth", "error-growth",
     "diverged", "newton-failed", "too-many-impacts", "simultaneous-contacts", "agrees", "disagrees",
     "not-claimed", "not-a-number", "not-finite", "out-of-range", "wrong-size", "null-pointer",
