@@ -98,7 +98,7 @@ std::vector<Hypothesis> parameter_hypotheses(const model::ImpactProblem<>& probl
     if (n > 1) add("mass-ratio-differs", Change::mass, i);
     if (n > 1 && impacts) add("impact-impulse-wrong", Change::impulse, i);
   }
-  if (n > 1) add("damping-differs", Change::damping);
+  if (n > 1) add("damping-differs", damped ? Change::damping_share : Change::damping);
   if (n > 1 && impacts) add("mass-ratio-differs", Change::mass_ratio, n - 1);
   if (impacts) add("restitution-differs", Change::restitution);
   if (impacts && damped) add("damping-changes-at-impact", Change::damping_after_impact);
@@ -129,6 +129,7 @@ std::vector<Parameter> smooth_parameters(const model::ImpactProblem<>& problem) 
 }
 
 bool equivalent(const Hypothesis& one, const Hypothesis& other, Eigen::Index dof) {
+  if (&one == &other) return true;
   if (!one.parameter || !other.parameter) {
     // A system that never collides and one whose only impact is missed may be the same.
     return one.code.name() == other.code.name() && (one.no_contact || other.no_contact);

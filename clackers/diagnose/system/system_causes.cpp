@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
@@ -83,6 +85,15 @@ Race race(const std::vector<Trial>& trials, Eigen::Index dof) {
   return result;
 }
 
+double largest_damping_ratio(const model::ImpactProblem<>& problem) {
+  const auto& s = problem.system;
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < s.dof(); ++i)
+    largest =
+        std::max(largest, s.damping(i, i) / (2.0 * std::sqrt(s.stiffness(i, i) * s.mass(i, i))));
+  return largest;
+}
+
 // Whether a method's own error may have this effect at one step: relative errors of frequency of
 // (omega h)^2/2 and of damping of omega h are beyond what second and first order methods make.
 bool may_be_numerical(const Trial& trial, const FitFile& file, const FitQuestion& question) {
@@ -103,6 +114,8 @@ bool may_be_numerical(const Trial& trial, const FitFile& file, const FitQuestion
     case Change::damping:
     case Change::time_scale:
       return std::abs(trial.d) < turn;
+    case Change::damping_share:
+      return std::abs(trial.d) * largest_damping_ratio(question.problem) < turn;
     default:
       return false;
   }

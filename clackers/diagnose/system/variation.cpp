@@ -21,6 +21,9 @@ void change_mass(Variation& variation, Change change, Eigen::Index i, double d) 
     case Change::damping:
       c += 2.0 * d * std::sqrt(k * m);
       break;
+    case Change::damping_share:
+      c *= 1.0 + d;
+      break;
     case Change::mass_ratio:
       c *= 1.0 + d;
       k *= 1.0 + d;

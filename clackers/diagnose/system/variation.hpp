@@ -14,6 +14,7 @@ enum class Change {
   frequency,             ///< k times (1 + d)^2
   frequency_at_ratio,    ///< the same, and c times (1 + d): the damping ratio stays
   damping,               ///< damping ratio plus d
+  damping_share,         ///< c times (1 + d)
   mass,                  ///< m times (1 + d), k and c stay
   mass_ratio,            ///< m, k and c times (1 + d): only impacts notice it
   restitution,           ///< eta plus d, of all contacts

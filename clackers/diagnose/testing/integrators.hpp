@@ -107,10 +107,10 @@ struct Solver {
   Step step = rk4;
   Location location = Location::root;
   int missed = 0, doubled = 0;
-  double impulse = 1.0;         ///< factor of all impulses
-  double late = 0.0;            ///< the file's time minus the true one [s]
+  double impulse = 1.0;  ///< factor of all impulses
+  double late = 0.0;     ///< the file's time minus the true one [s]
   int late_steps = 0;
-  double tolerance = 0.0;       ///< of the root, in parts of a step
+  double tolerance = 0.0;  ///< of the root, in parts of a step
 };
 
 /// The history of the problem (which may be another one than the case's) on t = n h up to `end`.
