@@ -258,6 +258,15 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"render-failed", "failure",
      "The program node or rsvg-convert was found and failed to draw a figure. "
      "Numbers (csv) and specifications (vl.json) were written all the same."},
+    {"program-failed", "failure",
+     "A program of `verify --exec` could not be started, ended with a status other than 0, or was "
+     "ended by a signal. Its run is a failed one of its step; what it printed last stands beside it."},
+    {"program-timeout", "failure",
+     "A program of `verify --exec` was still running after the time of `--timeout`, and was ended "
+     "with all that it had started."},
+    {"program-output", "failure",
+     "A program of `verify --exec` ended well without a history: the file is missing or empty, or "
+     "standard output had more than can be read."},
     {"foreign-folder", "refusal",
      "The folder of --out holds files that the command did not write. "
      "It is replaced as a whole, so give another name, or move them away."},

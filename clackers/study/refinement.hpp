@@ -41,6 +41,11 @@ struct NextPlan {
   RefinementEnd end = RefinementEnd::decided;  ///< where there is no plan
 };
 
+/// What a record says of a refinement from the ladder `asked` to `now`; nothing where the first was
+/// enough. `next_seconds` is what did not fit into the budget.
+std::optional<Refinement> refinement_of(const RefinementPlan& asked, const RefinementPlan& now,
+                                        RefinementEnd end, double next_seconds = 0.0);
+
 /// The next ladder of a subject whose levels are those of `plan`; depends on nothing else, so that
 /// it is the same on every machine. The first rule that applies decides:
 ///

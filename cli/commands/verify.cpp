@@ -12,6 +12,7 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/study/listing.hpp"
 #include "cli/command.hpp"
+#include "cli/commands/verify_programs.hpp"
 #include "cli/files/record_output.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
@@ -32,6 +33,7 @@ struct Options {
   std::vector<std::string> methods, cases, settings, requirements;
   std::string levels, coarsest, neighbours, budget, jobs, report, baseline;
   bool all = false;
+  ProgramOptions programs;
 };
 
 study::VerifyRequest request_of(const Options& options, const std::string& line) {
@@ -57,6 +59,7 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
     request.budget = default_budget;
   request.jobs = whole("--jobs", options.jobs, 1, request.jobs);
   request.command = line;
+  if (options.programs.any()) plan = program_plan(plan, !options.neighbours.empty());
   return request;
 }
 
@@ -75,6 +78,9 @@ void check(const Options& options) {
 
 study::Record run_study(const Options& options, const study::VerifyRequest& request) {
   ProgressLine progress("verify", options.common.quiet);
+  const auto programs = program_request_of(options.programs);
+  if (options.programs.any())
+    return study::verify(request, programs, progress.callback(), &interrupt_flag());
   return study::verify(request, progress.callback(), &interrupt_flag());
 }
 
@@ -106,7 +112,8 @@ int run(const Options& options, const std::string& line) {
   }
   output.note_changes(results.format());
   if (record.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
-  return written ? required_exit_code(record, requirements) : 4;
+  const int code = exit_code_of_programs(record, required_exit_code(record, requirements));
+  return written ? code : 4;
 }
 
 }  // namespace
@@ -121,7 +128,8 @@ void add_verify(Grammar& root) {
            "  clackers verify rk4 newmark:beta=0+penalty --case symmetric-pair --levels 10\n"
            "  clackers verify --report report.html --format json --out record.json\n"
            "  clackers verify --baseline record.json\n"
-           "  clackers verify rk4 newmark --case stop --case symmetric-pair\n",
+           "  clackers verify rk4 newmark --case stop --case symmetric-pair\n"
+           "  clackers verify --exec './solver {case} {h} {out}' --expect proper:2\n",
        .about =
            "Assesses time-integration methods: runs each with a sequence of steps on a case whose "
            "exact motion is known, and compares what was measured with what it claims. A "
@@ -131,7 +139,10 @@ void add_verify(Grammar& root) {
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--neighbours n] [--budget TIME]\n"
                 "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
-                "           [--report FILE.html]\n"});
+                "           [--report FILE.html]\n"
+                "  clackers verify [METHOD ...] --exec COMMAND ... [--name NAME ...]\n"
+                "           [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b] [--timeout TIME]\n"
+                "           [--work FOLDER] [--fresh] ...\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods).");
@@ -158,6 +169,7 @@ void add_verify(Grammar& root) {
                   "Time for further levels and steps of methods that these leave undecided, in "
                   "seconds or as 30s, 2min; 0: none. Default: 20s, and 0 with --levels.")
       ->option_text("TIME");
+  add_program_options(*app, options->programs);
   app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
   add_require_option(*app, options->requirements);
   add_report_option(*app, options->report);

@@ -77,7 +77,7 @@ std::string extrapolation_html(const study::SelfResult& result) {
 }
 
 std::string self_html(const study::Subject& subject) {
-  if (subject.levels.empty() || subject.kind != study::SubjectKind::method) return {};
+  if (subject.levels.empty() || subject.kind == study::SubjectKind::histories) return {};
   std::string warning, findings, facts;
   if (subject.self_convergence) {
     const auto& result = *subject.self_convergence;

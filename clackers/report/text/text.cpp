@@ -108,6 +108,16 @@ void print_methods(const study::CaseRecord& problem, std::ostream& out, const St
       out, style);
 }
 
+void print_failures(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+  bool is_first = true;
+  for (const auto& subject : problem.subjects)
+    for (const auto& failure : failure_texts(subject)) {
+      if (is_first) out << '\n';
+      is_first = false;
+      print_wrapped(subject.name + ": " + failure, out, style);
+    }
+}
+
 void print_histories(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
   const auto table = summary_table(problem, study::SubjectKind::histories);
   if (table.rows.empty()) return;
@@ -160,6 +170,7 @@ void print_case(const study::CaseRecord& problem, std::ostream& out, const Style
   if (const auto plan = plan_text(problem); !plan.empty()) print_wrapped(plan, out, style);
   print_diagnoses(problem, out, style);
   print_methods(problem, out, style);
+  print_failures(problem, out, style);
   print_histories(problem, out, style);
   print_findings(problem, out, style);
 }

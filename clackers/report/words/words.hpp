@@ -60,6 +60,12 @@ inline constexpr std::size_t most_shown_diagnoses = 3;
 std::vector<std::string> note_texts(const study::Subject& subject);
 std::string note_text(const study::Note& note);
 
+/// The failed runs of a program: for each kind of failure, three at most, how many runs, the first of
+/// them, and what it printed last; empty for other subjects.
+std::vector<std::string> failure_texts(const study::Subject& subject);
+/// The end of what a program printed on one line, lines separated by " / "; 400 characters at most.
+std::string printed_text(std::string_view printed);
+
 /// The last line of a report.
 struct VerdictLine {
   std::string word;           ///< "agrees", "disagrees", "undecided", "not claimed", "interrupted"

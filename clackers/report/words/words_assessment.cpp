@@ -156,7 +156,7 @@ std::optional<Finding> finding(const study::Subject& subject) {
   const auto& fit = assessment.displacement;
   const bool as_claimed = assessment.verdict == Verdict::agrees && fit.reason.empty() &&
                           (fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::exact);
-  if (subject.kind == study::SubjectKind::histories)
+  if (subject.kind != study::SubjectKind::method)
     return Finding{assessment_text(subject), assessment.reason};
   if (as_claimed) return {};
   auto code = assessment.reason;

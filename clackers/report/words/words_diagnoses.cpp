@@ -57,11 +57,11 @@ constexpr auto cause_words = std::to_array<CauseWords>({
      "check the masses."},
     {"frequency-differs", "The natural frequency[ of mass {mass}] {looks}",
      "check stiffness and mass."},
-    {"damping-differs", "Damping[ of mass {mass}] {looks}",
+    {"damping-differs", "Damping[ of mass {mass}] {damping}",
      "check the damping coefficients: C, ratio, or per mass."},
     {"damping-changes-at-impact", "After the first impact damping is another[: {value} times that before]",
      "check the damping force where a step starts anew after an impact."},
-    {"impact-missed", "Impact {number} is missing[ (t = {time} s)]",
+    {"impact-missed", "{impacts} missing[ (t = {time} s)]",
      "check the detection of contacts: the masses pass through each other there."},
     {"impact-doubled", "Impact {number} was applied twice[ (t = {time} s)]",
      "check the detection of contacts just after an impact."},
@@ -111,6 +111,11 @@ std::string percent(double share, int digits = 3) {
   return std::isnan(share) ? std::string() : short_number(100.0 * share, digits) + " %";
 }
 
+// The value as a share, which is in per cent or not.
+double share_of(const Diagnosis& cause) {
+  return cause.unit == "%" ? cause.value / 100.0 : cause.value;
+}
+
 // A relative change, "differs by +0.50 %", or another value, "looks like 0.75 instead of 0.5".
 std::string looks(const Diagnosis& cause) {
   const double expected = cause.fact("expected"), uncertainty = cause.fact("uncertainty");
@@ -147,15 +152,22 @@ std::string word(std::string_view name, const Diagnosis& cause) {
   if (name == "value_pm")
     return std::isnan(cause.value) ? std::string()
                                    : with_uncertainty(cause.value, cause.fact("uncertainty"));
-  if (name == "percent") return percent(cause.value);
+  if (name == "percent") return percent(share_of(cause));
   if (name == "share_percent") return percent(cause.fact("share"), 2);
   if (name == "looks") return looks(cause);
+  if (name == "damping" && cause.unit != "%")
+    return fmt::format("looks like a ratio of {} instead of none",
+                       with_uncertainty(cause.value, cause.fact("uncertainty")));
+  if (name == "damping") return looks(cause);
   if (name == "runs")
-    return fmt::format("runs {} too {}", percent(std::abs(cause.value)),
+    return fmt::format("runs {} too {}", percent(std::abs(share_of(cause))),
                        cause.value > 0.0 ? "fast" : "slow");
   if (name == "shift") return shift(cause);
   if (name == "late") return cause.value > 0.0 ? "late" : "early";
   if (name == "later") return cause.value > 0.0 ? "later" : "earlier";
+  if (name == "impacts" && std::isnan(cause.value) && cause.fact("share") == 1.0)
+    return "All impacts are";
+  if (name == "impacts") return fmt::format("Impact {} is", plain(cause.value, 9));
   if (name == "number")
     return plain(std::isnan(cause.value) ? cause.fact("impact") : cause.value, 9);
   if (name == "quantity") return quantity(cause);

@@ -100,13 +100,7 @@ NextPlan MethodStudy::next() const { return next_plan(subject_, steps_, plan_->s
 
 void MethodStudy::close(RefinementEnd end, double next_seconds) {
   is_closed_ = true;
-  const auto& asked = plan_->steps;
-  const int coarser = int(std::lround(std::log2(steps_.coarsest / asked.coarsest)));
-  Refinement found{steps_.levels - asked.levels - coarser, coarser, steps_.samples_per_level, end,
-                   next_seconds};
-  const bool is_asked = found.finer_levels == 0 && found.coarser_levels == 0 &&
-                        found.samples_per_level == asked.samples_per_level;
-  if (end != RefinementEnd::decided || !is_asked) subject_.refinement = found;
+  subject_.refinement = refinement_of(plan_->steps, steps_, end, next_seconds);
 }
 
 Subject MethodStudy::finish(std::span<const double> exact) {

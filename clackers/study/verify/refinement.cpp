@@ -75,6 +75,17 @@ RefinementPlan plan_for(const RefinementRequest& request, const CaseSummary& pro
           request.samples_per_level};
 }
 
+std::optional<Refinement> refinement_of(const RefinementPlan& asked, const RefinementPlan& now,
+                                        RefinementEnd end, double next_seconds) {
+  const int coarser = int(std::lround(std::log2(now.coarsest / asked.coarsest)));
+  const Refinement found{now.levels - asked.levels - coarser, coarser, now.samples_per_level, end,
+                         next_seconds};
+  const bool is_asked = found.finer_levels == 0 && found.coarser_levels == 0 &&
+                        found.samples_per_level == asked.samples_per_level;
+  if (end == RefinementEnd::decided && is_asked) return {};
+  return found;
+}
+
 NextPlan next_plan(const Subject& subject, const RefinementPlan& plan, const CaseSummary& problem) {
   if (!subject.refusal.empty() || !subject.complete || subject.levels.empty()) return {};
   if (const int missing = missing_contact_levels(subject, plan);
