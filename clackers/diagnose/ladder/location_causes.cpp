@@ -128,23 +128,26 @@ std::optional<Diagnosis> tolerance(const Question& question,
   return found;
 }
 
-// Contacts of one duration in all files that hold several rows of it.
+// Contacts of one duration in all files that hold several rows of it, the finest among them.
 std::optional<Diagnosis> compliant(const Question& question,
                                    const std::vector<LocatedImpacts>& files) {
   std::vector<double> durations;
   double speed = 0.0;
   int resolving = 0;
+  bool finest_resolves = false;
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::vector<double> one;
     for (const auto& impact : files[i].impacts) {
       one.push_back(impact.duration);
       speed = std::max(speed, impact.closing);
     }
-    if (one.empty() || assess::median(one) < 3.0 * question.histories[i].facts.spacing) continue;
+    finest_resolves =
+        !one.empty() && assess::median(one) >= 3.0 * question.histories[i].facts.spacing;
+    if (!finest_resolves) continue;
     ++resolving;
     durations.push_back(assess::median(one));
   }
-  if (resolving == 0) return {};
+  if (!finest_resolves) return {};
   const double duration = durations.back();
   const auto alike = std::ranges::count_if(
       durations, [&](double x) { return std::abs(x / duration - 1.0) < 0.2; });
