@@ -60,7 +60,7 @@ const std::vector<Implication>& implications() {
       {{"contact-in-tension"}, all({of_system, of_time, of_method, {"wrong-limit"}})},
       {{"impact-at-step-end"},
        all({of_time, of_method, {"impact-interpolated", "impact-tolerance", "noise-floor"}})},
-      {{"impact-tolerance"}, {"noise-floor", "impact-interpolated", "time-shifted"}},
+      {{"impact-tolerance"}, {"noise-floor", "impact-interpolated", "time-shifted", "wrong-limit"}},
       {{"velocity-at-half-steps"},
        {"velocity-order-lower", "contact-in-tension", "impact-at-step-end", "impact-interpolated"}},
       {{"output-resampled"}, {"velocity-order-lower", "impact-interpolated", "noise-floor"}},

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "clackers/diagnose/file/file_sample.hpp"
+#include "clackers/diagnose/file/single_numbers.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -58,24 +59,6 @@ std::optional<Diagnosis> printed_digits(const std::vector<FileSample>& files) {
   return cause;
 }
 
-bool all_single(const std::vector<double>& values, std::size_t first, std::size_t stride) {
-  std::size_t checked = 0;
-  for (auto i = first; i < values.size(); i += stride) {
-    const double x = values[i];
-    if (x == 0.0) continue;
-    if (double(float(x)) != x) return false;
-    ++checked;
-  }
-  // A number of double precision is one of single by a chance of 2^-29.
-  return checked >= 20;
-}
-
-// Nine printed digits or fewer are a matter of printing.
-bool printed_short(const FileFacts& facts, const std::string& name) {
-  const auto column = std::ranges::find(facts.columns, name, &ColumnDigits::name);
-  return column != facts.columns.end() && column->digits <= 9;
-}
-
 // Times that single precision leaves as they are, n / 1024 say, are not spoilt by it.
 bool times_are_rounded(const Observation& history) {
   const auto& t = history.sample.t;
@@ -97,15 +80,14 @@ std::optional<Diagnosis> single_precision(const std::vector<FileSample>& files) 
   const auto add = [&](const std::string& name) { columns += (columns.empty() ? "" : ",") + name; };
   double floor = 0.0;
   constexpr double rounding = 0x1p-24;
-  if (all_single(rows.t, 0, 1) && !printed_short(facts, "t") &&
-      times_are_rounded(finest.history())) {
+  if (are_single(rows.t) && times_are_rounded(finest.history())) {
     add("t");
     floor = rounding * rows.t.back() * finest.scale().v.cwiseQuotient(finest.scale().u).maxCoeff();
   }
   bool arithmetic = false;
   for (std::size_t mass = 0; mass < masses; ++mass) {
     const auto name = "u" + std::to_string(mass + 1);
-    if (!all_single(rows.u, mass, masses) || printed_short(facts, name)) continue;
+    if (!are_single(rows.u, mass, masses)) continue;
     add(name);
     arithmetic = true;
     floor = std::max(floor, rounding);

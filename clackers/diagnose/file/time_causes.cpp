@@ -4,6 +4,7 @@
 
 #include "clackers/diagnose/file/file_sample.hpp"
 #include "clackers/diagnose/file/reading.hpp"
+#include "clackers/diagnose/file/single_numbers.hpp"
 #include "clackers/diagnose/file/units.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
@@ -81,9 +82,7 @@ double rounding_of_times(const Observation& history) {
   for (const auto& column : history.facts.columns)
     if (column.name == "t") unit = std::max(unit, column.half_unit);
   unit = std::max(unit, history.facts.time_half_unit);
-  const auto& t = history.sample.t;
-  if (std::ranges::all_of(t, [](double x) { return double(float(x)) == x; }))
-    unit = std::max(unit, float_rounding * std::abs(history.last));
+  if (are_single(history.sample.t)) unit = std::max(unit, float_rounding * std::abs(history.last));
   return unit;
 }
 
@@ -99,7 +98,8 @@ std::optional<Diagnosis> time_drift(const FileSample& file) {
   double bent = 0.0;
   for (std::size_t i = 0; i < grid.t.size(); ++i)
     bent = std::max(bent, std::abs(grid.t[i] - line.intercept - line.slope * grid.n[i]));
-  if (!(bent > beyond_rounding * rounding_of_times(history))) return {};
+  const double rounding = rounding_of_times(history);
+  if (!(bent > beyond_rounding * rounding)) return {};
 
   // Rows between places of the grid drift as their neighbours do.
   const auto times_for = [&](double h) {
@@ -144,6 +144,7 @@ std::optional<Diagnosis> time_drift(const FileSample& file) {
   Diagnosis cause;
   cause.code = "time-drifts";
   cause.value = grid.t.back() - history.first - grid.n.back() * h;
+  if (std::abs(cause.value) < beyond_rounding * rounding) return {};
   cause.unit = "s";
   cause.confidence = gain > sure_gain ? 0.95 : 0.8;
   cause.evidence = {{"gain", gain}, {"runner-up-gain", file.distance().u / scaled_left}};

@@ -49,7 +49,7 @@ Difference difference(const ErrorCurve& other, const ErrorCurve& finest, double 
 
 // Whether the finest history's impacts come less than a step early or late, and that makes its
 // error: grids that contain each other, and bisections that start from them, then have the same
-// delay by chance. Files whose steps are no multiples of the finest one decide.
+// delay by chance, and two others may. Three files of other grids that agree with it do not.
 bool may_be_chance(const Observation& finest, const Limit& limit, double scale, int other_grids,
                    const model::ImpactProblem<>& problem) {
   constexpr int enough = 3;
@@ -183,7 +183,7 @@ Limit limit_of(std::span<const Observation> histories, const model::ImpactProble
     if (one.step > 8.5 * h) continue;
     ++limit.files;
     keeps_error = keeps_error && std::abs(one.error - 1.0) < 0.6;
-    other_grids += !is_multiple(one.step, h);
+    other_grids += !is_multiple(one.step, h) && one.ratio <= largest_difference;
   }
   if (differences.empty()) return limit;
   limit.difference = octave;

@@ -13,6 +13,7 @@ namespace {
 // Impulses of a contact between rows of which one at least is closed, beyond free motion [N s].
 struct Impulses {
   double push = 0.0, pull = 0.0;
+  double largest_pull = 0.0;  ///< between two rows
   int rows = 0;
 };
 
@@ -39,6 +40,7 @@ Impulses impulses_of(const Observation& seen, const model::ImpactProblem<>& prob
     if (contact.gap_at(from.u) > 0.0 && contact.gap_at(to.u) > 0.0) continue;
     const double change = contact.gap_rate(to.v - motion.moved(from, s).v);
     (change > 0.0 ? sum.push : sum.pull) += mass * std::abs(change);
+    sum.largest_pull = std::max(sum.largest_pull, -mass * change);
     ++sum.rows;
   }
   return sum;
@@ -58,7 +60,8 @@ std::vector<Diagnosis> tension_causes(const Question& question) {
     const double rows_each = double(sum.rows) / double(seen.sample.impacts->size());
     if (sum.rows < least_rows || rows_each < 4.0 || !(sum.push > 0.0)) continue;
     ++files;
-    if (sum.pull < least_share * sum.push) continue;
+    // A jump is an impact on masses that have passed through each other.
+    if (sum.pull < least_share * sum.push || sum.largest_pull > 0.5 * sum.pull) continue;
     ++pulling;
     share = sum.pull / sum.push;
   }

@@ -28,6 +28,7 @@ struct ForeignSolver {
   double noise = 0.0;      ///< standard deviation of u and v as printed
   unsigned seed = 1;
   bool reports_impacts = false;
+  double closed_below = 0.0;  ///< gap that counts as closed [m]
 };
 
 /// Force of a spring and a dashpot while a gap is closed.
@@ -123,7 +124,7 @@ class ForeignRun {
 
   bool strikes(const State& now) const {
     const auto& contact = problem_.contacts.front();
-    return contact.gap_at(now.u) < 0.0 && contact.gap_rate(now.v) < 0.0;
+    return contact.gap_at(now.u) < solver_.closed_below && contact.gap_rate(now.v) < 0.0;
   }
 
   // After `most_impacts` of them in one step, masses pass through each other to its end.
