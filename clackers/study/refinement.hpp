@@ -51,8 +51,8 @@ std::optional<Refinement> refinement_of(const RefinementPlan& asked, const Refin
 ///
 ///  1 refused, incomplete, or decided: nothing. Undecided are the verdict `undecided` and an
 ///    agreement on an envelope whose order is more uncertain than the tolerance of envelopes.
-///  2 a compliant contact that too few levels resolve: as many finer levels as are missing. Such a
-///    ladder is not decided by a disagreement: steps that do not resolve a contact miscount
+///  2 a compliant contact that too few levels resolve: finer levels up to the first that does, then
+///    one by one. Such a ladder is not decided by a disagreement: steps that do not resolve a contact miscount
 ///    collisions.
 ///  3 the finest level has a failed run: nothing
 ///  4 an envelope with an order more uncertain than its tolerance: twice the steps a level

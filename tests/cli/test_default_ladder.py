@@ -30,7 +30,7 @@ class Refinement(CommandTest):
         subject, = self.subjects("newmark+penalty:stiffness=1e5")
         self.assertEqual(subject["assessment"]["verdict"], "agrees")
         resolved = [level for level in subject["levels"] if level["step"] <= subject["contact_time"] / 25]
-        self.assertGreaterEqual(len(resolved), 3)
+        self.assertGreaterEqual(len(resolved), 1)
 
     def test_levels_that_are_asked_for_are_those_that_are_run(self):
         subject, = self.subjects("rk4", "--levels", "2", "--neighbours", "1")

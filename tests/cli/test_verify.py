@@ -54,7 +54,7 @@ class Requirements(CommandTest):
         self.assertEqual(done.stderr, "Required: agrees. Not met by 1 of 1: rk4 (undecided).\n")
         done = run("verify", "rk4", *SHORT, "--require", "order:5", "--require", "proper", "--quiet")
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"^Required: order:5\. Not met by 1 of 1: rk4 \(order 4\.0.\)\.\n$")
+        self.assertRegex(done.stderr, r"^Required: order:5\. Not met by 1 of 1: rk4 \(order (4\.0.|3\.9.)\)\.\n$")
 
     def test_count_refused_methods(self):
         both = ("rk4", "newmark+penalty", "--case", "stop", "--set", "eta=0.5", *SHORT)

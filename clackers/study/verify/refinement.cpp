@@ -40,12 +40,14 @@ bool is_at_floor(const Level& level) {
   });
 }
 
-// Finer levels until the contact is resolved by as many as are wanted.
-int missing_contact_levels(const Subject& subject, const RefinementPlan& plan) {
+// Finer levels up to the first one that resolves the contact, then one by one to as many as are
+// wanted: the last ones cost most.
+int next_contact_levels(const Subject& subject, const RefinementPlan& plan) {
   if (!(subject.contact_time > 0.0)) return 0;
   const double resolving = subject.contact_time / assess::steps_per_contact;
   const int first = std::max(0, int(std::ceil(std::log2(plan.coarsest / resolving))));
-  return std::max(0, first + wanted_contact_levels - plan.levels);
+  if (plan.levels >= first + wanted_contact_levels) return 0;
+  return std::max(1, first + 1 - plan.levels);
 }
 
 NextPlan with_finer(RefinementPlan plan, int more, double end) {
@@ -88,7 +90,7 @@ std::optional<Refinement> refinement_of(const RefinementPlan& asked, const Refin
 
 NextPlan next_plan(const Subject& subject, const RefinementPlan& plan, const CaseSummary& problem) {
   if (!subject.refusal.empty() || !subject.complete || subject.levels.empty()) return {};
-  if (const int missing = missing_contact_levels(subject, plan);
+  if (const int missing = next_contact_levels(subject, plan);
       missing > 0 && subject.assessment.verdict != Verdict::agrees)
     return with_finer(plan, missing, problem.end);
   if (is_decided(subject)) return {};

@@ -106,14 +106,15 @@ TEST(NextPlan, AddsAFinerLevel) {
   EXPECT_EQ(next(undecided({0.05, 4, 8}), {0.05, 4, 8}), (Steps{0.05, 5, 8}));
 }
 
-TEST(NextPlan, AddsAllLevelsThatACompliantContactNeeds) {
+TEST(NextPlan, AddsTheLevelsThatACompliantContactNeeds) {
   // 25 steps a contact of 0.025 s: 0.001 s. 0.05 / 2^6 = 7.8e-4 is the seventh level; three of them.
   const RefinementPlan plan{0.05, 4, 8};
   auto subject = undecided(plan);
   subject.contact_time = 0.025;
-  EXPECT_EQ(next(subject, plan), (Steps{0.05, 9, 8}));
+  EXPECT_EQ(next(subject, plan), (Steps{0.05, 7, 8}));
+  EXPECT_EQ(next(subject, {0.05, 7, 8}), (Steps{0.05, 8, 8}));
   subject.assessment.verdict = Verdict::disagrees;
-  EXPECT_EQ(next(subject, plan), (Steps{0.05, 9, 8})) << "collisions are not counted yet";
+  EXPECT_EQ(next(subject, plan), (Steps{0.05, 7, 8})) << "collisions are not counted yet";
   subject.assessment.verdict = Verdict::agrees;
   EXPECT_EQ(next(subject, plan), Steps{});
   auto resolved = undecided({0.05, 9, 8});
