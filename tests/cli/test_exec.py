@@ -205,7 +205,7 @@ class Bad(ExecTest):
 
     def test_half_a_row(self):
         self.fails("printf 't,u1,v1\\n0,1,0\\n1,0.5,0\\n2,' > {out}; : {h}", "ragged-row",
-                   "history.csv, line 4")
+                   "history.csv line 4")
 
     def test_endless_standard_output(self):
         self.fails("yes; : {h} {out}", "program-timeout", "after 0.3 s", "--timeout", "0.3")
@@ -215,8 +215,8 @@ class Bad(ExecTest):
         runs = self.runs(self.subject("--exec", f"{self.path('solver')} {{case}} {{n}} {{h}} {{out}}",
                                       *STOP, "--coarsest", "0.1", "--levels", "3",
                                       "--neighbours", "1"))
-        self.assertEqual([run["failure"] for run in runs], ["", "exit status 7",
-                                                                     "exit status 7"])
+        self.assertEqual([run["failure"] for run in runs], ["", "exit status 7.",
+                                                                     "exit status 7."])
 
     def test_ignored_step_is_no_agreement(self):
         subject = self.subject("--exec", MIDPOINT.replace("{h}", "0.01") + " # {h}", *STOP,
