@@ -134,7 +134,8 @@ void add_verify(Grammar& root) {
            "Assesses time-integration methods: runs each with a sequence of steps on a case whose "
            "exact motion is known, and compares what was measured with what it claims. A "
            "method is integrator[:name=value,...][+contact[:name=value,...]]; without +contact "
-           "impacts are located as events (event-driven). Exit code 0 when all agree, 1 when "
+           "impacts are located as events (event-driven). Programs of yours (--exec) are run and "
+           "compared in the same way. Exit code 0 when all agree, 1 when "
            "one disagrees, 3 when one stays undecided.",
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--neighbours n] [--budget TIME]\n"

@@ -45,6 +45,14 @@ class ExecTest(CommandTest):
         subject, = self.record(*arguments, exit_code=exit_code)["cases"][0]["subjects"]
         return subject
 
+    def is_gone(self, number):
+        """Whether a process has ended; who inherited it may not have waited for it yet."""
+        try:
+            with open(f"/proc/{number}/stat") as file:
+                return file.read().split()[2] in "ZX"
+        except FileNotFoundError:
+            return True
+
     def runs(self, subject):
         return [run for level in subject["levels"] for run in level["runs"]]
 
@@ -56,15 +64,16 @@ class ExecTest(CommandTest):
         for text in [says] if isinstance(says, str) else says:
             self.assertIn(text, done.stderr)
         subject, = json.loads(done.stdout)["cases"][0]["subjects"]
-        self.assertEqual({run["score"]["failure_code"] for run in self.runs(subject)}, {code})
+        self.assertEqual({run["failure_code"] for run in self.runs(subject)}, {code})
         return self.runs(subject)
 
 
 class Examples(ExecTest):
-    def agrees(self, command, expected):
-        for case in (("stop",), ("three-parameter", "--set", "N=1")):
+    def agrees(self, command, expected, neighbours="2",
+               cases=(("stop",), ("three-parameter", "--set", "N=1"))):
+        for case in cases:
             subject = self.subject("--exec", command, "--expect", expected, "--case", *case,
-                                   "--levels", "5", "--neighbours", "2", exit_code=0)
+                                   "--levels", "6", "--neighbours", neighbours, exit_code=0)
             self.assertEqual((subject["kind"], subject["assessment"]["verdict"]),
                              ("program", "agrees"))
 
@@ -89,7 +98,7 @@ class Examples(ExecTest):
         if shutil.which("octave-cli") is None:
             self.skipTest("needs octave-cli")
         self.agrees(f"octave-cli --no-history {SOLVERS}/newmark.m {{case}} {{h}} {{out}}",
-                    "irregular:1")
+                    "irregular:1", "4", [["stop"]])
 
     def test_are_short(self):
         for name in os.listdir(SOLVERS):
@@ -120,7 +129,7 @@ class Good(ExecTest):
 
     def test_history_may_be_standard_output(self):
         command = MIDPOINT.replace("{out}", "/dev/stdout")
-        self.assertTrue(all(run["score"]["finished"]
+        self.assertTrue(all(run["finished"]
                             for run in self.runs(self.subject("--exec", command, *SHORT))))
 
     def test_paths_with_blanks_and_quotes(self):
@@ -131,7 +140,7 @@ class Good(ExecTest):
                    os.path.join(folder, "work $HOME"), "--format", "json", cwd=folder)
         subject, = json.loads(done.stdout)["cases"][0]["subjects"]
         self.assertEqual(subject["name"], "my solver")
-        self.assertTrue(all(run["score"]["finished"] for run in self.runs(subject)), done.stdout)
+        self.assertTrue(all(run["finished"] for run in self.runs(subject)), done.stdout)
 
     def test_tolerances_are_levels(self):
         log = self.path("log")
@@ -140,7 +149,7 @@ class Good(ExecTest):
                                *STOP, "--tolerances", "1e-1:1e-3", "--jobs", "1")
         self.assertEqual(self.text_of("log").split(), ["0.1", "0.01", "0.001"])
         self.assertEqual(subject["resolution"], "tolerance")
-        self.assertEqual([run["score"]["step"] for run in self.runs(subject)], [0.1, 0.01, 0.001])
+        self.assertEqual([run["step"] for run in self.runs(subject)], [0.1, 0.01, 0.001])
 
     def test_runs_are_made_once(self):
         log = self.path("log")
@@ -149,7 +158,7 @@ class Good(ExecTest):
         def count(*options):
             open(log, "w").close()
             first = self.subject("--exec", f"{solver} {{case}} {{h}} {{out}}", *SHORT, *options)
-            self.assertTrue(all(run["score"]["finished"] for run in self.runs(first)))
+            self.assertTrue(all(run["finished"] for run in self.runs(first)))
             return len(self.text_of("log").split())
         self.assertEqual(count(), 2)
         self.assertEqual(count(), 0)
@@ -173,15 +182,13 @@ class Bad(ExecTest):
         self.script(f"sleep 1000 & echo $! > {self.path('child')}\nsleep 1000")
         self.fails(f"{self.path('solver')} {{h}} {{out}}", "program-timeout", "after 0.2 s",
                    "--timeout", "0.2s", "--jobs", "1")
-        child = int(self.text_of("child"))
-        self.wait_for(lambda: not os.path.exists(f"/proc/{child}") or
-                      "State:\tZ" in open(f"/proc/{child}/status").read())
+        self.wait_for(lambda: self.is_gone(self.text_of("child").strip()))
 
     def test_hang_is_not_tried_at_every_step(self):
         runs = self.runs(self.subject("--exec", "sleep 1000; : {h}", *STOP, "--levels", "8",
                                       "--neighbours", "2", "--timeout", "0.2", "--jobs", "1",
                                       exit_code=4))
-        self.assertEqual(sum("not made" in run["score"]["failure"] for run in runs), 13)
+        self.assertEqual(sum("not made" in run["failure"] for run in runs), 13)
 
     def test_no_output(self):
         self.fails("echo {h} {out}", "program-output", "{out}")
@@ -197,7 +204,8 @@ class Bad(ExecTest):
         self.fails("printf 't,u1\\n0,1\\n1,nan\\n2,nan\\n'; : {h}", "not-finite")
 
     def test_half_a_row(self):
-        self.fails("printf 't,u1,v1\\n0,1,0\\n1,0.5,0\\n2,' > {out}; : {h}", "[a-z-]+", "history.csv")
+        self.fails("printf 't,u1,v1\\n0,1,0\\n1,0.5,0\\n2,' > {out}; : {h}", "ragged-row",
+                   "history.csv line 4")
 
     def test_endless_standard_output(self):
         self.fails("yes; : {h} {out}", "program-timeout", "after 0.3 s", "--timeout", "0.3")
@@ -207,8 +215,8 @@ class Bad(ExecTest):
         runs = self.runs(self.subject("--exec", f"{self.path('solver')} {{case}} {{n}} {{h}} {{out}}",
                                       *STOP, "--coarsest", "0.1", "--levels", "3",
                                       "--neighbours", "1"))
-        self.assertEqual([run["score"]["failure"] for run in runs], ["", "exit status 7",
-                                                                     "exit status 7"])
+        self.assertEqual([run["failure"] for run in runs], ["", "exit status 7.",
+                                                                     "exit status 7."])
 
     def test_ignored_step_is_no_agreement(self):
         subject = self.subject("--exec", MIDPOINT.replace("{h}", "0.01") + " # {h}", *STOP,
@@ -235,7 +243,7 @@ class Interrupted(ExecTest):
         solver = self.script(f"[ $3 -lt 100 ] || {{ echo $$ >> {log}; sleep 1000; }}\n"
                              f"exec python3 {SOLVERS}/midpoint.py $1 $2 $4")
         with start("verify", "--exec", f"{solver} {{case}} {{h}} {{n}} {{out}}", *STOP, "--coarsest",
-                   "0.1", "--levels", "3", "--neighbours", "2", "--format", "json",
+                   "0.1", "--levels", "3", "--neighbours", "2", "--jobs", "1", "--format", "json",
                    stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
             self.wait_for(lambda: os.path.exists(log) and self.text_of("log"))
             process.send_signal(signal.SIGINT)
@@ -243,11 +251,11 @@ class Interrupted(ExecTest):
         self.assertEqual(process.returncode, 130, error)
         self.assertIn(b"[interrupted]", error)
         for number in self.text_of("log").split():
-            self.assertFalse(os.path.exists(f"/proc/{number}"))
+            self.wait_for(lambda: self.is_gone(number))
         record = json.loads(out)
         self.assertTrue(record["interrupted"])
         subject, = record["cases"][0]["subjects"]
-        self.assertEqual([run["score"]["finished"] for run in self.runs(subject)], [True])
+        self.assertEqual([run["finished"] for run in self.runs(subject)], [True])
         self.assertFalse([name for name in os.listdir(os.path.join(self.cache, "clackers", "programs"))
                           if name.startswith(".running")])
 

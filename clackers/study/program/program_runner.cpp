@@ -44,7 +44,7 @@ std::string exit_text(int status) {
 
 void set_failure(ProgramOutput& output, Code code, std::string sentence) {
   output.failure_code = code.name();
-  output.failure = std::move(sentence);
+  output.failure = std::move(sentence) + ".";
 }
 
 void take_end(ProgramOutput& output, const ProcessResult& result, double timeout) {

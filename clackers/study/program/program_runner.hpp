@@ -24,7 +24,7 @@ struct ProgramOutput {
   std::filesystem::path history;  ///< empty: the run failed
   std::filesystem::path events;   ///< empty: none written
   std::string failure_code;       ///< "program-failed", "program-timeout", "program-output"
-  std::string failure;            ///< in a sentence
+  std::string failure;            ///< in a sentence, with its full stop
   std::string printed;            ///< the last bytes that it printed; empty for a reused run
   bool reused = false;
   bool would_repeat = false;  ///< the failure is one that smaller steps share
