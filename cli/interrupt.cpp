@@ -14,6 +14,8 @@
 #include <string_view>
 #include <utility>
 
+#include "clackers/study/program/process.hpp"
+
 namespace clackers::cli {
 namespace {
 
@@ -45,13 +47,15 @@ void remove_at(int parent, const char* name, int depth) {
   ::unlinkat(parent, name, AT_REMOVEDIR);
 }
 
-void remove_paths() {
+// Programs that were started do not outlive us, and write nothing more.
+void end_work() {
+  study::kill_processes();
   for (auto& entry : paths_to_remove)
     if (const char* path = entry.exchange(nullptr)) remove_path(path);
 }
 
 [[noreturn]] void end_with(std::string_view message) {
-  remove_paths();
+  end_work();
   [[maybe_unused]] const auto count = ::write(STDERR_FILENO, message.data(), message.size());
   ::_exit(4);
 }
@@ -61,12 +65,12 @@ constexpr std::string_view out_of_memory =
 
 extern "C" void on_stop(int) {
   if (!interrupted.exchange(true)) return;
-  remove_paths();
+  end_work();
   ::_exit(130);
 }
 
 extern "C" void on_end(int signal) {
-  remove_paths();
+  end_work();
   ::raise(signal);  // its default is in place again
 }
 

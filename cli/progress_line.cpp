@@ -41,6 +41,8 @@ void ProgressLine::report(double share) {
   const auto now = Clock::now();
   if (now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
+  if (share < share_) start_ = now;  // a new round of work
+  share_ = share;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   auto line = fmt::format("{} {:3.0f} %, {} elapsed", what_, 100.0 * share, duration_text(elapsed));
   // Before a twentieth is done the rest cannot be estimated.

@@ -17,7 +17,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// The share of the work that is done, in [0, 1]; from any thread.
+  /// The share of the work that is done, in [0, 1]; from any thread. A smaller one than before
+  /// begins a new round, with its own time.
   void report(double share);
   /// report() for functions that take a callback; valid as long as this object.
   std::function<void(double)> callback() {
@@ -31,6 +32,7 @@ class ProgressLine {
   bool visible_;
   std::mutex mutex_;
   Clock::time_point start_, last_{};
+  double share_ = 0.0;
 };
 
 /// "12 s", "3 min 05 s", "2 h 07 min".

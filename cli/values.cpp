@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "clackers/base/error.hpp"
 #include "clackers/exchange/text/number.hpp"
@@ -47,6 +48,22 @@ long long read_whole(std::string_view what, std::string_view text, long long low
   if (!(value >= double(lowest) && value <= double(highest)))
     refuse("clackers", what, text, fmt::format("{} to {}", lowest, highest));
   return static_cast<long long>(value);
+}
+
+double read_duration(std::string_view what, std::string_view text) {
+  auto number = text;
+  double unit = 1.0;
+  for (const auto& [name, seconds] :
+       {std::pair<std::string_view, double>{"min", 60.0}, {"h", 3600.0}, {"s", 1.0}})
+    if (number.ends_with(name)) {
+      number.remove_suffix(name.size());
+      unit = seconds;
+      break;
+    }
+  const double duration = unit * read_number(what, number);
+  if (!(duration >= 0.0 && std::isfinite(duration)))
+    refuse("clackers", what, text, "0 or more seconds, such as 30s or 2min");
+  return duration;
 }
 
 cases::Settings read_settings(const std::vector<std::string>& options) {

@@ -17,6 +17,10 @@ double read_number(std::string_view what, std::string_view text);
 long long read_whole(std::string_view what, std::string_view text, long long lowest,
                      long long highest);
 
+/// A duration [s]: a number of seconds, or with one of the units s, min, h ("30", "30s", "2min").
+/// Throws InputError for anything else and for negative or infinite ones.
+double read_duration(std::string_view what, std::string_view text);
+
 /// The values of all --set options, each "name=value,...". Throws InputError for a part that is
 /// not name=value and for a name that is set twice.
 cases::Settings read_settings(const std::vector<std::string>& options);

@@ -41,6 +41,20 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"no-convergence-yet", "reason",
      "The error has not started to shrink in a regular way. Use smaller steps; of verify: "
      "more --levels or a smaller --coarsest."},
+    {"larger-than-motion", "reason",
+     "The error is as large as the motion itself, so that nothing follows it yet. Use smaller steps, well below the fastest period."},
+    {"one-sample-a-level", "reason",
+     "There is one step a level, and the errors go up and down: scatter cannot be told from order. "
+     "Add three steps between each two, in the ratio 2^(1/4) (h, h/1.19, h/1.41, h/1.68, h/2)."},
+    {"more-neighbours", "reason",
+     "The errors scatter so much between neighbouring steps that the order is uncertain. "
+     "Add neighbouring steps to each level: eight in the ratio 2^(1/8) halve the uncertainty of two."},
+    {"errors-cancel", "reason",
+     "The signed error passes zero near a step, where two of its terms cancel; the order is that of the term that is left below it. "
+     "Steps around it say nothing; use smaller ones."},
+    {"error-grows-again", "reason",
+     "The error falls and then grows again with smaller steps: something grows with their number, as summed times, single precision or a tolerance of each step do. "
+     "Smaller steps make it worse."},
     {"no-fixed-order", "reason",
      "The error falls faster with every refinement, beyond the claimed order, and no power of the step describes it: "
      "exponential convergence, or a bend before a line of higher order."},
@@ -208,11 +222,11 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"impact-impulse-wrong", "diagnosis",
      "The impulse of the impacts is a constant multiple of the right one. Check effective masses and the factor 1 + eta."},
     {"impact-at-step-end", "diagnosis",
-     "Impacts are applied at the end of the step in which they happen, which limits the order to one. Locate the impact within the step."},
+     "Impacts are applied at the end or at the start of the step in which they happen, which limits the order to one and makes errors of neighbouring steps scatter. Locate the impact within the step."},
     {"impact-interpolated", "diagnosis",
-     "Impact times are interpolated at a lower order than the integrator has. Locate impacts with dense output of the integrator's order."},
+     "States at impacts are interpolated at a lower order than the integrator has, which limits the order of all that follows. Locate impacts with dense output of the integrator's order, or by steps of part of h."},
     {"impact-tolerance", "diagnosis",
-     "The error stops at a rough floor that the tolerance of the impact search sets. Tighten that tolerance."},
+     "Impacts come late or early by an amount that does not depend on the step, and the error stops there: the tolerance of the search for impacts. Tighten that tolerance; smaller steps do not help."},
     {"contact-compliant", "diagnosis",
      "Contacts last a time and penetrate: the contact is a spring, not rigid. A stiffer spring with smaller steps comes closer to rigid impacts."},
     {"contact-in-tension", "diagnosis",
@@ -220,7 +234,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"single-precision", "diagnosis",
      "Numbers have the 24 bits of single precision. Compute and print in double precision."},
     {"noise-floor", "diagnosis",
-     "The error ends in a rough floor without a trend: noise of the solver's arithmetic, iteration or output. Tighten tolerances."},
+     "The error ends in a rough floor without a trend: noise of the solver's arithmetic, iteration or output. Tighten the tolerances of iterations and print all digits; smaller steps do not help."},
     {"commensurate-steps", "diagnosis",
      "Some steps divide the time between impacts, so that impacts fall on steps and their error vanishes there by luck. Use steps that do not."},
     {"numerical-damping", "diagnosis",
@@ -244,6 +258,15 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"render-failed", "failure",
      "The program node or rsvg-convert was found and failed to draw a figure. "
      "Numbers (csv) and specifications (vl.json) were written all the same."},
+    {"program-failed", "failure",
+     "A program of `verify --exec` could not be started, ended with a status other than 0, or was "
+     "ended by a signal. Its run is a failed one of its step; what it printed last stands beside it."},
+    {"program-timeout", "failure",
+     "A program of `verify --exec` was still running after the time of `--timeout`, and was ended "
+     "with all that it had started."},
+    {"program-output", "failure",
+     "A program of `verify --exec` ended well without a history: the file is missing or empty, or "
+     "standard output had more than can be read."},
     {"foreign-folder", "refusal",
      "The folder of --out holds files that the command did not write. "
      "It is replaced as a whole, so give another name, or move them away."},

@@ -21,7 +21,8 @@ struct CodeEntry {
 inline constexpr auto code_names = std::to_array<std::string_view>({
     "exact", "proper", "reduced", "irregular", "stagnating", "divergent", "undecided",
     "contact-stiffness", "tolerance-floor", "unexplained-floor", "too-few-levels",
-    "contact-not-resolved", "no-convergence-yet", "no-fixed-order", "wrong-limit",
+    "contact-not-resolved", "no-convergence-yet", "larger-than-motion", "one-sample-a-level",
+    "more-neighbours", "errors-cancel", "error-grows-again", "no-fixed-order", "wrong-limit",
     "improper-convergence", "differences-turn", "run-failed", "energy-growth", "error-growth",
     "diverged", "newton-failed", "too-many-impacts", "simultaneous-contacts", "agrees", "disagrees",
     "not-claimed", "not-a-number", "not-finite", "out-of-range", "wrong-size", "null-pointer",
@@ -41,7 +42,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "commensurate-steps", "numerical-damping", "period-error", "unstable-coarse-steps",
     "ends-early", "output-resampled",
     "cannot-write", "cannot-read", "no-renderer",
-    "render-failed", "foreign-folder", "out-of-memory", "internal-error", "interrupted",
+    "render-failed", "program-failed", "program-timeout", "program-output", "foreign-folder", "out-of-memory", "internal-error", "interrupted",
 });
 // clang-format on
 

@@ -2,18 +2,119 @@
 
 #include <algorithm>
 #include <functional>
+#include <vector>
 
 #include "clackers/diagnose/causes.hpp"
 
 namespace clackers::diagnose {
+namespace {
+
+using Codes = std::vector<Code>;
+
+// Numbers that are not those of the case, so that nothing fitted to them means anything.
+const Codes unreadable{"unit-scaled",   "columns-exchanged", "masses-exchanged",
+                       "sign-reversed", "time-unit",         "starts-at-rest"};
+const Codes of_system{"restitution-differs", "mass-ratio-differs", "frequency-differs",
+                      "damping-differs", "damping-changes-at-impact"};
+const Codes of_impacts{"impact-missed",      "impact-doubled",      "impact-impulse-wrong",
+                       "impact-at-step-end", "impact-interpolated", "impact-tolerance",
+                       "contact-compliant",  "contact-in-tension"};
+const Codes of_time{"time-shifted", "time-drifts"};
+const Codes of_method{"numerical-damping", "period-error"};
+const Codes of_ladder{"wrong-limit", "noise-floor", "commensurate-steps"};
+
+Codes all(std::initializer_list<Codes> groups) {
+  Codes joined;
+  for (const auto& group : groups) joined.insert(joined.end(), group.begin(), group.end());
+  return joined;
+}
+
+// Each of `causes` brings about what each of `implied` describes.
+struct Implication {
+  Codes causes, implied;
+};
+
+const std::vector<Implication>& implications() {
+  static const std::vector<Implication> table{
+      {unreadable, all({of_system,
+                        of_impacts,
+                        of_time,
+                        of_method,
+                        of_ladder,
+                        {"velocity-at-half-steps", "velocity-order-lower"}})},
+      {of_system, all({of_method, {"wrong-limit", "noise-floor"}})},
+      {{"impact-missed", "impact-doubled"},
+       all({of_system,
+            of_time,
+            of_method,
+            {"wrong-limit", "noise-floor", "impact-impulse-wrong"}})},
+      {{"impact-impulse-wrong"}, all({of_method, {"wrong-limit", "noise-floor"}})},
+      {{"time-shifted", "time-drifts"},
+       all({of_method, {"wrong-limit", "noise-floor", "impact-tolerance", "impact-at-step-end"}})},
+      {{"contact-compliant"},
+       all({of_system,
+            of_time,
+            of_method,
+            {"wrong-limit", "noise-floor", "impact-tolerance", "impact-at-step-end",
+             "impact-interpolated", "impact-missed", "impact-doubled", "impact-impulse-wrong"}})},
+      {{"contact-in-tension"}, all({of_system, of_time, of_method, {"wrong-limit"}})},
+      {{"impact-at-step-end"},
+       all({of_time, of_method, {"impact-interpolated", "impact-tolerance", "noise-floor"}})},
+      {{"impact-tolerance"}, {"noise-floor", "impact-interpolated", "time-shifted", "wrong-limit"}},
+      {{"velocity-at-half-steps"},
+       {"velocity-order-lower", "contact-in-tension", "impact-at-step-end", "impact-interpolated"}},
+      {{"output-resampled"}, {"velocity-order-lower", "impact-interpolated", "noise-floor"}},
+      {{"printed-digits"}, {"noise-floor", "impact-tolerance"}},
+      {{"single-precision"}, {"printed-digits", "noise-floor", "impact-tolerance"}},
+      {{"wrong-limit"}, of_method},
+  };
+  return table;
+}
+
+bool contains(const Codes& codes, const std::string& code) {
+  return std::ranges::find(codes, code, &Code::name) != codes.end();
+}
+
+// A cause that is this much less sure than what it implies does not replace it.
+constexpr double less_sure = 0.25;
+
+bool is_implied(const Diagnosis& one, const std::vector<Diagnosis>& found) {
+  return std::ranges::any_of(implications(), [&](const Implication& rule) {
+    return contains(rule.implied, one.code) &&
+           std::ranges::any_of(found, [&](const Diagnosis& cause) {
+             return cause.code != one.code && contains(rule.causes, cause.code) &&
+                    cause.confidence >= one.confidence - less_sure;
+           });
+  });
+}
+
+void add(std::vector<Diagnosis>& all, std::vector<Diagnosis> more) {
+  for (auto& one : more) {
+    if (!(one.confidence >= least_confidence)) continue;
+    const auto same = std::ranges::find(all, one.code, &Diagnosis::code);
+    if (same == all.end())
+      all.push_back(std::move(one));
+    else if (same->confidence < one.confidence)
+      *same = std::move(one);
+  }
+}
+
+}  // namespace
 
 std::vector<Diagnosis> diagnose(const Question& question) {
-  std::vector<Diagnosis> all;
-  for (const auto find : {system_causes, file_causes, ladder_causes})
-    for (auto& found : find(question))
-      if (found.confidence >= least_confidence) all.push_back(std::move(found));
-  std::ranges::stable_sort(all, std::greater{}, &Diagnosis::confidence);
-  return all;
+  std::vector<Diagnosis> found;
+  add(found, file_causes(question));
+  const bool is_readable = std::ranges::none_of(
+      found, [](const Diagnosis& one) { return contains(unreadable, one.code); });
+  if (is_readable) {
+    add(found, system_causes(question));
+    add(found, ladder_causes(question));
+  }
+  std::vector<Diagnosis> kept;
+  std::ranges::copy_if(found, std::back_inserter(kept),
+                       [&](const Diagnosis& one) { return !is_implied(one, found); });
+  std::ranges::stable_sort(kept, std::greater{}, &Diagnosis::confidence);
+  return kept;
 }
 
 }  // namespace clackers::diagnose

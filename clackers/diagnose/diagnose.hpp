@@ -36,10 +36,23 @@ struct Opening {
   model::Trajectory rows;   ///< as read; `v` may be empty
   std::vector<bool> has_u;  ///< one entry a mass
   double printed_floor = 0.0;
+  /// Names of the columns in the file's order, as they were read: "t", "u2", "u1", "_" for one that
+  /// is left out. Empty: t, u1, v1, u2, v2, ...
+  std::vector<std::string> columns{};
 };
 
 /// Why a history starts from another state than the case: units, exchanged columns or masses, signs,
-/// a start at rest, velocities of half steps. Nothing where none of these explains it.
+/// a start at rest, velocities of half steps, rows of another time. Nothing where none of these
+/// explains all numbers of the first row to 1e-6 of the envelope or to its printed digits.
+///
+/// Where several do, the first of: one unit for all; masses exchanged; signs; columns exchanged; at
+/// rest; half steps; a shift by whole steps; a unit of u or of v alone; unit or sign together with an
+/// exchange; a shift by any time. Rows up to the first impact decide between readings of the same
+/// first row. `value`: of unit-scaled the factor of the file; of time-shifted the time of the file
+/// minus the true one in steps (unit "steps") or seconds ("s"); of velocity-at-half-steps +0.5 or
+/// -0.5 steps; of an exchange the factor where there is one as well, else NaN. `text`: of
+/// unit-scaled "mm", "u mm" or "v mm/s", or "u" or "v" for a factor that is no known unit; of
+/// sign-reversed the columns "u2,v2"; of an exchange the value of --columns that mends it.
 std::optional<Diagnosis> diagnose_start(const Opening& opening,
                                         const model::ImpactProblem<>& problem,
                                         const model::Motion& motion);

@@ -29,6 +29,7 @@ class Reader {
         table_(path, options.columns, TableKind::history, options.interrupt),
         columns_(history_columns(table_.path(), table_.names(), options, history_.notes)) {
     if (table_.names_from_comment()) history_.notes.push_back({.code = "columns-from-comment"});
+    history_.names = table_.names();
     history_.motion.dof = options.dof;
     history_.has_time = columns_.t.has_value();
     auto& motion = history_.motion;
@@ -42,8 +43,7 @@ class Reader {
 
   History run() {
     while (table_.next()) {
-      take_time();
-      take_row();
+      if (!take()) break;
       if (rows_ == rows_before_guess) reserve();
       if (rows_ % rows_a_report == 0) report();
     }
@@ -55,6 +55,26 @@ class Reader {
   }
 
  private:
+  // False for a row that is not finite and ends the history.
+  bool take() {
+    const auto rows = rows_;
+    try {
+      take_time();
+      take_row();
+      return true;
+    } catch (const InputError& error) {
+      auto& motion = history_.motion;
+      const bool enough = rows > 1 && motion.t[rows - 1] > motion.t.front();
+      if (!options_.until_not_finite || !enough || error.code() != Code("not-finite")) throw;
+      history_.not_finite = error.what();
+      rows_ = rows;
+      motion.t.resize(rows);
+      for (auto* values : {&motion.u, &motion.v, &motion.a})
+        if (!values->empty()) values->resize(rows * std::size_t(options_.dof));
+      return false;
+    }
+  }
+
   static constexpr std::size_t rows_before_guess = 1000, rows_a_report = 65536;
 
   void report() const {

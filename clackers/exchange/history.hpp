@@ -22,6 +22,8 @@ struct HistoryOptions {
   std::vector<std::string> columns{};  ///< names that replace or stand for a header; "_" skips one
   /// Of a file without a time column [s]: row n = 0, 1, ... is at n step. 0: there must be one.
   double step = 0.0;
+  /// The first NaN or infinite number ends the history, if two times stand above it.
+  bool until_not_finite = false;
   const std::atomic<bool>* interrupt = nullptr;  ///< ends the reading with Error (interrupted)
   /// Called now and then with the share that is read, in [0, 1]; never for a file of unknown size.
   std::function<void(double share)> progress{};
@@ -42,11 +44,13 @@ struct History {
   model::Trajectory motion;
   std::vector<bool> has_u;           ///< one entry a mass
   bool has_time = true;              ///< false: times are n step
+  std::vector<std::string> names;    ///< of all columns in the file's order, "_" for a skipped one
   std::vector<ColumnPrint> columns;  ///< those that were used, time first if there is one
   /// Rounding error of the times by printing [s]; 0 when they are equally spaced to the last digit,
   /// since such times were hardly rounded.
   double time_half_unit = 0.0;
-  double spacing = 0.0;  ///< median time between rows [s]
+  double spacing = 0.0;    ///< median time between rows [s]
+  std::string not_finite;  ///< where the first such number stands, a sentence; empty for none
   std::vector<ReadNote> notes;
 };
 

@@ -46,6 +46,18 @@ TEST(History, KnowsWhichMassesItHas) {
   EXPECT_EQ(h.notes[0].code, "velocities-incomplete");
 }
 
+TEST(History, EndsAtTheFirstNumberThatIsNotFiniteWhereAskedTo) {
+  const std::string bytes = "t,u1,v1\n0,1,2\n1,3,4\n2,nan,6\n3,7,8\n";
+  const auto h = history(bytes, 1, {.until_not_finite = true});
+  EXPECT_EQ(h.motion.t, (Numbers{0.0, 1.0}));
+  EXPECT_EQ(h.motion.u, (Numbers{1.0, 3.0}));
+  EXPECT_EQ(h.motion.v, (Numbers{2.0, 4.0}));
+  EXPECT_NE(h.not_finite.find("line 4: u1 = \"nan\""), std::string::npos) << h.not_finite;
+  EXPECT_REFUSED(history(bytes, 1), "not-finite", "line 4");
+  EXPECT_REFUSED(history("t,u1\n0,1\n1,inf\n2,3\n", 1, {.until_not_finite = true}), "not-finite",
+                 "line 3");
+}
+
 TEST(History, KeepsBothLimitsOfAJump) {
   const auto h = history("t,side,u1,v1\n0,,1,0\n1,-,0,-1\n1,+,0,1\n2,,1,0\n", 1);
   EXPECT_EQ(h.motion.t, (Numbers{0.0, 1.0, 1.0, 2.0}));

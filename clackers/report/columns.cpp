@@ -114,6 +114,12 @@ Cell short_file(const Row& row) {
   return found == nullptr ? Cell() : text(short_path(found->file));
 }
 
+Cell diagnosis_codes(const Row& row) {
+  std::string codes;
+  for (const auto& cause : row.subject->diagnoses) codes += (codes.empty() ? "" : " ") + cause.code;
+  return text(codes);
+}
+
 using Score = assess::RunScore;
 using Impacts = assess::ImpactScore;
 using Work = model::Work;
@@ -135,6 +141,7 @@ const Column all[] = {
     {"order_range", "", "order", "", "order and half width of its 95 % interval", Kind::number, false, [](const Row& row) { return is_assessed(row) ? text(order_text(row.subject->assessment.displacement, "")) : Cell(); }},
     {"verdict", "", "verdict", "", "agrees, disagrees, not claimed, undecided, refused or interrupted", Kind::verdict, true, [](const Row& row) { return text(verdict_word(*row.subject)); }},
     {"reason", "", "reason", "", "code of what decided behaviour or verdict", word, true, [](const Row& row) { return text(row.subject->assessment.reason); }},
+    {"diagnosis", "", "diagnosis", "", "codes of the causes found, strongest first (clackers list diagnoses)", word, true, diagnosis_codes},
     {"refusal_code", "", "refusal", "", "why the method cannot take the case", word, true, [](const Row& row) { return text(row.subject->refusal_code); }},
     {"refusal", "", "refusal", "", "the same in a sentence", word, true, [](const Row& row) { return text(row.subject->refusal); }},
     {"file", "", "file", "", "history, as given", name, true, file<&File::file>},
@@ -154,7 +161,7 @@ const Column all[] = {
     {"u_error", "", "error in u", "", "largest |error in u| / initial envelope over masses and own times", error, true, score<&Score::u_error>},
     {"u_error_absolute", "m", "error in u", "", "the same, not divided", error, true, score<&Score::u_error_absolute>},
     {"v_error", "", "error in v", "", "L1 over time / length / initial envelope, largest over masses", error, true, score<&Score::v_error>},
-    {"energy_error", "", "energy error", "", "largest |E - E exact| / E exact at t = 0", error, true, score<&Score::energy_error>},
+    {"energy_error", "", "energy error", "", "largest |E - E exact| / E exact at t = 0; stays of order one where restitution < 1", error, true, score<&Score::energy_error>},
     {"energy_ratio", "", "energy ratio", "", "E / E exact at the last state", Kind::number, true, score<&Score::energy_ratio>},
     {"rounding_floor", "", "rounding floor", "", "of u_error, estimated", error, true, score<&Score::rounding_floor>},
     {"collision_source", "", "collisions from", "", "events, history (found in it) or unknown", word, true, [](const Row& row) { return file_of(row) ? text(to_string(file_of(row)->collisions)) : Cell(); }},
@@ -246,7 +253,8 @@ Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind) {
                            "collisions", "collision_time_error", "collision_source"}),
               {}};
   for (const auto& subject : problem.subjects) {
-    if (subject.kind != kind) continue;
+    // A program is a method of others.
+    if ((subject.kind != study::SubjectKind::histories) != methods) continue;
     if (methods)
       table.rows.push_back(subject_row(problem, subject));
     else

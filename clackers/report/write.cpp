@@ -90,8 +90,8 @@ void write(study::RowSource& rows, Format format, std::ostream& out, const Style
 }
 
 void write(std::span<const study::Sheet> sheets, std::string_view schema, Format format,
-           std::ostream& out, const Style& style) {
-  if (format == Format::json) return write_json(sheets, schema, out);
+           std::ostream& out, const Style& style, std::string_view problem) {
+  if (format == Format::json) return write_json(sheets, schema, problem, out);
   const char* between = "";
   for (const auto& sheet : sheets) {
     out << between;

@@ -31,9 +31,9 @@ struct Style {
 void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style = {});
 
 /// Several sheets, one below the other; json: one object whose "sheets" holds all. `schema` names
-/// it.
+/// it; `problem`, the text of a json object, stands in it as well unless it is empty.
 void write(std::span<const study::Sheet> sheets, std::string_view schema, Format format,
-           std::ostream& out, const Style& style = {});
+           std::ostream& out, const Style& style = {}, std::string_view problem = {});
 
 /// A record of verify or check, of one case or several: tables with findings and a last line with
 /// the verdict, a csv row for every run, its json, JUnit XML, or LaTeX tables. The formats that

@@ -21,6 +21,7 @@ struct CheckRequest {
   std::vector<std::string> columns;  ///< names of the columns; empty: those of the files
   std::vector<std::string> events;   ///< files of collisions: none, or one a history
   std::vector<double> steps;         ///< none, or one a history [s]
+  std::vector<double> tolerances;    ///< none, or one a history instead of a step, of (0, 1)
   std::optional<Claim> expect;
   std::optional<double> tolerance;  ///< largest allowed u_error, 0 < tolerance
   std::string command;              ///< as typed
@@ -29,17 +30,18 @@ struct CheckRequest {
 /// Assesses histories of any program against the exact motion of a case: a record of one case with
 /// one subject, the histories.
 ///
-/// A run's step is the one of `steps`; else the number behind "h" in the file's name (h0.01.csv,
-/// run_h=1e-3.txt); else the median time between rows. A history without times has them from
-/// `steps`, its first row at 0 if it is the initial state and at one step otherwise. Rows after the
-/// end of the case are left out with a note. Neighbouring steps, of a ratio below 1.3, within a
-/// factor 2 are one level.
+/// A run's step is the one of `steps`; else the one in the file's name (h0.01.csv, dt=1e-3.txt,
+/// N400.csv; named_steps()); else the median time between rows. `tolerances`, or names like
+/// rtol1e-06.csv, make a ladder of tolerances. A history without times has them from `steps`, its
+/// first row at 0 if it is the initial state and at one step otherwise. Rows after the end of the
+/// case are left out with a note. Steps of one octave are one level. A history that NaN or infinity
+/// ends is a failed run of its level.
 ///
 /// assess::judge gives behaviour and verdict. Its claim is `expect`; without it the verdict goes by
 /// the tolerance, and the finest history disagrees where it misses a collision, has one too many, or
 /// begins far from the reference.
 ///
-/// Throws InputError for what read_history refuses, a history that starts from another state than
+/// Throws InputError for what read_history refuses, histories none of which is finite, one that starts from another state than
 /// the case (not-this-case), and options that do not fit the files; FileError for files that cannot
 /// be read; Error (interrupted) when `interrupt` becomes true.
 Record check(const CheckRequest& request, const Progress& progress = {},

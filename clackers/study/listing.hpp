@@ -9,8 +9,8 @@
 
 namespace clackers::study {
 
-/// What `clackers list KIND` shows; KIND is cases, integrators, contacts, methods, pairs or
-/// metrics. Throws InputError with did-you-mean for any other.
+/// What `clackers list KIND` shows; KIND is cases, integrators, contacts, methods, pairs,
+/// metrics or diagnoses. Throws InputError with did-you-mean for any other.
 Sheet list(std::string_view kind);
 
 /// What `kind` may be, in the order of the help.
@@ -20,6 +20,10 @@ std::vector<std::string> list_kinds();
 /// first collisions, and of a pair the harmonics and when disturbances make it lose synchrony.
 std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
                              double threshold);
+
+/// What `clackers show NAME --format json` has beside it, and the programs of verify --exec read: the
+/// text of the json object `problem` (program/problem_text.hpp).
+std::string show_problem(std::string_view name, const cases::Settings& settings);
 
 /// What `clackers show NAME` shows of a method: its claim, parameters and card. The card is a
 /// sheet of one text column.

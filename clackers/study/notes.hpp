@@ -27,6 +27,7 @@ inline constexpr auto note_entries = std::to_array<NoteEntry>({
     {"last-line-incomplete", "the last line has no line feed: the file may be cut, and so its last number", "number of the line", ""},
     {"no-times", "the file has no times: rows are a step apart", "step [s]; time of the first row [s]: 0 where it is the initial state, else one step", ""},
     {"step-in-name-ignored", "the number in the name is longer than the time between rows, so it is not the step", "the number; time between rows [s]", ""},
+    {"rows-closer-than-step", "the step is the one in the name: rows are closer, as of dense or resampled output", "the step [s]; time between rows [s]", ""},
     {"displacements-incomplete", "without the displacements of all masses neither collisions nor metrics are measured", "", ""},
     {"events-outside", "collisions of the events file outside the history, left out", "how many; first time of the history [s]; last [s]", "the events file"},
     // Of the numbers in it.

@@ -7,7 +7,7 @@
 namespace clackers::study {
 
 /// The share of the work that is done, in [0, 1]. Called now and then, from any thread, one call at
-/// a time.
+/// a time. Where work comes in rounds, each begins at 0 again.
 using Progress = std::function<void(double share)>;
 
 /// Adds up the work done by several threads and reports it: calls are serialized, the share never

@@ -11,9 +11,15 @@
 #include "clackers/assess/convergence/assessment.hpp"
 #include "clackers/assess/errors/score.hpp"
 #include "clackers/base/judgement.hpp"
+#include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/study/metric_result.hpp"
 #include "clackers/study/profile.hpp"
 #include "clackers/study/self_result.hpp"
+
+namespace clackers::assess {
+/// "", "behaviour", "lower-order", "higher-order", "floor-reason", "evidence".
+std::string_view to_string(Mismatch mismatch);
+}  // namespace clackers::assess
 
 // The one record of every study: verify and check fill it, for one case or for several; every
 // output format, --report and --baseline reads it.
@@ -49,6 +55,26 @@ struct RefinementPlan {
   double coarsest = 0.05;     ///< [s]
   int levels = 8;             ///< each half the one before
   int samples_per_level = 8;  ///< steps a level, ratio 2^(1/samples_per_level)
+};
+
+/// Why refinement beyond the plan ended.
+enum class RefinementEnd {
+  decided,
+  budget,
+  rounding_floor,
+  too_many_steps,
+  run_failed,
+  interrupted
+};
+/// "decided", "budget", "rounding-floor", "too-many-steps", "run-failed", "interrupted"
+std::string_view to_string(RefinementEnd end);
+
+/// What was run of a subject beyond the plan of its case, because the plan left it undecided.
+struct Refinement {
+  int finer_levels = 0, coarser_levels = 0;  ///< added at either end
+  int samples_per_level = 0;                 ///< now
+  RefinementEnd end = RefinementEnd::decided;
+  double next_seconds = 0.0;  ///< expected time of what did not fit into the budget [s], else 0
 };
 
 /// A curve for a figure.
@@ -106,7 +132,8 @@ struct Run {
   assess::RunScore score;             ///< NaN where a history lacks what an error needs
   std::optional<HistoryFile> file;    ///< of a history
   std::vector<MetricResult> metrics;  ///< empty where none were measured
-  Curve error_history;  ///< |error in u| / envelope against time; empty where none was kept
+  Curve error_history;    ///< |error in u| / envelope against time; empty where none was kept
+  std::string printed{};  ///< last lines that a program printed whose run failed
 };
 
 /// Runs with steps around one nominal step.
@@ -115,26 +142,35 @@ struct Level {
   std::vector<Run> runs;  ///< coarsest first
 };
 
-/// What is assessed: a method of the catalogue, or a set of histories.
-enum class SubjectKind { method, histories };
-std::string_view to_string(SubjectKind kind);  ///< "method", "histories"
+/// What is assessed: a method of the catalogue, a set of histories, or a program that writes them.
+enum class SubjectKind { method, histories, program };
+std::string_view to_string(SubjectKind kind);  ///< "method", "histories", "program"
+
+/// What the levels of a subject refine: steps [s], or the tolerances of an adaptive solver, which
+/// then stand in every `step`.
+enum class Resolution { step, tolerance };
+std::string_view to_string(Resolution resolution);  ///< "step", "tolerance"
 
 struct Subject {
   SubjectKind kind = SubjectKind::method;
   /// The one name in every output. A method as one would type it, without "+event-driven", which is
   /// what a name without "+contact" means; "histories" for histories.
   std::string name;
-  Claim claim;                        ///< of the method, or what --expect says of the histories
-  std::optional<double> tolerance;    ///< largest allowed u_error, where one was asked for
-  double contact_time = 0.0;          ///< [s], 0 for rigid contact
-  std::string refusal, refusal_code;  ///< why a method cannot take the case; empty when it can
-  bool complete = true;               ///< false: interrupted before its last level
-  std::vector<Level> levels;          ///< coarsest first
+  Claim claim;                           ///< of the method, or what --expect says of the histories
+  std::optional<double> tolerance;       ///< largest allowed u_error, where one was asked for
+  double contact_time = 0.0;             ///< [s], 0 for rigid contact
+  std::string refusal, refusal_code;     ///< why a method cannot take the case; empty when it can
+  bool complete = true;                  ///< false: interrupted before its last level
+  Resolution resolution = Resolution::step;
+  std::vector<Level> levels;             ///< coarsest first
+  std::optional<Refinement> refinement;  ///< nothing where the plan of the case was enough
   /// Behaviour, verdict, reason (a code) and numbers; `assessment.verdict` is the verdict.
   assess::Assessment assessment;
   /// Without the reference solution; nothing where no level was finished, or where no order is
   /// claimed that differences could be compared with.
   std::optional<SelfResult> self_convergence;
+  /// Causes of what the runs show, strongest first; empty where nothing was found or looked for.
+  std::vector<diagnose::Diagnosis> diagnoses;
 
   /// The run that error history and metrics of the subject are taken from: the finest one that has
   /// them; nullptr where none has.
@@ -150,7 +186,7 @@ struct Counts {
 /// One case with everything that was assessed on it.
 struct CaseRecord {
   CaseSummary problem;
-  RefinementPlan plan;  ///< of methods; levels = 0 for histories
+  RefinementPlan plan;  ///< of methods on this case, before refinement; levels = 0 for histories
   Curve response;       ///< exact displacements, one row a mass [m]
   std::vector<Subject> subjects;
   std::vector<Profile> profiles;  ///< of this case alone

@@ -7,6 +7,7 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/study/progress.hpp"
 #include "clackers/study/record.hpp"
+#include "clackers/study/refinement.hpp"
 
 namespace clackers::study {
 
@@ -15,7 +16,10 @@ struct VerifyRequest {
   std::vector<std::string> methods;  ///< specifications; empty: the default panel
   std::vector<std::string> cases;    ///< names; empty: the default case
   cases::Settings settings;          ///< of every case
-  RefinementPlan plan;
+  RefinementRequest plan;
+  /// Time for refinement beyond the plan, of all cases together [s]; 0: none. What is run within it
+  /// does not depend on it, only where it ends.
+  double budget = 0.0;
   int jobs = 0;         ///< threads; 0: one a processor
   std::string command;  ///< as typed, for the record
 };
@@ -23,8 +27,11 @@ struct VerifyRequest {
 /// Assesses every method on every case over the plan's steps. Throws InputError before any work for
 /// what cannot be run: unknown names, values outside their range, too many steps, a method or a case
 /// named twice, a case that no method takes. A method that objects to a case is kept with its
-/// refusal. When `interrupt` becomes true the record comes back with what was finished, marked
-/// interrupted.
+/// refusal. Subjects that the plan leaves undecided are refined further, round by round, while the
+/// budget lasts: next_plan() says how; a round that would exceed the budget, by the measured time of
+/// a step, is not begun. Every round reports progress from 0 to 1. When `interrupt` becomes true the
+/// record comes back with what was finished, marked interrupted; a subject whose refinement was
+/// interrupted keeps the ladder it had before.
 Record verify(const VerifyRequest& request, const Progress& progress = {},
               const std::atomic<bool>* interrupt = nullptr);
 

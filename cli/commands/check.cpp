@@ -16,6 +16,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/requirements.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
@@ -23,8 +24,8 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::vector<std::string> files, settings, events;
-  std::string case_name, columns, steps, expect, tolerance, metrics, report, baseline;
+  std::vector<std::string> files, settings, events, requirements;
+  std::string case_name, columns, steps, tolerances, expect, tolerance, metrics, report, baseline;
 };
 
 // The parts between commas. Throws InputError for an empty one.
@@ -51,6 +52,9 @@ study::CheckRequest request_of(const Options& options, const std::string& line) 
   if (!options.steps.empty())
     for (const auto& part : parts_of("--steps", options.steps))
       request.steps.push_back(read_number("--steps", part));
+  if (!options.tolerances.empty())
+    for (const auto& part : parts_of("--tolerances", options.tolerances))
+      request.tolerances.push_back(read_number("--tolerances", part));
   if (!options.expect.empty()) request.expect = study::claim_from(options.expect);
   if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
   if (!options.metrics.empty() && options.metrics != "all")
@@ -66,6 +70,7 @@ study::Record run_check(const Options& options, const study::CheckRequest& reque
 
 int run(const Options& options, const std::string& line) {
   const auto request = request_of(options, line);
+  const auto requirements = read_requirements(options.requirements);
   const auto baseline = baseline_of(options.baseline, request);
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
@@ -78,7 +83,7 @@ int run(const Options& options, const std::string& line) {
     // `check | head`: the reader had enough, the verdict still counts.
   }
   output.note_changes(results.format());
-  return written ? study::exit_code(record) : 4;
+  return written ? required_exit_code(record, requirements) : 4;
 }
 
 }  // namespace
@@ -101,10 +106,12 @@ void add_check(Grammar& root) {
            "Several files are levels of one method and give an order. Exit code 0 when the "
            "history agrees or nothing is expected, 1 when it disagrees or is of another motion, "
            "3 when undecided.",
-       .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
-                "           [--columns t,u1,...] [--events FILE] [--steps h1,h2,...]\n"
-                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--metrics all]\n"
-                "           [--baseline FILE.json] [--report FILE.html]\n"});
+       .usage =
+           "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
+           "           [--columns t,u1,...] [--events FILE]\n"
+           "           [--steps h1,h2,...|--tolerances a,b,...]\n"
+           "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
+           "           [--metrics all] [--baseline FILE.json] [--report FILE.html]\n"});
   app->add_option("FILE", options->files, "Time histories, text; - for standard input.")
       ->reads_file("");
   app->add_option("--case", options->case_name,
@@ -119,11 +126,16 @@ void add_check(Grammar& root) {
                   "Of several histories one file each, in their order. Without it collisions are "
                   "found in the history.")
       ->reads_file("FILE");
-  app->add_option("--steps", options->steps,
-                  "Step of each history [s], in the order of the files; also the time between rows "
-                  "of files without a column t. Default: h0.01 in a file's name, else the median "
-                  "time between rows.")
+  app->add_option(
+         "--steps", options->steps,
+         "Step of each history [s], in the order of the files; also the time between rows "
+         "of files without a column t. Default: h0.01, dt=0.01 or N400 (steps) in a file's "
+         "name, else the median time between rows.")
       ->option_text("h1,h2,...");
+  app->add_option("--tolerances", options->tolerances,
+                  "Tolerance of each history of an adaptive solver, in the order of the files: the "
+                  "levels are tolerances then. Default: rtol1e-06 in the files' names.")
+      ->option_text("a,b,...");
   app->add_option("--expect", options->expect,
                   "What the histories should show: proper:2, reduced:1, irregular:1, exact, "
                   "stagnating or divergent.")
@@ -136,6 +148,7 @@ void add_check(Grammar& root) {
          "all: every metric in the table, not only those that reports show first (clackers "
          "list metrics). csv and json always hold all.")
       ->option_text("all");
+  add_require_option(*app, options->requirements);
   add_report_option(*app, options->report);
   app->add_option("--baseline", options->baseline,
                   "An earlier record of check (--format json) of the same case, - for standard "

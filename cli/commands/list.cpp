@@ -84,13 +84,13 @@ void add_list(Grammar& root) {
                               "  clackers list pairs --format csv\n",
                   .about = "Lists what there is, one line each.",
                   .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|\n"
-                           "           columns|figures]\n"});
+                           "           columns|diagnoses|figures]\n"});
   app->add_option(
       "KIND", options->kind,
       "cases, methods (integrators, contact treatments, methods that stand alone, and which are "
       "the default panel), integrators, contacts, pairs (every integrator with every contact "
-      "treatment that takes it, and what they claim), metrics, columns (of csv and json) or figures "
-      "(of clackers paper). "
+      "treatment that takes it, and what they claim), metrics, columns (of csv and json), "
+      "diagnoses (causes that check and verify name) or figures (of clackers paper). "
       "Without it cases, methods and metrics.");
   add_common_options(*app, options->common);
   app->run = [options](const std::string&) { return run(*options); };

@@ -61,7 +61,13 @@ std::vector<study::Sheet> sheets_of(const Options& options) {
 int run(const Options& options) {
   Results results(options.common, OnInterrupt::stop);
   const auto sheets = sheets_of(options);
-  report::write(sheets, "clackers/show/1", results.format(), results.stream(), results.style());
+  // Only json has a place for it.
+  const bool with_problem = results.format() == report::Format::json && is_case(options.name);
+  const auto problem = with_problem
+                           ? study::show_problem(options.name, read_settings(options.settings))
+                           : std::string();
+  report::write(sheets, "clackers/show/1", results.format(), results.stream(), results.style(),
+                problem);
   results.finish();
   return 0;
 }

@@ -12,6 +12,7 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/study/listing.hpp"
 #include "cli/command.hpp"
+#include "cli/commands/verify_programs.hpp"
 #include "cli/files/record_output.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
@@ -19,16 +20,20 @@
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/requirements.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
 namespace {
 
+constexpr double default_budget = 20.0;  // [s]
+
 struct Options {
   CommonOptions common;
-  std::vector<std::string> methods, cases, settings;
-  std::string levels, coarsest, neighbours, jobs, report, baseline;
+  std::vector<std::string> methods, cases, settings, requirements;
+  std::string levels, coarsest, neighbours, budget, jobs, report, baseline;
   bool all = false;
+  ProgramOptions programs;
 };
 
 study::VerifyRequest request_of(const Options& options, const std::string& line) {
@@ -44,11 +49,17 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
   request.cases = options.cases;
   request.settings = read_settings(options.settings);
   auto& plan = request.plan;
-  plan.levels = whole("--levels", options.levels, 1, plan.levels);
+  if (!options.levels.empty()) plan.levels = whole("--levels", options.levels, 1, 1);
   plan.samples_per_level = whole("--neighbours", options.neighbours, 1, plan.samples_per_level);
   if (!options.coarsest.empty()) plan.coarsest = read_number("--coarsest", options.coarsest);
+  // Levels that were asked for are those that are run.
+  if (!options.budget.empty())
+    request.budget = read_duration("--budget", options.budget);
+  else if (options.levels.empty())
+    request.budget = default_budget;
   request.jobs = whole("--jobs", options.jobs, 1, request.jobs);
   request.command = line;
+  if (options.programs.any()) plan = program_plan(plan, !options.neighbours.empty());
   return request;
 }
 
@@ -67,12 +78,16 @@ void check(const Options& options) {
 
 study::Record run_study(const Options& options, const study::VerifyRequest& request) {
   ProgressLine progress("verify", options.common.quiet);
+  const auto programs = program_request_of(options.programs);
+  if (options.programs.any())
+    return study::verify(request, programs, progress.callback(), &interrupt_flag());
   return study::verify(request, progress.callback(), &interrupt_flag());
 }
 
 int run(const Options& options, const std::string& line) {
   check(options);
   const auto request = request_of(options, line);
+  const auto requirements = read_requirements(options.requirements);
   // Before the work: where it cannot go must not be found out afterwards.
   Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
   const auto baseline = baseline_of(options.baseline, request);
@@ -97,7 +112,8 @@ int run(const Options& options, const std::string& line) {
   }
   output.note_changes(results.format());
   if (record.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
-  return written ? study::exit_code(record) : 4;
+  const int code = exit_code_of_programs(record, required_exit_code(record, requirements));
+  return written ? code : 4;
 }
 
 }  // namespace
@@ -112,16 +128,22 @@ void add_verify(Grammar& root) {
            "  clackers verify rk4 newmark:beta=0+penalty --case symmetric-pair --levels 10\n"
            "  clackers verify --report report.html --format json --out record.json\n"
            "  clackers verify --baseline record.json\n"
-           "  clackers verify rk4 newmark --case stop --case symmetric-pair\n",
+           "  clackers verify rk4 newmark --case stop --case symmetric-pair\n"
+           "  clackers verify --exec './solver {case} {h} {out}' --expect proper:2\n",
        .about =
            "Assesses time-integration methods: runs each with a sequence of steps on a case whose "
            "exact motion is known, and compares what was measured with what it claims. A "
            "method is integrator[:name=value,...][+contact[:name=value,...]]; without +contact "
-           "impacts are located as events (event-driven). Exit code 0 when all agree, 1 when "
+           "impacts are located as events (event-driven). Programs of yours (--exec) are run and "
+           "compared in the same way. Exit code 0 when all agree, 1 when "
            "one disagrees, 3 when one stays undecided.",
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
-                "           [--levels n] [--coarsest h] [--neighbours n] [--jobs n]\n"
-                "           [--baseline FILE.json] [--report FILE.html]\n"});
+                "           [--levels n] [--coarsest h] [--neighbours n] [--budget TIME]\n"
+                "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
+                "           [--report FILE.html]\n"
+                "  clackers verify [METHOD ...] --exec COMMAND ... [--name NAME ...]\n"
+                "           [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b] [--timeout TIME]\n"
+                "           [--work FOLDER] [--fresh] ...\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods).");
@@ -134,15 +156,23 @@ void add_verify(Grammar& root) {
   add_set_option(*app, options->settings);
   app->add_option("--levels", options->levels,
                   "Number of levels, each with half the step of the one before. "
-                  "Default: 8.")
+                  "Default: 8 (5 to 8 where the finest would need more than 2^20 steps).")
       ->option_text("n");
-  app->add_option("--coarsest", options->coarsest, "Largest step, in seconds. Default: 0.05.")
+  app->add_option("--coarsest", options->coarsest,
+                  "Largest step, in seconds. Default: a fourteenth of the fast period of the case, "
+                  "rounded to two digits (0.05 for the default case).")
       ->option_text("h");
   app->add_option(
          "--neighbours", options->neighbours,
          "Neighbouring steps a level, in the ratio 2^(1/n); they show scatter. Default: 8.")
       ->option_text("n");
+  app->add_option("--budget", options->budget,
+                  "Time for further levels and steps of methods that these leave undecided, in "
+                  "seconds or as 30s, 2min; 0: none. Default: 20s, and 0 with --levels.")
+      ->option_text("TIME");
+  add_program_options(*app, options->programs);
   app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
+  add_require_option(*app, options->requirements);
   add_report_option(*app, options->report);
   app->add_option(
          "--baseline", options->baseline,

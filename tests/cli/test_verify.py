@@ -45,6 +45,28 @@ class Verdicts(CommandTest):
         self.refused("verify", "--all", "rk4", code="bad-syntax", says="--all")
 
 
+class Requirements(CommandTest):
+    def test_decide_the_exit_code_and_name_what_fails(self):
+        done = run("verify", "rk4", *SHORT, "--require", "agrees", "--require", "order:4")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = run("verify", "rk4", *SHORT_LADDER, "--require", "agrees")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "Required: agrees. Not met by 1 of 1: rk4 (undecided).\n")
+        done = run("verify", "rk4", *SHORT, "--require", "order:5", "--require", "proper", "--quiet")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"^Required: order:5\. Not met by 1 of 1: rk4 \(order (4\.0.|3\.9.)\)\.\n$")
+
+    def test_count_refused_methods(self):
+        both = ("rk4", "newmark+penalty", "--case", "stop", "--set", "eta=0.5", *SHORT)
+        self.assertEqual(run("verify", *both).returncode, 0)
+        done = run("verify", *both, "--require", "error:0.1")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("newmark+penalty (refused)", done.stderr)
+
+    def test_are_refused_before_the_work(self):
+        self.refused("verify", *LONG_LADDER, "--require", "agree", code="unknown-name", says='"agrees"')
+
+
 class Record(CommandTest):
     def record(self, *arguments):
         return json.loads(run("verify", *arguments, "--format", "json").stdout)

@@ -12,7 +12,7 @@ namespace {
 
 // Coarsest step with `per_period` steps in a period of the fast mass.
 VerifyRequest request(double N, double xi1, std::vector<std::string> methods, double per_period,
-                      RefinementPlan plan) {
+                      RefinementRequest plan) {
   VerifyRequest request;
   request.cases = {"three-parameter"};
   request.settings = {{"N", N}, {"xi1", xi1}, {"a_t", 1.0}};

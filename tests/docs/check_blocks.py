@@ -37,6 +37,7 @@ ELSEWHERE = {
     r"cc examples/c/collisions.c .*": "package.test_c",
     r"scripts/package && apt install .*": "package.test_debian",
     r"clackers paper .*": "cli.test_paper",
+    r"clackers verify --exec '\./solver .*": "cli.test_exec",
     r"find_package\(.*": "package.test_cpp",
     r"target_link_libraries\(.*": "package.test_cpp",
 }

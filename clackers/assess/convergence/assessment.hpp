@@ -21,7 +21,14 @@ struct LadderFit {
   double scatter = 1.0;  ///< largest factor between raw errors and the line, over the window
   double constant = 0.0;
   int first_level = 0, last_level = 0;  ///< window of the line, zero-based, inclusive
-  double floor = 0.0;  ///< the level of stagnation or of rounding, 0 where none was seen
+  /// Largest and smallest step of the runs in that window; a tolerance in a ladder of tolerances.
+  double largest_step = 0.0, smallest_step = 0.0;
+  double floor = 0.0;          ///< the level of stagnation or of rounding, 0 where none was seen
+  double floor_step = 0.0;     ///< largest step at which the errors lie at the floor, 0 without one
+  double floor_scatter = 1.0;  ///< largest factor between raw errors and the floor
+  double cancel_step = 0.0;    ///< near it the signed error passes zero; 0 where it does not
+  double lucky_share = 0.0;    ///< of the runs: at the rounding floor by luck, others not
+  double stable_step = 0.0;    ///< largest step below those whose runs failed; 0 where none did
   std::vector<double> steps, errors;  ///< of the upper envelope, a value a level
 };
 
@@ -41,11 +48,22 @@ struct Evidence {
   std::vector<double> numbers;
 };
 
+/// What of a claim is contradicted, where the verdict is `disagrees`.
+enum class Mismatch {
+  none,
+  behaviour,     ///< another behaviour than the claimed one
+  lower_order,   ///< the claimed behaviour, with a lower order
+  higher_order,  ///< the claimed behaviour, with a higher order
+  floor_reason,  ///< a floor as claimed, of another cause
+  evidence       ///< the errors agree; the first evidence that disagrees does not
+};
+
 /// The assessment of one method, or of the histories of one.
 struct Assessment {
   LadderFit displacement;           ///< decides behaviour and verdict
   LadderFit velocity, impact_time;  ///< shown beside it
   Verdict verdict = Verdict::undecided;
+  Mismatch mismatch = Mismatch::none;
   std::string reason;  ///< code of what decided, for `clackers explain`; empty when none is needed
   std::vector<Evidence> evidence;
 };

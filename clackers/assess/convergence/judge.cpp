@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "clackers/assess/convergence/fit/error_ladder.hpp"
+#include "clackers/assess/convergence/judge_evidence.hpp"
 #include "clackers/assess/convergence/ladder_fit.hpp"
 #include "clackers/base/codes.hpp"
 
@@ -36,36 +37,24 @@ ErrorPoint impact_time_error(const RunScore& run) {
   return {.error = run.impacts->worst_time_error, .floor = run.impacts->rounding_floor};
 }
 
-// Whether most finished runs of both finest levels end with too much or too little energy.
-bool energy_left(const Ladder& ladder) {
+// Whether the energy at the end is wrong, as asked, in most runs of both finest levels.
+template <class Wrong>
+bool energy_is(const Ladder& ladder, Wrong wrong) {
   if (ladder.size() < 2) return false;
-  return std::all_of(ladder.end() - 2, ladder.end(), [](const Level& level) {
-    const auto wrong = [](const RunScore& run) {
-      return run.finished &&
-             (run.energy_ratio < least_energy_ratio || run.energy_ratio > largest_energy_ratio);
+  return std::all_of(ladder.end() - 2, ladder.end(), [&](const Level& level) {
+    const auto run_is = [&](const RunScore& run) {
+      return run.finished && wrong(run.energy_ratio);
     };
-    return 2 * std::ranges::count_if(level.runs, wrong) > std::ssize(level.runs);
+    return 2 * std::ranges::count_if(level.runs, run_is) > std::ssize(level.runs);
   });
 }
 
-// The last run of the finest level; files come coarsest first.
-const RunScore& finest_run(const Ladder& ladder) { return ladder.back().runs.back(); }
-
-// The first run of the two finest levels that did not find the collisions it should.
-std::optional<Evidence> miscounted(const Ladder& ladder, bool late_is_allowed) {
-  for (auto level = ladder.end() - std::min<std::ptrdiff_t>(2, std::ssize(ladder));
-       level != ladder.end(); ++level)
-    for (const auto& run : level->runs) {
-      if (!run.finished || !run.impacts) continue;
-      const auto& found = *run.impacts;
-      if (found.missed + found.extra == 0) continue;
-      if (late_is_allowed && found.found == found.expected) continue;
-      return Evidence{
-          "collisions-miscounted",
-          Verdict::disagrees,
-          {run.step, double(found.matched), double(found.expected), double(found.extra)}};
-    }
-  return {};
+// Whether the largest error of the finest level is smaller than that of the level before it by more
+// than a floor would let it.
+bool errors_fall(const LadderFit& fit) {
+  constexpr double least_fall = 0.95;
+  const auto n = fit.errors.size();
+  return n >= 2 && fit.errors[n - 1] < least_fall * fit.errors[n - 2];
 }
 
 // Whether printed digits are what stops the fit. It knows them as the rounding of its levels: it
@@ -74,103 +63,96 @@ bool stopped_by_printing(const LadderFit& fit, const RunScore& finest, const His
   const double arithmetic = 1e-15 * double(facts.rows);
   const bool printed =
       facts.printed_floor > arithmetic && finest.u_error <= rounding_slack * facts.printed_floor;
-  return printed && (fit.behaviour == Behaviour::exact || fit.behaviour == Behaviour::stagnating ||
-                     fit.reason == "too-few-levels");
+  return printed &&
+         (fit.behaviour == Behaviour::exact || fit.behaviour == Behaviour::stagnating ||
+          fit.reason == Code("too-few-levels").name() || fit.reason == Code("noise-floor").name());
+}
+
+bool shows_a_line(const LadderFit& fit) {
+  return fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::reduced ||
+         fit.behaviour == Behaviour::irregular;
 }
 
 // The fit with the behaviour that the rules of judge.hpp give, first hit wins.
 LadderFit behaviour_of(LadderFit fit, const Ladder& ladder, const Claim& claim,
                        const Facts& facts) {
-  const bool no_line =
-      !fit.has_line && fit.behaviour != Behaviour::exact && fit.reason != "contact-not-resolved";
-  if (no_line && energy_left(ladder)) {
+  const bool open = !shows_a_line(fit) && fit.behaviour != Behaviour::exact &&
+                    fit.reason != Code("contact-not-resolved").name();
+  const auto too_much = [](double ratio) { return ratio > largest_energy_ratio; };
+  const auto too_little = [](double ratio) { return ratio < least_energy_ratio; };
+  if (open && !errors_fall(fit) && energy_is(ladder, too_much)) {
     fit.behaviour = Behaviour::divergent;
     fit.reason = Code("energy-growth").name();
+  } else if (fit.behaviour == Behaviour::undecided && open && errors_fall(fit) &&
+             energy_is(ladder, too_little)) {
+    fit.reason = Code("numerical-damping").name();
   } else if (facts.finest && stopped_by_printing(fit, finest_run(ladder), *facts.finest)) {
-    fit.behaviour = Behaviour::stagnating;
+    if (!fit.has_line) {
+      fit.behaviour = Behaviour::stagnating;
+      fit.floor = finest_run(ladder).u_error;
+    } else if (fit.behaviour == Behaviour::stagnating) {
+      fit.behaviour = fit.order >= (1.0 - order_tolerance) * claim.order ? Behaviour::proper
+                                                                         : Behaviour::reduced;
+    }
     fit.reason = Code("printed-digits").name();
-    fit.floor = finest_run(ladder).u_error;
-    fit.has_line = false;
-  } else if (claim.behaviour == Behaviour::reduced && fit.behaviour == Behaviour::proper &&
-             std::abs(fit.order - claim.order) <= order_tolerance * claim.order) {
-    fit.behaviour = Behaviour::reduced;
   }
+  if (claim.behaviour == Behaviour::reduced && fit.behaviour == Behaviour::proper &&
+      std::abs(fit.order - claim.order) <= order_tolerance * claim.order)
+    fit.behaviour = Behaviour::reduced;
   return fit;
 }
 
-Verdict compare(const LadderFit& fit, const Claim& claim) {
+// Of a line or an envelope whose order is off by more than allowed, and of one that is not.
+Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
+  const double off = std::abs(fit.order - claimed);
+  // An envelope contradicts where its whole interval lies outside what is allowed.
+  const double reach = fit.on_envelope ? fit.spread + tolerance * claimed : fit.spread;
+  if (off > tolerance * claimed) return off > reach ? Verdict::disagrees : Verdict::undecided;
+  return fit.on_envelope && fit.spread > envelope_spread * claimed ? Verdict::undecided
+                                                                   : Verdict::agrees;
+}
+
+Verdict compare_floor(const LadderFit& fit, const Claim& claim) {
+  const bool has_floor =
+      fit.behaviour == Behaviour::stagnating ||
+      (fit.floor_step > 0.0 && fit.reason == claim.reason && !claim.reason.empty());
+  if (!has_floor) return Verdict::disagrees;
+  return claim.reason.empty() || fit.reason == claim.reason ? Verdict::agrees : Verdict::disagrees;
+}
+
+Verdict compare(const LadderFit& fit, const Claim& claim, const Facts& facts) {
   if (claim.behaviour == Behaviour::undecided) return Verdict::not_claimed;
   if (fit.behaviour == Behaviour::undecided) return Verdict::undecided;
-  if (fit.reason == "printed-digits" && claim.behaviour != Behaviour::stagnating)
-    return Verdict::undecided;
-  if (fit.behaviour != claim.behaviour)
-    return fit.behaviour == Behaviour::exact ? Verdict::undecided : Verdict::disagrees;
-  const double off = std::abs(fit.order - claim.order);
-  switch (claim.behaviour) {
-    case Behaviour::proper:
-    case Behaviour::reduced:
-      return off <= order_tolerance * claim.order ? Verdict::agrees : Verdict::disagrees;
-    case Behaviour::irregular:
-      if (off > fit.spread && off > envelope_order_tolerance * claim.order)
-        return Verdict::disagrees;
-      return off > envelope_order_tolerance * claim.order ||
-                     fit.spread > envelope_spread * claim.order
-                 ? Verdict::undecided
-                 : Verdict::agrees;
-    case Behaviour::stagnating:
-      return claim.reason.empty() || fit.reason == claim.reason ? Verdict::agrees
-                                                                : Verdict::disagrees;
-    default:
-      return Verdict::agrees;
+  if (claim.behaviour == Behaviour::stagnating && fit.behaviour != Behaviour::exact)
+    return compare_floor(fit, claim);
+  if (fit.reason == Code("printed-digits").name() && !fit.has_line) return Verdict::undecided;
+  if (fit.behaviour == Behaviour::exact)
+    return claim.behaviour == Behaviour::exact ? Verdict::agrees : Verdict::undecided;
+  const bool line = fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::reduced;
+  const bool line_claimed =
+      claim.behaviour == Behaviour::proper || claim.behaviour == Behaviour::reduced;
+  if (claim.behaviour == Behaviour::irregular && (line || fit.behaviour == Behaviour::irregular))
+    return compare_order(fit, claim.order, envelope_order_tolerance);
+  if (line && line_claimed) {
+    const double tolerance = facts.by_tolerance ? tolerance_proportional : order_tolerance;
+    const auto found = compare_order(fit, claim.order, tolerance);
+    // Reduced claims less than proper; both are told by the order alone.
+    return found == Verdict::agrees && fit.behaviour != claim.behaviour && !facts.by_tolerance
+               ? Verdict::disagrees
+               : found;
   }
+  return fit.behaviour == claim.behaviour ? Verdict::agrees : Verdict::disagrees;
 }
 
-Evidence tolerance_evidence(const RunScore& finest, double limit, double printed_floor) {
-  const double error = finest.u_error;
-  Evidence found{{}, Verdict::not_claimed, {error, limit, printed_floor}};
-  if (!(std::abs(error - limit) > printed_floor)) {
-    found.code = "tolerance-not-resolved";
-    found.verdict = Verdict::undecided;
-  } else {
-    found.code = error <= limit ? "within-tolerance" : "beyond-tolerance";
-    found.verdict = error <= limit ? Verdict::agrees : Verdict::disagrees;
-  }
-  return found;
-}
-
-// Why the history is of another motion than the case's.
-std::optional<Evidence> other_motion(const RunScore& finest, const HistoryFacts& facts) {
-  if (facts.first > 0.0 && facts.start_error > far_start)
-    return Evidence{"other-start", Verdict::disagrees, {facts.start_error}};
-  if (!finest.impacts || !facts.rows_resolve_collisions) return {};
-  const auto& found = *finest.impacts;
-  if (found.missed == 0 && found.extra == 0) return {};
-  return Evidence{"other-collisions",
-                  Verdict::disagrees,
-                  {double(found.matched), double(found.expected), double(found.extra)}};
-}
-
-std::vector<Evidence> evidence_of(const LadderFit& fit, const Ladder& ladder, const Claim& claim,
-                                  const Facts& facts) {
-  std::vector<Evidence> all;
-  const auto add = [&](std::optional<Evidence> found) {
-    if (found) all.push_back(std::move(*found));
-  };
-  if (ladder.empty()) return all;
-  const auto& finest = finest_run(ladder);
-  const double printed = facts.finest ? facts.finest->printed_floor : 0.0;
-  const bool claimed = claim.behaviour != Behaviour::undecided;
-  if (fit.reason == "printed-digits")
-    all.push_back({fit.reason, compare(fit, claim), {finest.u_error, printed}});
-  // What is undecided stays so.
-  if (claimed && compare(fit, claim) != Verdict::undecided)
-    add(miscounted(ladder, claim.behaviour == Behaviour::stagnating));
-  if (facts.tolerance) add(tolerance_evidence(finest, *facts.tolerance, printed));
-  if (!facts.finest || claimed) return all;  // an expected divergence may lead to another motion
-  if (!facts.tolerance && finest.impacts && !facts.finest->rows_resolve_collisions)
-    all.push_back({"sparse-rows", Verdict::not_claimed, {}});
-  add(other_motion(finest, *facts.finest));
-  return all;
+Mismatch mismatch_of(const LadderFit& fit, const Claim& claim, const Facts& facts) {
+  if (compare(fit, claim, facts) != Verdict::disagrees) return Mismatch::evidence;
+  const bool order_claimed = claim.order > 0.0;
+  const bool alike = fit.behaviour == claim.behaviour ||
+                     (fit.behaviour == Behaviour::reduced && claim.behaviour == Behaviour::proper);
+  if (claim.behaviour == Behaviour::stagnating && fit.behaviour == Behaviour::stagnating)
+    return Mismatch::floor_reason;
+  if (!alike || !order_claimed) return Mismatch::behaviour;
+  return fit.order < claim.order ? Mismatch::lower_order : Mismatch::higher_order;
 }
 
 int severity(Verdict verdict) {
@@ -180,21 +162,27 @@ int severity(Verdict verdict) {
 }
 
 // Verdict and its reason: of the behaviour, overruled by what is more severe.
-void decide(Assessment& found, const Claim& claim, const Ladder& ladder, bool is_history) {
+void decide(Assessment& found, const Claim& claim, const Ladder& ladder, const Facts& facts) {
   const auto& fit = found.displacement;
-  found.verdict = compare(fit, claim);
+  found.verdict = compare(fit, claim, facts);
   // One history without a claim was not fitted for its order.
-  const bool one_history = is_history && claim.behaviour == Behaviour::undecided &&
+  const bool one_history = facts.finest && claim.behaviour == Behaviour::undecided &&
                            ladder.size() == 1 && ladder.front().runs.size() == 1;
   if (!one_history) found.reason = fit.reason;
+  if (found.verdict == Verdict::undecided && fit.on_envelope)
+    found.reason = Code("more-neighbours").name();
   for (const auto& evidence : found.evidence) {
     if (evidence.code == "sparse-rows") found.reason = Code("sparse-rows").name();
     if (severity(evidence.verdict) <= severity(found.verdict)) continue;
     found.verdict = evidence.verdict;
-    if (evidence.code == "tolerance-not-resolved") found.reason = Code("printed-digits").name();
-    if (evidence.code != "tolerance-not-resolved" && evidence.code != "collisions-miscounted")
+    if (evidence.code == "tolerance-not-resolved")
+      found.reason = Code("printed-digits").name();
+    else if (evidence.code == "ends-early")
+      found.reason = Code("ends-early").name();
+    else if (evidence.code != "collisions-miscounted")
       found.reason.clear();
   }
+  if (found.verdict == Verdict::disagrees) found.mismatch = mismatch_of(fit, claim, facts);
 }
 
 }  // namespace
@@ -202,8 +190,13 @@ void decide(Assessment& found, const Claim& claim, const Ladder& ladder, bool is
 Assessment judge(const Ladder& ladder, const Claim& claim, const Facts& facts) {
   Assessment found;
   FitContext context{.claimed_order = claim.order,
+                     .order_tolerance = claim.behaviour == Behaviour::irregular
+                                            ? envelope_order_tolerance
+                                            : order_tolerance,
                      .contact_time = facts.contact_time,
-                     .states_tolerance = claim.reason == "tolerance-floor"};
+                     .states_tolerance = claim.reason == "tolerance-floor",
+                     .by_tolerance = facts.by_tolerance,
+                     .wrong_limit = facts.wrong_limit};
   const auto measured = fit(ladder, context, [](const RunScore& run) {
     return ErrorPoint{.error = run.u_error, .floor = run.rounding_floor};
   });
@@ -214,8 +207,9 @@ Assessment judge(const Ladder& ladder, const Claim& claim, const Facts& facts) {
   found.impact_time = fit(ladder, context, impact_time_error);
 
   found.displacement = behaviour_of(measured, ladder, claim, facts);
-  found.evidence = evidence_of(found.displacement, ladder, claim, facts);
-  decide(found, claim, ladder, facts.finest.has_value());
+  found.evidence =
+      evidence_of(found, compare(found.displacement, claim, facts), ladder, claim, facts);
+  decide(found, claim, ladder, facts);
   return found;
 }
 

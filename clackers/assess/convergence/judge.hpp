@@ -34,6 +34,10 @@ struct HistoryFacts {
   double first = 0.0;                   ///< time of the first row [s]
   double start_error = 0.0;             ///< of the first row, relative to the envelopes
   bool rows_resolve_collisions = true;  ///< false: rows too far apart to find collisions in them
+  double last = 0.0;                    ///< time of the last row [s]
+  double end = 0.0;                     ///< of the case [s]; 0: not known, so no row is missing
+  long long expected_to_last = 0;       ///< collisions of the reference until `last`
+  long long expected = 0;               ///< collisions of the reference until `end`
 };
 
 /// What is known of a method or of histories beside their errors.
@@ -41,6 +45,11 @@ struct Facts {
   double contact_time = 0.0;             ///< of a compliant contact [s], 0 for a rigid one
   std::optional<double> tolerance{};     ///< largest allowed u_error of the finest run
   std::optional<HistoryFacts> finest{};  ///< of the finest history; nothing for a method
+  /// The differences between the histories shrink regularly where their errors do not: they converge
+  /// to another limit than the true motion.
+  bool wrong_limit = false;
+  /// The ladder is one of tolerances of an adaptive solver: `step` of a run is its tolerance.
+  bool by_tolerance = false;
 };
 
 /// Assesses a method by its ladder, coarsest level first, against its claim through impacts

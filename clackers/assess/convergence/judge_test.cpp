@@ -154,10 +154,12 @@ TEST(Judge, AnExactMotionAtRestMayEndWithAnyEnergyRatio) {
   EXPECT_EQ(judge(exact, {Behaviour::exact, 0.0, ""}).verdict, Verdict::agrees);
 }
 
-TEST(Judge, ALineWhereScatterIsClaimedDisagrees) {
+TEST(Judge, ALineOfTheOrderIsATighterEnvelopeThanClaimed) {
   const auto found = judge(scores(power(1.0)), rough);
   EXPECT_EQ(found.displacement.behaviour, Behaviour::proper);
-  EXPECT_EQ(found.verdict, Verdict::disagrees);
+  EXPECT_EQ(found.verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(power(2.0)), rough).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(scores(power(2.0)), rough).mismatch, Mismatch::behaviour);
 }
 
 TEST(Judge, AFloorAgreesOnlyForTheClaimedReason) {
@@ -218,8 +220,20 @@ TEST(Judge, LateCollisionsDoNotContradictAFloorButMissedOnesDo) {
   EXPECT_EQ(judge(late, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::disagrees);
 }
 
-TEST(Judge, EnergyThatLeavesItsBoundsDiverges) {
-  for (const double ratio : {0.4, 2.1, 8.0}) {
+TEST(Judge, LostEnergyIsNoGrowth) {
+  auto flat = scores([](double h) { return 0.3 + h; });
+  every_run(flat, 6, [](RunScore& run) { run.energy_ratio = 0.4; });
+  EXPECT_EQ(judge(flat, second).displacement.behaviour, Behaviour::stagnating);
+  auto falling = scores([](double h) { return 1.3 * std::tanh(700.0 * h); });
+  every_run(falling, 6, [](RunScore& run) { run.energy_ratio = 0.4; });
+  const auto found = judge(falling, second);
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::undecided);
+  EXPECT_EQ(found.reason, "numerical-damping");
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+}
+
+TEST(Judge, EnergyThatGrowsWhileErrorsDoNotFallDiverges) {
+  for (const double ratio : {2.1, 8.0}) {
     auto ladder = scores([](double h) { return 1.7 + h; });
     every_run(ladder, 6, [&](RunScore& run) { run.energy_ratio = ratio; });
     const auto found = judge(ladder, second);

@@ -12,6 +12,8 @@ struct FitContext {
   /// Order that the method claims; 0 or less when it claims none. Without a claim every straight
   /// converging line is `proper`, with the order it has.
   double claimed_order = 0.0;
+  /// Largest distance of the rates from it, relative: an envelope is told less well than a line.
+  double order_tolerance = 0.1;
   /// How long a compliant contact lasts [s], 0 for a rigid one: the cause of a floor.
   double contact_time = 0.0;
   /// The method states an iteration tolerance as the cause of its floor.
@@ -19,10 +21,19 @@ struct FitContext {
   /// Errors as large as the motion itself show no floor: a flat ladder above this one does not
   /// converge yet. Infinite for an error that is not relative to the motion.
   double saturation = 1.0;
+  /// Steps are tolerances of an adaptive solver.
+  bool by_tolerance = false;
+  /// The runs converge to another limit than the true motion, as their differences show.
+  bool wrong_limit = false;
 };
 
 /// Steps that resolve a compliant contact divide its duration at least by this.
 inline constexpr double steps_per_contact = 25.0;
+/// Steps of a contact that suffice where the error is flat to two digits.
+inline constexpr double fewest_steps_per_contact = 10.0;
+
+/// An error is proportional to the tolerance where its power of it is this near to 1.
+inline constexpr double tolerance_proportional = 0.25;
 
 /// A floor needs this many flat levels: two alone are what an error that passes through a minimum
 /// shows.
@@ -31,7 +42,9 @@ inline constexpr int shortest_plateau = 3;
 /// Rough levels are flat when their slope, with its uncertainty, lies between these. 32 points of a
 /// scatter of 3 leave a slope a deviation of 0.07; the lower bound is wide since the scatter of a
 /// chaotic floor may well rise.
-inline constexpr double highest_flat_slope = 0.3, lowest_flat_slope = -0.5;
+inline constexpr double highest_flat_slope = 0.3;
+/// No method converges, nor does rounding grow, with a smaller power of the step than this.
+inline constexpr double lowest_real_order = 0.75;
 
 /// Growth whose finest rate is less than this share of the first one of its window settles.
 inline constexpr double settling_share = 0.5;

@@ -112,7 +112,7 @@ const VerdictSequence rows[] = {
        return ladder([=](double) mutable { return 1e-3 * scatter(); });
      },
      .claim = claims(1), .behaviour = stagnating, .verdict = Verdict::disagrees,
-     .reason = "unexplained-floor"},
+     .reason = "noise-floor"},
     {.name = "rough errors as large as the motion stay outside the envelope",
      .make = [] {
        Scatter coarse(1.2, 1), fine(10.0, 2);
@@ -132,7 +132,7 @@ const VerdictSequence rows[] = {
     {.name = "late impacts seen at one step a level make noise of the rates",
      .make = [] { return ladder([](double h) { return late_impacts(h, 6); }, single); },
      .claim = claims(1), .behaviour = undecided, .verdict = Verdict::undecided,
-     .reason = "no-convergence-yet"},
+     .reason = "one-sample-a-level"},
 };
 // clang-format on
 

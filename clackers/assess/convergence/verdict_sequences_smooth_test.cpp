@@ -56,7 +56,7 @@ const VerdictSequence rows[] = {
     {.name = "an error that passes through zero at the finest steps is not a higher order",
      .make = [] { return ladder([](double h) { return abs(h * h - 4e-4 * h); }); },
      .claim = claims(4), .behaviour = undecided, .verdict = Verdict::undecided,
-     .reason = "no-convergence-yet"},
+     .reason = "errors-cancel"},
     {.name = "order four where two is claimed is better than claimed and disagrees",
      .make = [] { return ladder([](double h) { return pow(h, 4); }, {.levels = 6}); },
      .claim = claims(2), .behaviour = proper, .verdict = Verdict::disagrees, .order = 4.0,
@@ -128,7 +128,7 @@ const VerdictSequence rows[] = {
     {.name = "errors as large as the motion at every step decide nothing",
      .make = [] { return ladder([](double h) { return 1.9 + h; }); },
      .claim = claims(2), .behaviour = undecided, .verdict = Verdict::undecided,
-     .reason = "no-convergence-yet"},
+     .reason = "larger-than-motion"},
 };
 // clang-format on
 

@@ -30,7 +30,10 @@ struct RunScore {
   /// L1 over time by the rule of VelocityError, over the run's length and the scale of v; largest
   /// over masses.
   double v_error = 0.0;
-  double energy_error = 0.0;  ///< largest over output times of |E - E*| / E* at t = 0
+  /// Largest over output times of |E - E*| / E* at t = 0, E kinetic energy and that of the structure
+  /// (not of a contact spring). Where collisions take energy (eta < 1) it does not tend to zero with
+  /// the step: between a collision and that of the run the two are on either side of the jump.
+  double energy_error = 0.0;
   double energy_ratio = 1.0;  ///< E / E* at the last state; NaN where E* is 0
   /// Below it errors show nothing: the larger of an estimate of rounding for this many steps and
   /// of the reference's own error bound, relative as u_error and v_error are.

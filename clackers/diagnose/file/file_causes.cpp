@@ -1,7 +1,19 @@
 #include "clackers/diagnose/causes.hpp"
+#include "clackers/diagnose/file/file_sample.hpp"
 
 namespace clackers::diagnose {
 
-std::vector<Diagnosis> file_causes(const Question&) { return {}; }
+// A file that is read in the wrong way, or in the wrong unit of time, says nothing else.
+std::vector<Diagnosis> file_causes(const Question& question) {
+  const auto files = samples_of(question);
+  if (files.empty()) return {};
+  if (auto causes = reading_causes(files); !causes.empty()) return causes;
+  auto causes = time_causes(files);
+  if (!causes.empty() && causes.front().code == "time-unit") return causes;
+  for (auto& family :
+       {velocity_causes(files, question), number_causes(files), row_causes(files, question)})
+    causes.insert(causes.end(), family.begin(), family.end());
+  return causes;
+}
 
 }  // namespace clackers::diagnose

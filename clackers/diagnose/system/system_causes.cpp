@@ -1,7 +1,239 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "clackers/diagnose/causes.hpp"
+#include "clackers/diagnose/system/fit_files.hpp"
+#include "clackers/diagnose/system/hypotheses.hpp"
+#include "clackers/diagnose/system/limits.hpp"
 
 namespace clackers::diagnose {
 
-std::vector<Diagnosis> system_causes(const Question&) { return {}; }
+namespace {
+
+/// Errors of right methods look like other systems with gains of up to 22.
+constexpr double least_gain = 30.0, least_lead = 10.0;
+/// One file alone cannot tell a model from a method below this.
+constexpr double least_gain_alone = 100.0;
+/// A coarser file must show the cause as well, if less clearly: the method's error grows.
+constexpr double least_gain_beside = 3.0;
+/// A value that a method's error makes moves by 40 % at least from one file to the next, whose step
+/// is 1.8 times as large, where it falls with the power 0.6 or more.
+constexpr double constant_share = 0.15;
+/// A shift this near to a whole number of steps is one.
+constexpr double whole_share = 0.03;
+
+struct Trial {
+  const Hypothesis* hypothesis = nullptr;
+  double d = 0.0, uncertainty = 0.0, gain = 0.0;
+};
+
+Trial tried(const FitFile& file, const Hypothesis& hypothesis, const FitQuestion& question) {
+  const auto base = hypothesis.base(question.problem);
+  Trial trial{&hypothesis};
+  if (!hypothesis.parameter) {
+    trial.gain = file.rows.distance / rms(file.rows.residual(base, file.rows.t.size()));
+    return trial;
+  }
+  const auto fit = fit_system(file.rows, base, {&*hypothesis.parameter, 1});
+  if (fit.values.empty()) return trial;
+  trial.d = fit.values[0];
+  trial.uncertainty = fit.uncertainty[0];
+  trial.gain = file.rows.distance / std::max(fit.distance, 1e-300);
+  return trial;
+}
+
+// The same, beside what the method's own error does to frequencies and damping.
+Trial tried_beside(const FitFile& file, const Hypothesis& hypothesis, const FitQuestion& question) {
+  Trial trial{&hypothesis};
+  if (file.smooth.values.empty()) return trial;
+  auto parameters = question.smooth;
+  auto start = file.smooth.values;
+  if (hypothesis.parameter) {
+    parameters.push_back(*hypothesis.parameter);
+    start.push_back(0.0);
+  }
+  const auto base = hypothesis.base(question.problem);
+  const auto fit = refine_system(file.rows, base, parameters, start);
+  if (fit.values.empty()) return trial;
+  if (hypothesis.parameter) {
+    trial.d = fit.values.back();
+    trial.uncertainty = fit.uncertainty.back();
+  }
+  trial.gain = file.smooth.distance / std::max({fit.distance, file.rows.floor, 1e-300});
+  return trial;
+}
+
+using Try = Trial (*)(const FitFile&, const Hypothesis&, const FitQuestion&);
+
+struct Race {
+  Trial best, second;
+};
+
+Race race(const std::vector<Trial>& trials, Eigen::Index dof) {
+  Race result;
+  for (const auto& one : trials)
+    if (one.gain > result.best.gain) result.best = one;
+  if (!result.best.hypothesis) return result;
+  for (const auto& one : trials)
+    if (one.gain > result.second.gain && !equivalent(*one.hypothesis, *result.best.hypothesis, dof))
+      result.second = one;
+  return result;
+}
+
+double largest_damping_ratio(const model::ImpactProblem<>& problem) {
+  const auto& s = problem.system;
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < s.dof(); ++i)
+    largest =
+        std::max(largest, s.damping(i, i) / (2.0 * std::sqrt(s.stiffness(i, i) * s.mass(i, i))));
+  return largest;
+}
+
+// Whether a method's own error may have this effect at one step: relative errors of frequency of
+// (omega h)^2/2 and of damping of omega h are beyond what second and first order methods make.
+bool may_be_numerical(const Trial& trial, const FitFile& file, const FitQuestion& question) {
+  const auto change = trial.hypothesis->parameter
+                          ? std::optional(trial.hypothesis->parameter->change)
+                          : std::nullopt;
+  if (!change) return false;
+  double turn = 0.0;
+  const auto& s = question.problem.system;
+  for (Eigen::Index i = 0; i < s.dof(); ++i)
+    if (trial.hypothesis->parameter->mass < 0 || trial.hypothesis->parameter->mass == int(i))
+      turn = std::max(turn, std::sqrt(s.stiffness(i, i) / s.mass(i, i)) * file.step);
+  switch (*change) {
+    case Change::frequency:
+    case Change::frequency_at_ratio:
+    case Change::mass:
+      return std::abs(trial.d) < 0.5 * turn * turn;
+    case Change::damping:
+    case Change::time_scale:
+      return std::abs(trial.d) < turn;
+    case Change::damping_share:
+      return std::abs(trial.d) * largest_damping_ratio(question.problem) < turn;
+    default:
+      return false;
+  }
+}
+
+// How sure a gain makes: 0.75 at twice the least one, towards 1.
+double confidence_of(double gain, double least) { return 1.0 - 0.5 * least / gain; }
+
+bool is_shift(const Trial& trial) {
+  return trial.hypothesis->parameter && trial.hypothesis->parameter->change == Change::time_shift;
+}
+
+// The cause that one hypothesis is, with the values of other files beside that of the finest.
+std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestion& question) {
+  const auto& best = found.best;
+  const auto& finest = question.files.front();
+  const double lead = best.gain / std::max(found.second.gain, 1.0);
+  if (!(best.gain >= least_gain && lead >= least_lead)) return std::nullopt;
+  const auto& hypothesis = *best.hypothesis;
+  double confidence = confidence_of(best.gain, least_gain), spread = best.uncertainty;
+  int files = 1;
+  const bool in_steps = is_shift(best) && !question.by_tolerance && finest.step > 0.0;
+  const double steps = in_steps ? best.d / finest.step : 0.0;
+  const bool whole = in_steps && std::abs(std::round(steps)) >= 1.0 &&
+                     std::abs(steps - std::round(steps)) <= whole_share;
+  bool grows = false;
+  for (std::size_t i = 1; i < std::min<std::size_t>(question.files.size(), 3); ++i) {
+    const auto& other = question.files[i];
+    const auto trial = attempt(other, hypothesis, question);
+    if (trial.gain < least_gain_beside) {
+      if (i == 1) return std::nullopt;
+      break;
+    }
+    if (hypothesis.parameter) {
+      const double factor = other.step / finest.step;
+      const bool constant = std::abs(trial.d - best.d) <= constant_share * std::abs(best.d);
+      const bool with_step = whole && std::abs(trial.d / best.d - factor) <= 0.1 * factor;
+      if (!constant && !with_step) {
+        if (i == 1) return std::nullopt;
+        break;
+      }
+      grows = with_step;
+      spread = std::max(spread, std::abs(trial.d - best.d * (with_step ? factor : 1.0)));
+    }
+    ++files;
+  }
+  if (files == 1) {
+    if (best.gain < least_gain_alone || may_be_numerical(best, finest, question))
+      return std::nullopt;
+    confidence = std::min(0.9, confidence_of(best.gain, least_gain_alone));
+    grows = whole;
+  }
+  auto diagnosis = hypothesis.diagnosis(question.problem, best.d, spread);
+  diagnosis.confidence = confidence;
+  if (grows) {
+    diagnosis.value = steps;
+    diagnosis.unit = "steps";
+    diagnosis.evidence = {{"uncertainty", spread / finest.step}};
+  }
+  diagnosis.evidence.insert(diagnosis.evidence.begin(), {"gain", best.gain});
+  diagnosis.evidence.push_back({"files", double(files)});
+  if (found.second.hypothesis) {
+    diagnosis.runner_up = found.second.hypothesis->code.name();
+    diagnosis.evidence.push_back({"runner-up-gain", found.second.gain});
+  }
+  return diagnosis;
+}
+
+// Impacts that may be missed or doubled: about where the history leaves the reference.
+std::pair<int, int> impacts_near_departure(const FitFile& file, const FitQuestion& question) {
+  const auto& rows = file.rows;
+  const std::size_t n = rows.dof();
+  constexpr double departure = 0.02;
+  const long long all =
+      question.motion.impact_count(std::min(rows.t.back(), question.motion.end()));
+  for (std::size_t i = 0; i < rows.u.size(); ++i)
+    if (std::abs(rows.u[i] - rows.reference[i]) > departure) {
+      const auto count = question.motion.impact_count(rows.t[i / n]);
+      // Rows may be far apart.
+      return {int(std::max<long long>(1, count - 4)), int(std::min(all, count + 1))};
+    }
+  return {1, 0};
+}
+
+}  // namespace
+
+std::vector<Diagnosis> system_causes(const Question& asked) {
+  auto question = fit_question(asked);
+  if (question.files.empty()) return {};
+  const auto dof = question.problem.dof();
+  auto& finest = question.files.front();
+
+  auto hypotheses = parameter_hypotheses(question.problem);
+  const auto [first, last] = impacts_near_departure(finest, question);
+  if (last >= first && last < 3000)
+    for (auto& one : impact_hypotheses(question.problem, first, last))
+      hypotheses.push_back(std::move(one));
+
+  const auto attempt_all = [&](Try attempt) {
+    std::vector<Trial> trials;
+    for (const auto& one : hypotheses) trials.push_back(attempt(finest, one, question));
+    return race(trials, dof);
+  };
+  if (auto cause = judged(attempt_all(tried), tried, question)) return {*cause};
+  if (question.files.size() < 2) return {};
+
+  // The method's own error first.
+  for (auto& file : question.files)
+    file.smooth = fit_system(file.rows, Variation{question.problem}, question.smooth);
+  std::erase_if(hypotheses, [&](const Hypothesis& one) {
+    return one.parameter && one.parameter->change != Change::restitution &&
+           one.parameter->change != Change::impulse &&
+           one.parameter->change != Change::mass_ratio &&
+           one.parameter->change != Change::damping_after_impact &&
+           one.parameter->change != Change::time_shift;
+  });
+  if (auto cause = judged(attempt_all(tried_beside), tried_beside, question)) return {*cause};
+  return smooth_limits(question);
+}
 
 }  // namespace clackers::diagnose

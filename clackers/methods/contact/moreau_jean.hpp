@@ -22,7 +22,8 @@ namespace clackers::methods {
 /// that changes the gap rate of another contact ends the run where that one has an impulse in the
 /// same step or, closed, needs one because of it.
 ///
-/// Order       1 of the upper envelope; in smooth motion 2 for theta = 1/2, otherwise 1.
+/// Order       1 of the upper envelope; in smooth motion 2 for theta = 1/2, otherwise 1, and where
+///             that error, of the size (theta - 1/2) h, is the larger one, errors lie on a line.
 /// Stability   for every h.
 /// Dissipation none in flight for theta = 1/2, C = 0; grows with theta.
 /// Memory      none.

@@ -15,6 +15,7 @@ namespace clackers::methods {
 namespace {
 
 constexpr double default_factor = 1e4;
+constexpr double contacts_per_period = 40.0;
 
 // The degree of freedom whose stiffness sets the default of a contact.
 template <int Dof>
@@ -22,6 +23,16 @@ Eigen::Index first_touched(const model::Contact<Dof>& contact) {
   Eigen::Index i = 0;
   while (contact.direction[i] == 0.0) ++i;
   return i;
+}
+
+// The largest omega^2 of a mass in the row of the contact, alone on its springs.
+template <int Dof>
+double fastest_squared(const model::SmoothSystem<Dof>& system, const model::Contact<Dof>& contact) {
+  double most = 0.0;
+  for (Eigen::Index i = 0; i < contact.direction.size(); ++i)
+    if (contact.direction[i] != 0.0)
+      most = std::max(most, system.stiffness(i, i) / system.mass(i, i));
+  return most;
 }
 
 // Linear one-sided springs at the contacts, p = sum_j stiffness_j min(g_j, 0) b_j, in addition to
@@ -76,7 +87,7 @@ template model::ImpactProblem<> with_springs(model::ImpactProblem<>, std::vector
 const std::vector<Field<Penalty>>& Penalty::fields() {
   static const std::vector<Field<Penalty>> all = {{"stiffness", "0 < stiffness < infinity",
                                                    "of the contact spring [N/m]",
-                                                   &Penalty::stiffness, "1e4 k1"}};
+                                                   &Penalty::stiffness, "1e4 k1 or more"}};
   return all;
 }
 
@@ -91,10 +102,18 @@ Claim Penalty::claim(const Facts&) const {
 template <int Dof>
 std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& problem) const {
   std::vector<double> all;
-  for (const auto& contact : problem.contacts) {
-    const auto i = first_touched(contact);
-    all.push_back(std::isnan(stiffness) ? default_factor * problem.system.stiffness(i, i)
-                                        : stiffness);
+  if (!std::isnan(stiffness)) {
+    all.assign(problem.contacts.size(), stiffness);
+    return all;
+  }
+  const auto laws = impact_laws(problem);
+  for (const auto& law : laws) {
+    const auto i = first_touched(law.contact);
+    // pi sqrt(m_e / k) <= 2 pi / omega / contacts_per_period, solved for k.
+    const double shortest = 0.25 * contacts_per_period * contacts_per_period *
+                            fastest_squared(problem.system, law.contact) /
+                            law.inverse_effective_mass;
+    all.push_back(std::max(default_factor * problem.system.stiffness(i, i), shortest));
   }
   return all;
 }

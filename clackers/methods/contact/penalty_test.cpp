@@ -107,6 +107,18 @@ TEST(Penalty, TakesItsDefaultStiffnessFromTheFirstMassInTheRow) {
   EXPECT_EQ(Penalty{5.0}.stiffnesses(p), (std::vector<double>{5.0, 5.0}));
 }
 
+TEST(Penalty, TakesAStifferDefaultBesideAFastMass) {
+  // Mass 2 alone swings at sqrt(160000) = 400 rad/s; both in contact have 1/200 of the unit mass.
+  // pi sqrt((1/201) / k) = (2 pi / 400) / 40 for k = 400 * 160000 / 201.
+  auto p = mass_on_stop();
+  p.system.mass = Eigen::Vector2d(1.0, 0.005).asDiagonal();
+  p.system.stiffness = Eigen::Vector2d(1.0, 800.0).asDiagonal();
+  p.system.damping = Eigen::Matrix2d::Zero();
+  p.contacts = {{Eigen::Vector2d(1.0, -1.0), 0.0, 1.0}};
+  EXPECT_NEAR(Penalty{}.stiffnesses(p).at(0), 64e6 / 201.0, 1e-8);
+  EXPECT_NEAR(method("newmark+penalty")->contact_time(p), 2.0 * M_PI / 400.0 / 40.0, 1e-17);
+}
+
 TEST(Penalty, StandsForElasticImpactsOnly) {
   const auto p = RattlingMass{.eta = 0.5}.problem(10.0);
   const auto no = method("newmark+penalty")->objection(p);

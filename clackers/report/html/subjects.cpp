@@ -34,14 +34,15 @@ std::string failures_html(const study::Subject& subject) {
 }
 
 std::string facts_html(const study::Subject& subject) {
-  const auto& [displacement, velocity, impact_time, verdict, reason, evidence] = subject.assessment;
+  const auto& assessment = subject.assessment;
+  const auto& displacement = assessment.displacement;
   std::string out = fact("Claimed", escape(claim_text(subject.claim)));
   if (subject.tolerance) out += fact("Allowed error in u", html_number(*subject.tolerance, 3));
   if (subject.refusal.empty() && !subject.levels.empty()) {
     out += fact("Found", escape(to_string(displacement.behaviour)));
     out += fact("Order in u", order_html(displacement));
-    out += fact("Order in v", order_html(velocity));
-    out += fact("Order in collision time", order_html(impact_time));
+    out += fact("Order in v", order_html(assessment.velocity));
+    out += fact("Order in collision time", order_html(assessment.impact_time));
     if (displacement.has_line && displacement.scatter > 1.0)
       out += fact("Scatter", fmt::format("factor {} between runs and line",
                                          html_number(displacement.scatter, 3)));
@@ -76,7 +77,7 @@ std::string extrapolation_html(const study::SelfResult& result) {
 }
 
 std::string self_html(const study::Subject& subject) {
-  if (subject.levels.empty() || subject.kind != study::SubjectKind::method) return {};
+  if (subject.levels.empty() || subject.kind == study::SubjectKind::histories) return {};
   std::string warning, findings, facts;
   if (subject.self_convergence) {
     const auto& result = *subject.self_convergence;

@@ -35,6 +35,21 @@ std::string findings_html(const study::CaseRecord& problem, const Place& place) 
   return out.empty() ? out : "<ul class=\"remarks\">\n" + out + "</ul>\n";
 }
 
+// Causes stand above the numbers.
+std::string diagnoses_html(const study::CaseRecord& problem, const Place& place) {
+  std::string out;
+  for (std::size_t i = 0; i < problem.subjects.size(); ++i) {
+    const auto& subject = problem.subjects[i];
+    const auto name =
+        problem.subjects.size() == 1
+            ? std::string()
+            : fmt::format("<a href=\"#{}\">{}</a>: ", anchor(place, i), escape(subject.name));
+    for (const auto& cause : diagnosis_texts(subject))
+      out += fmt::format("<li>{}{}</li>\n", name, finding_html(cause));
+  }
+  return out.empty() ? out : "<ul class=\"remarks diagnoses\">\n" + out + "</ul>\n";
+}
+
 std::string notes_html(const study::CaseRecord& problem) {
   std::string out;
   for (const auto& subject : problem.subjects)
@@ -127,7 +142,7 @@ std::string finding_html(const Finding& found) {
 }
 
 std::string verdicts_html(const study::CaseRecord& problem, const Place& place) {
-  std::string out;
+  auto out = diagnoses_html(problem, place);
   const auto methods = summary_table(problem, study::SubjectKind::method);
   if (!methods.rows.empty())
     out += html_table(
@@ -144,11 +159,13 @@ std::string verdicts_html(const study::CaseRecord& problem, const Place& place) 
         "verdicts");
   const auto histories = summary_table(problem, study::SubjectKind::histories);
   if (!histories.rows.empty())
-    out += html_table("Histories",
-                      "Coarsest step first. Errors relative to the initial envelope; v in the mean "
-                      "over time; collisions matched / exact. A dash: not measured.",
-                      histories,
-                      [](const Row& row) { return breakable(escape(row.run->file->file)); });
+    out += html_table(
+        "Histories",
+        "Coarsest step first. Errors relative to the initial envelope; v in the mean "
+        "over time; collisions matched / exact. A dash: not measured.",
+        histories, [](const Row& row) {
+          return breakable(escape(row.run->file ? row.run->file->file : row.subject->name));
+        });
   return out + findings_html(problem, place) + notes_html(problem);
 }
 

@@ -123,8 +123,10 @@ std::string run_line(const assess::RunScore& score, int runs, int failed) {
 
 // A line a level, or a line a history, for a person who reads the log of a failed build.
 std::string log_text(const study::Subject& subject) {
-  auto text = fmt::format("claimed: {}\nfound: {}\n", claim_text(subject.claim),
-                          fit_text(subject.assessment.displacement));
+  std::string text;
+  for (const auto& cause : diagnosis_texts(subject)) text += text_of(cause) + '\n';
+  text += fmt::format("claimed: {}\nfound: {}\n", claim_text(subject.claim),
+                      fit_text(subject.assessment.displacement));
   for (const auto& level : subject.levels) {
     if (subject.kind == study::SubjectKind::histories) {
       for (const auto& run : level.runs)
@@ -146,7 +148,10 @@ void add_status(pugi::xml_node& test, const study::Subject& subject) {
                                 : status == Status::skipped ? "skipped"
                                                             : "error");
   const auto found = finding(subject).value_or(Finding{});
-  set(node, "message", text_of(found));
+  const auto causes = diagnosis_texts(subject);
+  set(node, "message",
+      causes.empty() ? text_of(found)
+                     : fmt::format("{} {}", text_of(causes.front()), text_of(found)));
   if (status == Status::skipped) return;
   set(node, "type", found.code.empty() ? std::string(study::verdict_word(subject)) : found.code);
   node.text() = xml_text(log_text(subject)).c_str();

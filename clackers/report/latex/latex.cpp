@@ -110,6 +110,9 @@ void write_methods(const study::CaseRecord& problem, bool interrupted, std::ostr
     marks.push_back(found ? mark_of(letters(count++)) : "");
     if (found)
       frame.notes += fmt::format("  \\par {}~{}\n", marks.back(), tex_text(text_of(*found)));
+    for (const auto& cause : diagnosis_texts(*row.subject))
+      frame.notes +=
+          fmt::format("  \\par {}: {}\n", tex_text(row.subject->name), tex_text(text_of(cause)));
   }
   write_table(table, marks, frame, out);
 }
@@ -125,6 +128,8 @@ void write_histories(const study::CaseRecord& problem, std::ostream& out) {
               {}};
   for (const auto& subject : problem.subjects) {
     if (subject.kind != study::SubjectKind::histories) continue;
+    for (const auto& cause : diagnosis_texts(subject))
+      frame.notes += fmt::format("  \\par {}\n", tex_text(text_of(cause)));
     frame.notes += fmt::format("  \\par Verdict: {}. {}\n", study::verdict_word(subject),
                                tex_text(text_of(finding(subject).value_or(Finding{}))));
     for (const auto& note : note_texts(subject))

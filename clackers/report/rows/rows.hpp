@@ -30,7 +30,9 @@ void write_json(study::RowSource& rows, std::ostream& out);
 /// or 1. Throws InputError for rows that hold text.
 void write_npy(study::RowSource& rows, std::ostream& out);
 
-/// {"schema", "sheets": [as above]}.
-void write_json(std::span<const study::Sheet> sheets, std::string_view schema, std::ostream& out);
+/// {"schema", "problem", "sheets": [as above]}; `problem` is the text of a json object, or empty for
+/// none.
+void write_json(std::span<const study::Sheet> sheets, std::string_view schema,
+                std::string_view problem, std::ostream& out);
 
 }  // namespace clackers::report

@@ -67,8 +67,11 @@ void write_json(study::RowSource& rows, std::ostream& out) {
   out << "\n]\n}\n";
 }
 
-void write_json(std::span<const study::Sheet> sheets, std::string_view schema, std::ostream& out) {
-  out << "{\n\"schema\": " << json_text(schema) << ",\n\"sheets\": [";
+void write_json(std::span<const study::Sheet> sheets, std::string_view schema,
+                std::string_view problem, std::ostream& out) {
+  out << "{\n\"schema\": " << json_text(schema);
+  if (!problem.empty()) out << ",\n\"problem\": " << problem;
+  out << ",\n\"sheets\": [";
   const char* comma = "\n";
   for (const auto& sheet : sheets) {
     out << comma;

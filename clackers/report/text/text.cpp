@@ -108,6 +108,16 @@ void print_methods(const study::CaseRecord& problem, std::ostream& out, const St
       out, style);
 }
 
+void print_failures(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+  bool is_first = true;
+  for (const auto& subject : problem.subjects)
+    for (const auto& failure : failure_texts(subject)) {
+      if (is_first) out << '\n';
+      is_first = false;
+      print_wrapped(subject.name + ": " + failure, out, style);
+    }
+}
+
 void print_histories(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
   const auto table = summary_table(problem, study::SubjectKind::histories);
   if (table.rows.empty()) return;
@@ -142,11 +152,25 @@ void print_findings(const study::CaseRecord& problem, std::ostream& out, const S
   }
 }
 
+// Causes stand before the numbers.
+void print_diagnoses(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+  const bool is_named = problem.plan.levels > 0 || problem.subjects.size() > 1;
+  bool is_first = true;
+  for (const auto& subject : problem.subjects)
+    for (const auto& cause : diagnosis_texts(subject)) {
+      if (is_first) out << '\n';
+      is_first = false;
+      print_wrapped((is_named ? subject.name + ": " : "") + text_of(cause), out, style);
+    }
+}
+
 void print_case(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
   print_wrapped(case_text(problem.problem), out, style);
   print_wrapped(length_text(problem.problem), out, style);
   if (const auto plan = plan_text(problem); !plan.empty()) print_wrapped(plan, out, style);
+  print_diagnoses(problem, out, style);
   print_methods(problem, out, style);
+  print_failures(problem, out, style);
   print_histories(problem, out, style);
   print_findings(problem, out, style);
 }

@@ -25,9 +25,12 @@ bool has_option(std::string_view command, std::string_view option) {
 std::string expectation(const study::Record& record) {
   if (record.command != "check" || study::counts(record).not_claimed == 0) return {};
   const auto& fit = record.cases.front().subjects.front().assessment.displacement;
-  if (!fit.has_line) return {};
-  return fmt::format("--expect {}:{:.0f}", to_string(fit.behaviour),
-                     std::max(1.0, std::round(fit.order)));
+  const double half = 0.5 * std::round(2.0 * fit.order);
+  const bool is_plain = half > 0.0 && std::abs(fit.order - half) <= 0.1;
+  if (!fit.has_line || !is_plain || fit.behaviour == Behaviour::undecided ||
+      fit.behaviour == Behaviour::stagnating || fit.behaviour == Behaviour::divergent)
+    return {};
+  return fmt::format("--expect {}:{}", to_string(fit.behaviour), short_number(half, 2));
 }
 
 }  // namespace
@@ -131,7 +134,10 @@ VerdictLine verdict_line(const study::Record& record) {
     for (const auto& subject : problem.subjects)
       if (decisive == nullptr && study::verdict_word(subject) == line.word && finding(subject))
         decisive = &subject;
-  const auto code = decisive == nullptr ? std::string() : finding(*decisive)->code;
+  const bool has_cause = decisive != nullptr && !decisive->diagnoses.empty();
+  const auto code = decisive == nullptr ? std::string()
+                    : has_cause         ? decisive->diagnoses.front().code
+                                        : finding(*decisive)->code;
   const auto next = [&](std::string command, std::string in_words = {}) {
     line.next_in_words = in_words.empty() ? command : std::move(in_words);
     line.next = std::move(command);
@@ -152,7 +158,7 @@ VerdictLine verdict_line(const study::Record& record) {
   else if (!code.empty())
     next("clackers explain " + code);
   else
-    next(is_check ? "clackers verify" : "clackers explain proper");
+    next("clackers explain proper");
   return line;
 }
 

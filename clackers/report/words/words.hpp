@@ -7,6 +7,7 @@
 
 #include "clackers/study/baseline.hpp"
 #include "clackers/study/record.hpp"
+#include "clackers/study/require.hpp"
 
 // Every sentence of a report, made of the codes and numbers of a record.
 namespace clackers::report {
@@ -38,6 +39,11 @@ std::string plan_text(const study::CaseRecord& problem);
 
 /// What was measured of a subject, what decided the verdict, and how it compares with the claim.
 std::string assessment_text(const study::Subject& subject);
+/// The histories to add so that more can be said, with their steps: of one or a few levels the
+/// finer ones, of one step a level those between. Empty for methods and programs, whose steps verify chooses, and where enough are there.
+std::string hint_text(const study::Subject& subject);
+/// Finer levels that a study added on its own, and what kept it from more; empty for none.
+std::string refinement_text(const study::Subject& subject);
 /// What a reader must know of a subject beside its numbers; nothing for a method that is as it
 /// claims to be.
 std::optional<Finding> finding(const study::Subject& subject);
@@ -46,10 +52,24 @@ std::optional<Finding> false_convergence(const study::Subject& subject);
 /// What the differences between runs show, beside what the errors of the same runs show.
 std::string self_convergence_text(const study::SelfResult& result);
 
+/// A cause with its value, its uncertainty, how much better it explains the history, and the cure:
+/// "Restitution looks like 0.9900 ±0.0001 instead of 1 (explains the history 9e7 times better): check
+/// the impact law and its coefficient."
+Finding diagnosis_text(const diagnose::Diagnosis& cause);
+/// Of the strongest causes of a subject, `most_shown_diagnoses` at most.
+std::vector<Finding> diagnosis_texts(const study::Subject& subject);
+inline constexpr std::size_t most_shown_diagnoses = 3;
+
 /// The notes on the histories of a subject, one for each code; the finest history stands for
 /// others with the same.
 std::vector<std::string> note_texts(const study::Subject& subject);
 std::string note_text(const study::Note& note);
+
+/// The failed runs of a program: for each kind of failure, three at most, how many runs, the first of
+/// them, and what it printed last; empty for other subjects.
+std::vector<std::string> failure_texts(const study::Subject& subject);
+/// The end of what a program printed on one line, lines separated by " / "; 400 characters at most.
+std::string printed_text(std::string_view printed);
 
 /// The last line of a report.
 struct VerdictLine {
@@ -59,6 +79,10 @@ struct VerdictLine {
   std::string next_in_words;  ///< the same where a long command does not fit
 };
 VerdictLine verdict_line(const study::Record& record);
+
+/// "Required: order:2. Not met by 1 of 7: moreau-jean (order 0.99)."; of subjects that do not meet it.
+std::string requirement_text(const study::Record& record, const study::Requirement& requirement,
+                             const std::vector<study::Unmet>& unmet);
 
 /// "Against the baseline of 2025-11-21T09:43:00Z (clackers 0.1.0): 2 of 7 methods changed."
 std::string change_summary(const study::BaselineComparison& changes);

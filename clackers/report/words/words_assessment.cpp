@@ -21,32 +21,76 @@ std::string meaning_of(std::string_view code) {
   return entry == nullptr ? std::string() : std::string(entry->meaning);
 }
 
-std::string range_text(const assess::LadderFit& fit) {
-  const auto step = [&](int level) {
-    return std::size_t(level) < fit.steps.size() ? short_number(fit.steps[std::size_t(level)], 3)
-                                                 : std::string("?");
-  };
-  return fmt::format("h = {} s to {} s", step(fit.first_level), step(fit.last_level));
+std::string resolution_text(const study::Subject& subject, double step) {
+  return subject.resolution == study::Resolution::tolerance
+             ? "tolerance " + short_number(step, 3)
+             : fmt::format("h = {} s", short_number(step, 3));
 }
 
-std::string behaviour_sentence(const assess::LadderFit& fit) {
-  const auto order = [&] { return fmt::format("{} ({})", order_text(fit), range_text(fit)); };
+// The steps of the runs that the line was fitted to.
+std::string range_text(const study::Subject& subject, const assess::LadderFit& fit) {
+  const auto nominal = [&](int level) {
+    const auto i = std::size_t(level);
+    return i < fit.steps.size() ? fit.steps[i] : std::nan("");
+  };
+  const bool is_known = fit.largest_step > 0.0;
+  const double from = is_known ? fit.largest_step : nominal(fit.first_level);
+  const double to = is_known ? fit.smallest_step : nominal(fit.last_level);
+  const bool is_step = subject.resolution == study::Resolution::step;
+  return fmt::format("{} to {}{}", resolution_text(subject, from), short_number(to, 3),
+                     is_step ? " s" : "");
+}
+
+// Of a line that ends at a floor: where and at which error.
+std::string floor_part(const study::Subject& subject, const assess::LadderFit& fit) {
+  if (!(fit.floor > 0.0 && fit.floor_step > 0.0)) return {};
+  return fmt::format("; from {} on a floor of {}{}", resolution_text(subject, fit.floor_step),
+                     scientific(fit.floor),
+                     fit.floor_scatter > 2.0
+                         ? fmt::format(", rough by a factor {}", short_number(fit.floor_scatter, 2))
+                         : "");
+}
+
+// An error proportional to the tolerance, and its ratio to it.
+std::string tolerance_sentence(const study::Subject& subject, const assess::LadderFit& fit) {
+  if (subject.resolution != study::Resolution::tolerance || !fit.has_line) return {};
+  if (fit.errors.empty() || fit.steps.size() != fit.errors.size()) return {};
+  const auto last = std::min(std::size_t(std::max(fit.last_level, 0)), fit.errors.size() - 1);
+  const double ratio = fit.errors[last] / fit.steps[last];
+  const bool proportional = std::abs(fit.order - 1.0) <= 0.25;
+  return fmt::format("The error is {}proportional to the tolerance: {} times it at {}.",
+                     proportional ? "" : "not ", short_number(ratio, 2),
+                     short_number(fit.steps[last], 3));
+}
+
+std::string behaviour_sentence(const study::Subject& subject) {
+  const auto& fit = subject.assessment.displacement;
+  const auto order = [&] {
+    return fmt::format("{} ({}{})", order_text(fit), range_text(subject, fit),
+                       floor_part(subject, fit));
+  };
   std::string text;
   switch (fit.behaviour) {
     case Behaviour::exact:
       return "Exact: the error in u is at the rounding floor at every level.";
     case Behaviour::proper:
-      return fmt::format("Converges with order {}.", order());
+      text = fmt::format("Converges with order {}.", order());
+      break;
     case Behaviour::reduced:
-      return fmt::format("Converges with the reduced order {}.", order());
+      text = fmt::format("Converges with the reduced order {}.", order());
+      break;
     case Behaviour::irregular:
-      return fmt::format(
+      text = fmt::format(
           "Converges irregularly: the upper envelope has order {}, neighbouring steps differ by up "
           "to a factor {}.",
           order(), short_number(fit.scatter, 2));
+      break;
     case Behaviour::stagnating:
-      text = fmt::format("Stagnates at an error in u of {} ({}).", scientific(fit.floor),
-                         range_text(fit));
+      text = fit.has_line
+                 ? fmt::format("Converges with order {}, then stagnates at an error in u of {}.",
+                               order(), scientific(fit.floor))
+                 : fmt::format("Stagnates at an error in u of {} ({}).", scientific(fit.floor),
+                               range_text(subject, fit));
       break;
     case Behaviour::divergent:
       text = "Diverges.";
@@ -55,8 +99,29 @@ std::string behaviour_sentence(const assess::LadderFit& fit) {
       text = "The behaviour is undecided.";
       break;
   }
-  add(text, meaning_of(fit.reason));
+  add(text, tolerance_sentence(subject, fit));
+  // What to add is said with its steps instead.
+  if (hint_text(subject).empty()) add(text, meaning_of(fit.reason));
   return text;
+}
+
+// Velocities whose order is not that of the displacements.
+std::string velocity_sentence(const study::Subject& subject) {
+  constexpr double visible = 0.3;
+  const auto& [u, v] = std::tie(subject.assessment.displacement, subject.assessment.velocity);
+  if (!u.has_line || !v.has_line || u.on_envelope != v.on_envelope) return {};
+  if (!(std::abs(u.order - v.order) > std::max(visible, u.spread + v.spread))) return {};
+  return fmt::format("Velocities converge with order {}.", order_text(v));
+}
+
+// An order that is known to half of itself only.
+std::string evidence_strength(const study::Subject& subject) {
+  constexpr double weak = 0.25;
+  const auto& fit = subject.assessment.displacement;
+  if (!fit.has_line || fit.behaviour == Behaviour::undecided) return {};
+  if (!(fit.spread > weak * std::abs(fit.order))) return {};
+  return "The order is uncertain, so this is weak evidence; more neighbouring steps a level tell "
+         "more.";
 }
 
 // The numbers of an Evidence as its table in assessment.hpp has them.
@@ -106,6 +171,7 @@ std::string claim_sentence(const study::Subject& subject) {
   if (claim.behaviour == Behaviour::undecided)
     return subject.tolerance ? std::string() : "Nothing is claimed.";
   const auto& fit = assessment.displacement;
+  using assess::Mismatch;
   const auto claimed =
       fmt::format("{}: {}", subject.kind == study::SubjectKind::method ? "Claimed" : "Expected",
                   claim_text(claim));
@@ -113,8 +179,7 @@ std::string claim_sentence(const study::Subject& subject) {
     return claimed + "; a larger coarsest step is needed to measure it.";
   if (assessment.verdict == Verdict::undecided && fit.behaviour == Behaviour::irregular)
     return claimed + "; more levels are needed.";
-  if (assessment.verdict == Verdict::disagrees && fit.behaviour == Behaviour::proper &&
-      claim.behaviour == Behaviour::proper && fit.order > claim.order)
+  if (assessment.verdict == Verdict::disagrees && assessment.mismatch == Mismatch::higher_order)
     return claimed +
            "; it converges faster than that: the claim is too low, or errors cancel here.";
   return claimed + ".";
@@ -138,11 +203,15 @@ std::string assessment_text(const study::Subject& subject) {
   const bool in_evidence = fit.reason == Code("printed-digits").name() && !text.empty();
   // One history without a claim has no levels to compare.
   if ((is_method || has_claim || run_count(subject) > 1) && !in_evidence)
-    add(text, behaviour_sentence(fit));
+    add(text, behaviour_sentence(subject));
   const auto* failed = first_failure(subject);
   if (failed != nullptr && fit.reason == Code("run-failed").name())
     add(text, fmt::format("First failure, h = {} s: {}", short_number(failed->score.step, 3),
                           failed->score.failure));
+  add(text, velocity_sentence(subject));
+  add(text, evidence_strength(subject));
+  add(text, hint_text(subject));
+  add(text, refinement_text(subject));
   add(text, claim_sentence(subject));
   return text;
 }
@@ -156,7 +225,7 @@ std::optional<Finding> finding(const study::Subject& subject) {
   const auto& fit = assessment.displacement;
   const bool as_claimed = assessment.verdict == Verdict::agrees && fit.reason.empty() &&
                           (fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::exact);
-  if (subject.kind == study::SubjectKind::histories)
+  if (subject.kind != study::SubjectKind::method)
     return Finding{assessment_text(subject), assessment.reason};
   if (as_claimed) return {};
   auto code = assessment.reason;

@@ -72,6 +72,10 @@ std::string note_text(const study::Note& note) {
         "The {} in the name is longer than the time between rows, {} s, so it is not taken as the "
         "step; --steps sets it.",
         text(0), text(1));
+  if (is("rows-closer-than-step"))
+    return fmt::format(
+        "The step is the {} s in the name; rows are {} s apart, as of dense or resampled output.",
+        text(0), text(1));
   if (is("displacements-incomplete"))
     return "Collisions and metrics are not measured: they need the displacements of all masses.";
   if (is("events-outside"))

@@ -78,9 +78,98 @@ TEST(AssessmentText, AClaimThatIsTooLowIsSaid) {
   auto subject = assessed(Behaviour::proper);
   subject.assessment.displacement.order = 4.0;
   subject.assessment.verdict = Verdict::disagrees;
+  EXPECT_FALSE(has(assessment_text(subject), "converges faster")) << "collisions may be the cause";
+  subject.assessment.mismatch = assess::Mismatch::higher_order;
   EXPECT_TRUE(has(assessment_text(subject), "converges faster"));
   subject.claim = {};
   EXPECT_TRUE(has(assessment_text(subject), "Nothing is claimed."));
+}
+
+TEST(AssessmentText, ALineMayEndAtAFloor) {
+  auto subject = assessed(Behaviour::proper);
+  auto& fit = subject.assessment.displacement;
+  fit.largest_step = 0.05;
+  fit.smallest_step = 0.0032;
+  fit.floor = 3e-8;
+  fit.floor_step = 0.003;
+  EXPECT_TRUE(assessment_text(subject).starts_with(
+      "Converges with order 1.04 ±0.07 (h = 0.05 s to 0.0032 s; from h = 0.003 s on a floor of "
+      "3.0e-8)."))
+      << assessment_text(subject);
+}
+
+TEST(AssessmentText, VelocitiesOfAnotherOrderAreSaid) {
+  auto subject = assessed(Behaviour::proper);
+  auto& velocity = subject.assessment.velocity;
+  velocity = subject.assessment.displacement;
+  EXPECT_FALSE(has(assessment_text(subject), "Velocities"));
+  subject.assessment.displacement.order = 2.0;
+  EXPECT_TRUE(has(assessment_text(subject), "Velocities converge with order 1.04 ±0.07."));
+}
+
+TEST(AssessmentText, WeakEvidenceIsSaid) {
+  auto subject = assessed(Behaviour::irregular);
+  EXPECT_FALSE(has(assessment_text(subject), "weak evidence"));
+  subject.assessment.displacement.spread = 0.49;
+  EXPECT_TRUE(has(assessment_text(subject), "weak evidence"));
+}
+
+TEST(AssessmentText, ALadderOfTolerancesHasTheRatioOfTheError) {
+  auto subject = assessed(Behaviour::proper);
+  subject.resolution = study::Resolution::tolerance;
+  auto& fit = subject.assessment.displacement;
+  fit.steps = {1e-3, 1e-4, 1e-5};
+  fit.errors = {1.2e-2, 1.2e-3, 1.2e-4};
+  EXPECT_TRUE(has(assessment_text(subject), "(tolerance 0.0001 to 1e-5)"))
+      << assessment_text(subject);
+  EXPECT_TRUE(has(assessment_text(subject),
+                  "The error is proportional to the tolerance: 12 times it at 1e-5."))
+      << assessment_text(subject);
+}
+
+study::Subject histories(std::vector<double> steps, std::string reason = {}) {
+  auto subject = assessed(Behaviour::undecided, std::move(reason));
+  subject.kind = study::SubjectKind::histories;
+  for (const double step : steps) {
+    auto& run = subject.levels.emplace_back(study::Level{step, {}}).runs.emplace_back();
+    run.score.step = step;
+    run.score.finished = true;
+    run.score.u_error = 0.023;
+    run.score.impacts = assess::ImpactScore{6, 6, 5, 1, 1, 0.0, 0.0};
+  }
+  return subject;
+}
+
+TEST(HintText, OfOneFileHasTheErrorAndTheStepsToAdd) {
+  EXPECT_EQ(hint_text(histories({0.01})),
+            "The largest error in u is 2.3 % of the initial envelope. 5 of 6 collisions matched, 1 "
+            "extra. One step shows no order: add the same run at h = 0.005, 0.0025 and 0.00125 s; "
+            "four steps are the least.");
+}
+
+TEST(HintText, OfFewLevelsHasTheMissingOnes) {
+  EXPECT_EQ(hint_text(histories({0.02, 0.01}, "too-few-levels")),
+            "2 levels; 4 are the least: add the same run at h = 0.005 and 0.0025 s.");
+  auto subject = histories({1e-3, 1e-4}, "too-few-levels");
+  subject.resolution = study::Resolution::tolerance;
+  EXPECT_TRUE(has(hint_text(subject), "at tolerances 1e-5 and 1e-6."));
+}
+
+TEST(HintText, OfOneStepALevelHasThoseBetween) {
+  const auto subject = histories({0.02, 0.01, 0.005, 0.0025}, "no-convergence-yet");
+  EXPECT_TRUE(has(hint_text(subject), "as h = 0.0168, 0.0141 and 0.0119 s between the first two."))
+      << hint_text(subject);
+  EXPECT_FALSE(has(assessment_text(subject), "--levels")) << "no option of check";
+}
+
+TEST(RefinementText, SaysWhatWasAddedAndWhatItWouldTake) {
+  auto subject = assessed(Behaviour::undecided, "too-few-levels");
+  EXPECT_EQ(refinement_text(subject), "");
+  subject.levels.resize(11);
+  subject.refinement = {3, 0, 8, study::RefinementEnd::budget, 40.0};
+  EXPECT_EQ(
+      refinement_text(subject),
+      "3 finer levels were added (11 in all). The next level takes about 40 s: --budget 60s.");
 }
 
 TEST(ClaimText, HasBehaviourOrderAndReason) {
@@ -184,6 +273,23 @@ TEST(VerdictLine, HistoriesWithALineGetAnExpectation) {
   assessment.displacement.order = 1.98;
   assessment.evidence.clear();
   EXPECT_EQ(verdict_line(record).next, "clackers check coarse.csv fine.csv --expect proper:2");
+}
+
+TEST(VerdictLine, AnOrderThatIsNoHalfNumberIsNotExpected) {
+  auto record = sample_check();
+  auto& assessment = record.cases[0].subjects[0].assessment;
+  assessment.verdict = Verdict::not_claimed;
+  assessment.displacement.behaviour = Behaviour::proper;
+  assessment.displacement.reason.clear();
+  assessment.displacement.has_line = true;
+  assessment.evidence.clear();
+  assessment.displacement.order = 1.51;
+  EXPECT_EQ(verdict_line(record).next, "clackers check coarse.csv fine.csv --expect proper:1.5");
+  assessment.displacement.order = 1.75;
+  EXPECT_EQ(verdict_line(record).next, "clackers check coarse.csv fine.csv --report report.html");
+  record.cases[0].subjects[0].diagnoses = {{"restitution-differs", 0.99, "1", 0.9, {}, "", ""}};
+  assessment.verdict = Verdict::disagrees;
+  EXPECT_EQ(verdict_line(record).next, "clackers explain restitution-differs");
 }
 
 TEST(CaseText, HasTheParametersWithUnits) {

@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
-#include <functional>
 
-#include "clackers/assess/convergence/judge.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/study/check/history_run.hpp"
+#include "clackers/study/check/history_set.hpp"
 #include "clackers/study/provenance.hpp"
 #include "clackers/study/reduced_curve.hpp"
 #include "clackers/study/respond.hpp"
@@ -34,15 +31,13 @@ void validate(const CheckRequest& request) {
                      "bad-syntax");
   require_one_each("--events", request.events.size(), request.files.size());
   require_one_each("--steps", request.steps.size(), request.files.size());
+  require_one_each("--tolerances", request.tolerances.size(), request.files.size());
+  if (!request.steps.empty() && !request.tolerances.empty())
+    throw InputError("check: --steps and --tolerances; allowed: one of them.", "bad-syntax");
   for (const double step : request.steps) require_step("check --steps", step);
+  for (const double t : request.tolerances)
+    if (!(t > 0.0 && t < 1.0)) refuse("check", "--tolerances", t, "0 < tolerance < 1");
   if (request.tolerance) require_positive("check", "--tolerance", *request.tolerance);
-}
-
-void require_levels(const std::vector<Run>& runs) {
-  if (runs.size() < 2 || runs.front().score.step > 1.001 * runs.back().score.step) return;
-  refuse("check", "step of every history", runs.front().score.step,
-         "different steps, since several histories are levels of one method",
-         "Name the steps with --steps h1,h2,... in the order of the files.");
 }
 
 // Work to expect of a file: its bytes. Of standard input nothing is known.
@@ -52,60 +47,26 @@ double cost_of(const std::string& file) {
   return error ? 1.0 : 1.0 + double(bytes);
 }
 
-std::vector<Run> runs_of(const CheckRequest& request, const cases::Case& problem,
-                         const CaseSummary& summary, const Progress& progress,
-                         const std::atomic<bool>* interrupt) {
+void read_all(const CheckRequest& request, HistorySet& histories, const Progress& progress) {
   double total = 0.0;
   for (const auto& file : request.files) total += cost_of(file);
   ProgressMeter meter(total, progress);
-  std::vector<Run> runs;
   for (std::size_t i = 0; i < request.files.size(); ++i) {
-    HistoryTask task{.file = request.files[i], .events = {}, .step = 0.0};
+    HistoryTask task;
+    task.file = request.files[i];
     if (!request.events.empty()) task.events = request.events[i];
     if (!request.steps.empty()) task.step = request.steps[i];
+    if (!request.tolerances.empty()) task.step = request.tolerances[i];
+    task.step_is_tolerance = !request.tolerances.empty();
     const double cost = cost_of(task.file);
     TaskShare share(meter, cost);
     double done = 0.0;
-    const auto add = [&](double part) {
+    histories.read(task, [&](double part) {
       share.add(cost * (part - done));
       done = part;
-    };
-    runs.push_back(history_run(task, request.columns, problem, summary, add, interrupt));
+    });
   }
   meter.finish();
-  std::ranges::stable_sort(runs, std::greater{}, [](const Run& run) { return run.score.step; });
-  return runs;
-}
-
-// Runs with neighbouring steps, of a ratio below 1.3, within a factor 2 are one level.
-std::vector<Level> levels_of(std::vector<Run> runs) {
-  constexpr double next_level = 1.3;
-  std::vector<Level> levels;
-  double last = 0.0;
-  for (auto& run : runs) {
-    const double h = run.score.step;
-    // Of eight samples in the ratio 2^(1/8) the ninth begins the next level.
-    const bool joins =
-        !levels.empty() && last / h < next_level && levels.back().step / h < std::exp2(15.0 / 16.0);
-    if (!joins) levels.push_back({h, {}});
-    levels.back().runs.push_back(std::move(run));
-    last = h;
-  }
-  return levels;
-}
-
-void assess_histories(Subject& subject) {
-  const auto& finest = *subject.levels.back().runs.back().file;
-  subject.contact_time = finest.contact_time;
-  subject.assessment = assess::judge(
-      ladder_of(subject), subject.claim,
-      {.contact_time = finest.contact_time,
-       .tolerance = subject.tolerance,
-       .finest = assess::HistoryFacts{.rows = finest.rows,
-                                      .printed_floor = finest.printed_floor,
-                                      .first = finest.first,
-                                      .start_error = finest.start_error,
-                                      .rows_resolve_collisions = finest.rows_resolve_collisions}});
 }
 
 }  // namespace
@@ -119,16 +80,11 @@ Record check(const CheckRequest& request, const Progress& progress,
   one.problem = summary_of(problem);
   one.plan = no_refinement;
   one.response = reduced(response_curve(problem, response_points));
-  Subject subject;
-  subject.kind = SubjectKind::histories;
-  subject.name = "histories";
-  subject.claim = request.expect.value_or(Claim{});
-  subject.tolerance = request.tolerance;
-  auto runs = runs_of(request, problem, one.problem, progress, interrupt);
-  require_levels(runs);
-  subject.levels = levels_of(std::move(runs));
-  assess_histories(subject);
-  one.subjects.push_back(std::move(subject));
+  HistorySet histories(problem, one.problem, request.columns, interrupt);
+  read_all(request, histories, progress);
+  one.subjects.push_back(histories.assess(SubjectKind::histories, "histories",
+                                          request.expect.value_or(Claim{}), request.tolerance,
+                                          !request.tolerances.empty()));
   Record record;
   record.command = "check";
   record.provenance = provenance(request.command);

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 
 namespace clackers::study {
 namespace {
@@ -95,6 +96,39 @@ TEST_F(Check, NeighbouringStepsAreOneLevel) {
   ASSERT_EQ(levels.size(), 2u);
   EXPECT_EQ(levels[0].runs.size(), 3u);
   EXPECT_EQ(levels[1].runs.size(), 2u);
+}
+
+TEST_F(Check, AHistoryThatIsNotFiniteIsAFailedRun) {
+  CheckRequest request;
+  for (const double h : {0.005, 0.0025}) request.files.push_back(write(h, 1.0));
+  request.files.push_back(write(0.01, 1.0, "\n20.0,inf,0,0,0\n"));
+  const auto record = check(request);
+  const auto& levels = record.cases[0].subjects[0].levels;
+  ASSERT_EQ(levels.size(), 3u);
+  const auto& score = levels[0].runs[0].score;
+  EXPECT_EQ(score.step, 0.01);
+  EXPECT_FALSE(score.finished);
+  EXPECT_EQ(score.failure_code, "not-finite");
+  EXPECT_NE(score.failure.find("u1 = \"inf\""), std::string::npos) << score.failure;
+  EXPECT_TRUE(levels[1].runs[0].score.finished);
+  request.files = {request.files[2]};
+  EXPECT_REFUSED(check(request), "not-finite", "u1 = \"inf\"");
+}
+
+TEST_F(Check, TolerancesAreLevels) {
+  CheckRequest request;
+  for (const double h : {0.01, 0.005, 0.0025}) request.files.push_back(write(h, 1.0));
+  request.tolerances = {1e-3, 1e-5, 1e-7};
+  const auto record = check(request);
+  const auto& subject = record.cases[0].subjects[0];
+  EXPECT_EQ(subject.resolution, Resolution::tolerance);
+  ASSERT_EQ(subject.levels.size(), 3u);
+  EXPECT_EQ(subject.levels[2].step, 1e-7);
+  request.steps = {0.01, 0.005, 0.0025};
+  EXPECT_REFUSED(check(request), "bad-syntax", "--steps and --tolerances");
+  request.steps.clear();
+  request.tolerances[1] = 1.0;
+  EXPECT_REFUSED(check(request), "out-of-range", "0 < tolerance < 1");
 }
 
 TEST_F(Check, ALastLineWithoutLineFeedIsNoted) {

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "clackers/assess/convergence/judge.hpp"
 #include "clackers/assess/errors/comparison.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exchange/events.hpp"
@@ -17,6 +16,7 @@
 #include "clackers/study/cause_metrics.hpp"
 #include "clackers/study/check/history_score.hpp"
 #include "clackers/study/check/initial_state.hpp"
+#include "clackers/study/check/refused_start.hpp"
 #include "clackers/study/notes.hpp"
 #include "clackers/study/reduced_curve.hpp"
 
@@ -50,21 +50,31 @@ class HistoryReader {
       file_.columns.push_back({c.name, c.digits, c.single, c.half_unit});
   }
 
-  Run run() {
+  ComparedHistory run() {
     if (!h_.has_time) start_times();
     find_printed_floor();
+    take_opening();
     cut_at_end();
     require_start();
-    choose_step();
+    run_.score.step = task_.step > 0.0 ? task_.step : file_.spacing;
+    if (task_.step > 0.0) file_.step_source = StepSource::option;
+    if (!h_.not_finite.empty()) return failed();
     if (!task_.events.empty()) take_events();
     if (!all_u_) complete_u();
     measure();
     add_notes(file_, run_.score, summary_);
     run_.file = std::move(file_);
-    return std::move(run_);
+    return {std::move(run_), std::move(observation_)};
   }
 
  private:
+  ComparedHistory failed() {
+    run_.score.failure_code = Code("not-finite").name();
+    run_.score.failure = std::move(h_.not_finite);
+    run_.file = std::move(file_);
+    return {std::move(run_), {}};
+  }
+
   FirstRow first_row() const {
     const auto dof = std::size_t(h_.motion.dof);
     FirstRow row{h_.motion.t.front(), {}, {}};
@@ -101,12 +111,43 @@ class HistoryReader {
     }
   }
 
+  void take_opening() {
+    const auto& m = h_.motion;
+    const auto rows = std::min(m.t.size(), diagnose::most_opening_rows);
+    const auto numbers = std::ptrdiff_t(rows * std::size_t(m.dof));
+    auto& opening = opening_.rows;
+    opening.dof = m.dof;
+    opening.t.assign(m.t.begin(), m.t.begin() + std::ptrdiff_t(rows));
+    opening.u.assign(m.u.begin(), m.u.begin() + numbers);
+    if (!m.v.empty()) opening.v.assign(m.v.begin(), m.v.begin() + numbers);
+    opening_.step = task_.step > 0.0 && !task_.step_is_tolerance ? task_.step : file_.spacing;
+    opening_.has_u = h_.has_u;
+    opening_.printed_floor = file_.printed_floor;
+    opening_.columns = h_.names;
+  }
+
+  // A run of the length of the case, its times in thousandths or millionths of a second.
+  void require_seconds(std::size_t kept) const {
+    const auto& t = h_.motion.t;
+    constexpr double most_kept = 0.1, slack = 0.02;
+    if (double(kept) > most_kept * double(t.size())) return;
+    for (const auto& [factor, unit] : {std::pair{1e3, "milliseconds"}, {1e6, "microseconds"}}) {
+      const double length = factor * problem_.motion->end();
+      if (std::abs(t.back() / length - 1.0) < slack)
+        throw InputError(fmt::format("{}: times go up to {:.6g}, and {} ends at {:.6g} s: in {}? "
+                                     "Convert them to seconds.",
+                                     name(), t.back(), summary_.name, summary_.end, unit),
+                         "time-unit");
+    }
+  }
+
   // Rows after the end of the case are left out; a time that only printing carries past it stays.
   void cut_at_end() {
     auto& m = h_.motion;
     const double end = problem_.motion->end();
     const double slack = h_.time_half_unit + 4.0 * std::numeric_limits<double>::epsilon() * end;
     const auto kept = std::size_t(std::ranges::upper_bound(m.t, end + slack) - m.t.begin());
+    require_seconds(kept);
     file_.rows_beyond = static_cast<long long>(m.t.size() - kept);
     const auto dof = std::size_t(m.dof);
     m.t.resize(kept);
@@ -130,31 +171,9 @@ class HistoryReader {
     const auto most = start_difference(row, problem_);
     file_.start_error = most.relative;
     if (row.t == 0.0 && most.relative > start_tolerance + 2.0 * file_.printed_floor)
-      throw InputError(
-          fmt::format("{}: {} starts at {:.6g}, and that of {} at {:.6g}: {:.2g} of the envelope "
-                      "apart. Give the case the parameters of the run with --set; they are listed "
-                      "by: clackers show {}.",
-                      name(), most.name, most.given, summary_.name, most.expected, most.relative,
-                      summary_.name),
-          "not-this-case");
-  }
-
-  void choose_step() {
-    run_.score.step = file_.spacing;
-    if (task_.step > 0.0) {
-      run_.score.step = task_.step;
-      file_.step_source = StepSource::option;
-      return;
-    }
-    const auto named = step_in_name(task_.file);
-    if (!named) return;
-    // A number in a name that is longer than the time between rows is no step of this history.
-    if (*named <= 1.01 * file_.spacing) {
-      run_.score.step = *named;
-      file_.step_source = StepSource::name;
-    } else {
-      file_.notes.push_back(note("step-in-name-ignored", {*named, file_.spacing}));
-    }
+      refuse_start(name(), opening_, problem_, most);
+    if (row.t > 0.0 && most.relative > assess::far_start)
+      refuse_reading(name(), opening_, problem_);
   }
 
   void take_events() {
@@ -212,6 +231,7 @@ class HistoryReader {
     }
     take_collisions(comparison);
     take_curves(comparison);
+    observe(comparison);
     report(compared_share);
     auto metrics = all_metrics(
         comparison, facts_of(summary_, 0.0),
@@ -236,6 +256,19 @@ class HistoryReader {
           const auto at = row * dof + mass;
           return std::abs(u[at] - comparison.reference_u()[at]) / comparison.u_envelope()[mass];
         });
+  }
+
+  void observe(const assess::Comparison& comparison) {
+    diagnose::FileFacts facts{.step = 0.0,
+                              .spacing = file_.spacing,
+                              .floor = file_.printed_floor,
+                              .time_half_unit = h_.time_half_unit,
+                              .columns = {},
+                              .order = h_.names,
+                              .contact_time = file_.contact_time};
+    for (const auto& column : file_.columns)
+      facts.columns.push_back({column.name, column.digits, column.single, column.half_unit});
+    observation_ = diagnose::observe(comparison, facts);
   }
 
   // A contact of fewer rows than four is an impact whose limits are rows apart.
@@ -273,36 +306,24 @@ class HistoryReader {
   const Progress& progress_;
   const std::atomic<bool>* interrupt_;
   HistoryFile file_;
+  diagnose::Opening opening_;
   Run run_;
+  std::optional<diagnose::Observation> observation_;
 };
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 }  // namespace
 
-Run history_run(const HistoryTask& task, const std::vector<std::string>& columns,
-                const cases::Case& problem, const CaseSummary& summary, const Progress& progress,
-                const std::atomic<bool>* interrupt) {
-  exchange::HistoryOptions options{
-      .dof = problem.motion->dof(), .columns = columns, .step = task.step, .interrupt = interrupt};
+ComparedHistory history_run(const HistoryTask& task, const std::vector<std::string>& columns,
+                            const cases::Case& problem, const CaseSummary& summary,
+                            const Progress& progress, const std::atomic<bool>* interrupt) {
+  exchange::HistoryOptions options{.dof = problem.motion->dof(),
+                                   .columns = columns,
+                                   .step = task.step_is_tolerance ? 0.0 : task.step,
+                                   .until_not_finite = true,
+                                   .interrupt = interrupt};
   if (progress) options.progress = [&](double share) { progress(read_share * share); };
   auto history = exchange::read_history(task.file, options);
   return HistoryReader(task, problem, summary, std::move(history), progress, interrupt).run();
-}
-
-std::optional<double> step_in_name(std::string_view path) {
-  auto name = path.substr(path.find_last_of('/') + 1);
-  for (std::size_t at = 0; at < name.size(); ++at) {
-    if (name[at] != 'h' || (at > 0 && is_letter(name[at - 1]))) continue;
-    auto rest = name.substr(at + 1);
-    if (rest.starts_with('=') || rest.starts_with('_')) rest.remove_prefix(1);
-    if (rest.empty() || !(is_digit(rest[0]) || rest[0] == '.')) continue;
-    double step = 0.0;
-    const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), step);
-    if (error == std::errc() && step > 0.0 && std::isfinite(step)) return step;
-  }
-  return {};
 }
 
 }  // namespace clackers::study

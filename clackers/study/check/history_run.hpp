@@ -3,10 +3,10 @@
 #include <atomic>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "clackers/cases/case.hpp"
+#include "clackers/diagnose/observation.hpp"
 #include "clackers/study/progress.hpp"
 #include "clackers/study/record.hpp"
 
@@ -16,18 +16,24 @@ namespace clackers::study {
 struct HistoryTask {
   std::string file;
   std::string events;  ///< empty: none given
-  double step = 0.0;   ///< of --steps [s], 0: not given
+  /// Of --steps or of the command that wrote it [s], or its tolerance; 0: not given.
+  double step = 0.0;
+  bool step_is_tolerance = false;
+};
+
+/// A history that was read and compared, or a failed run where it has NaN or infinite numbers
+/// (not-finite). Its score's step is the one of the task, else the time between rows.
+struct ComparedHistory {
+  Run run;
+  /// What diagnosis needs; nothing without the displacements of all masses. Its step is not set.
+  std::optional<diagnose::Observation> observation;
 };
 
 /// Reads one history and compares it with the case, all metrics included. `progress` is called with
 /// the share of this file. Throws as check() does.
-Run history_run(const HistoryTask& task, const std::vector<std::string>& columns,
-                const cases::Case& problem, const CaseSummary& summary, const Progress& progress,
-                const std::atomic<bool>* interrupt);
-
-/// The step in a file's name: the number behind an "h" that begins a word, as in h0.01.csv,
-/// run-h=1e-3.txt or disp_h0.005.out [s]. Nothing without one, and for 0.
-std::optional<double> step_in_name(std::string_view path);
+ComparedHistory history_run(const HistoryTask& task, const std::vector<std::string>& columns,
+                            const cases::Case& problem, const CaseSummary& summary,
+                            const Progress& progress, const std::atomic<bool>* interrupt);
 
 /// Adds to `file.notes` what follows from its other members and the score.
 void add_notes(HistoryFile& file, const assess::RunScore& score, const CaseSummary& problem);

@@ -10,6 +10,7 @@
 #include "clackers/base/suggest.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/study/cause_metrics.hpp"
+#include "clackers/study/listing/list_diagnoses.hpp"
 
 namespace clackers::study {
 namespace {
@@ -121,6 +122,7 @@ const auto& listers() {
       {"methods", list_methods},
       {"pairs", list_pairs},
       {"metrics", list_metrics},
+      {"diagnoses", list_diagnoses},
   });
   return table;
 }

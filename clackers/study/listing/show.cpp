@@ -5,6 +5,7 @@
 #include "clackers/methods/registry.hpp"
 #include "clackers/study/listing.hpp"
 #include "clackers/study/listing/show_sheets.hpp"
+#include "clackers/study/program/problem_text.hpp"
 #include "clackers/study/respond.hpp"
 
 namespace clackers::study {
@@ -128,6 +129,10 @@ std::vector<Sheet> show_case(std::string_view name, const cases::Settings& setti
   for (auto& more : {harmonic_sheet(which, threshold), conditioning_sheet(which)})
     if (more) sheets.push_back(*more);
   return sheets;
+}
+
+std::string show_problem(std::string_view name, const cases::Settings& settings) {
+  return problem_json(cases::make(name, settings).problem);
 }
 
 std::vector<Sheet> show_method(std::string_view specification) {

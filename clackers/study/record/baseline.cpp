@@ -205,7 +205,7 @@ bool BaselineComparison::any() const { return std::ranges::any_of(subjects, &Sub
 
 void require_same_study(const VerifyRequest& request, const Record& baseline) {
   std::vector<CaseStudy> cases;
-  for (auto& plan : plans_of(request)) cases.push_back({std::move(plan.summary), request.plan});
+  for (auto& plan : plans_of(request)) cases.push_back({std::move(plan.summary), plan.steps});
   require_same("verify", cases, baseline);
 }
 

@@ -2,6 +2,16 @@
 
 #include <algorithm>
 
+namespace clackers::assess {
+
+std::string_view to_string(Mismatch mismatch) {
+  constexpr std::string_view names[] = {
+      "", "behaviour", "lower-order", "higher-order", "floor-reason", "evidence"};
+  return names[static_cast<std::size_t>(mismatch)];
+}
+
+}  // namespace clackers::assess
+
 namespace clackers::study {
 namespace {
 
@@ -32,7 +42,18 @@ std::string_view to_string(CollisionSource source) {
 }
 
 std::string_view to_string(SubjectKind kind) {
-  return kind == SubjectKind::method ? "method" : "histories";
+  constexpr std::string_view names[] = {"method", "histories", "program"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::string_view to_string(Resolution resolution) {
+  return resolution == Resolution::step ? "step" : "tolerance";
+}
+
+std::string_view to_string(RefinementEnd end) {
+  constexpr std::string_view names[] = {"decided",        "budget",     "rounding-floor",
+                                        "too-many-steps", "run-failed", "interrupted"};
+  return names[static_cast<std::size_t>(end)];
 }
 
 const Run* Subject::shown_run() const {

@@ -13,7 +13,8 @@ concept Like = std::same_as<std::remove_const_t<T>, Base>;
 
 // Every struct of a record and the names of its fields in json. `fields(archive, x)` calls
 // archive(name, member) for each; record_json_test.cpp compares their number with that of the
-// members, so that none is forgotten.
+// members, so that none is forgotten. archive.added(name, member) is a field that records of earlier
+// versions lack.
 
 template <class Archive>
 void fields(Archive& archive, Like<Quantity> auto& x) {
@@ -51,6 +52,15 @@ void fields(Archive& archive, Like<RefinementPlan> auto& x) {
   archive("coarsest", x.coarsest);
   archive("levels", x.levels);
   archive("samples_per_level", x.samples_per_level);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Refinement> auto& x) {
+  archive("finer_levels", x.finer_levels);
+  archive("coarser_levels", x.coarser_levels);
+  archive("samples_per_level", x.samples_per_level);
+  archive("end", x.end);
+  archive("next_seconds", x.next_seconds);
 }
 
 template <class Archive>
@@ -151,6 +161,7 @@ void fields(Archive& archive, Like<Run> auto& x) {
   archive("file", x.file);
   archive("metrics", x.metrics);
   archive("error_history", x.error_history);
+  archive.added("printed", x.printed);
 }
 
 template <class Archive>
@@ -178,7 +189,11 @@ void fields(Archive& archive, Like<assess::LadderFit> auto& x) {
   archive("constant", x.constant);
   archive("first_level", x.first_level);
   archive("last_level", x.last_level);
+  archive.added("largest_step", x.largest_step);
+  archive.added("smallest_step", x.smallest_step);
   archive("floor", x.floor);
+  archive.added("floor_step", x.floor_step);
+  archive.added("floor_scatter", x.floor_scatter);
   archive("steps", x.steps);
   archive("errors", x.errors);
 }
@@ -196,6 +211,7 @@ void fields(Archive& archive, Like<assess::Assessment> auto& x) {
   archive("velocity", x.velocity);
   archive("impact_time", x.impact_time);
   archive("verdict", x.verdict);
+  archive.added("mismatch", x.mismatch);
   archive("reason", x.reason);
   archive("evidence", x.evidence);
 }
@@ -244,9 +260,12 @@ void fields(Archive& archive, Like<Subject> auto& x) {
   archive("refusal", x.refusal);
   archive("refusal_code", x.refusal_code);
   archive("complete", x.complete);
+  archive.added("resolution", x.resolution);
   archive("levels", x.levels);
+  archive.added("refinement", x.refinement);
   archive("assessment", x.assessment);
   archive("self_convergence", x.self_convergence);
+  archive.added("diagnoses", x.diagnoses);
 }
 
 template <class Archive>

@@ -23,12 +23,19 @@ using Json = nlohmann::ordered_json;
 // Json has no numbers for these three, so that they are written as text.
 constexpr auto infinity = "inf", minus_infinity = "-inf", not_a_number = "nan";
 
+// Texts among the numbers of a diagnosis.
+constexpr auto text_key = "text", runner_up_key = "runner-up";
+
 /// Collects the fields of one struct as a json object.
 class Writer {
  public:
   template <class T>
   void operator()(const char* name, const T& x) {
     object_[name] = written(x);
+  }
+  template <class T>
+  void added(const char* name, const T& x) {
+    (*this)(name, x);
   }
   template <class T>
   static Json written(const T& x) {
@@ -48,6 +55,20 @@ class Writer {
   static Json written(int x) { return x; }
   static Json written(long long x) { return x; }
   static Json written(const std::vector<bool>& x) { return x; }
+  // What a cause rests on stands in one object: numbers by name, and two texts.
+  static Json written(const diagnose::Diagnosis& x) {
+    Json evidence = Json::object();
+    for (const auto& fact : x.evidence) evidence[fact.name] = written(fact.value);
+    if (!x.text.empty()) evidence[text_key] = x.text;
+    if (!x.runner_up.empty()) evidence[runner_up_key] = x.runner_up;
+    Json json = Json::object();
+    json["code"] = x.code;
+    json["value"] = written(x.value);
+    json["unit"] = x.unit;
+    json["evidence"] = std::move(evidence);
+    json["confidence"] = written(x.confidence);
+    return json;
+  }
   template <class Word>
   requires std::is_enum_v<Word>
   static Json written(const Word& x) { return to_string(x); }
@@ -84,6 +105,11 @@ class Reader {
     if (field == object_.end()) refuse_record(where_, fmt::format("no field \"{}\"", name));
     read(*field, where_ + "/" + name, x);
     ++known_;
+  }
+  /// A field that records of earlier versions lack keeps its default there.
+  template <class T>
+  void added(const char* name, T& x) {
+    if (object_.contains(name)) (*this)(name, x);
   }
   /// Call after the last field.
   void finish() const {
@@ -149,8 +175,42 @@ class Reader {
               {CollisionSource::events, CollisionSource::history, CollisionSource::unknown});
   }
   static void read(const Json& json, const std::string& where, SubjectKind& x) {
-    read_word(json, where, x, {SubjectKind::method, SubjectKind::histories});
+    read_word(json, where, x, {SubjectKind::method, SubjectKind::histories, SubjectKind::program});
   }
+  static void read(const Json& json, const std::string& where, RefinementEnd& x) {
+    read_word(
+        json, where, x,
+        {RefinementEnd::decided, RefinementEnd::budget, RefinementEnd::rounding_floor,
+         RefinementEnd::too_many_steps, RefinementEnd::run_failed, RefinementEnd::interrupted});
+  }
+  static void read(const Json& json, const std::string& where, Resolution& x) {
+    read_word(json, where, x, {Resolution::step, Resolution::tolerance});
+  }
+  static void read(const Json& json, const std::string& where, assess::Mismatch& x) {
+    using enum assess::Mismatch;
+    read_word(json, where, x, {none, behaviour, lower_order, higher_order, floor_reason, evidence});
+  }
+  static void read(const Json& json, const std::string& where, diagnose::Diagnosis& x) {
+    Json evidence;
+    Reader reader(json, where);
+    reader("code", x.code);
+    reader("value", x.value);
+    reader("unit", x.unit);
+    reader("evidence", evidence);
+    reader("confidence", x.confidence);
+    reader.finish();
+    const auto place = where + "/evidence";
+    if (!evidence.is_object()) refuse_record(place, "no object");
+    for (const auto& [name, value] : evidence.items()) {
+      if (name == text_key)
+        read(value, place, x.text);
+      else if (name == runner_up_key)
+        read(value, place, x.runner_up);
+      else
+        read(value, place, x.evidence.emplace_back(diagnose::Fact{name}).value);
+    }
+  }
+  static void read(const Json& json, const std::string&, Json& x) { x = json; }
   template <class T>
   static void read(const Json& json, const std::string& where, std::optional<T>& x) {
     if (!json.is_null()) read(json, where, x.emplace());

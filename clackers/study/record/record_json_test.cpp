@@ -46,6 +46,10 @@ struct FieldCount {
   void operator()(const char*, const T&) {
     ++count;
   }
+  template <class T>
+  void added(const char*, const T&) {
+    ++count;
+  }
   std::size_t count = 0;
 };
 template <class T>
@@ -59,12 +63,12 @@ std::size_t fields_of() {
 template <class T>
 class RecordFields : public testing::Test {};
 using Structs =
-    testing::Types<Quantity, Provenance, CaseSummary, RefinementPlan, Curve, PrintedColumn, Note,
-                   HistoryFile, MetricResult, model::Work, assess::ImpactScore, assess::RunScore,
-                   Level, Claim, assess::LadderFit, assess::Evidence, assess::Assessment,
-                   assess::SelfConvergence, assess::SelfAgainstReference, assess::Richardson,
-                   SelfResult, Subject, assess::ProfileStep, assess::MethodProfile, Profile,
-                   CaseRecord, Record>;
+    testing::Types<Quantity, Provenance, CaseSummary, RefinementPlan, Refinement, Curve,
+                   PrintedColumn, Note, HistoryFile, MetricResult, model::Work, assess::ImpactScore,
+                   assess::RunScore, Level, Claim, assess::LadderFit, assess::Evidence,
+                   assess::Assessment, assess::SelfConvergence, assess::SelfAgainstReference,
+                   assess::Richardson, SelfResult, Subject, assess::ProfileStep,
+                   assess::MethodProfile, Profile, CaseRecord, Record>;
 TYPED_TEST_SUITE(RecordFields, Structs);
 
 TYPED_TEST(RecordFields, HoldEveryMember) {
@@ -114,6 +118,30 @@ TEST(RecordJson, WritesWhatJsonHasNoNumberForAsText) {
   EXPECT_EQ(json["cases"][0]["problem"]["impact_times"], (nlohmann::json{"nan", "inf", "-inf"}));
   const auto back = record_from_json(to_json(record));
   EXPECT_TRUE(std::isnan(back.cases[0].problem.impact_times[0]));
+}
+
+TEST(RecordJson, ReadsRecordsOfEarlierVersions) {
+  auto json = Json::parse(to_json(sample_record()));
+  auto& subject = json["cases"][0]["subjects"][0];
+  EXPECT_EQ(subject["resolution"], "tolerance");
+  subject.erase("resolution");
+  subject.erase("diagnoses");
+  subject["levels"][0]["runs"][1].erase("printed");
+  const auto read = record_from_json(json.dump()).cases[0].subjects[0];
+  EXPECT_EQ(read.resolution, Resolution::step);
+  EXPECT_TRUE(read.diagnoses.empty());
+  EXPECT_EQ(read.levels[0].runs[1].printed, "");
+}
+
+TEST(RecordJson, WritesTheEvidenceOfADiagnosisAsOneObject) {
+  const auto json = Json::parse(to_json(sample_record()));
+  const auto& cause = json["cases"][0]["subjects"][0]["diagnoses"][0];
+  EXPECT_EQ(cause["code"], "restitution-differs");
+  EXPECT_EQ(cause["value"].get<double>(), 0.99);
+  EXPECT_EQ(cause["evidence"]["gain"].get<double>(), 9e7);
+  EXPECT_EQ(cause["evidence"]["text"], "t,u2");
+  EXPECT_EQ(cause["evidence"]["runner-up"], "damping-differs");
+  EXPECT_EQ(json["cases"][0]["subjects"][0]["diagnoses"][1]["value"], "nan");
 }
 
 TEST(RecordJson, BeginsWithItsSchema) {

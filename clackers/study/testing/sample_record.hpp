@@ -38,7 +38,11 @@ inline Record sample_record() {
   fit.constant = 0.123456789012345678;
   fit.first_level = 2;
   fit.last_level = 7;
+  fit.largest_step = 0.0125;
+  fit.smallest_step = 4e-4;
   fit.floor = 1e-15;
+  fit.floor_step = 2e-4;
+  fit.floor_scatter = 3.5;
   fit.steps = {0.05, 0.025};
   fit.errors = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   auto second = fit, third = fit;
@@ -74,14 +78,16 @@ inline Record sample_record() {
   file.contact_time = 0.016;
   file.notes = {{"rows-beyond-end", {7.0, 20.0}, ""}, {"columns-not-used", {}, "energy"}};
   file.history = {{0.25}, {{1.0}, {0.5}}};
-  method.levels = {
-      {0.05,
-       {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}}, {silent, {}, {}, {}}}},
-      {0.025, {{run, file, {}, {}}}}};
+  method.levels = {{0.05,
+                    {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}},
+                     {silent, {}, {}, {}, "Segmentation fault"}}},
+                   {0.025, {{run, file, {}, {}}}}};
+  method.refinement = {2, 1, 16, RefinementEnd::budget, 12.5};
   method.assessment = {fit,
                        second,
                        third,
                        Verdict::not_claimed,
+                       assess::Mismatch::lower_order,
                        "printed-digits",
                        {{"within-tolerance", Verdict::agrees, {1e-4, 1e-3, 1e-6}}}};
   auto& without = method.self_convergence.emplace();
@@ -91,11 +97,22 @@ inline Record sample_record() {
   without.against_reference = {true, "wrong-limit", 7.25};
   without.extrapolation = {true, "differences-turn", {0.3, -tiny}, 1e-9, 2e-10, 6};
   without.extrapolation_error = 3e-9;
+  method.resolution = Resolution::tolerance;
+  method.diagnoses = {
+      {"restitution-differs",
+       0.99,
+       "1",
+       0.9375,
+       {{"gain", 9e7}, {"uncertainty", tiny}},
+       "t,u2",
+       "damping-differs"},
+      {"wrong-limit", std::numeric_limits<double>::quiet_NaN(), "", 0.5, {}, "", ""}};
   auto histories = method;
   histories.kind = SubjectKind::histories;
   histories.name = "histories";
   histories.tolerance.reset();
   histories.self_convergence.reset();
+  histories.refinement.reset();
   CaseRecord one;
   one.problem = {"three-parameter",
                  "two masses",

@@ -63,6 +63,7 @@ double RunTask::cost() const {
 std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task, TaskShare& share,
                                       const std::atomic<bool>* interrupt) {
   if (interrupt != nullptr && *interrupt) return {};
+  const double start = processor_time();
   const auto& method = plan.methods[task.method];
   const auto& motion = *plan.problem.motion;
   const auto run = method.method->prepare(plan.problem.problem, task.step);
@@ -77,6 +78,7 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   AssessedRun result;
   result.run.score = errors.score(outcome);
   if (task.history_bins > 0) result.run.error_history = curve_of(errors.history(), motion.dof());
+  result.seconds = processor_time() - start;
   if (!outcome.finished) return result;
   result.end_u = relative(recorder.last_u(), motion);
   // A state that is not finite is no row of a history.
@@ -90,6 +92,7 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   const auto seconds = time_of(*run, timed);
   if (!seconds) return {};
   result.run.score.seconds = *seconds;
+  result.seconds = processor_time() - start;
   return result;
 }
 

@@ -11,8 +11,8 @@ namespace clackers::study {
 
 /// One run of a study.
 struct RunTask {
-  std::size_t problem = 0, method = 0, level = 0, sample = 0;  ///< indices of the plan
-  double step = 0.0;                                           ///< [s]
+  std::size_t method = 0;  ///< index of the plan
+  double step = 0.0;       ///< [s]
   long long steps = 0;
   int history_bins = 0;  ///< of the error against time, 0 for none
   bool metrics = false;  ///< measure all of them: the run is stored whole
@@ -26,6 +26,7 @@ struct AssessedRun {
   Run run;
   /// Displacements at the end over the initial envelopes; empty for a run that failed.
   std::vector<double> end_u;
+  double seconds = 0.0;  ///< processor time of the assessment [s]
 };
 
 /// Runs a method once with its errors measured and, if it finished, again without for its processor

@@ -76,7 +76,7 @@ class AssessedRuns : public testing::Test {
     plan.methods[0].method = method_;
     ProgressMeter meter(1.0, {});
     TaskShare share(meter, 1.0);
-    return assess_run(plan, {0, 0, 0, 0, 4.0, 2, 0, metrics}, share, &interrupt_);
+    return assess_run(plan, {0, 4.0, 2, 0, metrics}, share, &interrupt_);
   }
 
   std::shared_ptr<ScriptedMethod> method_;
@@ -135,7 +135,7 @@ TEST_F(AssessedRuns, AreMeasuredByAllMetricsWhereThatIsAskedFor) {
 }
 
 TEST_F(AssessedRuns, CostMoreWhereMetricsAreMeasured) {
-  RunTask task{0, 0, 0, 0, 0.1, 100, 0, false};
+  RunTask task{0, 0.1, 100, 0, false};
   const double plain = task.cost();
   task.metrics = true;
   EXPECT_GT(task.cost(), plain);

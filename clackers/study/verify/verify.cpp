@@ -1,120 +1,114 @@
 #include "clackers/study/verify.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <optional>
 #include <utility>
 
-#include "clackers/assess/convergence/judge.hpp"
+#include "clackers/base/error.hpp"
 #include "clackers/study/provenance.hpp"
 #include "clackers/study/respond.hpp"
-#include "clackers/study/verify/assessed_run.hpp"
+#include "clackers/study/verify/method_study.hpp"
 #include "clackers/study/verify/verify_plan.hpp"
 #include "clackers/study/verify/work_queue.hpp"
 
 namespace clackers::study {
 namespace {
 
-constexpr int history_bins = 400;
-// The longest run that metrics are measured on; a stored row takes some 50 bytes.
-constexpr long long most_metric_rows = 262144;
+// The studies of one case, a method each.
+using CaseStudies = std::vector<MethodStudy>;
 
-// The runs of one method by level and sample; nothing for those that were not finished.
-using MethodRuns = std::vector<std::vector<std::optional<AssessedRun>>>;
-// The same by case and method.
-using Results = std::vector<std::vector<MethodRuns>>;
+struct Task {
+  MethodStudy* study;
+  RunTask run;
+};
 
-Results results_for(const std::vector<CasePlan>& plans) {
-  Results results;
-  for (const auto& plan : plans) {
-    MethodRuns runs;
-    for (const auto& level : plan.levels) runs.emplace_back(level.steps.size());
-    results.emplace_back(plan.methods.size(), runs);
-  }
-  return results;
-}
+// What a ladder lacks.
+struct Round {
+  MethodStudy* study;
+  RefinementPlan steps;
+  std::vector<RunTask> missing;
+  double seconds = 0.0;  // expected
+};
 
-// The finest level whose first run metrics can be measured on; none: beyond the last.
-std::size_t measured_level(const CasePlan& plan) {
-  for (auto level = plan.levels.size(); level-- > 0;)
-    if (!plan.levels[level].counts.empty() && plan.levels[level].counts[0] < most_metric_rows)
-      return level;
-  return plan.levels.size();
-}
-
-// Case after case and method after method, so that an interrupt leaves whole rows; within one the
-// longest runs first, so that the short ones fill up the threads in the end.
-std::vector<RunTask> tasks_of(const std::vector<CasePlan>& plans) {
-  std::vector<RunTask> tasks;
-  for (std::size_t c = 0; c < plans.size(); ++c) {
-    const auto& plan = plans[c];
-    const auto measured = measured_level(plan);
-    for (std::size_t m = 0; m < plan.methods.size(); ++m) {
-      if (!plan.methods[m].subject.refusal.empty()) continue;
-      for (auto level = plan.levels.size(); level-- > 0;)
-        for (auto n = plan.levels[level].steps.size(); n-- > 0;) {
-          const bool shown = level == measured && n == 0;
-          tasks.push_back({c, m, level, n, plan.levels[level].steps[n],
-                           plan.levels[level].counts[n], shown ? history_bins : 0, shown});
-        }
-    }
-  }
-  return tasks;
-}
-
-Results run_tasks(const std::vector<CasePlan>& plans, int threads, const Progress& progress,
-                  const std::atomic<bool>* interrupt) {
-  const auto tasks = tasks_of(plans);
+// Runs tasks in their order and hands their studies the results.
+void run_tasks(const std::vector<Task>& tasks, int threads, const Progress& progress,
+               const std::atomic<bool>* interrupt) {
   double cost = 0.0;
-  for (const auto& task : tasks) cost += task.cost();
+  for (const auto& task : tasks) cost += task.run.cost();
   ProgressMeter meter(cost, progress);
-  auto results = results_for(plans);
+  std::vector<std::optional<AssessedRun>> results(tasks.size());
   run_all(tasks.size(), threads, [&](std::size_t i) {
-    const auto& task = tasks[i];
-    TaskShare share(meter, task.cost());
-    results[task.problem][task.method][task.level][task.sample] =
-        assess_run(plans[task.problem], task, share, interrupt);
+    TaskShare share(meter, tasks[i].run.cost());
+    results[i] = assess_run(tasks[i].study->plan(), tasks[i].run, share, interrupt);
   });
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    if (results[i]) tasks[i].study->take(tasks[i].run, std::move(*results[i]));
   if (interrupt == nullptr || !*interrupt) meter.finish();
-  return results;
 }
 
-// Without a claim through impacts a user expects the order of smooth motion.
-std::optional<SelfResult> self_convergence(const PlannedMethod& planned, const Subject& subject,
-                                           std::vector<assess::ResponseLevel> ends,
-                                           std::span<const double> exact) {
-  const double order =
-      subject.claim.order > 0.0 ? subject.claim.order : planned.method->facts().smooth_order;
-  if (ends.empty() || !(order > 0.0)) return {};
-  return self_result(std::move(ends), exact,
-                     {.claimed_order = order, .size = 1.0, .contact_time = subject.contact_time});
+// Case after case and method after method, so that an interrupt leaves whole rows.
+void run_rounds(const std::vector<Round>& rounds, int threads, const Progress& progress,
+                const std::atomic<bool>* interrupt) {
+  std::vector<Task> tasks;
+  for (const auto& round : rounds)
+    for (const auto& task : round.missing) tasks.push_back({round.study, task});
+  run_tasks(tasks, threads, progress, interrupt);
 }
 
-// The subject with its runs; a level that lacks one is left out.
-Subject assessed(const CasePlan& plan, const PlannedMethod& planned, MethodRuns runs,
-                 std::span<const double> exact) {
-  auto subject = planned.subject;
-  if (!subject.refusal.empty()) return subject;
-  std::vector<assess::ResponseLevel> ends;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const bool whole =
-        std::ranges::all_of(runs[i], [](const auto& run) { return run.has_value(); });
-    subject.complete = subject.complete && whole;
-    if (!whole) continue;
-    subject.levels.push_back({plan.levels[i].nominal, {}});
-    ends.emplace_back();
-    for (auto& found : runs[i]) {
-      const auto& score = found->run.score;
-      ends.back().push_back({score.step, std::move(found->end_u), score.rounding_floor});
-      subject.levels.back().runs.push_back(std::move(found->run));
+// The next rounds of all open studies, those that end removed.
+std::vector<Round> next_rounds(std::vector<CaseStudies>& cases, int threads) {
+  std::vector<Round> rounds;
+  for (auto& studies : cases)
+    for (auto& study : studies) {
+      if (study.is_closed()) continue;
+      const auto next = study.next();
+      if (!next.plan) {
+        study.close(next.end);
+        continue;
+      }
+      auto missing = study.missing(*next.plan);
+      const double longest = study.expected_seconds({missing.data(), missing.empty() ? 0u : 1u});
+      const double seconds = std::max(longest, study.expected_seconds(missing) / threads);
+      rounds.push_back({&study, *next.plan, std::move(missing), seconds});
     }
+  return rounds;
+}
+
+// Those that fit together into the time left, the shortest ones; what does not fit alone ends.
+std::vector<Round> affordable(std::vector<Round> rounds, double left) {
+  std::ranges::stable_sort(rounds, {}, &Round::seconds);
+  double sum = 0.0;
+  std::erase_if(rounds, [&](const Round& round) {
+    if (!(round.seconds <= left)) round.study->close(RefinementEnd::budget, round.seconds);
+    sum += round.seconds;
+    return !(sum <= left);
+  });
+  return rounds;
+}
+
+// False when interrupted: the last round is left out.
+bool refine(std::vector<CaseStudies>& cases, double budget, int threads, const Progress& progress,
+            const std::atomic<bool>* interrupt) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  for (;;) {
+    const double used = std::chrono::duration<double>(Clock::now() - start).count();
+    const auto rounds = affordable(next_rounds(cases, threads), budget - used);
+    if (rounds.empty()) return true;
+    run_rounds(rounds, threads, progress, interrupt);
+    if (interrupt != nullptr && *interrupt) {
+      for (const auto& round : rounds) round.study->close(RefinementEnd::interrupted);
+      return false;
+    }
+    for (const auto& round : rounds) round.study->assess(round.steps);
   }
-  if (subject.levels.empty())
-    subject.assessment.reason = subject.assessment.displacement.reason = Code("interrupted").name();
-  else
-    subject.assessment =
-        assess::judge(ladder_of(subject), subject.claim, {.contact_time = subject.contact_time});
-  subject.self_convergence = self_convergence(planned, subject, std::move(ends), exact);
-  return subject;
+}
+
+void require_budget(double budget) {
+  if (!(budget >= 0.0 && std::isfinite(budget)))
+    refuse("verify", "budget", budget, "0 s or more", "0 refines nothing beyond the plan.");
 }
 
 // The reference displacements at the end over the initial envelopes.
@@ -126,15 +120,13 @@ std::vector<double> reference_end(const model::Motion& motion) {
   return u;
 }
 
-CaseRecord case_record(const CasePlan& plan, const RefinementPlan& steps,
-                       std::vector<MethodRuns> runs) {
+CaseRecord case_record(const CasePlan& plan, CaseStudies& studies) {
   CaseRecord record;
   record.problem = plan.summary;
-  record.plan = steps;
+  record.plan = plan.steps;
   record.response = response_curve(plan.problem, response_points);
   const auto exact = reference_end(*plan.problem.motion);
-  for (std::size_t m = 0; m < plan.methods.size(); ++m)
-    record.subjects.push_back(assessed(plan, plan.methods[m], std::move(runs[m]), exact));
+  for (auto& study : studies) record.subjects.push_back(study.finish(exact));
   record.profiles = profiles_of({&record, 1});
   return record;
 }
@@ -144,16 +136,30 @@ CaseRecord case_record(const CasePlan& plan, const RefinementPlan& steps,
 Record verify(const VerifyRequest& request, const Progress& progress,
               const std::atomic<bool>* interrupt) {
   const int threads = thread_count(request.jobs);
+  require_budget(request.budget);
   const auto plans = plans_of(request);
-  auto results = run_tasks(plans, threads, progress, interrupt);
+  std::vector<CaseStudies> cases;
+  std::vector<Round> rounds;
+  for (const auto& plan : plans) {
+    auto& studies = cases.emplace_back();
+    for (std::size_t m = 0; m < plan.methods.size(); ++m) studies.emplace_back(plan, m);
+  }
+  for (auto& studies : cases)
+    for (auto& study : studies)
+      rounds.push_back({&study, study.plan().steps, study.missing(study.plan().steps)});
+  run_rounds(rounds, threads, progress, interrupt);
+  for (const auto& round : rounds) round.study->assess(round.steps);
+  bool is_whole = true;
+  if (request.budget > 0.0 && (interrupt == nullptr || !*interrupt))
+    is_whole =
+        refine(cases, request.budget, std::min(threads, thread_count(0)), progress, interrupt);
 
   Record record;
   record.command = "verify";
   record.provenance = provenance(request.command);
-  for (std::size_t c = 0; c < plans.size(); ++c) {
-    record.cases.push_back(case_record(plans[c], request.plan, std::move(results[c])));
-    record.interrupted = record.interrupted || counts(record.cases.back()).interrupted > 0;
-  }
+  for (std::size_t c = 0; c < plans.size(); ++c)
+    record.cases.push_back(case_record(plans[c], cases[c]));
+  record.interrupted = counts(record).interrupted > 0 || !is_whole;
   if (record.cases.size() > 1) record.profiles = profiles_of(record.cases);
   return record;
 }

@@ -65,7 +65,8 @@ CasePlan plan_of(const VerifyRequest& request, const std::string& case_name) {
   CasePlan plan;
   plan.problem = cases::make(case_name, request.settings);
   plan.summary = summary_of(plan.problem);
-  require_steps(request.plan, plan.summary.end);
+  plan.steps = plan_for(request.plan, plan.summary);
+  require_steps(plan.steps, plan.summary.end);
   for (const auto& specification :
        request.methods.empty() ? methods::default_panel() : request.methods) {
     auto method = planned(specification, plan.problem.problem, plan.summary.impact_count > 0);
@@ -78,9 +79,7 @@ CasePlan plan_of(const VerifyRequest& request, const std::string& case_name) {
     plan.methods.push_back(std::move(method));
   }
   require_some_method(plan.methods, plan.problem.problem);
-  plan.levels = assess::step_ladder(
-      {request.plan.coarsest, request.plan.levels, request.plan.samples_per_level},
-      plan.summary.end, plan.summary.impact_times);
+  levels_of(plan, plan.steps);  // refuses too many steps before any work
   return plan;
 }
 
@@ -109,6 +108,11 @@ CaseSummary summary_of(const cases::Case& problem) {
   for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k)
     summary.impact_times.push_back(problem.motion->impact(k).t);
   return summary;
+}
+
+std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const RefinementPlan& steps) {
+  return assess::step_ladder({steps.coarsest, steps.levels, steps.samples_per_level},
+                             plan.summary.end, plan.summary.impact_times);
 }
 
 std::vector<CasePlan> plans_of(const VerifyRequest& request) {

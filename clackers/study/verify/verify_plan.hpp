@@ -21,7 +21,7 @@ struct CasePlan {
   cases::Case problem;
   CaseSummary summary;
   std::vector<PlannedMethod> methods;
-  std::vector<assess::StepLevel> levels;
+  RefinementPlan steps;
 };
 
 /// The plan of a case whose subjects are histories.
@@ -31,6 +31,9 @@ CaseSummary summary_of(const cases::Case& problem);
 
 /// The name of a method in every output: as one would type it, without "+event-driven".
 std::string short_name(const std::string& name);
+
+/// The steps of a plan on a case.
+std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const RefinementPlan& steps);
 
 /// Throws InputError for what verify() refuses.
 std::vector<CasePlan> plans_of(const VerifyRequest& request);

@@ -17,17 +17,27 @@ void validate(const ErrorPoint& point) {
   if (!(point.floor >= 0.0)) refuse("ladder fit", "rounding floor", point.floor, "0 or more");
 }
 
-LevelView view_level(ErrorLevel level) {
-  std::ranges::stable_sort(level, std::greater{}, &ErrorPoint::step);
+bool at_floor(const ErrorPoint& point) { return point.error <= rounding_slack * point.floor; }
+
+bool far_above_floor(const ErrorPoint& point) {
+  return std::isfinite(point.error) && point.error > bending_slack * point.floor;
+}
+
+LevelView view_level(const ErrorLevel& level, double lucky_above, bool was_lucky) {
   LevelView seen;
   seen.error = -1.0;
   if (!level.empty()) seen.step = level.front().step;
+  const bool others_err = was_lucky && std::ranges::any_of(level, far_above_floor);
   std::size_t finite = 0, rounding = 0, bending = 0;
   for (const auto& point : level) {
-    validate(point);
     if (!std::isfinite(point.error)) continue;
     ++finite;
-    rounding += point.error <= rounding_slack * point.floor;
+    if (at_floor(point) && (others_err || point.step > lucky_above)) {
+      ++seen.lucky;
+      seen.error = std::max(seen.error, point.error);
+      continue;
+    }
+    rounding += at_floor(point);
     bending += point.error <= bending_slack * point.floor;
     if (point.error > seen.error) {
       seen.error = point.error;
@@ -38,21 +48,37 @@ LevelView view_level(ErrorLevel level) {
     seen.x.push_back(std::log(point.step));
     seen.y.push_back(std::log(point.error));
   }
+  const auto others = finite - std::size_t(seen.lucky);
   seen.usable = finite > 0 && 2 * finite >= level.size();
-  seen.at_floor = seen.usable && rounding == finite;
-  seen.near_floor = seen.usable && 4 * rounding >= finite;
-  seen.may_bend = seen.usable && 4 * bending >= finite;
+  seen.at_floor = seen.usable && rounding == others && seen.lucky == 0;
+  seen.near_floor = seen.usable && others > 0 && 4 * rounding >= others;
+  seen.may_bend = seen.usable && others > 0 && 4 * bending >= others;
   if (!seen.usable) seen.error = std::numeric_limits<double>::quiet_NaN();
   return seen;
+}
+
+// The smallest step with an error far above its floor; infinite without one.
+double smallest_that_errs(std::span<const ErrorLevel> ladder) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& level : ladder)
+    for (const auto& point : level)
+      if (far_above_floor(point)) smallest = std::min(smallest, point.step);
+  return smallest;
 }
 
 }  // namespace
 
 std::vector<LevelView> view(std::span<const ErrorLevel> ladder) {
+  for (const auto& level : ladder)
+    for (const auto& point : level) validate(point);
+  const double lucky_above = smallest_that_errs(ladder);
   std::vector<LevelView> levels;
   double before = std::numeric_limits<double>::infinity();
-  for (const auto& level : ladder) {
-    levels.push_back(view_level(level));
+  bool was_lucky = false;
+  for (auto level : ladder) {
+    std::ranges::stable_sort(level, std::greater{}, &ErrorPoint::step);
+    levels.push_back(view_level(level, lucky_above, was_lucky));
+    was_lucky = was_lucky || levels.back().lucky > 0;
     for (const auto& point : level)
       if (!(point.step < before))
         refuse("ladder fit", "a step of level " + std::to_string(levels.size()), point.step,

@@ -25,19 +25,27 @@ inline constexpr double bending_slack = rounding_slack * rounding_slack;
 
 /// A level as the fit sees it, in logarithmic axes.
 struct LevelView {
-  std::vector<double> x, y;  ///< ln step descending, ln error; failed runs and zero errors left out
-  double step = 0.0;         ///< of the largest error; of the first point when there is none
-  double error = 0.0;        ///< the upper envelope: the largest error, NaN when not usable
-  bool usable = false;       ///< at least half of its runs came to an end with a finite error
-  bool at_floor = false;     ///< usable, and no error above rounding_slack times its floor
-  bool near_floor = false;   ///< usable, and at least a quarter of the errors is not above it
-  bool may_bend = false;     ///< the same with bending_slack
+  /// ln step descending, ln error; failed runs, zero errors and errors at the rounding floor by luck
+  /// left out.
+  std::vector<double> x, y;
+  double step = 0.0;        ///< of the largest error; of the first point when there is none
+  double error = 0.0;       ///< the upper envelope: the largest error, NaN when not usable
+  int lucky = 0;            ///< runs at the floor by luck, as view() says
+  bool usable = false;      ///< at least half of its runs came to an end with a finite error
+  bool at_floor = false;    ///< usable, and no error above rounding_slack times its floor
+  bool near_floor = false;  ///< usable, and at least a quarter of the other errors is not above it
+  bool may_bend = false;    ///< the same with bending_slack
 };
 
 /// Throws InputError unless every step is positive and finite, every error >= 0 or not finite,
 /// every floor >= 0, and every step of a level is smaller than all steps of the levels before it. A
 /// ladder given finest first is not reversed: its errors may belong to other steps. A step may
 /// stand twice in one level.
+///
+/// A run lies at the floor by luck where a run with a smaller step has an error above `bending_slack`
+/// times its floor, since rounding grows as steps get smaller but not by as much; and where others of
+/// its level do while a level before it has runs at the floor by luck. So does a step that divides the
+/// time between impacts, which no neighbouring step does.
 std::vector<LevelView> view(std::span<const ErrorLevel> ladder);
 
 }  // namespace clackers::assess

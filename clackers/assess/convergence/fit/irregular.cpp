@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "clackers/assess/convergence/fit/two_terms.hpp"
 #include "clackers/assess/convergence/fit/window.hpp"
 #include "clackers/assess/errors/vectors.hpp"
 
@@ -42,6 +43,47 @@ bool first_lies_off(std::span<const LevelView> levels, int first, int last) {
   const double slope = median(slopes);
   for (std::size_t i = 0; i < x.size(); ++i) heights.push_back(y[i] - slope * x[i]);
   return std::abs(heights.front() - median(heights)) > std::log(leading_level);
+}
+
+// Half the 95 % interval of a slope through the largest of n errors a level that scatter evenly (in
+// logarithms) by the factor f: their logarithm has the variance n / ((n+1)^2 (n+2)) ln^2 f. What few
+// levels happen to leave of the line says less.
+double spread_of_largest(std::span<const LevelView> levels, const Envelope& found) {
+  double runs = 0.0, mean = 0.0, squares = 0.0;
+  const double count = found.last - found.first + 1;
+  for (int i = found.first; i <= found.last; ++i) {
+    runs += double(levels[std::size_t(i)].x.size()) / count;
+    mean += std::log(levels[std::size_t(i)].step) / count;
+  }
+  for (int i = found.first; i <= found.last; ++i)
+    squares += std::pow(std::log(levels[std::size_t(i)].step) - mean, 2);
+  const double share = std::sqrt(runs / (runs + 2.0)) / (runs + 1.0);
+  constexpr double normal95 = 1.96;
+  return normal95 * share * std::log(found.scatter) / std::sqrt(squares);
+}
+
+// The whole order k where the envelope lies significantly above k, by half at most, and the blend
+// a h^k + b h^(k+1) is within the 95 % region about the line; 0 otherwise.
+double order_of_blend(std::span<const LevelView> levels, const Envelope& found) {
+  const double slope = found.line.slope, lower = std::floor(slope);
+  if (lower < 1.0 || slope - lower <= found.line.slope_spread || slope - lower > 0.5) return 0.0;
+  std::vector<LevelView> largest;
+  for (int i = found.first; i <= found.last; ++i) {
+    const auto& level = levels[std::size_t(i)];
+    largest.push_back({.x = {std::log(level.step)}, .y = {std::log(level.error)}});
+  }
+  const auto law =
+      fit_two_terms(largest, 0, int(largest.size()) - 1, {.p = lower + 1.0, .q = lower});
+  if (!law) return 0.0;
+  double of_line = 0.0, of_law = 0.0;
+  for (const auto& level : largest) {
+    const double x = level.x.front(), y = level.y.front();
+    of_line += std::pow(y - found.line.at(x), 2);
+    of_law += std::pow(y - std::log(law->error_at(std::exp(x))), 2);
+  }
+  const int freedom = int(largest.size()) - 2;
+  const double t = numerics::student_t95(freedom);
+  return of_law <= of_line * (1.0 + t * t / freedom) ? lower : 0.0;
 }
 
 }  // namespace
@@ -99,6 +141,11 @@ std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, i
       furthest = std::max(furthest, std::abs(level.y[j] - found.line.at(level.x[j])));
   }
   found.scatter = std::exp(furthest);
+  found.order = found.line.slope;
+  found.spread = std::max(found.line.slope_spread, spread_of_largest(levels, found));
+  if (const double lower = order_of_blend(levels, found); lower > 0.0) {
+    found.spread = std::max(found.spread, found.order - lower);
+  }
   return found;
 }
 

@@ -39,10 +39,12 @@ bool swings(std::span<const LevelView> levels, int first, int last);
 struct Envelope {
   int first = 0, last = 0;
   numerics::LineFit line;
-  double scatter = 1.0;  ///< largest factor between a raw error and this line
+  double order = 0.0, spread = 0.0;  ///< of the envelope, with half its 95 % interval
+  double scatter = 1.0;              ///< largest factor between a raw error and this line
 };
 
-/// Fits the envelope over [first, last], without those coarsest levels that lie more than a factor
+/// Where a blend of two whole orders describes the envelope as well as its line does, the spread
+/// reaches to the lower one, which is left as the step goes to zero. Fits the envelope over [first, last], without those coarsest levels that lie more than a factor
 /// `leading_level` off the line of medians; at least four levels stay. Nothing for fewer than four.
 std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, int last);
 

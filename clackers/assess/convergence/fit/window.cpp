@@ -55,6 +55,8 @@ std::optional<Window> window(std::span<const LevelView> levels, int first, int l
   if (!line) return {};
   Window found{.first = first, .last = last, .line = *line, .rates = {}, .rate_errors = {}};
   found.points = int(all.x.size());
+  found.largest_step = std::exp(all.x.front());
+  found.smallest_step = std::exp(all.x.back());
   double furthest = 0.0;
   for (std::size_t i = 0; i < all.x.size(); ++i) {
     const double residual = all.y[i] - line->at(all.x[i]);
@@ -125,9 +127,13 @@ bool rates_rise(double claimed, const Window& found) {
 
 double drift(const Window& found) {
   const auto& rates = found.rates;
+  const auto n = rates.size();
   const bool one_way =
       std::ranges::is_sorted(rates) || std::ranges::is_sorted(rates, std::greater{});
-  return one_way && !rates.empty() ? std::abs(rates.back() - found.line.slope) : 0.0;
+  if (!one_way || n == 0) return 0.0;
+  const double rest = n > 1 ? 2.0 * (rates[n - 1] - rates[n - 2]) : 0.0;
+  return std::max(std::abs(rates[n - 1] + rest - found.line.slope),
+                  std::abs(rates.front() - found.line.slope));
 }
 
 }  // namespace clackers::assess

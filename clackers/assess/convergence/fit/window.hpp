@@ -18,6 +18,7 @@ struct Window {
   std::vector<double> rates;        ///< slope of the raw points of each two adjacent levels
   std::vector<double> rate_errors;  ///< their standard errors, infinite for two points alone
   int points = 0;
+  double largest_step = 0.0, smallest_step = 0.0;  ///< of the raw points
   int far_above = 0, far_below = 0;  ///< raw points further from the line than `straight_scatter`
   double scatter =
       1.0;  ///< largest factor between a raw error and the line, either way, of all points
@@ -78,8 +79,11 @@ bool may_still_reach(double claimed, const Window& found);
 /// error faster than any power of the step, or one before a line of higher order.
 bool rates_rise(double claimed, const Window& found);
 
-/// How far the finest rate lies from the slope where all rates move one way, otherwise 0: a
-/// confidence interval of the slope knows nothing of such a bend.
+/// Where all rates move one way, how far from the slope they may end: a h^q (1 + r)
+/// with r = c h has the rate q + r / (1 + r), which at r <= 1/2 has at most twice its last move to go;
+/// or how far they were
+/// at the coarsest step, where a floor has bent the rest. Otherwise 0: a confidence interval of the
+/// slope knows nothing of such a bend.
 double drift(const Window& found);
 
 }  // namespace clackers::assess

@@ -130,8 +130,8 @@ TEST(RateTrend, RatesRiseWhenEachExceedsTheOneBeforeByAFifth) {
 }
 
 TEST(RateTrend, DriftIsWhatALineHidesOfABend) {
-  EXPECT_NEAR(drift(by_rates({1.6, 1.5, 1.3}, 1.45, 0.0)), 0.15, 1e-12);
-  EXPECT_NEAR(drift(by_rates({1.3, 1.5, 1.6}, 1.45, 0.0)), 0.15, 1e-12);
+  EXPECT_NEAR(drift(by_rates({1.6, 1.5, 1.3}, 1.45, 0.0)), 0.55, 1e-12);
+  EXPECT_NEAR(drift(by_rates({1.3, 1.5, 1.6}, 1.45, 0.0)), 0.35, 1e-12);
   EXPECT_EQ(drift(by_rates({1.3, 1.6, 1.5}, 1.45, 0.0)), 0.0);
 }
 

@@ -1,0 +1,174 @@
+#include "clackers/diagnose/ladder/impact_location.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "clackers/assess/errors/mechanics.hpp"
+#include "clackers/assess/errors/vectors.hpp"
+
+namespace clackers::diagnose {
+namespace {
+
+using assess::FreeState;
+
+constexpr std::size_t most_impacts = 60, most_flights = 40;
+// Rows beside an impact that may still be closed, as after an impact noticed late.
+constexpr std::size_t most_closed_rows = 8;
+
+class Locator {
+ public:
+  Locator(const model::ImpactProblem<>& problem)
+      : problem_(problem), motion_(problem.system), frequency_(highest_frequency(problem.system)) {}
+
+  double frequency() const { return frequency_; }
+
+  FreeState row(const model::Trajectory& rows, std::size_t i) const {
+    const auto n = Eigen::Index(rows.dof);
+    const auto at = i * std::size_t(rows.dof);
+    return {rows.t[i], Eigen::Map<const Eigen::VectorXd>(rows.u.data() + at, n),
+            Eigen::Map<const Eigen::VectorXd>(rows.v.data() + at, n)};
+  }
+
+  // Steps of w h <= 0.02 cost 0.02^5 / 120 = 3e-11 of the state each.
+  FreeState moved(FreeState state, double s) const {
+    const int steps = 1 + int(std::min(1e4, std::abs(s) * frequency_ / 0.02));
+    for (int i = 0; i < steps; ++i) state = motion_.moved(state, s / steps);
+    return state;
+  }
+
+  // The state where the gap closes, nearest in the direction of `reach` [s].
+  std::optional<FreeState> closed(FreeState state, const model::Contact<>& contact,
+                                  double reach) const {
+    double passed = 0.0;
+    for (int iteration = 0; iteration < 12; ++iteration) {
+      const double rate = contact.gap_rate(state.v), gap = contact.gap_at(state.u);
+      if (!(std::abs(rate) > 0.0) || !std::isfinite(gap)) return {};
+      const double s = -gap / rate;
+      passed += s;
+      if (std::abs(passed) > std::abs(reach)) return {};
+      state = moved(state, s);
+      if (std::abs(s) < 1e-14 * (std::abs(state.t) + std::abs(reach))) break;
+    }
+    return state;
+  }
+
+  std::optional<LocatedImpact> located(const FreeState& before, const FreeState& after,
+                                       const model::Contact<>& contact) const {
+    const double reach = 2.0 * (after.t - before.t);
+    const auto closing = closed(before, contact, reach), opening = closed(after, contact, -reach);
+    if (!closing || !opening) return {};
+    LocatedImpact found;
+    found.t = closing->t;
+    found.closing = -contact.gap_rate(closing->v);
+    const double opening_speed = contact.gap_rate(opening->v);
+    if (!(found.closing > 0.0 && opening_speed > 0.0)) return {};
+    found.duration = opening->t - closing->t;
+    found.delay = found.duration * opening_speed / (found.closing + opening_speed);
+    const auto now = moved(after, closing->t - after.t);
+    const Eigen::VectorXd push = motion_.response(contact.direction);
+    const Eigen::VectorXd expected = closing->v + (1.0 + contact.restitution) * found.closing /
+                                                      contact.direction.dot(push) * push;
+    found.defect = difference(now.u - closing->u, now.v - expected) / found.closing;
+    return found;
+  }
+
+  double difference(const Eigen::VectorXd& u, const Eigen::VectorXd& v) const {
+    return frequency_ * u.norm() + v.norm();
+  }
+
+ private:
+  static double highest_frequency(const model::SmoothSystem<>& system) {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+        system.stiffness, system.mass, Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(1e-6, modes.eigenvalues().maxCoeff()));
+  }
+
+  const model::ImpactProblem<>& problem_;
+  assess::FreeMotion motion_;
+  double frequency_;
+};
+
+// Rows around an impact: the last open and closing one, the first open and opening one.
+struct Rows {
+  std::size_t before, after;
+};
+
+std::optional<Rows> rows_around(const model::Trajectory& rows, double t, const Locator& locator,
+                                const model::Contact<>& contact) {
+  const auto near = std::size_t(std::ranges::upper_bound(rows.t, t) - rows.t.begin());
+  const auto side = [&](std::size_t i, double sign) {
+    const auto state = locator.row(rows, i);
+    return contact.gap_at(state.u) >= 0.0 && sign * contact.gap_rate(state.v) > 0.0;
+  };
+  auto before = near;
+  while (before > 0 && near - before <= most_closed_rows)
+    if (side(--before, -1.0)) break;
+  if (before >= rows.t.size() || !side(before, -1.0)) return {};
+  for (auto after = before + 1; after < rows.t.size() && after - before <= 2 * most_closed_rows;
+       ++after)
+    if (side(after, 1.0)) return Rows{before, after};
+  return {};
+}
+
+double rms(const std::vector<LocatedImpact>& impacts, double LocatedImpact::*member) {
+  double sum = 0.0;
+  for (const auto& impact : impacts) sum += impact.*member * impact.*member;
+  return impacts.empty() ? 0.0 : std::sqrt(sum / double(impacts.size()));
+}
+
+}  // namespace
+
+double LocatedImpacts::rms_delay() const { return rms(impacts, &LocatedImpact::delay); }
+double LocatedImpacts::rms_defect() const { return rms(impacts, &LocatedImpact::defect); }
+
+LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProblem<>& problem) {
+  LocatedImpacts found;
+  found.step = seen.facts.step;
+  const auto& sample = seen.sample;
+  if (sample.v.empty() || !sample.impacts || problem.contacts.empty()) return found;
+  const Locator locator(problem);
+  std::vector<double> times;
+  for (const auto& impact : *sample.impacts) times.push_back(impact.t);
+  const auto alone = [&](double from, double to) {
+    return std::ranges::upper_bound(times, to) - std::ranges::lower_bound(times, from);
+  };
+  for (std::size_t k = 0; k < times.size() && found.impacts.size() < most_impacts; ++k) {
+    const auto& impact = (*sample.impacts)[k];
+    const auto& rows =
+        !seen.opening.v.empty() && seen.opening.t.back() > impact.t + 20.0 * seen.facts.spacing
+            ? seen.opening
+            : sample;
+    if (impact.contact < 0 || std::size_t(impact.contact) >= problem.contacts.size()) continue;
+    const auto& contact = problem.contacts[std::size_t(impact.contact)];
+    const auto around = rows_around(rows, impact.t, locator, contact);
+    if (!around || alone(rows.t[around->before], rows.t[around->after]) > 1) continue;
+    if (const auto one = locator.located(locator.row(rows, around->before),
+                                         locator.row(rows, around->after), contact))
+      found.impacts.push_back(*one);
+  }
+  if (found.impacts.empty()) return found;
+  std::vector<double> speeds, gaps, defects;
+  for (const auto& impact : found.impacts) speeds.push_back(impact.closing);
+  const double speed = assess::median(speeds);
+  const auto& rows = sample;
+  const auto stride = std::max<std::size_t>(1, rows.t.size() / most_flights);
+  for (std::size_t i = 0; i + 1 < rows.t.size(); i += stride) {
+    const double s = rows.t[i + 1] - rows.t[i];
+    if (!(s > 0.0) || alone(rows.t[i] - s, rows.t[i + 1] + s) > 0) continue;
+    const auto from = locator.row(rows, i), to = locator.row(rows, i + 1);
+    const auto now = locator.moved(from, s);
+    gaps.push_back(std::abs(problem.contacts.front().direction.dot(now.u - to.u)) / speed);
+    defects.push_back(locator.difference(now.u - to.u, now.v - to.v) / speed / s);
+  }
+  if (gaps.empty()) {
+    found.impacts.clear();
+    return found;
+  }
+  found.uncertainty = assess::median(gaps);
+  found.flight_defect = assess::median(defects);
+  return found;
+}
+
+}  // namespace clackers::diagnose

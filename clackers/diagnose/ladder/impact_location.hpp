@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "clackers/diagnose/observation.hpp"
+#include "clackers/model/impact_problem.hpp"
+
+namespace clackers::diagnose {
+
+/// How one impact of a history was located, read from the rows around it alone: free motion of the
+/// true system is followed forward from the last open row before it and backward from the first
+/// open row after it, each to where the gap closes. An impact applied at the instant of contact has
+/// one such instant; one applied d seconds late has gone past it and needs d / eta to come back.
+/// What happened before does not enter.
+struct LocatedImpact {
+  double t = 0.0;         ///< where the flight before it closes the gap [s]
+  double closing = 0.0;   ///< closing speed there [m/s], positive
+  double delay = 0.0;     ///< of the impact [s]; negative where it came too early
+  double duration = 0.0;  ///< from closing to opening [s]
+  /// Distance of the state after from what the impact law makes of the state before, both at t,
+  /// in velocity: |w du| + |dv| over the closing speed, w the highest frequency.
+  double defect = 0.0;
+};
+
+/// The impacts of one history that could be located.
+struct LocatedImpacts {
+  double step = 0.0;  ///< [s]
+  /// What the integrator makes of a flight between two rows far from impacts, as a time: the median
+  /// over such rows of |gap error| over the median closing speed [s].
+  double uncertainty = 0.0;
+  double flight_defect = 0.0;  ///< the same as a defect, over the length of the flight [1/s]
+  std::vector<LocatedImpact> impacts;
+
+  double rms_delay() const;
+  double rms_defect() const;
+  /// Whether delays are more than what flights between rows show.
+  bool is_resolved() const { return !impacts.empty() && rms_delay() > 5.0 * uncertainty; }
+};
+
+/// Empty without velocities, and where rows are too far apart to hold single flights.
+LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProblem<>& problem);
+
+}  // namespace clackers::diagnose

@@ -1,0 +1,197 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "clackers/diagnose/causes.hpp"
+#include "clackers/diagnose/testing/ladder_sets.hpp"
+
+namespace clackers::diagnose::testing {
+namespace {
+
+std::string listed(const std::vector<Diagnosis>& all) {
+  std::string text;
+  for (const auto& one : all) text += one.code + " = " + std::to_string(one.value) + "; ";
+  return text;
+}
+
+// Every test runs on plans of other systems, steps and numbers of files.
+class LadderCauses : public ::testing::TestWithParam<int> {
+ protected:
+  LadderPlan plan = ladder_plan(GetParam());
+
+  Diagnosis only(const Files& files, std::string_view code) const {
+    const auto all = ladder_causes(files.question());
+    const auto* found = find(all, code);
+    EXPECT_TRUE(found) << listed(all);
+    // Some of the steps may be commensurate by accident.
+    EXPECT_EQ(all.size(), find(all, "commensurate-steps") ? 2u : 1u) << listed(all);
+    return found ? *found : Diagnosis{};
+  }
+  void expect_nothing(const ForeignSolver& solver) const {
+    const auto all = ladder_causes(files_of(plan, solver).question());
+    EXPECT_TRUE(all.empty()) << listed(all);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Plans, LadderCauses, ::testing::Range(0, 20));
+
+TEST_P(LadderCauses, CorrectRungeKuttaHasNone) { expect_nothing({.integrator = Integrator::rk4}); }
+
+TEST_P(LadderCauses, CorrectNewmarkHasNone) { expect_nothing({.integrator = Integrator::newmark}); }
+
+TEST_P(LadderCauses, ImplicitEulerHasNone) {
+  expect_nothing({.integrator = Integrator::implicit_euler});
+}
+
+TEST_P(LadderCauses, ExactFlightsAndImpactsHaveNone) {
+  expect_nothing({.integrator = Integrator::exact});
+}
+
+TEST_P(LadderCauses, SecondOrderLocationDoesNotLimitNewmark) {
+  expect_nothing({.integrator = Integrator::newmark, .location = Location::linear});
+}
+
+TEST_P(LadderCauses, AnotherRestitutionIsAWrongLimit) {
+  auto problem = plan.problem.problem;
+  problem.contacts.front().restitution *= 0.95;
+  const auto files = files_of(plan, {.integrator = Integrator::newmark}, problem);
+  const auto found = only(files, "wrong-limit");
+  // The distance is that of the finest history but for its own error.
+  const double error = files.ladder.back().runs.back().u_error;
+  EXPECT_NEAR(found.value, error, 0.2 * error);
+  EXPECT_NEAR(found.fact("order"), 2.0, 0.3);
+}
+
+TEST_P(LadderCauses, AnotherStiffnessIsAWrongLimit) {
+  auto problem = plan.problem.problem;
+  problem.system.stiffness *= 1.02;
+  only(files_of(plan, {.integrator = Integrator::rk4}, problem), "wrong-limit");
+}
+
+TEST_P(LadderCauses, ImpactsAtTheEndOfStepsAreLateByHalfAStepInTheMean) {
+  for (const auto integrator : {Integrator::exact, Integrator::newmark}) {
+    const auto found =
+        only(files_of(plan, {.integrator = integrator, .location = Location::end_of_step}),
+             "impact-at-step-end");
+    EXPECT_EQ(found.text, "end");
+    // Five uniform numbers have a mean within 0.13 of 0.5 in two cases of three.
+    EXPECT_NEAR(found.value, 0.5, 0.49);
+  }
+}
+
+TEST_P(LadderCauses, ImpactsAtTheStartOfStepsAreEarly) {
+  const auto found =
+      only(files_of(plan, {.integrator = Integrator::newmark, .location = Location::start_of_step}),
+           "impact-at-step-end");
+  EXPECT_EQ(found.text, "start");
+  EXPECT_NEAR(found.value, -0.5, 0.49);
+}
+
+TEST_P(LadderCauses, LinearInterpolationLimitsRungeKutta) {
+  const auto found =
+      only(files_of(plan, {.integrator = Integrator::rk4, .location = Location::linear}),
+           "impact-interpolated");
+  EXPECT_NEAR(found.value, 2.0, 0.7);
+}
+
+TEST_P(LadderCauses, ToleranceOfTheSearchForImpactsIsMeasured) {
+  const double tolerance = plan.steps.back() / 50.0;
+  const auto found = only(files_of(plan, {.integrator = Integrator::rk4, .tolerance = tolerance}),
+                          "impact-tolerance");
+  // The upper end of an interval at most as long as the tolerance and more than half of it.
+  EXPECT_LE(found.value, tolerance);
+  EXPECT_GE(found.value, 0.1 * tolerance);
+}
+
+TEST_P(LadderCauses, WhiteNoiseIsAFloor) {
+  const double noise = 1e-5;
+  const auto files = files_of(plan, {.integrator = Integrator::rk4, .noise = noise});
+  const auto found = only(files, "noise-floor");
+  EXPECT_EQ(found.value, files.ladder.back().runs.back().u_error);
+}
+
+TEST_P(LadderCauses, AStiffSpringIsACompliantContact) {
+  const double duration = 8.0 * plan.steps.back();
+  const auto& problem = plan.problem.problem;
+  const auto& contact = problem.contacts.front();
+  if (contact.restitution < 1.0) return;  // a spring gives all back
+  const Eigen::VectorXd push = problem.system.mass.llt().solve(contact.direction);
+  const double mass = 1.0 / contact.direction.dot(push);
+  const double w = std::numbers::pi / duration, spring = mass * w * w;
+  const auto all = ladder_causes(
+      files_of(plan,
+               {.integrator = Integrator::rk4, .location = Location::spring, .spring = spring})
+          .question());
+  const auto* found = find(all, "contact-compliant");
+  ASSERT_TRUE(found) << listed(all);
+  // Half a period of the spring and the mass it turns back, but for the other springs and for RK4's
+  // error with 8 steps in it.
+  EXPECT_NEAR(found->value, duration, 0.05 * duration);
+  EXPECT_NEAR(found->fact("stiffness"), spring, 0.1 * spring);
+  EXPECT_FALSE(find(all, "contact-in-tension")) << listed(all);
+}
+
+TEST_P(LadderCauses, ADashpotThatPullsIsContactInTension) {
+  const double duration = 16.0 * plan.steps.back();
+  const auto& problem = plan.problem.problem;
+  const auto& contact = problem.contacts.front();
+  const Eigen::VectorXd push = problem.system.mass.llt().solve(contact.direction);
+  const double mass = 1.0 / contact.direction.dot(push), w = std::numbers::pi / duration;
+  // At the end of a contact of damping ratio 0.3 only the dashpot acts.
+  const ForeignSolver solver{.integrator = Integrator::rk4,
+                             .location = Location::spring,
+                             .spring = mass * w * w,
+                             .dashpot = 2.0 * 0.3 * mass * w};
+  auto fine = plan;
+  fine.steps.assign(plan.steps.end() - 2, plan.steps.end());
+  const auto all = ladder_causes(files_of(fine, solver).question());
+  EXPECT_TRUE(find(all, "contact-in-tension")) << listed(all);
+}
+
+TEST_P(LadderCauses, StepsThatDivideTheTimesOfImpactsAreNamed) {
+  const auto& motion = *plan.problem.motion;
+  // Impacts at odd multiples of the first one's time: whole parts of it have all on steps.
+  const double first = motion.impact(1).t;
+  auto with_luck = plan;
+  for (auto k = 0u; k < with_luck.steps.size(); k += 3)
+    with_luck.steps[k] = first / std::round(first / with_luck.steps[k]);
+  const auto all = ladder_causes(files_of(with_luck, {.integrator = Integrator::exact,
+                                                      .location = Location::end_of_step,
+                                                      .closed_below = 1e-9})
+                                     .question());
+  const auto* found = find(all, "commensurate-steps");
+  ASSERT_TRUE(found) << listed(all);
+  // Others may be so by accident.
+  EXPECT_GE(found->value, plan.steps.size() == 5 ? 0.4 : 1.0 / 3.0);
+  EXPECT_LE(found->value, 0.6);
+}
+
+TEST_P(LadderCauses, FailedCoarseRunsAreAStabilityLimit) {
+  auto files = files_of(plan, {.integrator = Integrator::newmark});
+  const auto failed = std::size_t(1 + GetParam() % 3);
+  for (std::size_t i = 0; i < failed; ++i) {
+    auto& run = files.ladder[i].runs.front();
+    run.u_error = 1e6;
+    if (GetParam() % 2 == 0) {
+      run.finished = false;
+      run.failure_code = "diverged";
+    }
+  }
+  files.histories.erase(files.histories.begin(), files.histories.begin() + std::ptrdiff_t(failed));
+  const auto found = only(files, "unstable-coarse-steps");
+  EXPECT_EQ(found.value, plan.steps[failed]);
+  EXPECT_EQ(found.fact("step"), plan.steps[failed - 1]);
+}
+
+TEST_P(LadderCauses, EnergyLossOfRunsWithoutHistoriesIsDamping) {
+  auto files = files_of(plan, {.integrator = Integrator::newmark});
+  files.histories.clear();
+  const double order = 1.0 + 0.5 * (GetParam() % 3);
+  for (auto& level : files.ladder)
+    level.runs.front().energy_ratio = 1.0 - 0.02 * std::pow(level.step / plan.steps.back(), order);
+  const auto found = only(files, "numerical-damping");
+  EXPECT_NEAR(found.value, 0.02, 1e-12);
+  EXPECT_NEAR(found.fact("order"), order, 1e-9);
+}
+
+}  // namespace
+}  // namespace clackers::diagnose::testing

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clackers/diagnose/causes.hpp"
+
+// The parts of ladder_causes().
+namespace clackers::diagnose {
+
+/// A diagnosis with its value; the rest is to be filled in.
+inline Diagnosis diagnosis_of(Code code, double value, std::string unit) {
+  Diagnosis found;
+  found.code = code.name();
+  found.value = value;
+  found.unit = std::move(unit);
+  return found;
+}
+
+/// impact-at-step-end, impact-interpolated, impact-tolerance, contact-compliant: how the impacts of
+/// all histories were located.
+std::vector<Diagnosis> location_causes(const Question& question);
+/// wrong-limit.
+std::vector<Diagnosis> limit_causes(const Question& question);
+/// noise-floor.
+std::vector<Diagnosis> noise_causes(const Question& question);
+/// commensurate-steps, unstable-coarse-steps.
+std::vector<Diagnosis> step_causes(const Question& question);
+/// contact-in-tension.
+std::vector<Diagnosis> tension_causes(const Question& question);
+/// numerical-damping, from the energies of the scores, where no histories are kept.
+std::vector<Diagnosis> energy_causes(const Question& question);
+
+}  // namespace clackers::diagnose

@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/assess/errors/vectors.hpp"
+#include "clackers/diagnose/ladder/impact_location.hpp"
+#include "clackers/diagnose/ladder/ladder_families.hpp"
+
+namespace clackers::diagnose {
+namespace {
+
+// Impacts at mirrored positions of a motion have one delay, so equal ones count once.
+std::vector<double> distinct(std::vector<double> values, double apart) {
+  std::ranges::sort(values);
+  std::vector<double> kept;
+  for (const double value : values)
+    if (kept.empty() || value - kept.back() > apart) kept.push_back(value);
+  return kept;
+}
+
+// Power of the step that a measure follows: the median of the slopes between all pairs of files at
+// least a factor 1.3 apart (Theil and Sen), which single lucky steps do not move. Nothing for less
+// than a factor `range` of the step.
+template <class Measure>
+std::optional<double> power_of_step(const std::vector<LocatedImpacts>& files, double range,
+                                    const Measure& measure) {
+  std::vector<double> x, y, slopes;
+  for (const auto& file : files) {
+    const double value = measure(file);
+    if (!(value > 0.0)) continue;
+    x.push_back(std::log(file.step));
+    y.push_back(std::log(value));
+  }
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = i + 1; j < x.size(); ++j)
+      if (x[i] - x[j] > std::log(1.3)) slopes.push_back((y[i] - y[j]) / (x[i] - x[j]));
+  if (slopes.empty() || x.front() - x.back() < std::log(0.98 * range)) return {};
+  return assess::median(std::move(slopes));
+}
+
+double rms_delay(const LocatedImpacts& file) { return file.rms_delay(); }
+
+// Impacts applied at a step: delays between 0 and h, or -h and 0, spread over that range, in
+// proportion to the step.
+std::optional<Diagnosis> at_step(const std::vector<LocatedImpacts>& files) {
+  std::vector<double> delays;  // in steps
+  double sum = 0.0;
+  for (const auto& file : files)
+    for (const auto& impact : file.impacts) {
+      delays.push_back(impact.delay / file.step);
+      sum += delays.back();
+    }
+  const auto different = distinct(delays, 0.02);
+  const double mean = sum / double(delays.size()), sign = mean > 0.0 ? 1.0 : -1.0;
+  const auto outside =
+      std::ranges::count_if(delays, [&](double x) { return sign * x < -0.05 || sign * x > 1.05; });
+  if (20 * outside > std::ssize(delays) || !(std::abs(mean) > 0.05)) return {};
+  const bool spread = different.size() >= 3 && different.back() - different.front() > 0.05;
+  // A tolerance below half the finest step is an eighth of a step four times as long, at most.
+  double largest = 0.0;
+  bool has_coarse = false;
+  for (const auto& file : files) {
+    if (file.step < 4.0 * files.back().step) continue;
+    has_coarse = true;
+    for (const auto& impact : file.impacts)
+      largest = std::max(largest, std::abs(impact.delay) / file.step);
+  }
+  const auto power = power_of_step(files, 3.0, rms_delay);
+  if (has_coarse && largest < 0.2 && !(power && *power > 0.6)) return {};
+  if (!spread && files.size() > 1) return {};
+  auto found = diagnosis_of(Code("impact-at-step-end"), mean, "steps");
+  found.confidence = spread && has_coarse ? 0.95 : spread ? 0.8 : 0.6;
+  found.evidence = {{"files", double(files.size())}, {"step", files.back().step}};
+  found.text = mean > 0.0 ? "end" : "start";
+  return found;
+}
+
+// Impacts that err by a lower power of the step than the flights between them, and more.
+std::optional<Diagnosis> interpolated(const Question& question,
+                                      const std::vector<LocatedImpacts>& files) {
+  // Below these neither is followed any better.
+  constexpr double least_impact = 1e-8, least_flight = 3e-8;
+  const auto impacts = power_of_step(files, 3.0, [](const LocatedImpacts& file) {
+    return file.rms_defect() > least_impact ? file.rms_defect() : 0.0;
+  });
+  const auto flights = power_of_step(files, 2.0, [](const LocatedImpacts& file) {
+    return file.flight_defect > least_flight ? file.flight_defect : 0.0;
+  });
+  constexpr double least_order = 1.3, largest_order = 3.5, least_gap = 0.7, times_flights = 3.0;
+  if (!impacts || *impacts < least_order || *impacts > largest_order) return {};
+  const bool exact_flights = std::ranges::all_of(
+      files, [](const LocatedImpacts& file) { return file.flight_defect <= least_flight; });
+  if (!exact_flights && !(flights && *flights > *impacts + least_gap)) return {};
+  const auto& motion = question.motion;
+  const double flight = motion.end() / double(1 + motion.impact_count(motion.end()));
+  const auto limiting = std::ranges::count_if(files, [&](const LocatedImpacts& file) {
+    return file.rms_defect() > times_flights * file.flight_defect * flight;
+  });
+  if (2 * limiting < std::ssize(files)) return {};
+  auto found = diagnosis_of(Code("impact-interpolated"), *impacts, "1");
+  found.confidence = 0.9;
+  found.evidence = {{"order", *impacts}, {"files", double(files.size())}};
+  return found;
+}
+
+// Delays far below a step that do not depend on it, and make much of the finest error.
+std::optional<Diagnosis> tolerance(const Question& question,
+                                   const std::vector<LocatedImpacts>& files) {
+  const auto power = power_of_step(files, 3.0, rms_delay);
+  // A delay anywhere below the tolerance scatters by a factor 3 in its logarithm, so that the slope
+  // of five files is known to 1.
+  constexpr double largest_slope = 1.3;
+  if (!power || files.size() < 3 || std::abs(*power) > largest_slope) return {};
+  double largest = 0.0, displaced = 0.0;
+  for (const auto& file : files)
+    for (const auto& impact : file.impacts) largest = std::max(largest, std::abs(impact.delay));
+  for (const auto& impact : files.back().impacts)
+    displaced += 2.0 * impact.closing * std::abs(impact.delay);
+  const double scale = assess::reference_scale(question.motion).u.minCoeff();
+  const double error = question.ladder.back().runs.back().u_error;
+  constexpr double least_part = 0.2, most_steps = 0.5;
+  if (!(displaced > least_part * error * scale) || largest > most_steps * files.back().step)
+    return {};
+  auto found = diagnosis_of(Code("impact-tolerance"), largest, "s");
+  found.confidence = files.size() >= 5 ? 0.9 : 0.75;
+  found.evidence = {{"steps", largest / files.back().step}, {"files", double(files.size())}};
+  return found;
+}
+
+// Contacts of one duration in all files that hold several rows of it, the finest among them.
+std::optional<Diagnosis> compliant(const Question& question,
+                                   const std::vector<LocatedImpacts>& files) {
+  std::vector<double> durations;
+  double speed = 0.0;
+  int resolving = 0;
+  bool finest_resolves = false;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::vector<double> one;
+    for (const auto& impact : files[i].impacts) {
+      one.push_back(impact.duration);
+      speed = std::max(speed, impact.closing);
+    }
+    finest_resolves =
+        !one.empty() && assess::median(one) >= 3.0 * question.histories[i].facts.spacing;
+    if (!finest_resolves) continue;
+    ++resolving;
+    durations.push_back(assess::median(one));
+  }
+  if (!finest_resolves) return {};
+  const double duration = durations.back();
+  const auto alike = std::ranges::count_if(
+      durations, [&](double x) { return std::abs(x / duration - 1.0) < 0.2; });
+  if (2 * alike < std::ssize(durations)) return {};
+  const auto& contact = question.problem.contacts.front();
+  const Eigen::VectorXd push = question.problem.system.mass.llt().solve(contact.direction);
+  const double mass = 1.0 / contact.direction.dot(push), w = std::numbers::pi / duration;
+  auto found = diagnosis_of(Code("contact-compliant"), duration, "s");
+  found.confidence = resolving >= 2 ? 0.9 : 0.75;
+  found.evidence = {
+      {"penetration", speed / w}, {"stiffness", mass * w * w}, {"files", double(resolving)}};
+  return found;
+}
+
+}  // namespace
+
+std::vector<Diagnosis> location_causes(const Question& question) {
+  std::vector<LocatedImpacts> all, delayed;
+  for (const auto& seen : question.histories) {
+    all.push_back(locate_impacts(seen, question.problem));
+    if (all.back().is_resolved() && all.back().step > 0.0) delayed.push_back(all.back());
+  }
+  std::vector<Diagnosis> found;
+  const auto add = [&](std::optional<Diagnosis> one) {
+    if (one) found.push_back(std::move(*one));
+    return !found.empty();
+  };
+  if (std::ranges::all_of(all, [](const auto& file) { return file.impacts.empty(); })) return {};
+  if (add(compliant(question, all))) return found;
+  // Delays of a tolerance ladder have no step to be measured in.
+  if (!question.by_tolerance && !delayed.empty() && 2 * delayed.size() >= all.size()) {
+    if (add(at_step(delayed))) return found;
+    if (add(tolerance(question, delayed))) return found;
+  }
+  std::erase_if(all, [](const auto& file) { return file.impacts.empty(); });
+  if (!question.by_tolerance) add(interpolated(question, all));
+  return found;
+}
+
+}  // namespace clackers::diagnose

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "clackers/diagnose/diagnose.hpp"
+#include "clackers/diagnose/system/fit_rows.hpp"
+#include "clackers/diagnose/system/least_squares.hpp"
+
+namespace clackers::diagnose {
+
+/// A history that changed systems are fitted to.
+struct FitFile {
+  double step = 0.0;  ///< [s], or a tolerance
+  FitRows rows;
+  SystemFit smooth;  ///< of frequencies and damping; empty until fitted
+};
+
+/// What the fits share.
+struct FitQuestion {
+  const model::ImpactProblem<>& problem;
+  const model::Motion& motion;
+  bool by_tolerance = false;
+  std::vector<FitFile> files;     ///< finest first, each step at least 1.8 times the one before
+  std::vector<Parameter> smooth;  ///< frequency and damping of each mass
+};
+
+inline constexpr std::size_t most_fit_files = 4;
+
+/// The finest histories of the question that say anything: none where masses are coupled, where the
+/// finest is not farther from the reference than 30 times its floor, or farther away than the
+/// motion is large.
+FitQuestion fit_question(const Question& question);
+
+}  // namespace clackers::diagnose

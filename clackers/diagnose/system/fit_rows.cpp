@@ -1,0 +1,88 @@
+#include "clackers/diagnose/system/fit_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clackers/assess/errors/comparison.hpp"
+
+namespace clackers::diagnose {
+
+namespace {
+
+void take(const model::Trajectory& rows, std::size_t most, double last, FitRows& to) {
+  const auto n = std::size_t(rows.dof);
+  const std::size_t stride = std::max<std::size_t>(1, (rows.t.size() + most - 1) / most);
+  for (std::size_t i = 0; i < rows.t.size(); i += stride) {
+    const double t = rows.t[i];
+    if (t > last || (!to.t.empty() && !(t > to.t.back()))) continue;
+    to.t.push_back(t);
+    for (std::size_t j = 0; j < n; ++j) to.u.push_back(rows.u[i * n + j] * to.inverse_scale[j]);
+  }
+}
+
+}  // namespace
+
+double rms(std::span<const double> values) {
+  if (values.empty()) return std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  for (const double one : values) sum += one * one;
+  return std::sqrt(sum / double(values.size()));
+}
+
+std::vector<double> FitRows::residual(const Variation& variation, std::size_t rows) const {
+  auto found = simulated(variation, std::span(t).first(rows));
+  if (!found) return {};
+  for (std::size_t i = 0; i < found->size(); ++i) {
+    double& one = (*found)[i];
+    const double left = u[i] - one * inverse_scale[i % dof()];
+    one = std::isnan(left) ? 0.0 : left;
+  }
+  return std::move(*found);
+}
+
+double FitRows::distance_of(std::size_t rows) const {
+  double sum = 0.0;
+  const auto size = rows * dof();
+  for (std::size_t i = 0; i < size; ++i)
+    if (!std::isnan(u[i])) sum += (u[i] - reference[i]) * (u[i] - reference[i]);
+  return std::sqrt(sum / double(std::max<std::size_t>(1, size)));
+}
+
+FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& problem,
+                 const model::Motion& motion) {
+  FitRows rows;
+  const auto scale = assess::reference_scale(motion);
+  for (Eigen::Index j = 0; j < scale.u.size(); ++j)
+    rows.inverse_scale.push_back(scale.u[j] > 0.0 ? 1.0 / scale.u[j] : 0.0);
+  const auto& sample = observation.sample;
+  if (sample.t.size() < 8) {
+    rows.floor = std::numeric_limits<double>::infinity();
+    return rows;
+  }
+  take(observation.opening, most_fit_opening_rows, motion.end(), rows);
+  take(sample, most_fit_rows, motion.end(), rows);
+  const auto n = rows.dof();
+  rows.reference.resize(rows.u.size());
+  std::vector<double> v(rows.u.size());
+  motion.sample(rows.t, model::Side::right, {rows.reference, v, {}});
+  for (std::size_t i = 0; i < rows.reference.size(); ++i)
+    rows.reference[i] *= rows.inverse_scale[i % n];
+  rows.distance = rows.distance_of(rows.t.size());
+
+  // How far the simulation is from the reference, as the problem stands and with frequencies changed
+  // in their last digits: both must be small against the distance.
+  const auto& facts = observation.facts;
+  rows.floor = std::max(facts.floor, 1e-13);
+  Variation same{problem};
+  FitRows exact = rows;
+  exact.u = rows.reference;
+  for (const double change : {0.0, 1e-14}) {
+    Variation changed = same;
+    changed.apply({Change::frequency, -1}, change);
+    rows.floor = std::max(rows.floor, rms(exact.residual(changed, rows.t.size())));
+  }
+  return rows;
+}
+
+}  // namespace clackers::diagnose

@@ -1,0 +1,162 @@
+#include "clackers/diagnose/system/least_squares.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clackers::diagnose {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int most_iterations = 8;
+constexpr std::size_t least_window_rows = 16;
+/// Parameters that have no effect on a window stay as they are.
+constexpr double least_effect = 1e-9;
+
+double fastest(const model::ImpactProblem<>& problem) {
+  double square = 0.0;
+  for (Index i = 0; i < problem.dof(); ++i)
+    square = std::max(square, problem.system.stiffness(i, i) / problem.system.mass(i, i));
+  return std::sqrt(square);
+}
+
+class Solver {
+ public:
+  Solver(const FitRows& rows, const Variation& base, std::span<const Parameter> parameters)
+      : rows_(rows),
+        base_(base),
+        parameters_(parameters),
+        unit_(parameters.size(), 1.0),
+        values_(parameters.size(), 0.0) {
+    // A shift counts in radians of the fastest frequency.
+    const double omega = fastest(base.problem);
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      if (parameters[k].change == Change::time_shift && omega > 0.0) unit_[k] = 1.0 / omega;
+  }
+
+  std::vector<double> residual(const std::vector<double>& values, std::size_t rows) const {
+    Variation now = base_;
+    for (std::size_t k = 0; k < values.size(); ++k) now.apply(parameters_[k], values[k] * unit_[k]);
+    return rows_.residual(now, rows);
+  }
+
+  // The distance reached over the first rows, infinite where nothing is available.
+  double improve(std::size_t rows, int iterations) {
+    auto left = residual(values_, rows);
+    double distance = rms(left);
+    for (int iteration = 0; iteration < iterations && distance > rows_.floor; ++iteration) {
+      if (left.empty() || !linearize(left, rows)) break;
+      bool helped = false;
+      for (double share = 1.0; share > 0.01 && !helped; share *= 0.35) {
+        auto next = values_;
+        for (std::size_t k = 0; k < next.size(); ++k) next[k] += share * step_[Index(k)];
+        auto trial = residual(next, rows);
+        const double reached = rms(trial);
+        if (!(reached < distance)) continue;
+        helped = true;
+        const bool done = reached > 0.99 * distance;
+        values_ = next;
+        left = std::move(trial);
+        distance = reached;
+        if (done) return distance;
+      }
+      if (!helped) break;
+    }
+    return distance;
+  }
+
+  SystemFit result(double distance) {
+    SystemFit fit;
+    fit.distance = distance;
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      fit.values.push_back(values_[k] * unit_[k]);
+      fit.uncertainty.push_back(spread_.size() ? spread_[Index(k)] * distance * unit_[k] : 0.0);
+    }
+    return fit;
+  }
+  std::vector<double>& values() { return values_; }
+  void start(const std::vector<double>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k) values_[k] = values[k] / unit_[k];
+  }
+
+ private:
+  // The Gauss-Newton step from the present values.
+  bool linearize(const std::vector<double>& left, std::size_t rows) {
+    const Index size = Index(left.size()), count = Index(values_.size());
+    MatrixXd slopes(size, count);
+    VectorXd norms(count);
+    for (Index k = 0; k < count; ++k) {
+      constexpr double small = 1e-6;
+      auto moved = values_;
+      moved[std::size_t(k)] += small;
+      const auto other = residual(moved, rows);
+      if (other.size() != left.size()) return false;
+      for (Index i = 0; i < size; ++i)
+        slopes(i, k) = (left[std::size_t(i)] - other[std::size_t(i)]) / small;
+      norms[k] = slopes.col(k).norm();
+      if (norms[k] > least_effect)
+        slopes.col(k) /= norms[k];
+      else
+        slopes.col(k).setZero();
+    }
+    Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes);
+    qr.setThreshold(1e-7);
+    step_ = qr.solve(Eigen::Map<const VectorXd>(left.data(), size));
+    spread_ = VectorXd::Zero(count);
+    for (Index k = 0; k < count; ++k) {
+      step_[k] = norms[k] > least_effect ? step_[k] / norms[k] : 0.0;
+      step_[k] = std::clamp(step_[k], -0.3, 0.3);
+      spread_[k] = norms[k] > least_effect ? 2.0 / norms[k] : 0.0;
+    }
+    return step_.allFinite();
+  }
+
+  const FitRows& rows_;
+  const Variation& base_;
+  std::span<const Parameter> parameters_;
+  std::vector<double> unit_, values_;
+  VectorXd step_, spread_;
+};
+
+}  // namespace
+
+SystemFit fit_system(const FitRows& rows, const Variation& base,
+                     std::span<const Parameter> parameters) {
+  Solver solver(rows, base, parameters);
+  const std::size_t all = rows.t.size();
+  double best = solver.improve(all, most_iterations);
+  const auto direct = solver.values();
+  if (!(best < 0.02 * rows.distance) && !parameters.empty()) {
+    std::fill(solver.values().begin(), solver.values().end(), 0.0);
+    const double omega = std::max(fastest(base.problem), 1e-300);
+    for (double span = 6.0 / omega;; span *= 2.0) {
+      const auto count = std::size_t(
+          std::upper_bound(rows.t.begin(), rows.t.end(), rows.t.front() + span) - rows.t.begin());
+      if (count >= all) break;
+      if (count >= least_window_rows) solver.improve(count, 3);
+    }
+    const double progressive = solver.improve(all, most_iterations);
+    if (progressive < best)
+      best = progressive;
+    else
+      solver.values() = direct;
+  }
+  if (!std::isfinite(best)) return {};
+  return solver.result(best);
+}
+
+SystemFit refine_system(const FitRows& rows, const Variation& base,
+                        std::span<const Parameter> parameters, std::vector<double> start) {
+  Solver solver(rows, base, parameters);
+  solver.start(start);
+  const double distance = solver.improve(rows.t.size(), most_iterations);
+  if (!std::isfinite(distance)) return {};
+  return solver.result(distance);
+}
+
+}  // namespace clackers::diagnose

@@ -1,0 +1,25 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "clackers/report/format.hpp"
+#include "clackers/report/words/words.hpp"
+
+namespace clackers::report {
+
+std::string requirement_text(const study::Record& record, const study::Requirement& requirement,
+                             const std::vector<study::Unmet>& unmet) {
+  std::string list;
+  for (const auto& one : unmet) {
+    auto found = one.found;
+    if (!std::isnan(one.value))
+      found += one.found == "order" ? fmt::format(" {:.2f}", one.value)
+                                    : ' ' + short_number(one.value, 2);
+    const auto where = record.cases.size() > 1 ? fmt::format(" on {}", one.case_name) : "";
+    list += fmt::format("{}{}{} ({})", list.empty() ? "" : ", ", one.subject, where, found);
+  }
+  return fmt::format("Required: {}. Not met by {} of {}: {}.", requirement.text, unmet.size(),
+                     study::counts(record).total(), list);
+}
+
+}  // namespace clackers::report

@@ -1,0 +1,166 @@
+#include "clackers/study/check/history_set.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "clackers/assess/convergence/judge.hpp"
+#include "clackers/assess/convergence/step_levels.hpp"
+#include "clackers/base/error.hpp"
+#include "clackers/diagnose/diagnose.hpp"
+#include "clackers/diagnose/ladder/limit.hpp"
+#include "clackers/study/notes.hpp"
+
+namespace clackers::study {
+namespace {
+
+void require_levels(const std::vector<Run>& runs) {
+  if (runs.size() < 2 || runs.front().score.step > 1.001 * runs.back().score.step) return;
+  refuse("check", "step of every history", runs.front().score.step,
+         "different steps, since several histories are levels of one method",
+         "Name the steps with --steps h1,h2,... in the order of the files.");
+}
+
+std::vector<Level> levels_of(const std::vector<Run>& runs) {
+  std::vector<double> steps;
+  for (const auto& run : runs) steps.push_back(run.score.step);
+  std::vector<Level> levels;
+  for (const auto& indices : assess::levels_of_steps(steps)) {
+    auto& level = levels.emplace_back(Level{steps[indices.front()], {}});
+    for (const auto i : indices) level.runs.push_back(runs[i]);
+  }
+  return levels;
+}
+
+// Of the finest history; nothing where no run came to its end.
+const HistoryFile* finest(const std::vector<Run>& runs) {
+  const HistoryFile* file = nullptr;
+  for (const auto& run : runs)
+    if (run.score.finished && run.file) file = &*run.file;
+  return file;
+}
+
+assess::Facts facts_of(const HistoryFile* file, const Subject& subject,
+                       const cases::Case& problem) {
+  assess::Facts facts;
+  facts.tolerance = subject.tolerance;
+  facts.by_tolerance = subject.resolution == Resolution::tolerance;
+  if (file == nullptr) return facts;
+  const auto& motion = *problem.motion;
+  facts.contact_time = file->contact_time;
+  facts.finest = assess::HistoryFacts{.rows = file->rows,
+                                      .printed_floor = file->printed_floor,
+                                      .first = file->first,
+                                      .start_error = file->start_error,
+                                      .rows_resolve_collisions = file->rows_resolve_collisions,
+                                      .last = file->last,
+                                      .end = motion.end(),
+                                      .expected_to_last = motion.impact_count(file->last),
+                                      .expected = motion.impact_count(motion.end())};
+  return facts;
+}
+
+bool is_about_name(const Note& note) {
+  return note.code == "step-in-name-ignored" || note.code == "rows-closer-than-step";
+}
+
+}  // namespace
+
+HistorySet::HistorySet(cases::Case problem, CaseSummary summary, std::vector<std::string> columns,
+                       const std::atomic<bool>* interrupt)
+    : problem_(std::move(problem)),
+      summary_(std::move(summary)),
+      columns_(std::move(columns)),
+      interrupt_(interrupt) {}
+
+void HistorySet::read(const HistoryTask& task, const Progress& progress) {
+  auto found = history_run(task, columns_, problem_, summary_, progress, interrupt_);
+  add({.run = std::move(found.run),
+       .named = named_resolution(task.file),
+       .step_is_given = task.step > 0.0},
+      std::move(found.observation));
+}
+
+void HistorySet::add_failed(double step, std::string code, std::string sentence,
+                            std::string printed) {
+  Run run;
+  run.score.step = step;
+  run.score.failure_code = std::move(code);
+  run.score.failure = std::move(sentence);
+  run.printed = std::move(printed);
+  add({.run = std::move(run), .named = {}, .step_is_given = true}, {});
+}
+
+void HistorySet::add(Entry entry, std::optional<diagnose::Observation> observation) {
+  const std::lock_guard lock(guard_);
+  if (observation) {
+    entry.observation = observations_.size();
+    observations_.push_back(std::move(*observation));
+  }
+  entries_.push_back(std::move(entry));
+}
+
+// Steps or tolerances of all runs; those that were given count before names and rows.
+void HistorySet::choose_steps(Resolution& resolution) {
+  std::vector<NamedHistory> set;
+  for (const auto& entry : entries_)
+    if (!entry.step_is_given) set.push_back({entry.named, entry.run.file->spacing});
+  const auto names = named_steps(set, summary_.fast_period, problem_.motion->end());
+  if (names.by_tolerance && set.size() == entries_.size()) resolution = Resolution::tolerance;
+  std::size_t next = 0;
+  for (auto& entry : entries_) {
+    if (entry.step_is_given) continue;
+    const auto& step = names.steps[next++];
+    auto& file = *entry.run.file;
+    std::erase_if(file.notes, is_about_name);
+    const double spacing = file.spacing, named = entry.named.step.value_or(spacing);
+    file.step_source = step ? StepSource::name : StepSource::data;
+    entry.run.score.step = step.value_or(spacing);
+    if (!step && named > spacing)
+      file.notes.push_back(note("step-in-name-ignored", {named, spacing}));
+    if (step && resolution == Resolution::step && *step > 1.01 * spacing)
+      file.notes.push_back(note("rows-closer-than-step", {*step, spacing}));
+  }
+}
+
+Subject HistorySet::assess(SubjectKind kind, std::string name, const Claim& claim,
+                           std::optional<double> tolerance, bool by_tolerance) {
+  Subject subject;
+  subject.kind = kind;
+  subject.name = std::move(name);
+  subject.claim = claim;
+  subject.tolerance = tolerance;
+  subject.resolution = by_tolerance ? Resolution::tolerance : Resolution::step;
+  choose_steps(subject.resolution);
+  std::ranges::stable_sort(entries_, std::greater{},
+                           [](const Entry& entry) { return entry.run.score.step; });
+  std::vector<Run> runs;
+  std::vector<diagnose::Observation> histories;
+  for (const auto& entry : entries_) {
+    runs.push_back(entry.run);
+    if (!entry.observation) continue;
+    histories.push_back(observations_[*entry.observation]);
+    histories.back().facts.step = entry.run.score.step;
+  }
+  const auto* file = finest(runs);
+  if (kind != SubjectKind::program && file == nullptr && !runs.empty())
+    throw InputError(runs.back().score.failure, "not-finite");
+  require_levels(runs);
+  subject.contact_time = file != nullptr ? file->contact_time : 0.0;
+  subject.levels = levels_of(runs);
+  const auto ladder = ladder_of(subject);
+  auto facts = facts_of(file, subject, problem_);
+  facts.wrong_limit = diagnose::limit_of(histories, problem_.problem, *problem_.motion).wrong;
+  subject.assessment = assess::judge(ladder, claim, facts);
+  subject.diagnoses =
+      diagnose::diagnose({.problem = problem_.problem,
+                          .motion = *problem_.motion,
+                          .histories = histories,
+                          .ladder = ladder,
+                          .displacement = subject.assessment.displacement,
+                          .velocity = subject.assessment.velocity,
+                          .differences = nullptr,
+                          .by_tolerance = subject.resolution == Resolution::tolerance});
+  return subject;
+}
+
+}  // namespace clackers::study

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "clackers/model/impact_problem.hpp"
+
+// A problem as other programs read it. Numbers read back to the same double.
+namespace clackers::study {
+
+/// The json object `problem`, as `show CASE --format json` has it:
+///
+///     {"M": [[1, 0], [0, 2]], "C": [[...]], "K": [[...]],
+///      "contacts": [{"direction": [1, -1], "gap": 0, "restitution": 1}],
+///      "start": {"t": 0, "u": [...], "v": [...]}, "end": 20}
+///
+/// for M a + C v + K u = 0 from `start` to `end`, g = direction . u - gap >= 0 and
+/// dg/dt(+) = -restitution dg/dt(-); SI units. Throws InputError (linear-only) for a problem with a
+/// load or a nonlinear force, which the object has no place for.
+std::string problem_json(const model::ImpactProblem<>& problem);
+
+/// A file of that object: {"schema": "clackers/problem/1", "case": name, "problem": {...}}.
+std::string problem_file_json(std::string_view case_name, const model::ImpactProblem<>& problem);
+
+/// The same as lines key=values, numbers separated by blanks, always in this order:
+///
+///     dof=2
+///     contacts=1
+///     t=0
+///     end=20
+///     u=0.11 0
+///     v=0 1
+///     M1=1 0        a line for each row of M; then C1, C2, K1, K2
+///     direction1=1 -1
+///     gap1=0
+///     restitution1=1
+///
+/// with the last three lines for each contact. Throws as problem_json does.
+std::string problem_file_text(const model::ImpactProblem<>& problem);
+
+}  // namespace clackers::study

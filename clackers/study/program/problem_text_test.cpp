@@ -1,0 +1,53 @@
+#include "clackers/study/program/problem_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "clackers/base/testing/refusal.hpp"
+
+namespace clackers::study {
+namespace {
+
+model::ImpactProblem<> two_masses() {
+  model::ImpactProblem<> problem;
+  auto& system = problem.system;
+  system.mass = Eigen::MatrixXd{{1.0, 0.0}, {0.0, 2.0}};
+  system.damping = Eigen::MatrixXd{{0.1, -0.1}, {-0.1, 0.3}};
+  system.stiffness = Eigen::MatrixXd{{4.0, -1.5}, {-1.5, 5.0}};
+  problem.contacts.push_back({Eigen::VectorXd{{1.0, -1.0}}, -0.25, 0.5});
+  problem.contacts.push_back({Eigen::VectorXd{{0.0, 1.0}}, -1.0, 1.0});
+  problem.start = {0.0, Eigen::VectorXd{{1.0 / 3.0, 0.0}}, Eigen::VectorXd{{0.0, -1e-7}}};
+  problem.end = 20.0;
+  return problem;
+}
+
+TEST(ProblemText, JsonHasMatricesContactsStartAndEnd) {
+  const auto file = nlohmann::json::parse(problem_file_json("a \"b\"", two_masses()));
+  EXPECT_EQ(file["schema"], "clackers/problem/1");
+  EXPECT_EQ(file["case"], "a \"b\"");
+  const auto expected = nlohmann::json::parse(R"({
+    "M": [[1, 0], [0, 2]], "C": [[0.1, -0.1], [-0.1, 0.3]], "K": [[4, -1.5], [-1.5, 5]],
+    "contacts": [{"direction": [1, -1], "gap": -0.25, "restitution": 0.5},
+                 {"direction": [0, 1], "gap": -1, "restitution": 1}],
+    "start": {"t": 0, "u": [0.3333333333333333, 0], "v": [0, -1e-7]}, "end": 20})");
+  EXPECT_EQ(file["problem"], expected);
+}
+
+TEST(ProblemText, LinesHaveAFixedOrder) {
+  EXPECT_EQ(problem_file_text(two_masses()),
+            "dof=2\ncontacts=2\nt=0\nend=20\nu=0.3333333333333333 0\nv=0 -1e-07\n"
+            "M1=1 0\nM2=0 2\nC1=0.1 -0.1\nC2=-0.1 0.3\nK1=4 -1.5\nK2=-1.5 5\n"
+            "direction1=1 -1\ngap1=-0.25\nrestitution1=0.5\n"
+            "direction2=0 1\ngap2=-1\nrestitution2=1\n");
+}
+
+TEST(ProblemText, RefusesALoad) {
+  auto problem = two_masses();
+  problem.system.add_load = [](double, std::span<double>) {};
+  EXPECT_REFUSED(problem_json(problem), "linear-only", "load");
+  EXPECT_REFUSED(problem_file_text(problem), "linear-only", "load");
+}
+
+}  // namespace
+}  // namespace clackers::study

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+
+namespace clackers::study {
+
+/// A shell command to run.
+struct ProcessTask {
+  std::string command;    ///< for /bin/sh -c
+  std::string folder;     ///< where it runs
+  double timeout = 60.0;  ///< [s], of the wall clock
+  std::string output;     ///< file for its standard output; empty: part of what it printed
+};
+
+/// How a process ended, and what it printed.
+struct ProcessResult {
+  enum class End {
+    exited,       ///< `status` is its exit status
+    signalled,    ///< `status` is the signal that ended it
+    timed_out,    ///< killed after the timeout
+    interrupted,  ///< killed since `interrupt` became true
+    flooded,      ///< killed after `most_output` bytes for the file of its standard output
+    not_started   ///< `status` is the system's error number
+  };
+  End end = End::exited;
+  int status = 0;
+  std::string printed;  ///< the last `most_printed` bytes of standard error and, unless it went to
+                        ///< a file, of standard output
+};
+
+inline constexpr std::size_t most_printed = 4096;       // [bytes]
+inline constexpr std::size_t most_output = 1ull << 30;  // [bytes]
+
+/// Runs a command with /dev/null as standard input, no file of ours open, and the folder that we run
+/// in as OLDPWD. It leads a process group of its own, which is killed when it ends in whatever way,
+/// so that none of its children is left. May be called from several threads. Throws FileError where
+/// `output` cannot be written.
+ProcessResult run_process(const ProcessTask& task, const std::atomic<bool>* interrupt = nullptr);
+
+/// Kills all process groups of run_process() that run; for a signal handler that ends the program.
+void kill_processes() noexcept;
+
+}  // namespace clackers::study

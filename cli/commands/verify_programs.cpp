@@ -1,0 +1,102 @@
+#include "cli/commands/verify_programs.hpp"
+
+#include <fmt/format.h>
+
+#include "clackers/base/error.hpp"
+#include "clackers/report/words/words.hpp"
+#include "clackers/study/check.hpp"
+#include "cli/messages.hpp"
+#include "cli/values.hpp"
+
+namespace clackers::cli {
+
+void add_program_options(Command& command, ProgramOptions& options) {
+  command
+      .add_option(
+          "--exec", options.commands,
+          "A program of yours as a method, a line for the shell: each step is one run. Placeholders: "
+          "{case} a json file with the problem ({case:text} the same as key=value lines), {h} the "
+          "step in seconds, {n} the number of steps, {tolerance} one of --tolerances, {out} the file "
+          "for the history (without it: standard output), {events} a file for collisions, which may "
+          "be left out. A run has a folder of its own; files that the command names by a path from "
+          "here are found. May be repeated, and stand beside METHODs.")
+      ->option_text("COMMAND");
+  command
+      .add_option(
+          "--name", options.names,
+          "The name of a program in the results, one for each --exec in their order. Default: "
+          "its file without folder and extension.")
+      ->option_text("NAME");
+  command
+      .add_option(
+          "--expect", options.expect,
+          "What programs should show: proper:2, reduced:1, irregular:1, exact, stagnating or "
+          "divergent. Default: nothing is claimed.")
+      ->option_text("BEHAVIOUR[:ORDER]");
+  command
+      .add_option(
+          "--tolerances", options.tolerances,
+          "Levels of commands with {tolerance}: one a decade, or a list. Default: 1e-3:1e-10.")
+      ->option_text("a:b|x,y,...");
+  command
+      .add_option("--timeout", options.timeout,
+                  "Time of one run of a program, in seconds or as 30s, 2min; then it is ended with "
+                  "all that it started. Default: 60s.")
+      ->option_text("TIME");
+  command
+      .add_option(
+          "--work", options.work,
+          "Keep the folders of all runs here. Default: good runs are kept in "
+          "$XDG_CACHE_HOME/clackers for 14 days, and reused while command, program, problem "
+          "and step are the same.")
+      ->option_text("FOLDER");
+  command.add_flag("--fresh", options.fresh, "Make every run of programs anew, reuse none.");
+}
+
+study::ProgramRequest program_request_of(const ProgramOptions& options) {
+  const auto given = [&](const char* option, bool is_given) {
+    if (is_given && !options.any())
+      throw InputError(
+          fmt::format("verify {}: this is for programs; add --exec 'COMMAND'.", option),
+          "bad-syntax");
+  };
+  given("--name", !options.names.empty());
+  given("--expect", !options.expect.empty());
+  given("--tolerances", !options.tolerances.empty());
+  given("--timeout", !options.timeout.empty());
+  given("--work", !options.work.empty());
+  given("--fresh", options.fresh);
+  if (!options.names.empty() && options.names.size() != options.commands.size())
+    refuse("verify", "--name", fmt::format("{} of them", options.names.size()),
+           fmt::format("none, or one for each --exec, {} here", options.commands.size()), {},
+           "wrong-size");
+  study::ProgramRequest request;
+  for (std::size_t i = 0; i < options.commands.size(); ++i)
+    request.programs.push_back(
+        {options.commands[i], options.names.empty() ? std::string() : options.names[i]});
+  if (!options.expect.empty()) request.expect = study::claim_from(options.expect);
+  if (!options.tolerances.empty()) request.tolerances = study::tolerances_from(options.tolerances);
+  if (!options.timeout.empty()) request.timeout = read_duration("--timeout", options.timeout);
+  request.work = options.work;
+  request.fresh = options.fresh;
+  return request;
+}
+
+study::RefinementRequest program_plan(study::RefinementRequest plan, bool has_neighbours) {
+  if (!plan.levels) plan.levels = study::default_program_levels;
+  if (!has_neighbours) plan.samples_per_level = study::default_program_samples;
+  return plan;
+}
+
+int exit_code_of_programs(const study::Record& record, int exit_code) {
+  const auto* failure = study::failure_of_all(record);
+  if (failure == nullptr || record.interrupted) return exit_code;
+  const auto printed = report::printed_text(failure->printed);
+  auto sentence = "every run failed; the first one: " + failure->score.failure;
+  if (!sentence.ends_with('.')) sentence += '.';
+  report_error(sentence + (printed.empty() ? "" : " It printed: " + printed),
+               failure->score.failure_code);
+  return 4;
+}
+
+}  // namespace clackers::cli

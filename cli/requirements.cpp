@@ -1,0 +1,31 @@
+#include "cli/requirements.hpp"
+
+#include "clackers/report/words/words.hpp"
+#include "cli/messages.hpp"
+
+namespace clackers::cli {
+
+void add_require_option(Command& command, std::vector<std::string>& requirements) {
+  command
+      .add_option("--require", requirements,
+                  "Exit code 1 unless every subject is so: agrees; an order of at least p, "
+                  "order:p; an error in u of the finest level of at most x, error:x; or a "
+                  "behaviour such as proper. Refused methods and undecided or contradicted claims "
+                  "never are. Several, each with its own --require, are all required.")
+      ->option_text("WHAT");
+}
+
+std::vector<study::Requirement> read_requirements(const std::vector<std::string>& options) {
+  std::vector<study::Requirement> all;
+  for (const auto& text : options) all.push_back(study::requirement_from(text));
+  return all;
+}
+
+int required_exit_code(const study::Record& record, const std::vector<study::Requirement>& requirements) {
+  for (const auto& requirement : requirements)
+    if (const auto missing = study::unmet(record, requirement); !missing.empty())
+      note(report::requirement_text(record, requirement, missing));
+  return study::exit_code(record, requirements);
+}
+
+}  // namespace clackers::cli

@@ -1,0 +1,264 @@
+"""verify --exec: programs of others as methods, good and bad ones, and the example solvers."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import unittest
+
+from command import CommandTest, run, start
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+SOLVERS = os.path.join(ROOT, "examples", "solvers")
+
+# A mass above a stop, for some collisions.
+STOP = ("--case", "stop", "--set", "t_end=8")
+# Enough runs to be failed.
+SHORT = (*STOP, "--levels", "2", "--neighbours", "1")
+MIDPOINT = f"python3 {SOLVERS}/midpoint.py {{case}} {{h}} {{out}}"
+
+
+class ExecTest(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.cache = self.path("cache")
+        before = os.environ.get("XDG_CACHE_HOME")
+        os.environ["XDG_CACHE_HOME"] = self.cache
+        self.addCleanup(lambda: os.environ.pop("XDG_CACHE_HOME") if before is None
+                        else os.environ.update(XDG_CACHE_HOME=before))
+
+    def script(self, text, name="solver"):
+        """A shell program."""
+        path = self.path(name)
+        with open(path, "w") as file:
+            file.write("#!/bin/sh\n" + text)
+        os.chmod(path, 0o755)
+        return path
+
+    def record(self, *arguments, exit_code=None):
+        done = run("verify", *arguments, "--format", "json")
+        if exit_code is not None:
+            self.assertEqual(done.returncode, exit_code, done.stderr)
+        return json.loads(done.stdout)
+
+    def subject(self, *arguments, exit_code=None):
+        subject, = self.record(*arguments, exit_code=exit_code)["cases"][0]["subjects"]
+        return subject
+
+    def is_gone(self, number):
+        """Whether a process has ended; who inherited it may not have waited for it yet."""
+        try:
+            with open(f"/proc/{number}/stat") as file:
+                return file.read().split()[2] in "ZX"
+        except FileNotFoundError:
+            return True
+
+    def runs(self, subject):
+        return [run for level in subject["levels"] for run in level["runs"]]
+
+    def fails(self, command, code, says=(), *options):
+        """A program of which every run fails: exit code 4, and a row for every run."""
+        done = run("verify", "--exec", command, *SHORT, *options, "--format", "json")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertRegex(done.stderr, r"\[%s\]\n\Z" % code)
+        for text in [says] if isinstance(says, str) else says:
+            self.assertIn(text, done.stderr)
+        subject, = json.loads(done.stdout)["cases"][0]["subjects"]
+        self.assertEqual({run["failure_code"] for run in self.runs(subject)}, {code})
+        return self.runs(subject)
+
+
+class Examples(ExecTest):
+    def agrees(self, command, expected, neighbours="2",
+               cases=(("stop",), ("three-parameter", "--set", "N=1"))):
+        for case in cases:
+            subject = self.subject("--exec", command, "--expect", expected, "--case", *case,
+                                   "--levels", "6", "--neighbours", neighbours, exit_code=0)
+            self.assertEqual((subject["kind"], subject["assessment"]["verdict"]),
+                             ("program", "agrees"))
+
+    def compiled(self, compiler, source):
+        program = shutil.which(compiler)
+        if program is None:
+            self.skipTest(f"needs {compiler}")
+        name = self.path(os.path.splitext(source)[0])
+        subprocess.run([program, "-O2", "-o", name, os.path.join(SOLVERS, source)], check=True)
+        return name
+
+    def test_python(self):
+        self.agrees(MIDPOINT + " {events}", "proper:2")
+
+    def test_c(self):
+        self.agrees(self.compiled("gcc", "heun.c") + " {case:text} {n} {out}", "proper:2")
+
+    def test_fortran(self):
+        self.agrees(self.compiled("gfortran", "rk4.f90") + " {case:text} {n} {out}", "proper:4")
+
+    def test_octave(self):
+        if shutil.which("octave-cli") is None:
+            self.skipTest("needs octave-cli")
+        self.agrees(f"octave-cli --no-history {SOLVERS}/newmark.m {{case}} {{h}} {{out}}",
+                    "irregular:1", "4", [["stop"]])
+
+    def test_are_short(self):
+        for name in os.listdir(SOLVERS):
+            if name != "README.md":
+                with open(os.path.join(SOLVERS, name)) as file:
+                    self.assertLess(len(file.readlines()), 60, name)
+
+
+class Good(ExecTest):
+    def test_problem_is_that_of_show(self):
+        shown = json.loads(run("show", "stop", "--set", "t_end=8", "--format", "json").stdout)
+        run("verify", "--exec", f"cp {{case}} {self.path('seen')}; cp {{case:text}} "
+            f"{self.path('text')}; exit {{n}}", *SHORT)
+        seen = json.loads(self.text_of("seen"))
+        self.assertEqual(seen["problem"], shown["problem"])
+        self.assertEqual(seen["case"], "stop")
+        lines = dict(line.split("=") for line in self.text_of("text").splitlines())
+        self.assertEqual([[float(lines["M1"])]], seen["problem"]["M"])
+        self.assertEqual(float(lines["end"]), seen["problem"]["end"])
+
+    def test_stands_beside_methods_under_its_own_name(self):
+        record = self.record("newmark", "--exec", MIDPOINT, "--exec", MIDPOINT, "--name", "mine",
+                             "--name", "yours", *SHORT)
+        subjects = record["cases"][0]["subjects"]
+        self.assertEqual([(one["name"], one["kind"]) for one in subjects],
+                         [("newmark", "method"), ("mine", "program"), ("yours", "program")])
+        self.assertEqual(self.subject("--exec", MIDPOINT, *SHORT)["name"], "midpoint")
+
+    def test_history_may_be_standard_output(self):
+        command = MIDPOINT.replace("{out}", "/dev/stdout")
+        self.assertTrue(all(run["finished"]
+                            for run in self.runs(self.subject("--exec", command, *SHORT))))
+
+    def test_paths_with_blanks_and_quotes(self):
+        folder = self.path("it's a \"folder\"")
+        os.mkdir(folder)
+        shutil.copy(os.path.join(SOLVERS, "midpoint.py"), os.path.join(folder, "my solver.py"))
+        done = run("verify", "--exec", "python3 'my solver.py' {case} {h} {out}", *SHORT, "--work",
+                   os.path.join(folder, "work $HOME"), "--format", "json", cwd=folder)
+        subject, = json.loads(done.stdout)["cases"][0]["subjects"]
+        self.assertEqual(subject["name"], "my solver")
+        self.assertTrue(all(run["finished"] for run in self.runs(subject)), done.stdout)
+
+    def test_tolerances_are_levels(self):
+        log = self.path("log")
+        self.script(f"echo $1 >> {log}; exec python3 {SOLVERS}/midpoint.py $2 $1 $3")
+        subject = self.subject("--exec", f"{self.path('solver')} {{tolerance}} {{case}} {{out}}",
+                               *STOP, "--tolerances", "1e-1:1e-3", "--jobs", "1")
+        self.assertEqual(self.text_of("log").split(), ["0.1", "0.01", "0.001"])
+        self.assertEqual(subject["resolution"], "tolerance")
+        self.assertEqual([run["step"] for run in self.runs(subject)], [0.1, 0.01, 0.001])
+
+    def test_runs_are_made_once(self):
+        log = self.path("log")
+        solver = self.script(f"echo run >> {log}; exec python3 {SOLVERS}/midpoint.py \"$@\"")
+
+        def count(*options):
+            open(log, "w").close()
+            first = self.subject("--exec", f"{solver} {{case}} {{h}} {{out}}", *SHORT, *options)
+            self.assertTrue(all(run["finished"] for run in self.runs(first)))
+            return len(self.text_of("log").split())
+        self.assertEqual(count(), 2)
+        self.assertEqual(count(), 0)
+        self.assertEqual(count("--set", "eta=0.5"), 2)
+        self.assertEqual(count("--fresh"), 2)
+        self.assertEqual(count("--work", self.path("work")), 2)
+        self.assertEqual(count("--work", self.path("work")), 0)
+        os.utime(solver, (1, 1))
+        self.assertEqual(count(), 2)
+
+
+class Bad(ExecTest):
+    def test_crash(self):
+        self.fails("kill -SEGV $$; : {h} {out}", "program-failed", "signal 11 (Segmentation fault)")
+
+    def test_exit_status_with_text(self):
+        run, _ = self.fails("echo no mesh >&2; exit {n}1; : {out}", "program-failed", "no mesh")
+        self.assertEqual(run["printed"], "no mesh\n")
+
+    def test_hang_with_children(self):
+        self.script(f"sleep 1000 & echo $! > {self.path('child')}\nsleep 1000")
+        self.fails(f"{self.path('solver')} {{h}} {{out}}", "program-timeout", "after 0.2 s",
+                   "--timeout", "0.2s", "--jobs", "1")
+        self.wait_for(lambda: self.is_gone(self.text_of("child").strip()))
+
+    def test_hang_is_not_tried_at_every_step(self):
+        runs = self.runs(self.subject("--exec", "sleep 1000; : {h}", *STOP, "--levels", "8",
+                                      "--neighbours", "2", "--timeout", "0.2", "--jobs", "1",
+                                      exit_code=4))
+        self.assertEqual(sum("not made" in run["failure"] for run in runs), 13)
+
+    def test_no_output(self):
+        self.fails("echo {h} {out}", "program-output", "{out}")
+        self.fails(": {h}", "program-output", "standard output")
+
+    def test_does_not_exist_or_may_not_be_executed(self):
+        self.fails("/nowhere/solver {h} {out}", "program-failed", "not found")
+        path = self.script("")
+        os.chmod(path, 0o644)
+        self.fails(f"{path} {{h}} {{out}}", "program-failed", "ermission denied")
+
+    def test_not_a_number(self):
+        self.fails("printf 't,u1\\n0,1\\n1,nan\\n2,nan\\n'; : {h}", "not-finite")
+
+    def test_half_a_row(self):
+        self.fails("printf 't,u1,v1\\n0,1,0\\n1,0.5,0\\n2,' > {out}; : {h}", "ragged-row",
+                   "history.csv line 4")
+
+    def test_endless_standard_output(self):
+        self.fails("yes; : {h} {out}", "program-timeout", "after 0.3 s", "--timeout", "0.3")
+
+    def test_one_step_is_a_row_and_not_the_end(self):
+        self.script(f"[ $2 -lt 150 ] || exit 7\nexec python3 {SOLVERS}/midpoint.py $1 $3 $4")
+        runs = self.runs(self.subject("--exec", f"{self.path('solver')} {{case}} {{n}} {{h}} {{out}}",
+                                      *STOP, "--coarsest", "0.1", "--levels", "3",
+                                      "--neighbours", "1"))
+        self.assertEqual([run["failure"] for run in runs], ["", "exit status 7.",
+                                                                     "exit status 7."])
+
+    def test_ignored_step_is_no_agreement(self):
+        subject = self.subject("--exec", MIDPOINT.replace("{h}", "0.01") + " # {h}", *STOP,
+                               "--levels", "4", "--neighbours", "1", "--expect", "proper:2",
+                               "--budget", "0")
+        self.assertNotEqual(subject["assessment"]["verdict"], "agrees")
+
+    def test_refusals(self):
+        for command, says in (("", "empty"), ("solver {out}", "{h}"),
+                              ("solver {h} {our}", 'Did you mean "out"?'),
+                              ("solver {h} {Case}", 'Did you mean "case"?')):
+            self.refused("verify", "--exec", command, code="(?:bad-syntax|unknown-name)", says=says)
+        self.refused("verify", "--exec", "a {h}", "--exec", "a {h}", code="bad-syntax", says="--name")
+        self.refused("verify", "--exec", "a {h}", "--name", "a", "--name", "b", code="wrong-size",
+                     says="--name")
+        self.refused("verify", "--timeout", "3", code="bad-syntax", says="--exec")
+        self.refused("verify", "--exec", "a {tolerance}", "--tolerances", "1e-3:x",
+                     code="bad-syntax", says="1e-3:1e-12")
+
+
+class Interrupted(ExecTest):
+    def test_keeps_finished_runs_and_leaves_no_process(self):
+        log = self.path("log")
+        solver = self.script(f"[ $3 -lt 100 ] || {{ echo $$ >> {log}; sleep 1000; }}\n"
+                             f"exec python3 {SOLVERS}/midpoint.py $1 $2 $4")
+        with start("verify", "--exec", f"{solver} {{case}} {{h}} {{n}} {{out}}", *STOP, "--coarsest",
+                   "0.1", "--levels", "3", "--neighbours", "2", "--jobs", "1", "--format", "json",
+                   stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            self.wait_for(lambda: os.path.exists(log) and self.text_of("log"))
+            process.send_signal(signal.SIGINT)
+            out, error = process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 130, error)
+        self.assertIn(b"[interrupted]", error)
+        for number in self.text_of("log").split():
+            self.wait_for(lambda: self.is_gone(number))
+        record = json.loads(out)
+        self.assertTrue(record["interrupted"])
+        subject, = record["cases"][0]["subjects"]
+        self.assertEqual([run["finished"] for run in self.runs(subject)], [True])
+        self.assertFalse([name for name in os.listdir(os.path.join(self.cache, "clackers", "programs"))
+                          if name.startswith(".running")])
+
+
+if __name__ == "__main__":
+    unittest.main()
