@@ -41,7 +41,8 @@ Diagnosis Hypothesis::diagnosis(const model::ImpactProblem<>& problem, double d,
   const double eta = problem.contacts.empty() ? 1.0 : problem.contacts.front().restitution;
   switch (parameter->change) {
     case Change::restitution:
-      if (eta + d > 1.0 + 1e-12) {
+      // More than an elastic impact gives back cannot be called restitution.
+      if (eta + d > 1.0 + std::max(uncertainty, 1e-9)) {
         found.code = Code("impact-impulse-wrong").name();
         say(1.0 + d / (1.0 + eta), 1.0 / (1.0 + eta), "1");
         found.evidence.push_back({"expected", 1.0});

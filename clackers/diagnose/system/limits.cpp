@@ -22,6 +22,8 @@ constexpr double least_effect_share = 0.3;
 constexpr double least_smooth_gain = 10.0, least_limit_gain = 30.0;
 /// Errors of period are mentioned where they cost as much as this.
 constexpr double noticeable = 1e-3;
+/// Where the distance does not fall with the step, it is no matter of the period.
+constexpr double least_fall = 1.5;
 constexpr double least_period_order = 1.3, most_period_order = 4.7;
 constexpr double limit_confidence = 0.7, period_confidence = 0.6;
 
@@ -141,7 +143,9 @@ std::vector<Diagnosis> smooth_limits(const FitQuestion& question) {
     found->evidence.push_back({"files", double(steps.size())});
     found->evidence.push_back({"order", law->order});
   }
-  if (!found && !question.by_tolerance && question.files.front().rows.distance > noticeable)
+  const double distance = question.files[0].rows.distance;
+  if (!found && !question.by_tolerance && distance > noticeable &&
+      question.files[1].rows.distance > least_fall * distance)
     found = period_error(question, sequences, steps);
   if (!found) return {};
   return {*found};
