@@ -126,6 +126,10 @@ std::vector<Parameter> smooth_parameters(const model::ImpactProblem<>& problem) 
     all.push_back({Change::frequency, i});
     all.push_back({Change::damping, i});
   }
+  // The ratio of velocities to displacements is that of the method's frequencies, so momentum is
+  // off as with another mass.
+  if (problem.dof() > 1 && !problem.contacts.empty())
+    all.push_back({Change::mass_ratio, int(problem.dof()) - 1});
   return all;
 }
 

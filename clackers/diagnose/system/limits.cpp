@@ -13,6 +13,8 @@ namespace {
 /// makes up to a fifth of it.
 constexpr double least_limit_share = 0.5;
 constexpr double residuals_above = 30.0;
+/// Values that differ by less than this part are the same in all files.
+constexpr double constant_share = 0.15;
 /// A law of three constants through three files fits always.
 constexpr std::size_t least_limit_files = 4;
 /// What remains makes this part of the distance of the finest history at least.
@@ -33,6 +35,8 @@ Hypothesis hypothesis_of(const Parameter& parameter) {
       return {"frequency-differs", parameter};
     case Change::restitution:
       return {"restitution-differs", parameter};
+    case Change::mass_ratio:
+      return {"mass-ratio-differs", parameter};
     default:
       return {"damping-differs", parameter};
   }
@@ -48,6 +52,10 @@ struct Sequence {
 
 std::optional<PowerLimit> significant_limit(const Sequence& sequence,
                                             std::span<const double> steps) {
+  const double first = sequence.values[0];
+  double spread = 0.0;
+  for (const double one : sequence.values) spread = std::max(spread, std::abs(one - first));
+  if (spread < constant_share * std::abs(first)) return PowerLimit{first, 0.0, spread};
   if (steps.size() < least_limit_files) return std::nullopt;
   const auto law = power_limit(steps, sequence.values);
   if (!law || !(std::abs(law->limit) > least_limit_share * std::abs(sequence.values[0])) ||
@@ -141,7 +149,7 @@ std::vector<Diagnosis> smooth_limits(const FitQuestion& question) {
     found->confidence = limit_confidence;
     found->evidence.insert(found->evidence.begin(), {"gain", gain});
     found->evidence.push_back({"files", double(steps.size())});
-    found->evidence.push_back({"order", law->order});
+    if (law->order > 0.0) found->evidence.push_back({"order", law->order});
   }
   const double distance = question.files[0].rows.distance;
   if (!found && !question.by_tolerance && distance > noticeable &&

@@ -50,12 +50,13 @@ Trial tried_beside(const FitFile& file, const Hypothesis& hypothesis, const FitQ
   Trial trial{&hypothesis};
   if (file.smooth.values.empty()) return trial;
   auto parameters = question.smooth;
-  auto start = file.smooth.values;
   const auto base = hypothesis.base(question.problem);
   SystemFit fit;
   if (hypothesis.parameter) {
     parameters.push_back(*hypothesis.parameter);
-    start.push_back(0.0);
+    // From the cause alone: the method's error is the smaller part where the cause is true.
+    std::vector<double> start(parameters.size(), 0.0);
+    start.back() = tried(file, hypothesis, question).d;
     fit = refine_system(file.rows, base, parameters, start);
   } else {
     fit = fit_system(file.rows, base, parameters);
@@ -69,6 +70,13 @@ Trial tried_beside(const FitFile& file, const Hypothesis& hypothesis, const FitQ
   return trial;
 }
 
+// A restitution below 0 lets masses pass through each other: a contact that is missing.
+bool is_possible(const Trial& trial, const FitQuestion& question) {
+  const auto& parameter = trial.hypothesis->parameter;
+  if (!parameter || parameter->change != Change::restitution) return true;
+  return question.problem.contacts.front().restitution + trial.d > -1e-3;
+}
+
 using Try = Trial (*)(const FitFile&, const Hypothesis&, const FitQuestion&);
 
 std::vector<Trial> all_tried(Try attempt, const std::vector<Hypothesis>& hypotheses,
@@ -76,6 +84,8 @@ std::vector<Trial> all_tried(Try attempt, const std::vector<Hypothesis>& hypothe
   std::vector<Trial> trials;
   for (const auto& one : hypotheses)
     trials.push_back(attempt(question.files.front(), one, question));
+  for (auto& one : trials)
+    if (!is_possible(one, question)) one.gain = 0.0;
   return trials;
 }
 
@@ -221,12 +231,10 @@ std::pair<int, int> impacts_near_departure(const FitFile& file, const FitQuestio
   return {1, 0};
 }
 
-// Not to be told from what a method's error does to frequencies and damping.
+// Not to be told from what a method's error does to frequencies, damping and momentum.
 bool is_smooth(const Parameter& parameter) {
   switch (parameter.change) {
     case Change::restitution:
-    case Change::impulse:
-    case Change::mass_ratio:
     case Change::damping_after_impact:
     case Change::time_shift:
       return false;
