@@ -21,7 +21,7 @@ struct FitQuestion {
   const model::Motion& motion;
   bool by_tolerance = false;
   std::vector<FitFile> files;     ///< finest first, each step at least 1.8 times the one before
-  std::vector<Parameter> smooth;  ///< frequency and damping of each mass
+  std::vector<Parameter> smooth;  ///< see smooth_parameters(), and the ratio of masses
 };
 
 inline constexpr std::size_t most_fit_files = 4;

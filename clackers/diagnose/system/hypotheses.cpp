@@ -41,7 +41,8 @@ Diagnosis Hypothesis::diagnosis(const model::ImpactProblem<>& problem, double d,
   const double eta = problem.contacts.empty() ? 1.0 : problem.contacts.front().restitution;
   switch (parameter->change) {
     case Change::restitution:
-      if (eta + d > 1.0 + 1e-12) {
+      // More than an elastic impact gives back cannot be called restitution.
+      if (eta + d > 1.0 + std::max(uncertainty, 1e-9)) {
         found.code = Code("impact-impulse-wrong").name();
         say(1.0 + d / (1.0 + eta), 1.0 / (1.0 + eta), "1");
         found.evidence.push_back({"expected", 1.0});
@@ -125,6 +126,10 @@ std::vector<Parameter> smooth_parameters(const model::ImpactProblem<>& problem) 
     all.push_back({Change::frequency, i});
     all.push_back({Change::damping, i});
   }
+  // The ratio of velocities to displacements is that of the method's frequencies, so momentum is
+  // off as with another mass.
+  if (problem.dof() > 1 && !problem.contacts.empty())
+    all.push_back({Change::mass_ratio, int(problem.dof()) - 1});
   return all;
 }
 

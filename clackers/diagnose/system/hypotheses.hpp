@@ -28,7 +28,8 @@ std::vector<Hypothesis> parameter_hypotheses(const model::ImpactProblem<>& probl
 /// Missed and doubled impacts first..last, and no contact at all.
 std::vector<Hypothesis> impact_hypotheses(const model::ImpactProblem<>& problem, int first,
                                           int last);
-/// Frequency and damping of each mass: what a method's own error changes.
+/// Frequency and damping of each mass, and the ratio of masses at impacts: what a method's own error
+/// changes.
 std::vector<Parameter> smooth_parameters(const model::ImpactProblem<>& problem);
 
 /// Whether one of these explains nothing that the other does not: no evidence against it.

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int most_iterations = 8;
-constexpr std::size_t least_window_rows = 16;
+constexpr std::size_t least_window_rows = 8;
 /// Parameters that have no effect on a window stay as they are.
 constexpr double least_effect = 1e-9;
 
@@ -134,7 +134,7 @@ SystemFit fit_system(const FitRows& rows, const Variation& base,
   if (!(best < 0.02 * rows.distance) && !parameters.empty()) {
     std::fill(solver.values().begin(), solver.values().end(), 0.0);
     const double omega = std::max(fastest(base.problem), 1e-300);
-    for (double span = 6.0 / omega;; span *= 2.0) {
+    for (double span = 3.0 / omega;; span *= 2.0) {
       const auto count = std::size_t(
           std::upper_bound(rows.t.begin(), rows.t.end(), rows.t.front() + span) - rows.t.begin());
       if (count >= all) break;

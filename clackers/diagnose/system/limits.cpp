@@ -13,6 +13,8 @@ namespace {
 /// makes up to a fifth of it.
 constexpr double least_limit_share = 0.5;
 constexpr double residuals_above = 30.0;
+/// Values that differ by less than this part are the same in all files.
+constexpr double constant_share = 0.15;
 /// A law of three constants through three files fits always.
 constexpr std::size_t least_limit_files = 4;
 /// What remains makes this part of the distance of the finest history at least.
@@ -22,6 +24,8 @@ constexpr double least_effect_share = 0.3;
 constexpr double least_smooth_gain = 10.0, least_limit_gain = 30.0;
 /// Errors of period are mentioned where they cost as much as this.
 constexpr double noticeable = 1e-3;
+/// Where the distance does not fall with the step, it is no matter of the period.
+constexpr double least_fall = 1.5;
 constexpr double least_period_order = 1.3, most_period_order = 4.7;
 constexpr double limit_confidence = 0.7, period_confidence = 0.6;
 
@@ -31,6 +35,8 @@ Hypothesis hypothesis_of(const Parameter& parameter) {
       return {"frequency-differs", parameter};
     case Change::restitution:
       return {"restitution-differs", parameter};
+    case Change::mass_ratio:
+      return {"mass-ratio-differs", parameter};
     default:
       return {"damping-differs", parameter};
   }
@@ -46,6 +52,10 @@ struct Sequence {
 
 std::optional<PowerLimit> significant_limit(const Sequence& sequence,
                                             std::span<const double> steps) {
+  const double first = sequence.values[0];
+  double spread = 0.0;
+  for (const double one : sequence.values) spread = std::max(spread, std::abs(one - first));
+  if (spread < constant_share * std::abs(first)) return PowerLimit{first, 0.0, spread};
   if (steps.size() < least_limit_files) return std::nullopt;
   const auto law = power_limit(steps, sequence.values);
   if (!law || !(std::abs(law->limit) > least_limit_share * std::abs(sequence.values[0])) ||
@@ -139,9 +149,11 @@ std::vector<Diagnosis> smooth_limits(const FitQuestion& question) {
     found->confidence = limit_confidence;
     found->evidence.insert(found->evidence.begin(), {"gain", gain});
     found->evidence.push_back({"files", double(steps.size())});
-    found->evidence.push_back({"order", law->order});
+    if (law->order > 0.0) found->evidence.push_back({"order", law->order});
   }
-  if (!found && !question.by_tolerance && question.files.front().rows.distance > noticeable)
+  const double distance = question.files[0].rows.distance;
+  if (!found && !question.by_tolerance && distance > noticeable &&
+      question.files[1].rows.distance > least_fall * distance)
     found = period_error(question, sequences, steps);
   if (!found) return {};
   return {*found};

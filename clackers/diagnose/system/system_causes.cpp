@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,13 +50,17 @@ Trial tried_beside(const FitFile& file, const Hypothesis& hypothesis, const FitQ
   Trial trial{&hypothesis};
   if (file.smooth.values.empty()) return trial;
   auto parameters = question.smooth;
-  auto start = file.smooth.values;
+  const auto base = hypothesis.base(question.problem);
+  SystemFit fit;
   if (hypothesis.parameter) {
     parameters.push_back(*hypothesis.parameter);
-    start.push_back(0.0);
+    // From the cause alone: the method's error is the smaller part where the cause is true.
+    std::vector<double> start(parameters.size(), 0.0);
+    start.back() = tried(file, hypothesis, question).d;
+    fit = refine_system(file.rows, base, parameters, start);
+  } else {
+    fit = fit_system(file.rows, base, parameters);
   }
-  const auto base = hypothesis.base(question.problem);
-  const auto fit = refine_system(file.rows, base, parameters, start);
   if (fit.values.empty()) return trial;
   if (hypothesis.parameter) {
     trial.d = fit.values.back();
@@ -68,17 +70,46 @@ Trial tried_beside(const FitFile& file, const Hypothesis& hypothesis, const FitQ
   return trial;
 }
 
+// A restitution below 0 lets masses pass through each other: a contact that is missing.
+bool is_possible(const Trial& trial, const FitQuestion& question) {
+  const auto& parameter = trial.hypothesis->parameter;
+  if (!parameter || parameter->change != Change::restitution) return true;
+  return question.problem.contacts.front().restitution + trial.d > -1e-3;
+}
+
 using Try = Trial (*)(const FitFile&, const Hypothesis&, const FitQuestion&);
+
+std::vector<Trial> all_tried(Try attempt, const std::vector<Hypothesis>& hypotheses,
+                             const FitQuestion& question) {
+  std::vector<Trial> trials;
+  for (const auto& one : hypotheses)
+    trials.push_back(attempt(question.files.front(), one, question));
+  for (auto& one : trials)
+    if (!is_possible(one, question)) one.gain = 0.0;
+  return trials;
+}
 
 struct Race {
   Trial best, second;
 };
+
+bool scales_time(const Trial& trial) {
+  return trial.hypothesis->parameter && trial.hypothesis->parameter->change == Change::time_scale;
+}
 
 Race race(const std::vector<Trial>& trials, Eigen::Index dof) {
   Race result;
   for (const auto& one : trials)
     if (one.gain > result.best.gain) result.best = one;
   if (!result.best.hypothesis) return result;
+  // Without damping a wrong frequency of one mass is a wrong time as well, and likelier.
+  if (scales_time(result.best))
+    for (const auto& one : trials)
+      if (one.gain * least_lead > result.best.gain && !scales_time(one) &&
+          equivalent(*one.hypothesis, *result.best.hypothesis, dof)) {
+        result.best = one;
+        break;
+      }
   for (const auto& one : trials)
     if (one.gain > result.second.gain && !equivalent(*one.hypothesis, *result.best.hypothesis, dof))
       result.second = one;
@@ -95,7 +126,8 @@ double largest_damping_ratio(const model::ImpactProblem<>& problem) {
 }
 
 // Whether a method's own error may have this effect at one step: relative errors of frequency of
-// (omega h)^2/2 and of damping of omega h are beyond what second and first order methods make.
+// (omega h)^2/2 and of damping of omega h are beyond what second and first order methods make; a
+// method that damps by omega h errs in frequency by (omega h)^2, which bounds the gain.
 bool may_be_numerical(const Trial& trial, const FitFile& file, const FitQuestion& question) {
   const auto change = trial.hypothesis->parameter
                           ? std::optional(trial.hypothesis->parameter->change)
@@ -112,10 +144,12 @@ bool may_be_numerical(const Trial& trial, const FitFile& file, const FitQuestion
     case Change::mass:
       return std::abs(trial.d) < 0.5 * turn * turn;
     case Change::damping:
+      return std::abs(trial.d) < turn && trial.gain * turn < least_gain;
+    case Change::damping_share:
+      return std::abs(trial.d) * largest_damping_ratio(question.problem) < turn &&
+             trial.gain * turn < least_gain;
     case Change::time_scale:
       return std::abs(trial.d) < turn;
-    case Change::damping_share:
-      return std::abs(trial.d) * largest_damping_ratio(question.problem) < turn;
     default:
       return false;
   }
@@ -145,10 +179,7 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
   for (std::size_t i = 1; i < std::min<std::size_t>(question.files.size(), 3); ++i) {
     const auto& other = question.files[i];
     const auto trial = attempt(other, hypothesis, question);
-    if (trial.gain < least_gain_beside) {
-      if (i == 1) return std::nullopt;
-      break;
-    }
+    if (trial.gain < least_gain_beside) break;
     if (hypothesis.parameter) {
       const double factor = other.step / finest.step;
       const bool constant = std::abs(trial.d - best.d) <= constant_share * std::abs(best.d);
@@ -200,6 +231,29 @@ std::pair<int, int> impacts_near_departure(const FitFile& file, const FitQuestio
   return {1, 0};
 }
 
+// Not to be told from what a method's error does to frequencies, damping and momentum.
+bool is_smooth(const Parameter& parameter) {
+  switch (parameter.change) {
+    case Change::restitution:
+    case Change::damping_after_impact:
+    case Change::time_shift:
+      return false;
+    default:
+      return true;
+  }
+}
+
+// The gain of the second best hypothesis that has no parameter: worse ones are not fitted again.
+double nearest_departure(const std::vector<Trial>& trials) {
+  double first = 0.0, second = 0.0;
+  for (const auto& one : trials) {
+    if (one.hypothesis->parameter) continue;
+    second = std::max(second, std::min(first, one.gain));
+    first = std::max(first, one.gain);
+  }
+  return second;
+}
+
 }  // namespace
 
 std::vector<Diagnosis> system_causes(const Question& asked) {
@@ -214,25 +268,22 @@ std::vector<Diagnosis> system_causes(const Question& asked) {
     for (auto& one : impact_hypotheses(question.problem, first, last))
       hypotheses.push_back(std::move(one));
 
-  const auto attempt_all = [&](Try attempt) {
-    std::vector<Trial> trials;
-    for (const auto& one : hypotheses) trials.push_back(attempt(finest, one, question));
-    return race(trials, dof);
-  };
-  if (auto cause = judged(attempt_all(tried), tried, question)) return {*cause};
-  if (question.files.size() < 2) return {};
+  const auto trials = all_tried(tried, hypotheses, question);
+  if (auto cause = judged(race(trials, dof), tried, question)) return {*cause};
 
   // The method's own error first.
   for (auto& file : question.files)
     file.smooth = fit_system(file.rows, Variation{question.problem}, question.smooth);
-  std::erase_if(hypotheses, [&](const Hypothesis& one) {
-    return one.parameter && one.parameter->change != Change::restitution &&
-           one.parameter->change != Change::impulse &&
-           one.parameter->change != Change::mass_ratio &&
-           one.parameter->change != Change::damping_after_impact &&
-           one.parameter->change != Change::time_shift;
-  });
-  if (auto cause = judged(attempt_all(tried_beside), tried_beside, question)) return {*cause};
+  const double nearest = nearest_departure(trials);
+  std::vector<Hypothesis> remaining;
+  for (const auto& one : trials) {
+    const auto& parameter = one.hypothesis->parameter;
+    if (parameter ? question.files.size() > 1 && !is_smooth(*parameter) : one.gain >= nearest)
+      remaining.push_back(*one.hypothesis);
+  }
+  if (auto cause =
+          judged(race(all_tried(tried_beside, remaining, question), dof), tried_beside, question))
+    return {*cause};
   return smooth_limits(question);
 }
 

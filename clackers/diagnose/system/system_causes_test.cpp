@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "clackers/diagnose/causes.hpp"
+#include "clackers/diagnose/testing/wrong_solvers.hpp"
+
+namespace clackers::diagnose::testing {
+namespace {
+
+const std::vector<Fault>& all_faults() {
+  static const auto all = faults();
+  return all;
+}
+const std::vector<RightSolver>& all_right() {
+  static const auto all = right_solvers();
+  return all;
+}
+
+class FaultySolver : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(FaultySolver, IsFoundWithItsValue) {
+  const auto& fault = all_faults()[GetParam()];
+  SCOPED_TRACE(fault.name);
+  for (const bool fourth_order : {true, false}) {
+    const auto which = cases::make("three-parameter", {{"N", 1.0}});
+    auto problem = which.problem;
+    Solver solver;
+    if (!fourth_order) solver.step = newmark(0.25, 0.5);
+    ASSERT_TRUE(fault.put(problem, solver));
+    const auto found = system_causes(solved(which, problem, solver, 0.2, 3).question());
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].code, fault.code);
+    // The coarser of the two methods errs by (w h)^2/12 = 2e-4 at its finest step.
+    if (!std::isnan(fault.value)) {
+      EXPECT_NEAR(found[0].value, fault.value, 0.05 * std::abs(fault.value));
+    }
+    EXPECT_GE(found[0].confidence, 0.7);
+    EXPECT_GE(found[0].fact("gain"), 30.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FaultySolver, ::testing::Range<std::size_t>(0, faults().size()));
+
+class CorrectSolver : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(CorrectSolver, HasNoCauseButItsPeriodError) {
+  const auto& right = all_right()[GetParam()];
+  SCOPED_TRACE(right.name);
+  const auto which = GetParam() % 2 == 0 ? cases::make("three-parameter", {{"N", 1.0}})
+                                         : cases::make("stop", {{"eta", 0.5}});
+  for (const int count : {1, 3})
+    for (const auto& one :
+         system_causes(solved(which, which.problem, right.solver, 0.4, count).question()))
+      EXPECT_EQ(one.code, "period-error") << one.value << " " << one.unit;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CorrectSolver,
+                         ::testing::Range<std::size_t>(0, right_solvers().size()));
+
+TEST(SystemCauses, RestitutionIsTheValueItself) {
+  const auto which = cases::make("stop", {{"eta", 0.5}});
+  auto problem = which.problem;
+  problem.contacts[0].restitution = 1.0;
+  const auto found = system_causes(solved(which, problem, {}, 0.1, 3).question());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].code, "restitution-differs");
+  EXPECT_NEAR(found[0].value, 1.0, 1e-5);
+  EXPECT_EQ(found[0].fact("expected"), 0.5);
+}
+
+TEST(SystemCauses, WhatRoundingMakesIsNoCause) {
+  const auto which = cases::make("three-parameter");
+  Files files{which};
+  for (const double h : {0.02, 0.01, 0.005}) files.add(exact_rows(which, h), h);
+  EXPECT_TRUE(system_causes(files.question()).empty());
+}
+
+TEST(SystemCauses, PrintedDigitsAreNoCause) {
+  const auto which = cases::make("three-parameter");
+  auto problem = which.problem;
+  problem.system.stiffness(0, 0) *= 1.0 + 1e-6;
+  EXPECT_TRUE(system_causes(solved(which, problem, {}, 0.1, 3, 4).question()).empty());
+}
+
+}  // namespace
+}  // namespace clackers::diagnose::testing

@@ -1,0 +1,161 @@
+#pragma once
+
+// Solvers with one fault each, right solvers, and the cases on which both are run. For tests only.
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clackers/diagnose/testing/histories.hpp"
+#include "clackers/diagnose/testing/integrators.hpp"
+
+namespace clackers::diagnose::testing {
+
+/// A fault and what must be found. `value` NaN: not compared.
+struct Fault {
+  const char* name;
+  const char* code;
+  double value;
+  /// Changes problem or solver; false where the case cannot have the fault.
+  std::function<bool(model::ImpactProblem<>&, Solver&)> put;
+};
+
+inline std::vector<Fault> faults() {
+  using P = model::ImpactProblem<>&;
+  using S = Solver&;
+  const auto collides = [](P p) { return !p.contacts.empty(); };
+  const auto restitution = [](double d) {
+    return [d](P p, S) {
+      for (auto& contact : p.contacts) contact.restitution += d;
+      return !p.contacts.empty();
+    };
+  };
+  const auto mass = [](Eigen::Index i, double factor) {
+    return [i, factor](P p, S) {
+      if (p.dof() < 2) return false;
+      p.system.mass(i, i) *= factor;
+      return true;
+    };
+  };
+  const auto stiffness = [](bool last, double factor) {
+    return [last, factor](P p, S) {
+      const auto i = last ? p.dof() - 1 : 0;
+      p.system.stiffness(i, i) *= factor;
+      return true;
+    };
+  };
+  const auto damping = [](bool first_only, double factor) {
+    return [first_only, factor](P p, S) {
+      if (!(p.system.damping.norm() > 0.0)) return false;
+      if (first_only)
+        p.system.damping(0, 0) *= factor;
+      else
+        p.system.damping *= factor;
+      return true;
+    };
+  };
+  const auto percent = [](double factor) { return 100.0 * (std::sqrt(factor) - 1.0); };
+  return {
+      {"restitution lower by 0.01", "restitution-differs", NAN, restitution(-0.01)},
+      {"restitution lower by 0.1", "restitution-differs", NAN, restitution(-0.1)},
+      {"mass 2 heavier by 1 %", "mass-ratio-differs", 1.0, mass(1, 1.01)},
+      {"mass 1 lighter by 3 %", "mass-ratio-differs", -3.0, mass(0, 0.97)},
+      {"last spring stiffer by 1 %", "frequency-differs", percent(1.01), stiffness(true, 1.01)},
+      {"first spring softer by 1 %", "frequency-differs", percent(0.99), stiffness(false, 0.99)},
+      {"damping larger by a tenth", "damping-differs", 10.0, damping(false, 1.1)},
+      {"damping lost", "damping-differs", -100.0, damping(false, 0.0)},
+      {"damping of mass 1 larger by half", "damping-differs", 50.0, damping(true, 1.5)},
+      {"second impact missed", "impact-missed", 2.0,
+       [collides](P p, S s) { return s.missed = 2, collides(p); }},
+      {"third impact missed", "impact-missed", 3.0,
+       [collides](P p, S s) { return s.missed = 3, collides(p); }},
+      {"no contact", "impact-missed", NAN,
+       [](P p, S) {
+         const bool had = !p.contacts.empty();
+         p.contacts.clear();
+         return had;
+       }},
+      {"first impact doubled", "impact-doubled", 1.0,
+       [collides](P p, S s) { return s.doubled = 1, collides(p); }},
+      {"third impact doubled", "impact-doubled", 3.0,
+       [collides](P p, S s) { return s.doubled = 3, collides(p); }},
+      {"impulses larger by 2 % of elastic ones", "impact-impulse-wrong", 1.02,
+       [collides](P p, S s) {
+         s.impulse = 1.02;
+         return collides(p) && p.contacts[0].restitution == 1.0;
+       }},
+      {"rows late by a step", "time-shifted", 1.0, [](P, S s) { return s.late_steps = 1, true; }},
+      {"rows late by two steps", "time-shifted", 2.0,
+       [](P, S s) { return s.late_steps = 2, true; }},
+      {"rows late by 5 ms", "time-shifted", 0.005, [](P, S s) { return s.late = 0.005, true; }},
+  };
+}
+
+struct RightSolver {
+  const char* name;
+  Solver solver;
+};
+
+inline std::vector<RightSolver> right_solvers() {
+  std::vector<RightSolver> all;
+  for (const auto& [name, step] : {std::pair<const char*, Step>{"Runge-Kutta 4", rk4},
+                                   {"Newmark", newmark(0.25, 0.5)},
+                                   {"linear acceleration", newmark(1.0 / 6.0, 0.5)},
+                                   {"HHT", hht(-0.2)},
+                                   {"Newmark, gamma 0.6", newmark(0.3025, 0.6)},
+                                   {"Verlet", verlet},
+                                   {"implicit Euler", implicit_euler},
+                                   {"symplectic Euler", symplectic_euler},
+                                   {"TR-BDF2", tr_bdf2}})
+    all.push_back({name, {.step = step}});
+  for (const auto location : {Location::linear, Location::end_of_step})
+    for (const auto& [name, step] : {std::pair<const char*, Step>{"Runge-Kutta 4", rk4},
+                                     {"Newmark", newmark(0.25, 0.5)},
+                                     {"Verlet", verlet}})
+      all.push_back({name, {.step = step, .location = location}});
+  all.push_back({"Runge-Kutta 4, event tolerance", {.tolerance = 1e-3}});
+  return all;
+}
+
+inline std::vector<cases::Case> system_cases() {
+  auto all = assorted_cases();
+  all.push_back(cases::make("three-parameter", {{"N", 1.0}, {"xi1", 0.0}}));
+  all.push_back(cases::make("three-parameter", {{"N", 2.0}, {"a_t", 3.0}}));
+  all.push_back(cases::make("synchronized-pair", {{"X", 7.0}, {"r", 1.5}}));
+  all.push_back(cases::make("stop", {{"xi1", 0.0}}));
+  all.push_back(cases::make("symmetric-pair", {{"eta", 0.7}}));
+  all.push_back(cases::make("exact-data-pair", {}));
+  return all;
+}
+
+inline double fastest(const cases::Case& which) {
+  const auto& s = which.problem.system;
+  return std::sqrt(s.stiffness.diagonal().cwiseQuotient(s.mass.diagonal()).maxCoeff());
+}
+
+inline std::string name_of(const cases::Case& which) {
+  std::string name(which.entry->name);
+  for (const auto& [parameter, value] : which.values)
+    name += " " + parameter + "=" + std::to_string(value);
+  return name;
+}
+
+/// Files of a solver for a problem that may be another than the case's, steps halved, the first
+/// `turn` radians of the fastest frequency. `digits` of the printed numbers.
+inline Files solved(const cases::Case& which, const model::ImpactProblem<>& problem,
+                    const Solver& solver, double turn, int count, int digits = 17) {
+  Files files{which};
+  const double end = which.problem.end;
+  double h = turn / fastest(which);
+  for (int i = 0; i < count; ++i, h /= 2.0) {
+    const double step = end / std::ceil(end / h);
+    auto rows = solve(solver, problem, step, end);
+    if (digits < 17) print(rows, digits);
+    files.add(rows, facts_of(which, rows, step, digits));
+  }
+  return files;
+}
+
+}  // namespace clackers::diagnose::testing

@@ -1,0 +1,56 @@
+// Causes fitted by exact simulation over generated histories: every fault on every case that can
+// have it, and correct solvers, which must have no cause but their error of period.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "clackers/diagnose/causes.hpp"
+#include "clackers/diagnose/testing/wrong_solvers.hpp"
+
+namespace clackers::diagnose::testing {
+namespace {
+
+TEST(SystemCauses, AreFoundOnEveryCase) {
+  int all = 0, found = 0;
+  for (const auto& fault : faults())
+    for (const auto& which : system_cases())
+      for (const bool fourth_order : {true, false}) {
+        auto problem = which.problem;
+        Solver solver;
+        if (!fourth_order) solver.step = newmark(0.25, 0.5);
+        if (!fault.put(problem, solver)) continue;
+        ++all;
+        const auto causes = system_causes(solved(which, problem, solver, 0.3, 4).question());
+        // A file of two equal masses cannot tell a sum from its parts better than this.
+        const bool hit = causes.size() == 1 && causes[0].code == fault.code &&
+                         (std::isnan(fault.value) ||
+                          std::abs(causes[0].value - fault.value) <= 0.05 * std::abs(fault.value));
+        found += hit;
+        if (!hit)
+          ADD_FAILURE() << fault.name << ", " << name_of(which) << ", order "
+                        << (fourth_order ? 4 : 2) << ": "
+                        << (causes.empty() ? "nothing" : causes[0].code) << ' '
+                        << (causes.empty() ? 0.0 : causes[0].value);
+      }
+  RecordProperty("found", found);
+  EXPECT_GE(all, 20 * 18);
+}
+
+TEST(SystemCauses, CorrectSolversHaveNone) {
+  int all = 0;
+  for (const auto& right : right_solvers())
+    for (const auto& which : system_cases())
+      for (const auto& [turn, count, digits] :
+           {std::tuple{0.6, 1, 17}, {0.6, 3, 17}, {0.25, 1, 17}, {0.25, 2, 6}, {0.25, 4, 17}}) {
+        ++all;
+        for (const auto& one : system_causes(
+                 solved(which, which.problem, right.solver, turn, count, digits).question()))
+          EXPECT_EQ(one.code, "period-error")
+              << right.name << ", " << name_of(which) << ", " << count << " files from " << turn
+              << ": " << one.value << ' ' << one.unit << ", gain " << one.fact("gain");
+      }
+  EXPECT_GE(all, 500);
+}
+
+}  // namespace
+}  // namespace clackers::diagnose::testing
