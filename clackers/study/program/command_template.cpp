@@ -82,7 +82,8 @@ std::vector<Word> words_of(std::string_view line) {
     // NAME=value before a command is not the command.
     const bool assigns = is_command && text.find('=') != std::string::npos;
     if (plain) word.text = std::move(text);
-    if (!assigns) is_command = false;
+    word.is_command = is_command && !assigns;
+    is_command = is_command && assigns;
     words.push_back(std::move(word));
   }
   return words;
