@@ -100,6 +100,16 @@ std::string behaviour_sentence(const study::Subject& subject) {
       break;
   }
   add(text, tolerance_sentence(subject, fit));
+  if (fit.lucky_share > 0.0)
+    add(text, fmt::format("{:.0f} % of the runs are at the rounding floor by luck: their steps "
+                          "divide the time between collisions.",
+                          100.0 * fit.lucky_share));
+  if (fit.cancel_step > 0.0)
+    add(text, fmt::format("The signed error passes zero near {}.",
+                          resolution_text(subject, fit.cancel_step)));
+  if (fit.stable_step > 0.0)
+    add(text, fmt::format("Runs above {} fail: the stability limit.",
+                          resolution_text(subject, fit.stable_step)));
   // What to add is said with its steps instead.
   if (hint_text(subject).empty()) add(text, meaning_of(fit.reason));
   return text;
