@@ -56,8 +56,10 @@ struct Facts {
 /// (`undecided` claims nothing). Behaviour and verdict go by the displacement error; velocity and
 /// impact times are fitted beside it. The rules for the behaviour, first hit wins:
 ///
-///     divergent [energy-growth]     no line, and most runs of both finest levels end with an energy
-///                                   outside [1/2, 2] of the true one
+///     divergent [energy-growth]     no line, errors that do not fall, and most runs of both finest
+///                                   levels end with more than twice the true energy
+///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with
+///                                   less than half of it
 ///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
 ///                                   printing makes, and the fit is exact, a floor or has too few
 ///                                   levels

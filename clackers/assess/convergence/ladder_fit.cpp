@@ -8,8 +8,8 @@ namespace {
 // As numbered in the header.
 constexpr Rule rules[] = {
     nothing_to_fit, finest_failed,    at_rounding_floor, tolerance_ladder,
-    claimed_line,   too_few_levels,   other_line,        plateau,
-    cancellation,   bent_by_rounding, line_with_floor,   line_then_rough_floor,
+    claimed_line,   too_few_levels,   cancellation,      other_line,
+    plateau,        bent_by_rounding, line_with_floor,   line_then_rough_floor,
     zigzag,         growth,           outliers,          swinging,
     rising_rates,   grows_again,      anything_else};
 

@@ -53,29 +53,38 @@ inline constexpr double settling_share = 0.5;
 /// this order; the first that applies decides. `clear` levels are the consecutive finest ones above
 /// the rounding floor in which at least half of the runs came to an end.
 ///
-///  1 no level, or steps that do not resolve a compliant contact: undecided
+///  1 no level, or steps that do not resolve a compliant contact (unless flat to two digits over
+///    three octaves with ten steps a contact: stagnating): undecided
 ///  2 most runs of the finest level failed: divergent if the errors before them grow, or undecided
-///  3 no clear level: exact if every level is at the rounding floor, or undecided (run-failed)
-///  4 the claimed line over at least four levels, all rates of adjacent levels within a tenth of
+///  3 every run of every level at the rounding floor, but for those there by luck: exact
+///  4 a ladder of tolerances: by the line of all errors, scatter 10 allowed, and a floor after it
+///  5 the claimed line over at least four levels, all rates of adjacent levels within a tenth of
 ///    the claimed order and raw points within a factor 1.5 of the line: proper
-///  5 fewer than four clear levels: undecided
-///  6 a straight line over at least four finest clear levels, rates within 0.2 of its slope:
+///  6 fewer than four clear levels: undecided
+///  7 two terms of different sign follow the errors within 1.15: stagnating after a dip where the
+///    lower one is a constant, else a line of the lower order (errors-cancel)
+///  8 a straight line over at least four finest clear levels, rates within 0.2 of its slope:
 ///    a flat one (slope within 0.2 of 0): stagnating
-///    one that may still reach the claim: as rule 8 or 12, or undecided
+///    one that may still reach the claim: as rule 10, 11 or 13, or undecided
 ///    one that grows: divergent; one below the claim: reduced; any other: proper, its own order
-///  7 at least three finest clear levels flat: stagnating
-///  8 raw points that zigzag from step to step: the envelope decides
-///  9 errors that grow over four levels without settling: divergent
-/// 10 a straight line but for a few raw points far above it: the envelope decides
-/// 11 errors that swing over whole levels: the envelope decides
-/// 12 the claimed line up to two levels before the floor, which rounding bends: proper
-/// 13 rates that exceed the claim and rise: undecided (no-fixed-order)
-/// 14 anything else: undecided, too few levels if the last rate is the claimed one
+///  9 at least three finest clear levels flat: stagnating; proper above a rough floor
+/// 10 the claimed line up to two levels before the floor, which rounding bends: proper
+/// 11 a h^p + c follows the errors: proper or reduced with a floor; stagnating where a smooth floor
+///    rules two octaves
+/// 12 a line of three octaves, then a rough floor: proper or reduced with a floor
+/// 13 raw points that zigzag from step to step: the envelope decides
+/// 14 errors that grow over four levels without settling: divergent
+/// 15 a straight line but for a few raw points far above it: the envelope decides
+/// 16 errors that swing over whole levels: the envelope decides
+/// 17 rates that exceed the claim and rise: undecided (no-fixed-order)
+/// 18 errors that fall and then grow: undecided (error-grows-again)
+/// 19 anything else: undecided: larger-than-motion, too-few-levels if the last rate is the claimed
+///    one, one-sample-a-level, or no-convergence-yet
 ///
-/// The envelope decides: stagnating where the raw points of the last four levels are flat;
-/// irregular where the line of the largest error of each level (leading levels with errors as large
-/// as the motion left out) falls by more than its own spread; divergent where it rises by as much;
-/// else undecided.
+/// The envelope decides: undecided for one run a level; stagnating where the raw points of the last
+/// four levels are flat; irregular where the line of the largest error of each level (leading levels
+/// with errors as large as the motion left out) falls by more than its own spread; divergent where it
+/// rises by as much; else undecided (more-neighbours).
 ///
 /// Throws InputError for steps that are not positive, for negative errors and for levels that do
 /// not descend (view() of error_ladder.hpp).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "clackers/assess/convergence/fit/two_terms.hpp"
@@ -62,25 +63,51 @@ double spread_of_largest(std::span<const LevelView> levels, const Envelope& foun
   return normal95 * share * std::log(found.scatter) / std::sqrt(squares);
 }
 
+// The largest errors of an envelope, a level each.
+std::vector<LevelView> largest_of(std::span<const LevelView> levels, const Envelope& found) {
+  std::vector<LevelView> largest;
+  for (int i = found.first; i <= found.last; ++i) {
+    LevelView one;
+    one.x = {std::log(levels[std::size_t(i)].step)};
+    one.y = {std::log(levels[std::size_t(i)].error)};
+    largest.push_back(std::move(one));
+  }
+  return largest;
+}
+
+// What the line and a law leave of the largest errors.
+std::pair<double, double> squares_of(const std::vector<LevelView>& largest, const Envelope& found,
+                                     const TwoTerms& law) {
+  double of_line = 0.0, of_law = 0.0;
+  for (const auto& level : largest) {
+    const double x = level.x.front(), y = level.y.front();
+    of_line += std::pow(y - found.line.at(x), 2);
+    of_law += std::pow(y - std::log(law.error_at(std::exp(x))), 2);
+  }
+  return {of_line, of_law};
+}
+
+// The order above a floor where  a h^p + c  describes the envelope better than its line (Akaike: one
+// parameter more); 0 otherwise.
+double order_above_floor(std::span<const LevelView> levels, const Envelope& found) {
+  const auto largest = largest_of(levels, found);
+  const auto law = fit_two_terms(largest, 0, int(largest.size()) - 1, {});
+  if (!law) return 0.0;
+  const auto [of_line, of_law] = squares_of(largest, found, *law);
+  constexpr double akaike = 2.0;
+  return double(largest.size()) * std::log(of_line / of_law) > akaike ? law->p : 0.0;
+}
+
 // The whole order k where the envelope lies significantly above k, by half at most, and the blend
 // a h^k + b h^(k+1) is within the 95 % region about the line; 0 otherwise.
 double order_of_blend(std::span<const LevelView> levels, const Envelope& found) {
   const double slope = found.line.slope, lower = std::floor(slope);
   if (lower < 1.0 || slope - lower <= found.line.slope_spread || slope - lower > 0.5) return 0.0;
-  std::vector<LevelView> largest;
-  for (int i = found.first; i <= found.last; ++i) {
-    const auto& level = levels[std::size_t(i)];
-    largest.push_back({.x = {std::log(level.step)}, .y = {std::log(level.error)}});
-  }
+  const auto largest = largest_of(levels, found);
   const auto law =
       fit_two_terms(largest, 0, int(largest.size()) - 1, {.p = lower + 1.0, .q = lower});
   if (!law) return 0.0;
-  double of_line = 0.0, of_law = 0.0;
-  for (const auto& level : largest) {
-    const double x = level.x.front(), y = level.y.front();
-    of_line += std::pow(y - found.line.at(x), 2);
-    of_law += std::pow(y - std::log(law->error_at(std::exp(x))), 2);
-  }
+  const auto [of_line, of_law] = squares_of(largest, found, *law);
   const int freedom = int(largest.size()) - 2;
   const double t = numerics::student_t95(freedom);
   return of_law <= of_line * (1.0 + t * t / freedom) ? lower : 0.0;
@@ -143,9 +170,10 @@ std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, i
   found.scatter = std::exp(furthest);
   found.order = found.line.slope;
   found.spread = std::max(found.line.slope_spread, spread_of_largest(levels, found));
-  if (const double lower = order_of_blend(levels, found); lower > 0.0) {
+  if (const double lower = order_of_blend(levels, found); lower > 0.0)
     found.spread = std::max(found.spread, found.order - lower);
-  }
+  if (const double above = order_above_floor(levels, found); above > 0.0)
+    found.spread = std::max(found.spread, above - found.order);
   return found;
 }
 

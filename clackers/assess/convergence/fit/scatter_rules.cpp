@@ -21,7 +21,7 @@ LadderFit envelope_decides(const Range& range, const FitContext& context) {
   if (!upper)
     return undecided(range,
                      range.tracked > range.first ? Code("larger-than-motion") : "too-few-levels");
-  const double slope = upper->order, spread = upper->line.slope_spread;
+  const double slope = upper->order, spread = upper->spread;
   // Rough and flat at the end: all raw points of the last levels together show the trend best.
   const auto tail = range.last(shortest_window);
   if (tail && is_flat(*tail)) return stagnates(range, context, *tail);
@@ -30,7 +30,7 @@ LadderFit envelope_decides(const Range& range, const FitContext& context) {
   auto fit = range.blank;
   fit.has_line = fit.on_envelope = true;
   fit.order = slope;
-  fit.spread = upper->spread;
+  fit.spread = spread;
   fit.scatter = upper->scatter;
   fit.constant = std::exp(upper->line.intercept);
   fit.first_level = upper->first;

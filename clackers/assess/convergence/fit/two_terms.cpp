@@ -155,9 +155,15 @@ std::optional<TwoTerms> fit_two_terms(std::span<const LevelView> levels, int fir
   if (std::ssize(points) < (terms.p > 0.0 ? 4 : 5)) return {};
   if (!terms.cancels) return law(points, centre, terms);
   scale_by_neighbours(points);
-  const auto lowest =
-      std::size_t(std::ranges::min_element(points, {}, [](const Point& one) { return one.error; }) -
-                  points.begin());
+  const auto lowest = std::size_t(
+      std::ranges::min_element(points, {}, [](const Point& one) { return one.error / one.scale; }) -
+      points.begin());
+  // Beyond a zero the errors rise again.
+  constexpr double rises = 1.5;
+  const bool dips =
+      std::any_of(points.begin() + std::ptrdiff_t(lowest), points.end(),
+                  [&](const Point& one) { return one.error > rises * points[lowest].error; });
+  if (!dips) return {};
   std::optional<TwoTerms> best;
   for (const auto place : {lowest, lowest + 1}) {
     if (place == 0 || place >= points.size()) continue;
