@@ -98,6 +98,7 @@ std::optional<Interpolation> pieces_of(const Column& column, int degree, std::si
   // Impacts are among the largest jumps.
   found.error = quantile(jumps, 0.9) / column.scale *
                 (degree == 1 ? parts / 8.0 : parts * parts * parts / 384.0);
+  for (const auto& node : nodes) found.nodes.push_back(std::size_t(std::llround(node.at)));
   return found;
 }
 
@@ -130,7 +131,10 @@ std::optional<Interpolation> interpolation_of(const Observation& history,
     for (const int degree : {1, 3}) {
       const auto pieces = pieces_of(column, degree, impacts);
       if (!pieces) continue;
-      if (!found || pieces->error > found->error) found = pieces;
+      if (!found || pieces->error > found->error) {
+        found = pieces;
+        found->mass = int(mass);
+      }
       break;
     }
   }

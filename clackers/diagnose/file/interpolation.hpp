@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "clackers/diagnose/observation.hpp"
 #include "clackers/model/motion.hpp"
@@ -9,9 +10,11 @@ namespace clackers::diagnose {
 
 /// Polynomials between the states of a solver's own steps, as the rows of a history show them.
 struct Interpolation {
-  int degree = 1;        ///< 1 or 3
-  double spacing = 0.0;  ///< of the nodes, mean [s]
-  double error = 0.0;    ///< largest error between nodes, of u over its scale
+  int degree = 1;                  ///< 1 or 3
+  double spacing = 0.0;            ///< of the nodes, mean [s]
+  double error = 0.0;              ///< largest error between nodes, of u over its scale
+  int mass = 0;                    ///< whose displacement shows it most, from 0
+  std::vector<std::size_t> nodes;  ///< rows of the opening nearest to nodes, ascending
 };
 
 /// Looks for them in the opening rows. Differences of order degree + 1 of equally spaced rows vanish

@@ -4,6 +4,7 @@
 #include "clackers/diagnose/file/file_sample.hpp"
 #include "clackers/diagnose/file/first_row.hpp"
 #include "clackers/diagnose/file/interpolation.hpp"
+#include "clackers/diagnose/file/reading.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -27,14 +28,39 @@ std::optional<Diagnosis> ends_early(const std::vector<FileSample>& files, bool b
   return cause;
 }
 
+// Whether the history is far better at the nodes than between them, so that interpolation makes its
+// error. With few rows between nodes none is near enough to one.
+bool better_at_nodes(const FileSample& file, const Interpolation& found) {
+  constexpr double least_parts = 8.0, least_ratio = 2.0;
+  const auto& opening = file.history().opening;
+  if (found.spacing < least_parts * file.history().facts.spacing) return true;
+  const auto reference = reference_rows(file.motion(), opening.t, false);
+  const auto masses = std::size_t(opening.dof);
+  const auto error = [&](std::size_t row) {
+    const auto at = row * masses + std::size_t(found.mass);
+    return std::abs(opening.u[at] - reference.u[at]);
+  };
+  std::vector<double> at_nodes, between;
+  for (std::size_t i = 0; i + 1 < found.nodes.size(); ++i) {
+    at_nodes.push_back(error(found.nodes[i]));
+    between.push_back(error((found.nodes[i] + found.nodes[i + 1]) / 2));
+  }
+  std::ranges::sort(at_nodes);
+  std::ranges::sort(between);
+  const auto middle = at_nodes.size() / 2;
+  return between[middle] > least_ratio * at_nodes[middle];
+}
+
 // Rows between the nodes of a straight or cubic interpolation, where its error is at least that of
-// half of the rows.
-std::optional<Diagnosis> resampled(const std::vector<FileSample>& files) {
+// half of the rows. The interpolants of an adaptive solver are as good as its tolerance: there the
+// finest history decides.
+std::optional<Diagnosis> resampled(const std::vector<FileSample>& files, bool by_tolerance) {
   std::optional<Diagnosis> first;
   double count = 0.0;
   for (const auto& file : files) {
+    if (by_tolerance && &file != &files.front()) break;
     const auto nodes = interpolation_of(file.history(), file.scale());
-    if (!nodes || !(nodes->error > file.median_error())) continue;
+    if (!nodes || !(nodes->error > file.median_error()) || !better_at_nodes(file, *nodes)) continue;
     ++count;
     if (first) continue;
     first.emplace();
@@ -85,7 +111,7 @@ std::vector<Diagnosis> row_causes(const std::vector<FileSample>& files, const Qu
   std::vector<Diagnosis> all;
   if (auto cause = ends_early(files, question.by_tolerance)) all.push_back(*cause);
   if (auto cause = starts_at_rest(files.front(), question)) all.push_back(*cause);
-  if (auto cause = resampled(files)) all.push_back(*cause);
+  if (auto cause = resampled(files, question.by_tolerance)) all.push_back(*cause);
   return all;
 }
 
