@@ -30,7 +30,8 @@ class Help(CommandTest):
                "respond": ["--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--set", "--levels", "--coarsest", "--neighbours",
-                          "--jobs", "--baseline", "--report"]}
+                          "--budget", "--exec", "--name", "--expect", "--tolerances", "--timeout",
+                          "--work", "--fresh", "--jobs", "--require", "--baseline", "--report"]}
         for command, options in own.items():
             text = self.good(command, "--help").split("\nOptions\n")[1]
             named = re.findall(r"^  (?:-h,)?(--[a-z-]+)", text, re.M)
@@ -82,7 +83,7 @@ class Names(CommandTest):
                          says=('Did you mean "json"?', "table, csv, json"))
 
     def test_of_options_still_to_come_are_unknown(self):
-        for command, option in (("verify", "--expect"), ("respond", "--baseline")):
+        for command, option in (("show", "--expect"), ("respond", "--baseline")):
             self.refused(command, option, "stop", code="unknown-name", says=f'no option "{option}"')
 
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
@@ -82,7 +83,8 @@ std::vector<Word> words_of(std::string_view line) {
     // NAME=value before a command is not the command.
     const bool assigns = is_command && text.find('=') != std::string::npos;
     if (plain) word.text = std::move(text);
-    if (!assigns) is_command = false;
+    word.is_command = is_command && !assigns;
+    is_command = is_command && assigns;
     words.push_back(std::move(word));
   }
   return words;

@@ -1,0 +1,57 @@
+#include "clackers/study/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include "clackers/base/testing/refusal.hpp"
+
+namespace clackers::study {
+namespace {
+
+using Numbers = std::vector<double>;
+
+TEST(ProgramTolerances, AreOneADecadeWithBothEnds) {
+  EXPECT_EQ(tolerances_from("1e-3:1e-6"), (Numbers{1e-3, 1e-4, 1e-5, 1e-6}));
+  EXPECT_EQ(tolerances_from("1e-1:5e-3"), (Numbers{1e-1, 1e-2}));
+  EXPECT_EQ(tolerances_from("1e-3:1e-12").size(), 10u);
+}
+
+TEST(ProgramTolerances, AreAListInAnyOrder) {
+  EXPECT_EQ(tolerances_from("1e-6,1e-2,1e-4"), (Numbers{1e-2, 1e-4, 1e-6}));
+  EXPECT_EQ(tolerances_from("0.5"), Numbers{0.5});
+}
+
+TEST(ProgramTolerances, AreRefusedWhereTheyAreNone) {
+  for (const auto* text : {"", "x", "1e-3:", "1e-6:1e-3", "1e-3:1e-3", "0", "2", "nan",
+                           "1e-3,,1e-4", "1e-3:1e-6:1e-9", "1e-3,1e-3"}) {
+    SCOPED_TRACE(text);
+    EXPECT_REFUSED(tolerances_from(text), "bad-syntax", "--tolerances");
+  }
+}
+
+Record with(SubjectKind kind, std::vector<bool> finished) {
+  Subject subject;
+  subject.kind = kind;
+  subject.levels.emplace_back();
+  for (const bool good : finished) {
+    Run run;
+    run.score.finished = good;
+    run.score.step = double(subject.levels[0].runs.size());
+    subject.levels[0].runs.push_back(run);
+  }
+  Record record;
+  record.cases.emplace_back();
+  record.cases[0].subjects.push_back(subject);
+  return record;
+}
+
+TEST(FailureOfAll, IsTheFirstRunOfAProgramWhereAllFailed) {
+  const auto failed = with(SubjectKind::program, {false, false});
+  ASSERT_NE(failure_of_all(failed), nullptr);
+  EXPECT_EQ(failure_of_all(failed)->score.step, 0.0);
+  EXPECT_EQ(failure_of_all(with(SubjectKind::program, {false, true})), nullptr);
+  EXPECT_EQ(failure_of_all(with(SubjectKind::method, {false})), nullptr);
+  EXPECT_EQ(failure_of_all(Record{}), nullptr);
+}
+
+}  // namespace
+}  // namespace clackers::study
