@@ -183,6 +183,34 @@ class Steps(CheckTest):
         self.assertEqual(self.runs(record)[0]["file"]["step_source"], "data")
         self.assertEqual(self.notes(record)["step-in-name-ignored"][0][0], 2)
 
+    def test_of_names_count_before_rows_of_dense_output(self):
+        files = [self.history(f"dt={step}.csv") for step in (0.04, 0.02)]
+        self.assertEqual(self.steps(*files), [(0.04, "name"), (0.02, "name")])
+        record = self.checked(*files)
+        self.assertEqual(self.notes(record)["rows-closer-than-step"][0][0], 0.02)
+        files = [self.history(f"N{count}.csv") for count in (500, 1000)]
+        self.assertEqual(self.steps(*files), [(0.04, "name"), (0.02, "name")])
+
+    def test_may_be_tolerances(self):
+        files = [self.history(f"rtol1e-0{n}.csv") for n in (3, 6)]
+        subject = self.checked(*files)["cases"][0]["subjects"][0]
+        self.assertEqual(subject["resolution"], "tolerance")
+        self.assertEqual([level["step"] for level in subject["levels"]], [1e-3, 1e-6])
+        files = [self.history(f"run{n}.csv") for n in (1, 2)]
+        subject = self.checked(*files, "--tolerances", "1e-4,1e-3")["cases"][0]["subjects"][0]
+        self.assertEqual([level["step"] for level in subject["levels"]], [1e-3, 1e-4])
+        self.refused("check", *files, "--tolerances", "0.1,2", code="out-of-range", says="--tolerances")
+
+    def test_of_a_history_that_is_not_finite_are_failed_runs(self):
+        files = self.converging()
+        broken = self.write("h0.02.csv", "t,u1,v1,u2,v2\n0,1,-0.05,-0.333333333333,0.0166666666667\n"
+                            "0.02,1,0,0,0\n0.04,nan,0,0,0\n")
+        record = self.checked(broken, *files, "--expect", "proper:2")
+        first = record["cases"][0]["subjects"][0]["levels"][0]["runs"][0]
+        self.assertEqual((first["step"], first["finished"], first["failure_code"]),
+                         (0.02, False, "not-finite"))
+        self.refused("check", broken, code="not-finite", says="line 4")
+
     def test_sort_the_files(self):
         files = [self.history(f"run{n}.csv", every=n) for n in (1, 4, 2)]
         self.assertEqual([round(step, 9) for step, _ in self.steps(*files)], [0.04, 0.02, 0.01])

@@ -41,16 +41,36 @@ class BadInput(CheckTest):
         other = run("respond", "three-parameter", "--set", "N=3", "--step", "0.01", "--format",
                     "csv").stdout
         self.refused("check", self.write("n3.csv", other), code="not-this-case",
-                     says=("n3.csv: u2 starts at -0.230769", "at -0.333333: 0.31 of the envelope", "--set"))
+                     says=("n3.csv: u2 starts at -0.230769", "at -0.333333: 0.31 of the envelope", "--set N=3"))
         other = run("respond", "synchronized-pair", "--set", "A=2", "--step", "0.01", "--format",
                     "csv").stdout
         self.refused("check", self.write("a2.csv", other), "--case", "synchronized-pair",
-                     code="not-this-case", says=("u1 starts at 2", "clackers show synchronized-pair"))
+                     code="not-this-case", says=("u1 starts at 2", "With --set A=2 the case starts"))
         def still(row):
             row["v1"] += 0.05 * (row["t"] == 0)
             return row
         self.refused("check", self.history("still.csv", change=still), code="not-this-case",
                      says="v1 starts at 0")
+
+    def test_whose_cause_is_plain_names_cause_and_cure(self):
+        def millimetres(row):
+            return {name: x if name == "t" else 1000 * x for name, x in row.items()}
+
+        def exchanged(row):
+            return row | {f"{x}{i}": row[f"{x}{3 - i}"] for x in "uv" for i in (1, 2)}
+
+        def late(row):
+            return row | {"t": 1000 * row["t"]}
+        self.refused("check", self.history("mm.csv", change=millimetres), code="unit-scaled",
+                     says=("1000 times those of three-parameter: in mm?", "Divide them by 1000."))
+        self.refused("check", self.history("exchanged.csv", change=exchanged),
+                     code="masses-exchanged", says="--columns t,")
+        self.refused("check", self.history("ms.csv", change=late), code="time-unit",
+                     says="in milliseconds?")
+        other = run("respond", "three-parameter", "--set", "N=5,xi1=0.25", "--step", "0.01",
+                    "--format", "csv").stdout
+        self.refused("check", self.write("both.csv", other), code="not-this-case",
+                     says="With --set N=5,xi1=0.25 the case starts as the history does.")
 
     def test_a_little_beside_the_initial_state_is_said(self):
         def off(row):
@@ -60,13 +80,13 @@ class BadInput(CheckTest):
         self.assertAlmostEqual(error, 3e-5, delta=1e-6)
 
     def test_that_ends_early_or_late_is_said(self):
-        early = self.checked(self.history("early.csv", until=10.005))
+        early = self.checked(self.history("early.csv", until=10.005), exit_code=3)
         self.assertEqual(self.notes(early)["ends-early"], ([10, 20], ""))
         self.assertEqual(self.runs(early)[0]["impacts"]["expected"], 3)
         late = self.checked(self.history("late.csv"), "--set", "a_t=0.5")
         self.assertEqual(self.notes(late)["rows-beyond-end"], ([1000, 10], ""))
         self.assertEqual(self.runs(late)[0]["file"]["rows"], 1001)
-        before = self.checked(self.history("before.csv", until=1.0))
+        before = self.checked(self.history("before.csv", until=1.0), exit_code=3)
         self.assertIn("no-collisions", self.notes(before))
         self.refused("check", self.write("beyond.csv", "t,u1,u2\n30,1,1\n31,1,1\n"),
                      code="too-short", says="t_end")

@@ -211,10 +211,13 @@ class Bad(ExecTest):
         self.fails("yes; : {h} {out}", "program-timeout", "after 0.3 s", "--timeout", "0.3")
 
     def test_one_step_is_a_row_and_not_the_end(self):
-        self.script(f"[ $2 -lt 150 ] || exit 7\nexec python3 {SOLVERS}/midpoint.py $1 $3 $4")
-        runs = self.runs(self.subject("--exec", f"{self.path('solver')} {{case}} {{n}} {{h}} {{out}}",
-                                      *STOP, "--coarsest", "0.1", "--levels", "3",
-                                      "--neighbours", "1"))
+        self.script(f"[ $2 -lt 150 ] || {{ echo no memory; exit 7; }}\nexec python3 {SOLVERS}/midpoint.py $1 $3 $4")
+        arguments = ("--exec", f"{self.path('solver')} {{case}} {{n}} {{h}} {{out}}", *STOP,
+                     "--coarsest", "0.1", "--levels", "3", "--neighbours", "1")
+        runs = self.runs(self.subject(*arguments))
+        text = " ".join(run("verify", *arguments).stdout.split())
+        self.assertIn("solver: 2 of 3 runs failed, the first at h = 0.05", text)
+        self.assertIn("exit status 7. [program-failed] It printed: no memory", text)
         self.assertEqual([run["failure"] for run in runs], ["", "exit status 7.",
                                                                      "exit status 7."])
 

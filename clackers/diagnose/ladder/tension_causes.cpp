@@ -60,8 +60,9 @@ std::vector<Diagnosis> tension_causes(const Question& question) {
     const double rows_each = double(sum.rows) / double(seen.sample.impacts->size());
     if (sum.rows < least_rows || rows_each < 4.0 || !(sum.push > 0.0)) continue;
     ++files;
-    // A jump is an impact on masses that have passed through each other.
-    if (sum.pull < least_share * sum.push || sum.largest_pull > 0.5 * sum.pull) continue;
+    if (sum.pull < least_share * sum.push) continue;
+    // A jump as large as those of impacts is one, on masses that have passed through each other.
+    if (sum.largest_pull > 0.3 * sum.push / double(seen.sample.impacts->size())) continue;
     ++pulling;
     share = sum.pull / sum.push;
   }

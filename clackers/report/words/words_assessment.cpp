@@ -3,6 +3,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "clackers/assess/convergence/ladder_fit.hpp"
 #include "clackers/base/codes.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/words/words.hpp"
@@ -51,16 +52,11 @@ std::string floor_part(const study::Subject& subject, const assess::LadderFit& f
                          : "");
 }
 
-// An error proportional to the tolerance, and its ratio to it.
 std::string tolerance_sentence(const study::Subject& subject, const assess::LadderFit& fit) {
   if (subject.resolution != study::Resolution::tolerance || !fit.has_line) return {};
-  if (fit.errors.empty() || fit.steps.size() != fit.errors.size()) return {};
-  const auto last = std::min(std::size_t(std::max(fit.last_level, 0)), fit.errors.size() - 1);
-  const double ratio = fit.errors[last] / fit.steps[last];
-  const bool proportional = std::abs(fit.order - 1.0) <= 0.25;
-  return fmt::format("The error is {}proportional to the tolerance: {} times it at {}.",
-                     proportional ? "" : "not ", short_number(ratio, 2),
-                     short_number(fit.steps[last], 3));
+  const bool is_proportional = std::abs(fit.order - 1.0) <= assess::tolerance_proportional;
+  return fmt::format("The error is {}proportional to the tolerance.",
+                     is_proportional ? "" : "not ");
 }
 
 std::string behaviour_sentence(const study::Subject& subject) {
@@ -105,23 +101,35 @@ std::string behaviour_sentence(const study::Subject& subject) {
   return text;
 }
 
-// Velocities whose order is not that of the displacements.
-std::string velocity_sentence(const study::Subject& subject) {
-  constexpr double visible = 0.3;
-  const auto& [u, v] = std::tie(subject.assessment.displacement, subject.assessment.velocity);
-  if (!u.has_line || !v.has_line || u.on_envelope != v.on_envelope) return {};
-  if (!(std::abs(u.order - v.order) > std::max(visible, u.spread + v.spread))) return {};
-  return fmt::format("Velocities converge with order {}.", order_text(v));
-}
-
-// An order that is known to half of itself only.
-std::string evidence_strength(const study::Subject& subject) {
-  constexpr double weak = 0.25;
-  const auto& fit = subject.assessment.displacement;
-  if (!fit.has_line || fit.behaviour == Behaviour::undecided) return {};
-  if (!(fit.spread > weak * std::abs(fit.order))) return {};
-  return "The order is uncertain, so this is weak evidence; more neighbouring steps a level tell "
-         "more.";
+// What explains a fit, behind its sentence: numbers as the table in assessment.hpp has them.
+std::string remark(const study::Subject& subject, const assess::Evidence& evidence) {
+  const auto& code = evidence.code;
+  const auto number = [&](std::size_t i) {
+    return i < evidence.numbers.size() ? evidence.numbers[i] : std::nan("");
+  };
+  const auto text = [&](std::size_t i) { return short_number(number(i), 3); };
+  if (code == "commensurate-steps")
+    return fmt::format(
+        "{:.0f} % of the runs are at the rounding floor by luck: their steps divide the time "
+        "between collisions.",
+        100.0 * number(0));
+  if (code == "errors-cancel")
+    return fmt::format("The signed error passes zero near {}.",
+                       resolution_text(subject, number(0)));
+  if (code == "unstable-coarse-steps")
+    return fmt::format("Runs above {} fail or grow without bound.",
+                       resolution_text(subject, number(0)));
+  if (code == "steps-per-contact") return fmt::format("A contact has {} steps.", text(0));
+  if (code == "more-neighbours")
+    return fmt::format(
+        "The order is uncertain by ±{}, so this is weak evidence; more neighbouring "
+        "steps a level tell more.",
+        text(1));
+  if (code == "velocity-order-lower")
+    return fmt::format("Velocities converge with order {:.2f}.", number(0));
+  if (code == "error-over-tolerance")
+    return fmt::format("It is {} times the tolerance ({} to {}).", text(0), text(1), text(2));
+  return {};
 }
 
 // The numbers of an Evidence as its table in assessment.hpp has them.
@@ -155,6 +163,9 @@ std::string evidence_sentence(const assess::Evidence& evidence) {
   if (code == "other-collisions")
     return fmt::format("Another motion: {} of {} collisions matched, {} extra.", text(0, 15),
                        text(1, 15), text(2, 15));
+  if (code == "ends-early")
+    return fmt::format("The history ends at {} s of {} s, with {} of {} collisions.", text(0),
+                       text(1), text(2, 15), text(3, 15));
   if (code == "sparse-rows") return "The rows are too far apart to find the collisions in them.";
   return meaning_of(code);
 }
@@ -197,7 +208,8 @@ std::string assessment_text(const study::Subject& subject) {
   const auto& assessment = subject.assessment;
   const auto& fit = assessment.displacement;
   std::string text;
-  for (const auto& evidence : assessment.evidence) add(text, evidence_sentence(evidence));
+  for (const auto& evidence : assessment.evidence)
+    if (remark(subject, evidence).empty()) add(text, evidence_sentence(evidence));
   const bool is_method = subject.kind == study::SubjectKind::method;
   const bool has_claim = subject.claim.behaviour != Behaviour::undecided;
   const bool in_evidence = fit.reason == Code("printed-digits").name() && !text.empty();
@@ -208,8 +220,7 @@ std::string assessment_text(const study::Subject& subject) {
   if (failed != nullptr && fit.reason == Code("run-failed").name())
     add(text, fmt::format("First failure, h = {} s: {}", short_number(failed->score.step, 3),
                           failed->score.failure));
-  add(text, velocity_sentence(subject));
-  add(text, evidence_strength(subject));
+  for (const auto& evidence : assessment.evidence) add(text, remark(subject, evidence));
   add(text, hint_text(subject));
   add(text, refinement_text(subject));
   add(text, claim_sentence(subject));

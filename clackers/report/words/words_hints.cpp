@@ -47,8 +47,10 @@ std::vector<const assess::RunScore*> runs_of(const study::Subject& subject) {
 }
 
 // The size of an error in words.
-std::string size_text(double error) {
+std::string size_text(const assess::RunScore& run) {
+  const double error = run.u_error;
   if (std::isnan(error)) return "The error in u is not known.";
+  if (error <= run.rounding_floor) return "The error in u is at the rounding floor.";
   if (error >= 1.0)
     return fmt::format(
         "The largest error in u is {} times the initial envelope: larger than the motion.",
@@ -60,7 +62,7 @@ std::string size_text(double error) {
 }
 
 std::string one_file(const study::Subject& subject, const assess::RunScore& run) {
-  auto text = size_text(run.u_error);
+  auto text = size_text(run);
   if (run.impacts && run.impacts->expected > 0)
     text += fmt::format(
         " {} of {} matched{}.", run.impacts->matched, counted(run.impacts->expected, "collision"),

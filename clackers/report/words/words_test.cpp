@@ -98,20 +98,28 @@ TEST(AssessmentText, ALineMayEndAtAFloor) {
       << assessment_text(subject);
 }
 
-TEST(AssessmentText, VelocitiesOfAnotherOrderAreSaid) {
-  auto subject = assessed(Behaviour::proper);
-  auto& velocity = subject.assessment.velocity;
-  velocity = subject.assessment.displacement;
-  EXPECT_FALSE(has(assessment_text(subject), "Velocities"));
-  subject.assessment.displacement.order = 2.0;
-  EXPECT_TRUE(has(assessment_text(subject), "Velocities converge with order 1.04 ±0.07."));
+TEST(AssessmentText, RemarksFollowTheFit) {
+  auto subject = assessed(Behaviour::irregular);
+  subject.assessment.evidence = {{"commensurate-steps", Verdict::not_claimed, {0.25}},
+                                 {"errors-cancel", Verdict::not_claimed, {0.003}},
+                                 {"unstable-coarse-steps", Verdict::not_claimed, {0.02}},
+                                 {"steps-per-contact", Verdict::not_claimed, {21.0, 0.01}},
+                                 {"more-neighbours", Verdict::not_claimed, {1.1, 0.49}},
+                                 {"velocity-order-lower", Verdict::not_claimed, {0.999, 2.0}}};
+  const auto text = assessment_text(subject);
+  EXPECT_TRUE(text.starts_with("Converges irregularly")) << text;
+  for (const auto* words :
+       {"25 % of the runs are at the rounding floor by luck", "passes zero near h = 0.003 s.",
+        "Runs above h = 0.02 s fail", "A contact has 21 steps.", "±0.49, so this is weak evidence",
+        "Velocities converge with order 1.00."})
+    EXPECT_TRUE(has(text, words)) << words;
 }
 
-TEST(AssessmentText, WeakEvidenceIsSaid) {
-  auto subject = assessed(Behaviour::irregular);
-  EXPECT_FALSE(has(assessment_text(subject), "weak evidence"));
-  subject.assessment.displacement.spread = 0.49;
-  EXPECT_TRUE(has(assessment_text(subject), "weak evidence"));
+TEST(AssessmentText, AnEarlyEndIsSaidFirst) {
+  auto subject = assessed(Behaviour::proper);
+  subject.assessment.evidence = {{"ends-early", Verdict::undecided, {1.0, 20.0, 0.0, 6.0}}};
+  EXPECT_TRUE(assessment_text(subject).starts_with(
+      "The history ends at 1 s of 20 s, with 0 of 6 collisions."));
 }
 
 TEST(AssessmentText, ALadderOfTolerancesHasTheRatioOfTheError) {
@@ -119,11 +127,11 @@ TEST(AssessmentText, ALadderOfTolerancesHasTheRatioOfTheError) {
   subject.resolution = study::Resolution::tolerance;
   auto& fit = subject.assessment.displacement;
   fit.steps = {1e-3, 1e-4, 1e-5};
-  fit.errors = {1.2e-2, 1.2e-3, 1.2e-4};
-  EXPECT_TRUE(has(assessment_text(subject), "(tolerance 0.0001 to 1e-5)"))
-      << assessment_text(subject);
-  EXPECT_TRUE(has(assessment_text(subject),
-                  "The error is proportional to the tolerance: 12 times it at 1e-5."))
+  subject.assessment.evidence = {{"error-over-tolerance", Verdict::not_claimed, {12.0, 9.0, 15.0}}};
+  EXPECT_TRUE(
+      has(assessment_text(subject),
+          "(tolerance 0.0001 to 1e-5). The error is proportional to the tolerance. It is 12 "
+          "times the tolerance (9 to 15)."))
       << assessment_text(subject);
 }
 

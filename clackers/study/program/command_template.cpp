@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"

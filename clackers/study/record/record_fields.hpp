@@ -194,6 +194,9 @@ void fields(Archive& archive, Like<assess::LadderFit> auto& x) {
   archive("floor", x.floor);
   archive.added("floor_step", x.floor_step);
   archive.added("floor_scatter", x.floor_scatter);
+  archive.added("cancel_step", x.cancel_step);
+  archive.added("lucky_share", x.lucky_share);
+  archive.added("stable_step", x.stable_step);
   archive("steps", x.steps);
   archive("errors", x.errors);
 }

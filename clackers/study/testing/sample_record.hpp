@@ -43,6 +43,9 @@ inline Record sample_record() {
   fit.floor = 1e-15;
   fit.floor_step = 2e-4;
   fit.floor_scatter = 3.5;
+  fit.cancel_step = 0.0031;
+  fit.lucky_share = 0.25;
+  fit.stable_step = 0.011;
   fit.steps = {0.05, 0.025};
   fit.errors = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   auto second = fit, third = fit;
