@@ -199,6 +199,8 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
     ++files;
   }
   if (files == 1) {
+    // A parameter among six fits an error that has grown as large as the motion.
+    if (attempt == tried_beside && hypothesis.parameter) return std::nullopt;
     if (best.gain < least_gain_alone || may_be_numerical(best, finest, question))
       return std::nullopt;
     confidence = std::min(0.9, confidence_of(best.gain, least_gain_alone));
