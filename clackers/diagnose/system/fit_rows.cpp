@@ -10,10 +10,12 @@ namespace clackers::diagnose {
 
 namespace {
 
-void take(const model::Trajectory& rows, std::size_t most, double last, FitRows& to) {
+// At most `most` of the first `size` rows that are later than those taken already.
+void take(const model::Trajectory& rows, std::size_t size, std::size_t most, double last,
+          FitRows& to) {
   const auto n = std::size_t(rows.dof);
-  const std::size_t stride = std::max<std::size_t>(1, (rows.t.size() + most - 1) / most);
-  for (std::size_t i = 0; i < rows.t.size(); i += stride) {
+  const std::size_t stride = std::max<std::size_t>(1, (size + most - 1) / most);
+  for (std::size_t i = 0; i < size; i += stride) {
     const double t = rows.t[i];
     if (t > last || (!to.t.empty() && !(t > to.t.back()))) continue;
     to.t.push_back(t);
@@ -60,8 +62,10 @@ FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& p
     rows.floor = std::numeric_limits<double>::infinity();
     return rows;
   }
-  take(observation.opening, most_fit_opening_rows, motion.end(), rows);
-  take(sample, most_fit_rows, motion.end(), rows);
+  const auto& opening = observation.opening;
+  take(opening, opening.t.size() / 10, most_fit_opening_rows / 2, motion.end(), rows);
+  take(opening, opening.t.size(), most_fit_opening_rows, motion.end(), rows);
+  take(sample, sample.t.size(), most_fit_rows, motion.end(), rows);
   const auto n = rows.dof();
   rows.reference.resize(rows.u.size());
   std::vector<double> v(rows.u.size());

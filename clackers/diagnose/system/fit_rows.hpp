@@ -31,7 +31,7 @@ struct FitRows {
 
 double rms(std::span<const double> values);
 
-inline constexpr std::size_t most_fit_rows = 400, most_fit_opening_rows = 150;
+inline constexpr std::size_t most_fit_rows = 400, most_fit_opening_rows = 120;
 
 /// `floor` is infinite where the simulation of the unchanged problem is not available.
 FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& problem,

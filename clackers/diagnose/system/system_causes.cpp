@@ -19,6 +19,8 @@ constexpr double least_gain = 30.0, least_lead = 10.0;
 constexpr double least_gain_alone = 100.0;
 /// A coarser file must show the cause as well, if less clearly: the method's error grows.
 constexpr double least_gain_beside = 3.0;
+/// Where it does not, the distance from the reference must not fall with the step as a method's does.
+constexpr double least_fall = 1.3;
 /// A value that a method's error makes moves by 40 % at least from one file to the next, whose step
 /// is 1.8 times as large, where it falls with the power 0.6 or more.
 constexpr double constant_share = 0.15;
@@ -179,7 +181,10 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
   for (std::size_t i = 1; i < std::min<std::size_t>(question.files.size(), 3); ++i) {
     const auto& other = question.files[i];
     const auto trial = attempt(other, hypothesis, question);
-    if (trial.gain < least_gain_beside) break;
+    if (trial.gain < least_gain_beside) {
+      if (i == 1 && other.rows.distance > least_fall * finest.rows.distance) return std::nullopt;
+      break;
+    }
     if (hypothesis.parameter) {
       const double factor = other.step / finest.step;
       const bool constant = std::abs(trial.d - best.d) <= constant_share * std::abs(best.d);
@@ -194,6 +199,8 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
     ++files;
   }
   if (files == 1) {
+    // A parameter among six fits an error that has grown as large as the motion.
+    if (attempt == tried_beside && hypothesis.parameter) return std::nullopt;
     if (best.gain < least_gain_alone || may_be_numerical(best, finest, question))
       return std::nullopt;
     confidence = std::min(0.9, confidence_of(best.gain, least_gain_alone));
