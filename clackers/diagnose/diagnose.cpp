@@ -29,9 +29,13 @@ Codes all(std::initializer_list<Codes> groups) {
   return joined;
 }
 
+// A cause that is this much less sure than what it implies does not replace it.
+constexpr double less_sure = 0.25;
+
 // Each of `causes` brings about what each of `implied` describes.
 struct Implication {
   Codes causes, implied;
+  double least_lead = -less_sure;  ///< in confidence, of a cause over what it replaces
 };
 
 const std::vector<Implication>& implications() {
@@ -61,6 +65,8 @@ const std::vector<Implication>& implications() {
       {{"impact-at-step-end"},
        all({of_time, of_method, {"impact-interpolated", "impact-tolerance", "noise-floor"}})},
       {{"impact-tolerance"}, {"noise-floor", "impact-interpolated", "time-shifted", "wrong-limit"}},
+      // Delays that vary little with the step look like a small change of the system.
+      {{"impact-tolerance", "impact-at-step-end"}, of_system, 0.1},
       {{"velocity-at-half-steps"},
        {"velocity-order-lower", "contact-in-tension", "impact-at-step-end", "impact-interpolated"}},
       {{"output-resampled"}, {"velocity-order-lower", "impact-interpolated", "noise-floor"}},
@@ -75,15 +81,12 @@ bool contains(const Codes& codes, const std::string& code) {
   return std::ranges::find(codes, code, &Code::name) != codes.end();
 }
 
-// A cause that is this much less sure than what it implies does not replace it.
-constexpr double less_sure = 0.25;
-
 bool is_implied(const Diagnosis& one, const std::vector<Diagnosis>& found) {
   return std::ranges::any_of(implications(), [&](const Implication& rule) {
     return contains(rule.implied, one.code) &&
            std::ranges::any_of(found, [&](const Diagnosis& cause) {
              return cause.code != one.code && contains(rule.causes, cause.code) &&
-                    cause.confidence >= one.confidence - less_sure;
+                    cause.confidence >= one.confidence + rule.least_lead;
            });
   });
 }

@@ -19,8 +19,8 @@ constexpr std::size_t most_closed_rows = 8;
 
 class Locator {
  public:
-  Locator(const model::ImpactProblem<>& problem)
-      : problem_(problem), motion_(problem.system), frequency_(highest_frequency(problem.system)) {}
+  explicit Locator(const model::ImpactProblem<>& problem)
+      : motion_(problem.system), frequency_(highest_frequency(problem.system)) {}
 
   double frequency() const { return frequency_; }
 
@@ -85,7 +85,6 @@ class Locator {
     return std::sqrt(std::max(1e-6, modes.eigenvalues().maxCoeff()));
   }
 
-  const model::ImpactProblem<>& problem_;
   assess::FreeMotion motion_;
   double frequency_;
 };

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <numbers>
+
 #include <string>
 
 #include "clackers/diagnose/causes.hpp"

@@ -1,5 +1,7 @@
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "clackers/assess/errors/comparison.hpp"

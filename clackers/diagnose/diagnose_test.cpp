@@ -1,0 +1,58 @@
+#include "clackers/diagnose/diagnose.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "clackers/diagnose/testing/ladder_sets.hpp"
+
+namespace clackers::diagnose::testing {
+namespace {
+
+std::string codes(const std::vector<Diagnosis>& all) {
+  std::string text;
+  for (const auto& one : all) text += (text.empty() ? "" : " ") + one.code;
+  return text;
+}
+
+TEST(Diagnose, TheSystemThatExplainsALimitReplacesIt) {
+  const auto plan = ladder_plan(0);
+  auto problem = plan.problem.problem;
+  problem.contacts.front().restitution = 0.95;
+  const auto all = diagnose(files_of(plan, {.integrator = Integrator::rk4}, problem).question());
+  EXPECT_EQ(codes(all), "restitution-differs");
+}
+
+TEST(Diagnose, ExchangedMassesSilenceWhatIsFittedToThem) {
+  const auto plan = ladder_plan(0);
+  Files files{plan.problem};
+  for (const double step : plan.steps) {
+    auto rows = history_of({.integrator = Integrator::rk4}, plan.problem.problem, step);
+    for (auto* values : {&rows.u, &rows.v})
+      for (std::size_t i = 0; i < values->size(); i += 2) std::swap((*values)[i], (*values)[i + 1]);
+    files.add(rows, step);
+  }
+  EXPECT_EQ(codes(diagnose(files.question())), "masses-exchanged");
+}
+
+TEST(Diagnose, CorrectSolversHaveNoCauseButTheirOwnErrors) {
+  for (const auto integrator : {Integrator::rk4, Integrator::newmark}) {
+    const auto all = diagnose(files_of(ladder_plan(3), {.integrator = integrator}).question());
+    for (const auto& one : all)
+      EXPECT_TRUE(one.code == "period-error" || one.code == "numerical-damping") << codes(all);
+  }
+}
+
+TEST(Diagnose, CausesComeStrongestFirst) {
+  const auto plan = ladder_plan(0);
+  auto files = files_of(plan, {.integrator = Integrator::exact, .location = Location::end_of_step});
+  files.ladder.front().runs.front().finished = false;
+  files.ladder.front().runs.front().failure_code = "newton-failed";
+  const auto all = diagnose(files.question());
+  ASSERT_EQ(all.size(), 2u) << codes(all);
+  EXPECT_EQ(codes(all), "impact-at-step-end unstable-coarse-steps");
+  EXPECT_GT(all[0].confidence, all[1].confidence);
+}
+
+}  // namespace
+}  // namespace clackers::diagnose::testing
