@@ -10,7 +10,8 @@
 #include <iostream>
 #include <sstream>
 
-#include "simulate.hpp"
+#include "adaptive.hpp"
+#include "time_stepping.hpp"
 
 namespace {
 
