@@ -11,33 +11,44 @@ namespace {
 
 using namespace synthetic;
 
-constexpr int ladders = 1000;
+constexpr int intervals = 1000, most_ladders = 5000;
 
-/// Share of drawn ladders whose order, where one is given, lies outside its interval.
-double wrong_share(const RandomKind& kind, double* with_order) {
+struct Coverage {
+  int ladders = 0, given = 0, covered = 0;
+  double share() const { return double(covered) / given; }
+};
+
+/// Draws ladders until a thousand of them were given an order with its interval, or five thousand
+/// were drawn.
+Coverage coverage(const RandomKind& kind) {
   Random random(20251122);
-  int wrong = 0, given = 0;
-  for (int i = 0; i < ladders; ++i) {
+  Coverage found;
+  while (found.given < intervals && found.ladders < most_ladders) {
     const auto drawn = kind.draw(random);
     const auto fit = fit_ladder(drawn.levels, {});
+    ++found.ladders;
     if (!fit.has_line) continue;
-    ++given;
-    wrong += std::abs(fit.order - drawn.order) > fit.spread;
+    ++found.given;
+    found.covered += std::abs(fit.order - drawn.order) <= fit.spread;
   }
-  *with_order = double(given) / ladders;
-  return double(wrong) / ladders;
+  return found;
 }
 
 class IntervalCoverage : public testing::TestWithParam<RandomKind> {};
 
-// 1000 ladders of an interval that misses 5 in 100 leave the share a deviation of
-// sqrt(0.05 * 0.95 / 1000) = 0.007; 0.071 is three of them above 0.05.
-TEST_P(IntervalCoverage, NotMoreThanFiveInAHundredLaddersMislead) {
-  double with_order = 0.0;
-  const double wrong = wrong_share(GetParam(), &with_order);
-  RecordProperty("misled", std::to_string(wrong));
-  RecordProperty("with_order", std::to_string(with_order));
-  EXPECT_LE(wrong, 0.071) << GetParam().name << ", order given for " << with_order;
+// n intervals of which 5 in 100 miss leave the share a deviation of sqrt(0.05 * 0.95 / n); three of
+// them are allowed.
+TEST_P(IntervalCoverage, NinetyFiveInAHundredIntervalsHoldTheOrder) {
+  const auto found = coverage(GetParam());
+  RecordProperty("coverage", std::to_string(found.share()));
+  std::printf("%-34s %5d ladders, %5d with an order, coverage %.3f\n", GetParam().name.data(),
+              found.ladders, found.given, found.share());
+  if (10 * found.given < found.ladders) {
+    // One run a level cannot tell scatter from order: the few that lie on a line do so by chance.
+    EXPECT_LE(found.given - found.covered, 0.01 * found.ladders);
+    return;
+  }
+  EXPECT_GE(found.share(), 0.95 - 3.0 * std::sqrt(0.05 * 0.95 / found.given));
 }
 
 INSTANTIATE_TEST_SUITE_P(Slow, IntervalCoverage, testing::ValuesIn(random_kinds()),

@@ -42,9 +42,7 @@ template <class Wrong>
 bool energy_is(const Ladder& ladder, Wrong wrong) {
   if (ladder.size() < 2) return false;
   return std::all_of(ladder.end() - 2, ladder.end(), [&](const Level& level) {
-    const auto run_is = [&](const RunScore& run) {
-      return run.finished && wrong(run.energy_ratio);
-    };
+    const auto run_is = [&](const RunScore& run) { return run.finished && wrong(run); };
     return 2 * std::ranges::count_if(level.runs, run_is) > std::ssize(level.runs);
   });
 }
@@ -78,9 +76,12 @@ LadderFit behaviour_of(LadderFit fit, const Ladder& ladder, const Claim& claim,
                        const Facts& facts) {
   const bool open = !shows_a_line(fit) && fit.behaviour != Behaviour::exact &&
                     fit.reason != Code("contact-not-resolved").name();
-  const auto too_much = [](double ratio) { return ratio > largest_energy_ratio; };
-  const auto too_little = [](double ratio) { return ratio < least_energy_ratio; };
-  if (open && !errors_fall(fit) && energy_is(ladder, too_much)) {
+  // Less than all of the initial energy too much: a motion that should have decayed, and has not grown.
+  const auto too_much = [](const RunScore& run) {
+    return run.energy_ratio > largest_energy_ratio && !(run.energy_error < 1.0);
+  };
+  const auto too_little = [](const RunScore& run) { return run.energy_ratio < least_energy_ratio; };
+  if (open && !facts.wrong_limit && !errors_fall(fit) && energy_is(ladder, too_much)) {
     fit.behaviour = Behaviour::divergent;
     fit.reason = Code("energy-growth").name();
   } else if (fit.behaviour == Behaviour::undecided && open && errors_fall(fit) &&

@@ -84,7 +84,7 @@ SelfConvergence self_convergence(std::span<const ResponseLevel> runs, const Self
   SelfConvergence self;
   self.differences = fit(pseudo, context);
   const auto& found = self.differences;
-  self.proper = q > 0.0 && found.behaviour == Behaviour::proper &&
+  self.proper = q > 0.0 && found.behaviour == Behaviour::proper && found.reason.empty() &&
                 std::abs(found.order - q) <= order_tolerance * q;
   self.estimate = found.has_line ? found.errors[std::size_t(found.last_level)] : unknown;
   return self;
@@ -117,7 +117,11 @@ SelfAgainstReference compare(const SelfConvergence& self, const LadderFit& refer
   const bool wrong_limit =
       converges(seen.behaviour) && reference.behaviour == Behaviour::stagnating;
   const bool grows = converges(seen.behaviour) && reference.behaviour == Behaviour::divergent;
-  const bool too_large = self.proper && both.error_ratio > trust_factor;
+  // Below the step where the errors reach the rounding floor their ratio means nothing.
+  const bool at_floor = reference.reason.empty() && reference.floor_step > 0.0 &&
+                        level < reference.steps.size() &&
+                        reference.steps[level] <= reference.floor_step;
+  const bool too_large = self.proper && !at_floor && both.error_ratio > trust_factor;
   const bool same_but_wrong =
       seen.behaviour == Behaviour::exact && reference.behaviour != Behaviour::exact;
   both.false_convergence = wrong_limit || grows || too_large || same_but_wrong;

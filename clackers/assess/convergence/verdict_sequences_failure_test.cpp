@@ -78,7 +78,10 @@ const VerdictSequence rows[] = {
      .make = [] { return ladder([](double h) { return 0.3 + h; }); },
      .claim = claims(2), .behaviour = divergent, .verdict = Verdict::disagrees,
      .reason = "energy-growth",
-     .change = at_the_end([](RunScore& run) { run.energy_ratio = 2.1; })},
+     .change = at_the_end([](RunScore& run) {
+       run.energy_ratio = 2.1;
+       run.energy_error = 1.1;
+     })},
     {.name = "a run that loses most energy at its floor stagnates",
      .make = [] { return ladder([](double h) { return 0.3 + h; }); },
      .claim = claims(2), .behaviour = stagnating, .verdict = Verdict::disagrees,

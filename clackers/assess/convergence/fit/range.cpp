@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "clackers/assess/convergence/fit/order_interval.hpp"
+#include "clackers/assess/convergence/fit/two_terms.hpp"
 #include "clackers/base/codes.hpp"
 
 namespace clackers::assess {
@@ -89,6 +90,7 @@ LadderFit with_line(const Range& range, const Window& found) {
   if (last < found.last)
     if (const auto above = window(range.levels, found.first, last))
       fit.spread += std::abs(above->line.slope - fit.order);
+  fit.spread = std::max(fit.spread, shortfall_of_floor(range, found.first, found.last, fit.order));
   fit.scatter = found.scatter;
   fit.constant = std::exp(found.line.intercept);
   fit.first_level = found.first;
@@ -96,6 +98,15 @@ LadderFit with_line(const Range& range, const Window& found) {
   fit.largest_step = found.largest_step;
   fit.smallest_step = found.smallest_step;
   return fit;
+}
+
+double shortfall_of_floor(const Range& range, int first, int last, double order) {
+  double most = order_above_floor(range.levels, first, last);
+  if (order < 1.0) {
+    const auto coarse = window(range.levels, range.tracked, (range.tracked + last + 1) / 2);
+    if (coarse && coarse->line.slope > order) most = std::max(most, 1.0);
+  }
+  return std::max(0.0, most - order);
 }
 
 bool rests_on_luck(const Range& range, const Window& found) {

@@ -42,6 +42,10 @@ LadderFit diverges(const LadderFit& fit);
 /// The line of a window with the uncertainty of its order; what levels that rounding may bend do to
 /// the slope is part of it.
 LadderFit with_line(const Range& range, const Window& found);
+/// How far the order of the levels [first, last] may lie above the slope that they show because a floor
+/// bends them: up to the order of  a h^p + c , and from a slope below one, where the coarser half of the
+/// ladder is steeper, up to one at least: methods of a lower order are rare, floors are not.
+double shortfall_of_floor(const Range& range, int first, int last, double slope);
 /// One run a level, and the errors before the window go up and down: a few of them lie on a line by
 /// chance.
 bool rests_on_luck(const Range& range, const Window& found);

@@ -21,12 +21,15 @@ LadderFit envelope_decides(const Range& range, const FitContext& context) {
   if (!upper)
     return undecided(range,
                      range.tracked > range.first ? Code("larger-than-motion") : "too-few-levels");
-  const double slope = upper->order, spread = upper->spread;
+  const double slope = upper->order;
+  const double spread =
+      std::max(upper->spread, shortfall_of_floor(range, upper->first, upper->last, slope));
   // Rough and flat at the end: all raw points of the last levels together show the trend best.
   const auto tail = range.last(shortest_window);
   if (tail && is_flat(*tail)) return stagnates(range, context, *tail);
-  if (slope < -straight_rates && slope < -spread) return diverges(range.blank);
-  if (!(slope > straight_rates && slope > spread)) return undecided(range, "more-neighbours");
+  if (slope < -straight_rates && slope < -upper->spread) return diverges(range.blank);
+  if (!(slope > straight_rates && slope > upper->spread))
+    return undecided(range, "more-neighbours");
   auto fit = range.blank;
   fit.has_line = fit.on_envelope = true;
   fit.order = slope;

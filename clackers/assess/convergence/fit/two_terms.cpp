@@ -174,4 +174,23 @@ std::optional<TwoTerms> fit_two_terms(std::span<const LevelView> levels, int fir
   return best;
 }
 
+double order_above_floor(std::span<const LevelView> levels, int first, int last) {
+  const auto law = fit_two_terms(levels, first, last, {});
+  if (!law) return 0.0;
+  std::vector<double> x, y;
+  for (int i = first; i <= last; ++i) {
+    const auto& level = levels[std::size_t(i)];
+    x.insert(x.end(), level.x.begin(), level.x.end());
+    y.insert(y.end(), level.y.begin(), level.y.end());
+  }
+  const auto line = numerics::fit_line(x, y);
+  double of_line = 0.0, of_law = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    of_line += std::pow(y[i] - line.at(x[i]), 2);
+    of_law += std::pow(y[i] - std::log(law->error_at(std::exp(x[i]))), 2);
+  }
+  constexpr double akaike = 2.0;
+  return double(x.size()) * std::log(of_line / of_law) > akaike ? law->p + law->p_spread : 0.0;
+}
+
 }  // namespace clackers::assess

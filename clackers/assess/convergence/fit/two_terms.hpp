@@ -39,4 +39,9 @@ inline constexpr double lowest_free = 0.4, highest_free = 8.0;
 std::optional<TwoTerms> fit_two_terms(std::span<const LevelView> levels, int first, int last,
                                       const Terms& terms);
 
+/// The largest order that errors above a floor may have: the end of the interval of p where
+/// a h^p + c  describes the raw points of the levels better than a line does (by Akaike's criterion,
+/// which asks for a gain of 2 for the one parameter more); 0 otherwise.
+double order_above_floor(std::span<const LevelView> levels, int first, int last);
+
 }  // namespace clackers::assess
