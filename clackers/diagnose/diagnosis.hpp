@@ -78,4 +78,24 @@ inline constexpr auto diagnosis_codes = std::to_array<Code>({
 });
 // clang-format on
 
+/// Confidence from which a cause changes the verdict.
+inline constexpr double sure = 0.9;
+
+/// Whether a cause that is sure means another system than the case: no refinement leads to its motion.
+inline bool is_other_system(const Diagnosis& found) {
+  // clang-format off
+  constexpr auto codes = std::to_array<Code>({
+      "restitution-differs", "mass-ratio-differs", "frequency-differs", "damping-differs",
+      "damping-changes-at-impact", "impact-missed", "impact-doubled", "impact-impulse-wrong"});
+  // clang-format on
+  for (const auto& code : codes)
+    if (found.code == code.name()) return found.confidence >= sure;
+  return false;
+}
+
+/// Whether a cause that is sure means that a floor is noise, not another motion.
+inline bool is_noise(const Diagnosis& found) {
+  return found.code == Code("noise-floor").name() && found.confidence >= sure;
+}
+
 }  // namespace clackers::diagnose

@@ -109,8 +109,9 @@ Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
   // An envelope contradicts where its whole interval lies outside what is allowed.
   const double reach = fit.on_envelope ? fit.spread + tolerance * claimed : fit.spread;
   if (off > tolerance * claimed) return off > reach ? Verdict::disagrees : Verdict::undecided;
-  return fit.on_envelope && fit.spread > envelope_spread * claimed ? Verdict::undecided
-                                                                   : Verdict::agrees;
+  const bool few = fit.last_level - fit.first_level + 1 < enough_octaves;
+  const double most = few ? envelope_spread : wide_envelope_spread;
+  return fit.on_envelope && fit.spread > most * claimed ? Verdict::undecided : Verdict::agrees;
 }
 
 Verdict compare_floor(const LadderFit& fit, const Claim& claim) {
@@ -178,8 +179,8 @@ void decide(Assessment& found, const Claim& claim, const Ladder& ladder, const F
     found.verdict = evidence.verdict;
     if (evidence.code == "tolerance-not-resolved")
       found.reason = Code("printed-digits").name();
-    else if (evidence.code == "ends-early")
-      found.reason = Code("ends-early").name();
+    else if (evidence.code == "ends-early" || evidence.code == "wrong-limit")
+      found.reason = evidence.code;
     else if (evidence.code != "collisions-miscounted")
       found.reason.clear();
   }
@@ -197,7 +198,8 @@ Assessment judge(const Ladder& ladder, const Claim& claim, const Facts& facts) {
                      .contact_time = facts.contact_time,
                      .states_tolerance = claim.reason == "tolerance-floor",
                      .by_tolerance = facts.by_tolerance,
-                     .wrong_limit = facts.wrong_limit};
+                     .wrong_limit = facts.wrong_limit,
+                     .noise = facts.noise};
   const auto measured = fit(ladder, context, [](const RunScore& run) {
     return ErrorPoint{.error = run.u_error, .floor = run.rounding_floor};
   });

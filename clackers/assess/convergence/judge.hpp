@@ -22,6 +22,9 @@ inline constexpr double least_energy_ratio = 0.5, largest_energy_ratio = 2.0;
 
 /// An envelope whose order is uncertain by more than this share of the claim decides nothing.
 inline constexpr double envelope_spread = 0.5;
+/// Over this many octaves a wider interval still tells an order from its neighbours.
+inline constexpr int enough_octaves = 5;
+inline constexpr double wide_envelope_spread = 0.75;
 
 /// A first row after the start holds the error of some steps; beyond this share of the envelope it
 /// is of another motion.
@@ -48,6 +51,7 @@ struct Facts {
   /// The differences between the histories shrink regularly where their errors do not: they converge
   /// to another limit than the true motion.
   bool wrong_limit = false;
+  bool noise = false;  ///< a floor of the runs is noise, as their rows show
   /// The ladder is one of tolerances of an adaptive solver: `step` of a run is its tolerance.
   bool by_tolerance = false;
 };

@@ -110,6 +110,11 @@ std::optional<Evidence> error_over_tolerance(const Ladder& ladder, const LadderF
       "error-over-tolerance", Verdict::not_claimed, {std::exp(sum / runs), least, most}};
 }
 
+bool claims_convergence(const Claim& claim) {
+  return claim.behaviour == Behaviour::exact || claim.behaviour == Behaviour::proper ||
+         claim.behaviour == Behaviour::reduced || claim.behaviour == Behaviour::irregular;
+}
+
 // What the fit itself noticed.
 std::vector<Evidence> of_the_fit(const LadderFit& fit, const Ladder& ladder, const Claim& claim,
                                  const Facts& facts) {
@@ -147,6 +152,9 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   if (fit.reason == Code("printed-digits").name())
     all.push_back({fit.reason, of_behaviour, {finest.u_error, printed}});
   if (claimed) add(miscounted(ladder, fit, claim));
+  // Whatever the order, it is that of another motion.
+  if (facts.wrong_limit && claims_convergence(claim))
+    all.push_back({std::string(Code("wrong-limit").name()), Verdict::disagrees, {}});
   if (facts.tolerance) add(tolerance_evidence(finest, *facts.tolerance, printed));
   for (auto& found : of_the_fit(fit, ladder, claim, facts)) all.push_back(std::move(found));
   add(velocity_order(fits));

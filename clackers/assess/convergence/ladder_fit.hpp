@@ -25,6 +25,8 @@ struct FitContext {
   bool by_tolerance = false;
   /// The runs converge to another limit than the true motion, as their differences show.
   bool wrong_limit = false;
+  /// A floor of these runs is noise, as their rows show; one run a level does not show it itself.
+  bool noise = false;
 };
 
 /// Steps that resolve a compliant contact divide its duration at least by this.

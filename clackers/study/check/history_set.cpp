@@ -150,16 +150,26 @@ Subject HistorySet::assess(SubjectKind kind, std::string name, const Claim& clai
   const auto ladder = ladder_of(subject);
   auto facts = facts_of(file, subject, problem_);
   facts.wrong_limit = diagnose::limit_of(histories, problem_.problem, *problem_.motion).wrong;
+  const auto diagnosed = [&] {
+    subject.assessment = assess::judge(ladder, claim, facts);
+    return diagnose::diagnose({.problem = problem_.problem,
+                               .motion = *problem_.motion,
+                               .histories = histories,
+                               .ladder = ladder,
+                               .displacement = subject.assessment.displacement,
+                               .velocity = subject.assessment.velocity,
+                               .differences = nullptr,
+                               .by_tolerance = subject.resolution == Resolution::tolerance});
+  };
+  subject.diagnoses = diagnosed();
+  // Files of another system converge to another motion, also where too few of them show it; what
+  // diagnosis finds in the rows of files, their errors alone may not show.
+  const auto shown = [&](auto cause) { return std::ranges::any_of(subject.diagnoses, cause); };
+  const bool wrong_limit = facts.wrong_limit || shown(diagnose::is_other_system);
+  if (wrong_limit == facts.wrong_limit && !shown(diagnose::is_noise)) return subject;
+  facts.wrong_limit = wrong_limit;
+  facts.noise = shown(diagnose::is_noise);
   subject.assessment = assess::judge(ladder, claim, facts);
-  subject.diagnoses =
-      diagnose::diagnose({.problem = problem_.problem,
-                          .motion = *problem_.motion,
-                          .histories = histories,
-                          .ladder = ladder,
-                          .displacement = subject.assessment.displacement,
-                          .velocity = subject.assessment.velocity,
-                          .differences = nullptr,
-                          .by_tolerance = subject.resolution == Resolution::tolerance});
   return subject;
 }
 

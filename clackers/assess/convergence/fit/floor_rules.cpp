@@ -117,7 +117,7 @@ LadderFit stagnates(const Range& range, const FitContext& context, const Window&
   Floor floor{.error = std::exp(mean(range.level(flat.last).y)),
               .step = std::exp(points.x.front()),
               .scatter = flat.scatter,
-              .rough = is_rough(range, flat.first, flat.last)};
+              .rough = context.noise || is_rough(range, flat.first, flat.last)};
   if (floor.error >= context.saturation) return undecided(range, "larger-than-motion");
   const auto reason = floor_reason(context, floor.rough).name();
   if (const auto law = law_with_floor(range, context)) {

@@ -102,7 +102,7 @@ std::pair<double, double> squares_of(const std::vector<LevelView>& largest, cons
 }
 
 // The whole order k where the envelope lies significantly above k, by half at most, and the blend
-// a h^k + b h^(k+1) is within the 95 % region about the line; 0 otherwise.
+// a h^k + b h^(k+1) follows the largest errors better than their line does; 0 otherwise.
 double order_of_blend(std::span<const LevelView> levels, const Envelope& found) {
   const double slope = found.line.slope, lower = std::floor(slope);
   if (lower < 1.0 || slope - lower <= found.line.slope_spread || slope - lower > 0.5) return 0.0;
@@ -111,9 +111,7 @@ double order_of_blend(std::span<const LevelView> levels, const Envelope& found) 
       fit_two_terms(largest, 0, int(largest.size()) - 1, {.p = lower + 1.0, .q = lower});
   if (!law) return 0.0;
   const auto [of_line, of_law] = squares_of(largest, found, *law);
-  const int freedom = int(largest.size()) - 2;
-  const double t = numerics::student_t95(freedom);
-  return of_law <= of_line * (1.0 + t * t / freedom) ? lower : 0.0;
+  return of_law <= of_line ? lower : 0.0;
 }
 
 }  // namespace
@@ -173,8 +171,10 @@ std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, i
   found.scatter = std::exp(furthest);
   found.order = found.line.slope;
   found.spread = spread_of_largest(levels, found);
-  if (const double lower = order_of_blend(levels, found); lower > 0.0)
+  if (const double lower = order_of_blend(levels, found); lower > 0.0) {
     found.spread = std::max(found.spread, found.order - lower);
+    found.order = lower;
+  }
   return found;
 }
 

@@ -43,9 +43,10 @@ struct Envelope {
   double scatter = 1.0;              ///< largest factor between a raw error and this line
 };
 
-/// Where a blend of two whole orders describes the envelope as well as its line does, the spread
-/// reaches to the lower one, which is left as the step goes to zero. Fits the envelope over [first, last], without those coarsest levels that lie more than a factor
-/// `leading_level` off the line of medians; at least four levels stay. Nothing for fewer than four.
+/// Fits the envelope over [first, last], without those coarsest levels that lie more than a factor
+/// `leading_level` off the line of medians; at least four levels stay. Where a blend of two adjacent
+/// whole orders follows it better than a line, the order is the lower one, which is left as the step
+/// goes to zero, and the spread reaches to the slope. Nothing for fewer than four levels.
 std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, int last);
 
 }  // namespace clackers::assess
