@@ -42,6 +42,15 @@ struct LadderFit {
 ///     other-start             distance of the first row from the reference over the envelope
 ///     other-collisions        collisions matched, expected, extra, of a history without a claim
 ///     sparse-rows             none: rows too far apart to find collisions in them
+///     wrong-limit             none: the files converge to another motion
+///     ends-early              last time, end of the case [s], collisions until then, until the end
+///     commensurate-steps      share of the runs at the rounding floor beside others that are not
+///     errors-cancel           step at which the error passes zero [s]
+///     unstable-coarse-steps   largest step below those that failed [s]
+///     steps-per-contact       contact time over the finest step, contact time [s]
+///     more-neighbours         order of the envelope, its spread
+///     velocity-order-lower    order of the velocities, of the displacements
+///     error-over-tolerance    mean, least and largest error over tolerance, along the line
 struct Evidence {
   std::string code;
   Verdict verdict = Verdict::not_claimed;  ///< of this alone

@@ -61,7 +61,8 @@ struct Facts {
 /// impact times are fitted beside it. The rules for the behaviour, first hit wins:
 ///
 ///     divergent [energy-growth]     no line, errors that do not fall, and most runs of both finest
-///                                   levels end with more than twice the true energy
+///                                   levels end with more than twice the true energy and with
+///                                   more than it had at the start
 ///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with
 ///                                   less than half of it
 ///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
@@ -78,7 +79,7 @@ struct Facts {
 /// otherwise `disagrees`. A claim is two-sided: better than claimed is another behaviour and
 /// disagrees as well. Collisions missed or extra on the two finest levels disagree whatever the
 /// errors say, unless the claim is a floor and their number is right: then they came too late to be
-/// matched.
+/// matched. A claim to converge disagrees where the files converge to another limit.
 ///
 /// A tolerance has a verdict of its own, `undecided` where printing makes more than the difference
 /// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of
