@@ -21,7 +21,8 @@ std::vector<study::Requirement> read_requirements(const std::vector<std::string>
   return all;
 }
 
-int required_exit_code(const study::Record& record, const std::vector<study::Requirement>& requirements) {
+int required_exit_code(const study::Record& record,
+                       const std::vector<study::Requirement>& requirements) {
   for (const auto& requirement : requirements)
     if (const auto missing = study::unmet(record, requirement); !missing.empty())
       note(report::requirement_text(record, requirement, missing));

@@ -16,6 +16,7 @@ std::vector<study::Requirement> read_requirements(const std::vector<std::string>
 
 /// The exit code of a record; what does not meet the requirements is named on standard error, a line
 /// a requirement.
-int required_exit_code(const study::Record& record, const std::vector<study::Requirement>& requirements);
+int required_exit_code(const study::Record& record,
+                       const std::vector<study::Requirement>& requirements);
 
 }  // namespace clackers::cli

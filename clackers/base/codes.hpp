@@ -10,8 +10,8 @@ namespace clackers {
 
 /// What a code stands for: `clackers explain CODE` prints it, `explain` alone lists all.
 struct CodeEntry {
-  std::string_view name;     ///< kebab-case, never reused for another meaning
-  std::string_view kind;     ///< "refusal", "failure", "behaviour", "reason", "diagnosis" or "verdict"
+  std::string_view name;  ///< kebab-case, never reused for another meaning
+  std::string_view kind;  ///< "refusal", "failure", "behaviour", "reason", "diagnosis" or "verdict"
   std::string_view meaning;  ///< what happened and what to do about it
 };
 

@@ -156,11 +156,11 @@ struct Subject {
   /// The one name in every output. A method as one would type it, without "+event-driven", which is
   /// what a name without "+contact" means; "histories" for histories.
   std::string name;
-  Claim claim;                           ///< of the method, or what --expect says of the histories
-  std::optional<double> tolerance;       ///< largest allowed u_error, where one was asked for
-  double contact_time = 0.0;             ///< [s], 0 for rigid contact
-  std::string refusal, refusal_code;     ///< why a method cannot take the case; empty when it can
-  bool complete = true;                  ///< false: interrupted before its last level
+  Claim claim;                        ///< of the method, or what --expect says of the histories
+  std::optional<double> tolerance;    ///< largest allowed u_error, where one was asked for
+  double contact_time = 0.0;          ///< [s], 0 for rigid contact
+  std::string refusal, refusal_code;  ///< why a method cannot take the case; empty when it can
+  bool complete = true;               ///< false: interrupted before its last level
   Resolution resolution = Resolution::step;
   std::vector<Level> levels;             ///< coarsest first
   std::optional<Refinement> refinement;  ///< nothing where the plan of the case was enough

@@ -106,12 +106,11 @@ void add_check(Grammar& root) {
            "Several files are levels of one method and give an order. Exit code 0 when the "
            "history agrees or nothing is expected, 1 when it disagrees or is of another motion, "
            "3 when undecided.",
-       .usage =
-           "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
-           "           [--columns t,u1,...] [--events FILE]\n"
-           "           [--steps h1,h2,...|--tolerances a,b,...]\n"
-           "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
-           "           [--metrics all] [--baseline FILE.json] [--report FILE.html]\n"});
+       .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
+                "           [--columns t,u1,...] [--events FILE]\n"
+                "           [--steps h1,h2,...|--tolerances a,b,...]\n"
+                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
+                "           [--metrics all] [--baseline FILE.json] [--report FILE.html]\n"});
   app->add_option("FILE", options->files, "Time histories, text; - for standard input.")
       ->reads_file("");
   app->add_option("--case", options->case_name,

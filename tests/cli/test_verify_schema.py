@@ -14,7 +14,8 @@ SCHEMA = os.path.join(os.path.dirname(__file__), "../../docs/schemas/record-1.js
 OTHERS = (None, True, 7, 0.5, "text", [], {})
 
 # Fields that records of earlier versions lack.
-ADDED = {"diagnoses", "floor_scatter", "floor_step", "largest_step", "mismatch", "printed", "refinement", "resolution", "smallest_step"}
+ADDED = {"cancel_step", "diagnoses", "floor_scatter", "floor_step", "largest_step", "lucky_share",
+         "mismatch", "printed", "refinement", "resolution", "smallest_step", "stable_step"}
 
 
 def places(value, path=()):

@@ -45,7 +45,7 @@ class Cvode(PeerTest):
         files = [self.histories(f"run{i}", rtol)[0] for i, rtol in enumerate(tolerances)]
         # The controller chooses order and steps anew for each tolerance: no line. Steps of order q
         # that keep a local error of rtol end with rtol^(q / (q + 1)), and q goes up to 5.
-        subject = self.checked(*files, "--steps", ",".join(map(repr, tolerances)), "--expect",
+        subject = self.checked(*files, "--tolerances", ",".join(map(repr, tolerances)), "--expect",
                               "irregular:1")
         order = subject["assessment"]["displacement"]["order"]
         self.assertTrue(0.7 < order < 1.0, order)
@@ -65,9 +65,14 @@ class Cvode(PeerTest):
         self.assert_six_collisions(runs(subject)[0], 1e-6)
         self.checked(*arguments, "--case", "synchronized-pair", "--set", "eta=0.5")
 
-    def test_history_that_ends_early_is_assessed_to_its_end(self):
-        history, events = self.histories("early", 1e-10, end=10.0)
-        subject = self.checked(history, "--events", events, "--tolerance", "1e-6")
+    def test_history_that_ends_early_is_undecided_unless_the_case_ends_there(self):
+        history, events = self.histories("early", 1e-10, end=self.pair["t_end"] / 2)
+        arguments = (history, "--events", events, "--tolerance", "1e-6")
+        subject = self.checked(*arguments, exit_code=3)
+        self.assertEqual(subject["assessment"]["reason"], "ends-early")
+        self.assertEqual(runs(subject)[0]["impacts"]["expected"], 3)
+        subject = self.checked(*arguments, "--set", "a_t=0.5")
+        self.assertEqual(subject["assessment"]["verdict"], "agrees")
         self.assertEqual(runs(subject)[0]["impacts"]["expected"], 3)
 
 

@@ -87,7 +87,7 @@ TEST(Listing, OfMetricsNamesWhatARunIsJudgedBy) {
 TEST(Listing, RefusesUnknownKindsWithASuggestion) {
   EXPECT_EQ(refusal([] { list("case"); }),
             "clackers: no list \"case\". Did you mean \"cases\"? All names: cases, integrators, "
-            "contacts, methods, pairs, metrics [unknown-name]");
+            "contacts, methods, pairs, metrics, diagnoses [unknown-name]");
 }
 
 TEST(Explain, TellsOneCodeOrAll) {

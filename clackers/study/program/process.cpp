@@ -26,6 +26,9 @@ using End = ProcessResult::End;
 // A signal handler may neither lock nor allocate, hence a fixed table; 0: free.
 std::array<std::atomic<pid_t>, 1024> groups{};
 static_assert(std::atomic<pid_t>::is_always_lock_free);
+// Calls of kill_processes(); tells start() of one that came before its process was in the table.
+std::atomic<unsigned> kills = 0;
+static_assert(std::atomic<unsigned>::is_always_lock_free);
 
 // A file descriptor that no child inherits.
 class Descriptor {
@@ -93,6 +96,7 @@ class Child {
     ::posix_spawnattr_setsigdefault(&attributes, &all);
     std::string shell = "/bin/sh", option = "-c", command = task.command;
     std::array<char*, 4> arguments{shell.data(), option.data(), command.data(), nullptr};
+    const unsigned kills_before = kills;
     const int problem = ::posix_spawn(&number_, shell.c_str(), &actions, &attributes,
                                       arguments.data(), environment().data());
     ::posix_spawnattr_destroy(&attributes);
@@ -105,6 +109,7 @@ class Child {
       pid_t free = 0;
       if (entry.compare_exchange_strong(free, number_)) break;
     }
+    if (kills != kills_before) kill_group();
     return 0;
   }
 
@@ -258,6 +263,7 @@ ProcessResult run_process(const ProcessTask& task, const std::atomic<bool>* inte
 }
 
 void kill_processes() noexcept {
+  ++kills;
   for (auto& entry : groups)
     if (const pid_t group = entry.load(); group > 0) ::kill(-group, SIGKILL);
 }
