@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 #include "clackers/diagnose/ladder/ladder_families.hpp"
@@ -7,10 +6,19 @@
 namespace clackers::diagnose {
 
 std::vector<Diagnosis> ladder_causes(const Question& question) {
-  constexpr std::array families{limit_causes, location_causes, noise_causes,
-                                step_causes,  tension_causes,  energy_causes};
+  const auto limit = limit_of(question.histories, question.problem, question.motion);
   std::vector<Diagnosis> all;
-  for (const auto find : families) std::ranges::move(find(question), std::back_inserter(all));
+  const auto add = [&](std::vector<Diagnosis> found) {
+    std::ranges::move(found, std::back_inserter(all));
+  };
+  add(limit_causes(limit));
+  add(location_causes(question));
+  const bool at_steps = std::ranges::any_of(
+      all, [](const Diagnosis& one) { return one.code == "impact-at-step-end"; });
+  add(noise_causes(question, limit));
+  add(step_causes(question, at_steps));
+  add(tension_causes(question));
+  add(energy_causes(question));
   return all;
 }
 

@@ -150,6 +150,12 @@ TEST_P(LadderCauses, ADashpotThatPullsIsContactInTension) {
   EXPECT_TRUE(find(all, "contact-in-tension")) << listed(all);
 }
 
+TEST_P(LadderCauses, MassesThatPassThroughEachOtherAreNotInTension) {
+  const auto all = ladder_causes(
+      files_of(plan, {.integrator = Integrator::rk4, .location = Location::none}).question());
+  EXPECT_FALSE(find(all, "contact-in-tension")) << listed(all);
+}
+
 TEST_P(LadderCauses, StepsThatDivideTheTimesOfImpactsAreNamed) {
   const auto& motion = *plan.problem.motion;
   // Impacts at odd multiples of the first one's time: whole parts of it have all on steps.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "clackers/diagnose/causes.hpp"
+#include "clackers/diagnose/ladder/limit.hpp"
 
 // The parts of ladder_causes().
 namespace clackers::diagnose {
@@ -22,11 +23,11 @@ inline Diagnosis diagnosis_of(Code code, double value, std::string unit) {
 /// all histories were located.
 std::vector<Diagnosis> location_causes(const Question& question);
 /// wrong-limit.
-std::vector<Diagnosis> limit_causes(const Question& question);
+std::vector<Diagnosis> limit_causes(const Limit& limit);
 /// noise-floor.
-std::vector<Diagnosis> noise_causes(const Question& question);
-/// commensurate-steps, unstable-coarse-steps.
-std::vector<Diagnosis> step_causes(const Question& question);
+std::vector<Diagnosis> noise_causes(const Question& question, const Limit& limit);
+/// commensurate-steps, unstable-coarse-steps. `impacts_at_steps`: impact-at-step-end was found.
+std::vector<Diagnosis> step_causes(const Question& question, bool impacts_at_steps);
 /// contact-in-tension.
 std::vector<Diagnosis> tension_causes(const Question& question);
 /// numerical-damping, from the energies of the scores, where no histories are kept.

@@ -59,7 +59,7 @@ bool may_be_chance(const Observation& finest, const Limit& limit, double scale, 
   if (!located.is_resolved() || delay > 1.05 * finest.facts.step) return false;
   double displaced = 0.0;
   for (const auto& impact : located.impacts) displaced += 2.0 * impact.closing * delay;
-  return displaced > 0.3 * limit.distance * scale;
+  return displaced > 0.15 * limit.distance * scale;
 }
 
 bool is_multiple(double step, double finest) {

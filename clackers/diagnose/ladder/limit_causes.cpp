@@ -1,12 +1,10 @@
 #include <cmath>
 
 #include "clackers/diagnose/ladder/ladder_families.hpp"
-#include "clackers/diagnose/ladder/limit.hpp"
 
 namespace clackers::diagnose {
 
-std::vector<Diagnosis> limit_causes(const Question& question) {
-  const auto limit = limit_of(question.histories, question.problem, question.motion);
+std::vector<Diagnosis> limit_causes(const Limit& limit) {
   if (!limit.wrong) return {};
   auto found = diagnosis_of(Code("wrong-limit"), limit.distance, "1");
   found.confidence = limit.files >= 3 ? 0.95 : 0.8;

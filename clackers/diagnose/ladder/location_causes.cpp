@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -106,27 +107,46 @@ std::optional<Diagnosis> interpolated(const Question& question,
   return found;
 }
 
-// Delays far below a step that do not depend on it, and make much of the finest error.
+// Largest displacement error of the runs of that step or tolerance; NaN without one.
+double error_at(const assess::Ladder& ladder, double step) {
+  for (const auto& level : ladder)
+    for (const auto& run : level.runs)
+      if (run.finished && std::abs(run.step - step) <= 1e-9 * step) return run.u_error;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// Delays far below a step, or the spacing of an adaptive solver's rows, that do not depend on the
+// step or tolerance and make much of the finest errors.
 std::optional<Diagnosis> tolerance(const Question& question,
                                    const std::vector<LocatedImpacts>& files) {
-  const auto power = power_of_step(files, 3.0, rms_delay);
+  constexpr std::size_t least_files = 3, most_compared = 4;
   // A delay anywhere below the tolerance scatters by a factor 3 in its logarithm, so that the slope
-  // of five files is known to 1.
-  constexpr double largest_slope = 1.3;
-  if (!power || files.size() < 3 || std::abs(*power) > largest_slope) return {};
-  double largest = 0.0, displaced = 0.0;
+  // of five files is known to 1, that over five decades to 0.1.
+  const double range = question.by_tolerance ? 1e3 : 3.0;
+  const double largest_slope = question.by_tolerance ? 0.15 : 1.3;
+  const auto power = power_of_step(files, range, rms_delay);
+  if (!power || files.size() < least_files || std::abs(*power) > largest_slope) return {};
+  double largest = 0.0;
   for (const auto& file : files)
     for (const auto& impact : file.impacts) largest = std::max(largest, std::abs(impact.delay));
-  for (const auto& impact : files.back().impacts)
-    displaced += 2.0 * impact.closing * std::abs(impact.delay);
+  // Impacts of the finest file may be located well by chance.
   const double scale = assess::reference_scale(question.motion).u.minCoeff();
-  const double error = question.ladder.back().runs.back().u_error;
+  std::vector<double> parts;
+  for (auto file = files.rbegin(); file != files.rend() && parts.size() < most_compared; ++file) {
+    double displaced = 0.0;
+    for (const auto& impact : file->impacts)
+      displaced += 2.0 * impact.closing * std::abs(impact.delay);
+    parts.push_back(displaced / (error_at(question.ladder, file->step) * scale));
+  }
   constexpr double least_part = 0.2, most_steps = 0.5;
-  if (!(displaced > least_part * error * scale) || largest > most_steps * files.back().step)
-    return {};
+  const double part = std::max(parts.front(), assess::median(parts));
+  const double spacing =
+      question.by_tolerance ? question.histories.back().facts.spacing : files.back().step;
+  if (!(part > least_part) || largest > most_steps * spacing) return {};
   auto found = diagnosis_of(Code("impact-tolerance"), largest, "s");
   found.confidence = files.size() >= 5 ? 0.9 : 0.75;
-  found.evidence = {{"steps", largest / files.back().step}, {"files", double(files.size())}};
+  if (!question.by_tolerance) found.evidence = {{"steps", largest / spacing}};
+  found.evidence.push_back({"files", double(files.size())});
   return found;
 }
 
@@ -179,9 +199,12 @@ std::vector<Diagnosis> location_causes(const Question& question) {
   };
   if (std::ranges::all_of(all, [](const auto& file) { return file.impacts.empty(); })) return {};
   if (add(compliant(question, all))) return found;
-  // Delays of a tolerance ladder have no step to be measured in.
-  if (!question.by_tolerance && !delayed.empty() && 2 * delayed.size() >= all.size()) {
-    if (add(at_step(delayed))) return found;
+  // Of coarse files the flights may hide what fine ones show.
+  constexpr std::size_t enough = 5;
+  if (!delayed.empty() && (2 * delayed.size() >= all.size() || delayed.size() >= enough)) {
+    // Delays of a tolerance ladder have no step to be measured in.
+    if (!question.by_tolerance && 2 * delayed.size() >= all.size() && add(at_step(delayed)))
+      return found;
     if (add(tolerance(question, delayed))) return found;
   }
   std::erase_if(all, [](const auto& file) { return file.impacts.empty(); });

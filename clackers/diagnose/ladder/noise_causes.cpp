@@ -6,7 +6,6 @@
 #include "clackers/assess/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
-#include "clackers/diagnose/ladder/limit.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -67,10 +66,10 @@ std::optional<Diagnosis> in_rows(const Question& question) {
     const double other = white_noise(seen, question.motion, scale);
     alike += other > noise / 3.0 && other < 3.0 * noise;
   }
-  const bool single = question.histories.size() == 1;
-  if (!single && alike < 2) return {};
+  // One file alone may have an alternating error of the method.
+  if (alike < 2) return {};
   auto found = diagnosis_of(Code("noise-floor"), run.u_error, "1");
-  found.confidence = single ? 0.7 : 0.95;
+  found.confidence = 0.95;
   found.evidence = {{"floor", run.u_error}, {"files", double(alike)}};
   return found;
 }
@@ -78,7 +77,7 @@ std::optional<Diagnosis> in_rows(const Question& question) {
 // Errors that go up and down without falling over the finest three octaves, where impacts are
 // located well: a limit would settle, a method of order 1/2 would fall by 2.8. Two of three values
 // of a random sequence are turning points, at most two of one that passes zero once.
-std::optional<Diagnosis> in_ladder(const Question& question) {
+std::optional<Diagnosis> in_ladder(const Question& question, const Limit& limit) {
   constexpr double saturated = 0.3, above_floor = 30.0, most_factor = 2.5;
   std::vector<const assess::RunScore*> runs;  // finest first
   for (auto level = question.ladder.rbegin(); level != question.ladder.rend(); ++level)
@@ -110,7 +109,6 @@ std::optional<Diagnosis> in_ladder(const Question& question) {
   if (largest > most_factor * mean || least < mean / most_factor) return {};
   const auto located = locate_impacts(finest, question.problem);
   if (located.is_resolved()) return {};
-  const auto limit = limit_of(question.histories, question.problem, question.motion);
   if (limit.wrong || limit.difference < 0.5) return {};
   auto found = diagnosis_of(Code("noise-floor"), mean, "1");
   found.confidence = 0.85;
@@ -120,10 +118,10 @@ std::optional<Diagnosis> in_ladder(const Question& question) {
 
 }  // namespace
 
-std::vector<Diagnosis> noise_causes(const Question& question) {
+std::vector<Diagnosis> noise_causes(const Question& question, const Limit& limit) {
   if (question.histories.empty() || question.ladder.empty()) return {};
   if (auto found = in_rows(question)) return {*found};
-  if (auto found = in_ladder(question)) return {*found};
+  if (auto found = in_ladder(question, limit)) return {*found};
   return {};
 }
 

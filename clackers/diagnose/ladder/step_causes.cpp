@@ -28,12 +28,15 @@ std::vector<const assess::RunScore*> runs_of(const assess::Ladder& ladder) {
 }
 
 // Runs whose steps divide the times of impacts, where that makes their errors smaller than those of
-// their neighbours, or where there are no other runs to compare with.
-void commensurate(const Question& question, std::vector<Diagnosis>& found) {
+// their neighbours, or where there are no other runs to compare with. Where impacts act at steps
+// their errors are by rounding 0 or those of a whole step.
+void commensurate(const Question& question, bool impacts_at_steps, std::vector<Diagnosis>& found) {
   const auto known = question.motion.impact_count(question.motion.end());
   if (known == 0 || question.by_tolerance) return;
   // Of random steps 2 % come as near with one impact, 0.04 % with two at unrelated times.
   const double near = known == 1 ? 1e-3 : 1e-2;
+  // Steps are known to more digits than this.
+  constexpr double divides = 1e-4;
   std::vector<const assess::RunScore*> on, off;
   for (const auto* run : runs_of(question.ladder))
     if (run->finished && run->step > 0.0 && std::isfinite(run->u_error))
@@ -50,7 +53,8 @@ void commensurate(const Question& question, std::vector<Diagnosis>& found) {
       std::vector<double> beside;
       for (const auto* other : off)
         if (std::abs(std::log2(other->step / run->step)) <= 1.05) beside.push_back(other->u_error);
-      lucky += !beside.empty() && run->u_error < 0.1 * assess::median(beside);
+      lucky += (impacts_at_steps && off_grid(question.motion, run->step) < divides) ||
+               (!beside.empty() && run->u_error < 0.1 * assess::median(beside));
     }
     if (2 * lucky <= std::ssize(on)) return;
     one.confidence = on.size() >= 2 ? 0.95 : 0.8;
@@ -87,9 +91,9 @@ void unstable(const Question& question, std::vector<Diagnosis>& found) {
 
 }  // namespace
 
-std::vector<Diagnosis> step_causes(const Question& question) {
+std::vector<Diagnosis> step_causes(const Question& question, bool impacts_at_steps) {
   std::vector<Diagnosis> found;
-  commensurate(question, found);
+  commensurate(question, impacts_at_steps, found);
   unstable(question, found);
   return found;
 }

@@ -99,6 +99,7 @@ std::vector<Hypothesis> parameter_hypotheses(const model::ImpactProblem<>& probl
     if (n > 1) add("mass-ratio-differs", Change::mass, i);
     if (n > 1 && impacts) add("impact-impulse-wrong", Change::impulse, i);
   }
+  if (n > 1) add("frequency-differs", Change::frequency);
   if (n > 1) add("damping-differs", damped ? Change::damping_share : Change::damping);
   if (n > 1 && impacts) add("mass-ratio-differs", Change::mass_ratio, n - 1);
   if (impacts) add("restitution-differs", Change::restitution);

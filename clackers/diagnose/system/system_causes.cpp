@@ -15,8 +15,9 @@ namespace {
 
 /// Errors of right methods look like other systems with gains of up to 22.
 constexpr double least_gain = 30.0, least_lead = 10.0;
-/// One file alone cannot tell a model from a method below this.
-constexpr double least_gain_alone = 100.0;
+/// One file alone cannot tell a model from a method below this; what methods do not change, as
+/// restitution, shows earlier.
+constexpr double least_gain_alone = 100.0, least_impact_gain_alone = 50.0;
 /// A coarser file must show the cause as well, if less clearly: the method's error grows.
 constexpr double least_gain_beside = 3.0;
 /// Where it does not, the distance from the reference must not fall with the step as a method's does.
@@ -164,6 +165,18 @@ bool is_shift(const Trial& trial) {
   return trial.hypothesis->parameter && trial.hypothesis->parameter->change == Change::time_shift;
 }
 
+// Not to be told from what a method's error does to frequencies, damping and momentum.
+bool is_smooth(const Parameter& parameter) {
+  switch (parameter.change) {
+    case Change::restitution:
+    case Change::damping_after_impact:
+    case Change::time_shift:
+      return false;
+    default:
+      return true;
+  }
+}
+
 // The cause that one hypothesis is, with the values of other files beside that of the finest.
 std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestion& question) {
   const auto& best = found.best;
@@ -201,9 +214,11 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
   if (files == 1) {
     // A parameter among six fits an error that has grown as large as the motion.
     if (attempt == tried_beside && hypothesis.parameter) return std::nullopt;
-    if (best.gain < least_gain_alone || may_be_numerical(best, finest, question))
-      return std::nullopt;
-    confidence = std::min(0.9, confidence_of(best.gain, least_gain_alone));
+    const double least = hypothesis.parameter && !is_smooth(*hypothesis.parameter)
+                             ? least_impact_gain_alone
+                             : least_gain_alone;
+    if (best.gain < least || may_be_numerical(best, finest, question)) return std::nullopt;
+    confidence = std::min(0.9, confidence_of(best.gain, least));
     grows = whole;
   }
   auto diagnosis = hypothesis.diagnosis(question.problem, best.d, spread);
@@ -236,18 +251,6 @@ std::pair<int, int> impacts_near_departure(const FitFile& file, const FitQuestio
       return {int(std::max<long long>(1, count - 4)), int(std::min(all, count + 1))};
     }
   return {1, 0};
-}
-
-// Not to be told from what a method's error does to frequencies, damping and momentum.
-bool is_smooth(const Parameter& parameter) {
-  switch (parameter.change) {
-    case Change::restitution:
-    case Change::damping_after_impact:
-    case Change::time_shift:
-      return false;
-    default:
-      return true;
-  }
 }
 
 // The gain of the second best hypothesis that has no parameter: worse ones are not fitted again.

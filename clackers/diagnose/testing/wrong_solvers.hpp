@@ -64,6 +64,8 @@ inline std::vector<Fault> faults() {
       {"mass 1 lighter by 3 %", "mass-ratio-differs", -3.0, mass(0, 0.97)},
       {"last spring stiffer by 1 %", "frequency-differs", percent(1.01), stiffness(true, 1.01)},
       {"first spring softer by 1 %", "frequency-differs", percent(0.99), stiffness(false, 0.99)},
+      {"all springs stiffer by 1 %", "frequency-differs", percent(1.01),
+       [](P p, S) { return p.system.stiffness *= 1.01, true; }},
       {"damping larger by a tenth", "damping-differs", 10.0, damping(false, 1.1)},
       {"damping lost", "damping-differs", -100.0, damping(false, 0.0)},
       {"damping of mass 1 larger by half", "damping-differs", 50.0, damping(true, 1.5)},
