@@ -107,8 +107,13 @@ Json figure_specifications(const study::CaseRecord& problem) {
   Json all{{"response", specification_of(assets::response_vl_json, names)}};
   if (drawn_history(problem) != nullptr)
     all["response"]["layer"].push_back(Json::parse(assets::history_rows_vl_json));
-  if (has_convergence(problem))
-    all["convergence"] = specification_of(assets::convergence_vl_json, names);
+  if (has_convergence(problem)) {
+    const bool by_step = std::ranges::any_of(problem.subjects, [](const study::Subject& subject) {
+      return subject.resolution == study::Resolution::step;
+    });
+    all["convergence"] = specification_of(assets::convergence_vl_json, names,
+                                          {{"x_step", by_step ? "step h [s]" : "tolerance"}});
+  }
   if (has_history) all["history"] = specification_of(assets::history_vl_json, names);
   if (const auto counters = counters_of(problem); !counters.empty())
     all["work"] = specification_of(assets::work_vl_json, names, counter_values(counters, ""));

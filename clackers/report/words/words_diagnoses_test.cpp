@@ -21,8 +21,8 @@ TEST(DiagnosisText, HasValueUncertaintyGainAndCure) {
       "",
       "damping-differs"};
   EXPECT_EQ(text_of(diagnosis_text(cause)),
-            "Restitution looks like 0.9900 ±0.0001 instead of 1 (explains the history 9e7 times "
-            "better; damping-differs: 6 times): check the impact law and its coefficient. "
+            "Restitution looks like 0.9900 ±0.0001 instead of 1 (9e7 times closer; "
+            "damping-differs: 6 times): check the impact law and its coefficient. "
             "[restitution-differs]");
 }
 
