@@ -106,7 +106,7 @@ std::string behaviour_sentence(const study::Subject& subject) {
           order(), rounded_factor(fit.scatter));
       break;
     case Behaviour::stagnating:
-      text = fit.has_line
+      text = fit.has_line && fit.spread < fit.order
                  ? fmt::format("Converges with order {}, then stagnates at an error in u of {}.",
                                order(), scientific(fit.floor))
                  : fmt::format("Stagnates at an error in u of {} ({}).", scientific(fit.floor),
