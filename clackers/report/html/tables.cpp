@@ -36,8 +36,8 @@ std::string findings_html(const study::CaseRecord& problem, const Place& place) 
 }
 
 // Of a page with one subject the finding and its causes stand at the head.
-bool is_check(const study::CaseRecord& problem) {
-  return problem.plan.levels == 0 && problem.subjects.size() == 1;
+bool is_check(const study::CaseRecord& problem, const Place& place) {
+  return place.suffix.empty() && problem.plan.levels == 0 && problem.subjects.size() == 1;
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ std::string finding_html(const Finding& found) {
 }
 
 std::string verdicts_html(const study::CaseRecord& problem, const Place& place) {
-  auto out = is_check(problem) ? std::string() : diagnoses_html(problem, place);
+  auto out = is_check(problem, place) ? std::string() : diagnoses_html(problem, place);
   const auto methods = summary_table(problem, study::SubjectKind::method);
   if (!methods.rows.empty())
     out += html_table(
@@ -179,7 +179,7 @@ std::string verdicts_html(const study::CaseRecord& problem, const Place& place) 
                                                               : row.subject->name));
                       });
   // Of `check` the finding stands at the head of the page.
-  return out + (is_check(problem) ? std::string() : findings_html(problem, place)) +
+  return out + (is_check(problem, place) ? std::string() : findings_html(problem, place)) +
          notes_html(problem);
 }
 

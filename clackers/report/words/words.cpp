@@ -197,6 +197,10 @@ VerdictLine verdict_line(const study::Record& record) {
       line.word == "agrees" || (line.word == "not claimed" && (code.empty() || needs_more));
   if (record.interrupted)
     next(command, "the same command again");
+  else if (has_cause && !decisive->diagnoses.front().text.empty() &&
+           (code == Code("columns-exchanged").name() || code == Code("masses-exchanged").name()))
+    next(with_option(command, "--columns", decisive->diagnoses.front().text),
+         "the same with --columns " + decisive->diagnoses.front().text);
   else if (option)
     next(with_option(command, option->option, option->value),
          fmt::format("the same with {} {}{}", option->option, option->value, option->words));

@@ -68,7 +68,7 @@ constexpr auto method_causes = std::to_array<Code>(
      "unstable-coarse-steps", "noise-floor", "printed-digits", "single-precision"});
 // Reasons that leave open what is wrong; a shown cause says more.
 constexpr auto open_reasons = std::to_array<Code>(
-    {"wrong-limit", "contact-stiffness", "larger-than-motion", "energy-growth"});
+    {"wrong-limit", "contact-stiffness", "larger-than-motion", "energy-growth", "noise-floor"});
 
 bool is_one_of(std::span<const Code> codes, std::string_view code) {
   return std::ranges::any_of(codes, [&](Code one) { return one.name() == code; });
@@ -109,8 +109,11 @@ std::string behaviour_sentence(const study::Subject& subject) {
       text = fit.has_line && fit.spread < fit.order
                  ? fmt::format("Converges with order {}, then stagnates at an error in u of {}.",
                                order(), scientific(fit.floor))
-                 : fmt::format("Stagnates at an error in u of {} ({}).", scientific(fit.floor),
-                               range_text(subject, fit));
+                 : fmt::format(
+                       "Stagnates at an error in u of {}{}.", scientific(fit.floor),
+                       fit.first_level == fit.last_level && fit.largest_step == fit.smallest_step
+                           ? std::string()
+                           : fmt::format(" ({})", range_text(subject, fit)));
       break;
     case Behaviour::divergent:
       text = "Diverges.";

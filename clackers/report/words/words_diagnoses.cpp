@@ -23,7 +23,7 @@ struct CauseWords {
 
 // clang-format off
 constexpr auto cause_words = std::to_array<CauseWords>({
-    {"unit-scaled", "[{quantity} are {value} times those of the case][: in {unit_text}]",
+    {"unit-scaled", "[{quantity} are {value} times those of the case][, in {unit_text}]",
      "convert them to m and m/s."},
     {"columns-exchanged", "The columns are in another order than their names",
      "read them with[ --columns {text}]."},
@@ -47,7 +47,7 @@ constexpr auto cause_words = std::to_array<CauseWords>({
      "run to the end of the case, or set its end (t_end or a_t)."},
     {"time-shifted", "Every state stands {shift} too {late}",
      "check which time is printed beside which state."},
-    {"time-unit", "Times are {value} times seconds[: in {text}]",
+    {"time-unit", "Times are[ in {text},] {value} times seconds",
      "convert them to seconds."},
     {"time-drifts", "Printed times leave the grid of equal steps[, by {value} s in the end]",
      "compute t = n h instead of adding h."},
@@ -238,7 +238,11 @@ Finding diagnosis_text(const Diagnosis& cause) {
 bool is_shown_cause(const study::Subject& subject, std::string_view code) {
   const auto shown = std::min(subject.diagnoses.size(), most_shown_diagnoses);
   return std::any_of(subject.diagnoses.begin(), subject.diagnoses.begin() + std::ptrdiff_t(shown),
-                     [&](const Diagnosis& cause) { return cause.code == code; });
+                     [&](const Diagnosis& cause) {
+                       const bool is_digits = code == Code("printed-digits").name() &&
+                                              cause.code == Code("single-precision").name();
+                       return is_digits || cause.code == code;
+                     });
 }
 
 std::vector<Finding> diagnosis_texts(const study::Subject& subject) {
