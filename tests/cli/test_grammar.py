@@ -25,7 +25,7 @@ class Help(CommandTest):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
         own = {"list": [], "explain": [], "show": ["--set", "--threshold"],
                "check": ["--case", "--set", "--columns", "--events", "--steps", "--expect",
-                         "--tolerance", "--metrics", "--report", "--baseline"],
+                         "--tolerance", "--tolerances", "--metrics", "--report", "--require", "--baseline"],
                "paper": [],
                "respond": ["--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
