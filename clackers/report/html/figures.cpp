@@ -172,8 +172,8 @@ FigureText history_text(const study::CaseRecord& problem, const Place& place) {
           "Displacement error divided by the initial envelope of the mass against time in seconds, "
           "one run of each. The error axis is logarithmic.",
           "Steps up at collisions are errors that collisions bring in; downward spikes are changes "
-          "of sign; a level line in a history may be its printed digits. Point at a curve for its "
-          "step h.",
+          "of sign; a level line in a history may be its printed digits. Point at a curve to see "
+          "which run it is.",
           mass_choice(problem, place)};
 }
 
