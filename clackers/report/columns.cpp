@@ -77,7 +77,12 @@ Cell count(Whole value) {
   return value > 0 ? Cell(static_cast<long long>(value)) : Cell();
 }
 
+bool is_by_step(const study::Subject& subject) {
+  return subject.resolution == study::Resolution::step;
+}
+
 Cell steps_per_fast_period(const Row& row) {
+  if (!is_by_step(*row.subject)) return {};
   const double step = row.score.runs > 0 ? row.score.step : std::nan("");
   return number(row.problem->problem.fast_period / step);
 }
@@ -148,6 +153,7 @@ const Column all[] = {
     {"file_name", "", "file", "", "history, without its folder", name, false, short_file},
     {"level", "", "level", "", "1 is the coarsest", Kind::count, true, [](const Row& row) { return count(row.level); }},
     {"step", "s", "step", "", "h", Kind::number, true, [](const Row& row) { return row.score.runs > 0 ? number(row.score.step) : Cell(); }},
+    {"tolerance", "", "tolerance", "", "of an adaptive solver", Kind::number, false, [](const Row& row) { return row.score.runs > 0 ? number(row.score.step) : Cell(); }},
     {"step_source", "", "step from", "", "data (median spacing), name or option", word, true, [](const Row& row) { return file_of(row) ? text(to_string(file_of(row)->step_source)) : Cell(); }},
     {"steps_per_fast_period", "", "steps per fast period", "", "shortest damped period of the free masses / h", Kind::number, true, steps_per_fast_period},
     {"runs", "", "runs", "", "of the level", Kind::count, false, [](const Row& row) { return count(row.score.runs); }},
@@ -246,11 +252,12 @@ const Column& column(std::string_view wanted) {
 
 Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind) {
   const bool methods = kind == study::SubjectKind::method;
+  const bool by_step = std::ranges::all_of(problem.subjects, is_by_step);
   Table table{methods
                   ? named({"method", "u_error", "order_range", "collisions", "collision_time_error",
                            "energy_error", "force_evaluations", "behaviour", "verdict"})
-                  : named({"file_name", "rows", "step", "digits", "u_error", "v_error",
-                           "collisions", "collision_time_error", "collision_source"}),
+                  : named({"file_name", "rows", by_step ? "step" : "tolerance", "digits", "u_error",
+                           "v_error", "collisions", "collision_time_error", "collision_source"}),
               {}};
   for (const auto& subject : problem.subjects) {
     // A program is a method of others.
@@ -264,10 +271,10 @@ Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind) {
 }
 
 Table level_table(const study::CaseRecord& problem, const study::Subject& subject) {
-  Table table{
-      named({"level", "step", "steps_per_fast_period", "runs", "failed_runs", "u_error", "v_error",
-             "collisions", "collision_time_error", "energy_error", "force_evaluations", "seconds"}),
-      {}};
+  Table table{named({"level", is_by_step(subject) ? "step" : "tolerance", "steps_per_fast_period",
+                     "runs", "failed_runs", "u_error", "v_error", "collisions",
+                     "collision_time_error", "energy_error", "force_evaluations", "seconds"}),
+              {}};
   for (std::size_t level = 0; level < subject.levels.size(); ++level)
     table.rows.push_back(level_row(problem, subject, int(level) + 1));
   return table;

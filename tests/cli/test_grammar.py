@@ -24,9 +24,8 @@ class Help(CommandTest):
     def test_describes_every_option_of_the_grammar(self):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
         own = {"list": [], "explain": [], "show": ["--set", "--threshold"],
-               "check": ["--case", "--set", "--columns", "--events", "--steps", "--tolerances",
-                         "--expect", "--tolerance", "--require", "--metrics", "--report",
-                         "--baseline"],
+               "check": ["--case", "--set", "--columns", "--events", "--steps", "--expect",
+                         "--tolerance", "--tolerances", "--metrics", "--report", "--require", "--baseline"],
                "paper": [],
                "respond": ["--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],

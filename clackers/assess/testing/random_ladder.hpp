@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <ostream>
 #include <random>
 #include <string_view>
 #include <vector>
@@ -165,6 +166,9 @@ struct RandomKind {
   std::string_view name;
   std::function<RandomLadder(Random&)> draw;
 };
+
+/// For messages of tests.
+inline void PrintTo(const RandomKind& kind, std::ostream* out) { *out << kind.name; }
 
 inline std::vector<RandomKind> random_kinds() {
   return {{"scattered line", scattered_line},

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "clackers/diagnose/causes.hpp"
-#include "clackers/diagnose/ladder/limit.hpp"
+#include "clackers/diagnose/limit.hpp"
 
 // The parts of ladder_causes().
 namespace clackers::diagnose {

@@ -47,6 +47,16 @@ void substitute(Json& json, const Json& values) {
   }
 }
 
+// Without the tooltips of a field.
+void erase_field(Json& json, std::string_view field) {
+  if (!json.is_structured()) return;
+  if (json.is_array())
+    for (auto item = json.begin(); item != json.end();)
+      item = item->is_object() && item->value("field", Json()) == field ? json.erase(item)
+                                                                        : std::next(item);
+  for (auto& item : json) erase_field(item, field);
+}
+
 // Of a long curve a marker at every sixtieth point, at other points for every method.
 std::string marker_rows(const Json& names) {
   const auto list = names.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -107,11 +117,19 @@ Json figure_specifications(const study::CaseRecord& problem) {
   Json all{{"response", specification_of(assets::response_vl_json, names)}};
   if (drawn_history(problem) != nullptr)
     all["response"]["layer"].push_back(Json::parse(assets::history_rows_vl_json));
+  const bool by_step = std::ranges::any_of(problem.subjects, [](const study::Subject& subject) {
+    return subject.resolution == study::Resolution::step;
+  });
+  const Json step{{"x_step", by_step ? "step h [s]" : "tolerance"}};
   if (has_convergence(problem))
-    all["convergence"] = specification_of(assets::convergence_vl_json, names);
-  if (has_history) all["history"] = specification_of(assets::history_vl_json, names);
-  if (const auto counters = counters_of(problem); !counters.empty())
-    all["work"] = specification_of(assets::work_vl_json, names, counter_values(counters, ""));
+    all["convergence"] = specification_of(assets::convergence_vl_json, names, step);
+  if (has_history) all["history"] = specification_of(assets::history_vl_json, names, step);
+  if (const auto counters = counters_of(problem); !counters.empty()) {
+    auto values = counter_values(counters, "");
+    values.update(step);
+    all["work"] = specification_of(assets::work_vl_json, names, values);
+  }
+  if (!by_step) erase_field(all, "steps_per_fast_period");
   if (const auto counters = counters_of(problem.profiles); !counters.empty())
     all["profile"] = specification_of(assets::profile_vl_json, names,
                                       counter_values(counters, "times the least "));

@@ -146,18 +146,23 @@ FigureText response_text(const study::CaseRecord& record, const Place& place) {
 }
 
 FigureText convergence_text(const study::CaseRecord& problem) {
-  return {"convergence",
-          "runs",
-          "Convergence",
-          "Largest displacement error over all masses and times of a run, divided by the initial "
-          "envelope of the mass, against the step h in seconds. Both axes are logarithmic.",
-          "Faint points are single runs; the line joins the worst run of each level (the upper "
-          "envelope), without levels of which more than half of the runs failed. A method of order "
-          "p follows a straight line as steep as the side of the triangle with p beside it. "
-          "Scatter of the points is irregularity, a line that levels out is a floor. Point at a "
-          "curve, or at its name above, to pick it out in every figure." +
-              not_drawn(problem),
-          {}};
+  const bool by_step = std::ranges::any_of(problem.subjects, [](const study::Subject& subject) {
+    return subject.resolution == study::Resolution::step;
+  });
+  return {
+      "convergence",
+      "runs",
+      "Convergence",
+      fmt::format("Largest displacement error over all masses and times of a run, divided by "
+                  "the initial envelope of the mass, against the {}. Both axes are logarithmic.",
+                  by_step ? "step h in seconds" : "tolerance"),
+      "Faint points are single runs; the line joins the worst run of each level (the upper "
+      "envelope), without levels of which more than half of the runs failed. A method of order "
+      "p follows a straight line as steep as the side of the triangle with p beside it. "
+      "Scatter of the points is irregularity, a line that levels out is a floor. Point at a "
+      "curve, or at its name above, to pick it out in every figure." +
+          not_drawn(problem),
+      {}};
 }
 
 FigureText history_text(const study::CaseRecord& problem, const Place& place) {
@@ -167,8 +172,8 @@ FigureText history_text(const study::CaseRecord& problem, const Place& place) {
           "Displacement error divided by the initial envelope of the mass against time in seconds, "
           "one run of each. The error axis is logarithmic.",
           "Steps up at collisions are errors that collisions bring in; downward spikes are changes "
-          "of sign; a level line in a history may be its printed digits. Point at a curve for its "
-          "step h.",
+          "of sign; a level line in a history may be its printed digits. Point at a curve to see "
+          "which run it is.",
           mass_choice(problem, place)};
 }
 

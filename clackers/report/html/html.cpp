@@ -30,7 +30,13 @@ std::string overall_html(const study::Record& record) {
   if (line.counts.empty() && !record.cases.empty() && !record.cases.front().subjects.empty())
     if (const auto found = finding(record.cases.front().subjects.front()))
       text = finding_html(*found);
-  auto out = fmt::format("<p class=\"overall\">{} <span>{}</span></p>\n", badge(line.word), text);
+  const auto causes = line.counts.empty() && record.cases.size() == 1
+                          ? diagnoses_html(record.cases.front(), {})
+                          : std::string();
+  auto out = causes.empty() ? fmt::format("<p class=\"overall\">{} <span>{}</span></p>\n",
+                                          badge(line.word), text)
+                            : fmt::format("<p class=\"overall\">{}</p>\n{}<p>{}</p>\n",
+                                          badge(line.word), causes, text);
   if (record.interrupted)
     out +=
         "<p class=\"notice\" role=\"note\"><strong>Interrupted.</strong> Only what was finished is "

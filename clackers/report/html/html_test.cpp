@@ -191,5 +191,27 @@ TEST(Html, NoTextOfTheRecordBecomesMarkup) {
   EXPECT_EQ(block(page, "data")["levels-1"][0]["method"], evil);
 }
 
+TEST(Html, CausesOfHistoriesStandAboveTheNumbersOnce) {
+  auto record = sample_check();
+  auto& subject = record.cases[0].subjects[0];
+  subject.diagnoses = {{"restitution-differs", 0.97, "1", 0.9, {}, "", ""}};
+  const auto page = html(record);
+  const auto block = page.find("<ul class=\"remarks diagnoses\">");
+  ASSERT_NE(block, std::string::npos);
+  EXPECT_LT(block, page.find("id=\"verdicts\""));
+  EXPECT_EQ(page.find("<ul class=\"remarks diagnoses\">", block + 1), std::string::npos);
+  // With other cases each has its own in its section.
+  record.cases.push_back(record.cases[0]);
+  EXPECT_GT(html(record).find("<ul class=\"remarks diagnoses\">"),
+            html(record).find("id=\"verdicts-1\""));
+}
+
+TEST(Html, ToleranceIsOnTheAxisOfALadderOfTolerances) {
+  auto record = sample_check();
+  EXPECT_TRUE(has(html(record), "step h [s]"));
+  record.cases[0].subjects[0].resolution = study::Resolution::tolerance;
+  EXPECT_FALSE(has(html(record), "step h"));
+}
+
 }  // namespace
 }  // namespace clackers::report

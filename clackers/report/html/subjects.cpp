@@ -153,8 +153,9 @@ std::string metrics_html(const study::Subject& subject) {
                                 {"Unit", {}},
                                 {"Definition", {}}};
   const auto source = run->file ? run->file->file : subject.name;
-  return fmt::format("<details class=\"metrics\"><summary>Metrics at h = {} s{}</summary>\n",
-                     html_number(run->score.step, 4), run->file ? " of " + escape(source) : "") +
+  return fmt::format("<details class=\"metrics\"><summary>Metrics at {}{}</summary>\n",
+                     escape(resolution_text(subject, run->score.step, 4)),
+                     run->file ? " of " + escape(source) : "") +
          html_table("Metrics of " + source,
                     "In definitions an asterisk marks the exact motion; U and V are the initial "
                     "envelopes. A metric marked * need not vanish as a method converges, since "

@@ -35,7 +35,13 @@ std::string findings_html(const study::CaseRecord& problem, const Place& place) 
   return out.empty() ? out : "<ul class=\"remarks\">\n" + out + "</ul>\n";
 }
 
-// Causes stand above the numbers.
+// Of a page with one subject the finding and its causes stand at the head.
+bool is_check(const study::CaseRecord& problem, const Place& place) {
+  return place.suffix.empty() && problem.plan.levels == 0 && problem.subjects.size() == 1;
+}
+
+}  // namespace
+
 std::string diagnoses_html(const study::CaseRecord& problem, const Place& place) {
   std::string out;
   for (std::size_t i = 0; i < problem.subjects.size(); ++i) {
@@ -49,6 +55,8 @@ std::string diagnoses_html(const study::CaseRecord& problem, const Place& place)
   }
   return out.empty() ? out : "<ul class=\"remarks diagnoses\">\n" + out + "</ul>\n";
 }
+
+namespace {
 
 std::string notes_html(const study::CaseRecord& problem) {
   std::string out;
@@ -142,7 +150,7 @@ std::string finding_html(const Finding& found) {
 }
 
 std::string verdicts_html(const study::CaseRecord& problem, const Place& place) {
-  auto out = diagnoses_html(problem, place);
+  auto out = is_check(problem, place) ? std::string() : diagnoses_html(problem, place);
   const auto methods = summary_table(problem, study::SubjectKind::method);
   if (!methods.rows.empty())
     out += html_table(
@@ -157,16 +165,22 @@ std::string verdicts_html(const study::CaseRecord& problem, const Place& place) 
                              breakable(escape(row.subject->name)));
         },
         "verdicts");
+  const bool by_step = std::ranges::all_of(problem.subjects, [](const study::Subject& subject) {
+    return subject.resolution == study::Resolution::step;
+  });
   const auto histories = summary_table(problem, study::SubjectKind::histories);
   if (!histories.rows.empty())
-    out += html_table(
-        "Histories",
-        "Coarsest step first. Errors relative to the initial envelope; v in the mean "
-        "over time; collisions matched / exact. A dash: not measured.",
-        histories, [](const Row& row) {
-          return breakable(escape(row.run->file ? row.run->file->file : row.subject->name));
-        });
-  return out + findings_html(problem, place) + notes_html(problem);
+    out += html_table("Histories",
+                      std::string(by_step ? "Coarsest step" : "Loosest tolerance") +
+                          " first. Errors relative to the initial envelope; v in the mean "
+                          "over time; collisions matched / exact. A dash: not measured.",
+                      histories, [](const Row& row) {
+                        return breakable(escape(row.run->file ? short_path(row.run->file->file)
+                                                              : row.subject->name));
+                      });
+  // Of `check` the finding stands at the head of the page.
+  return out + (is_check(problem, place) ? std::string() : findings_html(problem, place)) +
+         notes_html(problem);
 }
 
 std::string cases_html(const study::Record& record) {

@@ -43,6 +43,8 @@ std::string fact(std::string_view term, const std::string& html);
 /// A finding with its code.
 std::string finding_html(const Finding& found);
 
+/// The causes of every subject; empty without any.
+std::string diagnoses_html(const study::CaseRecord& problem, const Place& place);
 /// The tables of methods and of histories of a case, each with its findings and notes.
 std::string verdicts_html(const study::CaseRecord& problem, const Place& place);
 /// A row a case: how many subjects got which verdict.

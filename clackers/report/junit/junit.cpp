@@ -111,8 +111,9 @@ void add_measured(Properties& properties, const study::CaseRecord& problem,
     for (const auto& metric : run->metrics) properties.add("metric:" + metric.name, metric.value);
 }
 
-std::string run_line(const assess::RunScore& score, int runs, int failed) {
-  auto text = fmt::format("h = {} s: error in u {}", short_number(score.step, 4),
+std::string run_line(const study::Subject& subject, const assess::RunScore& score, int runs,
+                     int failed) {
+  auto text = fmt::format("{}: error in u {}", resolution_text(subject, score.step, 4),
                           scientific(score.u_error, 2));
   if (score.impacts)
     text += fmt::format(", {} of {} matched", score.impacts->matched,
@@ -130,11 +131,11 @@ std::string log_text(const study::Subject& subject) {
   for (const auto& level : subject.levels) {
     if (subject.kind == study::SubjectKind::histories) {
       for (const auto& run : level.runs)
-        text += (run.file ? run.file->file + ": " : "") + run_line(run.score, 1, 0);
+        text += (run.file ? run.file->file + ": " : "") + run_line(subject, run.score, 1, 0);
     } else {
       auto worst = study::worst(level);
       worst.worst.step = level.step;
-      text += run_line(worst.worst, worst.runs, worst.failed);
+      text += run_line(subject, worst.worst, worst.runs, worst.failed);
     }
   }
   for (const auto& note : note_texts(subject)) text += note + '\n';

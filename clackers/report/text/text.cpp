@@ -169,10 +169,12 @@ void print_case(const study::CaseRecord& problem, std::ostream& out, const Style
   print_wrapped(length_text(problem.problem), out, style);
   if (const auto plan = plan_text(problem); !plan.empty()) print_wrapped(plan, out, style);
   print_diagnoses(problem, out, style);
+  const bool is_check = problem.plan.levels == 0;
+  if (is_check) print_findings(problem, out, style);
   print_methods(problem, out, style);
   print_failures(problem, out, style);
   print_histories(problem, out, style);
-  print_findings(problem, out, style);
+  if (!is_check) print_findings(problem, out, style);
 }
 
 // Over all cases, by force evaluations where they are counted.

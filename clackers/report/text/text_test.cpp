@@ -5,6 +5,7 @@
 #include "clackers/report/format.hpp"
 #include "clackers/report/testing/sample_record.hpp"
 #include "clackers/report/testing/written.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {
@@ -40,6 +41,21 @@ TEST(Text, ARowHasErrorOrderCollisionsCostBehaviourAndVerdict) {
   // times, three times it in energy; 20 s / h forces at the smallest step, 2^(7/8) times smaller.
   const auto text = text_of_record(sample_record());
   EXPECT_TRUE(has(text, " 1.2e-7 2.01±0.01   6/6  4.1e-8  3.7e-7 93901 proper     agrees")) << text;
+}
+
+TEST(Text, OfHistoriesTheCauseAndTheAnswerStandBeforeTheNumbers) {
+  auto record = sample_check();
+  auto& subject = record.cases[0].subjects[0];
+  subject.diagnoses = {{"restitution-differs", 0.97, "1", 0.9, {}, "", ""}};
+  auto text = text_of_record(record);
+  const auto answer = finding(subject)->sentence.substr(0, 20);
+  EXPECT_LT(text.find("[restitution-differs]"), text.find(answer));
+  EXPECT_LT(text.find(answer), text.find("coll."));
+  EXPECT_FALSE(has(text, "tolerance"));
+  subject.resolution = study::Resolution::tolerance;
+  text = text_of_record(record);
+  EXPECT_TRUE(has(text, "tolerance"));
+  EXPECT_FALSE(has(text, "h = "));
 }
 
 TEST(Text, AnInterruptedRecordIsMarked) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "clackers/report/format.hpp"
+#include "clackers/study/refinement.hpp"
 
 namespace clackers::report {
 namespace {
@@ -19,6 +21,43 @@ bool has_option(std::string_view command, std::string_view option) {
     from = to + 1;
   }
   return false;
+}
+
+// The command with an option set anew.
+std::string with_option(std::string command, const std::string& option, const std::string& value) {
+  for (auto at = command.find(" " + option); at != std::string::npos;
+       at = command.find(" " + option, at + 1)) {
+    auto end = at + 1 + option.size();
+    if (end < command.size() && command[end] != ' ' && command[end] != '=') continue;
+    end = std::min(command.find(' ', std::min(end + 1, command.size())), command.size());
+    command.erase(at, end - at);
+  }
+  return fmt::format("{} {} {}", command, option, value);
+}
+
+// What lets `verify` decide on a method that is undecided: an option with its value, and words.
+struct NextOption {
+  std::string option, value, words;
+};
+
+std::optional<NextOption> deciding_option(const study::CaseRecord& problem,
+                                          const study::Subject& subject) {
+  if (problem.plan.levels == 0 || subject.resolution != study::Resolution::step) return {};
+  const auto& fit = subject.assessment.displacement;
+  // Runs of a program that fails do not profit from another step.
+  if (!subject.complete || fit.behaviour != Behaviour::undecided ||
+      fit.reason == Code("run-failed").name())
+    return {};
+  const double usual = study::default_coarsest(problem.problem.fast_period, problem.problem.end);
+  if (problem.plan.coarsest > 1.5 * usual)
+    return NextOption{"--coarsest", short_number(usual, 3),
+                      fmt::format(" ({} steps a fast period)",
+                                  short_number(problem.problem.fast_period / usual, 2))};
+  if (!subject.refinement || subject.refinement->end != study::RefinementEnd::budget) return {};
+  const double seconds = subject.refinement->next_seconds;
+  return NextOption{
+      "--budget",
+      seconds > 0.0 ? short_number(std::ceil(1.5 * seconds), 3) + "s" : std::string("60s"), ""};
 }
 
 // "--expect proper:2" for histories without a claim that show an order; empty without one.
@@ -49,7 +88,8 @@ std::string counted(long long count, std::string_view noun) {
 
 std::string order_text(const assess::LadderFit& fit, std::string_view space) {
   if (!fit.has_line) return {};
-  return fmt::format("{:.2f}{}±{:.{}f}", fit.order, space, fit.spread, fit.spread < 9.95 ? 2 : 0);
+  return fmt::format("{:.2f}{}±{:.{}f}", fit.order, space, std::max(fit.spread, 0.01),
+                     fit.spread < 9.95 ? 2 : 0);
 }
 
 std::string fit_text(const assess::LadderFit& fit) {
@@ -142,11 +182,28 @@ VerdictLine verdict_line(const study::Record& record) {
     line.next_in_words = in_words.empty() ? command : std::move(in_words);
     line.next = std::move(command);
   };
+  const study::CaseRecord* place = nullptr;
+  for (const auto& problem : record.cases)
+    for (const auto& subject : problem.subjects)
+      if (&subject == decisive) place = &problem;
+  const auto option = place == nullptr || line.word == "disagrees"
+                          ? std::nullopt
+                          : deciding_option(*place, *decisive);
   const auto command =
       record.provenance.command.empty() ? "clackers " + record.command : record.provenance.command;
-  const bool is_decided = line.word == "agrees" || line.word == "not claimed";
+  // Of one history or a few the report says which to add.
+  const bool needs_more = decisive != nullptr && !has_cause && !hint_text(*decisive).empty();
+  const bool is_decided =
+      line.word == "agrees" || (line.word == "not claimed" && (code.empty() || needs_more));
   if (record.interrupted)
     next(command, "the same command again");
+  else if (has_cause && !decisive->diagnoses.front().text.empty() &&
+           (code == Code("columns-exchanged").name() || code == Code("masses-exchanged").name()))
+    next(with_option(command, "--columns", decisive->diagnoses.front().text),
+         "the same with --columns " + decisive->diagnoses.front().text);
+  else if (option)
+    next(with_option(command, option->option, option->value),
+         fmt::format("the same with {} {}{}", option->option, option->value, option->words));
   else if (!is_decided && !code.empty())
     next("clackers explain " + code);
   else if (is_check && line.word == "disagrees")
@@ -160,6 +217,12 @@ VerdictLine verdict_line(const study::Record& record) {
   else
     next("clackers explain proper");
   return line;
+}
+
+std::string resolution_text(const study::Subject& subject, double step, int digits) {
+  return subject.resolution == study::Resolution::tolerance
+             ? "tolerance " + short_number(step, digits)
+             : fmt::format("h = {} s", short_number(step, digits));
 }
 
 std::string short_path(std::string_view path) {

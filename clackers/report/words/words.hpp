@@ -22,7 +22,7 @@ std::string text_of(const Finding& finding);
 /// "1 method", "7 methods", "2 histories".
 std::string counted(long long count, std::string_view noun);
 
-/// "2.00 ±0.01"; empty where there is no line.
+/// "2.00 ±0.01", never less than 0.01; empty where there is no line.
 std::string order_text(const assess::LadderFit& fit, std::string_view space = " ");
 /// "proper, order 2.00 ±0.01", "stagnating at 3.1e-3 [contact-stiffness]".
 std::string fit_text(const assess::LadderFit& fit);
@@ -52,8 +52,8 @@ std::optional<Finding> false_convergence(const study::Subject& subject);
 /// What the differences between runs show, beside what the errors of the same runs show.
 std::string self_convergence_text(const study::SelfResult& result);
 
-/// A cause with its value, its uncertainty, how much better it explains the history, and the cure:
-/// "Restitution looks like 0.9900 ±0.0001 instead of 1 (explains the history 9e7 times better): check
+/// A cause with its value, its uncertainty, how much closer to the history it comes, and the cure:
+/// "Restitution looks like 0.9900 ±0.0001 instead of 1 (9e7 times closer): check
 /// the impact law and its coefficient."
 Finding diagnosis_text(const diagnose::Diagnosis& cause);
 /// Of the strongest causes of a subject, `most_shown_diagnoses` at most.
@@ -88,6 +88,11 @@ std::string requirement_text(const study::Record& record, const study::Requireme
 std::string change_summary(const study::BaselineComparison& changes);
 /// What changed of a subject, a sentence each.
 std::vector<std::string> change_texts(const study::SubjectChange& change);
+
+/// "h = 0.01 s", or "tolerance 1e-5" of a solver that is given one.
+std::string resolution_text(const study::Subject& subject, double step, int digits = 3);
+/// Whether a cause of that code is among those shown, so that nothing else need say it.
+bool is_shown_cause(const study::Subject& subject, std::string_view code);
 
 /// A path without its folder.
 std::string short_path(std::string_view path);

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 #include "clackers/assess/convergence/ladder_fit.hpp"
@@ -17,15 +20,14 @@ void add(std::string& text, std::string_view sentence) {
   text += sentence;
 }
 
+// "2.7", "32", "270", "4e5".
+std::string rounded_factor(double factor) {
+  return factor >= 10.0 && factor < 1e4 ? fmt::format("{:.0f}", factor) : short_number(factor, 2);
+}
+
 std::string meaning_of(std::string_view code) {
   const auto* entry = find_code(code);
   return entry == nullptr ? std::string() : std::string(entry->meaning);
-}
-
-std::string resolution_text(const study::Subject& subject, double step) {
-  return subject.resolution == study::Resolution::tolerance
-             ? "tolerance " + short_number(step, 3)
-             : fmt::format("h = {} s", short_number(step, 3));
 }
 
 // The steps of the runs that the line was fitted to.
@@ -37,6 +39,7 @@ std::string range_text(const study::Subject& subject, const assess::LadderFit& f
   const bool is_known = fit.largest_step > 0.0;
   const double from = is_known ? fit.largest_step : nominal(fit.first_level);
   const double to = is_known ? fit.smallest_step : nominal(fit.last_level);
+  if (from == to) return resolution_text(subject, from);
   const bool is_step = subject.resolution == study::Resolution::step;
   return fmt::format("{} to {}{}", resolution_text(subject, from), short_number(to, 3),
                      is_step ? " s" : "");
@@ -59,6 +62,27 @@ std::string tolerance_sentence(const study::Subject& subject, const assess::Ladd
                      is_proportional ? "" : "not ");
 }
 
+// Causes that lie in the method and its steps, and say nothing against the model.
+constexpr auto method_causes = std::to_array<Code>(
+    {"velocity-order-lower", "commensurate-steps", "numerical-damping", "period-error",
+     "unstable-coarse-steps", "noise-floor", "printed-digits", "single-precision"});
+// Reasons that leave open what is wrong; a shown cause says more.
+constexpr auto open_reasons = std::to_array<Code>(
+    {"wrong-limit", "contact-stiffness", "larger-than-motion", "energy-growth", "noise-floor"});
+
+bool is_one_of(std::span<const Code> codes, std::string_view code) {
+  return std::ranges::any_of(codes, [&](Code one) { return one.name() == code; });
+}
+
+bool is_explained(const study::Subject& subject) {
+  const auto& reason = subject.assessment.displacement.reason;
+  if (is_shown_cause(subject, reason)) return true;
+  if (subject.diagnoses.empty()) return false;
+  return reason == Code("unexplained-floor").name() ||
+         (is_one_of(open_reasons, reason) &&
+          !is_one_of(method_causes, subject.diagnoses.front().code));
+}
+
 std::string behaviour_sentence(const study::Subject& subject) {
   const auto& fit = subject.assessment.displacement;
   const auto order = [&] {
@@ -79,14 +103,17 @@ std::string behaviour_sentence(const study::Subject& subject) {
       text = fmt::format(
           "Converges irregularly: the upper envelope has order {}, neighbouring steps differ by up "
           "to a factor {}.",
-          order(), short_number(fit.scatter, 2));
+          order(), rounded_factor(fit.scatter));
       break;
     case Behaviour::stagnating:
-      text = fit.has_line
+      text = fit.has_line && fit.spread < fit.order
                  ? fmt::format("Converges with order {}, then stagnates at an error in u of {}.",
                                order(), scientific(fit.floor))
-                 : fmt::format("Stagnates at an error in u of {} ({}).", scientific(fit.floor),
-                               range_text(subject, fit));
+                 : fmt::format(
+                       "Stagnates at an error in u of {}{}.", scientific(fit.floor),
+                       fit.first_level == fit.last_level && fit.largest_step == fit.smallest_step
+                           ? std::string()
+                           : fmt::format(" ({})", range_text(subject, fit)));
       break;
     case Behaviour::divergent:
       text = "Diverges.";
@@ -97,7 +124,7 @@ std::string behaviour_sentence(const study::Subject& subject) {
   }
   add(text, tolerance_sentence(subject, fit));
   // What to add is said with its steps instead.
-  if (hint_text(subject).empty()) add(text, meaning_of(fit.reason));
+  if (hint_text(subject).empty() && !is_explained(subject)) add(text, meaning_of(fit.reason));
   return text;
 }
 
@@ -122,9 +149,7 @@ std::string remark(const study::Subject& subject, const assess::Evidence& eviden
   if (code == "steps-per-contact") return fmt::format("A contact has {} steps.", text(0));
   if (code == "more-neighbours")
     return fmt::format(
-        "The order is uncertain by ±{}, so this is weak evidence; more neighbouring "
-        "steps a level tell more.",
-        text(1));
+        "An uncertainty of ±{} is weak evidence: add neighbouring steps to each level.", text(1));
   if (code == "velocity-order-lower")
     return fmt::format("Velocities converge with order {:.2f}.", number(0));
   if (code == "error-over-tolerance")
@@ -133,15 +158,15 @@ std::string remark(const study::Subject& subject, const assess::Evidence& eviden
 }
 
 // The numbers of an Evidence as its table in assessment.hpp has them.
-std::string evidence_sentence(const assess::Evidence& evidence) {
+std::string evidence_sentence(const study::Subject& subject, const assess::Evidence& evidence) {
   const auto& code = evidence.code;
   const auto number = [&](std::size_t i) {
     return i < evidence.numbers.size() ? evidence.numbers[i] : std::nan("");
   };
   const auto text = [&](std::size_t i, int digits = 3) { return short_number(number(i), digits); };
   if (code == "collisions-miscounted")
-    return fmt::format("Wrong collisions at h = {} s: {} of {} matched, {} extra.", text(0),
-                       text(1, 15), text(2, 15), text(3, 15));
+    return fmt::format("Wrong collisions at {}: {} of {} matched, {} extra.",
+                       resolution_text(subject, number(0)), text(1, 15), text(2, 15), text(3, 15));
   if (code == "printed-digits")
     return fmt::format(
         "Limited by the printed digits: the error in u of the finest history is {}, printing alone "
@@ -209,7 +234,8 @@ std::string assessment_text(const study::Subject& subject) {
   const auto& fit = assessment.displacement;
   std::string text;
   for (const auto& evidence : assessment.evidence)
-    if (remark(subject, evidence).empty()) add(text, evidence_sentence(evidence));
+    if (remark(subject, evidence).empty() && !is_shown_cause(subject, evidence.code))
+      add(text, evidence_sentence(subject, evidence));
   const bool is_method = subject.kind == study::SubjectKind::method;
   const bool has_claim = subject.claim.behaviour != Behaviour::undecided;
   const bool in_evidence = fit.reason == Code("printed-digits").name() && !text.empty();
@@ -218,9 +244,10 @@ std::string assessment_text(const study::Subject& subject) {
     add(text, behaviour_sentence(subject));
   const auto* failed = first_failure(subject);
   if (failed != nullptr && fit.reason == Code("run-failed").name())
-    add(text, fmt::format("First failure, h = {} s: {}", short_number(failed->score.step, 3),
+    add(text, fmt::format("First failure, {}: {}", resolution_text(subject, failed->score.step),
                           failed->score.failure));
-  for (const auto& evidence : assessment.evidence) add(text, remark(subject, evidence));
+  for (const auto& evidence : assessment.evidence)
+    if (!is_shown_cause(subject, evidence.code)) add(text, remark(subject, evidence));
   add(text, hint_text(subject));
   add(text, refinement_text(subject));
   add(text, claim_sentence(subject));

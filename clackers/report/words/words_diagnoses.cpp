@@ -23,7 +23,7 @@ struct CauseWords {
 
 // clang-format off
 constexpr auto cause_words = std::to_array<CauseWords>({
-    {"unit-scaled", "[{quantity} are {value} times those of the case][: in {unit_text}]",
+    {"unit-scaled", "[{quantity} are {value} times those of the case][, in {unit_text}]",
      "convert them to m and m/s."},
     {"columns-exchanged", "The columns are in another order than their names",
      "read them with[ --columns {text}]."},
@@ -37,17 +37,17 @@ constexpr auto cause_words = std::to_array<CauseWords>({
      "print the mean of two neighbours, at the times of the rows."},
     {"velocity-order-lower", "Velocities converge with order {value}[, displacements with {expected}]",
      "check how velocities are updated or printed."},
-    {"printed-digits", "Printed digits limit the error[: {digits} digits in {text}][, which make {floor}]",
+    {"printed-digits", "Printed digits limit the error[, {digits} in {text}][, and alone may make {floor}]",
      "print 17 significant digits."},
     {"single-precision", "Numbers[ of {text}] have the 24 bits of single precision[, which make an error of {floor}]",
      "compute and print in double precision."},
-    {"output-resampled", "The output is resampled[: {text} interpolation between steps of {step} s][, which makes an error of {floor}]",
+    {"output-resampled", "The output is resampled[ by {text} interpolation between steps of {step} s][, which makes an error of {floor}]",
      "print the solver's own steps."},
     {"ends-early", "The history ends at {value} s[ of {expected} s]",
      "run to the end of the case, or set its end (t_end or a_t)."},
     {"time-shifted", "Every state stands {shift} too {late}",
      "check which time is printed beside which state."},
-    {"time-unit", "Times are {value} times seconds[: in {text}]",
+    {"time-unit", "Times are[ in {text},] {value} times seconds",
      "convert them to seconds."},
     {"time-drifts", "Printed times leave the grid of equal steps[, by {value} s in the end]",
      "compute t = n h instead of adding h."},
@@ -59,7 +59,7 @@ constexpr auto cause_words = std::to_array<CauseWords>({
      "check stiffness and mass."},
     {"damping-differs", "Damping[ of mass {mass}] {damping}",
      "check the damping coefficients: C, ratio, or per mass."},
-    {"damping-changes-at-impact", "After the first impact damping is another[: {value} times that before]",
+    {"damping-changes-at-impact", "After the first impact damping is another[, {value} times that before]",
      "check the damping force where a step starts anew after an impact."},
     {"impact-missed", "{impacts} missing[ (t = {time} s)]",
      "check the detection of contacts: the masses pass through each other there."},
@@ -73,20 +73,20 @@ constexpr auto cause_words = std::to_array<CauseWords>({
      "locate them with dense output of the integrator's order."},
     {"impact-tolerance", "Impacts are located to {value} s, whatever the step",
      "tighten the tolerance of the search for impacts."},
-    {"contact-compliant", "Contacts last {value} s[ and penetrate {penetration} m][: a spring of {stiffness} N/m], not rigid",
+    {"contact-compliant", "Contacts last {value} s[ and penetrate {penetration} m], not rigid[ but those of a spring of {stiffness} N/m]",
      "a stiffer spring with smaller steps comes closer to rigid impacts."},
-    {"contact-in-tension", "The contact pulls[: {share_percent} of its impulse is tension]",
+    {"contact-in-tension", "The contact pulls[, with {share_percent} of its impulse in tension]",
      "let the contact force act in compression alone."},
     {"wrong-limit", "The histories converge[ with order {order}] to another motion[, {value} of the envelope away]",
      "check parameters and equations; smaller steps will not help."},
     {"noise-floor", "The error ends in a rough floor[ of {floor}]",
      "tighten tolerances of the solver; smaller steps will not help."},
-    {"commensurate-steps", "Some steps[, {share_percent} of them,] divide the time between impacts[, {time} s]: their small errors are luck",
+    {"commensurate-steps", "Small errors of some steps[, {share_percent} of all,] are luck, because they divide the time between impacts[, {time} s]",
      "use steps that do not divide it."},
     {"numerical-damping", "The method takes {percent} of the energy[ at h = {step} s], less with smaller steps[ (order {order})]",
-     "no fault of the model: smaller steps, or a method without dissipation."},
+     "no fault of the model; use smaller steps or a method without dissipation."},
     {"period-error", "The motion {runs}[ at h = {step} s], less with smaller steps[ (order {order})]",
-     "no fault of the model: smaller steps."},
+     "no fault of the model; use smaller steps."},
     {"unstable-coarse-steps", "Runs[ with h = {step} s and more] fail or grow without bound[; h = {value} s does not]",
      "start from a smaller step."},
 });
@@ -214,10 +214,13 @@ std::string filled(std::string_view pattern, const Diagnosis& cause) {
 std::string gain_text(const Diagnosis& cause) {
   const double gain = cause.fact("gain");
   if (!(gain >= 2.0)) return {};
-  auto text = fmt::format(" (explains the history {} times better", short_number(gain, 1));
+  const auto times = [](double factor) {
+    return factor < 1000.0 ? fmt::format("{:.0f}", factor) : short_number(factor, 1);
+  };
+  auto text = fmt::format(" ({} times closer", times(gain));
   const double other = cause.fact("runner-up-gain");
-  if (!cause.runner_up.empty() && other >= 2.0)
-    text += fmt::format("; {}: {} times", cause.runner_up, short_number(other, 1));
+  if (!cause.runner_up.empty() && cause.runner_up != cause.code && other >= 2.0)
+    text += fmt::format("; {}: {} times", cause.runner_up, times(other));
   return text + ")";
 }
 
@@ -230,6 +233,16 @@ Finding diagnosis_text(const Diagnosis& cause) {
   return {
       fmt::format("{}{}: {}", filled(row->what, cause), gain_text(cause), filled(row->cure, cause)),
       cause.code};
+}
+
+bool is_shown_cause(const study::Subject& subject, std::string_view code) {
+  const auto shown = std::min(subject.diagnoses.size(), most_shown_diagnoses);
+  return std::any_of(subject.diagnoses.begin(), subject.diagnoses.begin() + std::ptrdiff_t(shown),
+                     [&](const Diagnosis& cause) {
+                       const bool is_digits = code == Code("printed-digits").name() &&
+                                              cause.code == Code("single-precision").name();
+                       return is_digits || cause.code == code;
+                     });
 }
 
 std::vector<Finding> diagnosis_texts(const study::Subject& subject) {

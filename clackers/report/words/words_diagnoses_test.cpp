@@ -21,8 +21,8 @@ TEST(DiagnosisText, HasValueUncertaintyGainAndCure) {
       "",
       "damping-differs"};
   EXPECT_EQ(text_of(diagnosis_text(cause)),
-            "Restitution looks like 0.9900 ±0.0001 instead of 1 (explains the history 9e7 times "
-            "better; damping-differs: 6 times): check the impact law and its coefficient. "
+            "Restitution looks like 0.9900 ±0.0001 instead of 1 (9e7 times closer; "
+            "damping-differs: 6 times): check the impact law and its coefficient. "
             "[restitution-differs]");
 }
 
@@ -42,10 +42,10 @@ TEST(DiagnosisText, NamesWhatTheCureNeeds) {
   EXPECT_TRUE(has(text({"masses-exchanged", NAN, "", 0.9, {}, "t,u2,v2,u1,v1", ""}),
                   "read them with --columns t,u2,v2,u1,v1."));
   EXPECT_TRUE(text({"unit-scaled", 1000.0, "1", 0.9, {}, "mm", ""})
-                  .starts_with("Displacements and velocities are 1000 times those of the case: in "
+                  .starts_with("Displacements and velocities are 1000 times those of the case, in "
                                "mm: convert"));
   EXPECT_TRUE(text({"unit-scaled", 1000.0, "1", 0.9, {}, "v mm/s", ""})
-                  .starts_with("Velocities are 1000 times those of the case: in mm/s: "));
+                  .starts_with("Velocities are 1000 times those of the case, in mm/s: "));
   EXPECT_TRUE(text({"unit-scaled", 7.0, "1", 0.9, {}, "u", ""})
                   .starts_with("Displacements are 7 times those of the case: convert"));
   EXPECT_TRUE(text({"impact-missed", 3.0, "", 0.9, {{"time", 7.5}}, "", ""})

@@ -16,12 +16,6 @@ struct Failures {
   int count = 0;
 };
 
-std::string at_text(const study::Subject& subject, double step) {
-  return subject.resolution == study::Resolution::tolerance
-             ? fmt::format("tolerance {}", short_number(step, 3))
-             : fmt::format("h = {} s", short_number(step, 3));
-}
-
 }  // namespace
 
 std::string printed_text(std::string_view printed) {
@@ -57,7 +51,7 @@ std::vector<std::string> failure_texts(const study::Subject& subject) {
     auto sentence = printable(score.failure);
     if (!sentence.ends_with('.')) sentence += '.';
     auto text = fmt::format("{} of {} runs failed, {} {}: {} [{}]", count, runs,
-                            count > 1 ? "the first at" : "at", at_text(subject, score.step),
+                            count > 1 ? "the first at" : "at", resolution_text(subject, score.step),
                             sentence, score.failure_code);
     if (const auto printed = printed_text(first->printed); !printed.empty())
       text += fmt::format(" It printed: {}", printed);

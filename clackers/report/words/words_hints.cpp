@@ -67,8 +67,10 @@ std::string one_file(const study::Subject& subject, const assess::RunScore& run)
     text += fmt::format(
         " {} of {} matched{}.", run.impacts->matched, counted(run.impacts->expected, "collision"),
         run.impacts->extra > 0 ? fmt::format(", {} extra", run.impacts->extra) : "");
-  return text + fmt::format(" One step shows no order: add the same run at {}; {} are the least.",
-                            with_unit(subject, finer(subject, run.step, 3)), "four steps");
+  return text +
+         fmt::format(" One {} shows no order: add the same run at {}; four are the least.",
+                     subject.resolution == study::Resolution::tolerance ? "tolerance" : "step",
+                     with_unit(subject, finer(subject, run.step, 3)));
 }
 
 }  // namespace

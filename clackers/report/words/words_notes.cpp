@@ -17,7 +17,7 @@ struct Group {
   const study::Note* note = nullptr;         ///< of the finest history that has it
   const study::HistoryFile* file = nullptr;  ///< that history
   long long files = 0;
-  bool same = true;  ///< in all of them the same numbers and text
+  bool same = true;  ///< in all of them the same sentence
 };
 
 std::string printed_digits(const study::Note& note, const std::vector<double>& n) {
@@ -119,12 +119,12 @@ std::vector<std::string> note_texts(const study::Subject& subject) {
       if (finest == nullptr) finest = &*run->file;
       ++files;
       for (const auto& note : run->file->notes) {
+        if (is_shown_cause(subject, note.code)) continue;
         auto known = std::ranges::find(groups, note.code,
                                        [](const Group& group) { return group.note->code; });
         if (known == groups.end()) known = groups.insert(known, {&note, &*run->file});
         ++known->files;
-        known->same =
-            known->same && note.numbers == known->note->numbers && note.text == known->note->text;
+        known->same = known->same && note_text(note) == note_text(*known->note);
       }
     }
   std::vector<std::string> out;

@@ -110,9 +110,40 @@ TEST(AssessmentText, RemarksFollowTheFit) {
   EXPECT_TRUE(text.starts_with("Converges irregularly")) << text;
   for (const auto* words :
        {"25 % of the runs are at the rounding floor by luck", "passes zero near h = 0.003 s.",
-        "Runs above h = 0.02 s fail", "A contact has 21 steps.", "±0.49, so this is weak evidence",
+        "Runs above h = 0.02 s fail", "A contact has 21 steps.", "±0.49 is weak evidence",
         "Velocities converge with order 1.00."})
     EXPECT_TRUE(has(text, words)) << words;
+}
+
+TEST(AssessmentText, ACauseThatIsShownIsNotSaidAgain) {
+  auto subject = assessed(Behaviour::stagnating);
+  auto& fit = subject.assessment.displacement;
+  fit.has_line = false;
+  fit.floor = 0.069;
+  fit.reason = "wrong-limit";
+  subject.assessment.evidence = {{"velocity-order-lower", Verdict::not_claimed, {0.999, 2.0}}};
+  EXPECT_TRUE(has(assessment_text(subject), "a limit that is not the true motion"));
+  EXPECT_TRUE(has(assessment_text(subject), "Velocities converge with order 1.00."));
+  // The dissipation of a method does not explain a wrong limit.
+  subject.diagnoses = {{"numerical-damping", -0.01, "1", 0.9, {}, "", ""}};
+  EXPECT_TRUE(has(assessment_text(subject), "a limit that is not the true motion"));
+  subject.diagnoses = {{"restitution-differs", 0.97, "1", 0.9, {}, "", ""},
+                       {"velocity-order-lower", 1.0, "1", 0.9, {}, "", ""}};
+  EXPECT_TRUE(has(assessment_text(subject), "Stagnates at an error in u of 6.9e-2"));
+  EXPECT_FALSE(has(assessment_text(subject), "a limit that is not the true motion"));
+  EXPECT_FALSE(has(assessment_text(subject), "Velocities converge"));
+}
+
+TEST(AssessmentText, AnOrderBelowItsUncertaintyIsNotSaid) {
+  auto subject = assessed(Behaviour::stagnating);
+  auto& fit = subject.assessment.displacement;
+  fit.has_line = true;
+  fit.floor = 0.34;
+  fit.order = 0.25;
+  fit.spread = 0.51;
+  EXPECT_TRUE(assessment_text(subject).starts_with("Stagnates at an error in u of 3.4e-1"));
+  fit.spread = 0.1;
+  EXPECT_TRUE(assessment_text(subject).starts_with("Converges with order 0.25 ±0.10"));
 }
 
 TEST(AssessmentText, AnEarlyEndIsSaidFirst) {
@@ -152,7 +183,7 @@ TEST(HintText, OfOneFileHasTheErrorAndTheStepsToAdd) {
   EXPECT_EQ(hint_text(histories({0.01})),
             "The largest error in u is 2.3 % of the initial envelope. 5 of 6 collisions matched, 1 "
             "extra. One step shows no order: add the same run at h = 0.005, 0.0025 and 0.00125 s; "
-            "four steps are the least.");
+            "four are the least.");
 }
 
 TEST(HintText, OfFewLevelsHasTheMissingOnes) {
@@ -230,10 +261,12 @@ TEST(NoteTexts, OneForEachCode) {
   auto subject = sample_check().cases[0].subjects[0];
   const auto texts = note_texts(subject);
   ASSERT_EQ(texts.size(), 2u);
-  EXPECT_TRUE(has(texts[0], "Also in 1 other history, with other numbers.")) << texts[0];
+  EXPECT_EQ(texts[0], "No events file: collisions were found in the history itself.");
   EXPECT_TRUE(texts[1].starts_with("coarse.csv: The first row is at 0.02 s")) << texts[1];
-  subject.levels[0].runs[0].file->notes[0] = subject.levels[1].runs[0].file->notes[0];
-  EXPECT_FALSE(has(note_texts(subject)[0], "other history"));
+  auto& numbers = subject.levels[0].runs[0].file->notes[0].numbers;
+  numbers.resize(5);
+  numbers[4] = 0.01;
+  EXPECT_TRUE(has(note_texts(subject)[0], "Also in 1 other history, with other numbers."));
 }
 
 TEST(VerdictLine, TheFirstWordThatHoldsIsTheVerdict) {
@@ -298,6 +331,35 @@ TEST(VerdictLine, AnOrderThatIsNoHalfNumberIsNotExpected) {
   record.cases[0].subjects[0].diagnoses = {{"restitution-differs", 0.99, "1", 0.9, {}, "", ""}};
   assessment.verdict = Verdict::disagrees;
   EXPECT_EQ(verdict_line(record).next, "clackers explain restitution-differs");
+}
+
+TEST(VerdictLine, AnUndecidedMethodGetsTheNumberToType) {
+  auto record = sample_record();
+  record.interrupted = false;
+  auto& problem = record.cases[0];
+  problem.subjects.erase(problem.subjects.begin() + 1, problem.subjects.end());
+  auto& subject = problem.subjects[0];
+  subject.assessment.verdict = Verdict::undecided;
+  subject.assessment.displacement.behaviour = Behaviour::undecided;
+  subject.assessment.reason = subject.assessment.displacement.reason = "no-convergence-yet";
+  subject.refinement = study::Refinement{1, 0, 8, study::RefinementEnd::budget, 40.0};
+  record.provenance.command = "clackers verify rk4 --budget 20s --levels 5";
+  EXPECT_EQ(verdict_line(record).next, "clackers verify rk4 --levels 5 --budget 60s");
+  // A fast period of 1.4 s has 14 steps of 0.1 s.
+  problem.problem.fast_period = 1.4;
+  problem.plan.coarsest = 0.4;
+  record.provenance.command = "clackers verify rk4 --coarsest=0.4";
+  EXPECT_EQ(verdict_line(record).next, "clackers verify rk4 --coarsest 0.1");
+  EXPECT_EQ(verdict_line(record).next_in_words,
+            "the same with --coarsest 0.1 (14 steps a fast period)");
+}
+
+TEST(VerdictLine, ExchangedColumnsGetTheOptionThatReadsThem) {
+  auto record = sample_check();
+  record.cases[0].subjects[0].diagnoses = {
+      {"masses-exchanged", 1.0, "1", 0.9, {}, "t,u2,v2,u1,v1", ""}};
+  EXPECT_EQ(verdict_line(record).next,
+            "clackers check coarse.csv fine.csv --columns t,u2,v2,u1,v1");
 }
 
 TEST(CaseText, HasTheParametersWithUnits) {

@@ -7,7 +7,7 @@
 #include "clackers/assess/convergence/step_levels.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/diagnose/diagnose.hpp"
-#include "clackers/diagnose/ladder/limit.hpp"
+#include "clackers/diagnose/limit.hpp"
 #include "clackers/study/notes.hpp"
 
 namespace clackers::study {

@@ -1,4 +1,4 @@
-#include "clackers/diagnose/ladder/limit.hpp"
+#include "clackers/diagnose/limit.hpp"
 
 #include <algorithm>
 #include <array>
