@@ -34,8 +34,7 @@ int main(int argc, char** argv) {
   FILE* out = file ? fopen(argv[3], "w") : NULL;
   if (!out) return 2;
   for (int i = 0; i < 4; ++i) read(file, 1, head + i);
-  dof = (int)head[0], contacts = (int)head[1];
-  if (dof > most || contacts > most) return 3;
+  if ((dof = (int)head[0]) > most || (contacts = (int)head[1]) > most) return 3;
   read(file, dof, y), read(file, dof, y + dof);
   for (int i = 0; i < 3 * dof; ++i) read(file, dof, (i < dof ? M : i < 2 * dof ? C : K)[i % dof]);
   for (int c = 0; c < contacts; ++c)

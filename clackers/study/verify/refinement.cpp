@@ -66,6 +66,7 @@ double default_coarsest(double fast_period, double end) {
 }
 
 int default_levels(double coarsest, double end) {
+  if (!(coarsest > 0.0) || !std::isfinite(coarsest)) return least_default_levels;
   const double halvings = std::floor(std::log2(most_default_steps * coarsest / end));
   return int(std::clamp<double>(1.0 + halvings, least_default_levels, most_default_levels));
 }
