@@ -30,7 +30,7 @@ static int step(const vector y, double h, vector y1) { /* returns a closing cont
 }
 int main(int argc, char** argv) {
   vector y, y1, head; /* dof, contacts, t, end */
-  FILE *file = argc == 4 && atol(argv[2]) > 0 ? fopen(argv[1], "r") : NULL;
+  FILE* file = argc == 4 && atol(argv[2]) > 0 ? fopen(argv[1], "r") : NULL;
   FILE* out = file ? fopen(argv[3], "w") : NULL;
   if (!out) return 2;
   for (int i = 0; i < 4; ++i) read(file, 1, head + i);
