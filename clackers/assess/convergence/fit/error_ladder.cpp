@@ -88,4 +88,14 @@ std::vector<LevelView> view(std::span<const ErrorLevel> ladder) {
   return levels;
 }
 
+RawPoints raw_points(std::span<const LevelView> levels, int first, int last) {
+  RawPoints all;
+  for (int i = first; i <= last; ++i) {
+    const auto& level = levels[std::size_t(i)];
+    all.x.insert(all.x.end(), level.x.begin(), level.x.end());
+    all.y.insert(all.y.end(), level.y.begin(), level.y.end());
+  }
+  return all;
+}
+
 }  // namespace clackers::assess

@@ -48,4 +48,10 @@ struct LevelView {
 /// time between impacts, which no neighbouring step does.
 std::vector<LevelView> view(std::span<const ErrorLevel> ladder);
 
+/// Raw points of the levels [first, last], coarse to fine.
+struct RawPoints {
+  std::vector<double> x, y;
+};
+RawPoints raw_points(std::span<const LevelView> levels, int first, int last);
+
 }  // namespace clackers::assess

@@ -136,12 +136,7 @@ bool zigzags(std::span<const LevelView> levels, int first, int last) {
 }
 
 bool swings(std::span<const LevelView> levels, int first, int last) {
-  std::vector<double> x, y;
-  for (int i = first; i <= last; ++i) {
-    const auto& level = levels[std::size_t(i)];
-    x.insert(x.end(), level.x.begin(), level.x.end());
-    y.insert(y.end(), level.y.begin(), level.y.end());
-  }
+  const auto [x, y] = raw_points(levels, first, last);
   if (std::ssize(x) < enough_points) return false;
   const auto line = numerics::fit_line(x, y);
   const double least = 0.5 * std::log(straight_scatter);

@@ -126,16 +126,6 @@ Code floor_reason(const FitContext& context, bool rough) {
   return rough ? Code("noise-floor") : Code("unexplained-floor");
 }
 
-RawPoints raw_points(std::span<const LevelView> levels, int first, int last) {
-  RawPoints all;
-  for (int i = first; i <= last; ++i) {
-    const auto& level = levels[std::size_t(i)];
-    all.x.insert(all.x.end(), level.x.begin(), level.x.end());
-    all.y.insert(all.y.end(), level.y.begin(), level.y.end());
-  }
-  return all;
-}
-
 double octaves_of(const RawPoints& points) {
   if (points.x.size() < 2) return 0.0;
   const double apart = (points.x.front() - points.x.back()) / std::log(2.0);

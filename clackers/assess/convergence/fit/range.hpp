@@ -54,12 +54,6 @@ Behaviour behaviour_of_order(double order, const FitContext& context);
 /// The reason of a floor; `rough` where its runs scatter.
 Code floor_reason(const FitContext& context, bool rough);
 
-/// Raw points of the levels [first, last], coarse to fine.
-struct RawPoints {
-  std::vector<double> x, y;
-};
-RawPoints raw_points(std::span<const LevelView> levels, int first, int last);
-
 /// How many octaves equally spread points cover: the distance of the outer ones, and one spacing.
 double octaves_of(const RawPoints& points);
 

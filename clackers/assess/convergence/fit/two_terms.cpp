@@ -177,12 +177,7 @@ std::optional<TwoTerms> fit_two_terms(std::span<const LevelView> levels, int fir
 double order_above_floor(std::span<const LevelView> levels, int first, int last) {
   const auto law = fit_two_terms(levels, first, last, {});
   if (!law) return 0.0;
-  std::vector<double> x, y;
-  for (int i = first; i <= last; ++i) {
-    const auto& level = levels[std::size_t(i)];
-    x.insert(x.end(), level.x.begin(), level.x.end());
-    y.insert(y.end(), level.y.begin(), level.y.end());
-  }
+  const auto [x, y] = raw_points(levels, first, last);
   const auto line = numerics::fit_line(x, y);
   double of_line = 0.0, of_law = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {

@@ -7,21 +7,7 @@
 namespace clackers::assess {
 namespace {
 
-struct Points {
-  std::vector<double> x, y;
-};
-
-Points gather(std::span<const LevelView> levels, int first, int last) {
-  Points all;
-  for (int i = first; i <= last; ++i) {
-    const auto& level = levels[std::size_t(i)];
-    all.x.insert(all.x.end(), level.x.begin(), level.x.end());
-    all.y.insert(all.y.end(), level.y.begin(), level.y.end());
-  }
-  return all;
-}
-
-std::optional<numerics::LineFit> line_through(const Points& points) {
+std::optional<numerics::LineFit> line_through(const RawPoints& points) {
   if (points.x.size() < 2) return {};
   const auto [lowest, highest] = std::ranges::minmax(points.x);
   if (lowest == highest) return {};
@@ -29,7 +15,7 @@ std::optional<numerics::LineFit> line_through(const Points& points) {
 }
 
 // Takes out the point furthest from the line while that is one far below it; `most` of them.
-std::optional<numerics::LineFit> line_without_low_outliers(Points points, std::size_t most) {
+std::optional<numerics::LineFit> line_without_low_outliers(RawPoints points, std::size_t most) {
   auto line = line_through(points);
   for (std::size_t taken = 0; line && taken < most; ++taken) {
     const bool below = line->largest_below > line->largest_above;
@@ -50,7 +36,7 @@ std::optional<numerics::LineFit> line_without_low_outliers(Points points, std::s
 std::optional<Window> window(std::span<const LevelView> levels, int first, int last) {
   for (int i = first; i <= last; ++i)
     if (i < 0 || !levels[std::size_t(i)].usable) return {};
-  const auto all = gather(levels, first, last);
+  const auto all = raw_points(levels, first, last);
   const auto line = line_without_low_outliers(all, all.x.size() / outlier_share);
   if (!line) return {};
   Window found{.first = first, .last = last, .line = *line, .rates = {}, .rate_errors = {}};
@@ -66,7 +52,7 @@ std::optional<Window> window(std::span<const LevelView> levels, int first, int l
   }
   found.scatter = std::exp(furthest);
   for (int i = first; i < last; ++i) {
-    const auto two = gather(levels, i, i + 1);
+    const auto two = raw_points(levels, i, i + 1);
     const auto rate = line_without_low_outliers(two, two.x.size() / outlier_share);
     if (!rate) return {};
     found.rates.push_back(rate->slope);
