@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace clackers::exchange {
+
+/// A column of doubles in memory.
+struct NumberColumn {
+  std::string name;            ///< as a header would have it: "t", "u1"
+  const double* first = nullptr;
+  std::ptrdiff_t stride = 1;  ///< from one row to the next, in doubles
+};
+
+/// A table in memory that belongs to the caller; it must outlive the reading.
+struct NumberColumns {
+  std::string name;  ///< in messages and records, where a file has its path: "history 1"
+  std::size_t rows = 0;
+  std::vector<NumberColumn> columns;
+};
+
+/// Where a history or a list of collisions comes from: the path of a file, "-" for standard input,
+/// or columns in memory.
+using Source = std::variant<std::string, NumberColumns>;
+
+/// What messages call a source: its path, "standard input", or the name of its columns.
+std::string name_of(const Source& source);
+/// The path of a file, empty for columns in memory.
+std::string path_of(const Source& source);
+
+}  // namespace clackers::exchange

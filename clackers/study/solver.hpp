@@ -1,0 +1,72 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clackers/exchange/source.hpp"
+#include "clackers/study/progress.hpp"
+#include "clackers/study/record.hpp"
+#include "clackers/study/verify.hpp"
+
+// Solvers of others under test: a program, a callable or a plug-in. Each makes a history for each
+// step or tolerance, and is judged by its histories.
+namespace clackers::study {
+
+/// One run of a solver.
+struct SolverRun {
+  double step = 0.0;       ///< [s]
+  long long steps = 0;     ///< from the start to the end
+  double tolerance = 0.0;  ///< of an adaptive solver; 0: none
+};
+
+/// What a run left.
+struct SolverOutput {
+  bool interrupted = false;
+  std::optional<exchange::Source> history;  ///< nothing: the run failed
+  std::optional<exchange::Source> events;   ///< nothing: none reported
+  std::string failure_code;                 ///< "program-failed", "program-timeout", ...
+  std::string failure;                      ///< in a sentence, with its full stop
+  std::string printed;                      ///< the last bytes that it printed
+  bool reused = false;                      ///< of an earlier run
+  bool would_repeat = false;                ///< the failure is one that smaller steps share
+  std::shared_ptr<const void> memory{};     ///< what holds the columns of history and events
+};
+
+/// A solver prepared for one case.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  /// Makes a run. May be called from several threads at once.
+  virtual SolverOutput run(const SolverRun& run, const std::atomic<bool>* interrupt) = 0;
+};
+
+/// A solver to assess, before it is prepared.
+struct SolverSubject {
+  SubjectKind kind = SubjectKind::program;  ///< program, callable or plugin
+  std::string name;                         ///< in every output
+  Claim claim;
+  /// Levels of tolerances, descending, instead of steps; {h} is then the coarsest step.
+  std::vector<double> tolerances;
+  /// Steps [s], descending, instead of those of the plan; refinement adds none.
+  std::vector<double> steps;
+  std::function<std::unique_ptr<Solver>(const cases::Case& problem)> prepare;
+};
+
+/// The default ladder of solvers, whose runs cost more than those of methods.
+inline constexpr int default_solver_levels = 6, default_solver_samples = 4;
+
+/// As verify(), with solvers behind the methods; no methods means none. A run that fails is a failed
+/// run of its step with what was printed. After three failures in a row that smaller steps would
+/// share, those are not made. Throws as verify() does, and InputError for two subjects of one name.
+Record verify(const VerifyRequest& request, std::vector<SolverSubject> solvers,
+              const Progress& progress = {}, const std::atomic<bool>* interrupt = nullptr);
+
+/// The failure of the first run, where every run of every subject failed and some subject is a
+/// solver; nullptr otherwise.
+const Run* failure_of_all(const Record& record);
+
+}  // namespace clackers::study
