@@ -54,9 +54,15 @@ class CheckNpy(CommandTest):
 
     def test_both_rows_of_a_jump_are_read(self):
         t = rows(self.good("respond", "stop", "--collisions", "--format", "csv"))[0]["t"]
-        self.good("respond", "stop", "--times", "-", "--format", "npy", "--out", self.path("r.npy"),
-                  stdin="".join(f"{time}\n" for time in (*(0.1 * i for i in range(10)), t)))
-        self.checked(self.path("r.npy"), "--case", "stop")
+        times = "".join(f"{time}\n" for time in (*(0.01 * i for i in range(100)), t))
+        for kind in ("npy", "csv"):
+            self.good("respond", "stop", "--times", "-", "--format", kind, "--out", self.path(f"h.{kind}"),
+                      "--quiet", stdin=times)
+        # The history ends early.
+        found, expected = (self.checked(self.path(f"h.{kind}"), "--case", "stop", exit_code=3)
+                           for kind in ("npy", "csv"))
+        self.assertEqual(found, expected)
+        self.assertEqual(expected[0]["rows"], "102")
 
     def test_plain_arrays_take_their_names_from_the_option(self):
         count, names = len(self.table), ("--columns", "t,u1,v1,u2,v2")

@@ -55,8 +55,8 @@ class HeaderReader {
 
   const PythonLiteral& member(std::string_view key) const {
     if (const auto* members = literal_.as<PythonLiteral::Dictionary>())
-      for (const auto& [name, value] : *members)
-        if (name == key) return value;
+      for (std::size_t i = 0; i < members->keys.size(); ++i)
+        if (members->keys[i] == key) return members->values[i];
     fail(fmt::format("its header has no {}", key));
   }
 

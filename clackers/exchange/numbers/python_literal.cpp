@@ -110,9 +110,9 @@ class LiteralReader {
     PythonLiteral::Dictionary items;
     while (!take('}')) {
       if (const char c = peek(); c != '\'' && c != '"') fail();
-      auto key = string();
+      items.keys.push_back(string());
       require(':');
-      items.emplace_back(std::move(key), value(depth + 1));
+      items.values.push_back(value(depth + 1));
       if (take(',')) continue;
       require('}');
       break;

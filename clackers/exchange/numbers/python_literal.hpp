@@ -2,7 +2,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -11,7 +10,10 @@ namespace clackers::exchange {
 /// A Python literal, as the header of a NumPy file is one.
 struct PythonLiteral {
   using List = std::vector<PythonLiteral>;  ///< a list or a tuple
-  using Dictionary = std::vector<std::pair<std::string, PythonLiteral>>;
+  struct Dictionary {
+    std::vector<std::string> keys;
+    List values;  ///< one a key
+  };
 
   std::variant<bool, long long, std::string, List, Dictionary> value;
 

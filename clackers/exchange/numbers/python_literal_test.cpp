@@ -21,9 +21,9 @@ TEST(PythonLiteral, ReadsWhatHeadersHold) {
   EXPECT_EQ(read("[('t', '<f8'), ('u', '<f8', (2,)),]").as<List>()->size(), 2u);
   const auto literal = read("{'descr': '<f8', 'shape': (3, 4), }");
   const auto& members = *literal.as<PythonLiteral::Dictionary>();
-  ASSERT_EQ(members.size(), 2u);
-  EXPECT_EQ(members[1].first, "shape");
-  EXPECT_EQ(*(*members[1].second.as<List>())[1].as<long long>(), 4);
+  EXPECT_EQ(members.keys, (std::vector<std::string>{"descr", "shape"}));
+  ASSERT_EQ(members.values.size(), 2u);
+  EXPECT_EQ(*(*members.values[1].as<List>())[1].as<long long>(), 4);
   EXPECT_EQ(literal.as<bool>(), nullptr);
 }
 
