@@ -58,6 +58,15 @@ TEST(History, EndsAtTheFirstNumberThatIsNotFiniteWhereAskedTo) {
                  "line 3");
 }
 
+TEST(History, HasTheNotesOfItsTable) {
+  const auto h = history("# t u1 x\n0 1 2\n1 3 4", 1);
+  ASSERT_EQ(h.notes.size(), 3u);
+  EXPECT_EQ(h.notes[0].code, "columns-not-used");
+  EXPECT_EQ(h.notes[1].code, "columns-from-comment");
+  EXPECT_EQ(h.notes[2].code, "last-line-incomplete");
+  EXPECT_EQ(h.notes[2].numbers, Numbers{3.0});
+}
+
 TEST(History, KeepsBothLimitsOfAJump) {
   const auto h = history("t,side,u1,v1\n0,,1,0\n1,-,0,-1\n1,+,0,1\n2,,1,0\n", 1);
   EXPECT_EQ(h.motion.t, (Numbers{0.0, 1.0, 1.0, 2.0}));

@@ -171,6 +171,12 @@ TEST(NpyFile, RefusesCutAndLongFilesFromFilesAndPipes) {
   EXPECT_REFUSED(read(large), "not-an-array", "ends within its header");
 }
 
+TEST(NpyFile, ReadsHeadersLongerThanVersion1Holds) {
+  const auto header =
+      "{'descr': '<f8', 'fortran_order': False, 'shape': (1,)}" + std::string(300'000, ' ') + "\n";
+  EXPECT_EQ(read(npy_with_header(header, bytes_of(Numbers{7.0}), 2)).columns[0], Numbers{7.0});
+}
+
 TEST(NpyFile, RefusesOtherVersions) {
   EXPECT_REFUSED(read(npy("'<f8'", "(1,)", bytes_of(Numbers{1.0}), false, 4)), "not-an-array",
                  "version 4.0 of NumPy's format; allowed: 1 to 3");

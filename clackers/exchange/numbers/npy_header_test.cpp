@@ -53,7 +53,10 @@ TEST(NpyHeader, RefusesSizesThatNoMemoryHolds) {
   EXPECT_REFUSED(read(npy("[('u', '<f8', (999999999999999999, 0))]", "(2,)", "")), "not-an-array",
                  "");
   EXPECT_REFUSED(read(npy("[('u', '<f8', (65536, 65536, 65536, 65536))]", "(2,)", "")),
-                 "not-an-array", "numbers");
+                 "not-an-array", "131072 numbers");
+  // Their bytes are 2^64.
+  EXPECT_REFUSED(read(npy("'<f8'", "(576460752303423488, 4)", "")), "not-an-array",
+                 "it has 576460752303423488 rows");
   EXPECT_REFUSED(read(npy("[('x', '|V16777216'), ('y', '|V16777216')]", "(2,)", "")),
                  "not-an-array", "bytes");
 }
