@@ -80,7 +80,8 @@ study::Record run_study(const Options& options, const study::VerifyRequest& requ
   ProgressLine progress("verify", options.common.quiet);
   const auto programs = program_request_of(options.programs);
   if (options.programs.any())
-    return study::verify(request, programs, progress.callback(), &interrupt_flag());
+    return study::verify(request, study::subjects_of(programs), progress.callback(),
+                         &interrupt_flag());
   return study::verify(request, progress.callback(), &interrupt_flag());
 }
 

@@ -83,8 +83,8 @@ study::ProgramRequest program_request_of(const ProgramOptions& options) {
 }
 
 study::RefinementRequest program_plan(study::RefinementRequest plan, bool has_neighbours) {
-  if (!plan.levels) plan.levels = study::default_program_levels;
-  if (!has_neighbours) plan.samples_per_level = study::default_program_samples;
+  if (!plan.levels) plan.levels = study::default_solver_levels;
+  if (!has_neighbours) plan.samples_per_level = study::default_solver_samples;
   return plan;
 }
 

@@ -55,4 +55,7 @@ class RunFolder {
   std::filesystem::path place_, path_;
 };
 
+/// Sentences begin with a folder that has gone when they are read: its path is taken out of them.
+std::string without_folder(std::string sentence, const std::filesystem::path& folder);
+
 }  // namespace clackers::study
