@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
 #include "bindings/python/rows.hpp"
 #include "clackers/base/suggest.hpp"
@@ -53,11 +54,12 @@ std::string cell_text(py::handle value) {
 
 [[noreturn]] void refuse_column(const std::string& table, const std::string& name,
                                 const std::vector<std::string>& columns) {
-  refuse_name(fmt::format("column of the table \"{}\"", table), name, columns,
+  refuse_name(fmt::format("column in the table \"{}\" called", table), name, columns,
               fmt::format("{}", fmt::join(columns, ", ")));
 }
 
-py::tuple listing(const std::string& kind) {
+py::tuple listing(py::handle given) {
+  const auto kind = read_text("catalogue", "kind", given);
   return read_sheet(kind == "columns" ? report::list_columns() : study::list(kind));
 }
 
