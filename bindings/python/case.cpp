@@ -15,14 +15,16 @@ namespace {
 using cases::Case;
 
 std::shared_ptr<Case> make(py::handle name, const py::dict& parameters, py::handle threshold) {
-  const auto text = read_text("case", "name", name);
+  const auto text =
+      name.is_none() ? std::string(cases::default_case()) : read_text("case", "name", name);
   Settings settings;
   for (const auto& [key, value] : parameters) {
     const auto parameter = key.cast<std::string>();
     settings.emplace_back(parameter, read_number(text, parameter, value));
   }
-  return std::make_shared<Case>(
-      cases::make(text, settings, read_number(text, "threshold", threshold)));
+  const double share =
+      threshold.is_none() ? cases::default_threshold : read_number(text, "threshold", threshold);
+  return std::make_shared<Case>(cases::make(text, settings, share));
 }
 
 py::dict values(const std::vector<cases::Constant>& constants) {
@@ -50,12 +52,9 @@ void bind_case(py::module_& core) {
       .def_property_readonly("indicators", [](const Case& c) { return values(c.indicators); })
       .def_property_readonly("dof", [](const Case& c) { return c.motion->dof(); })
       .def_property_readonly("end", [](const Case& c) { return c.motion->end(); })
-
       .def_property_readonly("problem", [](const std::shared_ptr<Case>& c) {
         return Problem({c, &c->problem});  // keeps the case alive
       });
-  core.attr("default_case") = std::string(cases::default_case());
-  core.attr("default_threshold") = cases::default_threshold;
 }
 
 }  // namespace clackers::python

@@ -191,6 +191,10 @@ class Case:
 
         Columns t, side, kinetic, potential, dissipated, lost, total, momentum. Where a time is the double
         nearest to an impact two rows stand, side -1 and side 1. Raises InputError as ``response`` does.
+
+        >>> import clackers
+        >>> clackers.case("stop", xi1=0).energies([0.0, 1.0])["total"]
+        array([0.5, 0.5])
         """
         return Table(*_core.energies(self._core, t))
 
@@ -200,13 +204,23 @@ class Case:
         ``name`` is m1 m2 k1 k2 c1 c2 eta gap u10 u20 v10 v20 with all else fixed, or a parameter of the case
         with all that follows from it; ``class:m1`` where both have the name. Columns t, side, du1, dv1, da1 and
         so on. Raises InputError for an unknown name and where there is no derivative.
+
+        >>> import clackers
+        >>> table = clackers.case("sdof").sensitivity("k1", [0.0, 1.0])
+        >>> [column.unit for column in table.columns]
+        ['s', '', 'm^2/N', 'm^2/N/s', 'm^2/N/s^2']
         """
         return Table(*_core.sensitivity(self._core, name, t))
 
     def spectrum(self, n: int, highest: float) -> Table:
         """The Fourier transform of the displacements over the run at ``n`` frequencies from 0 to ``highest``.
 
-        ``highest`` in rad/s; n in [2, 1e9]. Columns omega [rad/s], re1, im1 [m s] and so on.
+        ``highest`` in rad/s; n in [2, 1e9]. Columns omega [rad/s], re1, im1 [m s] and so on. Raises InputError for
+        an n or a highest frequency outside of its range.
+
+        >>> import clackers
+        >>> clackers.case("stop").spectrum(3, 2.0)["omega"]
+        array([0., 1., 2.])
         """
         return Table(*_core.spectrum(self._core, n, highest))
 
@@ -215,10 +229,12 @@ class Case:
         return f"<clackers.Case {self.name} ({given}): dof {self.dof}, end {self.end:g} s>"
 
 
-def case(name: str = _core.default_case, /, *, threshold: float = _core.default_threshold, **parameters: float) -> Case:
-    """A case of ``clackers.catalogue("cases")`` with its parameters; those not given keep their default.
+def case(name: str | None = None, /, *, threshold: float | None = None, **parameters: float) -> Case:
+    """A case of ``clackers.catalogue("cases")`` with its parameters.
 
-    ``threshold`` in (0, 1) is the share of the spectral peak from which a harmonic counts in the indicators.
+    Without a name the default case; parameters that are not given keep their default. ``threshold`` in (0, 1) is
+    the share of the spectral peak from which a harmonic counts in the indicators, 0.1 by default.
+
     Raises InputError for unknown names and for values outside of their range.
 
     >>> import clackers

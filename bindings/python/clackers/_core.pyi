@@ -9,8 +9,6 @@ from clackers._case import Buffers
 from clackers._problem import Array
 
 version: str
-default_case: str
-default_threshold: float
 
 _Rows = tuple[str, str, list[tuple[str, str, str]], list[npt.NDArray[Any]]]
 
@@ -35,7 +33,7 @@ class Problem:
     def impact(self, y: npt.ArrayLike, contact: int | None) -> Array: ...
 
 class Case:
-    def __init__(self, name: str, parameters: dict[str, float], threshold: float) -> None: ...
+    def __init__(self, name: str | None, parameters: dict[str, float], threshold: float | None) -> None: ...
     @property
     def name(self) -> str: ...
     @property
