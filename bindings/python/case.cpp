@@ -39,6 +39,13 @@ py::dict parameters(const Case& which) {
   return all;
 }
 
+// (r*, margin)
+py::tuple admissibility(py::handle X, py::handle r) {
+  const auto found = cases::admissibility(read_number("admissibility", "X", X),
+                                          read_number("admissibility", "r", r));
+  return py::make_tuple(found.r_star, found.margin);
+}
+
 }  // namespace
 
 void bind_case(py::module_& core) {
@@ -55,6 +62,7 @@ void bind_case(py::module_& core) {
       .def_property_readonly("problem", [](const std::shared_ptr<Case>& c) {
         return Problem({c, &c->problem});  // keeps the case alive
       });
+  core.def("admissibility", &admissibility, py::arg("X"), py::arg("r"));
 }
 
 }  // namespace clackers::python

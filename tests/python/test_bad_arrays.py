@@ -124,7 +124,12 @@ ROWS = [
     ("half of a whole parameter", "not-whole", "N = 1.5", lambda: clackers.case("three-parameter", N=1.5)),
     ("mass ratio beyond the class", "not-admissible", "r", lambda: clackers.case("synchronized-pair", X=9, r=5)),
     ("threshold outside of its range", "out-of-range", "threshold = 1", lambda: clackers.case("stop", threshold=1)),
+    ("admissibility of an even ratio", "not-odd", "X = 8", lambda: clackers.admissibility(8, 3)),
+    ("admissibility of no mass", "out-of-range", "r = 0", lambda: clackers.admissibility(9, 0)),
+    ("admissibility of a text", "not-a-number", "r = '3'", lambda: clackers.admissibility(9, "3")),
     # The catalogue and tables.
+    ("unknown code", "unknown-name", 'Did you mean "irregular"', lambda: clackers.explain("iregular")),
+    ("code that is no text", "not-text", "code = 1", lambda: clackers.explain(1)),
     ("unknown kind", "unknown-name", 'Did you mean "cases"', lambda: clackers.catalogue("case")),
     ("kind that is no text", "not-text", "kind = 1", lambda: clackers.catalogue(1)),
     ("unknown column", "unknown-name", 'Did you mean "du1"', lambda: CASE.sensitivity("k2", [0.0])["du11"]),

@@ -69,6 +69,24 @@ class Catalogue(unittest.TestCase):
             self.assertIn("Eq.", case.equations)
             self.assertIsInstance(case.constants, dict)
 
+    def test_codes_are_those_of_the_command(self):
+        self.assertEqual(list(clackers.explain()["code"]), list(rows_of_command("explain")["code"]))
+        self.assertEqual(clackers.explain("irregular")["kind"].tolist(), ["behaviour"])
+
+    def test_tables_of_a_case_are_those_of_the_command(self):
+        case = clackers.case("synchronized-pair", threshold=0.25, eta=0.5)
+        tables = case.tables()
+        self.assertEqual(list(tables), ["parameters", "constants", "indicators", "collisions", "harmonics", "conditioning"])
+        self.assertEqual(dict(zip(tables["parameters"]["parameter"], tables["parameters"]["value"])), case.parameters)
+        self.assertEqual(dict(zip(tables["constants"]["name"], tables["constants"]["value"])), case.constants)
+        self.assertEqual(dict(zip(tables["indicators"]["name"], tables["indicators"]["value"])), case.indicators)
+        self.assertEqual(case.indicators["threshold"], 0.25)
+        self.assertEqual(case._repr_html_().count("<table>"), 6)
+
+    def test_admissibility_is_that_of_the_constants(self):
+        case = clackers.case("synchronized-pair", X=9, r=3)
+        self.assertEqual(clackers.admissibility(9, 3), (case.constants["r*"], case.constants["margin"]))
+
     def test_a_number_that_is_not_there_is_nan_and_a_text_none(self):
         pairs = clackers.catalogue("pairs")
         self.assertEqual(pairs["order"].dtype, np.float64)

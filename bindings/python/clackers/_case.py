@@ -82,8 +82,9 @@ class Case:
     {'N': 2.0, 'xi1': 0.05, 'a_t': 1.0}
     """
 
-    def __init__(self, core: _core.Case) -> None:
+    def __init__(self, core: _core.Case, threshold: float | None = None) -> None:
         self._core = core
+        self._threshold = threshold
         self._problem = Problem(core.problem)
 
     @property
@@ -224,9 +225,44 @@ class Case:
         """
         return Table(*_core.spectrum(self._core, n, highest))
 
+    def tables(self) -> dict[str, Table]:
+        """What ``clackers show`` shows of the case: parameters, constants, indicators, first collisions, and of a
+        pair the harmonics and its conditioning.
+
+        >>> import clackers
+        >>> list(clackers.case("stop").tables())
+        ['parameters', 'constants', 'indicators', 'collisions']
+        """
+        found = [Table(*rows) for rows in _core.case_tables(self._core, self._threshold)]
+        return {table.schema.split("/")[1]: table for table in found}
+
+    def _repr_html_(self) -> str:
+        return "".join(table._repr_html_() for table in self.tables().values())
+
     def __repr__(self) -> str:
         given = ", ".join(f"{name}={value:g}" for name, value in self.parameters.items())
         return f"<clackers.Case {self.name} ({given}): dof {self.dof}, end {self.end:g} s>"
+
+
+class Admissibility(NamedTuple):
+    """How far the masses of a pair stay apart away from equilibrium."""
+
+    r_star: float
+    """Limit of slow over fast mass; infinity for equal frequencies."""
+    margin: float
+    """Smallest gap between collisions relative to the slow displacement; the closed form holds where it is positive."""
+
+
+def admissibility(X: float, r: float) -> Admissibility:
+    """The admissibility of a pair of frequency ratio ``X`` and mass ratio ``r`` = m1/m2, admissible or not.
+
+    X is odd or 1 over an odd number; 1e-60 <= r <= 1e60. Raises InputError outside.
+
+    >>> import clackers
+    >>> round(clackers.admissibility(X=9, r=3).margin, 6)
+    0.320295
+    """
+    return Admissibility(*_core.admissibility(X, r))
 
 
 def case(name: str | None = None, /, *, threshold: float | None = None, **parameters: float) -> Case:
@@ -241,4 +277,4 @@ def case(name: str | None = None, /, *, threshold: float | None = None, **parame
     >>> clackers.case("synchronized-pair", X=9, r=3, eta=0.8)
     <clackers.Case synchronized-pair (m1=1, k1=1, xi1=0.05, A=1, X=9, r=3, eta=0.8, t_end=20): dof 2, end 20 s>
     """
-    return Case(_core.Case(name, parameters, threshold))
+    return Case(_core.Case(name, parameters, threshold), threshold)

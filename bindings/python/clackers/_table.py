@@ -182,3 +182,15 @@ def catalogue(kind: str | None = None) -> dict[str, Table] | Table:
     if kind is None:
         return {each: catalogue(each) for each in _core.listing_kinds()}
     return Table(*_core.listing(kind))
+
+
+def explain(code: str | None = None) -> Table:
+    """What a code means and what to do about it, as a table of one row; without ``code`` all codes.
+
+    Codes are those of errors, behaviours, verdicts and diagnoses. Raises InputError for an unknown code.
+
+    >>> import clackers
+    >>> clackers.explain("time-outside")["kind"][0]
+    'refusal'
+    """
+    return Table(*_core.explain(code))
