@@ -143,10 +143,9 @@ void add_verify(Grammar& root) {
                 "           [--levels n] [--coarsest h] [--neighbours n] [--budget TIME]\n"
                 "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
                 "           [--report FILE.html]\n"
-                "  clackers verify [METHOD ...] --exec COMMAND ... --plugin FILE.so ...\n"
-                "           [--name NAME ...]\n"
-                "           [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b] [--timeout TIME]\n"
-                "           [--work FOLDER] [--fresh] ...\n"});
+                "  clackers verify [METHOD ...] --exec COMMAND|--plugin FILE.so ...\n"
+                "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
+                "           [--timeout TIME] [--work FOLDER] [--fresh] ...\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods).");

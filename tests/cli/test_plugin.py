@@ -16,6 +16,7 @@ STRICT = ("-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror")
 # A plug-in for one mass that ignores contacts: Euler's method.
 SOURCE = r"""
 #include <clackers_solver.h>
+#include <locale.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -224,6 +225,10 @@ class Good(PluginTest):
             run='printf("0,1\\n"); fprintf(stderr, "0,1\\n"); if (write(3, "0,1\\n", 4)) {}'), *SHORT)
         self.assertEqual([one["u_error"] for one in self.runs(quiet)],
                          [one["u_error"] for one in self.runs(loud)])
+
+    def test_may_close_files_change_the_folder_and_the_locale(self):
+        self.finished("--plugin", self.plugin(
+            load='if (chdir("/")) {} setlocale(LC_ALL, ""); for (int i = 0; i < 99; ++i) close(i)'), *SHORT)
 
     def test_collisions_are_read(self):
         def impacts(call):

@@ -1,8 +1,10 @@
 """verify --plugin: files that are no plug-ins, and plug-ins that fail in every way."""
 import shutil
+import signal
 import subprocess
 import unittest
 
+from command import start
 from test_exec import SHORT, STOP
 from test_plugin import HEADER, PluginTest
 
@@ -57,10 +59,21 @@ class Failed(PluginTest):
                     prepare='return host->fail(host, "M is not diagonal")')
         self.breaks("plugin-failed", "prepare: it returned 7, without host->fail.", prepare="return 7")
 
-    def test_prepare_that_fails_is_not_tried_at_every_step(self):
-        subject = self.subject("--plugin", self.plugin(prepare="return 7"), *STOP, "--levels", "8",
-                               "--neighbours", "2", "--jobs", "1", exit_code=4)
-        self.assertEqual(sum("not made" in one["failure"] for one in self.runs(subject)), 13)
+    def test_what_fails_before_run_is_not_tried_at_every_step(self):
+        for place, count in (("load", 13), ("prepare", 13), ("run", 0)):
+            subject = self.subject("--plugin", self.plugin(**{place: "raise(SIGKILL)"}), *STOP, "--levels",
+                                   "8", "--neighbours", "2", "--jobs", "1", exit_code=4)
+            self.assertEqual(sum("not made" in one["failure"] for one in self.runs(subject)), count)
+
+    def test_hang_while_it_is_loaded_is_interrupted(self):
+        library = self.plugin(load=f'fclose(fopen("{self.path("loading")}", "w")); for (;;) pause()')
+        with start("verify", "--plugin", library, *SHORT, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.PIPE) as process:
+            self.wait_for(lambda: "loading" in self.files())
+            process.send_signal(signal.SIGINT)
+            _, error = process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 130, error)
+        self.assertIn(b"[interrupted]", error)
 
     def test_run_fails(self):
         self.breaks("plugin-failed", "run: no memory at step 3.",
@@ -116,22 +129,24 @@ class Failed(PluginTest):
                     run=f'if (system("sleep 1000 & echo $! > {self.path("child")}; wait")) {{}}')
         self.wait_for(lambda: self.is_gone(self.text_of("child").strip()))
 
-    def test_exception_of_cxx(self):
+    def test_exceptions_of_cxx(self):
         compiler = shutil.which("g++")
         if compiler is None:
             self.skipTest("needs g++")
         library, source = self.path("solver.so"), self.path("solver.cpp")
-        with open(source, "w") as file:
-            file.write("#include <clackers_solver.h>\n#include <stdexcept>\n"
-                       "static int32_t run(void*, const clackers_solver_problem*, "
-                       "const clackers_solver_run*, clackers_solver_host*) "
-                       '{ throw std::runtime_error("no mesh"); }\n'
-                       'static const clackers_solver solver = {1, 0, "thrower", nullptr, run, nullptr};'
-                       "\nconst clackers_solver* clackers_plugin() { return &solver; }\n")
-        subprocess.run([compiler, "-shared", "-fPIC", "-Wall", "-Wextra", "-pedantic", "-Werror",
-                        f"-I{HEADER}", source, "-o", library], check=True)
-        subject = self.subject("--plugin", library, *SHORT, exit_code=4)
-        self.assertEqual(self.runs(subject)[0]["failure"], "run: an exception left it: no mesh.")
+        for body, says in (('throw std::runtime_error("no mesh");', "run: an exception left it: no mesh."),
+                           ("throw 5;", "run: an exception left it."),
+                           ("std::terminate();", "run: ended by signal 6 (Aborted).")):
+            with open(source, "w") as file:
+                file.write("#include <clackers_solver.h>\n#include <exception>\n#include <stdexcept>\n"
+                           "static int32_t run(void*, const clackers_solver_problem*, "
+                           f"const clackers_solver_run*, clackers_solver_host*) {{ {body} }}\n"
+                           'static const clackers_solver solver = {1, 0, "mine", nullptr, run, nullptr};'
+                           "\nconst clackers_solver* clackers_plugin() { return &solver; }\n")
+            subprocess.run([compiler, "-shared", "-fPIC", "-Wall", "-Wextra", "-pedantic", "-Werror",
+                            f"-I{HEADER}", source, "-o", library], check=True)
+            subject = self.subject("--plugin", library, *SHORT, exit_code=4)
+            self.assertEqual(self.runs(subject)[0]["failure"], says)
 
 
 class WrongStates(PluginTest):

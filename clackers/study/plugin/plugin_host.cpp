@@ -52,6 +52,8 @@ class PluginProcess {
       fail(error.code().name(), error.what());
     } catch (const std::exception& error) {
       fail("plugin-failed", fmt::format("an exception left it: {}", error.what()));
+    } catch (...) {
+      fail("plugin-failed", "an exception left it");
     }
   }
 
@@ -115,16 +117,18 @@ bool host_plugin(const std::vector<std::string>& arguments) {
     refuse("plug-in", "arguments", fmt::to_string(arguments.size()),
            "LIBRARY REPORT [PROBLEM STEP STEPS TOLERANCE HISTORY EVENTS]", {}, "bad-syntax");
   // The library may go to another folder.
-  PluginProcess process(arguments[0], std::filesystem::absolute(arguments[1]).string());
-  process.load();
-  if (arguments.size() == 8 && !process.failed()) {
+  const auto path = [&](std::size_t i) { return std::filesystem::absolute(arguments[i]); };
+  PluginProcess process(path(0).string(), path(1).string());
+  if (arguments.size() == 2) {
+    process.load();
+  } else {
     const auto problem = problem_from_text(text_of(arguments[2]));
-    PluginOutput output(static_cast<int>(problem.dof()), arguments[6], arguments[7]);
-    process.run(problem,
-                {.step = number_in<double>(arguments[3]),
-                 .steps = number_in<std::int64_t>(arguments[4]),
-                 .tolerance = number_in<double>(arguments[5])},
-                output);
+    PluginOutput output(static_cast<int>(problem.dof()), path(6), path(7));
+    const clackers_solver_run run{.step = number_in<double>(arguments[3]),
+                                  .steps = number_in<std::int64_t>(arguments[4]),
+                                  .tolerance = number_in<double>(arguments[5])};
+    process.load();
+    if (!process.failed()) process.run(problem, run, output);
   }
   process.finish();
   return !process.failed();

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "clackers/base/error.hpp"
-#include "clackers/study/program/process.hpp"
 
 namespace clackers::study {
 namespace {
@@ -29,8 +28,12 @@ std::string names(const char* quantity, int dof, const char* suffix) {
 }  // namespace
 
 PluginOutput::PluginOutput(int dof, const std::filesystem::path& history,
-                           const std::filesystem::path& events)
-    : clackers_solver_host{}, dof_(dof), history_(history), events_(events) {
+                           const std::filesystem::path& events, std::size_t most_bytes)
+    : clackers_solver_host{},
+      dof_(dof),
+      most_bytes_(most_bytes),
+      history_(history),
+      events_(events) {
   version = CLACKERS_SOLVER_VERSION;
   state = [](clackers_solver_host* host, double t, const double* u, const double* v,
              const double* a) {
@@ -94,6 +97,13 @@ void PluginOutput::add_values(NumberFile& file, const char* who, const char* nam
   file.add(values, dof_);
 }
 
+void PluginOutput::end_row(NumberFile& file, const char* who) {
+  file.end_row();
+  if (file.size() > most_bytes_)
+    throw InputError(fmt::format("host->{}: more than {} bytes", who, most_bytes_),
+                     "program-output");
+}
+
 void PluginOutput::take_state(double t, const double* u, const double* v, const double* a) {
   if (!accepts_) misused("state", "called outside run; allowed: from run only.");
   if (u == nullptr) misused("state", "u = null; allowed: an array of dof numbers.");
@@ -120,10 +130,7 @@ void PluginOutput::take_state(double t, const double* u, const double* v, const 
   add_values(history_, "state", "u", t, u);
   if (v != nullptr) add_values(history_, "state", "v", t, v);
   if (a != nullptr) add_values(history_, "state", "a", t, a);
-  history_.end_row();
-  if (history_.size() > most_output)
-    throw InputError(fmt::format("more than {} GiB of states", most_output >> 30),
-                     "program-output");
+  end_row(history_, "state");
 }
 
 void PluginOutput::take_collision(double t, double impulse, const double* before,
@@ -154,10 +161,7 @@ void PluginOutput::take_collision(double t, double impulse, const double* before
   if (has_impulse) events_.add(impulse);
   if (before != nullptr) add_values(events_, who, "v_before", t, before);
   if (after != nullptr) add_values(events_, who, "v_after", t, after);
-  events_.end_row();
-  if (events_.size() > most_output)
-    throw InputError(fmt::format("more than {} GiB of collisions", most_output >> 30),
-                     "program-output");
+  end_row(events_, who);
 }
 
 void PluginOutput::commit() {

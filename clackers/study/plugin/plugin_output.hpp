@@ -8,6 +8,7 @@
 #include "clackers/base/codes.hpp"
 #include "clackers/study/plugin/clackers_solver.h"
 #include "clackers/study/plugin/number_file.hpp"
+#include "clackers/study/program/process.hpp"
 
 namespace clackers::study {
 
@@ -15,8 +16,9 @@ namespace clackers::study {
 /// the first failure.
 class PluginOutput : public clackers_solver_host {
  public:
-  /// The files of states and collisions, which appear in commit().
-  PluginOutput(int dof, const std::filesystem::path& history, const std::filesystem::path& events);
+  /// The files of states and collisions, which appear in commit(), each of at most `most_bytes`.
+  PluginOutput(int dof, const std::filesystem::path& history, const std::filesystem::path& events,
+               std::size_t most_bytes = most_output);
 
   /// Whether states and collisions are taken, which only run may deliver.
   void accept(bool accepted) { accepts_ = accepted; }
@@ -36,10 +38,12 @@ class PluginOutput : public clackers_solver_host {
   void take_collision(double t, double impulse, const double* before, const double* after);
   void require_time(const char* who, double t, double last);
   void require_same(const char* who, const char* what, bool is_given, bool was_given);
+  void end_row(NumberFile& file, const char* who);
   void add_values(NumberFile& file, const char* who, const char* name, double t,
                   const double* values);
 
   int dof_;
+  std::size_t most_bytes_;
   NumberFile history_, events_;
   bool accepts_ = false;
   std::string code_, failure_;

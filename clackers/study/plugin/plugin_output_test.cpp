@@ -87,6 +87,21 @@ TEST_F(PluginOutputTest, TwoStatesOfOneTimeAreAJump) {
   EXPECT_EQ(output_.failure_code(), "three-limits");
 }
 
+TEST_F(PluginOutputTest, HasALargestSize) {
+  PluginOutput other(2, history_, events_, 1000);
+  other.accept(true);
+  int states = 0, collisions = 0;
+  while (other.state(&other, states, u_, nullptr, nullptr) == 0) ++states;
+  EXPECT_EQ(other.failure_code(), "program-output");
+  EXPECT_EQ(other.failure(), "host->state: more than 1000 bytes");
+  EXPECT_EQ(states, 33);  // 8 bytes of names; 29 bytes each up to t = 9, then 30
+  PluginOutput events(2, history_, events_, 1000);
+  events.accept(true);
+  while (events.collision(&events, collisions, 0.0, nullptr, nullptr) == 0) ++collisions;
+  EXPECT_EQ(events.failure(), "host->collision: more than 1000 bytes");
+  EXPECT_GT(collisions, 100);
+}
+
 TEST_F(PluginOutputTest, IsOfTheVersionOfTheHeader) {
   EXPECT_EQ(output_.version, CLACKERS_SOLVER_VERSION);
 }

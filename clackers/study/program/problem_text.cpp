@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
@@ -70,7 +71,14 @@ class Lines {
     return found;
   }
   double number(const std::string& name) { return numbers(name, 1)(0); }
-  Eigen::Index size(const std::string& name) { return static_cast<Eigen::Index>(number(name)); }
+  Eigen::Index size(const std::string& name) {
+    const double value = number(name);
+    // Each number takes a digit and a blank or the end of its line.
+    if (!(value >= 0.0 && value <= double(rest_.size()) && value == std::floor(value)))
+      refuse("problem", name, value, "a whole number, not above those that follow", {},
+             "bad-syntax");
+    return static_cast<Eigen::Index>(value);
+  }
   Eigen::MatrixXd matrix(const char* name, Eigen::Index size) {
     Eigen::MatrixXd matrix(size, size);
     for (Eigen::Index i = 0; i < size; ++i)

@@ -59,6 +59,14 @@ TEST(ProblemText, RefusesOtherLines) {
   }
 }
 
+TEST(ProblemText, RefusesOtherSizes) {
+  for (const auto* size : {"-1", "1.5", "1e300", "9999"}) {
+    auto other = problem_file_text(two_masses());
+    other.replace(0, std::string_view("dof=2").size(), std::string("dof=") + size);
+    EXPECT_REFUSED(problem_from_text(other), "bad-syntax", "problem: dof = ");
+  }
+}
+
 TEST(ProblemText, RefusesALoad) {
   auto problem = two_masses();
   problem.system.add_load = [](double, std::span<double>) {};
