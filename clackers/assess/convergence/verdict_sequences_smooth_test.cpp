@@ -153,6 +153,12 @@ const VerdictSequence rows[] = {
      .make = [] { return ladder([](double h) { return pow(h, 1.3); }); },
      .claim = claims_envelope(1), .behaviour = proper, .verdict = Verdict::disagrees, .order = 1.3,
      .within = 1e-9},
+    {.name = "rates that settle at order one with one step a level contradict order two",
+     .make = [] {
+       return ladder([](double h) { return h + 6.0 * h * h; }, {.levels = 6, .neighbours = 1});
+     },
+     .claim = claims(2), .behaviour = reduced, .verdict = Verdict::disagrees, .order = 1.0,
+     .within = 0.1},
 };
 // clang-format on
 
