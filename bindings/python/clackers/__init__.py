@@ -6,13 +6,14 @@
 >>> u.shape
 (3, 2)
 """
-from clackers._case import Case, Impacts, Kinematics, case
+from clackers._case import Admissibility, Case, Impacts, Kinematics, admissibility, case
 from clackers._core import version as __version__
 from clackers._errors import Error, FileError, InputError
 from clackers._problem import Contact, GapEvent, Problem, State
-from clackers._table import Column, Table, catalogue
+from clackers._table import Column, Table, catalogue, explain
 
 __all__ = [
+    "Admissibility",
     "Case",
     "Column",
     "Contact",
@@ -26,6 +27,8 @@ __all__ = [
     "State",
     "Table",
     "__version__",
+    "admissibility",
     "case",
     "catalogue",
+    "explain",
 ]

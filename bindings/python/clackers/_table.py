@@ -85,13 +85,22 @@ class Table:
         return dict(self._arrays)
 
     def head(self, rows: int = 10) -> Table:
-        """The first rows as a table of their own."""
+        """The first rows as a table of their own.
+
+        >>> import clackers
+        >>> len(clackers.catalogue("metrics").head(3))
+        3
+        """
         return Table(self.schema, self.title, self.columns, [array[:rows] for array in self._arrays.values()])
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a ``pandas.DataFrame``; its ``attrs`` hold schema, title, units and meanings.
 
         Raises ImportError where pandas is not installed.
+
+        >>> import clackers
+        >>> clackers.catalogue("cases").to_pandas().columns.tolist()
+        ['name', 'equations', 'parameters', 'summary']
         """
         try:
             import pandas
@@ -173,3 +182,15 @@ def catalogue(kind: str | None = None) -> dict[str, Table] | Table:
     if kind is None:
         return {each: catalogue(each) for each in _core.listing_kinds()}
     return Table(*_core.listing(kind))
+
+
+def explain(code: str | None = None) -> Table:
+    """What a code means and what to do about it, as a table of one row; without ``code`` all codes.
+
+    Codes are those of errors, behaviours, verdicts and diagnoses. Raises InputError for an unknown code.
+
+    >>> import clackers
+    >>> clackers.explain("time-outside")["kind"][0]
+    'refusal'
+    """
+    return Table(*_core.explain(code))
