@@ -34,7 +34,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "not-text", "not-an-array", "no-column", "ragged-row", "decimal-comma", "not-sorted", "too-short",
     "not-this-case", "printed-digits", "sparse-rows",
     "restitution-differs", "mass-ratio-differs", "frequency-differs", "damping-differs",
-    "damping-changes-at-impact", "time-shifted", "time-unit", "time-drifts", "unit-scaled",
+    "damping-changes-at-impact", "gap-differs", "time-shifted", "time-unit", "time-drifts", "unit-scaled",
     "columns-exchanged", "masses-exchanged", "sign-reversed", "velocity-at-half-steps",
     "velocity-order-lower", "starts-at-rest", "impact-missed", "impact-doubled",
     "impact-impulse-wrong", "impact-at-step-end", "impact-interpolated", "impact-tolerance",
@@ -42,7 +42,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "commensurate-steps", "numerical-damping", "period-error", "unstable-coarse-steps",
     "ends-early", "output-resampled",
     "cannot-write", "cannot-read", "no-renderer",
-    "render-failed", "program-failed", "program-timeout", "program-output", "foreign-folder", "out-of-memory", "internal-error", "interrupted",
+    "render-failed", "program-failed", "program-timeout", "program-output", "not-a-plugin", "plugin-failed", "foreign-folder", "out-of-memory", "internal-error", "interrupted",
 });
 // clang-format on
 

@@ -1,0 +1,68 @@
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "bindings/python/arguments.hpp"
+#include "bindings/python/bind.hpp"
+#include "bindings/python/problem.hpp"
+#include "clackers/cases/case.hpp"
+
+namespace clackers::python {
+namespace {
+
+using cases::Case;
+
+std::shared_ptr<Case> make(py::handle name, const py::dict& parameters, py::handle threshold) {
+  const auto text =
+      name.is_none() ? std::string(cases::default_case()) : read_text("case", "name", name);
+  Settings settings;
+  for (const auto& [key, value] : parameters) {
+    const auto parameter = key.cast<std::string>();
+    settings.emplace_back(parameter, read_number(text, parameter, value));
+  }
+  const double share =
+      threshold.is_none() ? cases::default_threshold : read_number(text, "threshold", threshold);
+  return std::make_shared<Case>(cases::make(text, settings, share));
+}
+
+py::dict values(const std::vector<cases::Constant>& constants) {
+  py::dict all;
+  for (const auto& constant : constants) all[py::str(constant.name)] = constant.value;
+  return all;
+}
+
+py::dict parameters(const Case& which) {
+  py::dict all;
+  for (const auto& [name, value] : which.values) all[py::str(name)] = value;
+  return all;
+}
+
+// (r*, margin)
+py::tuple admissibility(py::handle X, py::handle r) {
+  const auto found = cases::admissibility(read_number("admissibility", "X", X),
+                                          read_number("admissibility", "r", r));
+  return py::make_tuple(found.r_star, found.margin);
+}
+
+}  // namespace
+
+void bind_case(py::module_& core) {
+  py::class_<Case, std::shared_ptr<Case>>(core, "Case")
+      .def(py::init(&make), py::arg("name"), py::arg("parameters"), py::arg("threshold"))
+      .def_property_readonly("name", [](const Case& c) { return c.entry->name; })
+      .def_property_readonly("summary", [](const Case& c) { return c.entry->summary; })
+      .def_property_readonly("equations", [](const Case& c) { return c.entry->equations; })
+      .def_property_readonly("parameters", &parameters)
+      .def_property_readonly("constants", [](const Case& c) { return values(c.constants); })
+      .def_property_readonly("indicators", [](const Case& c) { return values(c.indicators); })
+      .def_property_readonly("dof", [](const Case& c) { return c.motion->dof(); })
+      .def_property_readonly("end", [](const Case& c) { return c.motion->end(); })
+      .def_property_readonly("problem", [](const std::shared_ptr<Case>& c) {
+        return Problem({c, &c->problem});  // keeps the case alive
+      });
+  core.def("admissibility", &admissibility, py::arg("X"), py::arg("r"));
+}
+
+}  // namespace clackers::python

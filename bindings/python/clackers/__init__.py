@@ -1,0 +1,34 @@
+"""Exact motions of colliding structures, and verdicts on time-integration methods.
+
+>>> import clackers
+>>> case = clackers.case("three-parameter", N=2, xi1=0.05)
+>>> u, v, a = case.response([0.0, 1.0, 2.0])
+>>> u.shape
+(3, 2)
+"""
+from clackers._case import Admissibility, Case, Impacts, Kinematics, admissibility, case
+from clackers._core import version as __version__
+from clackers._errors import Error, FileError, InputError
+from clackers._problem import Contact, GapEvent, Problem, State
+from clackers._table import Column, Table, catalogue, explain
+
+__all__ = [
+    "Admissibility",
+    "Case",
+    "Column",
+    "Contact",
+    "Error",
+    "FileError",
+    "GapEvent",
+    "Impacts",
+    "InputError",
+    "Kinematics",
+    "Problem",
+    "State",
+    "Table",
+    "__version__",
+    "admissibility",
+    "case",
+    "catalogue",
+    "explain",
+]

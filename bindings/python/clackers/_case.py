@@ -1,0 +1,280 @@
+"""Cases: problems together with their exact motions."""
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from clackers import _core
+from clackers._problem import Array, Problem
+from clackers._table import Table
+
+Side = Literal["left", "right"]
+"""Which of two flights is meant where they meet: before an impact, or after it."""
+
+
+class Kinematics(NamedTuple):
+    """Displacements, velocities and accelerations, or bounds or amplitudes of them.
+
+    The shape is (time, dof), or (dof,) for a single time.
+    """
+
+    u: Array
+    """[m]"""
+    v: Array
+    """[m/s]"""
+    a: Array
+    """[m/s^2]"""
+
+
+Buffers = tuple[Array, Array, Array | None]
+
+
+@dataclass(frozen=True)
+class Impacts:
+    """Impacts of a motion, a row each: arrays of shape (impact,) and (impact, dof)."""
+
+    index: npt.NDArray[np.int64]
+    """1 for the first."""
+    t: Array
+    """The double nearest to the true instant [s]."""
+    t_lo: Array
+    """Start of the interval that certainly holds the true instant [s]."""
+    t_hi: Array
+    """End of that interval [s]."""
+    contact: npt.NDArray[np.int64]
+    """Number in ``Problem.contacts``, from 0."""
+    u: Array
+    """Displacements [m], shape (impact, dof)."""
+    v_before: Array
+    """Velocities just before [m/s], shape (impact, dof)."""
+    v_after: Array
+    """Velocities just after [m/s], shape (impact, dof)."""
+    a_before: Array
+    """Accelerations just before [m/s^2], shape (impact, dof)."""
+    a_after: Array
+    """Accelerations just after [m/s^2], shape (impact, dof)."""
+    impulse: Array
+    """Along the direction of the contact [N s]."""
+    energy_before: Array
+    """Of the whole structure [J]."""
+    energy_after: Array
+    """Of the whole structure [J]."""
+
+    def __len__(self) -> int:
+        return len(self.index)
+
+    def __repr__(self) -> str:
+        shown = ", ".join(f"{field.name} {getattr(self, field.name).shape}" for field in fields(self))
+        return f"<clackers.Impacts: {shown}>"
+
+
+class Case:
+    """A problem with its exact motion; ``clackers.case()`` makes it.
+
+    >>> import clackers
+    >>> case = clackers.case("three-parameter", N=2, xi1=0.05)
+    >>> case.dof, case.end
+    (2, 20.0)
+    >>> case.parameters
+    {'N': 2.0, 'xi1': 0.05, 'a_t': 1.0}
+    """
+
+    def __init__(self, core: _core.Case, threshold: float | None = None) -> None:
+        self._core = core
+        self._threshold = threshold
+        self._problem = Problem(core.problem)
+
+    @property
+    def name(self) -> str:
+        """The name in ``clackers.catalogue("cases")``."""
+        return self._core.name
+
+    @property
+    def summary(self) -> str:
+        """What the case is, in a sentence."""
+        return self._core.summary
+
+    @property
+    def equations(self) -> str:
+        """The equations of the paper that define it."""
+        return self._core.equations
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """All parameters with the values in use."""
+        return self._core.parameters
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """Derived constants by name, for a pair among them ``r*`` and ``margin``, the admissibility margin."""
+        return self._core.constants
+
+    @property
+    def indicators(self) -> dict[str, float]:
+        """Indicators of severity and stiffness by name, with the threshold that they depend on."""
+        return self._core.indicators
+
+    @property
+    def dof(self) -> int:
+        """Number of masses."""
+        return self._core.dof
+
+    @property
+    def end(self) -> float:
+        """End of the run [s]; the motion is known in [0, end]."""
+        return self._core.end
+
+    @property
+    def problem(self) -> Problem:
+        """The task that a solver gets."""
+        return self._problem
+
+    def response(self, t: npt.ArrayLike, side: Side = "right", out: Buffers | None = None) -> Kinematics:
+        """The exact motion at times ``t`` [s], each in [0, end], in any order.
+
+        Returns u [m], v [m/s] and a [m/s^2] of shape (time, dof), or (dof,) for a single time. Where a time is
+        the double nearest to an impact, ``side`` says which of the two flights is evaluated there. ``out`` =
+        (u, v, a) are arrays of that shape to write to, float64, writable and C-contiguous; a may be None.
+
+        Raises InputError for times that are NaN, outside of [0, end] or not one-dimensional.
+
+        >>> import clackers, numpy
+        >>> case = clackers.case("three-parameter")
+        >>> u, v, a = case.response(numpy.linspace(0, case.end, 1001))
+        >>> u.shape
+        (1001, 2)
+        """
+        return Kinematics(*_core.response(self._core, t, side, out))
+
+    def envelope(self, t: npt.ArrayLike) -> Kinematics:
+        """The amplitudes that displacements, velocities and accelerations have around ``t`` [s].
+
+        >>> import clackers
+        >>> clackers.case("sdof", xi1=0).envelope(1.0).u
+        array([1.])
+        """
+        return Kinematics(*_core.envelope(self._core, t))
+
+    def error_bound(self, t: npt.ArrayLike) -> Kinematics:
+        """Proved bounds on the error of ``response(t)`` in u [m], v [m/s] and a [m/s^2].
+
+        >>> import clackers
+        >>> bool((clackers.case("three-parameter").error_bound([1.0, 2.0]).u < 1e-15).all())
+        True
+        """
+        return Kinematics(*_core.error_bound(self._core, t))
+
+    def impact_count(self, t: float | None = None) -> int:
+        """Number of impacts in [0, t], or in the whole run.
+
+        >>> import clackers
+        >>> clackers.case("three-parameter").impact_count()
+        6
+        """
+        return _core.impact_count(self._core, t)
+
+    def impacts(self, first: int = 1, last: int | None = None) -> Impacts:
+        """The impacts from number ``first`` to number ``last``, both included, counted from 1.
+
+        Without ``last`` all that follow, at most a million. Raises InputError beyond the last impact.
+
+        >>> import clackers
+        >>> clackers.case("three-parameter").impacts(last=2).t.round(6)
+        array([1.572764, 4.718291])
+        """
+        return Impacts(**_core.impacts(self._core, first, last))
+
+    def energies(self, t: npt.ArrayLike) -> Table:
+        """Where the energy is at times ``t`` [s]: kinetic, potential, dissipated, lost and total [J].
+
+        Columns t, side, kinetic, potential, dissipated, lost, total, momentum. Where a time is the double
+        nearest to an impact two rows stand, side -1 and side 1. Raises InputError as ``response`` does.
+
+        >>> import clackers
+        >>> clackers.case("stop", xi1=0).energies([0.0, 1.0])["total"]
+        array([0.5, 0.5])
+        """
+        return Table(*_core.energies(self._core, t))
+
+    def sensitivity(self, name: str, t: npt.ArrayLike) -> Table:
+        """The derivative of the motion by a parameter at times ``t`` [s].
+
+        ``name`` is m1 m2 k1 k2 c1 c2 eta gap u10 u20 v10 v20 with all else fixed, or a parameter of the case
+        with all that follows from it; ``class:m1`` where both have the name. Columns t, side, du1, dv1, da1 and
+        so on. Raises InputError for an unknown name and where there is no derivative.
+
+        >>> import clackers
+        >>> table = clackers.case("sdof").sensitivity("k1", [0.0, 1.0])
+        >>> [column.unit for column in table.columns]
+        ['s', '', 'm^2/N', 'm^2/N/s', 'm^2/N/s^2']
+        """
+        return Table(*_core.sensitivity(self._core, name, t))
+
+    def spectrum(self, n: int, highest: float) -> Table:
+        """The Fourier transform of the displacements over the run at ``n`` frequencies from 0 to ``highest``.
+
+        ``highest`` in rad/s; n in [2, 1e9]. Columns omega [rad/s], re1, im1 [m s] and so on. Raises InputError for
+        an n or a highest frequency outside of its range.
+
+        >>> import clackers
+        >>> clackers.case("stop").spectrum(3, 2.0)["omega"]
+        array([0., 1., 2.])
+        """
+        return Table(*_core.spectrum(self._core, n, highest))
+
+    def tables(self) -> dict[str, Table]:
+        """What ``clackers show`` shows of the case: parameters, constants, indicators, first collisions, and of a
+        pair the harmonics and its conditioning.
+
+        >>> import clackers
+        >>> list(clackers.case("stop").tables())
+        ['parameters', 'constants', 'indicators', 'collisions']
+        """
+        found = [Table(*rows) for rows in _core.case_tables(self._core, self._threshold)]
+        return {table.schema.split("/")[1]: table for table in found}
+
+    def _repr_html_(self) -> str:
+        return "".join(table._repr_html_() for table in self.tables().values())
+
+    def __repr__(self) -> str:
+        given = ", ".join(f"{name}={value:g}" for name, value in self.parameters.items())
+        return f"<clackers.Case {self.name} ({given}): dof {self.dof}, end {self.end:g} s>"
+
+
+class Admissibility(NamedTuple):
+    """How far the masses of a pair stay apart away from equilibrium."""
+
+    r_star: float
+    """Limit of slow over fast mass; infinity for equal frequencies."""
+    margin: float
+    """Smallest gap between collisions relative to the slow displacement; the closed form holds where it is positive."""
+
+
+def admissibility(X: float, r: float) -> Admissibility:
+    """The admissibility of a pair of frequency ratio ``X`` and mass ratio ``r`` = m1/m2, admissible or not.
+
+    X is odd or 1 over an odd number; 1e-60 <= r <= 1e60. Raises InputError outside.
+
+    >>> import clackers
+    >>> round(clackers.admissibility(X=9, r=3).margin, 6)
+    0.320295
+    """
+    return Admissibility(*_core.admissibility(X, r))
+
+
+def case(name: str | None = None, /, *, threshold: float | None = None, **parameters: float) -> Case:
+    """A case of ``clackers.catalogue("cases")`` with its parameters.
+
+    Without a name the default case; parameters that are not given keep their default. ``threshold`` in (0, 1) is
+    the share of the spectral peak from which a harmonic counts in the indicators, 0.1 by default.
+
+    Raises InputError for unknown names and for values outside of their range.
+
+    >>> import clackers
+    >>> clackers.case("synchronized-pair", X=9, r=3, eta=0.8)
+    <clackers.Case synchronized-pair (m1=1, k1=1, xi1=0.05, A=1, X=9, r=3, eta=0.8, t_end=20): dof 2, end 20 s>
+    """
+    return Case(_core.Case(name, parameters, threshold), threshold)

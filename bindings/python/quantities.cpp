@@ -1,0 +1,45 @@
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "bindings/python/arguments.hpp"
+#include "bindings/python/bind.hpp"
+#include "bindings/python/rows.hpp"
+#include "clackers/study/respond.hpp"
+
+namespace clackers::python {
+namespace {
+
+using cases::Case;
+
+study::TimeGrid read_grid(std::string_view who, py::handle t) {
+  const auto times = read_vector(who, "t", t);
+  const auto values = values_of(times);
+  study::TimeGrid grid;
+  grid.times.assign(values.begin(), values.end());
+  return grid;
+}
+
+py::tuple energies(const Case& which, py::handle t) {
+  return read_rows(*study::energies(which, read_grid("energies", t)));
+}
+
+py::tuple sensitivity(const Case& which, py::handle name, py::handle t) {
+  const auto text = read_text("sensitivity", "name", name);
+  return read_rows(*study::sensitivity(which, read_grid("sensitivity", t), text));
+}
+
+py::tuple spectrum(const Case& which, py::handle n, py::handle highest) {
+  const auto count = read_whole("spectrum", "n", n);
+  return read_rows(*study::spectrum(which, count, read_number("spectrum", "highest", highest)));
+}
+
+}  // namespace
+
+void bind_quantities(py::module_& core) {
+  core.def("energies", &energies, py::arg("case"), py::arg("t"));
+  core.def("sensitivity", &sensitivity, py::arg("case"), py::arg("name"), py::arg("t"));
+  core.def("spectrum", &spectrum, py::arg("case"), py::arg("n"), py::arg("highest"));
+}
+
+}  // namespace clackers::python
