@@ -37,13 +37,13 @@ def main(program, count=10_000_000):
                 theirs.append(float(peer.stdout.readline()))
         peer.stdin.close()
     print(f"{count} states u, v, a of {case.name}, {case.dof} masses")
-    print(f"{'':40}ns/state")
+    print(f"{'':44}ns/state")
     for memory, name, call in (("new", "new std::vectors", "response(t)"), ("kept", "vectors that are there", "response(t, out)")):
         # The first run finds cold caches.
         ours, theirs = (statistics.median(runs[1:]) for runs in times[memory])
         reached = "reached" if ours <= LIMIT * theirs else "MISSED"
-        print(f"{'Motion::sample into ' + name:40}{theirs / count:8.2f}")
-        print(f"{'clackers: case.' + call:40}{ours / count:8.2f}  ratio {ours / theirs:.2f} <= {LIMIT}  {reached}")
+        print(f"{'Motion::sample into ' + name:44}{theirs / count:8.2f}")
+        print(f"{'clackers: case.' + call:44}{ours / count:8.2f}  ratio {ours / theirs:.2f} <= {LIMIT}  {reached}")
 
 
 if __name__ == "__main__":

@@ -203,6 +203,17 @@ class Case:
         """
         return Impacts(**_core.impacts(self._core, first, last))
 
+    def collisions(self) -> Table:
+        """The impacts as a table, at most a million; ``impacts()`` has them as arrays and by range.
+
+        Columns k, t [s], u1 [m], v1-, v1+ [m/s] and so on, impulse [N s], energy_before, energy_after [J].
+
+        >>> import clackers
+        >>> clackers.case("stop").collisions()["k"]
+        array([1, 2, 3, 4, 5, 6])
+        """
+        return Table(*_core.collisions(self._core))
+
     def energies(self, t: npt.ArrayLike) -> Table:
         """Where the energy is at times ``t`` [s]: kinetic, potential, dissipated, lost and total [J].
 
