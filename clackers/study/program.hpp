@@ -1,14 +1,11 @@
 #pragma once
 
-#include <atomic>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "clackers/study/progress.hpp"
-#include "clackers/study/record.hpp"
-#include "clackers/study/verify.hpp"
+#include "clackers/study/solver.hpp"
 
 // `clackers verify --exec`: methods that are programs of others.
 namespace clackers::study {
@@ -23,11 +20,10 @@ struct Program {
   std::string name;  ///< in every output; empty: the program's file without folder and extension
 };
 
-/// What verify() is asked for beside methods.
-struct ProgramRequest {
-  std::vector<Program> programs;
-  std::optional<Claim> expect;  ///< of every program
-  /// Each a level for commands with {tolerance}, whose {h} is the coarsest step; empty:
+/// How programs and plug-ins are run.
+struct ProcessOptions {
+  std::optional<Claim> expect;  ///< of every one
+  /// Each a level for solvers that refine by tolerance, whose step is the coarsest; empty:
   /// 1e-3, 1e-4, ..., 1e-10.
   std::vector<double> tolerances;
   double timeout = 60.0;  ///< of a run [s], > 0
@@ -35,20 +31,18 @@ struct ProgramRequest {
   bool fresh = false;     ///< runs that were made before are made again
 };
 
-/// The default ladder of programs, whose runs cost a start each.
-inline constexpr int default_program_levels = 6, default_program_samples = 4;
+/// What programs are asked for. `tolerances` are the levels of commands with {tolerance}.
+struct ProgramRequest : ProcessOptions {
+  std::vector<Program> programs;
+};
 
-/// As verify(), with programs behind the methods; no methods means none. A run that fails (crash,
-/// time limit, exit status, no history, one that cannot be read) is a failed run of its step with
-/// what it printed. After three runs in a row that could not be started or passed the time limit,
-/// those of smaller steps are not made. Throws as verify() does, for commands that CommandTemplate refuses and
-/// for two subjects of one name; FileError where the folder of runs cannot be written.
-Record verify(const VerifyRequest& request, const ProgramRequest& programs,
-              const Progress& progress = {}, const std::atomic<bool>* interrupt = nullptr);
+/// The programs as verify() takes solvers. A run fails by a crash, the time limit, an exit status
+/// other than 0, no history, or one that cannot be read. Throws InputError for commands that
+/// CommandTemplate refuses, FileError where the folder of runs cannot be made.
+std::vector<SolverSubject> subjects_of(const ProgramRequest& request);
 
-/// The failure of the first run, where every run of every subject failed and some subject is a
-/// program; nullptr otherwise.
-const Run* failure_of_all(const Record& record);
+/// The tolerances that are asked for, or the default ones.
+std::vector<double> tolerances_of(const ProcessOptions& options);
 
 /// "1e-3:1e-12" (a tolerance a decade, both ends included) or "1e-3,1e-6": descending tolerances in
 /// (0, 1]. Throws InputError for any other text.

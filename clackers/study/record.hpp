@@ -142,9 +142,11 @@ struct Level {
   std::vector<Run> runs;  ///< coarsest first
 };
 
-/// What is assessed: a method of the catalogue, a set of histories, or a program that writes them.
-enum class SubjectKind { method, histories, program };
-std::string_view to_string(SubjectKind kind);  ///< "method", "histories", "program"
+/// What is assessed: a method of the catalogue, a set of histories, or a solver that makes them: a
+/// program, a callable (of Python), or a plug-in.
+enum class SubjectKind { method, histories, program, callable, plugin };
+std::string_view to_string(SubjectKind kind);  ///< "method", "histories", "program", ...
+constexpr bool is_solver(SubjectKind kind) { return kind >= SubjectKind::program; }
 
 /// What the levels of a subject refine: steps [s], or the tolerances of an adaptive solver, which
 /// then stand in every `step`.

@@ -39,6 +39,7 @@ ELSEWHERE = {
     r"python3 -m venv --system-site-packages venv && .*": "package.test_wheel",
     r"clackers paper .*": "cli.test_paper",
     r"clackers verify --exec '\./solver .*": "cli.test_exec",
+    r"(cc -O2 -shared|gdb --args clackers --plugin-run|clackers verify --plugin) .*": "cli.test_plugin",
     r"find_package\(.*": "package.test_cpp",
     r"target_link_libraries\(.*": "package.test_cpp",
 }

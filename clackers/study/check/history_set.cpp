@@ -142,7 +142,7 @@ Subject HistorySet::assess(SubjectKind kind, std::string name, const Claim& clai
     histories.back().facts.step = entry.run.score.step;
   }
   const auto* file = finest(runs);
-  if (kind != SubjectKind::program && file == nullptr && !runs.empty())
+  if (!is_solver(kind) && file == nullptr && !runs.empty())
     throw InputError(runs.back().score.failure, "not-finite");
   require_levels(runs);
   subject.contact_time = file != nullptr ? file->contact_time : 0.0;

@@ -36,7 +36,7 @@ class HistorySet {
   /// Sorts the runs into levels, judges them and looks for causes. `by_tolerance`: the steps of the
   /// tasks and of failed runs are tolerances; names of files may say it, too. May be called again
   /// after more runs. Throws InputError for several histories of one step and, unless the subject is
-  /// a program, where every history is not finite.
+  /// a solver, where every history is not finite.
   Subject assess(SubjectKind kind, std::string name, const Claim& claim,
                  std::optional<double> tolerance = {}, bool by_tolerance = false);
 

@@ -42,12 +42,12 @@ std::string exit_text(int status) {
   return fmt::format("exit status {}", status);
 }
 
-void set_failure(ProgramOutput& output, Code code, std::string sentence) {
+void set_failure(SolverOutput& output, Code code, std::string sentence) {
   output.failure_code = code.name();
   output.failure = std::move(sentence) + ".";
 }
 
-void take_end(ProgramOutput& output, const ProcessResult& result, double timeout) {
+void take_end(SolverOutput& output, const ProcessResult& result, double timeout) {
   switch (result.end) {
     case ProcessResult::End::exited:
       if (result.status != 0) set_failure(output, "program-failed", exit_text(result.status));
@@ -79,25 +79,19 @@ void take_end(ProgramOutput& output, const ProcessResult& result, double timeout
 
 }  // namespace
 
-std::string without_folder(std::string sentence, const fs::path& folder) {
-  const auto prefix = folder.string() + "/";
-  for (std::size_t at = 0; (at = sentence.find(prefix, at)) != std::string::npos;)
-    sentence.erase(at, prefix.size());
-  return sentence;
-}
-
 ProgramRunner::ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
                              const model::ImpactProblem<>& problem, double timeout, bool fresh,
-                             WorkFolder& folder)
+                             std::shared_ptr<WorkFolder> folder, Completion complete)
     : command_(std::move(command)),
       title_(fmt::format("{}-{}", name, case_name)),
       json_(problem_file_json(case_name, problem)),
       text_(problem_file_text(problem)),
       timeout_(timeout),
       fresh_(fresh),
-      folder_(folder) {}
+      folder_(std::move(folder)),
+      complete_(std::move(complete)) {}
 
-std::string ProgramRunner::command_in(const fs::path& folder, const ProgramRun& run) const {
+std::string ProgramRunner::command_in(const fs::path& folder, const SolverRun& run) const {
   return command_.filled({{"case", (folder / "problem.json").string()},
                           {"case:text", (folder / "problem.txt").string()},
                           {"h", fmt::format("{}", run.step)},
@@ -107,8 +101,8 @@ std::string ProgramRunner::command_in(const fs::path& folder, const ProgramRun& 
                           {"out", (folder / history_name).string()}});
 }
 
-ProgramOutput ProgramRunner::output_of(const ProgramRun& run, const fs::path& folder,
-                                       const std::atomic<bool>* interrupt) const {
+SolverOutput ProgramRunner::output_of(const SolverRun& run, const fs::path& folder,
+                                      const std::atomic<bool>* interrupt) const {
   write_file(folder / "problem.json", json_);
   write_file(folder / "problem.txt", text_);
   const auto history = folder / history_name;
@@ -118,9 +112,10 @@ ProgramOutput ProgramRunner::output_of(const ProgramRun& run, const fs::path& fo
                              .timeout = timeout_,
                              .output = prints_history ? history.string() : std::string()},
                             interrupt);
-  ProgramOutput output;
+  SolverOutput output;
   output.printed = std::move(result.printed);
   take_end(output, result, timeout_);
+  if (complete_ && !output.interrupted) complete_(folder, output);
   if (output.interrupted || !output.failure.empty()) return output;
   if (!is_filled(history)) {
     set_failure(output, "program-output",
@@ -128,35 +123,35 @@ ProgramOutput ProgramRunner::output_of(const ProgramRun& run, const fs::path& fo
                                : "no output: {out} is missing or empty");
     return output;
   }
-  output.history = history;
+  output.history = history.string();
   if (command_.uses("events") && is_filled(folder / events_name))
-    output.events = folder / events_name;
+    output.events = (folder / events_name).string();
   return output;
 }
 
-ProgramOutput ProgramRunner::run(const ProgramRun& run, const std::atomic<bool>* interrupt) const {
+SolverOutput ProgramRunner::run(const SolverRun& run, const std::atomic<bool>* interrupt) {
   // The paths of a run's own folder are no part of what it does.
   const auto key = command_in({}, run) + '\n' + command_.identity() + json_;
   const auto title = run.tolerance > 0.0 ? fmt::format("{}-rtol{}", title_, run.tolerance)
                                          : fmt::format("{}-h{}", title_, run.step);
   if (!fresh_)
-    if (const auto found = folder_.find(title, key)) {
-      ProgramOutput output;
+    if (const auto found = folder_->find(title, key)) {
+      SolverOutput output;
       output.reused = true;
-      output.history = *found / history_name;
-      if (is_filled(*found / events_name)) output.events = *found / events_name;
+      output.history = (*found / history_name).string();
+      if (is_filled(*found / events_name)) output.events = (*found / events_name).string();
       return output;
     }
-  RunFolder mine(folder_, title, key);
+  RunFolder mine(*folder_, title, key);
   auto output = output_of(run, mine.path(), interrupt);
   if (output.interrupted) return output;
   output.failure = without_folder(output.failure, mine.path());
   output.printed = without_folder(std::move(output.printed), mine.path());
-  if (folder_.keeps_failures() && !output.printed.empty())
+  if (folder_->keeps_failures() && !output.printed.empty())
     write_file(mine.path() / "printed.txt", output.printed);
-  const auto place = mine.commit(!output.history.empty());
-  if (!output.history.empty()) output.history = place / history_name;
-  if (!output.events.empty()) output.events = place / events_name;
+  const auto place = mine.commit(output.history.has_value());
+  if (output.history) output.history = (place / history_name).string();
+  if (output.events) output.events = (place / events_name).string();
   return output;
 }
 

@@ -28,30 +28,5 @@ TEST(ProgramTolerances, AreRefusedWhereTheyAreNone) {
   }
 }
 
-Record with(SubjectKind kind, std::vector<bool> finished) {
-  Subject subject;
-  subject.kind = kind;
-  subject.levels.emplace_back();
-  for (const bool good : finished) {
-    Run run;
-    run.score.finished = good;
-    run.score.step = double(subject.levels[0].runs.size());
-    subject.levels[0].runs.push_back(run);
-  }
-  Record record;
-  record.cases.emplace_back();
-  record.cases[0].subjects.push_back(subject);
-  return record;
-}
-
-TEST(FailureOfAll, IsTheFirstRunOfAProgramWhereAllFailed) {
-  const auto failed = with(SubjectKind::program, {false, false});
-  ASSERT_NE(failure_of_all(failed), nullptr);
-  EXPECT_EQ(failure_of_all(failed)->score.step, 0.0);
-  EXPECT_EQ(failure_of_all(with(SubjectKind::program, {false, true})), nullptr);
-  EXPECT_EQ(failure_of_all(with(SubjectKind::method, {false})), nullptr);
-  EXPECT_EQ(failure_of_all(Record{}), nullptr);
-}
-
 }  // namespace
 }  // namespace clackers::study

@@ -120,4 +120,11 @@ fs::path RunFolder::commit(bool good) {
   fail(place_, error);
 }
 
+std::string without_folder(std::string sentence, const fs::path& folder) {
+  const auto prefix = folder.string() + "/";
+  for (std::size_t at = 0; (at = sentence.find(prefix, at)) != std::string::npos;)
+    sentence.erase(at, prefix.size());
+  return sentence;
+}
+
 }  // namespace clackers::study

@@ -32,7 +32,7 @@ class WorkFolder {
 
   std::filesystem::path path_;
   bool is_given_;
-  std::atomic<int> next_ = 0;
+  static inline std::atomic<int> next_ = 0;  // of the whole process, in whatever folder
 };
 
 /// The folder of one run while it runs; removed at its end unless it was committed.
@@ -54,5 +54,8 @@ class RunFolder {
   std::string key_;
   std::filesystem::path place_, path_;
 };
+
+/// Sentences begin with a folder that has gone when they are read: its path is taken out of them.
+std::string without_folder(std::string sentence, const std::filesystem::path& folder);
 
 }  // namespace clackers::study

@@ -1,45 +1,53 @@
-#include "clackers/study/program/program_study.hpp"
+#include "clackers/study/solver/solver_study.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "clackers/assess/convergence/step_ladder.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/study/program/work_folder.hpp"
 
 namespace clackers::study {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// The number of steps that reach the end; only rounding parts some ends from a whole number.
+long long steps_to(double end, double step) {
+  return static_cast<long long>(std::ceil(end / step * (1.0 - 1e-12)));
+}
+
 // Failures in a row after which smaller steps are not tried.
 constexpr int most_repeated = 3;
 
 }  // namespace
 
-ProgramStudy::ProgramStudy(ProgramRunner runner, std::string name, cases::Case problem,
-                           CaseSummary summary, const RefinementPlan& plan,
-                           std::vector<double> tolerances, const Claim& claim,
-                           const std::atomic<bool>* interrupt)
-    : runner_(std::move(runner)),
+SolverStudy::SolverStudy(const SolverSubject& asked, cases::Case problem, CaseSummary summary,
+                         const RefinementPlan& plan, const std::atomic<bool>* interrupt)
+    : asked_(asked),
+      solver_(asked.prepare(problem)),
       histories_(std::move(problem), std::move(summary), {}, interrupt),
-      asked_(plan),
+      first_(plan),
       plan_(plan),
-      tolerances_(std::move(tolerances)),
       interrupt_(interrupt) {
-  subject_.kind = SubjectKind::program;
-  subject_.name = std::move(name);
-  subject_.claim = claim;
+  subject_.kind = asked.kind;
+  subject_.name = asked.name;
+  subject_.claim = asked.claim;
 }
 
-std::vector<ProgramRun> ProgramStudy::missing(const RefinementPlan& plan) const {
+std::vector<SolverRun> SolverStudy::missing(const RefinementPlan& plan) const {
   const auto& problem = histories_.summary();
+  std::vector<SolverRun> runs;
+  for (const double step : asked_.steps) runs.push_back({step, steps_to(problem.end, step), 0.0});
+  if (!runs.empty()) return runs;
   const auto levels = assess::step_ladder({plan.coarsest, plan.levels, plan.samples_per_level},
                                           problem.end, problem.impact_times);
-  std::vector<ProgramRun> runs;
-  for (const double tolerance : tolerances_)
+  for (const double tolerance : asked_.tolerances)
     runs.push_back({levels[0].steps[0], levels[0].counts[0], tolerance});
   if (!runs.empty()) return runs;
   for (const auto& level : levels)
@@ -48,11 +56,11 @@ std::vector<ProgramRun> ProgramStudy::missing(const RefinementPlan& plan) const 
   return runs;
 }
 
-double ProgramStudy::resolution(const ProgramRun& run) const {
-  return tolerances_.empty() ? run.step : run.tolerance;
+double SolverStudy::resolution(const SolverRun& run) const {
+  return by_tolerance() ? run.tolerance : run.step;
 }
 
-bool ProgramStudy::skipped(const ProgramRun& run) {
+bool SolverStudy::skipped(const SolverRun& run) {
   const std::lock_guard lock(guard_);
   if (repeated_ < most_repeated) return false;
   add_failed(run, last_repeated_.failure_code,
@@ -61,17 +69,17 @@ bool ProgramStudy::skipped(const ProgramRun& run) {
   return true;
 }
 
-void ProgramStudy::add_failed(const ProgramRun& run, std::string code, std::string sentence,
-                              std::string printed) {
+void SolverStudy::add_failed(const SolverRun& run, std::string code, std::string sentence,
+                             std::string printed) {
   histories_.add_failed(resolution(run), std::move(code), std::move(sentence), std::move(printed));
 }
 
-void ProgramStudy::make(const ProgramRun& run) {
+void SolverStudy::make(const SolverRun& run) {
   if (skipped(run)) return;
   const auto start = Clock::now();
   bool interrupted = interrupt_ != nullptr && *interrupt_;
   if (!interrupted) {
-    const auto output = runner_.run(run, interrupt_);
+    const auto output = solver_->run(run, interrupt_);
     interrupted = output.interrupted;
     if (!interrupted) try {
         take(run, output);
@@ -90,58 +98,58 @@ void ProgramStudy::make(const ProgramRun& run) {
   is_interrupted_ = is_interrupted_ || interrupted;
 }
 
-void ProgramStudy::take(const ProgramRun& run, const ProgramOutput& output) {
+void SolverStudy::take(const SolverRun& run, const SolverOutput& output) {
   {
     const std::lock_guard lock(guard_);
     repeated_ = output.would_repeat ? repeated_ + 1 : 0;
     if (output.would_repeat) last_repeated_ = output;
   }
-  if (output.history.empty())
-    return add_failed(run, output.failure_code, output.failure, output.printed);
+  if (!output.history) return add_failed(run, output.failure_code, output.failure, output.printed);
   HistoryTask task;
-  task.file = output.history.string();
-  task.events = output.events.string();
+  const auto file = std::get<std::string>(*output.history);
+  task.file = file;
+  if (output.events) task.events = std::get<std::string>(*output.events);
   task.step = resolution(run);
-  task.step_is_tolerance = !tolerances_.empty();
+  task.step_is_tolerance = by_tolerance();
   try {
     histories_.read(task);
   } catch (const InputError& error) {
     add_failed(run, std::string(error.code().name()),
-               without_folder(error.what(), output.history.parent_path()), output.printed);
+               without_folder(error.what(), std::filesystem::path(file).parent_path()),
+               output.printed);
   } catch (const FileError& error) {
     add_failed(run, std::string(error.code().name()), error.what(), output.printed);
   }
 }
 
-double ProgramStudy::expected_seconds(const std::vector<ProgramRun>& runs) const {
+double SolverStudy::expected_seconds(const std::vector<SolverRun>& runs) const {
   double steps = 0.0;
   for (const auto& run : runs) steps += double(run.steps);
   return longest_ > 0 ? steps * longest_seconds_ / double(longest_) : 0.0;
 }
 
-void ProgramStudy::assess(const RefinementPlan& plan) {
+void SolverStudy::assess(const RefinementPlan& plan) {
   plan_ = plan;
   const bool any = !made_.empty();
   if (any)
-    subject_ = histories_.assess(SubjectKind::program, subject_.name, subject_.claim, {},
-                                 !tolerances_.empty());
+    subject_ = histories_.assess(subject_.kind, subject_.name, subject_.claim, {}, by_tolerance());
   else
     subject_.assessment.reason = subject_.assessment.displacement.reason =
         Code("interrupted").name();
   subject_.complete = !is_interrupted_;
 }
 
-NextPlan ProgramStudy::next() const {
-  if (!tolerances_.empty() || repeated_ >= most_repeated) return {};
+NextPlan SolverStudy::next() const {
+  if (by_tolerance() || !asked_.steps.empty() || repeated_ >= most_repeated) return {};
   auto open = subject_;
   if (open.assessment.displacement.behaviour == Behaviour::undecided)
     open.assessment.verdict = Verdict::undecided;
   return next_plan(open, plan_, histories_.summary());
 }
 
-void ProgramStudy::close(RefinementEnd end, double next_seconds) {
+void SolverStudy::close(RefinementEnd end, double next_seconds) {
   is_closed_ = true;
-  subject_.refinement = refinement_of(asked_, plan_, end, next_seconds);
+  subject_.refinement = refinement_of(first_, plan_, end, next_seconds);
 }
 
 }  // namespace clackers::study

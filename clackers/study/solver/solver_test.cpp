@@ -1,0 +1,139 @@
+#include "clackers/study/solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "clackers/base/testing/refusal.hpp"
+
+namespace clackers::study {
+namespace {
+
+// Keeps the runs that it was asked for; each fails.
+struct FailingSolver : Solver {
+  FailingSolver(std::vector<SolverRun>& kept, bool repeats) : runs(kept), would_repeat(repeats) {}
+  SolverOutput run(const SolverRun& run, const std::atomic<bool>*) override {
+    runs.push_back(run);
+    SolverOutput output;
+    output.failure_code = "program-failed";
+    output.failure = "exit status 1.";
+    output.printed = "no licence";
+    output.would_repeat = would_repeat;
+    return output;
+  }
+  std::vector<SolverRun>& runs;
+  bool would_repeat;
+};
+
+class SolversUnderTest : public testing::Test {
+ protected:
+  SolversUnderTest() {
+    request_.plan = {.coarsest = 0.1, .levels = 3, .samples_per_level = 2};
+    request_.jobs = 1;
+    subject_.name = "mine";
+    subject_.prepare = [this](const cases::Case&) {
+      return std::make_unique<FailingSolver>(runs_, would_repeat_);
+    };
+  }
+  Record verify_one() { return verify(request_, {subject_}); }
+
+  std::vector<SolverRun> runs_;
+  bool would_repeat_ = false;
+  VerifyRequest request_;
+  SolverSubject subject_;
+};
+
+TEST_F(SolversUnderTest, AreRunWithTheStepsOfThePlan) {
+  const auto record = verify_one();
+  ASSERT_EQ(runs_.size(), 6u);
+  for (const auto& run : runs_) {
+    EXPECT_NEAR(run.step * double(run.steps), record.cases[0].problem.end, 1e-12);
+    EXPECT_EQ(run.tolerance, 0.0);
+  }
+  EXPECT_EQ(record.cases[0].plan.levels, 3);
+}
+
+TEST_F(SolversUnderTest, AreRunWithTheirOwnSteps) {
+  subject_.steps = {0.1, 0.03, 0.01};
+  const auto record = verify_one();
+  ASSERT_EQ(runs_.size(), 3u);
+  EXPECT_EQ(runs_[0].step, 0.1);
+  EXPECT_EQ(runs_[0].steps, 200);  // 20 s
+  EXPECT_EQ(runs_[1].steps, 667);  // beyond the end by a part of a step
+  EXPECT_EQ(record.cases[0].plan.levels, 0);
+}
+
+TEST_F(SolversUnderTest, AreRunWithTheirTolerances) {
+  subject_.tolerances = {1e-3, 1e-6};
+  const auto record = verify_one();
+  ASSERT_EQ(runs_.size(), 2u);
+  EXPECT_EQ(runs_[1].tolerance, 1e-6);
+  EXPECT_EQ(runs_[0].step, runs_[1].step);
+  EXPECT_EQ(record.cases[0].subjects[0].resolution, Resolution::tolerance);
+}
+
+TEST_F(SolversUnderTest, KeepTheFailuresOfTheirRuns) {
+  const auto record = verify_one();
+  const auto& subject = record.cases[0].subjects[0];
+  EXPECT_EQ(subject.name, "mine");
+  EXPECT_EQ(subject.kind, SubjectKind::program);
+  ASSERT_FALSE(subject.levels.empty());
+  const auto& run = subject.levels[0].runs[0];
+  EXPECT_EQ(run.score.failure_code, "program-failed");
+  EXPECT_EQ(run.printed, "no licence");
+  EXPECT_EQ(failure_of_all(record)->score.failure, "exit status 1.");
+}
+
+TEST_F(SolversUnderTest, AreNotRunFurtherAfterThreeFailuresThatSmallerStepsShare) {
+  would_repeat_ = true;
+  const auto record = verify_one();
+  EXPECT_EQ(runs_.size(), 3u);
+  const auto& last = record.cases[0].subjects[0].levels.back().runs.back();
+  EXPECT_EQ(last.score.failure, "not made after 3 runs in a row: exit status 1.");
+}
+
+TEST_F(SolversUnderTest, AreRefusedWithTwoOfOneName) {
+  EXPECT_REFUSED(verify(request_, {subject_, subject_}), "bad-syntax", "mine");
+  request_.methods = {"rk4"};
+  subject_.name = "rk4";
+  EXPECT_REFUSED(verify_one(), "bad-syntax", "rk4");
+}
+
+TEST_F(SolversUnderTest, AreRefusedWithStepsThatDoNotDescend) {
+  subject_.steps = {0.01, 0.02};
+  EXPECT_REFUSED(verify_one(), "not-sorted", "steps");
+  subject_.steps = {0.02, 0.02};
+  EXPECT_REFUSED(verify_one(), "not-sorted", "steps");
+  subject_.steps = {0.02, 0.0};
+  EXPECT_REFUSED(verify_one(), "step-not-positive", "h = 0");
+  EXPECT_TRUE(runs_.empty());
+}
+
+Record with(SubjectKind kind, std::vector<bool> finished) {
+  Subject subject;
+  subject.kind = kind;
+  subject.levels.emplace_back();
+  for (const bool good : finished) {
+    Run run;
+    run.score.finished = good;
+    run.score.step = double(subject.levels[0].runs.size());
+    subject.levels[0].runs.push_back(run);
+  }
+  Record record;
+  record.cases.emplace_back();
+  record.cases[0].subjects.push_back(subject);
+  return record;
+}
+
+TEST(FailureOfAll, IsTheFirstRunOfASolverWhereAllFailed) {
+  const auto failed = with(SubjectKind::program, {false, false});
+  ASSERT_NE(failure_of_all(failed), nullptr);
+  EXPECT_EQ(failure_of_all(failed)->score.step, 0.0);
+  EXPECT_EQ(failure_of_all(with(SubjectKind::program, {false, true})), nullptr);
+  EXPECT_EQ(failure_of_all(with(SubjectKind::method, {false})), nullptr);
+  EXPECT_EQ(failure_of_all(Record{}), nullptr);
+}
+
+}  // namespace
+}  // namespace clackers::study
