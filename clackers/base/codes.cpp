@@ -160,8 +160,11 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "keep the last row before it and the first row after it."},
     // Files of other programs.
     {"not-text", "refusal",
-     "A history must be rows of numbers as text in ASCII or UTF-8; "
+     "A history must be rows of numbers as text in ASCII or UTF-8, or a NumPy file (.npy); "
      "the file is binary, UTF-16, or has a line of more than 65536 bytes."},
+    {"not-an-array", "refusal",
+     "A NumPy file (.npy) that is cut, damaged, longer than its array, of Python objects, or of "
+     "another shape than rows of numbers. Save the columns with numpy.save."},
     {"no-column", "refusal",
      "A column that is needed is missing or stands twice, or the columns have no names. "
      "Name them in a header line or with --columns t,u1,v1,...; an underscore leaves one out."},
@@ -195,6 +198,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "The history decays at another rate. Check the damping coefficients, and whether they stand for C, for a ratio, or for both masses."},
     {"damping-changes-at-impact", "diagnosis",
      "The history decays at another rate after the first impact than before. Check what a restart after an impact does with the damping force."},
+    {"gap-differs", "diagnosis",
+     "Contacts close at another gap than that of the case, by the same length at each impact. Check the gap of the contact and the positions that it is measured from."},
     {"time-shifted", "diagnosis",
      "The history is the right motion at other times, by a constant number of steps or seconds. Check which time is printed beside which state."},
     {"time-unit", "diagnosis",

@@ -16,6 +16,7 @@ const Codes unreadable{"unit-scaled",   "columns-exchanged", "masses-exchanged",
                        "sign-reversed", "time-unit",         "starts-at-rest"};
 const Codes of_system{"restitution-differs", "mass-ratio-differs", "frequency-differs",
                       "damping-differs", "damping-changes-at-impact"};
+const Codes of_gap{"gap-differs"};
 const Codes of_impacts{"impact-missed",      "impact-doubled",      "impact-impulse-wrong",
                        "impact-at-step-end", "impact-interpolated", "impact-tolerance",
                        "contact-compliant",  "contact-in-tension"};
@@ -41,14 +42,18 @@ struct Implication {
 const std::vector<Implication>& implications() {
   static const std::vector<Implication> table{
       {unreadable, all({of_system,
+                        of_gap,
                         of_impacts,
                         of_time,
                         of_method,
                         of_ladder,
                         {"velocity-at-half-steps", "velocity-order-lower"}})},
       {of_system, all({of_method, {"wrong-limit", "noise-floor"}})},
+      // Each impact early or late by what the closing speed makes of the gap.
+      {of_gap, all({of_impacts, of_time, of_method, {"wrong-limit", "noise-floor"}})},
       {{"impact-missed", "impact-doubled"},
        all({of_system,
+            of_gap,
             of_time,
             of_method,
             {"wrong-limit", "noise-floor", "impact-impulse-wrong", "contact-in-tension"}})},

@@ -70,7 +70,7 @@ inline constexpr auto diagnosis_codes = std::to_array<Code>({
     "output-resampled", "ends-early",
     "time-shifted", "time-unit", "time-drifts",
     "restitution-differs", "mass-ratio-differs", "frequency-differs", "damping-differs",
-    "damping-changes-at-impact",
+    "damping-changes-at-impact", "gap-differs",
     "impact-missed", "impact-doubled", "impact-impulse-wrong", "impact-at-step-end",
     "impact-interpolated", "impact-tolerance", "contact-compliant", "contact-in-tension",
     "wrong-limit", "noise-floor", "commensurate-steps", "numerical-damping", "period-error",
@@ -86,7 +86,8 @@ inline bool is_other_system(const Diagnosis& found) {
   // clang-format off
   constexpr auto codes = std::to_array<Code>({
       "restitution-differs", "mass-ratio-differs", "frequency-differs", "damping-differs",
-      "damping-changes-at-impact", "impact-missed", "impact-doubled", "impact-impulse-wrong"});
+      "damping-changes-at-impact", "gap-differs", "impact-missed", "impact-doubled",
+      "impact-impulse-wrong"});
   // clang-format on
   for (const auto& code : codes)
     if (found.code == code.name()) return found.confidence >= sure;

@@ -150,6 +150,8 @@ class Good(PluginTest):
         self.assertEqual(self.finished("--plugin", library, *SHORT)["name"], "mine")
         self.assertEqual(self.finished("--plugin", library, "--name", "yours", *SHORT)["name"],
                          "yours")
+        rude = self.plugin("rude", name=r'"a\nb"')
+        self.assertEqual(self.finished("--plugin", rude, *SHORT)["name"], r"a\x0ab")
         unnamed = self.plugin("file name", name="NULL")
         self.assertEqual(self.finished("--plugin", unnamed, *SHORT)["name"], "file name")
 
@@ -199,12 +201,18 @@ class Good(PluginTest):
 
         def note(text):
             return f'{{ FILE* out = fopen("{log}", "a"); fprintf(out, "{text} "); fclose(out); }}'
-        self.finished("--plugin", self.plugin(
-            prepare="*state = malloc(1); *(char*)*state = 'x'; " + note("prepare"),
-            run="if (*(char*)state != 'x') abort(); if (i == 0) " + note("run"),
-            free="if (*(char*)state != 'x') abort(); free(state); " + note("free")),
-            *STOP, "--levels", "1", "--neighbours", "1")
-        self.assertEqual(self.text_of("log").split(), ["prepare", "run", "free"])
+
+        def calls(prepare="", after=""):
+            open(log, "w").close()
+            library = self.plugin(
+                prepare="*state = malloc(1); *(char*)*state = 'x'; " + note("prepare") + prepare,
+                run="if (*(char*)state != 'x') abort(); if (i == 0) " + note("run"), after=after,
+                free="if (*(char*)state != 'x') abort(); free(state); " + note("free"))
+            self.subject("--plugin", library, *STOP, "--levels", "1", "--neighbours", "1")
+            return self.text_of("log").split()
+        self.assertEqual(calls(), ["prepare", "run", "free"])
+        self.assertEqual(calls(after="return 1"), ["prepare", "run", "free"])
+        self.assertEqual(calls(prepare="return 1"), ["prepare", "free"])
 
     def test_prepare_and_free_may_be_null(self):
         self.finished("--plugin", self.plugin(functions="NULL, run, NULL"), *SHORT)

@@ -180,6 +180,9 @@ class WrongStates(PluginTest):
                     prepare="host->state(host, 0, p->u, NULL, NULL)")
         self.breaks("plugin-failed", "prepare: host->collision: called outside run;",
                     prepare="host->collision(host, 0, NAN, NULL, NULL)")
+        self.breaks("plugin-failed", "host->state: called outside run;",
+                    prepare="*state = host", free="clackers_solver_host* host = state; double u = 0; "
+                    "host->state(host, 99, &u, &u, NULL)")
 
     def test_ignores_that_nothing_more_is_taken(self):
         self.breaks("not-sorted", "t = -1 after t = 0; allowed",

@@ -7,7 +7,7 @@ EXIT_OF = {"agrees": 0, "not-claimed": 0, "disagrees": 1, "undecided": 3}
 ALWAYS_ALLOWED = {"period-error", "numerical-damping"}
 # Causes that say that the solver solves another system: their limit is a wrong one as well.
 OF_THE_MODEL = {"restitution-differs", "mass-ratio-differs", "frequency-differs", "damping-differs",
-                "damping-changes-at-impact", "impact-missed", "impact-doubled",
+                "damping-changes-at-impact", "gap-differs", "impact-missed", "impact-doubled",
                 "impact-impulse-wrong", "contact-compliant", "contact-in-tension"}
 
 

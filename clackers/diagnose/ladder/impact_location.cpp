@@ -111,6 +111,23 @@ std::optional<Rows> rows_around(const model::Trajectory& rows, double t, const L
   return {};
 }
 
+// LocatedImpact::closed_speed of the rows between these two.
+double closed_speed(const model::Trajectory& rows, const Rows& around, const Locator& locator,
+                    const model::Contact<>& contact) {
+  const double closing = -contact.gap_rate(locator.row(rows, around.before).v);
+  const double opening = contact.gap_rate(locator.row(rows, around.after).v);
+  double sum = 0.0;
+  int closed = 0;
+  for (auto i = around.before + 1; i < around.after; ++i) {
+    const auto state = locator.row(rows, i);
+    if (contact.gap_at(state.u) >= 0.0) continue;
+    const double rate = contact.gap_rate(state.v);
+    sum += rate < 0.0 ? -rate / closing : rate / opening;
+    ++closed;
+  }
+  return sum / closed;
+}
+
 double rms(const std::vector<LocatedImpact>& impacts, double LocatedImpact::*member) {
   double sum = 0.0;
   for (const auto& impact : impacts) sum += impact.*member * impact.*member;
@@ -143,9 +160,11 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
     const auto& contact = problem.contacts[std::size_t(impact.contact)];
     const auto around = rows_around(rows, impact.t, locator, contact);
     if (!around || alone(rows.t[around->before], rows.t[around->after]) > 1) continue;
-    if (const auto one = locator.located(locator.row(rows, around->before),
-                                         locator.row(rows, around->after), contact))
-      found.impacts.push_back(*one);
+    auto one = locator.located(locator.row(rows, around->before), locator.row(rows, around->after),
+                               contact);
+    if (!one) continue;
+    one->closed_speed = closed_speed(rows, *around, locator, contact);
+    found.impacts.push_back(*one);
   }
   if (found.impacts.empty()) return found;
   std::vector<double> speeds, gaps, defects;

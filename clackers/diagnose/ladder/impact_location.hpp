@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "clackers/diagnose/observation.hpp"
@@ -17,6 +18,9 @@ struct LocatedImpact {
   double closing = 0.0;   ///< closing speed there [m/s], positive
   double delay = 0.0;     ///< of the impact [s]; negative where it came too early
   double duration = 0.0;  ///< from closing to opening [s]
+  /// Mean speed of the gap at the closed rows, over that at which it closes, or opens where it
+  /// does: 2/pi in a spring, 1 where masses fly on until an impulse turns them. NaN for no such row.
+  double closed_speed = std::numeric_limits<double>::quiet_NaN();
   /// Distance of the state after from what the impact law makes of the state before, both at t,
   /// in velocity: |w du| + |dv| over the closing speed, w the highest frequency.
   double defect = 0.0;

@@ -153,7 +153,10 @@ std::optional<Diagnosis> tolerance(const Question& question,
 // Contacts of one duration in all files that hold several rows of it, the finest among them.
 std::optional<Diagnosis> compliant(const Question& question,
                                    const std::vector<LocatedImpacts>& files) {
+  // Between a spring's 2/pi and the 1 of an impact that comes late.
+  constexpr double largest_closed_speed = 0.85;
   std::vector<double> durations;
+  double closed_speeds = 0.0, with_closed_rows = 0.0;
   double speed = 0.0;
   int resolving = 0;
   bool finest_resolves = false;
@@ -168,8 +171,13 @@ std::optional<Diagnosis> compliant(const Question& question,
     if (!finest_resolves) continue;
     ++resolving;
     durations.push_back(assess::median(one));
+    for (const auto& impact : files[i].impacts)
+      if (std::isfinite(impact.closed_speed)) {
+        closed_speeds += impact.closed_speed;
+        ++with_closed_rows;
+      }
   }
-  if (!finest_resolves) return {};
+  if (!finest_resolves || closed_speeds > largest_closed_speed * with_closed_rows) return {};
   const double duration = durations.back();
   const auto alike = std::ranges::count_if(
       durations, [&](double x) { return std::abs(x / duration - 1.0) < 0.2; });

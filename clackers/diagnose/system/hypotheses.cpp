@@ -61,6 +61,9 @@ Diagnosis Hypothesis::diagnosis(const model::ImpactProblem<>& problem, double d,
       else
         say(d, 1.0, "1");
       break;
+    case Change::gap:
+      say(d, 1.0, "m");
+      break;
     case Change::damping_after_impact:
       say(1.0 + d, 1.0, "1");
       break;
@@ -103,6 +106,7 @@ std::vector<Hypothesis> parameter_hypotheses(const model::ImpactProblem<>& probl
   if (n > 1) add("damping-differs", damped ? Change::damping_share : Change::damping);
   if (n > 1 && impacts) add("mass-ratio-differs", Change::mass_ratio, n - 1);
   if (impacts) add("restitution-differs", Change::restitution);
+  if (impacts) add("gap-differs", Change::gap);
   if (impacts && damped) add("damping-changes-at-impact", Change::damping_after_impact);
   add("time-shifted", Change::time_shift);
   add("time-unit", Change::time_scale);

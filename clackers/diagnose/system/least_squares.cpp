@@ -33,10 +33,13 @@ class Solver {
         parameters_(parameters),
         unit_(parameters.size(), 1.0),
         values_(parameters.size(), 0.0) {
-    // A shift counts in radians of the fastest frequency.
+    // A shift counts in radians of the fastest frequency, a gap in the smallest envelope.
     const double omega = fastest(base.problem);
-    for (std::size_t k = 0; k < parameters.size(); ++k)
+    const double largest = std::ranges::max(rows.inverse_scale);
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
       if (parameters[k].change == Change::time_shift && omega > 0.0) unit_[k] = 1.0 / omega;
+      if (parameters[k].change == Change::gap && largest > 0.0) unit_[k] = 1.0 / largest;
+    }
   }
 
   std::vector<double> residual(const std::vector<double>& values, std::size_t rows) const {

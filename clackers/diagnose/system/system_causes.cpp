@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -73,9 +74,42 @@ Trial tried_beside(const FitFile& file, const Hypothesis& hypothesis, const FitQ
   return trial;
 }
 
-// A restitution below 0 lets masses pass through each other: a contact that is missing.
+// Largest and smallest closing speed of the first impacts of the reference [m/s].
+std::pair<double, double> closing_speeds(const FitQuestion& question) {
+  constexpr long long most = 50;
+  const auto& motion = question.motion;
+  double least = std::numeric_limits<double>::infinity(), largest = 0.0;
+  const auto count = std::min(most, motion.impact_count(motion.end()));
+  for (long long k = 1; k <= count; ++k) {
+    const auto impact = motion.impact(k);
+    const auto& contact = question.problem.contacts[std::size_t(impact.contact)];
+    const double speed = std::abs(contact.gap_rate(motion.at(impact.t, model::Side::left).v));
+    least = std::min(least, speed);
+    largest = std::max(largest, speed);
+  }
+  return {least, largest};
+}
+
+// Whether the gap keeps its contact, and is no delay: where all impacts are as fast, late ones look
+// like another gap, so that it must be more than a step away.
+bool is_possible_gap(double d, const FitFile& file, const FitQuestion& question) {
+  const auto& direction = question.problem.contacts.front().direction;
+  double reach = 0.0;
+  for (std::size_t i = 0; i < file.rows.dof(); ++i)
+    if (file.rows.inverse_scale[i] > 0.0)
+      reach += std::abs(direction[Eigen::Index(i)]) / file.rows.inverse_scale[i];
+  if (!(std::abs(d) < 0.5 * reach)) return false;
+  constexpr double as_fast = 1.05, most_steps = 1.05;
+  const auto [least, largest] = closing_speeds(question);
+  return largest > as_fast * least || std::abs(d) > most_steps * file.step * largest;
+}
+
+// A restitution below 0 lets masses pass through each other, as a gap beyond all motion does: a
+// contact that is missing.
 bool is_possible(const Trial& trial, const FitQuestion& question) {
   const auto& parameter = trial.hypothesis->parameter;
+  if (parameter && parameter->change == Change::gap)
+    return is_possible_gap(trial.d, question.files.front(), question);
   if (!parameter || parameter->change != Change::restitution) return true;
   return question.problem.contacts.front().restitution + trial.d > -1e-3;
 }
@@ -169,6 +203,7 @@ bool is_shift(const Trial& trial) {
 bool is_smooth(const Parameter& parameter) {
   switch (parameter.change) {
     case Change::restitution:
+    case Change::gap:
     case Change::damping_after_impact:
     case Change::time_shift:
       return false;

@@ -49,6 +49,9 @@ void Variation::apply(const Parameter& parameter, double d) {
     case Change::restitution:
       for (auto& contact : problem.contacts) contact.restitution += d;
       return;
+    case Change::gap:
+      for (auto& contact : problem.contacts) contact.gap += d;
+      return;
     case Change::time_scale:
       time_factor *= 1.0 + d;
       return;

@@ -18,6 +18,7 @@ enum class Change {
   mass,                  ///< m times (1 + d), k and c stay
   mass_ratio,            ///< m, k and c times (1 + d): only impacts notice it
   restitution,           ///< eta plus d, of all contacts
+  gap,                   ///< contacts close d earlier [m], at a gap of d of the case
   impulse,               ///< impulse on the mass times (1 + d)
   time_scale,            ///< time runs (1 + d) times as fast
   time_shift,            ///< rows are late by d seconds

@@ -61,6 +61,8 @@ constexpr auto cause_words = std::to_array<CauseWords>({
      "check the damping coefficients: C, ratio, or per mass."},
     {"damping-changes-at-impact", "After the first impact damping is another[, {value} times that before]",
      "check the damping force where a step starts anew after an impact."},
+    {"gap-differs", "Contacts close at a gap of {value_pm} m instead of 0",
+     "check the gap of the contact and the positions that it is measured from."},
     {"impact-missed", "{impacts} missing[ (t = {time} s)]",
      "check the detection of contacts: the masses pass through each other there."},
     {"impact-doubled", "Impact {number} was applied twice[ (t = {time} s)]",

@@ -34,6 +34,7 @@ constexpr auto value_rows = std::to_array<ValueRow>({
     {"frequency-differs", "%", "relative change of the natural frequency"},
     {"damping-differs", "% or 1", "relative change of the damping ratio; the ratio where the case has none"},
     {"damping-changes-at-impact", "1", "damping after the first impact over that before"},
+    {"gap-differs", "m", "gap of the case at which contacts close"},
     {"impact-missed", "1", "number of the impact"},
     {"impact-doubled", "1", "number of the impact"},
     {"impact-impulse-wrong", "1", "impulse over the right one"},
