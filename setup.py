@@ -50,6 +50,9 @@ class CMakeBuild(build_ext):
         subprocess.run(["cmake", *map(str, arguments)], check=True)
 
 
+# Files that the package no longer has would stay among those of the wheel.
+for copies in (ROOT / BUILD).glob("lib*"):
+    shutil.rmtree(copies)
 (ROOT / BUILD).mkdir(parents=True, exist_ok=True)
 setup(
     version=version(),

@@ -7,8 +7,10 @@
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
 #include "bindings/python/interrupts.hpp"
+#include "bindings/python/rows.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/study/respond.hpp"
 
 namespace clackers::python {
 namespace {
@@ -102,6 +104,11 @@ py::dict impacts(const Case& which, py::handle from, py::handle to) {
   return arrays.arrays();
 }
 
+py::tuple collisions(const Case& which) {
+  last_impact(py::none(), 1, which.motion->impact_count(which.motion->end()));
+  return read_rows(*study::collisions(which));
+}
+
 long long impact_count(const Case& which, py::handle t) {
   const auto& motion = *which.motion;
   if (t.is_none()) return motion.impact_count(motion.end());
@@ -113,6 +120,7 @@ long long impact_count(const Case& which, py::handle t) {
 
 void bind_impacts(py::module_& core) {
   core.def("impacts", &impacts, py::arg("case"), py::arg("first"), py::arg("last"));
+  core.def("collisions", &collisions, py::arg("case"));
   core.def("impact_count", &impact_count, py::arg("case"), py::arg("t"));
 }
 

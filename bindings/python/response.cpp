@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
@@ -26,6 +27,14 @@ model::Side read_side(py::handle given) {
   refuse("response", "side", side, "left (before an impact) or right (after it)");
 }
 
+// Memory of C++, as std::vector takes it but not written to. NumPy asks the kernel for huge pages from
+// 4 MB on, and to get those costs more than the evaluation on some machines.
+Doubles new_states(py::ssize_t times, py::ssize_t dof) {
+  auto memory = std::make_unique_for_overwrite<double[]>(std::size_t(times * dof));
+  const py::capsule owner(memory.get(), [](void* data) { delete[] static_cast<double*>(data); });
+  return Doubles({times, dof}, memory.release(), owner);
+}
+
 // Where u, v and a go: arrays of the caller, or new ones.
 struct Arrays {
   Doubles u, v;
@@ -33,8 +42,7 @@ struct Arrays {
 
   static Arrays read(const py::object& out, py::ssize_t times, py::ssize_t dof) {
     if (out.is_none()) {
-      const auto make = [&] { return Doubles({times, dof}); };
-      return {make(), make(), make()};
+      return {new_states(times, dof), new_states(times, dof), new_states(times, dof)};
     }
     if (!py::isinstance<py::tuple>(out) || py::len(out) != 3)
       refuse("response", "out", description(out), "a tuple of three arrays (u, v, a)",

@@ -96,6 +96,7 @@ ROWS = [
     ("range that ends before it starts", "out-of-range", "first = 5", lambda: CASE.impacts(first=5, last=3)),
     ("half an impact", "not-whole", "first = 1.5", lambda: CASE.impacts(first=1.5)),
     ("all of hundreds of millions", "too-many-rows", "impacts(first=1, last=1000)", lambda: HUGE.impacts()),
+    ("table of hundreds of millions", "too-many-rows", "impacts(first=1, last=1000)", lambda: HUGE.collisions()),
     ("count at NaN", "not-a-number", "t = nan", lambda: CASE.impact_count(NAN)),
     ("count behind the end", "time-outside", "t = 21", lambda: CASE.impact_count(21)),
     ("count at a list", "not-a-number", "t = [1]", lambda: CASE.impact_count([1])),

@@ -80,18 +80,23 @@ class Response(unittest.TestCase):
         u, v = np.full((11, 2), np.nan), np.full((11, 2), np.nan)
         result = case.response(t, out=(u, v, None))
         expected = case.response(t)
-        self.assertIs(result.u, u)
-        self.assertIs(result.v, v)
-        self.assertIsNone(result.a)
+        for given, place in zip(result, (u, v, None)):
+            self.assertIs(given, place)
         np.testing.assert_array_equal(u, expected.u)
         np.testing.assert_array_equal(v, expected.v)
         a = np.full((11, 2), np.nan)
         self.assertIs(case.response(t, out=(u, v, a)).a, a)
         np.testing.assert_array_equal(a, expected.a)
 
-    def test_results_own_their_memory(self):
-        u = clackers.case("three-parameter").response([0.0, 1.0]).u
-        self.assertTrue(u.flags.owndata and u.flags.writeable)
+    def test_results_outlive_the_case_and_each_other(self):
+        case = clackers.case("three-parameter")
+        u, v, _ = case.response(np.linspace(0.0, 1.0, 100_000))
+        first = u.copy()
+        del case
+        v[:] = np.nan
+        clackers.case("three-parameter").response(np.linspace(1.0, 2.0, 100_000))
+        np.testing.assert_array_equal(u, first)
+        self.assertTrue(u.flags.writeable and u.flags.c_contiguous)
 
 
 class Bounds(unittest.TestCase):

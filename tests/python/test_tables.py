@@ -34,12 +34,18 @@ class Quantities(unittest.TestCase):
     def test_spectrum_is_that_of_the_command(self):
         self.check(clackers.case("stop").spectrum(201, 20.0), "respond", "stop", "--spectrum", "--samples", "201", "--highest", "20")
 
+    def test_collisions_are_those_of_the_command(self):
+        table = clackers.case("synchronized-pair", eta=0.5).collisions()
+        self.check(table, "respond", "synchronized-pair", "--set", "eta=0.5", "--collisions")
+        self.assertEqual(table["k"].dtype, np.int64)
+
     def test_two_rows_stand_at_a_collision(self):
         case = clackers.case("synchronized-pair", eta=0.5)
         t = case.impacts().t[0]
         table = case.energies([t, 0.0])
         np.testing.assert_array_equal(table["t"], [t, t, 0.0])
         np.testing.assert_array_equal(table["side"], [-1, 1, 0])
+        self.assertEqual(table["side"].dtype, np.int8)
         self.assertLess(table["kinetic"][1], table["kinetic"][0])
 
     def test_no_times_make_no_rows(self):

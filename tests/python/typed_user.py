@@ -21,7 +21,8 @@ def main() -> None:
     t = np.linspace(0.0, case.end, 11)
     u, v, a = case.response(t, side="left")
     buffers = (np.empty_like(u), np.empty_like(v), None)
-    case.response(t, out=buffers)
+    position, velocity, nothing = case.response(t, out=buffers)
+    assert nothing is None and position is buffers[0] and velocity is buffers[1]
     impacts: clackers.Impacts = case.impacts(first=1, last=2)
     problem: clackers.Problem = case.problem
     rate: npt.NDArray[np.float64] = problem.rhs(0.0, problem.y0)

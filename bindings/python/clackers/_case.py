@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -132,12 +132,27 @@ class Case:
         """The task that a solver gets."""
         return self._problem
 
-    def response(self, t: npt.ArrayLike, side: Side = "right", out: Buffers | None = None) -> Kinematics:
+    @overload
+    def response(
+        self, t: npt.ArrayLike, side: Side = "right", out: tuple[Array, Array, Array] | None = None
+    ) -> Kinematics: ...
+
+    @overload
+    def response(self, t: npt.ArrayLike, side: Side, out: tuple[Array, Array, None]) -> tuple[Array, Array, None]: ...
+
+    @overload
+    def response(
+        self, t: npt.ArrayLike, side: Side = "right", *, out: tuple[Array, Array, None]
+    ) -> tuple[Array, Array, None]: ...
+
+    def response(
+        self, t: npt.ArrayLike, side: Side = "right", out: Buffers | None = None
+    ) -> Kinematics | tuple[Array, Array, None]:
         """The exact motion at times ``t`` [s], each in [0, end], in any order.
 
         Returns u [m], v [m/s] and a [m/s^2] of shape (time, dof), or (dof,) for a single time. Where a time is
         the double nearest to an impact, ``side`` says which of the two flights is evaluated there. ``out`` =
-        (u, v, a) are arrays of that shape to write to, float64, writable and C-contiguous; a may be None.
+        (u, v, a) are arrays of that shape to write to, float64, writable and C-contiguous, and are returned; a may be None.
 
         Raises InputError for times that are NaN, outside of [0, end] or not one-dimensional.
 
@@ -147,7 +162,8 @@ class Case:
         >>> u.shape
         (1001, 2)
         """
-        return Kinematics(*_core.response(self._core, t, side, out))
+        u, v, a = _core.response(self._core, t, side, out)
+        return (u, v, None) if a is None else Kinematics(u, v, a)
 
     def envelope(self, t: npt.ArrayLike) -> Kinematics:
         """The amplitudes that displacements, velocities and accelerations have around ``t`` [s].
@@ -186,6 +202,17 @@ class Case:
         array([1.572764, 4.718291])
         """
         return Impacts(**_core.impacts(self._core, first, last))
+
+    def collisions(self) -> Table:
+        """The impacts as a table, at most a million; ``impacts()`` has them as arrays and by range.
+
+        Columns k, t [s], u1 [m], v1-, v1+ [m/s] and so on, impulse [N s], energy_before, energy_after [J].
+
+        >>> import clackers
+        >>> clackers.case("stop").collisions()["k"]
+        array([1, 2, 3, 4, 5, 6])
+        """
+        return Table(*_core.collisions(self._core))
 
     def energies(self, t: npt.ArrayLike) -> Table:
         """Where the energy is at times ``t`` [s]: kinetic, potential, dissipated, lost and total [J].

@@ -57,7 +57,7 @@ class Table:
         self.schema = schema
         self.title = title
         self.columns = tuple(Column(*column) for column in columns)
-        self._arrays = {column.name: array for column, array in zip(self.columns, arrays)}
+        self._arrays = {column.name: array for column, array in zip(self.columns, arrays, strict=True)}
 
     def __len__(self) -> int:
         return len(next(iter(self._arrays.values()))) if self._arrays else 0

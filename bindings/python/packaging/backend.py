@@ -13,7 +13,6 @@ try:
 except ImportError as error:
     raise SystemExit(f"clackers: {error}. Run scripts/setup python, which installs python3-setuptools and python3-wheel.")
 
-build_sdist = setuptools.build_meta.build_sdist
 build_wheel = setuptools.build_meta.build_wheel
 build_editable = setuptools.build_meta.build_editable
 prepare_metadata_for_build_wheel = setuptools.build_meta.prepare_metadata_for_build_wheel
@@ -26,3 +25,8 @@ def get_requires_for_build_wheel(config_settings=None):
 
 
 get_requires_for_build_sdist = get_requires_for_build_editable = get_requires_for_build_wheel
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    """There is none: it would be the whole repository."""
+    raise SystemExit("clackers: there is no source distribution. Build from the repository: pip wheel . --no-deps")
