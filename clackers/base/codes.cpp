@@ -267,6 +267,12 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"program-output", "failure",
      "A program of `verify --exec` ended well without a history: the file is missing or empty, or "
      "standard output had more than can be read."},
+    {"callable-failed", "failure",
+     "A callable under test (clackers.verify of Python) raised an exception. Its run is a failed one "
+     "of its step; the end of the traceback stands beside it."},
+    {"callable-output", "failure",
+     "A callable under test (clackers.verify of Python) returned something that is no history: return "
+     "(t, u), (t, u, v) or (t, u, v, a), u of shape (time, dof), or a result of SciPy's solve_ivp."},
     {"foreign-folder", "refusal",
      "The folder of --out holds files that the command did not write. "
      "It is replaced as a whole, so give another name, or move them away."},

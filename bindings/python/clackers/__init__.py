@@ -8,24 +8,37 @@
 """
 from clackers._case import Case, Impacts, Kinematics, case
 from clackers._core import version as __version__
-from clackers._errors import Error, FileError, InputError
+from clackers._errors import Error, FileError, InputError, Interrupted, SolverError
 from clackers._problem import Contact, GapEvent, Problem, State
+from clackers._record import Diagnosis, Figure, Record, Subject, load
+from clackers._solver import Solver
+from clackers._study import check, verify
 from clackers._table import Column, Table, catalogue
 
 __all__ = [
     "Case",
     "Column",
     "Contact",
+    "Diagnosis",
     "Error",
+    "Figure",
     "FileError",
     "GapEvent",
     "Impacts",
     "InputError",
+    "Interrupted",
     "Kinematics",
     "Problem",
+    "Record",
+    "Solver",
+    "SolverError",
     "State",
+    "Subject",
     "Table",
     "__version__",
     "case",
     "catalogue",
+    "check",
+    "load",
+    "verify",
 ]
