@@ -7,6 +7,7 @@
 
 #include "bindings/python/bind.hpp"
 #include "bindings/python/rows.hpp"
+#include "clackers/base/codes.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
@@ -61,6 +62,13 @@ py::tuple listing(const std::string& kind) {
   return read_sheet(kind == "columns" ? report::list_columns() : study::list(kind));
 }
 
+std::string explain(const std::string& code) {
+  if (const auto* entry = find_code(code))
+    return fmt::format("{} ({}). {}", entry->name, entry->kind, entry->meaning);
+  const std::vector<std::string> names(code_names.begin(), code_names.end());
+  refuse_name("code", code, names, "clackers explain");
+}
+
 std::vector<std::string> listing_kinds() {
   auto kinds = study::list_kinds();
   kinds.emplace_back("columns");
@@ -72,6 +80,7 @@ std::vector<std::string> listing_kinds() {
 void bind_tables(py::module_& core) {
   core.def("listing", &listing, py::arg("kind"));
   core.def("listing_kinds", &listing_kinds);
+  core.def("explain", &explain, py::arg("code"));
   core.def("cell_text", &cell_text, py::arg("cell"));
   core.def("refuse_column", &refuse_column, py::arg("table"), py::arg("name"), py::arg("columns"));
   core.def("table_text", &table_text, py::arg("title"), py::arg("columns"), py::arg("rows"),

@@ -13,7 +13,7 @@ from clackers._problem import Contact, GapEvent, Problem, State
 from clackers._record import Diagnosis, Figure, Record, Subject, load
 from clackers._solver import Solver
 from clackers._study import check, verify
-from clackers._table import Column, Table, catalogue
+from clackers._table import Column, Table, catalogue, explain
 
 __all__ = [
     "Case",
@@ -39,6 +39,7 @@ __all__ = [
     "case",
     "catalogue",
     "check",
+    "explain",
     "load",
     "verify",
 ]

@@ -21,14 +21,14 @@ class History(NamedTuple):
     events: Columns | None
 
 
-def read_history(who: str, value: object, dof: int, collisions: object = None) -> History:
+def read_history(who: str, value: object, dof: int) -> History:
     """A history in any of the forms of ``ALLOWED``; several results of solve_ivp are consecutive flights.
 
     Raises InputError with ``who`` for everything else.
     """
     if isinstance(value, list) and value and all(_is_flight(part) for part in value):
-        return _joined([_read_one(who, part, dof, collisions) for part in value])
-    return _read_one(who, value, dof, collisions)
+        return _joined([_read_one(who, part, dof) for part in value])
+    return _read_one(who, value, dof)
 
 
 def _is_flight(value: object) -> bool:
@@ -56,7 +56,7 @@ def _parts(value: object) -> dict[str, Any]:
     return {name: part for name, part in found.items() if part is not None}
 
 
-def _read_one(who: str, value: object, dof: int, collisions: object) -> History:
+def _read_one(who: str, value: object, dof: int) -> History:
     if value is None:
         _core.refuse(who, "the result", "None", ALLOWED, "A function without a return statement returns None.")
     if isinstance(value, str):
@@ -78,7 +78,7 @@ def _read_one(who: str, value: object, dof: int, collisions: object) -> History:
     for name in "uva":
         if name in parts and not ("y" in parts and name in "uv"):
             columns += _named(name, _matrix(who, name, parts[name], len(t), dof))
-    return History(columns, _read_events(who, parts, collisions))
+    return History(columns, _read_events(who, parts))
 
 
 def _with_state_as_u(who: str, parts: dict[str, Any], times: int, dof: int) -> dict[str, Any]:
@@ -115,10 +115,10 @@ def _named(name: str, matrix: Array) -> Columns:
     return [(title, column) for title, column in columns if len(column) == 0 or not np.isnan(column).all()]
 
 
-def _read_events(who: str, parts: dict[str, Any], collisions: object) -> Columns | None:
-    for given in (collisions, parts.get("collisions"), parts.get("events")):
-        if given is not None:
-            return _read_collisions(who, given)
+def _read_events(who: str, parts: dict[str, Any]) -> Columns | None:
+    for name in ("collisions", "events"):
+        if name in parts:
+            return read_collisions(who, parts[name])
     if "t_events" not in parts:
         return None
     lists = [_core.read_vector(who, "t_events", times) for times in parts["t_events"]]
@@ -128,7 +128,7 @@ def _read_events(who: str, parts: dict[str, Any], collisions: object) -> Columns
 _EVENT_NAMES = {"u": "u{}", "v_before": "v{}-", "v_after": "v{}+"}
 
 
-def _read_collisions(who: str, given: object) -> Columns:
+def read_collisions(who: str, given: object) -> Columns:
     """Times alone, or a mapping or an object with t and what else is known, as ``Case.impacts`` has it."""
     get = given.get if isinstance(given, Mapping) else lambda name: getattr(given, name, None)
     times = get("t")

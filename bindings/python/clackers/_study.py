@@ -12,7 +12,7 @@ from clackers import _core
 from clackers._case import Case
 from clackers._case import case as make_case
 from clackers._errors import Interrupted, SolverError
-from clackers._history import Columns, read_history
+from clackers._history import Columns, read_collisions, read_history
 from clackers._record import Record
 from clackers._solver import Runs, Solver, name_of
 
@@ -183,14 +183,19 @@ def check(
     dof = 0 if all(map(_is_path, given)) else (case if isinstance(case, Case) else make_case(case, **parameters)).dof
     sources: list[_core.Source] = []
     reported: list[_core.Source | None] = []
-    for number, history in enumerate(given):
-        if _is_path(history):
+    for history, title, event in zip(given, titles, events):
+        found: Columns | None = None
+        if not _is_path(history):
+            columns_of, found = read_history("check", history, dof)
+            sources.append((title, columns_of))
+        else:
             sources.append(os.fspath(history))
-            reported.append(os.fspath(events[number]) if _is_path(events[number]) else _events(events[number]))
+        if _is_path(event):
+            reported.append(os.fspath(event))
             continue
-        read = read_history("check", history, dof, events[number])
-        sources.append((titles[number], read.columns))
-        reported.append(None if read.events is None else (f"collisions of {titles[number]}", read.events))
+        if event is not None:
+            found = read_collisions("check", event)
+        reported.append(None if found is None else (f"collisions of {title}", found))
     if any(each is None for each in reported) and not all(each is None for each in reported):
         _core.refuse("check", "collisions", "those of some histories", "those of all, or of none", "", "wrong-size")
     steps = list(keys or ())
@@ -339,13 +344,6 @@ def _one_each(option: str, value: object, count: int) -> list[object]:
     if not isinstance(value, (list, tuple)) or len(value) != count:
         _core.refuse("check", option, _core.description(value), f"a list with one a history, {count} here", "", "wrong-size")
     return list(value)
-
-
-def _events(collisions: object) -> _core.Source | None:
-    if collisions is None:
-        return None
-    columns: Columns = [("t", _core.read_vector("check", "collisions", collisions))]
-    return ("collisions", columns)
 
 
 # The line that does it again.

@@ -173,3 +173,15 @@ def catalogue(kind: str | None = None) -> dict[str, Table] | Table:
     if kind is None:
         return {each: catalogue(each) for each in _core.listing_kinds()}
     return Table(*_core.listing(kind))
+
+
+def explain(code: str) -> str:
+    """What a code in brackets behind a sentence means, and what to do about it.
+
+    Raises InputError for an unknown code.
+
+    >>> import clackers
+    >>> print(clackers.explain("agrees"))
+    agrees (verdict)...
+    """
+    return _core.explain(_core.read_text("explain", "code", code))

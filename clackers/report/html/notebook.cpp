@@ -75,8 +75,8 @@ std::string notebook_html(const study::Record& record) {
 
 std::vector<std::string> figure_names(const study::CaseRecord& problem) {
   std::vector<std::string> names;
-  for (const auto& [name, specification] : figure_specifications(problem).items())
-    names.push_back(name);
+  const auto specifications = figure_specifications(problem);
+  for (const auto& [name, specification] : specifications.items()) names.push_back(name);
   return names;
 }
 
