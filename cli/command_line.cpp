@@ -8,6 +8,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
 #include "cli/command.hpp"
+#include "cli/commands/plugin_run.hpp"
 #include "cli/files/output_stream.hpp"
 #include "cli/files/paths.hpp"
 #include "cli/help/completion.hpp"
@@ -175,7 +176,8 @@ int run_command_line(const std::vector<std::string>& arguments) {
     print("clackers " CLACKERS_VERSION "\n");
     return 0;
   }
-  // Unlisted: the build calls the first, the shells call the second.
+  // Unlisted: called by `verify --plugin`, the build and the shells.
+  if (first == plugin_run_flag) return run_plugin({rest.begin(), rest.end()});
   if (first == "--generate" && rest.size() == 1) {
     write_shell_files(grammar, rest.front());
     return 0;

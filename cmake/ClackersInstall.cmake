@@ -1,7 +1,8 @@
-# What `cmake --install` puts where, in three components that are also the Debian packages:
+# What `cmake --install` puts where, in components that are also the Debian packages:
 #   command      the program clackers
 #   library      libclackers.so.0 for programs in C
 #   development  headers, the modules as static libraries, find_package and pkg-config files
+#   python       the package for Python, where CLACKERS_PYTHON is on
 # Included after all targets exist.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -15,10 +16,24 @@ if(NOT CMAKE_CROSSCOMPILING)
     DESTINATION ${CMAKE_INSTALL_DATAROOTDIR})
 endif()
 
+if(CLACKERS_PYTHON)
+  set(CLACKERS_PYTHON_INSTALL_DIR lib/python3/dist-packages CACHE STRING
+    "where the Python package is installed, below the prefix; Debian's place")
+  install(TARGETS clackers_python LIBRARY COMPONENT python
+    DESTINATION ${CLACKERS_PYTHON_INSTALL_DIR}/clackers)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/python/clackers COMPONENT python
+    DESTINATION ${CLACKERS_PYTHON_INSTALL_DIR}
+    FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+  # By it pip and importlib.metadata know the package.
+  configure_file(cmake/METADATA.in ${PROJECT_BINARY_DIR}/METADATA @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/METADATA COMPONENT python
+    DESTINATION ${CLACKERS_PYTHON_INSTALL_DIR}/clackers-${PROJECT_VERSION}.dist-info)
+endif()
+
 # For C. Its targets stand in a file of their own: they need neither C++ nor the libraries below it.
 install(TARGETS clackers_c EXPORT clackers-c
   LIBRARY COMPONENT library NAMELINK_COMPONENT development)
-install(FILES bindings/c/clackers.h TYPE INCLUDE COMPONENT development)
+install(FILES bindings/c/clackers.h clackers/study/plugin/clackers_solver.h TYPE INCLUDE COMPONENT development)
 install(EXPORT clackers-c NAMESPACE clackers:: DESTINATION ${package_dir} COMPONENT development
   FILE clackers-c-targets.cmake)
 

@@ -1,5 +1,5 @@
-# Debian packages by CPack: clackers (the command), libclackers0 (the C library) and libclackers-dev.
-# scripts/package makes them.
+# Debian packages by CPack: clackers (the command), libclackers0 (the C library), libclackers-dev and,
+# where CLACKERS_PYTHON is on, python3-clackers. scripts/package makes them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME clackers)
 set(CPACK_PACKAGE_VENDOR Clackers)
@@ -8,6 +8,9 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL command library development)
+if(CLACKERS_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -44,12 +47,27 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 Headers for C and C++, static libraries for C++, and the files by which CMake
 and pkg-config find them.")
 
+if(CLACKERS_PYTHON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-clackers)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  # The extension module is for one minor version of Python.
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib, python3-scipy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    "${PROJECT_SOURCE_DIR}/cmake/debian/postinst;${PROJECT_SOURCE_DIR}/cmake/debian/prerm")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "Exact motions of colliding masses, and verdicts on time-integration methods (Python)
+The package clackers: cases, exact responses, impacts and tables as arrays of NumPy.")
+endif()
+
 # Packages of programs that link libclackers.so.0 learn their dependency on libclackers0 from its file
 # shlibs. CPack adds the calls of ldconfig by itself.
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 
-foreach(component IN ITEMS command library development)
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   string(TOUPPER ${component} upper)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE COMPONENT ${component}
     DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME}

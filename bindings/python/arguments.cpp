@@ -25,6 +25,25 @@ std::string given(py::handle value) {
   return fmt::format("{} ({})", py::repr(value).cast<std::string>(), description(value));
 }
 
+py::object numpy(const char* name) { return py::module_::import("numpy").attr(name); }
+
+bool is_instance(py::handle value, const char* type) { return py::isinstance(value, numpy(type)); }
+
+bool is_whole(py::handle value) {
+  return (PyLong_Check(value.ptr()) && !PyBool_Check(value.ptr())) || is_instance(value, "integer");
+}
+
+bool is_aligned(py::handle array) {
+  namespace api = py::detail;
+  return (api::array_proxy(array.ptr())->flags & api::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+}
+
+// An array of NumPy, and of no class derived from it, that can be read as it is.
+bool is_plain(py::handle value) {
+  return Py_TYPE(value.ptr()) == py::detail::npy_api::get().PyArray_Type_ &&
+         py::isinstance<Doubles>(value) && is_aligned(value);
+}
+
 void refuse_masked(std::string_view who, std::string_view name, py::handle value) {
   if (!py::hasattr(value, "mask") || !py::hasattr(value, "filled")) return;
   refuse(who, name, "a masked array", array_rule,
@@ -54,27 +73,21 @@ std::string description(py::handle value) {
 }
 
 double read_number(std::string_view who, std::string_view name, py::handle value) {
-  const bool is_number = PyFloat_Check(value.ptr()) || PyIndex_Check(value.ptr()) ||
-                         py::isinstance(value, py::module_::import("numpy").attr("floating"));
-  const double number =
-      is_number && !PyBool_Check(value.ptr()) ? PyFloat_AsDouble(value.ptr()) : -1.0;
-  if (PyErr_Occurred() != nullptr) {
-    PyErr_Clear();
-    refuse(who, name, py::str(value).cast<std::string>(), "a number below 1.8e308");
-  }
-  if (!is_number || PyBool_Check(value.ptr()))
-    refuse(who, name, given(value), "a number", {}, "not-a-number");
-  return number;
+  if (!PyFloat_Check(value.ptr()) && !is_whole(value) && !is_instance(value, "floating"))
+    refuse(who, name, given(value), "a number", "A number of another type: float(x).",
+           "not-a-number");
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred() == nullptr) return number;
+  PyErr_Clear();
+  refuse(who, name, "a whole number of more than 308 digits", "a finite number", {}, "not-finite");
 }
 
 long long read_whole(std::string_view who, std::string_view name, py::handle value) {
-  if (!PyIndex_Check(value.ptr()) || PyBool_Check(value.ptr()))
-    refuse(who, name, given(value), "a whole number", {}, "not-whole");
-  const auto whole = PyLong_AsLongLong(value.ptr());
-  if (PyErr_Occurred() != nullptr) {
-    PyErr_Clear();
-    refuse(who, name, py::str(value).cast<std::string>(), "a whole number below 2^63");
-  }
+  if (!is_whole(value)) refuse(who, name, given(value), "a whole number", {}, "not-whole");
+  int overflow = 0;
+  const auto whole = PyLong_AsLongLongAndOverflow(
+      py::int_(py::reinterpret_borrow<py::object>(value)).ptr(), &overflow);
+  if (overflow != 0) refuse(who, name, given(value), "a whole number between -2^63 and 2^63");
   return whole;
 }
 
@@ -84,6 +97,7 @@ std::string read_text(std::string_view who, std::string_view name, py::handle va
 }
 
 Doubles read_array(std::string_view who, std::string_view name, py::handle value) {
+  if (is_plain(value)) return py::reinterpret_borrow<Doubles>(value);
   refuse_masked(who, name, value);
   const auto array = py::array::ensure(value);
   if (!array)
@@ -94,7 +108,14 @@ Doubles read_array(std::string_view who, std::string_view name, py::handle value
                            : fmt::format("{}, read as {}", description(value), description(array));
     refuse(who, name, given, array_rule, {}, "not-a-number");
   }
-  return Doubles::ensure(array);
+  return numpy("require")(array, "float64", "CA");
+}
+
+double require_inside(std::string_view who, double t, double end) {
+  if (!(t >= 0.0 && t <= end))
+    refuse(who, "t", t, fmt::format("0 <= t <= {} s, the run of the case", end),
+           "A longer run is another value of t_end or a_t.", "time-outside");
+  return t;
 }
 
 Doubles read_vector(std::string_view who, std::string_view name, py::handle value) {
@@ -106,9 +127,9 @@ Doubles read_vector(std::string_view who, std::string_view name, py::handle valu
 
 Doubles read_buffer(std::string_view who, std::string_view name, py::handle value, py::ssize_t rows,
                     py::ssize_t columns) {
-  const auto rule =
-      fmt::format("a writable, C-contiguous array of float64 of shape ({}, {})", rows, columns);
-  if (!py::isinstance<Doubles>(value))
+  const auto rule = fmt::format(
+      "a writable, aligned, C-contiguous array of float64 of shape ({}, {})", rows, columns);
+  if (!py::isinstance<Doubles>(value) || !is_aligned(value))
     refuse(who, name, description(value), rule, "It is written to directly and cannot be a copy.");
   auto array = py::reinterpret_borrow<Doubles>(value);
   if (!array.writeable()) refuse(who, name, "a read-only array", rule);

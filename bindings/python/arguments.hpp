@@ -31,6 +31,9 @@ Doubles read_array(std::string_view who, std::string_view name, py::handle value
 /// dimensions.
 Doubles read_vector(std::string_view who, std::string_view name, py::handle value);
 
+/// Returns t [s], or throws InputError (time-outside) unless 0 <= t <= end.
+double require_inside(std::string_view who, double t, double end);
+
 /// An array that the library writes to: `value` itself. Throws InputError unless it is a writable,
 /// contiguous array of doubles of this shape.
 Doubles read_buffer(std::string_view who, std::string_view name, py::handle value, py::ssize_t rows,

@@ -15,14 +15,16 @@ namespace {
 using cases::Case;
 
 std::shared_ptr<Case> make(py::handle name, const py::dict& parameters, py::handle threshold) {
-  const auto text = read_text("case", "name", name);
+  const auto text =
+      name.is_none() ? std::string(cases::default_case()) : read_text("case", "name", name);
   Settings settings;
   for (const auto& [key, value] : parameters) {
     const auto parameter = key.cast<std::string>();
     settings.emplace_back(parameter, read_number(text, parameter, value));
   }
-  return std::make_shared<Case>(
-      cases::make(text, settings, read_number(text, "threshold", threshold)));
+  const double share =
+      threshold.is_none() ? cases::default_threshold : read_number(text, "threshold", threshold);
+  return std::make_shared<Case>(cases::make(text, settings, share));
 }
 
 py::dict values(const std::vector<cases::Constant>& constants) {
@@ -35,6 +37,13 @@ py::dict parameters(const Case& which) {
   py::dict all;
   for (const auto& [name, value] : which.values) all[py::str(name)] = value;
   return all;
+}
+
+// (r*, margin)
+py::tuple admissibility(py::handle X, py::handle r) {
+  const auto found = cases::admissibility(read_number("admissibility", "X", X),
+                                          read_number("admissibility", "r", r));
+  return py::make_tuple(found.r_star, found.margin);
 }
 
 }  // namespace
@@ -50,12 +59,10 @@ void bind_case(py::module_& core) {
       .def_property_readonly("indicators", [](const Case& c) { return values(c.indicators); })
       .def_property_readonly("dof", [](const Case& c) { return c.motion->dof(); })
       .def_property_readonly("end", [](const Case& c) { return c.motion->end(); })
-
       .def_property_readonly("problem", [](const std::shared_ptr<Case>& c) {
         return Problem({c, &c->problem});  // keeps the case alive
       });
-  core.attr("default_case") = std::string(cases::default_case());
-  core.attr("default_threshold") = cases::default_threshold;
+  core.def("admissibility", &admissibility, py::arg("X"), py::arg("r"));
 }
 
 }  // namespace clackers::python

@@ -7,7 +7,6 @@
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
 #include "bindings/python/interrupts.hpp"
-#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
 
@@ -84,6 +83,10 @@ py::dict impacts(const Case& which, py::handle from, py::handle to) {
   if (first < 1)
     refuse("impacts", "first", fmt::to_string(first), "first >= 1, the number of the first impact");
   const auto last = last_impact(to, first, total);
+  if (first > total + 1)
+    refuse("impacts", "first", fmt::to_string(first),
+           fmt::format("first <= {} + 1, behind the last impact of this motion", total), {},
+           "beyond-last-impact");
   if (last < first - 1)
     refuse("impacts", "first", fmt::to_string(first),
            fmt::format("first <= last + 1 = {}", last + 1));
@@ -103,7 +106,7 @@ long long impact_count(const Case& which, py::handle t) {
   const auto& motion = *which.motion;
   if (t.is_none()) return motion.impact_count(motion.end());
   return motion.impact_count(
-      require_within("impact_count", "t", read_number("impact_count", "t", t), 0.0, motion.end()));
+      require_inside("impact_count", read_number("impact_count", "t", t), motion.end()));
 }
 
 }  // namespace

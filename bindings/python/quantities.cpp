@@ -24,12 +24,14 @@ py::tuple energies(const Case& which, py::handle t) {
   return read_rows(*study::energies(which, read_grid("energies", t)));
 }
 
-py::tuple sensitivity(const Case& which, const std::string& name, py::handle t) {
-  return read_rows(*study::sensitivity(which, read_grid("sensitivity", t), name));
+py::tuple sensitivity(const Case& which, py::handle name, py::handle t) {
+  const auto text = read_text("sensitivity", "name", name);
+  return read_rows(*study::sensitivity(which, read_grid("sensitivity", t), text));
 }
 
-py::tuple spectrum(const Case& which, long long n, double highest) {
-  return read_rows(*study::spectrum(which, n, highest));
+py::tuple spectrum(const Case& which, py::handle n, py::handle highest) {
+  const auto count = read_whole("spectrum", "n", n);
+  return read_rows(*study::spectrum(which, count, read_number("spectrum", "highest", highest)));
 }
 
 }  // namespace

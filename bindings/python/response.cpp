@@ -7,7 +7,6 @@
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
 #include "bindings/python/interrupts.hpp"
-#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
 
@@ -118,7 +117,7 @@ template <class Of>
 py::tuple one_by_one(std::string_view who, const Case& which, py::handle t, const Of& of) {
   const Times times(who, t);
   const auto dof = which.motion->dof();
-  for (const double time : times.values()) require_within(who, "t", time, 0.0, which.motion->end());
+  for (const double time : times.values()) require_inside(who, time, which.motion->end());
   std::array<Doubles, 3> arrays;
   for (auto& array : arrays) array = Doubles({times.size(), py::ssize_t(dof)});
   std::array<double*, 3> to;

@@ -13,6 +13,7 @@
 #include "bindings/python/study_arrays.hpp"
 #include "bindings/python/study_solver.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/cases/case.hpp"
 #include "clackers/study/check.hpp"
 #include "clackers/study/program.hpp"
 #include "clackers/study/solver.hpp"
@@ -31,7 +32,7 @@ Settings settings_from(const CaseChoice& chosen) {
   Settings settings;
   for (const auto& [key, value] : chosen.second) {
     const auto parameter = key.cast<std::string>();
-    settings.emplace_back(parameter, read_number(chosen.first, parameter, value));
+    settings.emplace_back(parameter, read_number("case", parameter, value));
   }
   return settings;
 }
@@ -59,7 +60,7 @@ py::tuple verify(const std::vector<std::string>& methods, const std::vector<Call
   study::VerifyRequest request;
   request.methods = methods;
   for (const auto& one : chosen) {
-    request.cases.push_back(one.first);
+    request.cases.push_back(one.first.empty() ? std::string(cases::default_case()) : one.first);
     request.case_settings.push_back(settings_from(one));
   }
   request.plan.levels = levels;

@@ -1,6 +1,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
 #include <sstream>
 
@@ -33,7 +34,14 @@ std::string written(const Record& record, const std::string& format, int width) 
   return std::move(out).str();
 }
 
-py::tuple read_sheet(const study::Sheet& sheet) {
+// Numbers that no run has are NaN, not None.
+py::tuple read_sheet(study::Sheet sheet) {
+  for (auto& column : sheet.columns) {
+    const auto known = std::ranges::find(report::columns(), column.name, &report::Column::name);
+    const bool is_metric = known == report::columns().end();
+    if (is_metric || known->kind == report::Kind::number || known->kind == report::Kind::error)
+      column.kind = study::ColumnKind::real;
+  }
   study::SheetRows rows(sheet);
   return read_rows(rows);
 }

@@ -3,11 +3,12 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <sstream>
 
+#include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
 #include "bindings/python/rows.hpp"
-#include "clackers/base/codes.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
@@ -54,19 +55,26 @@ std::string cell_text(py::handle value) {
 
 [[noreturn]] void refuse_column(const std::string& table, const std::string& name,
                                 const std::vector<std::string>& columns) {
-  refuse_name(fmt::format("column of the table \"{}\"", table), name, columns,
+  refuse_name(fmt::format("column in the table \"{}\" called", table), name, columns,
               fmt::format("{}", fmt::join(columns, ", ")));
 }
 
-py::tuple listing(const std::string& kind) {
+py::tuple listing(py::handle given) {
+  const auto kind = read_text("catalogue", "kind", given);
   return read_sheet(kind == "columns" ? report::list_columns() : study::list(kind));
 }
 
-std::string explain(const std::string& code) {
-  if (const auto* entry = find_code(code))
-    return fmt::format("{} ({}). {}", entry->name, entry->kind, entry->meaning);
-  const std::vector<std::string> names(code_names.begin(), code_names.end());
-  refuse_name("code", code, names, "clackers explain");
+py::tuple explain(py::handle code) {
+  return read_sheet(study::explain(code.is_none() ? "" : read_text("explain", "code", code)));
+}
+
+// What `clackers show` shows of a case, a table each.
+py::list case_tables(const cases::Case& which, std::optional<double> share) {
+  const double threshold = share.value_or(cases::default_threshold);
+  py::list tables;
+  for (const auto& sheet : study::show_case(which.entry->name, which.values, threshold))
+    tables.append(read_sheet(sheet));
+  return tables;
 }
 
 std::vector<std::string> listing_kinds() {
@@ -79,8 +87,9 @@ std::vector<std::string> listing_kinds() {
 
 void bind_tables(py::module_& core) {
   core.def("listing", &listing, py::arg("kind"));
-  core.def("listing_kinds", &listing_kinds);
   core.def("explain", &explain, py::arg("code"));
+  core.def("case_tables", &case_tables, py::arg("case"), py::arg("threshold"));
+  core.def("listing_kinds", &listing_kinds);
   core.def("cell_text", &cell_text, py::arg("cell"));
   core.def("refuse_column", &refuse_column, py::arg("table"), py::arg("name"), py::arg("columns"));
   core.def("table_text", &table_text, py::arg("title"), py::arg("columns"), py::arg("rows"),

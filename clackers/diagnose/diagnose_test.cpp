@@ -2,18 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "clackers/diagnose/testing/ladder_sets.hpp"
 
 namespace clackers::diagnose::testing {
 namespace {
-
-std::string codes(const std::vector<Diagnosis>& all) {
-  std::string text;
-  for (const auto& one : all) text += (text.empty() ? "" : " ") + one.code;
-  return text;
-}
 
 TEST(Diagnose, TheSystemThatExplainsALimitReplacesIt) {
   const auto plan = ladder_plan(0);

@@ -20,11 +20,10 @@ struct Program {
   std::string name;  ///< in every output; empty: the program's file without folder and extension
 };
 
-/// What programs are asked for.
-struct ProgramRequest {
-  std::vector<Program> programs;
-  std::optional<Claim> expect;  ///< of every program
-  /// Each a level for commands with {tolerance}, whose {h} is the coarsest step; empty:
+/// How programs and plug-ins are run.
+struct ProcessOptions {
+  std::optional<Claim> expect;  ///< of every one
+  /// Each a level for solvers that refine by tolerance, whose step is the coarsest; empty:
   /// 1e-3, 1e-4, ..., 1e-10.
   std::vector<double> tolerances;
   double timeout = 60.0;  ///< of a run [s], > 0
@@ -32,10 +31,18 @@ struct ProgramRequest {
   bool fresh = false;     ///< runs that were made before are made again
 };
 
+/// What programs are asked for. `tolerances` are the levels of commands with {tolerance}.
+struct ProgramRequest : ProcessOptions {
+  std::vector<Program> programs;
+};
+
 /// The programs as verify() takes solvers. A run fails by a crash, the time limit, an exit status
 /// other than 0, no history, or one that cannot be read. Throws InputError for commands that
 /// CommandTemplate refuses, FileError where the folder of runs cannot be made.
 std::vector<SolverSubject> subjects_of(const ProgramRequest& request);
+
+/// The tolerances that are asked for, or the default ones.
+std::vector<double> tolerances_of(const ProcessOptions& options);
 
 /// "1e-3:1e-12" (a tolerance a decade, both ends included) or "1e-3,1e-6": descending tolerances in
 /// (0, 1]. Throws InputError for any other text.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -78,10 +79,9 @@ void check(const Options& options) {
 
 study::Record run_study(const Options& options, const study::VerifyRequest& request) {
   ProgressLine progress("verify", options.common.quiet);
-  const auto programs = program_request_of(options.programs);
-  if (options.programs.any())
-    return study::verify(request, study::subjects_of(programs), progress.callback(),
-                         &interrupt_flag());
+  auto programs = program_subjects(options.programs);
+  if (!programs.empty())
+    return study::verify(request, std::move(programs), progress.callback(), &interrupt_flag());
   return study::verify(request, progress.callback(), &interrupt_flag());
 }
 
@@ -130,21 +130,22 @@ void add_verify(Grammar& root) {
            "  clackers verify --report report.html --format json --out record.json\n"
            "  clackers verify --baseline record.json\n"
            "  clackers verify rk4 newmark --case stop --case symmetric-pair\n"
-           "  clackers verify --exec './solver {case} {h} {out}' --expect proper:2\n",
+           "  clackers verify --exec './solver {case} {h} {out}' --expect proper:2\n"
+           "  clackers verify --plugin ./solver.so --expect proper:2\n",
        .about =
            "Assesses time-integration methods: runs each with a sequence of steps on a case whose "
            "exact motion is known, and compares what was measured with what it claims. A "
            "method is integrator[:name=value,...][+contact[:name=value,...]]; without +contact "
-           "impacts are located as events (event-driven). Programs of yours (--exec) are run and "
-           "compared in the same way. Exit code 0 when all agree, 1 when "
+           "impacts are located as events (event-driven). Programs (--exec) and plug-ins (--plugin) "
+           "of yours are run and compared in the same way. Exit code 0 when all agree, 1 when "
            "one disagrees, 3 when one stays undecided.",
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--neighbours n] [--budget TIME]\n"
                 "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
                 "           [--report FILE.html]\n"
-                "  clackers verify [METHOD ...] --exec COMMAND ... [--name NAME ...]\n"
-                "           [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b] [--timeout TIME]\n"
-                "           [--work FOLDER] [--fresh] ...\n"});
+                "  clackers verify [METHOD ...] --exec COMMAND|--plugin FILE.so ...\n"
+                "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
+                "           [--timeout TIME] [--work FOLDER] [--fresh] ...\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods).");

@@ -8,20 +8,21 @@
 
 namespace clackers::cli {
 
-/// The options of `verify` for programs of others.
+/// The options of `verify` for programs and plug-ins of others.
 struct ProgramOptions {
-  std::vector<std::string> commands, names;
+  std::vector<std::string> commands, libraries, names;
   std::string tolerances, expect, timeout, work;
   bool fresh = false;
 
-  bool any() const { return !commands.empty(); }
+  bool any() const { return !commands.empty() || !libraries.empty(); }
 };
 
-/// Adds --exec and what goes with it. `options` must outlive the parsing.
+/// Adds --exec, --plugin and what goes with them. `options` must outlive the parsing.
 void add_program_options(Command& command, ProgramOptions& options);
 
-/// Throws InputError for values that cannot be read, and for options of programs without --exec.
-study::ProgramRequest program_request_of(const ProgramOptions& options);
+/// The programs and then the plug-ins. Throws InputError for values that cannot be read, and for options
+/// of programs without any, and what subjects_of() throws.
+std::vector<study::SolverSubject> program_subjects(const ProgramOptions& options);
 
 /// The ladder of a study with programs: shorter where nothing else is asked for.
 study::RefinementRequest program_plan(study::RefinementRequest plan, bool has_neighbours);

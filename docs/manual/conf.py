@@ -7,7 +7,7 @@ author = "The Clackers developers"
 copyright = "The Clackers developers. Licence: Apache-2.0"
 version = release = os.environ["CLACKERS_VERSION"]
 
-extensions = ["myst_parser", "sphinx.ext.mathjax", "breathe"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "breathe"]
 source_suffix = {".md": "markdown"}
 nitpicky = False
 
@@ -32,6 +32,15 @@ breathe_default_members = ("members",)
 breathe_domain_by_extension = {"h": "c", "hpp": "cpp"}
 cpp_id_attributes = ["CLACKERS_API"]
 c_id_attributes = ["CLACKERS_API"]
+# The package is read from its sources, which scripts/docs puts on the path; the extension module need not
+# be built.
+autodoc_mock_imports = ["clackers._core"]
+autodoc_member_order = "bysource"
+autodoc_class_signature = "separated"
+autodoc_type_aliases = {"npt.ArrayLike": "ArrayLike", "Array": "Array", "Buffers": "Buffers"}
+autodoc_typehints_format = "short"
+autodoc_preserve_defaults = True
+
 primary_domain = "cpp"
 highlight_language = "none"
 

@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   vector y, y1, head; /* dof, contacts, t, end */
   FILE* file = argc == 4 && atol(argv[2]) > 0 ? fopen(argv[1], "r") : NULL;
   FILE* out = file ? fopen(argv[3], "w") : NULL;
-  if (!out) return 2;
+  if (!out) return fputs("usage: heun PROBLEM.txt n OUT.csv, with n > 0 steps\n", stderr), 2;
   for (int i = 0; i < 4; ++i) read(file, 1, head + i);
   if ((dof = (int)head[0]) > most || (contacts = (int)head[1]) > most) return 3;
   read(file, dof, y), read(file, dof, y + dof);

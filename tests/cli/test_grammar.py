@@ -30,7 +30,7 @@ class Help(CommandTest):
                "respond": ["--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--set", "--levels", "--coarsest", "--neighbours",
-                          "--budget", "--exec", "--name", "--expect", "--tolerances", "--timeout",
+                          "--budget", "--exec", "--plugin", "--name", "--expect", "--tolerances", "--timeout",
                           "--work", "--fresh", "--jobs", "--require", "--baseline", "--report"]}
         for command, options in own.items():
             text = self.good(command, "--help").split("\nOptions\n")[1]

@@ -36,8 +36,10 @@ ELSEWHERE = {
     r"cmake --preset dev && .*": "scripts/test",
     r"cc examples/c/collisions.c .*": "package.test_c",
     r"scripts/package && apt install .*": "package.test_debian",
+    r"python3 -m venv --system-site-packages venv && .*": "package.test_wheel",
     r"clackers paper .*": "cli.test_paper",
     r"clackers verify --exec '\./solver .*": "cli.test_exec",
+    r"(cc -O2 -shared|gdb --args clackers --plugin-run|clackers verify --plugin) .*": "cli.test_plugin",
     r"find_package\(.*": "package.test_cpp",
     r"target_link_libraries\(.*": "package.test_cpp",
 }
@@ -72,7 +74,8 @@ class Document:
         self.build = pathlib.Path(os.environ.get("CLACKERS_BUILD", "build/dev")).resolve()
         kept = {k: v for k, v in os.environ.items() if k not in ("COLUMNS", "NO_COLOR")}
         self.environment = {**kept, "PATH": f"{tools}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8",
-                            "LD_LIBRARY_PATH": str(self.build / "bindings/c"), "PYTHONDONTWRITEBYTECODE": "1"}
+                            "LD_LIBRARY_PATH": str(self.build / "bindings/c"),
+                            "PYTHONPATH": str(self.build / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def run(self, command):
         """The output of a command on both streams; keeps its exit code."""

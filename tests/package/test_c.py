@@ -21,6 +21,13 @@ def declared():
     return sorted(re.findall(r"(\bclackers_\w+)\(", "".join(re.findall(r"^CLACKERS_API[^;]*;", HEADER.read_text(), re.MULTILINE))))
 
 
+def flags(options):
+    """What pkg-config prints; the shell reads quoted blanks."""
+    text = installed.run("sh", "-c", f'eval "set -- $(pkg-config {options} clackers)"; printf "%s\\n" "$@"',
+                         env=tree.environment())
+    return list(filter(None, text.split("\n")))
+
+
 class CLibrary(unittest.TestCase):
     def check(self, text):
         lines = text.splitlines()
@@ -38,10 +45,8 @@ class CLibrary(unittest.TestCase):
 
     def test_example_is_built_with_pkg_config(self):
         environment = tree.environment()
-        flags = installed.run("sh", "-c", 'eval "set -- $(pkg-config --cflags --libs clackers)"; printf "%s\\n" "$@"',
-                              env=environment).split("\n")
         program = tree.folder / "collisions"
-        installed.run(installed.CC, *STRICT, installed.ROOT / "examples/c/collisions.c", *filter(None, flags), "-o", program)
+        installed.run(installed.CC, *STRICT, installed.ROOT / "examples/c/collisions.c", *flags("--cflags --libs"), "-o", program)
         self.check(installed.run(program, env=environment))
 
     def test_example_is_built_with_cmake(self):
@@ -74,8 +79,16 @@ class CLibrary(unittest.TestCase):
 
     def test_header_is_c99_and_cxx98(self):
         for language in (["-x", "c", "-std=c99"], ["-x", "c++", "-std=c++98", "-Wno-long-long"]):
-            installed.run(installed.CC, "-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only", *language,
-                          tree.prefix / "include/clackers.h")
+            for header in ("clackers.h", "clackers_solver.h"):
+                installed.run(installed.CC, "-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only", *language,
+                              tree.prefix / "include" / header)
+
+    def test_plugin_is_built_with_pkg_config(self):
+        library = tree.folder / "newmark.so"
+        installed.run(installed.CC, *STRICT, "-shared", "-fPIC", *flags("--cflags"),
+                      installed.ROOT / "examples/plugins/newmark.c", "-o", library)
+        installed.run(tree.prefix / "bin/clackers", "verify", "--plugin", library, "--expect", "proper:2", "--case", "stop",
+                      "--set", "t_end=8", "--neighbours", "1", "--work", tree.folder / "work")
 
 
 if __name__ == "__main__":

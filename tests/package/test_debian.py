@@ -42,13 +42,29 @@ def tearDownModule():
     shutil.rmtree(folder)
 
 
+def has_python():
+    """Whether the build holds the package for Python, which it does where pybind11 is there."""
+    return "CLACKERS_PYTHON:BOOL=ON" in (installed.BUILD / "CMakeCache.txt").read_text()
+
+
 def field(package, name):
     return installed.run("dpkg-deb", "-f", debs[package], name).strip()
 
 
 class Packages(unittest.TestCase):
-    def test_three_packages_are_made(self):
-        self.assertEqual(sorted(debs), ["clackers", "libclackers-dev", "libclackers0"])
+    def test_packages_are_made(self):
+        self.assertEqual(sorted(debs), ["clackers", "libclackers-dev", "libclackers0", *["python3-clackers"] * has_python()])
+
+    def test_python_package_depends_on_its_python_and_is_not_in_the_others(self):
+        if not has_python():
+            self.skipTest("built without Python")
+        depends = field("python3-clackers", "Depends")
+        for wanted in [r"\bpython3 \(>= 3\.11\)", r"\bpython3 \(<< 3\.12\)", r"\bpython3-numpy\b", r"\blibc6 \(>= ", r"\blibfmt\d+ \(>= "]:
+            self.assertRegex(depends, wanted)
+        for package, deb in debs.items():
+            contents = installed.run("dpkg-deb", "-c", deb)
+            self.assertEqual("dist-packages/clackers/_core.cpython-311" in contents, package == "python3-clackers")
+            self.assertNotIn("__pycache__", contents)
 
     def test_packages_depend_on_the_libraries_they_load(self):
         for package, file in [("clackers", "usr/bin/clackers"), ("libclackers0", "libclackers.so.0")]:
@@ -84,13 +100,14 @@ class InstalledUsedAndRemoved(unittest.TestCase):
         return installed.run("dpkg", f"--root={root}", "--force-script-chrootless", "--no-triggers",
                              f"--log={folder / 'log'}", *arguments, env={**os.environ, "PATH": path})
 
-    def note_calls_of_ldconfig(self):
-        """A file that gets a line at each call."""
+    def note_calls(self):
+        """A file that gets a line at each call of what the packages' scripts run."""
         calls = folder / "calls"
         calls.touch()
         (folder / "bin").mkdir()
-        (folder / "bin/ldconfig").write_text(f"#!/bin/sh\necho called >> {calls}\n")
-        (folder / "bin/ldconfig").chmod(0o755)
+        for name in ["ldconfig", "py3compile", "py3clean"]:
+            (folder / "bin" / name).write_text(f'#!/bin/sh\necho {name} "$@" >> {calls}\n')
+            (folder / "bin" / name).chmod(0o755)
         return calls
 
     def test_packages_are_installed_used_and_removed(self):
@@ -98,18 +115,20 @@ class InstalledUsedAndRemoved(unittest.TestCase):
         admin = root / "var/lib/dpkg"
         admin.parent.mkdir(parents=True)
         shutil.copytree(ADMIN, admin, symlinks=True)
-        calls = self.note_calls_of_ldconfig()
+        calls = self.note_calls()
         before = (ADMIN / "status").read_bytes()
 
         self.dpkg(root, "-i", *debs.values())
         listed = installed.run("dpkg-query", f"--admindir={admin}", "-W", "-f=${Package} ${db:Status-Status}\n", *debs)
-        self.assertEqual(sorted(listed.split()), sorted([*debs, *["installed"] * 3]))
-        self.assertEqual(calls.read_text(), "called\n")
+        self.assertEqual(sorted(listed.split()), sorted([*debs, *["installed"] * len(debs)]))
+        compiled = ["py3compile -p python3-clackers"] * has_python()
+        self.assertEqual(sorted(calls.read_text().splitlines()), ["ldconfig", *compiled])
 
         self.use(root)
 
         self.dpkg(root, "-r", *debs)
-        self.assertEqual(calls.read_text(), "called\ncalled\n")
+        removed = ["py3clean -p python3-clackers"] * has_python()
+        self.assertEqual(sorted(calls.read_text().splitlines()), ["ldconfig", "ldconfig", *removed, *compiled])
         self.assertEqual([p for p in root.rglob("*") if not p.is_dir() and admin not in p.parents], [])
         self.assertEqual((ADMIN / "status").read_bytes(), before)
 
@@ -124,6 +143,15 @@ class InstalledUsedAndRemoved(unittest.TestCase):
         flags = installed.run("pkg-config", "--cflags", "--libs", "clackers", env=environment).split()
         installed.run(installed.CC, installed.ROOT / "examples/c/collisions.c", *flags, "-o", folder / "collisions")
         self.assertEqual(len(installed.run(folder / "collisions", env=environment).splitlines()), 7)
+        if has_python():
+            self.use_python(root / "usr/lib/python3/dist-packages")
+
+    def use_python(self, packages):
+        text = installed.run("/usr/bin/python3", "-B", "-c", "import clackers, importlib.metadata as m\n"
+                             "print(clackers.__file__, m.version('clackers'), len(clackers.case().impacts()))",
+                             cwd=folder, env={**os.environ, "PYTHONPATH": str(packages)})
+        version = field("python3-clackers", "Version").split("-")[0]
+        self.assertEqual(text.split(), [str(packages / "clackers/__init__.py"), version, "6"])
 
 
 if __name__ == "__main__":

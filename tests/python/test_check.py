@@ -30,7 +30,7 @@ class Arrays(unittest.TestCase):
 
     def test_a_motion_that_is_off_is_not(self):
         t, u, v, _ = exact()
-        record = clackers.check(t, u + 1e-3, v, case=CASE, tolerance=1e-4)
+        record = clackers.check(t, u * (1 + 1e-4 * t[:, None]), v, case=CASE, tolerance=1e-4)
         self.assertEqual(record.verdict, "disagrees")
         self.assertEqual(record.exit_code, 1)
 
@@ -91,10 +91,10 @@ class Arrays(unittest.TestCase):
             self.assertLess(record.table()["collision_time_error"][0], 1e-14)
 
     def test_several_are_levels_of_one_method(self):
-        steps = [0.04, 0.02, 0.01, 0.005, 0.0025, 0.00125]
+        steps = [0.02 * 2 ** (-k / 4) for k in range(20)]
         histories = {h: leapfrog(PROBLEM, h) for h in steps}
         record = clackers.check(histories, case=CASE)
-        self.assertAlmostEqual(record.order, 1.0, delta=0.3)
+        self.assertAlmostEqual(record.order, 1.0, delta=0.4)
         np.testing.assert_allclose(record.table()["step"], steps)
         same = clackers.check(list(histories.values()), step=steps, case=CASE)
         self.assertEqual(same.order, record.order)

@@ -6,7 +6,7 @@
 >>> u.shape
 (3, 2)
 """
-from clackers._case import Case, Impacts, Kinematics, case
+from clackers._case import Admissibility, Case, Impacts, Kinematics, admissibility, case
 from clackers._core import version as __version__
 from clackers._errors import Error, FileError, InputError, Interrupted, SolverError
 from clackers._problem import Contact, GapEvent, Problem, State
@@ -16,6 +16,7 @@ from clackers._study import check, verify
 from clackers._table import Column, Table, catalogue, explain
 
 __all__ = [
+    "Admissibility",
     "Case",
     "Column",
     "Contact",
@@ -36,6 +37,7 @@ __all__ = [
     "Subject",
     "Table",
     "__version__",
+    "admissibility",
     "case",
     "catalogue",
     "check",

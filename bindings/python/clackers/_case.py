@@ -82,8 +82,9 @@ class Case:
     {'N': 2.0, 'xi1': 0.05, 'a_t': 1.0}
     """
 
-    def __init__(self, core: _core.Case) -> None:
+    def __init__(self, core: _core.Case, threshold: float | None = None) -> None:
         self._core = core
+        self._threshold = threshold
         self._problem = Problem(core.problem)
 
     @property
@@ -191,6 +192,10 @@ class Case:
 
         Columns t, side, kinetic, potential, dissipated, lost, total, momentum. Where a time is the double
         nearest to an impact two rows stand, side -1 and side 1. Raises InputError as ``response`` does.
+
+        >>> import clackers
+        >>> clackers.case("stop", xi1=0).energies([0.0, 1.0])["total"]
+        array([0.5, 0.5])
         """
         return Table(*_core.energies(self._core, t))
 
@@ -200,29 +205,76 @@ class Case:
         ``name`` is m1 m2 k1 k2 c1 c2 eta gap u10 u20 v10 v20 with all else fixed, or a parameter of the case
         with all that follows from it; ``class:m1`` where both have the name. Columns t, side, du1, dv1, da1 and
         so on. Raises InputError for an unknown name and where there is no derivative.
+
+        >>> import clackers
+        >>> table = clackers.case("sdof").sensitivity("k1", [0.0, 1.0])
+        >>> [column.unit for column in table.columns]
+        ['s', '', 'm^2/N', 'm^2/N/s', 'm^2/N/s^2']
         """
         return Table(*_core.sensitivity(self._core, name, t))
 
     def spectrum(self, n: int, highest: float) -> Table:
         """The Fourier transform of the displacements over the run at ``n`` frequencies from 0 to ``highest``.
 
-        ``highest`` in rad/s; n in [2, 1e9]. Columns omega [rad/s], re1, im1 [m s] and so on.
+        ``highest`` in rad/s; n in [2, 1e9]. Columns omega [rad/s], re1, im1 [m s] and so on. Raises InputError for
+        an n or a highest frequency outside of its range.
+
+        >>> import clackers
+        >>> clackers.case("stop").spectrum(3, 2.0)["omega"]
+        array([0., 1., 2.])
         """
         return Table(*_core.spectrum(self._core, n, highest))
+
+    def tables(self) -> dict[str, Table]:
+        """What ``clackers show`` shows of the case: parameters, constants, indicators, first collisions, and of a
+        pair the harmonics and its conditioning.
+
+        >>> import clackers
+        >>> list(clackers.case("stop").tables())
+        ['parameters', 'constants', 'indicators', 'collisions']
+        """
+        found = [Table(*rows) for rows in _core.case_tables(self._core, self._threshold)]
+        return {table.schema.split("/")[1]: table for table in found}
+
+    def _repr_html_(self) -> str:
+        return "".join(table._repr_html_() for table in self.tables().values())
 
     def __repr__(self) -> str:
         given = ", ".join(f"{name}={value:g}" for name, value in self.parameters.items())
         return f"<clackers.Case {self.name} ({given}): dof {self.dof}, end {self.end:g} s>"
 
 
-def case(name: str = _core.default_case, /, *, threshold: float = _core.default_threshold, **parameters: float) -> Case:
-    """A case of ``clackers.catalogue("cases")`` with its parameters; those not given keep their default.
+class Admissibility(NamedTuple):
+    """How far the masses of a pair stay apart away from equilibrium."""
 
-    ``threshold`` in (0, 1) is the share of the spectral peak from which a harmonic counts in the indicators.
+    r_star: float
+    """Limit of slow over fast mass; infinity for equal frequencies."""
+    margin: float
+    """Smallest gap between collisions relative to the slow displacement; the closed form holds where it is positive."""
+
+
+def admissibility(X: float, r: float) -> Admissibility:
+    """The admissibility of a pair of frequency ratio ``X`` and mass ratio ``r`` = m1/m2, admissible or not.
+
+    X is odd or 1 over an odd number; 1e-60 <= r <= 1e60. Raises InputError outside.
+
+    >>> import clackers
+    >>> round(clackers.admissibility(X=9, r=3).margin, 6)
+    0.320295
+    """
+    return Admissibility(*_core.admissibility(X, r))
+
+
+def case(name: str | None = None, /, *, threshold: float | None = None, **parameters: float) -> Case:
+    """A case of ``clackers.catalogue("cases")`` with its parameters.
+
+    Without a name the default case; parameters that are not given keep their default. ``threshold`` in (0, 1) is
+    the share of the spectral peak from which a harmonic counts in the indicators, 0.1 by default.
+
     Raises InputError for unknown names and for values outside of their range.
 
     >>> import clackers
     >>> clackers.case("synchronized-pair", X=9, r=3, eta=0.8)
     <clackers.Case synchronized-pair (m1=1, k1=1, xi1=0.05, A=1, X=9, r=3, eta=0.8, t_end=20): dof 2, end 20 s>
     """
-    return Case(_core.Case(name, parameters, threshold))
+    return Case(_core.Case(name, parameters, threshold), threshold)

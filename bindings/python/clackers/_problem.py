@@ -118,7 +118,12 @@ class Problem:
         return np.concatenate([self._start.u, self._start.v])
 
     def load(self, t: float) -> Array:
-        """The load f(t) [N], shape (dof,); zero where there is none."""
+        """The load f(t) [N], shape (dof,); zero where there is none.
+
+        >>> import clackers
+        >>> clackers.case("three-parameter").problem.load(0.0)
+        array([0., 0.])
+        """
         return self._core.load(t)
 
     def rhs(self, t: float, y: npt.ArrayLike) -> Array:

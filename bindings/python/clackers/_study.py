@@ -28,7 +28,7 @@ TOLERANCES = "1e-3:1e-10"
 
 def verify(
     *subjects: str | Solver,
-    case: CaseChoice = _core.default_case,
+    case: CaseChoice | None = None,
     steps: npt.ArrayLike | None = None,
     tolerances: Sequence[float] | str | Literal[True] | None = None,
     levels: int | None = None,
@@ -51,7 +51,7 @@ def verify(
     consecutive flights, whose ``t_events`` are the collisions. A time that stands twice has both limits of
     a jump. Callables are called in the thread of the caller, one at a time.
 
-    case        a name with ``**parameters``, a ``clackers.Case``, or a list of these
+    case        a name with ``**parameters``, a ``clackers.Case``, or a list of these; default three-parameter
     steps       the steps of callables [s], in any order, instead of a ladder
     tolerances  callables are ``solver(problem, tolerance)``: a list, "1e-3:1e-10" (one a decade), or True
     levels      number of levels, each half the step of the one before; default 8, 6 with callables
@@ -136,7 +136,7 @@ def check(
     collisions: object = None,
     step: float | Sequence[float] | None = None,
     tolerances: Sequence[float] | None = None,
-    case: str | Case = _core.default_case,
+    case: str | Case | None = None,
     expect: str | None = None,
     tolerance: float | None = None,
     columns: Sequence[str] | None = None,
@@ -156,7 +156,7 @@ def check(
                 histories a list of these; default: found in the history
     step        step of the history [s], a list of several; default: the median time between rows
     tolerances  of an adaptive solver, one a history, instead of steps
-    case        a name with ``**parameters``, or a ``clackers.Case``
+    case        a name with ``**parameters``, or a ``clackers.Case``; default three-parameter
     expect      what the histories should show: "proper:2", "irregular:1", "exact", ...; default nothing
     tolerance   largest error in u over the initial envelope that is allowed
     columns     names of the columns of files where a header lacks or differs
@@ -233,8 +233,10 @@ def _record(core: _core.Record | None, stop: BaseException | None) -> Record:
 # Cases.
 
 
-def _cases(who: str, case: CaseChoice, parameters: Mapping[str, float]) -> list[tuple[str, dict[str, float]]]:
-    """Name and parameters of each case."""
+def _cases(who: str, case: CaseChoice | None, parameters: Mapping[str, float]) -> list[tuple[str, dict[str, float]]]:
+    """Name and parameters of each case; an empty name is the default case."""
+    if case is None:
+        return [("", dict(parameters))]
     if isinstance(case, (str, Case)):
         case = [case]
     if not isinstance(case, (list, tuple)) or not case:
@@ -351,7 +353,6 @@ def _one_each(option: str, value: object, count: int) -> list[object]:
 
 def _line(command: str, positional: Iterable[str], parameters: Mapping[str, float], **options: object) -> str:
     given = [f"{name}={_shown(value)}" for name, value in options.items() if value is not None]
-    given = [text for text in given if text != f"case={_core.default_case!r}"]
     given += [f"{name}={value!r}" for name, value in parameters.items()]
     return f"clackers.{command}({', '.join([*positional, *given])})"
 

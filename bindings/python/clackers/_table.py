@@ -85,13 +85,22 @@ class Table:
         return dict(self._arrays)
 
     def head(self, rows: int = 10) -> Table:
-        """The first rows as a table of their own."""
+        """The first rows as a table of their own.
+
+        >>> import clackers
+        >>> len(clackers.catalogue("metrics").head(3))
+        3
+        """
         return Table(self.schema, self.title, self.columns, [array[:rows] for array in self._arrays.values()])
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a ``pandas.DataFrame``; its ``attrs`` hold schema, title, units and meanings.
 
         Raises ImportError where pandas is not installed.
+
+        >>> import clackers
+        >>> clackers.catalogue("cases").to_pandas().columns.tolist()
+        ['name', 'equations', 'parameters', 'summary']
         """
         try:
             import pandas
@@ -175,13 +184,13 @@ def catalogue(kind: str | None = None) -> dict[str, Table] | Table:
     return Table(*_core.listing(kind))
 
 
-def explain(code: str) -> str:
-    """What a code in brackets behind a sentence means, and what to do about it.
+def explain(code: str | None = None) -> Table:
+    """What a code means and what to do about it, as a table of one row; without ``code`` all codes.
 
-    Raises InputError for an unknown code.
+    Codes are those of errors, behaviours, verdicts and diagnoses. Raises InputError for an unknown code.
 
     >>> import clackers
-    >>> print(clackers.explain("agrees"))
-    agrees (verdict)...
+    >>> clackers.explain("time-outside")["kind"][0]
+    'refusal'
     """
-    return _core.explain(_core.read_text("explain", "code", code))
+    return Table(*_core.explain(code))

@@ -7,6 +7,7 @@ namespace {
 
 using namespace synthetic;
 using enum Behaviour;
+using std::exp;
 
 // Order two with `bad` instead of the error at these levels.
 std::vector<ErrorLevel> without(std::initializer_list<std::size_t> levels, double bad) {
@@ -91,6 +92,47 @@ const VerdictSequence rows[] = {
      .make = [] { return ladder([](double h) { return h * h; }); },
      .claim = claims(2), .behaviour = proper, .verdict = Verdict::disagrees, .order = 2.0,
      .within = 1e-9,
+     .change = at_the_end([](RunScore& run) {
+       run.impacts->found = run.impacts->matched = 5;
+       run.impacts->missed = 1;
+     })},
+    {.name = "growth that is claimed agrees",
+     .make = [] { return ladder([](double h) { return 1e-6 / h; }); },
+     .claim = {divergent, 0.0, ""}, .behaviour = divergent, .verdict = Verdict::agrees,
+     .reason = "error-growth", .order = -1.0, .within = 1e-9},
+    {.name = "failures of more than half of the finest runs are not passed over",
+     .make = [] {
+       auto made = ladder([](double h) { return h * h; });
+       for (std::size_t i = 0; i < 5; ++i) made[7][i].error = nan;
+       return made;
+     },
+     .claim = claims(2), .behaviour = undecided, .verdict = Verdict::undecided,
+     .reason = "run-failed"},
+    {.name = "failures of half of the finest runs leave a line of the others",
+     .make = [] {
+       auto made = ladder([](double h) { return h * h; });
+       for (std::size_t i = 0; i < 4; ++i) made[7][i].error = nan;
+       return made;
+     },
+     .claim = claims(2), .behaviour = proper, .verdict = Verdict::agrees, .order = 2.0,
+     .within = 1e-9},
+    {.name = "errors that fall while most energy is lost call for smaller steps",
+     .make = [] { return ladder([](double h) { return 1.0 - exp(-60.0 * h); }, {.levels = 4}); },
+     .claim = claims(1), .behaviour = undecided, .verdict = Verdict::undecided,
+     .reason = "numerical-damping",
+     .change = at_the_end([](RunScore& run) { run.energy_ratio = 0.4; })},
+    {.name = "a floor whose collisions are late but all there agrees",
+     .make = [] { return ladder([](double h) { return 0.3 + h; }); },
+     .claim = claims_floor(""), .behaviour = stagnating, .verdict = Verdict::agrees,
+     .reason = "unexplained-floor",
+     .change = at_the_end([](RunScore& run) {
+       run.impacts->matched = 5;
+       run.impacts->missed = run.impacts->extra = 1;
+     })},
+    {.name = "a floor with a collision too few disagrees",
+     .make = [] { return ladder([](double h) { return 0.3 + h; }); },
+     .claim = claims_floor(""), .behaviour = stagnating, .verdict = Verdict::disagrees,
+     .reason = "unexplained-floor",
      .change = at_the_end([](RunScore& run) {
        run.impacts->found = run.impacts->matched = 5;
        run.impacts->missed = 1;

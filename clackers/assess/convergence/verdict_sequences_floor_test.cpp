@@ -7,7 +7,7 @@ namespace {
 
 using namespace synthetic;
 using enum Behaviour;
-using std::pow;
+using std::exp, std::pow;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -120,6 +120,24 @@ const VerdictSequence rows[] = {
      .make = [] { return ladder([](double h) { return 1e-2 * std::abs(1.0 - pow(h / 0.008, 2)); }); },
      .claim = claims(2), .behaviour = stagnating, .verdict = Verdict::disagrees,
      .reason = "unexplained-floor"},
+    {.name = "errors that rise to a plateau settle and do not diverge",
+     .make = [] { return ladder([](double h) { return 0.01 * (1.0 - exp(-0.01 / h)); }); },
+     .claim = claims(2), .behaviour = stagnating, .verdict = Verdict::disagrees,
+     .reason = "unexplained-floor"},
+    {.name = "a contact that only the finest levels resolve shows its floor there",
+     .make = [] {
+       return ladder([](double h) { return h > 0.004 ? 0.5 * swing(h, 1.3, 0.7) : 0.02 + h * h; });
+     },
+     .claim = claims_floor("contact-stiffness"), .behaviour = stagnating,
+     .verdict = Verdict::agrees, .reason = "contact-stiffness", .contact_time = 0.03},
+    {.name = "a floor that is claimed with another cause disagrees",
+     .make = [] { return ladder([](double h) { return 5.0 * h * h + 1e-4; }); },
+     .claim = claims_floor("contact-stiffness"), .behaviour = stagnating,
+     .verdict = Verdict::disagrees, .reason = "unexplained-floor", .order = 2.0, .within = 0.1},
+    {.name = "exactness is not claimed by a method that only ends at the rounding floor",
+     .make = [] { return ladder([](double h) { return 3e-6 * h * h + adds_up(h); }); },
+     .claim = {exact, 0.0, ""}, .behaviour = proper, .verdict = Verdict::disagrees, .order = 2.0,
+     .within = 0.05},
 };
 // clang-format on
 

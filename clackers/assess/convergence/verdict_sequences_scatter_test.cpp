@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "clackers/assess/testing/verdict_sequence.hpp"
 
@@ -9,11 +8,6 @@ namespace {
 using namespace synthetic;
 using enum Behaviour;
 using std::pow;
-
-// A factor that swings between 1/amplitude and amplitude, `period` levels of ratio 2 a swing.
-double swing(double h, double amplitude, double period) {
-  return pow(amplitude, std::sin(2.0 * std::numbers::pi * std::log2(h) / period));
-}
 
 // Order `order` on the average, in stairs of ratio `ratio`.
 double stairs(double h, double order, double ratio) {
@@ -133,6 +127,14 @@ const VerdictSequence rows[] = {
      .make = [] { return ladder([](double h) { return late_impacts(h, 6); }, single); },
      .claim = claims(1), .behaviour = undecided, .verdict = Verdict::undecided,
      .reason = "one-sample-a-level"},
+    {.name = "scatter by ten whose envelope grows diverges",
+     .make = [] { return scattered(-1.0, 10.0, 12, {.coarsest = 0.5}); },
+     .claim = claims_envelope(1), .behaviour = divergent, .verdict = Verdict::disagrees,
+     .reason = "error-growth"},
+    {.name = "rough errors of two steps a level still have an envelope",
+     .make = [] { return scattered(1.0, 6.0, 13, {.neighbours = 2}); },
+     .claim = claims_envelope(1), .behaviour = irregular, .verdict = Verdict::agrees, .order = 1.0,
+     .within = 0.3},
 };
 // clang-format on
 

@@ -129,6 +129,36 @@ const VerdictSequence rows[] = {
      .make = [] { return ladder([](double h) { return 1.9 + h; }); },
      .claim = claims(2), .behaviour = undecided, .verdict = Verdict::undecided,
      .reason = "larger-than-motion"},
+    {.name = "an order that rises from one to two once a stiff mode is resolved is two",
+     .make = [] { return ladder([](double h) { return h * h / (1.0 + 20.0 * h); }); },
+     .claim = claims(2), .behaviour = proper, .verdict = Verdict::agrees, .order = 2.0,
+     .within = 0.06},
+    {.name = "a level of errors four times too large in the middle leaves too few behind it",
+     .make = [] {
+       auto made = ladder([](double h) { return h * h; });
+       for (auto& point : made[5]) point.error *= 4.0;
+       return made;
+     },
+     .claim = claims(2), .behaviour = undecided, .verdict = Verdict::undecided,
+     .reason = "too-few-levels"},
+    {.name = "order one where one and a half is claimed as reduced is lower than claimed",
+     .make = [] { return ladder([](double h) { return h; }); },
+     .claim = {reduced, 1.5, ""}, .behaviour = reduced, .verdict = Verdict::disagrees, .order = 1.0,
+     .within = 1e-9},
+    {.name = "a line of order one point two is within a quarter of an envelope of order one",
+     .make = [] { return ladder([](double h) { return pow(h, 1.2); }); },
+     .claim = claims_envelope(1), .behaviour = proper, .verdict = Verdict::agrees, .order = 1.2,
+     .within = 1e-9},
+    {.name = "a line of order one point three is beyond a quarter of an envelope of order one",
+     .make = [] { return ladder([](double h) { return pow(h, 1.3); }); },
+     .claim = claims_envelope(1), .behaviour = proper, .verdict = Verdict::disagrees, .order = 1.3,
+     .within = 1e-9},
+    {.name = "rates that settle at order one with one step a level contradict order two",
+     .make = [] {
+       return ladder([](double h) { return h + 6.0 * h * h; }, {.levels = 6, .neighbours = 1});
+     },
+     .claim = claims(2), .behaviour = reduced, .verdict = Verdict::disagrees, .order = 1.0,
+     .within = 0.1},
 };
 // clang-format on
 

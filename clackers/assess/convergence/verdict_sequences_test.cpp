@@ -16,7 +16,8 @@ TEST_P(VerdictSequences, IsJudgedAsAnExpertWould) {
   const auto& row = GetParam();
   auto ladder = scores_of(row.make());
   if (row.change) row.change(ladder);
-  const auto found = judge(ladder, row.claim, {.contact_time = row.contact_time});
+  const auto found = judge(ladder, row.claim,
+                           {.contact_time = row.contact_time, .by_tolerance = row.by_tolerance});
   const auto& fit = found.displacement;
   EXPECT_EQ(to_string(fit.behaviour), to_string(row.behaviour)) << text(fit);
   EXPECT_EQ(fit.reason, row.reason) << text(fit);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -45,6 +46,11 @@ class Scatter {
   std::uniform_real_distribution<double> log_;
   std::mt19937 random_;
 };
+
+/// A factor that swings between 1/amplitude and amplitude, `period` levels of ratio 2 a swing.
+inline double swing(double h, double amplitude, double period) {
+  return std::pow(amplitude, std::sin(2.0 * std::numbers::pi * std::log2(h) / period));
+}
 
 /// What an impact noticed at the end of its step does: each of `impacts` impacts adds a delay
 /// between 0 and h, by the place in the step where it happens.

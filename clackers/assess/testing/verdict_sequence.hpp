@@ -26,6 +26,7 @@ struct VerdictSequence {
   std::string_view reason = {};              ///< code, empty for none
   double order = 0.0, within = 0.0;          ///< of the line; within 0: there is no line
   double contact_time = 0.0;                 ///< of a compliant contact [s]
+  bool by_tolerance = false;                 ///< steps are tolerances
   std::function<void(Ladder&)> change = {};  ///< what else is wrong with the runs
 };
 

@@ -3,7 +3,7 @@
 #include "clackers/diagnose/causes.hpp"
 #include "clackers/diagnose/file/reading.hpp"
 #include "clackers/diagnose/testing/histories.hpp"
-#include "clackers/methods/testing/runs.hpp"
+#include "clackers/diagnose/testing/method_rows.hpp"
 
 // Each cause in histories of many cases and steps where it must be named, alone. Where it must not
 // be: right_solvers_test.cpp. Those in digits and rows: file_numbers_test.cpp.
@@ -11,22 +11,10 @@ namespace clackers::diagnose {
 namespace {
 
 using testing::assorted_cases;
+using testing::codes;
 using testing::exact_rows;
 using testing::Files;
-
-std::string codes(const std::vector<Diagnosis>& all) {
-  std::string text;
-  for (const auto& one : all) text += (text.empty() ? "" : " ") + one.code;
-  return text;
-}
-
-model::Trajectory run(const char* method, const cases::Case& problem, double h) {
-  auto rows = methods::runs::run(method, problem.problem,
-                                 problem.problem.end / std::round(problem.problem.end / h))
-                  .trajectory;
-  rows.impacts.reset();
-  return rows;
-}
+using testing::run;
 
 bool symmetric(const cases::Case& problem) { return problem.entry->name == "symmetric-pair"; }
 
@@ -49,7 +37,7 @@ TEST(FileCauses, NamesColumnsThatAreExchangedAfterTheFirstRow) {
       for (const auto& reading : exchanges(std::size_t(problem.motion->dof()), true)) {
         // One in five of the permutations: all of them in some case.
         if (symmetric(problem) || (reading.column.size() > 2 && number++ % 5 != 0)) continue;
-        auto rows = run("rk4", problem, h);
+        auto rows = run("rk4", problem.problem, h);
         change(rows, reading);
         Files files{problem};
         files.add(rows, h);
@@ -62,7 +50,7 @@ TEST(FileCauses, NamesColumnsThatAreExchangedAfterTheFirstRow) {
 TEST(FileCauses, NamesSignsAndUnitsAfterTheFirstRow) {
   for (const auto& problem : assorted_cases())
     for (const double h : {0.02}) {
-      const auto right = run("rk4", problem, h);
+      const auto right = run("rk4", problem.problem, h);
       for (const auto& reading : reversals(std::size_t(right.dof), true)) {
         if (symmetric(problem)) continue;
         auto rows = right;
@@ -84,7 +72,7 @@ TEST(FileCauses, NamesSignsAndUnitsAfterTheFirstRow) {
 TEST(FileCauses, NamesTheUnitOfTime) {
   for (const auto& problem : assorted_cases())
     for (const double h : {0.02, 0.01}) {
-      auto rows = run("rk4", problem, h);
+      auto rows = run("rk4", problem.problem, h);
       for (double& t : rows.t) t /= 60.0;
       Files files{problem};
       files.add(rows, h / 60.0);
@@ -92,7 +80,7 @@ TEST(FileCauses, NamesTheUnitOfTime) {
       ASSERT_EQ(codes(causes), "time-unit") << problem.entry->name;
       EXPECT_EQ(causes[0].text, "min");
       // In ms only the rows of the first 20 ms lie within the case.
-      rows = run("rk4", problem, 0.001);
+      rows = run("rk4", problem.problem, 0.001);
       rows.t.resize(21);
       rows.u.resize(21 * std::size_t(rows.dof));
       rows.v.resize(rows.u.size());
@@ -111,7 +99,7 @@ TEST(FileCauses, NamesVelocitiesOfHalfSteps) {
     for (const auto& steps : {std::vector{0.01, 0.005}, std::vector{0.002}}) {
       Files forward{problem}, backward{problem};
       for (const double h : steps) {
-        const auto rows = run("newmark", problem, h);
+        const auto rows = run("newmark", problem.problem, h);
         const auto dof = std::size_t(rows.dof);
         auto later = rows, earlier = rows;
         for (std::size_t i = 0; i + dof < rows.u.size(); ++i) {

@@ -2,35 +2,23 @@
 
 #include "clackers/diagnose/causes.hpp"
 #include "clackers/diagnose/testing/histories.hpp"
-#include "clackers/methods/testing/runs.hpp"
+#include "clackers/diagnose/testing/method_rows.hpp"
 
 // Causes in the digits, times and rows of files, where each must be named, alone.
 namespace clackers::diagnose {
 namespace {
 
 using testing::assorted_cases;
+using testing::codes;
 using testing::exact_rows;
 using testing::Files;
 using testing::find;
-
-std::string codes(const std::vector<Diagnosis>& all) {
-  std::string text;
-  for (const auto& one : all) text += (text.empty() ? "" : " ") + one.code;
-  return text;
-}
-
-model::Trajectory run(const char* method, const cases::Case& problem, double h) {
-  auto rows = methods::runs::run(method, problem.problem,
-                                 problem.problem.end / std::round(problem.problem.end / h))
-                  .trajectory;
-  rows.impacts.reset();
-  return rows;
-}
+using testing::run;
 
 TEST(FileNumbers, NamesPrintedDigits) {
   for (const auto& problem : assorted_cases())
     for (const int digits : {3, 5, 7}) {
-      auto rows = run("rk4", problem, 0.005);
+      auto rows = run("rk4", problem.problem, 0.005);
       testing::print(rows, digits);
       Files files{problem};
       files.add(rows, testing::facts_of(problem, rows, 0.005, digits));
@@ -145,7 +133,7 @@ TEST(FileNumbers, NamesAStartAtRestThatWasAccepted) {
         auto other = problem;
         other.problem.start.v.setZero();
         Files files{problem};
-        files.add(run("rk4", other, h), h);
+        files.add(run("rk4", other.problem, h), h);
         const auto causes = file_causes(files.question());
         ASSERT_EQ(codes(causes), "starts-at-rest") << name << xi1;
       }

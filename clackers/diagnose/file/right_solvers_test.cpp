@@ -2,10 +2,11 @@
 
 #include "clackers/diagnose/causes.hpp"
 #include "clackers/diagnose/testing/histories.hpp"
-#include "clackers/methods/testing/runs.hpp"
+#include "clackers/diagnose/testing/method_rows.hpp"
 
-// Files of solvers that are right, or right solvers of another system, show no cause: methods of different order and contact treatment,
-// cases, steps, digits, rows at each or each fifth step, with and without velocities.
+// Files of solvers that are right, or right solvers of another system, show no cause: methods of
+// different order and contact treatment, cases, steps, digits, rows at each or each fifth step, with
+// and without velocities.
 namespace clackers::diagnose {
 namespace {
 
@@ -34,8 +35,7 @@ TEST_P(RightSolvers, ShowNoCause) {
   std::vector<double> steps;
   for (const double n : {400.0, 640.0, 1600.0}) {
     steps.push_back(problem.problem.end / n);
-    runs.push_back(methods::runs::run(method, problem.problem, steps.back()).trajectory);
-    runs.back().impacts.reset();
+    runs.push_back(testing::run(method, problem.problem, steps.back()));
   }
   for (const int digits : {17, 9, 4})
     for (const std::size_t stride : {1u, 5u}) {
@@ -78,11 +78,8 @@ TEST(RightSolversOfAnotherSystem, ShowNoCause) {
       auto other = problem.problem;
       change(other);
       Files files{problem};
-      for (const double n : {400.0, 1000.0}) {
-        auto rows = methods::runs::run("rk4", other, other.end / n).trajectory;
-        rows.impacts.reset();
-        files.add(rows, other.end / n);
-      }
+      for (const double n : {400.0, 1000.0})
+        files.add(testing::run("rk4", other, other.end / n), other.end / n);
       for (const auto& cause : file_causes(files.question()))
         ADD_FAILURE() << problem.entry->name << ' ' << cause.code << ' ' << cause.text;
     }

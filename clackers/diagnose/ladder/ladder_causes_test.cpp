@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <numbers>
-
 #include <string>
 
 #include "clackers/diagnose/causes.hpp"
@@ -110,27 +109,6 @@ TEST_P(LadderCauses, WhiteNoiseIsAFloor) {
   const auto files = files_of(plan, {.integrator = Integrator::rk4, .noise = noise});
   const auto found = only(files, "noise-floor");
   EXPECT_EQ(found.value, files.ladder.back().runs.back().u_error);
-}
-
-TEST_P(LadderCauses, AStiffSpringIsACompliantContact) {
-  const double duration = 8.0 * plan.steps.back();
-  const auto& problem = plan.problem.problem;
-  const auto& contact = problem.contacts.front();
-  if (contact.restitution < 1.0) return;  // a spring gives all back
-  const Eigen::VectorXd push = problem.system.mass.llt().solve(contact.direction);
-  const double mass = 1.0 / contact.direction.dot(push);
-  const double w = std::numbers::pi / duration, spring = mass * w * w;
-  const auto all = ladder_causes(
-      files_of(plan,
-               {.integrator = Integrator::rk4, .location = Location::spring, .spring = spring})
-          .question());
-  const auto* found = find(all, "contact-compliant");
-  ASSERT_TRUE(found) << listed(all);
-  // Half a period of the spring and the mass it turns back, but for the other springs and for RK4's
-  // error with 8 steps in it.
-  EXPECT_NEAR(found->value, duration, 0.05 * duration);
-  EXPECT_NEAR(found->fact("stiffness"), spring, 0.1 * spring);
-  EXPECT_FALSE(find(all, "contact-in-tension")) << listed(all);
 }
 
 TEST_P(LadderCauses, ADashpotThatPullsIsContactInTension) {

@@ -32,9 +32,8 @@ TEST_P(FaultySolver, IsFoundWithItsValue) {
     const auto found = system_causes(solved(which, problem, solver, 0.2, 3).question());
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].code, fault.code);
-    // The coarser of the two methods errs by (w h)^2/12 = 2e-4 at its finest step.
     if (!std::isnan(fault.value)) {
-      EXPECT_NEAR(found[0].value, fault.value, 0.05 * std::abs(fault.value));
+      EXPECT_NEAR(found[0].value, fault.value, fault.within());
     }
     EXPECT_GE(found[0].confidence, 0.7);
     EXPECT_GE(found[0].fact("gain"), 30.0);

@@ -23,7 +23,7 @@ struct ForeignSolver {
   Integrator integrator = Integrator::rk4;
   Location location = Location::bisection;
   double tolerance = 0.0;  ///< of the bisection [s]; 0: down to rounding
-  double spring = 0.0;     ///< [N/m] of Location::spring
+  double spring = 0.0;     ///< [N/m] of Location::spring, for rk4 alone
   double dashpot = 0.0;    ///< [N s/m] beside it; acts in tension, too
   double noise = 0.0;      ///< standard deviation of u and v as printed
   unsigned seed = 1;

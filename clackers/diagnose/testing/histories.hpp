@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "clackers/assess/convergence/judge.hpp"
+#include "clackers/assess/errors/velocity_error.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/diagnose.hpp"
 
@@ -91,6 +93,17 @@ inline Observation observed(const cases::Case& problem, const model::Trajectory&
   return observed(problem, rows, facts_of(problem, rows, step));
 }
 
+/// RunScore::v_error of rows without reported impacts.
+inline double velocity_error(const model::Trajectory& rows, const assess::Comparison& comparison) {
+  assess::VelocityError error(comparison.reference());
+  error.take(rows.t, rows.v, comparison.reference_v());
+  const auto scale = assess::reference_scale(comparison.reference()).v;
+  double largest = 0.0;
+  for (int mass = 0; mass < rows.dof; ++mass)
+    largest = std::max(largest, error.integral(mass) / scale[mass] / rows.t.back());
+  return largest;
+}
+
 /// Histories of one case and the question that they make. Coarsest first; each is a level.
 struct Files {
   cases::Case problem;
@@ -108,10 +121,19 @@ struct Files {
       score.u_error =
           std::max(score.u_error, std::abs(rows.u[i] - comparison.reference_u()[i]) /
                                       comparison.u_envelope()[i % std::size_t(rows.dof)]);
+    score.v_error = velocity_error(rows, comparison);
+    score.rounding_floor = comparison.rounding_floor();
     score.impacts = comparison.impact_score();
     ladder.push_back({score.step, {score}});
   }
   void add(const model::Trajectory& rows, double step) { add(rows, facts_of(problem, rows, step)); }
+
+  /// Judges the errors, each file as a level.
+  void fit(const Claim& claim = {}) {
+    const auto found = assess::judge(ladder, claim);
+    displacement = found.displacement;
+    velocity = found.velocity;
+  }
 
   Question question() const {
     return {problem.problem, *problem.motion, histories, ladder, displacement, velocity};
@@ -122,6 +144,13 @@ struct Files {
 inline const Diagnosis* find(const std::vector<Diagnosis>& all, std::string_view code) {
   const auto at = std::ranges::find(all, code, &Diagnosis::code);
   return at == all.end() ? nullptr : &*at;
+}
+
+/// Their codes, one space between them.
+inline std::string codes(const std::vector<Diagnosis>& all) {
+  std::string text;
+  for (const auto& one : all) text += (text.empty() ? "" : " ") + one.code;
+  return text;
 }
 
 /// Cases that differ in everything that a file may show: systems, impacts, damping, restitution.

@@ -110,7 +110,9 @@ struct Solver {
   double impulse = 1.0;  ///< factor of all impulses
   double late = 0.0;     ///< the file's time minus the true one [s]
   int late_steps = 0;
-  double tolerance = 0.0;  ///< of the root, in parts of a step
+  double clock = 1.0;          ///< the file's times over the true ones
+  double tolerance = 0.0;      ///< of the root, in parts of a step
+  double damping_after = 1.0;  ///< factor of the damping after the first impact
 };
 
 /// The history of the problem (which may be another one than the case's) on t = n h up to `end`.
@@ -118,13 +120,13 @@ inline model::Trajectory solve(const Solver& solver, const model::ImpactProblem<
                                double h, double end) {
   model::Trajectory out;
   out.dof = int(problem.dof());
-  const auto& s = problem.system;
+  auto s = problem.system;
   Masses x{problem.start.u, problem.start.v};
   const model::Contact<>* contact = problem.contacts.empty() ? nullptr : &problem.contacts[0];
   int hits = 0;
   bool inside = false;
   const auto collide = [&](Masses& y) {
-    ++hits;
+    if (++hits == 1) s.damping *= solver.damping_after;
     if (hits == solver.missed) {
       inside = true;
       return;
@@ -136,7 +138,7 @@ inline model::Trajectory solve(const Solver& solver, const model::ImpactProblem<
   };
   const auto steps = std::lround(end / h);
   for (long n = 0; n <= steps; ++n) {
-    const double t = h * double(n + solver.late_steps) + solver.late;
+    const double t = solver.clock * h * double(n + solver.late_steps) + solver.late;
     if (t >= 0.0 && t <= end * (1.0 + 1e-12)) {
       out.t.push_back(std::min(t, end));
       for (const double one : x.u) out.u.push_back(one);

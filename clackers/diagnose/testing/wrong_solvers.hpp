@@ -20,6 +20,12 @@ struct Fault {
   double value;
   /// Changes problem or solver; false where the case cannot have the fault.
   std::function<bool(model::ImpactProblem<>&, Solver&)> put;
+
+  /// Half width in which the value must be found: a file of two equal masses cannot tell a sum from
+  /// its parts better than this, and a method of order two errs by (w h)^2/12 = 2e-4.
+  double within() const {
+    return std::isnan(value) ? INFINITY : 0.05 * (value == 0.0 ? 1.0 : std::abs(value));
+  }
 };
 
 inline std::vector<Fault> faults() {
@@ -56,6 +62,12 @@ inline std::vector<Fault> faults() {
       return true;
     };
   };
+  const auto damping_after = [collides](double factor) {
+    return [=](P p, S s) {
+      s.damping_after = factor;
+      return collides(p) && p.system.damping.norm() > 0.0;
+    };
+  };
   const auto percent = [](double factor) { return 100.0 * (std::sqrt(factor) - 1.0); };
   return {
       {"restitution lower by 0.01", "restitution-differs", NAN, restitution(-0.01)},
@@ -69,6 +81,11 @@ inline std::vector<Fault> faults() {
       {"damping larger by a tenth", "damping-differs", 10.0, damping(false, 1.1)},
       {"damping lost", "damping-differs", -100.0, damping(false, 0.0)},
       {"damping of mass 1 larger by half", "damping-differs", 50.0, damping(true, 1.5)},
+      {"damping lost after the first impact", "damping-changes-at-impact", 0.0, damping_after(0.0)},
+      {"damping halved after the first impact", "damping-changes-at-impact", 0.5,
+       damping_after(0.5)},
+      {"damping doubled after the first impact", "damping-changes-at-impact", 2.0,
+       damping_after(2.0)},
       {"second impact missed", "impact-missed", 2.0,
        [collides](P p, S s) { return s.missed = 2, collides(p); }},
       {"third impact missed", "impact-missed", 3.0,
@@ -91,6 +108,9 @@ inline std::vector<Fault> faults() {
       {"rows late by a step", "time-shifted", 1.0, [](P, S s) { return s.late_steps = 1, true; }},
       {"rows late by two steps", "time-shifted", 2.0,
        [](P, S s) { return s.late_steps = 2, true; }},
+      // Without damping, or by less than the method errs, a frequency explains as much.
+      {"clock slow by 5 %", "time-unit", 0.95,
+       [](P p, S s) { return s.clock = 0.95, p.system.damping.norm() > 0.0; }},
       {"rows late by 5 ms", "time-shifted", 0.005, [](P, S s) { return s.late = 0.005, true; }},
   };
 }

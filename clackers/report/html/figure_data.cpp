@@ -229,19 +229,20 @@ bool has_convergence(const study::CaseRecord& problem) {
   return drawable > 1;
 }
 
-const study::HistoryFile* drawn_history(const study::CaseRecord& problem) {
+const study::Subject* drawn_subject(const study::CaseRecord& problem) {
   for (const auto& subject : problem.subjects) {
     const auto* run = subject.shown_run();
-    if (run != nullptr && run->file && !run->file->history.t.empty()) return &*run->file;
+    if (run != nullptr && run->file && !run->file->history.t.empty()) return &subject;
   }
   return nullptr;
 }
 
 Json figure_data(const study::CaseRecord& problem) {
   const auto counters = counters_of(problem);
-  const auto* rows = drawn_history(problem);
+  const auto* drawn = drawn_subject(problem);
   return {{"response", displacements(problem.response)},
-          {"history_rows", rows == nullptr ? Json::array() : displacements(rows->history)},
+          {"history_rows",
+           drawn == nullptr ? Json::array() : displacements(drawn->shown_run()->file->history)},
           {"collisions", collisions(problem.problem)},
           {"runs", all_runs(problem)},
           {"levels", levels(problem)},

@@ -30,8 +30,8 @@ nlohmann::ordered_json profile_data(const std::vector<study::Profile>& profiles,
 
 /// Whether a convergence figure has anything to join: two runs with an error above zero.
 bool has_convergence(const study::CaseRecord& problem);
-/// The finest history with displacements of all masses; nullptr without one.
-const study::HistoryFile* drawn_history(const study::CaseRecord& problem);
+/// The subject whose shown run is a history with displacements of all masses; nullptr without one.
+const study::Subject* drawn_subject(const study::CaseRecord& problem);
 
 /// Six digits, which are finer than any screen; any double, subnormal or not finite too.
 double rounded(double value);

@@ -115,7 +115,7 @@ Json figure_specifications(const study::CaseRecord& problem) {
     has_history = has_history || (run != nullptr && !run->error_history.t.empty());
   }
   Json all{{"response", specification_of(assets::response_vl_json, names)}};
-  if (drawn_history(problem) != nullptr)
+  if (drawn_subject(problem) != nullptr)
     all["response"]["layer"].push_back(Json::parse(assets::history_rows_vl_json));
   const bool by_step = std::ranges::any_of(problem.subjects, [](const study::Subject& subject) {
     return subject.resolution == study::Resolution::step;

@@ -57,7 +57,7 @@ std::string response_legend(const study::CaseRecord& problem, const Place& place
         toggle("collisions",
                small_key("var(--collision)", "<path d=\"M0,-5L5,4H-5Z\" fill=\"currentColor\"/>"),
                "collisions");
-  if (drawn_history(problem) != nullptr)
+  if (drawn_subject(problem) != nullptr)
     out += toggle("history", small_key("inherit", "<circle r=\"3\" fill=\"currentColor\"/>"),
                   "rows of the history");
   return out + "</div>\n";
@@ -116,7 +116,7 @@ std::string not_drawn(const study::CaseRecord& problem) {
 FigureText response_text(const study::CaseRecord& record, const Place& place) {
   const auto& problem = record.problem;
   const auto drawn = problem.impact_times.size();
-  const auto* rows = drawn_history(record);
+  const auto* rows = drawn_subject(record);
   std::string reading =
       rows != nullptr
           ? "Dots that leave their line are errors of the history; dots that are late or early by "
@@ -130,7 +130,7 @@ FigureText response_text(const study::CaseRecord& record, const Place& place) {
           ? fmt::format(
                 "Displacement u of each mass in metres against time in seconds: the exact "
                 "motion as lines, rows of {} as dots.",
-                escape(rows->file))
+                escape(history_name(*rows, *rows->shown_run())))
           : fmt::format(
                 "Displacement u of each mass in metres against time in seconds, over {} s "
                 "with {}.",

@@ -250,4 +250,9 @@ std::string short_path(std::string_view path) {
   return std::string(path.substr(path.find_last_of('/') + 1));
 }
 
+std::string history_name(const study::Subject& subject, const study::Run& run) {
+  if (!study::is_solver(subject.kind)) return short_path(run.file->file);
+  return fmt::format("{} at {}", subject.name, resolution_text(subject, run.score.step, 3));
+}
+
 }  // namespace clackers::report

@@ -96,5 +96,7 @@ bool is_shown_cause(const study::Subject& subject, std::string_view code);
 
 /// A path without its folder.
 std::string short_path(std::string_view path);
+/// What a sentence calls the history of a run: its file, or the solver and the step or tolerance.
+std::string history_name(const study::Subject& subject, const study::Run& run);
 
 }  // namespace clackers::report

@@ -14,8 +14,8 @@ using study::NoteCode;
 
 // The notes of one code.
 struct Group {
-  const study::Note* note = nullptr;         ///< of the finest history that has it
-  const study::HistoryFile* file = nullptr;  ///< that history
+  const study::Note* note = nullptr;  ///< of the finest history that has it
+  const study::Run* run = nullptr;    ///< that history
   long long files = 0;
   bool same = true;  ///< in all of them the same sentence
 };
@@ -111,18 +111,18 @@ std::string note_text(const study::Note& note) {
 
 std::vector<std::string> note_texts(const study::Subject& subject) {
   std::vector<Group> groups;
-  const study::HistoryFile* finest = nullptr;
+  const study::Run* finest = nullptr;
   long long files = 0;
   for (auto level = subject.levels.rbegin(); level != subject.levels.rend(); ++level)
     for (auto run = level->runs.rbegin(); run != level->runs.rend(); ++run) {
       if (!run->file) continue;
-      if (finest == nullptr) finest = &*run->file;
+      if (finest == nullptr) finest = &*run;
       ++files;
       for (const auto& note : run->file->notes) {
         if (is_shown_cause(subject, note.code)) continue;
         auto known = std::ranges::find(groups, note.code,
                                        [](const Group& group) { return group.note->code; });
-        if (known == groups.end()) known = groups.insert(known, {&note, &*run->file});
+        if (known == groups.end()) known = groups.insert(known, {&note, &*run});
         ++known->files;
         known->same = known->same && note_text(note) == note_text(*known->note);
       }
@@ -130,7 +130,7 @@ std::vector<std::string> note_texts(const study::Subject& subject) {
   std::vector<std::string> out;
   for (const auto& group : groups) {
     auto text = note_text(*group.note);
-    if (group.file != finest) text = fmt::format("{}: {}", short_path(group.file->file), text);
+    if (group.run != finest) text = fmt::format("{}: {}", history_name(subject, *group.run), text);
     const auto others = group.files - 1;
     const bool of_all = group.same && group.files == files;
     if (others > 0 && !of_all)

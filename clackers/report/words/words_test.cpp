@@ -269,6 +269,16 @@ TEST(NoteTexts, OneForEachCode) {
   EXPECT_TRUE(has(note_texts(subject)[0], "Also in 1 other history, with other numbers."));
 }
 
+TEST(NoteTexts, OfASolverNameItsRun) {
+  auto subject = sample_check().cases[0].subjects[0];
+  subject.kind = study::SubjectKind::program;
+  subject.name = "mine";
+  subject.levels[0].runs[0].score.step = 0.02;
+  EXPECT_TRUE(note_texts(subject)[1].starts_with("mine at h = 0.02 s: The first row"));
+  subject.resolution = study::Resolution::tolerance;
+  EXPECT_TRUE(note_texts(subject)[1].starts_with("mine at tolerance 0.02: The first row"));
+}
+
 TEST(VerdictLine, TheFirstWordThatHoldsIsTheVerdict) {
   auto record = sample_record();
   EXPECT_EQ(verdict_line(record).word, "interrupted");

@@ -27,19 +27,6 @@ bool is_plain(char c) {
          std::string_view("_./+-:=@%,").find(c) != std::string_view::npos;
 }
 
-// As the shell reads it back. What needs no quotes has none, so that it may stand between quotes of
-// the command's own.
-std::string shell_quoted(std::string_view text) {
-  if (!text.empty() && std::ranges::all_of(text, is_plain)) return std::string(text);
-  std::string result = "'";
-  for (const char c : text)
-    if (c == '\'')
-      result += "'\\''";
-    else
-      result += c;
-  return result + "'";
-}
-
 // A word of a command: where it stands, and what the shell makes of it; nothing for a word that is
 // expanded.
 struct Word {
@@ -95,6 +82,30 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
+// The end of a placeholder's name that begins at `at`; `at` where there is none.
+std::size_t end_of_name(std::string_view line, std::size_t at) {
+  while (at < line.size() &&
+         (std::isalpha(static_cast<unsigned char>(line[at])) || line[at] == ':'))
+    ++at;
+  return at;
+}
+
+// The text with "{{name}}" for "{name}".
+std::string without_placeholders(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto end = end_of_name(text, i + 1);
+    const bool expanded = i > 0 && text[i - 1] == '$';  // stays as it is anyway
+    if (text[i] == '{' && !expanded && end > i + 1 && text.substr(end, 1) == "}") {
+      result += fmt::format("{{{}}}", text.substr(i, end + 1 - i));
+      i = end;
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
 // The program that the shell would find.
 std::optional<std::string> in_path(const std::string& name) {
   const char* path = std::getenv("PATH");
@@ -110,6 +121,17 @@ std::optional<std::string> in_path(const std::string& name) {
 
 }  // namespace
 
+std::string shell_quoted(std::string_view word) {
+  if (!word.empty() && std::ranges::all_of(word, is_plain)) return std::string(word);
+  std::string result = "'";
+  for (const char c : word)
+    if (c == '\'')
+      result += "'\\''";
+    else
+      result += c;
+  return result + "'";
+}
+
 CommandTemplate::CommandTemplate(const std::string& command) {
   std::string line;
   std::size_t from = 0;
@@ -122,7 +144,8 @@ CommandTemplate::CommandTemplate(const std::string& command) {
       if (auto found = in_path(text)) files_.push_back(std::move(*found));
     } else if (is_file(text)) {
       files_.push_back(fs::absolute(text).lexically_normal().string());
-      line += command.substr(from, word.begin - from) + shell_quoted(files_.back());
+      line += command.substr(from, word.begin - from) +
+              without_placeholders(shell_quoted(files_.back()));
       from = word.end;
     }
   }
@@ -132,12 +155,6 @@ CommandTemplate::CommandTemplate(const std::string& command) {
         "verify --exec: an empty command; allowed: one as in 'solver {case} {h} {out}'.",
         "bad-syntax");
 
-  const auto ends_name = [&](std::size_t at) {
-    while (at < line.size() &&
-           (std::isalpha(static_cast<unsigned char>(line[at])) || line[at] == ':'))
-      ++at;
-    return at;
-  };
   std::string text;
   const auto add_text = [&] {
     if (!text.empty()) parts_.push_back({std::exchange(text, {}), false});
@@ -145,7 +162,7 @@ CommandTemplate::CommandTemplate(const std::string& command) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool escaped = line.compare(i, 2, "{{") == 0;
     const std::size_t begin = i + (escaped ? 2 : 1);
-    const auto end = line[i] == '{' ? ends_name(begin) : begin;
+    const auto end = line[i] == '{' ? end_of_name(line, begin) : begin;
     const bool closed =
         end > begin && line.compare(end, escaped ? 2 : 1, escaped ? "}}" : "}") == 0;
     if (line[i] != '{' || !closed || (i > 0 && line[i - 1] == '$')) {

@@ -11,12 +11,17 @@ struct PlaceholderValue {
   std::string name, value;
 };
 
+/// A word as a shell reads it back. What needs no quotes has none, so that it may stand between quotes
+/// of a command's own.
+std::string shell_quoted(std::string_view word);
+
 /// The command of --exec: a line for the shell with {case}, {case:text}, {h}, {n}, {tolerance},
 /// {events} and {out}. "${name}" and braces around anything but letters and ":" stay as they are;
 /// "{{name}}" stands for "{name}".
 ///
 /// It runs in another folder than it is typed in, hence words that name a file from here, by a path
-/// or, behind the first word, by its name, become absolute: "./solver" and "python3 solver.py".
+/// or, behind the first word, by its name, become absolute: "./solver" and "python3 solver.py". Braces
+/// in the name of a file that is there are part of it.
 class CommandTemplate {
  public:
   /// Throws InputError for an empty command, for other placeholders (with did-you-mean), and for one

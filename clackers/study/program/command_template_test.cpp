@@ -66,6 +66,15 @@ TEST(CommandTemplate, MakesFilesFromHereAbsolute) {
   EXPECT_NE(identity, changed);
 }
 
+TEST(CommandTemplate, BracesInTheNameOfAFileAreNoPlaceholders) {
+  const auto folder = fs::path(testing::TempDir()) / "{h} {{out}} ${n} {x";
+  fs::create_directories(folder);
+  const auto file = (folder / "solver.so").string();
+  std::ofstream{file} << "x";
+  EXPECT_EQ(filled("run " + shell_quoted(file) + " {h}"), "run '" + file + "' 0.05");
+  fs::remove_all(folder);
+}
+
 TEST(CommandTemplate, HasTheNameOfTheProgram) {
   EXPECT_EQ(CommandTemplate("./bin/solver.exe {h}").name(), "solver");
   EXPECT_EQ(CommandTemplate("A=1 no-such-program {h}").name(), "no-such-program");

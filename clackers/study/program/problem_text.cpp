@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
@@ -44,6 +47,55 @@ void add_rows(std::string& text, char name, const Eigen::MatrixXd& matrix) {
     text += fmt::format("{}{}={}\n", name, ++row, fmt::join(values, " "));
 }
 
+// Takes the lines of a text one by one.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {}
+
+  /// The numbers of the next line, which has this name.
+  Eigen::VectorXd numbers(const std::string& name, Eigen::Index count) {
+    const auto end = std::min(rest_.find('\n'), rest_.size());
+    auto line = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    if (!line.starts_with(name + '=')) refuse_line(line, name, count);
+    auto values = line.substr(name.size() + 1);
+    Eigen::VectorXd found(count);
+    for (auto& value : found) {
+      const auto [stop, error] =
+          std::from_chars(values.data(), values.data() + values.size(), value);
+      if (error != std::errc()) refuse_line(line, name, count);
+      values.remove_prefix(static_cast<std::size_t>(stop - values.data()));
+      if (values.starts_with(' ')) values.remove_prefix(1);
+    }
+    if (!values.empty()) refuse_line(line, name, count);
+    return found;
+  }
+  double number(const std::string& name) { return numbers(name, 1)(0); }
+  Eigen::Index size(const std::string& name) {
+    const double value = number(name);
+    // Each number takes a digit and a blank or the end of its line.
+    if (!(value >= 0.0 && value <= double(rest_.size()) && value == std::floor(value)))
+      refuse("problem", name, value, "a whole number, not above those that follow", {},
+             "bad-syntax");
+    return static_cast<Eigen::Index>(value);
+  }
+  Eigen::MatrixXd matrix(const char* name, Eigen::Index size) {
+    Eigen::MatrixXd matrix(size, size);
+    for (Eigen::Index i = 0; i < size; ++i)
+      matrix.row(i) = numbers(fmt::format("{}{}", name, i + 1), size);
+    return matrix;
+  }
+
+ private:
+  [[noreturn]] static void refuse_line(std::string_view line, std::string_view name,
+                                       Eigen::Index count) {
+    refuse("problem", "line", line, fmt::format("{}= and {} numbers", name, count), {},
+           "bad-syntax");
+  }
+
+  std::string_view rest_;
+};
+
 }  // namespace
 
 std::string problem_json(const Problem& problem) {
@@ -83,6 +135,26 @@ std::string problem_file_text(const Problem& problem) {
                     fmt::join(numbers(contact.direction), " "), contact.gap, contact.restitution);
   }
   return text;
+}
+
+Problem problem_from_text(std::string_view text) {
+  Lines lines(text);
+  Problem problem;
+  const auto dof = lines.size("dof"), contacts = lines.size("contacts");
+  problem.start.t = lines.number("t");
+  problem.end = lines.number("end");
+  problem.start.u = lines.numbers("u", dof);
+  problem.start.v = lines.numbers("v", dof);
+  problem.system.mass = lines.matrix("M", dof);
+  problem.system.damping = lines.matrix("C", dof);
+  problem.system.stiffness = lines.matrix("K", dof);
+  for (Eigen::Index i = 1; i <= contacts; ++i) {
+    auto& contact = problem.contacts.emplace_back();
+    contact.direction = lines.numbers(fmt::format("direction{}", i), dof);
+    contact.gap = lines.number(fmt::format("gap{}", i));
+    contact.restitution = lines.number(fmt::format("restitution{}", i));
+  }
+  return problem;
 }
 
 }  // namespace clackers::study

@@ -38,4 +38,7 @@ std::string problem_file_json(std::string_view case_name, const model::ImpactPro
 /// with the last three lines for each contact. Throws as problem_json does.
 std::string problem_file_text(const model::ImpactProblem<>& problem);
 
+/// The problem of problem_file_text(). Throws InputError (bad-syntax) for other text.
+model::ImpactProblem<> problem_from_text(std::string_view text);
+
 }  // namespace clackers::study

@@ -42,6 +42,31 @@ TEST(ProblemText, LinesHaveAFixedOrder) {
             "direction2=0 1\ngap2=-1\nrestitution2=1\n");
 }
 
+TEST(ProblemText, LinesReadBackToTheSameProblem) {
+  const auto text = problem_file_text(two_masses());
+  EXPECT_EQ(problem_file_text(problem_from_text(text)), text);
+  EXPECT_EQ(problem_from_text(text).system.stiffness(0, 1), -1.5);
+}
+
+TEST(ProblemText, RefusesOtherLines) {
+  const auto text = problem_file_text(two_masses());
+  EXPECT_REFUSED(problem_from_text(""), "bad-syntax", "dof= and 1 numbers");
+  EXPECT_REFUSED(problem_from_text(text.substr(0, text.find("gap2"))), "bad-syntax", "gap2");
+  for (const auto* change : {"v=0 -1e-07 3", "v=0", "v=0 x", "w=0 -1e-07"}) {
+    auto other = text;
+    other.replace(other.find("v=0"), std::string_view("v=0 -1e-07").size(), change);
+    EXPECT_REFUSED(problem_from_text(other), "bad-syntax", "v= and 2 numbers");
+  }
+}
+
+TEST(ProblemText, RefusesOtherSizes) {
+  for (const auto* size : {"-1", "1.5", "1e300", "9999"}) {
+    auto other = problem_file_text(two_masses());
+    other.replace(0, std::string_view("dof=2").size(), std::string("dof=") + size);
+    EXPECT_REFUSED(problem_from_text(other), "bad-syntax", "problem: dof = ");
+  }
+}
+
 TEST(ProblemText, RefusesALoad) {
   auto problem = two_masses();
   problem.system.add_load = [](double, std::span<double>) {};

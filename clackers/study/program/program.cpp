@@ -27,8 +27,7 @@ double tolerance_in(std::string_view whole, std::string_view text) {
 
 std::vector<SolverSubject> subjects_of(const ProgramRequest& request) {
   require_positive("verify", "timeout", request.timeout);
-  const auto tolerances =
-      request.tolerances.empty() ? tolerances_from("1e-3:1e-10") : request.tolerances;
+  const auto tolerances = tolerances_of(request);
   const auto folder = std::make_shared<WorkFolder>(request.work);
   std::vector<SolverSubject> subjects;
   for (const auto& program : request.programs) {
@@ -45,6 +44,10 @@ std::vector<SolverSubject> subjects_of(const ProgramRequest& request) {
     };
   }
   return subjects;
+}
+
+std::vector<double> tolerances_of(const ProcessOptions& options) {
+  return options.tolerances.empty() ? tolerances_from("1e-3:1e-10") : options.tolerances;
 }
 
 std::vector<double> tolerances_from(std::string_view text) {

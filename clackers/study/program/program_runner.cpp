@@ -81,14 +81,15 @@ void take_end(SolverOutput& output, const ProcessResult& result, double timeout)
 
 ProgramRunner::ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
                              const model::ImpactProblem<>& problem, double timeout, bool fresh,
-                             std::shared_ptr<WorkFolder> folder)
+                             std::shared_ptr<WorkFolder> folder, Completion complete)
     : command_(std::move(command)),
       title_(fmt::format("{}-{}", name, case_name)),
       json_(problem_file_json(case_name, problem)),
       text_(problem_file_text(problem)),
       timeout_(timeout),
       fresh_(fresh),
-      folder_(std::move(folder)) {}
+      folder_(std::move(folder)),
+      complete_(std::move(complete)) {}
 
 std::string ProgramRunner::command_in(const fs::path& folder, const SolverRun& run) const {
   return command_.filled({{"case", (folder / "problem.json").string()},
@@ -114,6 +115,7 @@ SolverOutput ProgramRunner::output_of(const SolverRun& run, const fs::path& fold
   SolverOutput output;
   output.printed = std::move(result.printed);
   take_end(output, result, timeout_);
+  if (complete_ && !output.interrupted) complete_(folder, output);
   if (output.interrupted || !output.failure.empty()) return output;
   if (!is_filled(history)) {
     set_failure(output, "program-output",

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -16,10 +17,13 @@ namespace clackers::study {
 /// Runs one program on one case. run() may be called from several threads.
 class ProgramRunner : public Solver {
  public:
+  /// Completes how a run ended by what it left in its folder.
+  using Completion = std::function<void(const std::filesystem::path& folder, SolverOutput& output)>;
+
   /// `timeout` of a run [s]; `fresh`: earlier runs are not reused.
   ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
                 const model::ImpactProblem<>& problem, double timeout, bool fresh,
-                std::shared_ptr<WorkFolder> folder);
+                std::shared_ptr<WorkFolder> folder, Completion complete = {});
 
   /// The result of an earlier run of the same command, with the same files of the program, problem,
   /// step and tolerance, if there is one; else that of a new run in a folder of its own, which holds
@@ -37,6 +41,7 @@ class ProgramRunner : public Solver {
   double timeout_;
   bool fresh_;
   std::shared_ptr<WorkFolder> folder_;
+  Completion complete_;
 };
 
 }  // namespace clackers::study

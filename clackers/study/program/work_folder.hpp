@@ -32,7 +32,7 @@ class WorkFolder {
 
   std::filesystem::path path_;
   bool is_given_;
-  std::atomic<int> next_ = 0;
+  static inline std::atomic<int> next_ = 0;  // of the whole process, in whatever folder
 };
 
 /// The folder of one run while it runs; removed at its end unless it was committed.

@@ -13,7 +13,7 @@ MODULES = {
     "methods": ("Methods", "Time integrators and contact treatments, and the interface of a new method.",
                 ["method", "registry"]),
 }
-C_HEADER = "bindings/c/clackers.h"
+C_HEADERS = ["bindings/c/clackers.h", "clackers/study/plugin/clackers_solver.h"]
 
 
 def header(module, stem):
@@ -25,7 +25,7 @@ def header(module, stem):
 
 
 def headers():
-    return [header(module, stem) for module, (_, _, stems) in MODULES.items() for stem in stems] + [C_HEADER]
+    return [header(module, stem) for module, (_, _, stems) in MODULES.items() for stem in stems] + C_HEADERS
 
 
 def pages():
@@ -36,9 +36,14 @@ def pages():
         texts[f"reference/api/{module}.md"] = (
             f"# {title}\n\n{words} Headers: {named}.\n\n"
             f"```{{doxygennamespace}} clackers::{module}\n:content-only:\n:members:\n```\n")
+    sections = "innerclass enum func typedef var public*"
     texts["reference/api/c.md"] = (
         "# The C library\n\nC99, for every language that can call C. pkg-config knows `clackers.h` as `clackers`.\n\n"
-        "```{doxygenfile} clackers.h\n:sections: innerclass enum func typedef var public*\n```\n")
+        f"```{{doxygenfile}} clackers.h\n:sections: {sections}\n```\n")
+    texts["reference/api/plugin.md"] = (
+        "# Plug-ins\n\nThe header of solvers that `clackers verify --plugin` assesses: "
+        "[write a plug-in](../../how-to/write-a-plug-in.md).\n\n"
+        f"```{{doxygenfile}} clackers_solver.h\n:sections: {sections}\n```\n")
     return texts
 
 

@@ -54,26 +54,27 @@ OrderInterval order_interval(std::span<const double> x, std::span<const double> 
                       .coarsest = line.slope};
   if (x.size() < fewest_to_bend) return found;
   const double largest = std::ranges::max(x);
-  // 1 + term in equal ratios, then finer about the best.
+  // 1 + term in equal ratios, then finer about the best of them and about none: between small terms
+  // and large ones, which bend all rates by as much, the squares rise again.
   const auto at = [&](double place) { return bent(x, y, largest, std::exp(place) - 1.0); };
   const double low = std::log1p(smallest_term), high = std::log1p(largest_term);
   constexpr int places = 16;
-  double step = (high - low) / places, best = 0.0;
-  double least = at(0.0).squares;
-  const double straight = least;
-  for (int i = 0; i <= places; ++i)
-    if (const double here = at(low + i * step).squares; here < least) {
+  const double width = (high - low) / places, straight = at(0.0).squares;
+  double best = 0.0, least = straight;
+  const auto improve = [&](double place) {
+    const double here = at(place).squares;
+    if (here < least) {
       least = here;
-      best = low + i * step;
+      best = place;
     }
-  for (int i = 0; i < 6; ++i) {
-    step *= 0.5;
-    for (const double place : {best - step, best + step})
-      if (const double here = at(std::clamp(place, low, high)).squares; here < least) {
-        least = here;
-        best = std::clamp(place, low, high);
-      }
-  }
+  };
+  const auto refine = [&] {
+    for (double step = 0.5 * width; step > width / 128.0; step *= 0.5)
+      for (const double place : {best - step, best + step}) improve(std::clamp(place, low, high));
+  };
+  refine();
+  for (int i = 0; i <= places; ++i) improve(low + i * width);
+  refine();
   const auto law = at(best);
   found.limit = law.line.slope;
   const double term = std::exp(best) - 1.0;

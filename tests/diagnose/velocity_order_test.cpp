@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include "clackers/diagnose/causes.hpp"
+#include "clackers/diagnose/testing/wrong_solvers.hpp"
+
+// Velocities that converge more slowly than displacements, in histories of many cases.
+namespace clackers::diagnose::testing {
+namespace {
+
+// Rows of a solver at six steps, halved from `turn` radians on, with velocities of which `change` makes those of the file.
+template <class Change>
+Files files_with(const cases::Case& which, const Step& step, double turn, const Change& change) {
+  Files files{which};
+  const double end = which.problem.end;
+  double h = turn / fastest(which);
+  for (int i = 0; i < 6; ++i, h /= 2.0) {
+    const double exact_step = end / std::ceil(end / h);
+    auto rows = solve({.step = step}, which.problem, exact_step, end);
+    change(rows, exact_step);
+    files.add(rows, exact_step);
+  }
+  files.fit();
+  return files;
+}
+
+// v(t) + share h a(t), as velocities of one stage of a step are.
+auto ahead(const cases::Case& which, double share) {
+  return [&which, share](model::Trajectory& rows, double h) {
+    const auto dof = Eigen::Index(rows.dof);
+    for (std::size_t i = 0; i < rows.u.size(); i += std::size_t(dof)) {
+      Eigen::Map<Eigen::VectorXd> v(rows.v.data() + i, dof);
+      const Eigen::Map<const Eigen::VectorXd> u(rows.u.data() + i, dof);
+      v += share * h * acceleration(which.problem.system, {u, v});
+    }
+  };
+}
+
+TEST(VelocityOrder, OneIsNamedWhereDisplacementsHaveMore) {
+  int all = 0;
+  for (const auto& which : assorted_cases())
+    for (const auto& step : {newmark(0.25, 0.5), Step(rk4)})
+      for (const double share : {0.3, -0.3}) {
+        ++all;
+        // Fine enough for the term of order one to rule the errors of phase, (w h)^2/12 w t.
+        const auto files = files_with(which, step, 0.02, ahead(which, share));
+        const auto causes = file_causes(files.question());
+        ASSERT_EQ(codes(causes), "velocity-order-lower")
+            << name_of(which) << ' ' << share << ": " << files.velocity.order << " +- "
+            << files.velocity.spread;
+        EXPECT_NEAR(causes[0].value, 1.0, 0.1 + files.velocity.spread);
+        EXPECT_EQ(causes[0].fact("expected"), files.displacement.order);
+      }
+  EXPECT_GE(all, 20);
+}
+
+TEST(VelocityOrder, OfTheMethodsOwnVelocitiesIsNoCause) {
+  int all = 0;
+  for (const auto& which : assorted_cases())
+    for (const auto& step :
+         {newmark(0.25, 0.5), Step(rk4), Step(verlet), Step(implicit_euler), Step(tr_bdf2)}) {
+      ++all;
+      const auto files = files_with(which, step, 0.1, [](model::Trajectory&, double) {});
+      EXPECT_EQ(codes(file_causes(files.question())), "") << name_of(which);
+    }
+  EXPECT_GE(all, 20);
+}
+
+}  // namespace
+}  // namespace clackers::diagnose::testing

@@ -1,0 +1,39 @@
+"""A program that uses the package; test_types.py checks its types, and that it runs."""
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+import clackers
+
+
+def total_energy(case: clackers.Case, t: npt.NDArray[np.float64]) -> float:
+    table: clackers.Table = case.energies(t)
+    return float(table["total"][0])
+
+
+def largest(values: clackers.Kinematics) -> float:
+    return float(np.abs(values.u).max())
+
+
+def main() -> None:
+    case = clackers.case("three-parameter", N=2, xi1=0.05)
+    t = np.linspace(0.0, case.end, 11)
+    u, v, a = case.response(t, side="left")
+    buffers = (np.empty_like(u), np.empty_like(v), None)
+    case.response(t, out=buffers)
+    impacts: clackers.Impacts = case.impacts(first=1, last=2)
+    problem: clackers.Problem = case.problem
+    rate: npt.NDArray[np.float64] = problem.rhs(0.0, problem.y0)
+    names: list[str] = [column.name for column in case.spectrum(3, 1.0).columns]
+    tables: dict[str, clackers.Table] = clackers.catalogue()
+    try:
+        clackers.case("stop", eta=2)
+    except clackers.InputError as error:
+        code: str = error.code
+        print(code, clackers.__version__)
+    print(total_energy(case, t), largest(case.error_bound(t)), len(impacts), rate.shape, names, len(tables))
+
+
+if __name__ == "__main__":
+    main()
