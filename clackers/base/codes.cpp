@@ -160,8 +160,11 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "keep the last row before it and the first row after it."},
     // Files of other programs.
     {"not-text", "refusal",
-     "A history must be rows of numbers as text in ASCII or UTF-8; "
+     "A history must be rows of numbers as text in ASCII or UTF-8, or a NumPy file (.npy); "
      "the file is binary, UTF-16, or has a line of more than 65536 bytes."},
+    {"not-an-array", "refusal",
+     "A NumPy file (.npy) that is cut, damaged, longer than its array, of Python objects, or of "
+     "another shape than rows of numbers. Save the columns with numpy.save."},
     {"no-column", "refusal",
      "A column that is needed is missing or stands twice, or the columns have no names. "
      "Name them in a header line or with --columns t,u1,v1,...; an underscore leaves one out."},

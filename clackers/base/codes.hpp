@@ -31,7 +31,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "too-many-steps", "too-many-rows", "not-a-record", "other-study", "not-whole",
     "penalty-needs-elastic", "no-default-stiffness", "linear-only", "beyond-last-impact",
     "no-closed-form", "no-derivative", "needs-arb", "no-enclosure", "time-outside", "three-limits",
-    "not-text", "no-column", "ragged-row", "decimal-comma", "not-sorted", "too-short",
+    "not-text", "not-an-array", "no-column", "ragged-row", "decimal-comma", "not-sorted", "too-short",
     "not-this-case", "printed-digits", "sparse-rows",
     "restitution-differs", "mass-ratio-differs", "frequency-differs", "damping-differs",
     "damping-changes-at-impact", "time-shifted", "time-unit", "time-drifts", "unit-scaled",

@@ -7,8 +7,7 @@
 #include <optional>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exchange/text/number.hpp"
-#include "clackers/exchange/text/table_reader.hpp"
+#include "clackers/exchange/table.hpp"
 
 namespace clackers::exchange {
 namespace {
@@ -17,15 +16,15 @@ using Column = std::optional<std::size_t>;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-Column find(const TableReader& table, const std::string& name) {
+Column find(const Table& table, const std::string& name) {
   const auto at = std::ranges::find(table.names(), name);
   if (at == table.names().end()) return {};
   return static_cast<std::size_t>(at - table.names().begin());
 }
 
 // The columns of one quantity, mass by mass ("v1-", "v2-"); empty when there is none at all.
-std::vector<Column> find_all(const TableReader& table, const std::string& letter,
-                             const std::string& side, int dof) {
+std::vector<Column> find_all(const Table& table, const std::string& letter, const std::string& side,
+                             int dof) {
   std::vector<Column> columns;
   for (int j = 1; j <= dof; ++j) {
     auto column = find(table, letter + std::to_string(j) + side);
@@ -36,13 +35,13 @@ std::vector<Column> find_all(const TableReader& table, const std::string& letter
   return columns;
 }
 
-double number_in(const TableReader& table, std::size_t column) {
+double number_in(Table& table, std::size_t column) {
   Number number;
   table.read_number(column, number);
   return number.value;
 }
 
-std::vector<double> numbers_in(const TableReader& table, const std::vector<Column>& columns) {
+std::vector<double> numbers_in(Table& table, const std::vector<Column>& columns) {
   std::vector<double> numbers;
   for (const auto& column : columns)
     numbers.push_back(column ? number_in(table, *column) : unknown);
@@ -51,13 +50,14 @@ std::vector<double> numbers_in(const TableReader& table, const std::vector<Colum
 
 }  // namespace
 
-std::vector<model::Impact> read_events(const std::string& path, int dof,
+std::vector<model::Impact> read_events(const Source& source, int dof,
                                        const std::atomic<bool>* interrupt) {
-  TableReader table(path, {}, TableKind::events, interrupt);
+  const auto opened = open_table(source, {}, TableKind::events, interrupt);
+  auto& table = *opened;
   auto t = find(table, "t");
   if (!t) t = find(table, "time");
   if (!t)
-    throw InputError(table.path() + " has no column t; collisions need their times.", "no-column");
+    throw InputError(table.name() + " has no column t; collisions need their times.", "no-column");
   const auto impulse = find(table, "impulse");
   const auto u = find_all(table, "u", "", dof);
   const auto before = find_all(table, "v", "-", dof), after = find_all(table, "v", "+", dof);

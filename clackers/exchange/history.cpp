@@ -7,14 +7,15 @@
 #include <limits>
 
 #include "clackers/base/check.hpp"
+#include "clackers/base/error.hpp"
 #include "clackers/exchange/history_columns.hpp"
+#include "clackers/exchange/table.hpp"
 #include "clackers/exchange/text/printed_digits.hpp"
-#include "clackers/exchange/text/table_reader.hpp"
 
 namespace clackers::exchange {
 namespace {
 
-// One column of a file and the vector its numbers go to.
+// One column of a source and the vector its numbers go to.
 struct Target {
   std::size_t column;
   std::size_t mass;
@@ -22,13 +23,16 @@ struct Target {
   PrintedDigits digits{};
 };
 
+std::string_view shown(RowSide side) {
+  return side == RowSide::none ? "nothing" : side == RowSide::before ? "-" : "+";
+}
+
 class Reader {
  public:
-  Reader(const std::string& path, const HistoryOptions& options)
+  Reader(Table& table, const HistoryOptions& options)
       : options_(options),
-        table_(path, options.columns, TableKind::history, options.interrupt),
-        columns_(history_columns(table_.path(), table_.names(), options, history_.notes)) {
-    if (table_.names_from_comment()) history_.notes.push_back({.code = "columns-from-comment"});
+        table_(table),
+        columns_(history_columns(table.name(), table.names(), options, history_.notes)) {
     history_.names = table_.names();
     history_.motion.dof = options.dof;
     history_.has_time = columns_.t.has_value();
@@ -43,13 +47,10 @@ class Reader {
 
   History run() {
     while (table_.next()) {
-      if (!take()) break;
-      if (rows_ == rows_before_guess) reserve();
       if (rows_ % rows_a_report == 0) report();
+      if (!take()) break;
     }
-    if (table_.lines().ends_without_line_feed())
-      history_.notes.push_back(
-          {.code = "last-line-incomplete", .numbers = {double(table_.line())}});
+    for (auto& note : table_.notes()) history_.notes.push_back(std::move(note));
     finish();
     return std::move(history_);
   }
@@ -57,6 +58,7 @@ class Reader {
  private:
   // False for a row that is not finite and ends the history.
   bool take() {
+    if (!reserved_) reserve();
     const auto rows = rows_;
     try {
       take_time();
@@ -75,12 +77,11 @@ class Reader {
     }
   }
 
-  static constexpr std::size_t rows_before_guess = 1000, rows_a_report = 65536;
+  static constexpr std::size_t rows_a_report = 65536;
 
   void report() const {
-    const auto size = table_.lines().file_size();
-    if (options_.progress && size > 0)
-      options_.progress(std::min(1.0, double(table_.lines().consumed()) / double(size)));
+    const double share = table_.share();
+    if (options_.progress && share > 0.0) options_.progress(std::min(1.0, share));
   }
 
   void take_time() {
@@ -103,16 +104,16 @@ class Reader {
                "Print times with more digits if they are not the same.", "not-sorted");
       if (t == last) require_sides();
     }
-    last_side_ = columns_.side ? std::string(table_.field(*columns_.side)) : std::string();
+    if (columns_.side) last_side_ = table_.side(*columns_.side);
     times.push_back(t);
   }
 
   // Rows of one time with sides the wrong way round.
   void require_sides() const {
     if (!columns_.side) return;
-    const auto side = table_.field(*columns_.side);
-    if (last_side_ == "+" || side == "-")
-      refuse(table_.place(), "side", side, "- (before the jump) above + (after it)", {},
+    const auto side = table_.side(*columns_.side);
+    if (last_side_ == RowSide::after || side == RowSide::before)
+      refuse(table_.place(), "side", shown(side), "- (before the jump) above + (after it)", {},
              "not-sorted");
   }
 
@@ -133,24 +134,23 @@ class Reader {
     return &values == &history_.motion.v ? columns_.has_v() : columns_.has_a();
   }
 
-  // Growing by doubling would hold a large file's numbers up to three times.
+  // Growing by doubling would hold a large history's numbers up to three times.
   void reserve() {
-    const auto size = table_.lines().file_size(), consumed = table_.lines().consumed();
-    if (size <= consumed) return;
-    const double guess = 1.02 * double(rows_) * double(size) / double(consumed);
-    const auto rows = static_cast<std::size_t>(guess);
+    const auto rows = table_.expected_rows();
+    if (rows == 0) return;
     auto& motion = history_.motion;
     const auto dof = std::size_t(options_.dof);
     motion.t.reserve(rows);
     motion.u.reserve(rows * dof);
     if (columns_.has_v()) motion.v.reserve(rows * dof);
     if (columns_.has_a()) motion.a.reserve(rows * dof);
+    reserved_ = true;
   }
 
   void finish() {
     const auto& times = history_.motion.t;
     if (times.empty() || times.back() == times.front())
-      refuse(table_.path(), "times", double(!times.empty()), "two different times at least", {},
+      refuse(table_.name(), "times", double(!times.empty()), "two different times at least", {},
              "too-short");
     if (columns_.t) print("t", time_digits_);
     for (const auto& target : targets_) print(table_.names()[target.column], target.digits);
@@ -175,19 +175,21 @@ class Reader {
 
   HistoryOptions options_;
   History history_;
-  TableReader table_;
+  Table& table_;
   HistoryColumns columns_;
   std::vector<Target> targets_;
   PrintedDigits time_digits_;
-  std::string last_side_;
+  RowSide last_side_ = RowSide::none;
   std::size_t rows_ = 0;
+  bool reserved_ = false;
 };
 
 }  // namespace
 
-History read_history(const std::string& path, const HistoryOptions& options) {
+History read_history(const Source& source, const HistoryOptions& options) {
   if (options.step != 0.0) require_step("history", options.step);
-  return Reader(path, options).run();
+  const auto table = open_table(source, options.columns, TableKind::history, options.interrupt);
+  return Reader(*table, options).run();
 }
 
 }  // namespace clackers::exchange

@@ -9,9 +9,9 @@ namespace clackers::exchange {
 
 /// A column of doubles in memory.
 struct NumberColumn {
-  std::string name;            ///< as a header would have it: "t", "u1"
-  const double* first = nullptr;
-  std::ptrdiff_t stride = 1;  ///< from one row to the next, in doubles
+  std::string name;               ///< as a header would have it: "t", "u1"
+  const double* first = nullptr;  ///< none: a column without numbers, which may only be left out
+  std::ptrdiff_t stride = 1;      ///< from one row to the next, in doubles
 };
 
 /// A table in memory that belongs to the caller; it must outlive the reading.
@@ -29,5 +29,9 @@ using Source = std::variant<std::string, NumberColumns>;
 std::string name_of(const Source& source);
 /// The path of a file, empty for columns in memory.
 std::string path_of(const Source& source);
+/// As the caller gave it: the path, "-" among them, or the name of the columns.
+std::string given_name(const Source& source);
+/// False for an empty path, which stands for no source.
+bool is_given(const Source& source);
 
 }  // namespace clackers::exchange

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clackers/cases/case.hpp"
+#include "clackers/exchange/source.hpp"
 #include "clackers/study/progress.hpp"
 #include "clackers/study/record.hpp"
 
@@ -15,13 +16,13 @@ namespace clackers::study {
 /// What `clackers check` is asked for.
 struct CheckRequest {
   /// One or more; several are levels of one method. "-" is standard input, one of them at most.
-  std::vector<std::string> files;
+  std::vector<exchange::Source> files;
   std::string case_name;  ///< empty: the default case
   cases::Settings settings;
-  std::vector<std::string> columns;  ///< names of the columns; empty: those of the files
-  std::vector<std::string> events;   ///< files of collisions: none, or one a history
-  std::vector<double> steps;         ///< none, or one a history [s]
-  std::vector<double> tolerances;    ///< none, or one a history instead of a step, of (0, 1)
+  std::vector<std::string> columns;      ///< names of the columns; empty: those of the files
+  std::vector<exchange::Source> events;  ///< collisions: none, or one a history
+  std::vector<double> steps;             ///< none, or one a history [s]
+  std::vector<double> tolerances;        ///< none, or one a history instead of a step, of (0, 1)
   std::optional<Claim> expect;
   std::optional<double> tolerance;  ///< largest allowed u_error, 0 < tolerance
   std::string command;              ///< as typed
@@ -30,7 +31,7 @@ struct CheckRequest {
 /// Assesses histories of any program against the exact motion of a case: a record of one case with
 /// one subject, the histories.
 ///
-/// A run's step is the one of `steps`; else the one in the file's name (h0.01.csv, dt=1e-3.txt,
+/// A run's step is the one of `steps`; else the one in the source's name (h0.01.csv, dt=1e-3.npy,
 /// N400.csv; named_steps()); else the median time between rows. `tolerances`, or names like
 /// rtol1e-06.csv, make a ladder of tolerances. A history without times has them from `steps`, its
 /// first row at 0 if it is the initial state and at one step otherwise. Rows after the end of the
@@ -41,9 +42,9 @@ struct CheckRequest {
 /// the tolerance, and the finest history disagrees where it misses a collision, has one too many, or
 /// begins far from the reference.
 ///
-/// Throws InputError for what read_history refuses, histories none of which is finite, one that starts from another state than
-/// the case (not-this-case), and options that do not fit the files; FileError for files that cannot
-/// be read; Error (interrupted) when `interrupt` becomes true.
+/// Throws InputError for what read_history refuses, histories none of which is finite, one that
+/// starts from another state than the case (not-this-case), and options that do not fit the files;
+/// FileError for files that cannot be read; Error (interrupted) when `interrupt` becomes true.
 Record check(const CheckRequest& request, const Progress& progress = {},
              const std::atomic<bool>* interrupt = nullptr);
 

@@ -44,11 +44,11 @@ std::vector<std::string> parts_of(std::string_view option, std::string_view text
 
 study::CheckRequest request_of(const Options& options, const std::string& line) {
   study::CheckRequest request;
-  request.files = options.files;
+  request.files.assign(options.files.begin(), options.files.end());
   request.case_name = options.case_name;
   request.settings = read_settings(options.settings);
   if (!options.columns.empty()) request.columns = parts_of("--columns", options.columns);
-  request.events = options.events;
+  request.events.assign(options.events.begin(), options.events.end());
   if (!options.steps.empty())
     for (const auto& part : parts_of("--steps", options.steps))
       request.steps.push_back(read_number("--steps", part));
@@ -98,32 +98,36 @@ void add_check(Grammar& root) {
                    "--expect proper:2\n"
                    "  clackers check node.out --columns t,u1,u2 --events hits.csv "
                    "--tolerance 1e-3\n"
+                   "  clackers check h*.npy --expect proper:2\n"
                    "  ./solver | clackers check - --case stop\n",
        .about =
            "Assesses time histories that any program wrote, against the exact motion of a case. "
-           "Text with comma, semicolon, tab or blank separation; columns t, u1, v1, a1, u2, ... "
-           "by header or --columns; a time that stands twice carries both limits of a jump. "
-           "Several files are levels of one method and give an order. Exit code 0 when the "
-           "history agrees or nothing is expected, 1 when it disagrees or is of another motion, "
-           "3 when undecided.",
+           "Text with comma, semicolon, tab or blank separation, or NumPy's format (.npy); columns "
+           "t, u1, v1, a1, u2, ... by header, fields or --columns; a time that stands twice carries "
+           "both limits of a jump. Several files are levels of one method and give an order. "
+           "Exit code 0 when the history agrees or nothing is expected, 1 when it disagrees or is "
+           "of another motion, 3 when undecided.",
        .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
                 "           [--columns t,u1,...] [--events FILE]\n"
                 "           [--steps h1,h2,...|--tolerances a,b,...]\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
                 "           [--metrics all] [--baseline FILE.json] [--report FILE.html]\n"});
-  app->add_option("FILE", options->files, "Time histories, text; - for standard input.")
+  app->add_option("FILE", options->files, "Time histories, text or .npy; - for standard input.")
       ->reads_file("");
   app->add_option("--case", options->case_name,
                   "The case (clackers list cases). Default: three-parameter.")
       ->option_text("CASE");
   add_set_option(*app, options->settings);
-  app->add_option("--columns", options->columns,
-                  "Names of the columns where a header lacks or differs: t,u1,_,v1; _ skips one.")
+  app->add_option(
+         "--columns", options->columns,
+         "Names of the columns where a header lacks or differs, and of a plain .npy array: "
+         "t,u1,_,v1; _ skips one.")
       ->option_text("t,u1,...");
-  app->add_option("--events", options->events,
-                  "Collisions of the history: a column t and optionally impulse,v1-,v1+,v2-,v2+. "
-                  "Of several histories one file each, in their order. Without it collisions are "
-                  "found in the history.")
+  app->add_option(
+         "--events", options->events,
+         "Collisions of the history, text or .npy: a column t and optionally "
+         "impulse,v1-,v1+,v2-,v2+. Of several histories one file each, in their order. Without it "
+         "collisions are found in the history.")
       ->reads_file("FILE");
   app->add_option(
          "--steps", options->steps,

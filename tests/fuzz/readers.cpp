@@ -29,6 +29,20 @@ std::vector<std::string> parts(std::string_view text) {
   return out;
 }
 
+void require_whole(const exchange::History& history, int dof) {
+  const auto& motion = history.motion;
+  const auto rows = motion.t.size(), cells = rows * std::size_t(dof);
+  require(rows >= 2, "a history has two rows");
+  require(motion.u.size() == cells, "u has a value a row and mass");
+  require(motion.v.empty() || motion.v.size() == cells, "v is empty or whole");
+  require(motion.a.empty() || motion.a.size() == cells, "a is empty or whole");
+  require(history.has_u.size() == std::size_t(dof), "has_u has an entry a mass");
+  require(finite(motion.t) && finite(motion.u) && finite(motion.v) && finite(motion.a),
+          "numbers are finite");
+  require(std::ranges::is_sorted(motion.t), "times ascend");
+  require(history.spacing > 0.0, "the spacing is positive");
+}
+
 }  // namespace
 
 // The first byte chooses the masses, whether there is a step, and whether the next line names the
@@ -44,18 +58,19 @@ void read_history(std::string_view bytes) {
     bytes.remove_prefix(std::min(bytes.size(), bytes.find('\n')));
   }
   const MemoryFile file(bytes);
-  const auto history = exchange::read_history(file.path(), options);
-  const auto& motion = history.motion;
-  const auto rows = motion.t.size(), cells = rows * std::size_t(options.dof);
-  require(rows >= 2, "a history has two rows");
-  require(motion.u.size() == cells, "u has a value a row and mass");
-  require(motion.v.empty() || motion.v.size() == cells, "v is empty or whole");
-  require(motion.a.empty() || motion.a.size() == cells, "a is empty or whole");
-  require(history.has_u.size() == std::size_t(options.dof), "has_u has an entry a mass");
-  require(finite(motion.t) && finite(motion.u) && finite(motion.v) && finite(motion.a),
-          "numbers are finite");
-  require(std::ranges::is_sorted(motion.t), "times ascend");
-  require(history.spacing > 0.0, "the spacing is positive");
+  require_whole(exchange::read_history(file.path(), options), options.dof);
+}
+
+// A NumPy file behind its magic bytes. The first byte chooses the masses, and names for up to seven
+// columns of a plain array.
+void read_npy(std::string_view bytes) {
+  if (bytes.empty()) return;
+  const unsigned choice = static_cast<unsigned char>(bytes.front());
+  const MemoryFile file("\x93NUMPY" + std::string(bytes.substr(1)));
+  exchange::HistoryOptions options{.dof = choice % 2 == 0 ? 2 : 1, .step = 0.01};
+  for (const auto* name : {"t", "u1", "v1", "u2", "v2", "a1", "a2"})
+    if (options.columns.size() < choice / 2 % 8) options.columns.emplace_back(name);
+  require_whole(exchange::read_history(file.path(), options), options.dof);
 }
 
 void read_events(std::string_view bytes) {

@@ -42,6 +42,7 @@ class MemoryFile {
 };
 
 void read_history(std::string_view bytes);
+void read_npy(std::string_view bytes);
 void read_events(std::string_view bytes);
 void read_specification(std::string_view bytes);
 void read_settings(std::string_view bytes);

@@ -38,15 +38,15 @@ void refuse_other_formats(const std::string& name, std::string_view bytes) {
            {"BZh"sv, "is compressed with bzip2", decompress},
            {"\xFD\x37zXZ"sv, "is compressed with xz", decompress},
            {"\x28\xB5\x2F\xFD"sv, "is compressed with zstd", decompress},
-           {"PK\x03\x04"sv, "is a zip archive or a spreadsheet", "Export the history as csv."},
+           {"PK\x03\x04"sv, "is a zip archive (npz) or a spreadsheet",
+            "Export the history as csv or npy."},
            {"\x93NUMPY"sv, "is an array of NumPy", "Save it with numpy.savetxt."}})
     if (bytes.starts_with(format.bytes)) refuse_bytes(name, format.what, format.advice);
 }
 
 }  // namespace
 
-TextLines::TextLines(const std::string& path, const std::atomic<bool>* interrupt)
-    : file_(path, interrupt), bytes_(block) {}
+TextLines::TextLines(InputFile file) : file_(std::move(file)), bytes_(block) {}
 
 std::string TextLines::place() const { return fmt::format("{} line {}", name(), number_); }
 

@@ -21,7 +21,10 @@ class TextLines {
  public:
   /// `path` is "-" for standard input. Throws FileError (cannot-read) as InputFile does. When
   /// `interrupt` becomes true, next() throws Error with code interrupted.
-  TextLines(const std::string& path, const std::atomic<bool>* interrupt);
+  TextLines(const std::string& path, const std::atomic<bool>* interrupt)
+      : TextLines(InputFile(path, interrupt)) {}
+  /// Of a file that stands at its first byte.
+  explicit TextLines(InputFile file);
 
   /// Moves to the next line; false after the last. Throws InputError (not-text) for a byte 0 (a
   /// binary file), UTF-16 and UTF-32, compressed files and a line longer than longest_line;

@@ -26,7 +26,10 @@ void require_one_each(const char* option, std::size_t given, std::size_t files) 
 void validate(const CheckRequest& request) {
   if (request.files.empty())
     throw InputError("check needs a FILE with a time history.", "bad-syntax");
-  if (std::ranges::count(request.files, "-") + std::ranges::count(request.events, "-") > 1)
+  const auto is_input = [](const exchange::Source& source) { return path_of(source) == "-"; };
+  if (std::ranges::count_if(request.files, is_input) +
+          std::ranges::count_if(request.events, is_input) >
+      1)
     throw InputError("check: - stands more than once; allowed: standard input for one file.",
                      "bad-syntax");
   require_one_each("--events", request.events.size(), request.files.size());
@@ -40,10 +43,12 @@ void validate(const CheckRequest& request) {
   if (request.tolerance) require_positive("check", "--tolerance", *request.tolerance);
 }
 
-// Work to expect of a file: its bytes. Of standard input nothing is known.
-double cost_of(const std::string& file) {
+// Work to expect of a history: its bytes. Of standard input nothing is known.
+double cost_of(const exchange::Source& source) {
+  if (const auto* columns = std::get_if<exchange::NumberColumns>(&source))
+    return 1.0 + double(columns->rows * columns->columns.size() * sizeof(double));
   std::error_code error;
-  const auto bytes = std::filesystem::file_size(file, error);
+  const auto bytes = std::filesystem::file_size(path_of(source), error);
   return error ? 1.0 : 1.0 + double(bytes);
 }
 

@@ -1,54 +1,15 @@
 #include "clackers/study/check.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <random>
-#include <sstream>
+#include <algorithm>
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/study/testing/check_fixture.hpp"
 
 namespace clackers::study {
 namespace {
-
-class Check : public testing::Test {
- protected:
-  Check() : folder_(std::filesystem::temp_directory_path() / name()) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Check() override { std::filesystem::remove_all(folder_); }
-
-  static std::string name() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    return fmt::format("clackers-check-{}-{}", test->name(), std::random_device()());
-  }
-
-  // The exact response of the default case with an error in u1 of order 2 in 8 h.
-  std::string write(double h, double factor = 0.0, const std::string& end = "\n") {
-    const auto problem = cases::make(cases::default_case());
-    std::ostringstream text;
-    text << "t,u1,v1,u2,v2";
-    for (long long i = 0; double(i) * h <= problem.motion->end(); ++i) {
-      const double t = double(i) * h;
-      const auto now = problem.motion->at(t, model::Side::right);
-      const double error = factor * 64.0 * h * h * std::sin(t);
-      text << fmt::format("\n{},{},{},{},{}", t, now.u[0] + error, now.v[0], now.u[1], now.v[1]);
-    }
-    const auto path = (folder_ / fmt::format("h{}.csv", h)).string();
-    std::ofstream(path) << text.str() << end;
-    return path;
-  }
-
-  std::filesystem::path folder_;
-};
-
-bool has(const Run& run, std::string_view code) {
-  return std::ranges::count(run.file->notes, code, &Note::code) > 0;
-}
 
 TEST_F(Check, FillsARecordOfOneCaseAndOneSubject) {
   CheckRequest request;
@@ -66,7 +27,7 @@ TEST_F(Check, FillsARecordOfOneCaseAndOneSubject) {
   EXPECT_EQ(subject.assessment.verdict, Verdict::not_claimed);
   const auto* run = subject.shown_run();
   ASSERT_NE(run, nullptr);
-  EXPECT_EQ(run->file->file, request.files[0]);
+  EXPECT_EQ(run->file->file, path_of(request.files[0]));
   EXPECT_EQ(run->file->rows, 2001);
   EXPECT_LT(run->score.u_error, 1e-14);
   EXPECT_EQ(run->score.impacts->matched, 6);

@@ -75,7 +75,7 @@ HistorySet::HistorySet(cases::Case problem, CaseSummary summary, std::vector<std
 void HistorySet::read(const HistoryTask& task, const Progress& progress) {
   auto found = history_run(task, columns_, problem_, summary_, progress, interrupt_);
   add({.run = std::move(found.run),
-       .named = named_resolution(task.file),
+       .named = named_resolution(exchange::name_of(task.file)),
        .step_is_given = task.step > 0.0},
       std::move(found.observation));
 }

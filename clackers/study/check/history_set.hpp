@@ -7,15 +7,16 @@
 #include <vector>
 
 #include "clackers/cases/case.hpp"
-#include "clackers/study/check/history_run.hpp"
+#include "clackers/study/check/history/history_run.hpp"
 #include "clackers/study/check/named_resolution.hpp"
 #include "clackers/study/progress.hpp"
 #include "clackers/study/record.hpp"
 
 namespace clackers::study {
 
-/// The histories of one solver at several steps or tolerances, from files or from a program's runs,
-/// and their assessment. `read` and `add_failed` may be called from several threads at once.
+/// The histories of one solver at several steps or tolerances, from files, from memory or from a
+/// program's runs, and their assessment. `read` and `add_failed` may be called from several threads
+/// at once.
 class HistorySet {
  public:
   /// `columns` are the names of the files' columns, empty for those of the files.

@@ -1,4 +1,4 @@
-#include "clackers/study/check/history_score.hpp"
+#include "clackers/study/check/history/history_score.hpp"
 
 #include <algorithm>
 #include <cmath>

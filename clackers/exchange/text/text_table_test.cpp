@@ -1,6 +1,8 @@
-#include "clackers/exchange/text/table_reader.hpp"
+#include "clackers/exchange/text/text_table.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "clackers/exchange/testing/test_file.hpp"
 #include "clackers/exchange/text/number.hpp"
@@ -10,16 +12,16 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-struct Table {
+struct Rows {
   Names names;
   std::vector<std::vector<double>> rows;
   bool from_comment = false;
 };
 
-Table read(const std::string& bytes, const Names& names = {}, TableKind kind = TableKind::history) {
+Rows read(const std::string& bytes, const Names& names = {}, TableKind kind = TableKind::history) {
   const TestFile file(bytes);
-  TableReader reader(file.path(), names, kind, nullptr);
-  Table table{reader.names(), {}, reader.names_from_comment()};
+  TextTable reader(InputFile(file.path(), nullptr), names, kind);
+  Rows table{reader.names(), {}};
   while (reader.next()) {
     table.rows.emplace_back();
     for (std::size_t c = 0; c < reader.names().size(); ++c) {
@@ -28,12 +30,18 @@ Table read(const std::string& bytes, const Names& names = {}, TableKind kind = T
       table.rows.back().push_back(number.value);
     }
   }
+  table.from_comment =
+      std::ranges::count(reader.notes(), "columns-from-comment", &ReadNote::code) > 0;
   return table;
+}
+
+void read_path(const std::string& path, const std::atomic<bool>* interrupt = nullptr) {
+  const TextTable table(InputFile(path, interrupt), {}, TableKind::history);
 }
 
 const std::vector<std::vector<double>> two_rows{{0.0, 1.0}, {0.5, -2.0}};
 
-TEST(TableReader, TakesEverySeparation) {
+TEST(TextTable, TakesEverySeparation) {
   for (const std::string text :
        {"t,u1\n0,1\n0.5,-2\n", "t, u1\n0 , 1\n 0.5,  -2 \n", "t;u1\n0;1\n0.5;-2\n",
         "t\tu1\n0\t1\n0.5\t-2\n", "t u1\n0 1\n0.5 -2\n", " t   u1\n  0    1 \n0.5\t -2\n",
@@ -45,7 +53,7 @@ TEST(TableReader, TakesEverySeparation) {
   }
 }
 
-TEST(TableReader, TakesEveryEndOfLineAndAByteOrderMark) {
+TEST(TextTable, TakesEveryEndOfLineAndAByteOrderMark) {
   for (const std::string text :
        {"t,u1\r\n0,1\r\n0.5,-2\r\n", "t,u1\n0,1\n0.5,-2", "t,u1\r\n0,1\r\n0.5,-2\r",
         "\xEF\xBB\xBFt,u1\n0,1\n0.5,-2\n", "\n\nt,u1\n\n0,1\n   \n0.5,-2\n\n\n"}) {
@@ -56,7 +64,7 @@ TEST(TableReader, TakesEveryEndOfLineAndAByteOrderMark) {
   }
 }
 
-TEST(TableReader, LeavesCommentsOut) {
+TEST(TextTable, LeavesCommentsOut) {
   const auto table =
       read("# made by a program\n% t,u9\nt,u1 # header\n0,1\n# half\n0.5,-2 % end\n");
   EXPECT_EQ(table.names, (Names{"t", "u1"}));
@@ -64,11 +72,11 @@ TEST(TableReader, LeavesCommentsOut) {
   EXPECT_FALSE(table.from_comment);
 }
 
-TEST(TableReader, NamesAreWithoutCaseQuotesAndUnits) {
+TEST(TextTable, NamesAreWithoutCaseQuotesAndUnits) {
   EXPECT_EQ(read("\"T [s]\",U1 (m),V1-\n0,1,2\n").names, (Names{"t", "u1", "v1-"}));
 }
 
-TEST(TableReader, NamesMayStandInTheCommentAboveTheRows) {
+TEST(TextTable, NamesMayStandInTheCommentAboveTheRows) {
   const auto table = read("# run 7\n# t u1\n0 1\n0.5 -2\n");
   EXPECT_EQ(table.names, (Names{"t", "u1"}));
   EXPECT_TRUE(table.from_comment);
@@ -77,13 +85,13 @@ TEST(TableReader, NamesMayStandInTheCommentAboveTheRows) {
   EXPECT_REFUSED(read("# t u1 v1\n0 1\n"), "no-column", "2 columns");
 }
 
-TEST(TableReader, GivenNamesReplaceAHeaderAndStandForNone) {
+TEST(TextTable, GivenNamesReplaceAHeaderAndStandForNone) {
   EXPECT_EQ(read("time,x\n0,1\n0.5,-2\n", {"t", "U1"}).names, (Names{"t", "u1"}));
   EXPECT_EQ(read("0 1\n0.5 -2\n", {"t", "_"}).rows, two_rows);
   EXPECT_REFUSED(read("0 1 7\n0.5 -2 7\n", {"t", "u1"}), "ragged-row", "3 fields; allowed: 2");
 }
 
-TEST(TableReader, AListOfCollisionsMayBeTimesAloneOrAHeaderAlone) {
+TEST(TextTable, AListOfCollisionsMayBeTimesAloneOrAHeaderAlone) {
   EXPECT_EQ(read("0.5\n1.5\n", {}, TableKind::events).names, Names{"t"});
   EXPECT_EQ(read("t,impulse\n", {}, TableKind::events).names, (Names{"t", "impulse"}));
   EXPECT_TRUE(read("t,impulse\n", {}, TableKind::events).rows.empty());
@@ -91,25 +99,25 @@ TEST(TableReader, AListOfCollisionsMayBeTimesAloneOrAHeaderAlone) {
   EXPECT_REFUSED(read("0.5\n1.5\n"), "no-column", "have no names");
 }
 
-TEST(TableReader, RefusesFilesWithoutRows) {
+TEST(TextTable, RefusesFilesWithoutRows) {
   EXPECT_REFUSED(read(""), "too-short", "is empty");
   EXPECT_REFUSED(read("\n# nothing\n"), "too-short", "is empty");
   EXPECT_REFUSED(read("t,u1\n"), "too-short", "has a header and no rows");
 }
 
-TEST(TableReader, RefusesRaggedRowsWithTheirLine) {
+TEST(TextTable, RefusesRaggedRowsWithTheirLine) {
   EXPECT_REFUSED(read("t u1\n0 1\n0.5\n"), "ragged-row", "line 3 has 1 fields; allowed: 2");
   EXPECT_REFUSED(read("t,u1\n# c\n0,1\n0.5,-2,7\n"), "ragged-row", "line 4 has 3 fields");
 }
 
-TEST(TableReader, RefusesDecimalCommasWithAHint) {
+TEST(TextTable, RefusesDecimalCommasWithAHint) {
   EXPECT_REFUSED(read("t;u1\n0;1\n0,5;-2\n"), "decimal-comma", "line 3: t = \"0,5\"");
   EXPECT_REFUSED(read("t\tu1\n0,0\t1\n"), "decimal-comma", "decimal point");
   EXPECT_REFUSED(read("t,u1\n0,5,-2,0\n"), "ragged-row", "Are the commas decimal?");
   EXPECT_REFUSED(read("0,05 1,0\n", {"t", "u1", "v1"}), "decimal-comma", "\"05 1\"");
 }
 
-TEST(TableReader, RefusesWhatIsNoFiniteNumberWithItsLine) {
+TEST(TextTable, RefusesWhatIsNoFiniteNumberWithItsLine) {
   EXPECT_REFUSED(read("t,u1\n0,1\n0.5,nan\n"), "not-finite", "line 3: u1 = \"nan\"");
   EXPECT_REFUSED(read("t,u1\n0,-inf\n"), "not-finite", "line 2");
   EXPECT_REFUSED(read("t,u1\n0,1\n0.5,x\n"), "not-a-number", "line 3: u1 = \"x\"");
@@ -117,7 +125,7 @@ TEST(TableReader, RefusesWhatIsNoFiniteNumberWithItsLine) {
   EXPECT_REFUSED(read("t,u1,v1\n0,,1\n"), "not-a-number", "u1 = \"\"");
 }
 
-TEST(TableReader, RefusesWhatIsNoText) {
+TEST(TextTable, RefusesWhatIsNoText) {
   EXPECT_REFUSED(read(std::string("t,u1\n0,1\n0.5\0,2\n", 17)), "not-text", "byte 0");
   EXPECT_REFUSED(read("\xFF\xFEt,u1\n"), "not-text", "UTF-16");
   EXPECT_REFUSED(read(std::string("\xFF\xFE\0\0t\0\0\0", 8)), "not-text", "UTF-32");
@@ -126,11 +134,11 @@ TEST(TableReader, RefusesWhatIsNoText) {
   EXPECT_REFUSED(read("t,u1\n" + std::string((1 << 24) + 1, '1')), "not-text", "line 2 is longer");
 }
 
-TEST(TableReader, CutLastRowIsRefusedWithThatReason) {
+TEST(TextTable, CutLastRowIsRefusedWithThatReason) {
   EXPECT_REFUSED(read("t,u1\n0,1\n0.5"), "ragged-row", "may have been cut");
 }
 
-TEST(TableReader, LineEndsOfAllSystemsGiveTheSameRows) {
+TEST(TextTable, LineEndsOfAllSystemsGiveTheSameRows) {
   for (const std::string end : {"\n", "\r\n", "\r", "\r\r\n"}) {
     const auto table = read(
         "\xEF\xBB\xBF"
@@ -141,7 +149,7 @@ TEST(TableReader, LineEndsOfAllSystemsGiveTheSameRows) {
   }
 }
 
-TEST(TableReader, RowsOfTwentyThousandColumnsAreRead) {
+TEST(TextTable, RowsOfTwentyThousandColumnsAreRead) {
   constexpr std::size_t columns = 20'000;
   std::string header = "t", row = "0";
   for (std::size_t i = 1; i < columns; ++i) {
@@ -154,13 +162,12 @@ TEST(TableReader, RowsOfTwentyThousandColumnsAreRead) {
   EXPECT_EQ(table.rows[1].back(), 0.123456789012345);
 }
 
-TEST(TableReader, RefusesWhatCannotBeRead) {
-  EXPECT_REFUSED(TableReader("/nowhere/at/all", {}, TableKind::history, nullptr), "cannot-read",
-                 "No such file");
-  EXPECT_REFUSED(TableReader("/", {}, TableKind::history, nullptr), "cannot-read", "directory");
+TEST(TextTable, RefusesWhatCannotBeRead) {
+  EXPECT_REFUSED(read_path("/nowhere/at/all"), "cannot-read", "No such file");
+  EXPECT_REFUSED(read_path("/"), "cannot-read", "directory");
 }
 
-TEST(TableReader, ReadsRowsAcrossItsBlocks) {
+TEST(TextTable, ReadsRowsAcrossItsBlocks) {
   std::string text = "t,u1\n";
   constexpr int rows = 150'000;  // three blocks and more
   for (int i = 0; i < rows; ++i) text += std::to_string(i) + ",0.123456789012\n";
@@ -172,10 +179,10 @@ TEST(TableReader, ReadsRowsAcrossItsBlocks) {
   }
 }
 
-TEST(TableReader, StopsWhenInterrupted) {
+TEST(TextTable, StopsWhenInterrupted) {
   const TestFile file("t,u1\n0,1\n");
   const std::atomic<bool> interrupt{true};
-  EXPECT_REFUSED(TableReader(file.path(), {}, TableKind::history, &interrupt), "interrupted", "");
+  EXPECT_REFUSED(read_path(file.path(), &interrupt), "interrupted", "");
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "clackers/exchange/text/table_reader.hpp"
+#include "clackers/exchange/text/text_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "clackers/base/error.hpp"
 #include "clackers/exchange/text/number.hpp"
 
 namespace clackers::exchange {
@@ -12,16 +12,6 @@ namespace {
 
 constexpr auto decimal_comma_hint =
     "Are the commas decimal? Numbers take a decimal point; write the file anew with points.";
-
-// "U1 [m]" is u1.
-std::string plain_name(std::string_view text) {
-  const auto bracket = text.find_first_of("[(");
-  if (bracket != std::string_view::npos && bracket > 0) text = text.substr(0, bracket);
-  std::string name(trimmed(text));
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
-}
 
 std::vector<std::string> plain_names(const Separation& separation, std::string_view line) {
   std::vector<std::string_view> fields;
@@ -45,9 +35,8 @@ bool has_inner_blank(std::string_view field) {
 
 }  // namespace
 
-TableReader::TableReader(const std::string& path, const std::vector<std::string>& names,
-                         TableKind kind, const std::atomic<bool>* interrupt)
-    : kind_(kind), lines_(path, interrupt), separation_(Separation::of("")) {
+TextTable::TextTable(InputFile file, const std::vector<std::string>& names, TableKind kind)
+    : Table(file.name()), kind_(kind), lines_(std::move(file)), separation_(Separation::of("")) {
   std::optional<std::string> header;
   row_is_waiting_ = next_content();
   if (row_is_waiting_ && !has_a_number(lines_.text())) {
@@ -55,7 +44,7 @@ TableReader::TableReader(const std::string& path, const std::vector<std::string>
     row_is_waiting_ = next_content();
   }
   if (!row_is_waiting_ && (!header || kind == TableKind::history))
-    throw InputError(this->path() + (header ? " has a header and no rows" : " is empty") +
+    throw InputError(name() + (header ? " has a header and no rows" : " is empty") +
                          "; allowed: rows of numbers.",
                      "too-short");
   separation_ = Separation::of(row_is_waiting_ ? lines_.text() : std::string_view(*header));
@@ -65,83 +54,110 @@ TableReader::TableReader(const std::string& path, const std::vector<std::string>
 }
 
 // The next line with something on it; remembers the last comment until the first row.
-bool TableReader::next_content() {
+bool TextTable::next_content() {
   while (lines_.next()) {
     if (!trimmed(lines_.text()).empty()) return true;
-    if (names_.empty() && !trimmed(lines_.comment()).empty()) comment_ = lines_.comment();
+    if (names().empty() && !trimmed(lines_.comment()).empty()) comment_ = lines_.comment();
   }
   return false;
 }
 
-bool TableReader::comment_names_columns() {
-  names_ = plain_names(separation_, comment_);
+bool TextTable::comment_names_columns(std::vector<std::string>& names) {
+  names = plain_names(separation_, comment_);
   const auto is_known = [](const std::string& name) {
     return name == "t" || name == "time" || name == "u1" || name == "u";
   };
-  from_comment_ = names_.size() == fields_.size() && std::ranges::any_of(names_, is_known);
+  from_comment_ = names.size() == fields_.size() && std::ranges::any_of(names, is_known);
   return from_comment_;
 }
 
-void TableReader::name_columns(const std::vector<std::string>& given,
-                               const std::optional<std::string>& header) {
+void TextTable::name_columns(const std::vector<std::string>& given,
+                             const std::optional<std::string>& header) {
   const bool events = kind_ == TableKind::events;
+  std::vector<std::string> names;
   if (!given.empty()) {
-    for (const auto& name : given) names_.push_back(plain_name(name));
+    for (const auto& name : given) names.push_back(plain_name(name));
   } else if (header) {
-    names_ = plain_names(separation_, *header);
-  } else if (!comment_names_columns()) {
-    names_.clear();
-    if (events && fields_.size() == 1) names_.emplace_back("t");
+    names = plain_names(separation_, *header);
+  } else if (!comment_names_columns(names)) {
+    names.clear();
+    if (events && fields_.size() == 1) names.emplace_back("t");
   }
-  if (names_.empty())
+  if (names.empty())
     throw InputError(
         fmt::format("{}: {} columns of numbers have no names; {}.", place(), fields_.size(),
                     events ? "name them in a header line such as t,impulse"
                            : "name them in a header line or with --columns, for example "
                              "--columns t,u1,v1 (_ skips one)"),
         "no-column");
+  set_names(std::move(names));
 }
 
-void TableReader::require_fields() const {
-  if (fields_.size() == names_.size()) return;
+void TextTable::require_fields() const {
+  if (fields_.size() == names().size()) return;
   std::string_view hint;
   // Decimal commas make fields, and never fewer.
-  if (fields_.size() > names_.size() && separation_.is_comma())
+  if (fields_.size() > names().size() && separation_.is_comma())
     hint = decimal_comma_hint;
   else if (lines_.ends_without_line_feed())
     hint =
         "The file ends without a line feed: it may have been cut here, or is still being written.";
   throw InputError(
       fmt::format("{} has {} fields; allowed: {}, one for each named column.{}{}", place(),
-                  fields_.size(), names_.size(), hint.empty() ? "" : " ", hint),
+                  fields_.size(), names().size(), hint.empty() ? "" : " ", hint),
       "ragged-row");
 }
 
-bool TableReader::next() {
+bool TextTable::next() {
   if (row_is_waiting_) {
     row_is_waiting_ = false;
+    ++rows_;
     return true;
   }
   if (!next_content()) return false;
   separation_.split(lines_.text(), fields_);
   require_fields();
+  ++rows_;
   return true;
 }
 
-void TableReader::read_number(std::size_t column, Number& number) const {
+void TextTable::read_number(std::size_t column, Number& number) {
   const auto text = fields_[column];
   const auto error = read(text, number);
   if (error == NumberError::none) return;
   const auto who = place();
   const auto quoted = fmt::format("\"{}\"", text);
   if (error == NumberError::decimal_comma || (separation_.is_comma() && has_inner_blank(text)))
-    refuse(who, names_[column], quoted, "a number with a decimal point", decimal_comma_hint,
+    refuse(who, names()[column], quoted, "a number with a decimal point", decimal_comma_hint,
            "decimal-comma");
-  if (error == NumberError::not_finite)
-    refuse(who, names_[column], quoted, "a finite number that a double can hold",
-           "The run that wrote it may have left the range of finite numbers.", "not-finite");
-  refuse(who, names_[column], quoted, "a number with a decimal point such as 0.05 or 5e-2", {},
+  if (error == NumberError::not_finite) refuse_not_finite(column, quoted);
+  refuse(who, names()[column], quoted, "a number with a decimal point such as 0.05 or 5e-2", {},
          "not-a-number");
+}
+
+RowSide TextTable::side(std::size_t column) const {
+  const auto text = fields_[column];
+  return text == "-" ? RowSide::before : text == "+" ? RowSide::after : RowSide::none;
+}
+
+std::size_t TextTable::expected_rows() const {
+  constexpr std::size_t rows_before_guess = 1000;
+  const auto size = lines_.file_size(), consumed = lines_.consumed();
+  if (rows_ < rows_before_guess || size <= consumed) return 0;
+  return static_cast<std::size_t>(1.02 * double(rows_) * double(size) / double(consumed));
+}
+
+double TextTable::share() const {
+  const auto size = lines_.file_size();
+  return size > 0 ? double(lines_.consumed()) / double(size) : 0.0;
+}
+
+std::vector<ReadNote> TextTable::notes() const {
+  std::vector<ReadNote> notes;
+  if (from_comment_) notes.push_back({.code = "columns-from-comment"});
+  if (lines_.ends_without_line_feed())
+    notes.push_back({.code = "last-line-incomplete", .numbers = {double(lines_.number())}});
+  return notes;
 }
 
 }  // namespace clackers::exchange

@@ -7,6 +7,7 @@
 
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/observation.hpp"
+#include "clackers/exchange/source.hpp"
 #include "clackers/study/progress.hpp"
 #include "clackers/study/record.hpp"
 
@@ -14,8 +15,8 @@ namespace clackers::study {
 
 /// One history of a request before it is read.
 struct HistoryTask {
-  std::string file;
-  std::string events;  ///< empty: none given
+  exchange::Source file;
+  exchange::Source events{};  ///< an empty path: none given
   /// Of --steps or of the command that wrote it [s], or its tolerance; 0: not given.
   double step = 0.0;
   bool step_is_tolerance = false;

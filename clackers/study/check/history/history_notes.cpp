@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "clackers/assess/convergence/fit/error_ladder.hpp"
-#include "clackers/study/check/history_run.hpp"
+#include "clackers/study/check/history/history_run.hpp"
 #include "clackers/study/notes.hpp"
 
 namespace clackers::study {

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace clackers::exchange {
+
+/// A Python literal, as the header of a NumPy file is one.
+struct PythonLiteral {
+  using List = std::vector<PythonLiteral>;  ///< a list or a tuple
+  using Dictionary = std::vector<std::pair<std::string, PythonLiteral>>;
+
+  std::variant<bool, long long, std::string, List, Dictionary> value;
+
+  /// The value of this type, or nullptr where it is of another one.
+  template <class Type>
+  const Type* as() const {
+    return std::get_if<Type>(&value);
+  }
+};
+
+/// Reads True, False, whole numbers (at most 18 digits), strings without escapes other than \\, \'
+/// and \", tuples, lists, and dictionaries whose keys are strings, nested at most 16 deep. Throws
+/// InputError (not-an-array) for any other text; `name` is that of the file in its message.
+PythonLiteral read_python_literal(const std::string& name, std::string_view text);
+
+}  // namespace clackers::exchange

@@ -1,0 +1,136 @@
+#include "clackers/study/check/history/history_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/base/error.hpp"
+#include "clackers/study/cause_metrics.hpp"
+#include "clackers/study/check/history/history_score.hpp"
+#include "clackers/study/notes.hpp"
+#include "clackers/study/reduced_curve.hpp"
+
+namespace clackers::study {
+namespace {
+
+// The share of a file's work at which the comparison stands and the metrics begin.
+constexpr double compared_share = 0.5;
+
+class Measurement {
+ public:
+  Measurement(PreparedHistory& history, const cases::Case& problem, const CaseSummary& summary,
+              const Progress& progress, const std::atomic<bool>* interrupt)
+      : history_(history),
+        file_(history.file),
+        problem_(problem),
+        summary_(summary),
+        progress_(progress),
+        interrupt_(interrupt) {}
+
+  ComparedHistory run(double step) {
+    report(read_share);
+    const double bend = std::numbers::pi * file_.spacing / summary_.fast_period;
+    file_.unseen_bend = 1.0 - std::cos(std::min(bend, std::numbers::pi));
+    const assess::Comparison comparison(history_.data.motion, *problem_.motion, problem_.problem);
+    run_.score = history_score(comparison, history_.data.has_u, step);
+    run_.score.rounding_floor = std::max(run_.score.rounding_floor, file_.printed_floor);
+    if (history_.has_all_u)
+      measure_motion(comparison);
+    else
+      file_.notes.push_back(note("displacements-incomplete"));
+    add_notes(file_, run_.score, summary_);
+    run_.file = std::move(file_);
+    return {std::move(run_), std::move(observation_)};
+  }
+
+ private:
+  // What needs the displacements of all masses.
+  void measure_motion(const assess::Comparison& comparison) {
+    take_collisions(comparison);
+    take_curves(comparison);
+    observe(comparison);
+    report(compared_share);
+    auto metrics = all_metrics(
+        comparison, facts_of(summary_, 0.0),
+        [&](double share) { report(compared_share + (1.0 - compared_share) * share); }, interrupt_);
+    if (!metrics) throw Error("interrupted", "interrupted");
+    run_.metrics = std::move(*metrics);
+  }
+
+  void report(double share) const {
+    if (interrupt_ != nullptr && *interrupt_) throw Error("interrupted", "interrupted");
+    if (progress_) progress_(share);
+  }
+
+  void take_curves(const assess::Comparison& comparison) {
+    const auto dof = comparison.dof();
+    const auto& u = comparison.history().u;
+    const auto time = [&](std::size_t row) { return comparison.history().t[row]; };
+    file_.history = reduced(comparison.rows(), dof, time,
+                            [&](std::size_t mass, std::size_t row) { return u[row * dof + mass]; });
+    run_.error_history =
+        reduced(comparison.rows(), dof, time, [&](std::size_t mass, std::size_t row) {
+          const auto at = row * dof + mass;
+          return std::abs(u[at] - comparison.reference_u()[at]) / comparison.u_envelope()[mass];
+        });
+  }
+
+  void observe(const assess::Comparison& comparison) {
+    diagnose::FileFacts facts{.step = 0.0,
+                              .spacing = file_.spacing,
+                              .floor = file_.printed_floor,
+                              .time_half_unit = history_.data.time_half_unit,
+                              .columns = {},
+                              .order = history_.data.names,
+                              .contact_time = file_.contact_time};
+    for (const auto& column : file_.columns)
+      facts.columns.push_back({column.name, column.digits, column.single, column.half_unit});
+    observation_ = diagnose::observe(comparison, facts);
+  }
+
+  // A contact of fewer rows than four is an impact whose limits are rows apart.
+  double contact_time(const assess::Comparison& comparison) const {
+    std::vector<double> lengths;
+    for (std::size_t k = 0; k < comparison.impacts().size(); ++k)
+      lengths.push_back(comparison.impact_ends()[k] - comparison.impacts()[k].t);
+    if (lengths.empty()) return 0.0;
+    const auto middle = lengths.begin() + std::ssize(lengths) / 2;
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle >= 4.0 * file_.spacing ? *middle : 0.0;
+  }
+
+  void take_collisions(const assess::Comparison& comparison) {
+    run_.score.impacts = comparison.impact_score();
+    const bool reported = comparison.impact_source() == assess::ImpactSource::reported;
+    file_.collisions = reported ? CollisionSource::events : CollisionSource::history;
+    // Between two collisions the faster mass turns round once at least; eight rows show it.
+    const auto count = std::max(1LL, summary_.impact_count);
+    const double apart = summary_.end / double(count);
+    if (!reported) file_.contact_time = contact_time(comparison);
+    file_.rows_resolve_collisions = reported || 8.0 * file_.spacing <= apart;
+    // A mass passes the place of contact with about its largest velocity, amplitude times pi / T.
+    auto& floor = run_.score.impacts->rounding_floor;
+    floor = std::max(floor,
+                     history_.data.time_half_unit + file_.printed_floor * apart / std::numbers::pi);
+  }
+
+  PreparedHistory& history_;
+  HistoryFile& file_;
+  const cases::Case& problem_;
+  const CaseSummary& summary_;
+  const Progress& progress_;
+  const std::atomic<bool>* interrupt_;
+  Run run_;
+  std::optional<diagnose::Observation> observation_;
+};
+
+}  // namespace
+
+ComparedHistory measure(PreparedHistory history, double step, const cases::Case& problem,
+                        const CaseSummary& summary, const Progress& progress,
+                        const std::atomic<bool>* interrupt) {
+  return Measurement(history, problem, summary, progress, interrupt).run(step);
+}
+
+}  // namespace clackers::study

@@ -1,0 +1,163 @@
+#include "clackers/study/check/history/prepared_history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clackers/assess/convergence/judge.hpp"
+#include "clackers/base/error.hpp"
+#include "clackers/study/check/initial_state.hpp"
+#include "clackers/study/check/refused_start.hpp"
+#include "clackers/study/notes.hpp"
+
+namespace clackers::study {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+class Preparation {
+ public:
+  Preparation(const HistoryTask& task, exchange::History history, const cases::Case& problem,
+              const CaseSummary& summary)
+      : task_(task), problem_(problem), summary_(summary), h_(std::move(history)) {
+    file_.file = exchange::given_name(task.file);
+    for (auto& read : h_.notes)
+      file_.notes.push_back({std::move(read.code), std::move(read.numbers), std::move(read.text)});
+    file_.has_velocities = !h_.motion.v.empty();
+    file_.has_u = h_.has_u;
+    file_.spacing = h_.spacing;
+    for (const auto& c : h_.columns)
+      file_.columns.push_back({c.name, c.digits, c.single, c.half_unit});
+  }
+
+  PreparedHistory run() {
+    if (!h_.has_time) start_times();
+    find_printed_floor();
+    const auto opening = take_opening();
+    cut_at_end();
+    require_start(opening);
+    const bool has_all_u = std::ranges::find(h_.has_u, false) == h_.has_u.end();
+    return {std::move(h_), std::move(file_), has_all_u};
+  }
+
+ private:
+  FirstRow first_row() const {
+    const auto dof = std::size_t(h_.motion.dof);
+    FirstRow row{h_.motion.t.front(), {}, {}};
+    for (std::size_t j = 0; j < dof; ++j) {
+      row.u.push_back(h_.has_u[j] ? h_.motion.u[j] : unknown);
+      if (file_.has_velocities) row.v.push_back(h_.motion.v[j]);
+    }
+    return row;
+  }
+
+  // A recorder that writes after each step leaves the initial state out.
+  void start_times() {
+    const bool initial = start_difference(first_row(), problem_).relative <= start_tolerance;
+    if (!initial)
+      for (std::size_t i = 0; i < h_.motion.t.size(); ++i)
+        h_.motion.t[i] = task_.step * double(i + 1);
+    file_.notes.push_back(note("no-times", {task_.step, initial ? 0.0 : task_.step}));
+  }
+
+  // What printing may make of a displacement error, relative to the envelope: the rounding of u,
+  // and that of t times the largest velocity.
+  void find_printed_floor() {
+    const auto envelope = problem_.motion->envelope(0.0);
+    for (int j = 0; j < h_.motion.dof; ++j) {
+      const auto at = std::ranges::find_if(h_.columns, [&](const exchange::ColumnPrint& c) {
+        return c.name == fmt::format("u{}", j + 1) || c.name == "u";
+      });
+      const double rounding = at == h_.columns.end() ? 0.0 : at->half_unit;
+      const double shift = h_.time_half_unit * envelope.v[j];
+      const double floor = (rounding + shift) / envelope.u[j];
+      if (!h_.has_u[std::size_t(j)] || !(floor > file_.printed_floor)) continue;
+      file_.printed_floor = floor;
+      file_.printed_by = rounding >= shift ? at->name : h_.columns.front().name;
+    }
+  }
+
+  diagnose::Opening take_opening() const {
+    const auto& m = h_.motion;
+    const auto rows = std::min(m.t.size(), diagnose::most_opening_rows);
+    const auto numbers = std::ptrdiff_t(rows * std::size_t(m.dof));
+    diagnose::Opening opening;
+    opening.rows.dof = m.dof;
+    opening.rows.t.assign(m.t.begin(), m.t.begin() + std::ptrdiff_t(rows));
+    opening.rows.u.assign(m.u.begin(), m.u.begin() + numbers);
+    if (!m.v.empty()) opening.rows.v.assign(m.v.begin(), m.v.begin() + numbers);
+    opening.step = task_.step > 0.0 && !task_.step_is_tolerance ? task_.step : file_.spacing;
+    opening.has_u = h_.has_u;
+    opening.printed_floor = file_.printed_floor;
+    opening.columns = h_.names;
+    return opening;
+  }
+
+  // A run of the length of the case, its times in thousandths or millionths of a second.
+  void require_seconds(std::size_t kept) const {
+    const auto& t = h_.motion.t;
+    constexpr double most_kept = 0.1, slack = 0.02;
+    if (double(kept) > most_kept * double(t.size())) return;
+    for (const auto& [factor, unit] : {std::pair{1e3, "milliseconds"}, {1e6, "microseconds"}}) {
+      const double length = factor * problem_.motion->end();
+      if (std::abs(t.back() / length - 1.0) < slack)
+        throw InputError(fmt::format("{}: times go up to {:.6g}, and {} ends at {:.6g} s: in {}? "
+                                     "Convert them to seconds.",
+                                     name(), t.back(), summary_.name, summary_.end, unit),
+                         "time-unit");
+    }
+  }
+
+  // Rows after the end of the case are left out; a time that only printing carries past it stays.
+  void cut_at_end() {
+    auto& m = h_.motion;
+    const double end = problem_.motion->end();
+    const double slack = h_.time_half_unit + 4.0 * std::numeric_limits<double>::epsilon() * end;
+    const auto kept = std::size_t(std::ranges::upper_bound(m.t, end + slack) - m.t.begin());
+    require_seconds(kept);
+    file_.rows_beyond = static_cast<long long>(m.t.size() - kept);
+    const auto dof = std::size_t(m.dof);
+    m.t.resize(kept);
+    for (auto* values : {&m.u, &m.v, &m.a})
+      if (!values->empty()) values->resize(kept * dof);
+    for (double& t : m.t) t = std::min(t, end);
+    if (kept < 2 || !(m.t.back() > m.t.front()))
+      refuse(name(), "rows up to the end of the case", double(kept),
+             fmt::format("two at least within 0 to {:g} s", end),
+             "Set t_end or a_t of the case for a longer run.", "too-short");
+    if (m.t.front() < 0.0)
+      refuse(name(), "first time", m.t.front(), "0 s or later",
+             "The cases start at t = 0; shift the times.", "time-outside");
+    file_.rows = static_cast<long long>(kept);
+    file_.first = m.t.front();
+    file_.last = m.t.back();
+  }
+
+  void require_start(const diagnose::Opening& opening) {
+    const auto row = first_row();
+    const auto most = start_difference(row, problem_);
+    file_.start_error = most.relative;
+    if (row.t == 0.0 && most.relative > start_tolerance + 2.0 * file_.printed_floor)
+      refuse_start(name(), opening, problem_, most);
+    if (row.t > 0.0 && most.relative > assess::far_start) refuse_reading(name(), opening, problem_);
+  }
+
+  std::string name() const { return exchange::name_of(task_.file); }
+
+  const HistoryTask& task_;
+  const cases::Case& problem_;
+  const CaseSummary& summary_;
+  exchange::History h_;
+  HistoryFile file_;
+};
+
+}  // namespace
+
+PreparedHistory prepare(const HistoryTask& task, exchange::History data, const cases::Case& problem,
+                        const CaseSummary& summary) {
+  return Preparation(task, std::move(data), problem, summary).run();
+}
+
+}  // namespace clackers::study
