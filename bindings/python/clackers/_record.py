@@ -99,7 +99,11 @@ class Figure:
         self.spec = spec
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the specification as json, for example to ``convergence.vl.json``."""
+        """Writes the specification as json, for example to ``convergence.vl.json``.
+
+        >>> import clackers, os
+        >>> clackers.verify("rk4", levels=3, neighbours=2).figure("convergence").save(os.devnull)
+        """
         with open(path, "w", encoding="utf-8") as file:
             json.dump(self.spec, file, ensure_ascii=False)
 
@@ -180,7 +184,12 @@ class Record:
         return self._subjects
 
     def keys(self) -> tuple[str | tuple[str, str], ...]:
-        """What ``record[...]`` takes: names, or (case, name) where there are several cases."""
+        """What ``record[...]`` takes: names, or (case, name) where there are several cases.
+
+        >>> import clackers
+        >>> clackers.verify("rk4", case=["stop", "sdof"], levels=2, neighbours=1).keys()
+        (('stop', 'rk4'), ('sdof', 'rk4'))
+        """
         if len(self._cases) == 1:
             return tuple(subject.name for subject in self.subjects)
         return tuple((subject.case, subject.name) for subject in self.subjects)
@@ -268,7 +277,12 @@ class Record:
         return Table(*self._core.runs())
 
     def to_json(self) -> str:
-        """The text of ``clackers verify --format json``; every number reads back to the same double."""
+        """The text of ``clackers verify --format json``; every number reads back to the same double.
+
+        >>> import clackers, json
+        >>> json.loads(clackers.verify("rk4", levels=2, neighbours=1).to_json())["schema"]
+        'clackers/record/1'
+        """
         return self._core.to_json()
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -277,6 +291,13 @@ class Record:
         ``.html`` is a self-contained page with figures, ``.json`` what ``clackers.load`` reads, ``.csv`` a row
         a run, ``.xml`` JUnit, ``.tex`` LaTeX tables, ``.txt`` the text of ``print``. Raises InputError for
         another ending, OSError where the file cannot be written.
+
+        >>> import clackers, pathlib, tempfile
+        >>> record = clackers.verify("rk4", levels=2, neighbours=1)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     record.save(pathlib.Path(folder, "record.json"))
+        ...     str(clackers.load(pathlib.Path(folder, "record.json"))) == str(record)
+        True
         """
         ending = os.path.splitext(os.fspath(path))[1].lower()
         if ending != ".html" and ending not in _FORMATS:
@@ -295,6 +316,10 @@ class Record:
 
         ``convergence``, ``history``, ``work``, ``profile`` and ``response``, where there is something to draw;
         of the case of that name, or of the first. Raises InputError for another name.
+
+        >>> import clackers
+        >>> clackers.verify("rk4", levels=3, neighbours=2).figure("response", case="three-parameter")
+        <clackers.Figure response>
         """
         if case is not None and case not in self.cases:
             _core.refuse("Record.figure", "case", case, ", ".join(self.cases), "", "unknown-name")
@@ -318,6 +343,13 @@ def load(path: str | os.PathLike[str]) -> Record:
     """The record in a file that ``Record.save`` or ``clackers verify --format json --out`` wrote.
 
     Raises InputError (``not-a-record``) for another file, OSError where it cannot be read.
+
+    >>> import clackers, os
+    >>> try:
+    ...     clackers.load(os.devnull)
+    ... except ValueError as error:
+    ...     print(error.code)
+    not-a-record
     """
     with open(path, "rb") as file:
         return Record.from_json(file.read().decode("utf-8", errors="replace"))
