@@ -16,5 +16,8 @@ void bind_response(py::module_& core);
 void bind_impacts(py::module_& core);
 void bind_quantities(py::module_& core);
 void bind_tables(py::module_& core);
+void bind_inputs(py::module_& core);
+void bind_record(py::module_& core);
+void bind_study(py::module_& core);
 
 }  // namespace clackers::python

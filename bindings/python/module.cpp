@@ -14,4 +14,7 @@ PYBIND11_MODULE(_core, core) {
   bind_impacts(core);
   bind_quantities(core);
   bind_tables(core);
+  bind_inputs(core);
+  bind_record(core);
+  bind_study(core);
 }

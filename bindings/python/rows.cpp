@@ -72,14 +72,16 @@ bool holds_only(const std::vector<Cell>& cells) {
   return std::ranges::all_of(cells, is_one) && !std::ranges::all_of(cells, is_empty);
 }
 
-py::object array_of(const std::vector<Cell>& cells) {
+py::object array_of(const std::vector<Cell>& cells, ColumnKind kind) {
   py::list objects;
-  const bool numbers = holds_only<double, long long, std::monostate>(cells);
+  const bool numbers =
+      kind == ColumnKind::real || holds_only<double, long long, std::monostate>(cells);
   for (const auto& cell : cells)
     objects.append(numbers && cell.index() == 0
                        ? py::object(py::float_(std::numeric_limits<double>::quiet_NaN()))
                        : object_of(cell));
-  const char* type = holds_only<long long>(cells) ? "int64" : numbers ? "float64" : "object";
+  const bool whole = kind != ColumnKind::real && holds_only<long long>(cells);
+  const char* type = whole ? "int64" : numbers ? "float64" : "object";
   return py::module_::import("numpy").attr("array")(objects, py::arg("dtype") = type);
 }
 
@@ -89,7 +91,8 @@ py::list read_cells(study::RowSource& rows) {
   while (rows.next(row))
     for (std::size_t c = 0; c < row.size(); ++c) columns[c].push_back(row[c]);
   py::list arrays;
-  for (const auto& cells : columns) arrays.append(array_of(cells));
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    arrays.append(array_of(columns[c], rows.columns()[c].kind));
   return arrays;
 }
 

@@ -278,6 +278,12 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"plugin-failed", "failure",
      "A function of a plug-in returned an error or misused one that it was handed, crashed, or ended the process. "
      "Its run is a failed one of its step; before the reason stands where it was: load, prepare, run, free or end."},
+    {"callable-failed", "failure",
+     "A callable under test (clackers.verify of Python) raised an exception. Its run is a failed one "
+     "of its step; the end of the traceback stands beside it."},
+    {"callable-output", "failure",
+     "A callable under test (clackers.verify of Python) returned something that is no history: return "
+     "(t, u), (t, u, v) or (t, u, v, a), u of shape (time, dof), or a result of SciPy's solve_ivp."},
     {"foreign-folder", "refusal",
      "The folder of --out holds files that the command did not write. "
      "It is replaced as a whole, so give another name, or move them away."},

@@ -42,7 +42,8 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "commensurate-steps", "numerical-damping", "period-error", "unstable-coarse-steps",
     "ends-early", "output-resampled",
     "cannot-write", "cannot-read", "no-renderer",
-    "render-failed", "program-failed", "program-timeout", "program-output", "not-a-plugin", "plugin-failed", "foreign-folder", "out-of-memory", "internal-error", "interrupted",
+    "render-failed", "program-failed", "program-timeout", "program-output", "not-a-plugin", "plugin-failed",
+    "callable-failed", "callable-output", "foreign-folder", "out-of-memory", "internal-error", "interrupted",
 });
 // clang-format on
 

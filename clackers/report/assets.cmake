@@ -23,6 +23,8 @@ set(page
   ${report_dir}/page/figure.html
   ${report_dir}/page/subject.html
   ${report_dir}/page/self.html
+  ${report_dir}/page/notebook.html
+  ${report_dir}/page/notebook.json
   ${report_dir}/page/theme.js
   ${report_dir}/page/page.js
   ${report_dir}/page/figures.js

@@ -16,6 +16,8 @@ struct VerifyRequest {
   std::vector<std::string> methods;  ///< specifications; empty: the default panel
   std::vector<std::string> cases;    ///< names; empty: the default case
   cases::Settings settings;          ///< of every case
+  /// Of each case instead; empty: none has settings of its own.
+  std::vector<cases::Settings> case_settings{};
   RefinementRequest plan;
   /// Time for refinement beyond the plan, of all cases together [s]; 0: none. What is run within it
   /// does not depend on it, only where it ends.
@@ -23,6 +25,14 @@ struct VerifyRequest {
   int jobs = 0;         ///< threads; 0: one a processor
   std::string command;  ///< as typed, for the record
 };
+
+/// A case of a request, by its number.
+inline cases::Case make_case(const VerifyRequest& request, std::size_t number) {
+  const auto name =
+      request.cases.empty() ? cases::default_case() : std::string_view(request.cases.at(number));
+  return cases::make(
+      name, request.case_settings.empty() ? request.settings : request.case_settings.at(number));
+}
 
 /// Assesses every method on every case over the plan's steps. Throws InputError before any work for
 /// what cannot be run: unknown names, values outside their range, too many steps, a method or a case

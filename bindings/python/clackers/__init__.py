@@ -8,8 +8,11 @@
 """
 from clackers._case import Admissibility, Case, Impacts, Kinematics, admissibility, case
 from clackers._core import version as __version__
-from clackers._errors import Error, FileError, InputError
+from clackers._errors import Error, FileError, InputError, Interrupted, SolverError
 from clackers._problem import Contact, GapEvent, Problem, State
+from clackers._record import Diagnosis, Figure, Record, Subject, load
+from clackers._solver import Solver
+from clackers._study import check, verify
 from clackers._table import Column, Table, catalogue, explain
 
 __all__ = [
@@ -17,18 +20,28 @@ __all__ = [
     "Case",
     "Column",
     "Contact",
+    "Diagnosis",
     "Error",
+    "Figure",
     "FileError",
     "GapEvent",
     "Impacts",
     "InputError",
+    "Interrupted",
     "Kinematics",
     "Problem",
+    "Record",
+    "Solver",
+    "SolverError",
     "State",
+    "Subject",
     "Table",
     "__version__",
     "admissibility",
     "case",
     "catalogue",
+    "check",
     "explain",
+    "load",
+    "verify",
 ]

@@ -1,6 +1,11 @@
 """The exceptions of the library."""
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from clackers._record import Record
+
 
 class Error(RuntimeError):
     """Everything that the library raises on purpose.
@@ -30,3 +35,24 @@ class InputError(Error, ValueError):
 
 class FileError(Error, OSError):
     """A file, the disk or an external program failed."""
+
+
+class SolverError(Error, ValueError):
+    """Every run of every solver failed. The first exception that a solver raised is its ``__cause__``."""
+
+    record: Record
+    """The failed runs."""
+
+    def __init__(self, message: str, code: str, record: Record) -> None:
+        super().__init__(message, code)
+        self.record = record
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C ended a study; ``record`` has the rows that were finished, None where there are none."""
+
+    record: Record | None
+
+    def __init__(self, record: Record | None) -> None:
+        super().__init__("interrupted; " + ("nothing was finished" if record is None else "see .record"))
+        self.record = record

@@ -3,6 +3,7 @@
 #include "clackers/report/html/figure_data.hpp"
 #include "clackers/report/html/figure_specifications.hpp"
 #include "clackers/report/html/figures.hpp"
+#include "clackers/report/html/head.hpp"
 #include "clackers/report/html/page.hpp"
 #include "clackers/report/html/subjects.hpp"
 #include "clackers/report/html/tables.hpp"
@@ -16,33 +17,6 @@ namespace {
 constexpr auto noscript =
     "<noscript><p class=\"notice\">The figures are drawn by JavaScript, which is switched off. "
     "All numbers are in the tables.</p></noscript>\n  ";
-
-std::string lead_html(const study::CaseRecord& problem) {
-  const auto plan = plan_text(problem);
-  return fmt::format("{} {}.{}", escape(problem.problem.summary),
-                     escape(length_text(problem.problem)),
-                     plan.empty() ? "" : " " + escape(plan) + ".");
-}
-
-std::string overall_html(const study::Record& record) {
-  const auto line = verdict_line(record);
-  auto text = escape(line.counts);
-  if (line.counts.empty() && !record.cases.empty() && !record.cases.front().subjects.empty())
-    if (const auto found = finding(record.cases.front().subjects.front()))
-      text = finding_html(*found);
-  const auto causes = line.counts.empty() && record.cases.size() == 1
-                          ? diagnoses_html(record.cases.front(), {})
-                          : std::string();
-  auto out = causes.empty() ? fmt::format("<p class=\"overall\">{} <span>{}</span></p>\n",
-                                          badge(line.word), text)
-                            : fmt::format("<p class=\"overall\">{}</p>\n{}<p>{}</p>\n",
-                                          badge(line.word), causes, text);
-  if (record.interrupted)
-    out +=
-        "<p class=\"notice\" role=\"note\"><strong>Interrupted.</strong> Only what was finished is "
-        "shown. <span class=\"code\">[interrupted]</span></p>\n";
-  return out;
-}
 
 std::vector<PageSection> case_sections(const study::CaseRecord& problem, const Place& place,
                                        int& number) {

@@ -26,12 +26,18 @@ std::string cell_html(const Column& shown, const Row& row) {
   return is_wrong ? fmt::format("<span class=\"wrong\">{}</span>", escape(*text)) : escape(*text);
 }
 
+// The name of a subject, html, as a link to its section.
+std::string linked(const std::string& name, const Place& place, std::size_t subject) {
+  if (!place.has_sections) return name;
+  return fmt::format("<a href=\"#{}\">{}</a>", anchor(place, subject), name);
+}
+
 std::string findings_html(const study::CaseRecord& problem, const Place& place) {
   std::string out;
   for (std::size_t i = 0; i < problem.subjects.size(); ++i)
     if (const auto found = finding(problem.subjects[i]))
-      out += fmt::format("<li><a href=\"#{}\">{}</a>: {}</li>\n", anchor(place, i),
-                         escape(problem.subjects[i].name), finding_html(*found));
+      out += fmt::format("<li>{}: {}</li>\n", linked(escape(problem.subjects[i].name), place, i),
+                         finding_html(*found));
   return out.empty() ? out : "<ul class=\"remarks\">\n" + out + "</ul>\n";
 }
 
@@ -46,10 +52,8 @@ std::string diagnoses_html(const study::CaseRecord& problem, const Place& place)
   std::string out;
   for (std::size_t i = 0; i < problem.subjects.size(); ++i) {
     const auto& subject = problem.subjects[i];
-    const auto name =
-        problem.subjects.size() == 1
-            ? std::string()
-            : fmt::format("<a href=\"#{}\">{}</a>: ", anchor(place, i), escape(subject.name));
+    const auto name = problem.subjects.size() == 1 ? std::string()
+                                                   : linked(escape(subject.name), place, i) + ": ";
     for (const auto& cause : diagnosis_texts(subject))
       out += fmt::format("<li>{}{}</li>\n", name, finding_html(cause));
   }
@@ -57,6 +61,15 @@ std::string diagnoses_html(const study::CaseRecord& problem, const Place& place)
 }
 
 namespace {
+
+std::string failures_html(const study::CaseRecord& problem, const Place& place) {
+  std::string out;
+  for (std::size_t i = 0; i < problem.subjects.size(); ++i)
+    for (const auto& failure : failure_texts(problem.subjects[i]))
+      out += fmt::format("<li>{}: {}</li>\n", linked(escape(problem.subjects[i].name), place, i),
+                         escape(failure));
+  return out.empty() ? out : "<ul class=\"remarks\">\n" + out + "</ul>\n";
+}
 
 std::string notes_html(const study::CaseRecord& problem) {
   std::string out;
@@ -160,11 +173,11 @@ std::string verdicts_html(const study::CaseRecord& problem, const Place& place) 
         methods,
         [&](const Row& row) {
           const auto index = std::size_t(row.subject - problem.subjects.data());
-          return fmt::format("<span class=\"named\">{}<a href=\"#{}\">{}</a></span>",
-                             key_svg(plot_style(index)), anchor(place, index),
-                             breakable(escape(row.subject->name)));
+          return fmt::format("<span class=\"named\">{}{}</span>", key_svg(plot_style(index)),
+                             linked(breakable(escape(row.subject->name)), place, index));
         },
         "verdicts");
+  out += failures_html(problem, place);
   const bool by_step = std::ranges::all_of(problem.subjects, [](const study::Subject& subject) {
     return subject.resolution == study::Resolution::step;
   });

@@ -32,6 +32,7 @@ std::string html_table(std::string_view label, std::string_view caption, const T
 /// Where in a page a case or a subject stands.
 struct Place {
   std::string suffix;  ///< behind ids and names of figures: "-2" of the second of several cases
+  bool has_sections = true;  ///< of subjects, which names are links to
 };
 /// The id of a subject's section.
 std::string anchor(const Place& place, std::size_t subject);

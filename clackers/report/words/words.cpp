@@ -35,6 +35,18 @@ std::string with_option(std::string command, const std::string& option, const st
   return fmt::format("{} {} {}", command, option, value);
 }
 
+// A study of Python has the call as its command, "clackers.verify(solver, case='stop')".
+bool is_call(std::string_view command) { return command.starts_with("clackers."); }
+
+// The option as an argument of that call: --budget 60s is budget=60, --expect proper:2 is
+// expect='proper:2'.
+std::string argument_text(std::string_view option, std::string_view value) {
+  option.remove_prefix(2);
+  if (value.find(':') != std::string_view::npos) return fmt::format("{}='{}'", option, value);
+  if (value.ends_with('s')) value.remove_suffix(1);
+  return fmt::format("{}={}", option, value);
+}
+
 // What lets `verify` decide on a method that is undecided: an option with its value, and words.
 struct NextOption {
   std::string option, value, words;
@@ -60,7 +72,7 @@ std::optional<NextOption> deciding_option(const study::CaseRecord& problem,
       seconds > 0.0 ? short_number(std::ceil(1.5 * seconds), 3) + "s" : std::string("60s"), ""};
 }
 
-// "--expect proper:2" for histories without a claim that show an order; empty without one.
+// "proper:2" for histories without a claim that show an order; empty without one.
 std::string expectation(const study::Record& record) {
   if (record.command != "check" || study::counts(record).not_claimed == 0) return {};
   const auto& fit = record.cases.front().subjects.front().assessment.displacement;
@@ -69,7 +81,7 @@ std::string expectation(const study::Record& record) {
   if (!fit.has_line || !is_plain || fit.behaviour == Behaviour::undecided ||
       fit.behaviour == Behaviour::stagnating || fit.behaviour == Behaviour::divergent)
     return {};
-  return fmt::format("--expect {}:{}", to_string(fit.behaviour), short_number(half, 2));
+  return fmt::format("{}:{}", to_string(fit.behaviour), short_number(half, 2));
 }
 
 }  // namespace
@@ -195,27 +207,36 @@ VerdictLine verdict_line(const study::Record& record) {
   const bool needs_more = decisive != nullptr && !has_cause && !hint_text(*decisive).empty();
   const bool is_decided =
       line.word == "agrees" || (line.word == "not claimed" && (code.empty() || needs_more));
+  const bool call = is_call(command);
+  const auto explain = [&](const std::string& known) {
+    next(call ? fmt::format("clackers.explain(\"{}\")", known) : "clackers explain " + known);
+  };
+  const auto same_with = [&](const std::string& name, const std::string& value,
+                             const std::string& words = {}) {
+    const auto text = call ? argument_text(name, value) : fmt::format("{} {}", name, value);
+    const auto in_words = fmt::format("the same with {}{}", text, words);
+    next(call ? in_words : with_option(command, name, value), in_words);
+  };
   if (record.interrupted)
-    next(command, "the same command again");
-  else if (has_cause && !decisive->diagnoses.front().text.empty() &&
+    next(command, call ? "the same call again" : "the same command again");
+  else if (!call && has_cause && !decisive->diagnoses.front().text.empty() &&
            (code == Code("columns-exchanged").name() || code == Code("masses-exchanged").name()))
-    next(with_option(command, "--columns", decisive->diagnoses.front().text),
-         "the same with --columns " + decisive->diagnoses.front().text);
+    same_with("--columns", decisive->diagnoses.front().text);
   else if (option)
-    next(with_option(command, option->option, option->value),
-         fmt::format("the same with {} {}{}", option->option, option->value, option->words));
+    same_with(option->option, option->value, option->words);
   else if (!is_decided && !code.empty())
-    next("clackers explain " + code);
+    explain(code);
   else if (is_check && line.word == "disagrees")
-    next(fmt::format("clackers respond {} --collisions", record.cases.front().problem.name));
+    next(call ? fmt::format("clackers.case(\"{}\").impacts()", record.cases.front().problem.name)
+              : fmt::format("clackers respond {} --collisions", record.cases.front().problem.name));
   else if (const auto expect = expectation(record); code.empty() && !expect.empty())
-    next(command + " " + expect, "the same with " + expect);
+    same_with("--expect", expect);
+  else if (call)
+    next("record.save(\"report.html\")");
   else if (!has_option(command, "--report"))
-    next(command + " --report report.html", "the same with --report report.html");
-  else if (!code.empty())
-    next("clackers explain " + code);
+    same_with("--report", "report.html");
   else
-    next("clackers explain proper");
+    explain(code.empty() ? "proper" : code);
   return line;
 }
 

@@ -54,7 +54,9 @@ std::vector<std::string> failure_texts(const study::Subject& subject) {
                             count > 1 ? "the first at" : "at", resolution_text(subject, score.step),
                             sentence, score.failure_code);
     if (const auto printed = printed_text(first->printed); !printed.empty())
-      text += fmt::format(" It printed: {}", printed);
+      text += fmt::format(" {}: {}",
+                          subject.kind == study::SubjectKind::callable ? "Traceback" : "It printed",
+                          printed);
     texts.push_back(std::move(text));
   }
   return texts;

@@ -313,6 +313,44 @@ TEST(VerdictLine, APageIsProposedOnce) {
   }
 }
 
+TEST(VerdictLine, OfACallOfPythonTheNextStepIsPython) {
+  auto record = sample_check();
+  record.provenance.command = "clackers.check(t, u)";
+  const auto next = [&] { return verdict_line(record).next; };
+  EXPECT_EQ(next(), "clackers.case(\"three-parameter\").impacts()");
+  auto& assessment = record.cases[0].subjects[0].assessment;
+  assessment.verdict = Verdict::not_claimed;
+  assessment.displacement.behaviour = Behaviour::proper;
+  assessment.displacement.reason.clear();
+  assessment.displacement.has_line = true;
+  assessment.displacement.order = 1.98;
+  assessment.evidence.clear();
+  EXPECT_EQ(next(), "the same with expect='proper:2'");
+  assessment.displacement.order = 1.75;
+  EXPECT_EQ(next(), "record.save(\"report.html\")");
+  record.cases[0].subjects[0].diagnoses = {{"restitution-differs", 0.99, "1", 0.9, {}, "", ""}};
+  assessment.verdict = Verdict::disagrees;
+  EXPECT_EQ(next(), "clackers.explain(\"restitution-differs\")");
+  record.interrupted = true;
+  EXPECT_EQ(verdict_line(record).next_in_words, "the same call again");
+}
+
+TEST(VerdictLine, OfACallOfPythonOptionsAreArguments) {
+  auto record = sample_record();
+  record.interrupted = false;
+  record.provenance.command = "clackers.verify('rk4')";
+  auto& problem = record.cases[0];
+  problem.subjects.resize(1);
+  auto& subject = problem.subjects[0];
+  subject.diagnoses.clear();
+  subject.assessment.verdict = Verdict::undecided;
+  subject.assessment.displacement.behaviour = Behaviour::undecided;
+  subject.assessment.displacement.reason = subject.assessment.reason = "too-few-levels";
+  problem.plan.coarsest = 0.09;  // a fourteenth of the fast period
+  subject.refinement = {.end = study::RefinementEnd::budget, .next_seconds = 40.0};
+  EXPECT_EQ(verdict_line(record).next, "the same with budget=60");
+}
+
 TEST(VerdictLine, HistoriesWithALineGetAnExpectation) {
   auto record = sample_check();
   auto& assessment = record.cases[0].subjects[0].assessment;

@@ -37,10 +37,11 @@ std::vector<std::string> case_names(const VerifyRequest& request) {
 Record empty_record(const VerifyRequest& request, bool has_plan) {
   Record record;
   record.provenance = provenance(request.command);
-  for (const auto& name : case_names(request)) {
-    if (std::ranges::count(case_names(request), name) > 1)
-      refuse("verify", "case", name, "each case once", {}, "bad-syntax");
-    const auto problem = cases::make(name, request.settings);
+  const auto names = case_names(request);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::ranges::count(names, names[i]) > 1)
+      refuse("verify", "case", names[i], "each case once", {}, "bad-syntax");
+    const auto problem = make_case(request, i);
     CaseRecord one;
     one.problem = summary_of(problem);
     one.plan = has_plan ? plan_for(request.plan, one.problem) : no_refinement;
@@ -56,7 +57,7 @@ void require_names(const VerifyRequest& request, const std::vector<SolverSubject
   for (const auto& solver : solvers) {
     if (std::ranges::find(names, solver.name) != names.end())
       refuse("verify", "name of a solver", solver.name, "each name once",
-             "Give every program a --name.", "bad-syntax");
+             "Give every program a --name, every callable a name.", "bad-syntax");
     names.push_back(solver.name);
   }
 }
@@ -79,8 +80,9 @@ class SolverStudies {
         record_(record),
         interrupt_(interrupt),
         threads_(thread_count(request.jobs)) {
-    for (auto& one : record.cases) {
-      const auto problem = cases::make(one.problem.name, request.settings);
+    for (std::size_t i = 0; i < record.cases.size(); ++i) {
+      auto& one = record.cases[i];
+      const auto problem = make_case(request, i);
       auto& studies = cases_.emplace_back();
       for (const auto& solver : solvers)
         studies.emplace_back(solver, problem, one.problem, plan_for(request.plan, one.problem),
@@ -128,7 +130,9 @@ class SolverStudies {
       const auto next = study.next();
       if (!next.plan) return study.close(next.end);
       const auto runs = study.missing(*next.plan);
-      const int parallel = std::min(threads_, thread_count(0));
+      // Callables are called in one thread.
+      const bool is_serial = study.kind() == SubjectKind::callable;
+      const int parallel = is_serial ? 1 : std::min(threads_, thread_count(0));
       const double expected = study.expected_seconds(runs) / parallel;
       if (!(used_ + expected <= request_.budget))
         return study.close(RefinementEnd::budget, expected);

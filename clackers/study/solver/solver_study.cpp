@@ -106,16 +106,16 @@ void SolverStudy::take(const SolverRun& run, const SolverOutput& output) {
   }
   if (!output.history) return add_failed(run, output.failure_code, output.failure, output.printed);
   HistoryTask task;
-  const auto file = std::get<std::string>(*output.history);
-  task.file = file;
-  if (output.events) task.events = std::get<std::string>(*output.events);
+  task.file = *output.history;
+  if (output.events) task.events = *output.events;
   task.step = resolution(run);
   task.step_is_tolerance = by_tolerance();
   try {
     histories_.read(task);
   } catch (const InputError& error) {
+    const std::filesystem::path file = exchange::path_of(*output.history);
     add_failed(run, std::string(error.code().name()),
-               without_folder(error.what(), std::filesystem::path(file).parent_path()),
+               file.empty() ? error.what() : without_folder(error.what(), file.parent_path()),
                output.printed);
   } catch (const FileError& error) {
     add_failed(run, std::string(error.code().name()), error.what(), output.printed);

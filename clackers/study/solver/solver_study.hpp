@@ -34,6 +34,7 @@ class SolverStudy {
   /// subject has levels of its own.
   NextPlan next() const;
   void close(RefinementEnd end, double next_seconds = 0.0);
+  SubjectKind kind() const { return asked_.kind; }
   bool is_closed() const { return is_closed_; }
   const RefinementPlan& plan() const { return plan_; }
   Subject finish() { return std::move(subject_); }

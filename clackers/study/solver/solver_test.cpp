@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -108,6 +109,58 @@ TEST_F(SolversUnderTest, AreRefusedWithStepsThatDoNotDescend) {
   subject_.steps = {0.02, 0.0};
   EXPECT_REFUSED(verify_one(), "step-not-positive", "h = 0");
   EXPECT_TRUE(runs_.empty());
+}
+
+// The reference itself, in memory that lives as long as the output says.
+struct ExactSolver : Solver {
+  explicit ExactSolver(const cases::Case& problem) : motion(problem.motion) {}
+  SolverOutput run(const SolverRun& run, const std::atomic<bool>*) override {
+    auto numbers = std::make_shared<std::vector<double>>();
+    for (long long i = 0; i <= run.steps; ++i) {
+      const double t = std::min(double(i) * run.step, motion->end());
+      const auto now = motion->at(t, model::Side::right);
+      numbers->insert(numbers->end(), {t, now.u[0], now.u[1]});
+    }
+    exchange::NumberColumns columns{"mine", numbers->size() / 3, {}};
+    for (std::size_t c = 0; c < 3; ++c)
+      columns.columns.push_back({c == 0 ? "t" : c == 1 ? "u1" : "u2", numbers->data() + c, 3});
+    SolverOutput output;
+    output.history = columns;
+    output.events = exchange::NumberColumns{"its collisions", 0, {{"t"}}};
+    output.memory = numbers;
+    return output;
+  }
+  std::shared_ptr<const model::Motion> motion;
+};
+
+TEST_F(SolversUnderTest, AreReadFromMemory) {
+  subject_.kind = SubjectKind::callable;
+  subject_.prepare = [](const cases::Case& problem) {
+    return std::make_unique<ExactSolver>(problem);
+  };
+  subject_.steps = {0.1, 0.01};
+  const auto record = verify_one();
+  ASSERT_EQ(record.cases[0].subjects[0].levels.size(), 2u);
+  for (const auto& level : record.cases[0].subjects[0].levels) {
+    EXPECT_TRUE(level.runs[0].score.finished) << level.runs[0].score.failure;
+    EXPECT_LT(level.runs[0].score.u_error, 1e-14);
+    EXPECT_EQ(level.runs[0].score.impacts->found, 0) << "as its events say";
+    EXPECT_EQ(level.runs[0].file->file, "mine");
+  }
+}
+
+TEST_F(SolversUnderTest, TakeEachCaseWithItsOwnSettings) {
+  request_.cases = {"stop", "three-parameter"};
+  request_.case_settings = {{{"eta", 0.5}}, {{"N", 3.0}}};
+  const auto record = verify_one();
+  ASSERT_EQ(record.cases.size(), 2u);
+  const auto value = [&](std::size_t at, const char* name) {
+    for (const auto& parameter : record.cases[at].problem.parameters)
+      if (parameter.name == name) return parameter.value;
+    return 0.0;
+  };
+  EXPECT_EQ(value(0, "eta"), 0.5);
+  EXPECT_EQ(value(1, "N"), 3.0);
 }
 
 Record with(SubjectKind kind, std::vector<bool> finished) {

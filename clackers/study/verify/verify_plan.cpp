@@ -61,9 +61,9 @@ void require_some_method(const std::vector<PlannedMethod>& all,
   throw InputError(objection->sentence, objection->code);
 }
 
-CasePlan plan_of(const VerifyRequest& request, const std::string& case_name) {
+CasePlan plan_of(const VerifyRequest& request, std::size_t number) {
   CasePlan plan;
-  plan.problem = cases::make(case_name, request.settings);
+  plan.problem = make_case(request, number);
   plan.summary = summary_of(plan.problem);
   plan.steps = plan_for(request.plan, plan.summary);
   require_steps(plan.steps, plan.summary.end);
@@ -119,10 +119,10 @@ std::vector<CasePlan> plans_of(const VerifyRequest& request) {
   auto names = request.cases;
   if (names.empty()) names.emplace_back(cases::default_case());
   std::vector<CasePlan> plans;
-  for (const auto& name : names) {
-    if (std::ranges::count(names, name) > 1)
-      refuse("verify", "case", name, "each case once", {}, "bad-syntax");
-    plans.push_back(plan_of(request, name));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::ranges::count(names, names[i]) > 1)
+      refuse("verify", "case", names[i], "each case once", {}, "bad-syntax");
+    plans.push_back(plan_of(request, i));
   }
   return plans;
 }

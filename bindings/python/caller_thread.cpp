@@ -1,0 +1,139 @@
+#include "bindings/python/caller_thread.hpp"
+
+#include <chrono>
+#include <set>
+#include <thread>
+#include <utility>
+
+namespace clackers::python {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Time between two looks at Ctrl-C.
+constexpr auto longest_wait = 50ms;
+
+// How long the end of the interpreter waits for studies in other threads.
+constexpr auto longest_farewell = 5s;
+
+// The studies that run, of all threads.
+struct Running {
+  std::mutex guard;
+  std::condition_variable changed;
+  std::set<CallerThread*> all;
+};
+
+// Never destroyed: threads may outlive the objects of the process.
+Running& running() {
+  static auto* const studies = new Running;
+  return *studies;
+}
+
+}  // namespace
+
+CallerThread::CallerThread() {
+  const std::lock_guard lock(running().guard);
+  running().all.insert(this);
+}
+
+CallerThread::~CallerThread() {
+  for (auto* object : released_) Py_DECREF(object);
+  const std::lock_guard lock(running().guard);
+  running().all.erase(this);
+  running().changed.notify_all();
+}
+
+void CallerThread::stop_all() {
+  const py::gil_scoped_release without_gil;
+  std::unique_lock lock(running().guard);
+  for (auto* study : running().all) study->interrupt_ = true;
+  running().changed.wait_for(lock, longest_farewell, [] { return running().all.empty(); });
+}
+
+void CallerThread::run(const py::object& progress, const Work& work) {
+  std::thread study([&] {
+    try {
+      work([&](double share) {
+        const std::lock_guard lock(guard_);
+        share_ = share;
+      });
+    } catch (...) {
+      thrown_ = std::current_exception();
+    }
+    const std::lock_guard lock(guard_);
+    has_ended_ = true;
+    wake_.notify_one();
+  });
+  serve(progress);
+  study.join();
+  if (thrown_) std::rethrow_exception(thrown_);
+}
+
+bool CallerThread::call(const std::function<void()>& call) {
+  Job job{&call};
+  std::unique_lock lock(guard_);
+  if (interrupt_) return false;
+  jobs_.push_back(&job);
+  wake_.notify_one();
+  done_.wait(lock, [&] { return job.is_done; });
+  if (job.thrown) std::rethrow_exception(job.thrown);
+  return job.was_made;
+}
+
+void CallerThread::release(PyObject* object) {
+  const std::lock_guard lock(guard_);
+  released_.push_back(object);
+}
+
+CallerThread::Events CallerThread::wait() {
+  const py::gil_scoped_release without_gil;
+  std::unique_lock lock(guard_);
+  wake_.wait_for(lock, longest_wait, [&] { return !jobs_.empty() || has_ended_; });
+  Events events;
+  events.has_ended = has_ended_;
+  events.share = std::exchange(share_, {});
+  events.released = std::exchange(released_, {});
+  if (!jobs_.empty()) {
+    events.job = jobs_.front();
+    jobs_.pop_front();
+  }
+  return events;
+}
+
+void CallerThread::serve(const py::object& progress) {
+  for (bool has_ended = false; !has_ended;) {
+    const auto events = wait();
+    has_ended = events.has_ended;
+    for (auto* object : events.released) Py_DECREF(object);
+    if (events.job != nullptr) make(*events.job);
+    try {
+      if (events.share && !progress.is_none() && !interrupt_) progress(*events.share);
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    } catch (py::error_already_set& error) {
+      stop(error);
+    }
+  }
+}
+
+void CallerThread::stop(py::error_already_set& error) {
+  interrupt_ = true;
+  if (!stopped_by_.is_none()) return;
+  stopped_by_ = error.value();
+  if (error.trace()) PyException_SetTraceback(stopped_by_.ptr(), error.trace().ptr());
+}
+
+void CallerThread::make(Job& job) {
+  if (!interrupt_) try {
+      (*job.call)();
+      job.was_made = true;
+    } catch (py::error_already_set& error) {
+      stop(error);
+    } catch (...) {
+      job.thrown = std::current_exception();
+    }
+  const std::lock_guard lock(guard_);
+  job.is_done = true;
+  done_.notify_all();
+}
+
+}  // namespace clackers::python

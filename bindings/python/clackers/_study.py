@@ -1,0 +1,402 @@
+"""Assessing methods, callables and histories."""
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Literal, TypeGuard, Union
+
+import numpy.typing as npt
+
+from clackers import _core
+from clackers._case import Case
+from clackers._case import case as make_case
+from clackers._errors import Interrupted, SolverError
+from clackers._history import Columns, read_collisions, read_history
+from clackers._record import Record
+from clackers._solver import Runs, Solver, name_of
+
+Progress = Union[Callable[[float], object], bool, None]
+CaseChoice = Union[str, Case, Sequence[Union[str, Case]]]
+Path = Union[str, "os.PathLike[str]"]
+
+BUDGET = 20.0
+"""Seconds for further levels and steps of what the first ones leave undecided."""
+TOLERANCES = "1e-3:1e-10"
+"""Those of a callable that is given tolerances, one a decade."""
+
+
+def verify(
+    *subjects: str | Solver,
+    case: CaseChoice | None = None,
+    steps: npt.ArrayLike | None = None,
+    tolerances: Sequence[float] | str | Literal[True] | None = None,
+    levels: int | None = None,
+    coarsest: float | None = None,
+    neighbours: int | None = None,
+    expect: str | None = None,
+    name: str | Sequence[str] | None = None,
+    budget: float | None = None,
+    jobs: int | None = None,
+    progress: Progress = None,
+    **parameters: float,
+) -> Record:
+    """Assesses methods and callables over a range of steps on a case whose exact motion is known.
+
+    A subject is the name of a method (``clackers.catalogue("pairs")``) or a callable; without any, the
+    default panel of methods. A callable ``solver(problem, h)`` gets a ``clackers.Problem`` and a step [s] and
+    returns (t, u), (t, u, v) or (t, u, v, a), u of shape (time, dof) or (dof, time), (time,) for one mass; a
+    mapping or an object with t, u, v, a and, where known, collisions (their times, or as ``Case.impacts``
+    returns them); or the result of ``scipy.integrate.solve_ivp``, y = (u, v), or a list of such results of
+    consecutive flights, whose ``t_events`` are the collisions. A time that stands twice has both limits of
+    a jump. Callables are called in the thread of the caller, one at a time.
+
+    case        a name with ``**parameters``, a ``clackers.Case``, or a list of these; default three-parameter
+    steps       the steps of callables [s], in any order, instead of a ladder
+    tolerances  callables are ``solver(problem, tolerance)``: a list, "1e-3:1e-10" (one a decade), or True
+    levels      number of levels, each half the step of the one before; default 8, 6 with callables
+    coarsest    largest step [s]; default a fourteenth of the fast period of the case
+    neighbours  steps a level; default 8, 4 with callables
+    expect      what callables should show: "proper:2", "irregular:1", "exact", ...; default nothing
+    name        names of callables in the record; default those of the functions
+    budget      time for further steps of what is undecided [s]; default 20, 0 with levels or steps
+    jobs        threads; default one a processor
+    progress    a callable that gets the share that is done, or True for a line on standard error
+
+    A run that raises, or returns something else, is a failed run of its step. Raises SolverError where
+    every run failed, from the first exception; Interrupted (a KeyboardInterrupt) with the record of what
+    was finished after Ctrl-C; InputError for what cannot be run.
+
+    >>> import clackers, numpy
+    >>> def leapfrog(problem, h):
+    ...     t, u, v = problem.start
+    ...     eta = problem.contacts[0].restitution
+    ...     times, states, speeds = [t], [u], [v]
+    ...     for i in range(round(problem.end / h)):
+    ...         v = v + h * problem.rhs(t, [*u, *v])[problem.dof:]
+    ...         u = u + h * v
+    ...         t = (i + 1) * h
+    ...         if problem.gap(t, [*u, *v]) < 0 and v @ problem.contacts[0].direction < 0:
+    ...             v = problem.impact([*u, *v])[problem.dof:]
+    ...         times.append(t), states.append(u), speeds.append(v)
+    ...     return times, states, speeds
+    >>> record = clackers.verify(leapfrog, case="stop", levels=3, expect="irregular:1")
+    >>> record.subject.kind
+    'callable'
+    """
+    names = [subject for subject in subjects if isinstance(subject, str)]
+    solvers = [subject for subject in subjects if not isinstance(subject, str)]
+    for solver in solvers:
+        if not callable(solver):
+            _core.refuse(
+                "verify", "subject", f"{solver!r} ({_core.description(solver)})",
+                "the name of a method, or a callable solver(problem, h)",
+            )
+    _refuse_without_solvers(solvers, bool(names), steps, tolerances, expect, name)
+    chosen = _cases("verify", case, parameters)
+    own_steps = [] if steps is None else _descending("steps", _core.read_vector("verify", "steps", steps).tolist())
+    own_tolerances = [] if tolerances is None else _tolerances(tolerances)
+    runs = [Runs(solver, title) for solver, title in zip(solvers, _names(solvers, name))]
+    if budget is None:
+        budget = BUDGET if levels is None else 0.0
+    with _ProgressLine("verify", progress) as report:
+        core, stop = _core.verify(
+            methods=names,
+            callables=[(each.name, each, own_steps, own_tolerances) for each in runs],
+            cases=chosen,
+            expect=None if expect is None else _core.read_text("verify", "expect", expect),
+            levels=None if levels is None else _positive_whole("levels", levels),
+            coarsest=None if coarsest is None else _core.read_number("verify", "coarsest", coarsest),
+            neighbours=None if neighbours is None else _positive_whole("neighbours", neighbours),
+            budget=_core.read_number("verify", "budget", budget),
+            jobs=0 if jobs is None else _positive_whole("jobs", jobs),
+            command=_line(
+                "verify", [repr(each) if isinstance(each, str) else name_of(each) for each in subjects], parameters,
+                case=case, steps=steps, tolerances=tolerances, levels=levels, coarsest=coarsest,
+                neighbours=neighbours, expect=expect, name=name,
+            ),
+            progress=report,
+        )
+    record = _record(core, stop)
+    failure = record._core.failure_of_all()
+    if failure is not None:
+        sentence, code, printed = failure
+        end = "" if sentence.endswith(".") else "."
+        first = next((each.first_error for each in runs if each.first_error is not None), None)
+        raise SolverError(f"verify: every run failed; the first one: {sentence}{end}", code, record) from first
+    return record
+
+
+def check(
+    t: object,
+    u: npt.ArrayLike | None = None,
+    v: npt.ArrayLike | None = None,
+    a: npt.ArrayLike | None = None,
+    *,
+    collisions: object = None,
+    step: float | Sequence[float] | None = None,
+    tolerances: Sequence[float] | None = None,
+    case: str | Case | None = None,
+    expect: str | None = None,
+    tolerance: float | None = None,
+    columns: Sequence[str] | None = None,
+    name: str | Sequence[str] | None = None,
+    progress: Progress = None,
+    **parameters: float,
+) -> Record:
+    """Assesses time histories of any program against the exact motion of a case.
+
+    ``check(t, u)``, ``check(t, u, v)`` and ``check(t, u, v, a)`` take arrays: times [s] and u [m] of shape
+    (time, dof) or (dof, time), (time,) for one mass; the column of a mass that is not known is NaN. A
+    time that stands twice has both limits of a jump. ``check(history)`` takes whatever a callable of
+    ``clackers.verify`` may return, or the path of a file (text, or NumPy's npy). Several histories are levels
+    of one method and give an order: a list of histories or paths, or a mapping from steps [s] to them.
+
+    collisions  times of the collisions, or as ``Case.impacts`` returns them; of a file a path; of several
+                histories a list of these; default: found in the history
+    step        step of the history [s], a list of several; default: the median time between rows
+    tolerances  of an adaptive solver, one a history, instead of steps
+    case        a name with ``**parameters``, or a ``clackers.Case``; default three-parameter
+    expect      what the histories should show: "proper:2", "irregular:1", "exact", ...; default nothing
+    tolerance   largest error in u over the initial envelope that is allowed
+    columns     names of the columns of files where a header lacks or differs
+    name        of the history in the record, a list of several
+    progress    a callable that gets the share that is done, or True for a line on standard error
+
+    Raises InputError for what is no history, or one of another case; Interrupted after Ctrl-C.
+
+    >>> import clackers, numpy
+    >>> case = clackers.case("three-parameter")
+    >>> t = numpy.linspace(0, case.end, 2001)
+    >>> u, v, a = case.response(t)
+    >>> clackers.check(t, u, v, case=case, tolerance=1e-6).verdict
+    'agrees'
+    """
+    chosen = _cases("check", case, parameters)
+    if len(chosen) != 1:
+        _core.refuse("check", "case", f"{len(chosen)} of them", "one case", "", "wrong-size")
+    given, keys = _histories(t, u, v, a)
+    if keys is not None and (step is not None or tolerances is not None):
+        _core.refuse("check", "step", "steps beside a mapping", "steps as keys, or step and tolerances", "", "bad-syntax")
+    titles = _titles(name, len(given))
+    events = _one_each("collisions", collisions, len(given))
+    dof = 0 if all(map(_is_path, given)) else (case if isinstance(case, Case) else make_case(case, **parameters)).dof
+    sources: list[_core.Source] = []
+    reported: list[_core.Source | None] = []
+    for history, title, event in zip(given, titles, events):
+        found: Columns | None = None
+        if not _is_path(history):
+            columns_of, found = read_history("check", history, dof)
+            sources.append((title, columns_of))
+        else:
+            sources.append(os.fspath(history))
+        if _is_path(event):
+            reported.append(os.fspath(event))
+            continue
+        if event is not None:
+            found = read_collisions("check", event)
+        reported.append(None if found is None else (f"collisions of {title}", found))
+    if any(each is None for each in reported) and not all(each is None for each in reported):
+        _core.refuse("check", "collisions", "those of some histories", "those of all, or of none", "", "wrong-size")
+    steps = list(keys or ())
+    if step is not None:
+        steps = _core.read_vector("check", "step", step).tolist()
+    with _ProgressLine("check", progress) as report:
+        core, stop = _core.check(
+            histories=sources,
+            events=[each for each in reported if each is not None],
+            case=chosen[0],
+            steps=steps,
+            tolerances=[] if tolerances is None else _core.read_vector("check", "tolerances", tolerances).tolist(),
+            columns=[] if columns is None else [_core.read_text("check", "columns", column) for column in columns],
+            expect=None if expect is None else _core.read_text("check", "expect", expect),
+            tolerance=None if tolerance is None else _core.read_number("check", "tolerance", tolerance),
+            command=_line(
+                "check", _positional(given, keys, u, v, a), parameters, step=step, tolerances=tolerances, case=case,
+                expect=expect, tolerance=tolerance, columns=columns, name=name,
+            ),
+            progress=report,
+        )
+    return _record(core, stop)
+
+
+def _record(core: _core.Record | None, stop: BaseException | None) -> Record:
+    record = None if core is None else Record(core)
+    if isinstance(stop, KeyboardInterrupt) or (stop is None and (record is None or record.interrupted)):
+        raise Interrupted(record) from stop
+    if stop is not None:
+        raise stop
+    assert record is not None
+    return record
+
+
+# Cases.
+
+
+def _cases(who: str, case: CaseChoice | None, parameters: Mapping[str, float]) -> list[tuple[str, dict[str, float]]]:
+    """Name and parameters of each case; an empty name is the default case."""
+    if case is None:
+        return [("", dict(parameters))]
+    if isinstance(case, (str, Case)):
+        case = [case]
+    if not isinstance(case, (list, tuple)) or not case:
+        _core.refuse(who, "case", _core.description(case), "a name, a clackers.Case, or a list of these", "", "not-text")
+    chosen: list[tuple[str, dict[str, float]]] = []
+    for each in case:
+        if isinstance(each, Case):
+            if parameters:
+                _core.refuse(
+                    who, "parameters", ", ".join(parameters), "none beside a clackers.Case, which has its own", "",
+                    "bad-syntax",
+                )
+            chosen.append((each.name, each.parameters))
+        else:
+            chosen.append((_core.read_text(who, "case", each), dict(parameters)))
+    return chosen
+
+
+# Options of verify.
+
+
+def _refuse_without_solvers(
+    solvers: Sequence[Solver], has_methods: bool, steps: object, tolerances: object, expect: object, name: object
+) -> None:
+    options = {"steps": steps, "tolerances": tolerances, "expect": expect, "name": name}
+    for option, value in options.items():
+        if value is not None and not solvers:
+            _core.refuse("verify", option, repr(value), "none without a callable, since it is for callables", "", "bad-syntax")
+    if steps is not None and tolerances is not None:
+        _core.refuse("verify", "steps", "steps and tolerances", "one of them", "", "bad-syntax")
+    if has_methods and steps is not None:
+        _core.refuse(
+            "verify", "steps", "steps beside methods", "steps for callables alone",
+            "Methods take levels and coarsest, and so do callables beside them.", "bad-syntax",
+        )
+
+
+def _descending(option: str, values: list[float]) -> list[float]:
+    if not values:
+        _core.refuse("verify", option, "none", "one at least", "", "wrong-size")
+    return sorted(values, reverse=True)
+
+
+def _tolerances(given: Sequence[float] | str | Literal[True]) -> list[float]:
+    if given is True:
+        return _core.tolerances_from(TOLERANCES)
+    if isinstance(given, str):
+        return _core.tolerances_from(given)
+    return _descending("tolerances", _core.read_vector("verify", "tolerances", given).tolist())
+
+
+def _positive_whole(option: str, value: int) -> int:
+    number = _core.read_whole("verify", option, value)
+    if not 1 <= number < 2**31:
+        _core.refuse("verify", option, str(number), "1 or more")
+    return number
+
+
+def _names(solvers: Sequence[Solver], name: str | Sequence[str] | None) -> list[str]:
+    if name is None:
+        return [name_of(solver) for solver in solvers]
+    names = [name] if isinstance(name, str) else list(name)
+    if len(names) != len(solvers):
+        _core.refuse("verify", "name", f"{len(names)} of them", f"one a callable, {len(solvers)} here", "", "wrong-size")
+    return [_core.read_text("verify", "name", each) for each in names]
+
+
+# Histories of check.
+
+
+def _is_path(value: object) -> TypeGuard[Path]:
+    return isinstance(value, (str, os.PathLike))
+
+
+def _is_history(value: object) -> bool:
+    """Of an entry of a list: no array, and no list of numbers."""
+    if _is_path(value) or isinstance(value, (tuple, Mapping)) or hasattr(value, "t"):
+        return True
+    return isinstance(value, list) and bool(value) and all(hasattr(part, "t") or isinstance(part, Mapping) for part in value)
+
+
+def _histories(t: object, u: object, v: object, a: object) -> tuple[list[object], list[float] | None]:
+    """All histories, and their steps where those are given as keys."""
+    if u is not None:
+        return [tuple(part for part in (t, u, v, a))], None
+    if v is not None or a is not None:
+        _core.refuse("check", "u", "None", "displacements beside velocities and accelerations", "", "no-column")
+    if isinstance(t, Mapping) and "t" not in t:
+        return list(t.values()), [_core.read_number("check", "key of the histories", key) for key in t]
+    if isinstance(t, (list, tuple)) and t and all(map(_is_history, t)):
+        return list(t), None
+    return [t], None
+
+
+def _titles(name: str | Sequence[str] | None, count: int) -> list[str]:
+    if name is None:
+        return ["history"] if count == 1 else [f"history {number + 1}" for number in range(count)]
+    names = [name] if isinstance(name, str) else list(name)
+    if len(names) != count:
+        _core.refuse("check", "name", f"{len(names)} of them", f"one a history, {count} here", "", "wrong-size")
+    return [_core.read_text("check", "name", each) for each in names]
+
+
+def _one_each(option: str, value: object, count: int) -> list[object]:
+    if value is None or count == 1:
+        return [value] * count
+    if not isinstance(value, (list, tuple)) or len(value) != count:
+        _core.refuse("check", option, _core.description(value), f"a list with one a history, {count} here", "", "wrong-size")
+    return list(value)
+
+
+# The line that does it again.
+
+
+def _line(command: str, positional: Iterable[str], parameters: Mapping[str, float], **options: object) -> str:
+    given = [f"{name}={_shown(value)}" for name, value in options.items() if value is not None]
+    given += [f"{name}={value!r}" for name, value in parameters.items()]
+    return f"clackers.{command}({', '.join([*positional, *given])})"
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, Case):
+        arguments = "".join(f", {name}={number!r}" for name, number in value.parameters.items())
+        return f"clackers.case({value.name!r}{arguments})"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(_shown, value)) + "]"
+    return repr(value.tolist() if hasattr(value, "tolist") else value)
+
+
+def _positional(given: Sequence[object], keys: object, u: object, v: object, a: object) -> list[str]:
+    if u is not None:
+        parts = ["t", "u"] + (["v"] if v is not None or a is not None else []) + (["a"] if a is not None else [])
+        return ["None" if part == "v" and v is None else part for part in parts]
+    if all(map(_is_path, given)) and keys is None:
+        paths = [repr(os.fspath(path)) for path in given if _is_path(path)]
+        return paths if len(paths) == 1 else [f"[{', '.join(paths)}]"]
+    return ["history"] if len(given) == 1 and keys is None else ["histories"]
+
+
+class _ProgressLine:
+    """``progress=True``: a line on standard error that is written anew."""
+
+    def __init__(self, command: str, progress: Progress) -> None:
+        self._command = command
+        self._progress = progress
+        self._is_written = False
+        if progress is not None and not isinstance(progress, bool) and not callable(progress):
+            _core.refuse(command, "progress", _core.description(progress), "a callable, True or None")
+
+    def __enter__(self) -> Callable[[float], object] | None:
+        if callable(self._progress):
+            return self._progress
+        return self._write if self._progress else None
+
+    def __exit__(self, *_: object) -> None:
+        if self._is_written:
+            sys.stderr.write("\r" + " " * 20 + "\r")
+            sys.stderr.flush()
+
+    def _write(self, share: float) -> None:
+        self._is_written = True
+        sys.stderr.write(f"\r{self._command}: {100 * share:3.0f} %")
+        sys.stderr.flush()

@@ -1,0 +1,125 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings/python/arguments.hpp"
+#include "bindings/python/bind.hpp"
+#include "bindings/python/caller_thread.hpp"
+#include "bindings/python/study_arrays.hpp"
+#include "bindings/python/study_solver.hpp"
+#include "clackers/base/error.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/study/check.hpp"
+#include "clackers/study/program.hpp"
+#include "clackers/study/solver.hpp"
+#include "clackers/study/verify.hpp"
+
+namespace clackers::python {
+namespace {
+
+using RecordPointer = std::shared_ptr<study::Record>;
+// (name, parameters) of a case.
+using CaseChoice = std::pair<std::string, py::dict>;
+// (name, run, steps, tolerances) of a callable.
+using Callable = std::tuple<std::string, py::object, std::vector<double>, std::vector<double>>;
+
+Settings settings_from(const CaseChoice& chosen) {
+  Settings settings;
+  for (const auto& [key, value] : chosen.second) {
+    const auto parameter = key.cast<std::string>();
+    settings.emplace_back(parameter, read_number("case", parameter, value));
+  }
+  return settings;
+}
+
+// Runs a study in the caller's thread: (record, exception of Python that ended it), either None. A
+// study that leaves no record when it is interrupted throws Error (interrupted).
+py::tuple result_of(CallerThread& caller, const py::object& progress,
+                    const std::function<study::Record(const study::Progress&)>& make) {
+  RecordPointer record;
+  try {
+    caller.run(progress, [&](const study::Progress& report) {
+      record = std::make_shared<study::Record>(make(report));
+    });
+  } catch (const Error& error) {
+    if (error.code() != Code("interrupted")) throw;
+  }
+  return py::make_tuple(record, caller.stopped_by());
+}
+
+py::tuple verify(const std::vector<std::string>& methods, const std::vector<Callable>& callables,
+                 const std::vector<CaseChoice>& chosen, const std::optional<std::string>& expect,
+                 std::optional<int> levels, std::optional<double> coarsest,
+                 std::optional<int> neighbours, double budget, int jobs, const std::string& command,
+                 const py::object& progress) {
+  study::VerifyRequest request;
+  request.methods = methods;
+  for (const auto& one : chosen) {
+    request.cases.push_back(one.first.empty() ? std::string(cases::default_case()) : one.first);
+    request.case_settings.push_back(settings_from(one));
+  }
+  request.plan.levels = levels;
+  request.plan.coarsest = coarsest;
+  if (neighbours) request.plan.samples_per_level = *neighbours;
+  request.budget = budget;
+  request.jobs = jobs;
+  request.command = command;
+  std::optional<Claim> claim;
+  if (expect) claim = study::claim_from(*expect);
+  std::vector<CallableSubject> subjects;
+  for (const auto& [name, run, steps, tolerances] : callables)
+    subjects.push_back({name, run, claim, steps, tolerances});
+  if (!subjects.empty()) {
+    if (!levels) request.plan.levels = study::default_solver_levels;
+    if (!neighbours) request.plan.samples_per_level = study::default_solver_samples;
+  }
+  CallerThread caller;
+  return result_of(caller, progress, [&](const study::Progress& report) {
+    if (subjects.empty()) return study::verify(request, report, caller.interrupt());
+    std::vector<study::SolverSubject> solvers;
+    for (const auto& subject : subjects) solvers.push_back(solver_subject(subject, caller));
+    return study::verify(request, std::move(solvers), report, caller.interrupt());
+  });
+}
+
+py::tuple check(const py::list& histories, const py::list& events, const CaseChoice& chosen,
+                const std::vector<double>& steps, const std::vector<double>& tolerances,
+                const std::vector<std::string>& columns, const std::optional<std::string>& expect,
+                std::optional<double> tolerance, const std::string& command,
+                const py::object& progress) {
+  study::CheckRequest request;
+  for (const auto history : histories) request.files.push_back(source_of(history));
+  for (const auto list : events) request.events.push_back(source_of(list));
+  request.case_name = chosen.first;
+  request.settings = settings_from(chosen);
+  request.steps = steps;
+  request.tolerances = tolerances;
+  request.columns = columns;
+  if (expect) request.expect = study::claim_from(*expect);
+  request.tolerance = tolerance;
+  request.command = command;
+  CallerThread caller;
+  return result_of(caller, progress, [&](const study::Progress& report) {
+    return study::check(request, report, caller.interrupt());
+  });
+}
+
+}  // namespace
+
+void bind_study(py::module_& core) {
+  core.def("verify", &verify, py::arg("methods"), py::arg("callables"), py::arg("cases"),
+           py::arg("expect"), py::arg("levels"), py::arg("coarsest"), py::arg("neighbours"),
+           py::arg("budget"), py::arg("jobs"), py::arg("command"), py::arg("progress"));
+  core.def("check", &check, py::arg("histories"), py::arg("events"), py::arg("case"),
+           py::arg("steps"), py::arg("tolerances"), py::arg("columns"), py::arg("expect"),
+           py::arg("tolerance"), py::arg("command"), py::arg("progress"));
+  core.def("tolerances_from", &study::tolerances_from, py::arg("text"));
+  py::module_::import("atexit").attr("register")(py::cpp_function(&CallerThread::stop_all));
+}
+
+}  // namespace clackers::python

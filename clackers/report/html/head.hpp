@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "clackers/study/record.hpp"
+
+// What stands above the sections of a record.
+namespace clackers::report {
+
+/// What the case is, how long, and its steps.
+std::string lead_html(const study::CaseRecord& problem);
+
+/// The verdict over all, and what it rests on.
+std::string overall_html(const study::Record& record);
+
+}  // namespace clackers::report
