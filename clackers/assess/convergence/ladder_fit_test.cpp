@@ -344,5 +344,16 @@ TEST(LadderFit, ZerosAfterCoarseFailuresAreNotExact) {
   EXPECT_BEHAVIOUR(fit_ladder({}, {.claimed_order = 2.0}), Behaviour::undecided, "too-few-levels");
 }
 
+TEST(LadderFit, ASlopeThatNoMethodHasIsTheFloorOfAnotherLimit) {
+  const auto made = ladder([](double h) { return std::pow(h, 0.25); });
+  const auto alone = fit_ladder(made, {.claimed_order = 1.0});
+  EXPECT_BEHAVIOUR(alone, Behaviour::reduced, "");
+  const auto other = fit_ladder(made, {.claimed_order = 1.0, .wrong_limit = true});
+  EXPECT_BEHAVIOUR(other, Behaviour::stagnating, "wrong-limit");
+  const auto steeper = fit_ladder(ladder([](double h) { return std::pow(h, 0.35); }),
+                                  {.claimed_order = 1.0, .wrong_limit = true});
+  EXPECT_BEHAVIOUR(steeper, Behaviour::reduced, "");
+}
+
 }  // namespace
 }  // namespace clackers::assess

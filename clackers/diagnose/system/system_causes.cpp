@@ -90,6 +90,21 @@ std::pair<double, double> closing_speeds(const FitQuestion& question) {
   return {least, largest};
 }
 
+// The same of a solver that applies impacts at the ends of its steps, over that fault alone.
+Trial tried_at_step_ends(const FitFile& file, const Hypothesis& hypothesis,
+                         const FitQuestion& question) {
+  auto base = hypothesis.base(question.problem);
+  base.law.grid = file.step;
+  Trial trial{&hypothesis};
+  const double late = rms(file.rows.residual(base, file.rows.t.size()));
+  const auto fit = fit_system(file.rows, base, {&*hypothesis.parameter, 1});
+  if (fit.values.empty()) return trial;
+  trial.d = fit.values[0];
+  trial.uncertainty = fit.uncertainty[0];
+  trial.gain = std::min(file.rows.distance, late) / std::max(fit.distance, 1e-300);
+  return trial;
+}
+
 // Whether the gap keeps its contact, and is no delay: where all impacts are as fast, late ones look
 // like another gap, so that it must be more than a step away.
 bool is_possible_gap(double d, const FitFile& file, const FitQuestion& question) {
@@ -329,6 +344,14 @@ std::vector<Diagnosis> system_causes(const Question& asked) {
   if (auto cause =
           judged(race(all_tried(tried_beside, remaining, question), dof), tried_beside, question))
     return {*cause};
+  if (!question.by_tolerance) {
+    std::erase_if(remaining, [](const Hypothesis& one) {
+      return !one.parameter || one.parameter->change != Change::restitution;
+    });
+    if (auto cause = judged(race(all_tried(tried_at_step_ends, remaining, question), dof),
+                            tried_at_step_ends, question))
+      return {*cause};
+  }
   return smooth_limits(question);
 }
 

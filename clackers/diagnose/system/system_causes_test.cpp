@@ -83,5 +83,18 @@ TEST(SystemCauses, PrintedDigitsAreNoCause) {
   EXPECT_TRUE(system_causes(solved(which, problem, {}, 0.1, 3, 4).question()).empty());
 }
 
+TEST(SystemCauses, RestitutionIsFoundBesideImpactsAtTheEndsOfSteps) {
+  const auto which = cases::make("three-parameter", {{"N", 2.0}});
+  auto problem = which.problem;
+  const Solver late{.location = Location::end_of_step};
+  for (const auto& one : system_causes(solved(which, problem, late, 0.2, 3).question()))
+    EXPECT_EQ(one.code, "period-error") << one.value << " gain " << one.fact("gain");
+  problem.contacts[0].restitution = 0.9;
+  const auto found = system_causes(solved(which, problem, late, 0.2, 3).question());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].code, "restitution-differs");
+  EXPECT_NEAR(found[0].value, 0.9, 1e-3);
+}
+
 }  // namespace
 }  // namespace clackers::diagnose::testing
