@@ -157,7 +157,7 @@ def convergence(
     runs = [row for row in data["runs"] if row["finished"] == "yes" and _is_drawable(row["u_error"])]
     levels = [row for row in data["levels"] if _is_drawable(row["u_error"])]
     if not runs or not levels:
-        _refuse_empty("convergence", "runs with a finite positive error")
+        _refuse_empty("convergence", "one with runs of a finite positive error")
     with _axes(ax, width) as axes:
         _draw_slopes(axes, data.get("slopes", ()))
         for number, method in enumerate(dict.fromkeys(row["method"] for row in runs)):
@@ -197,7 +197,7 @@ def history(
     if rows and not chosen:
         _core.refuse("plot.history", "mass", str(mass), " or ".join(map(str, masses)))
     if not any(_is_drawable(error) for row in chosen for error in row["error"]):
-        _refuse_empty("history", "a run with a finite positive error")
+        _refuse_empty("history", "one with a run of a finite positive error")
     steps = {f"$h$ = {row['step']:.3g} s" for row in chosen}
     with _axes(ax, width) as axes:
         for number, row in enumerate(chosen):
@@ -299,8 +299,10 @@ def _datasets(record: Record, figure: str, case: str | None) -> dict[str, Any]:
     """The data of a figure of the report, so that both show the same numbers."""
     if not isinstance(record, Record):
         _core.refuse(f"plot.{figure}", "record", _core.description(record), "a clackers.Record")
-    if not record.subjects or not record.figures:
-        _refuse_empty(figure, "finished runs")
+    drawn = {name: figures for name, _, figures in reversed(record._cases)}
+    chosen = record.cases[0] if case is None else case
+    if chosen in drawn and figure not in drawn[chosen]:
+        _refuse_empty(figure, "one with finished runs")
     data = record.figure(figure, case).spec["datasets"]
     assert isinstance(data, dict)
     return data
