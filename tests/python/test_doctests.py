@@ -2,8 +2,11 @@
 import doctest
 import importlib
 import inspect
+import os
 import pkgutil
 import unittest
+
+os.environ["MPLBACKEND"] = "Agg"
 
 import clackers
 

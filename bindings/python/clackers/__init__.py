@@ -6,6 +6,7 @@
 >>> u.shape
 (3, 2)
 """
+from clackers import plot
 from clackers._case import Admissibility, Case, Impacts, Kinematics, admissibility, case
 from clackers._core import version as __version__
 from clackers._errors import Error, FileError, InputError, Interrupted, SolverError
@@ -43,5 +44,6 @@ __all__ = [
     "check",
     "explain",
     "load",
+    "plot",
     "verify",
 ]
