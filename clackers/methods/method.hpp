@@ -17,7 +17,8 @@ namespace clackers::methods {
 struct Facts {
   std::string name{};            ///< the specification: "generalized-alpha:rho=0.8+event-driven"
   double smooth_order = 0.0;     ///< of u and v while nothing collides
-  double stability_limit = 0.0;  ///< largest omega h of undamped smooth motion; may be infinite
+  /// Largest omega h of undamped smooth motion; may be infinite. 0: it grows in every short step.
+  double stability_limit = 0.0;
   /// Spectral radius at infinite omega h; NaN where not every step is stable, or it is not known.
   double radius_at_infinity = std::numeric_limits<double>::quiet_NaN();
   Claim through_impacts{};  ///< of an integrator alone: nothing

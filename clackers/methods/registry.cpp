@@ -23,7 +23,7 @@ namespace {
 // Families of integrators, contact treatments, methods that stand alone.
 std::vector<Row> all_rows() {
   std::vector<Row> all;
-  for (const auto& family : {alpha_methods, runge_kutta_methods})
+  for (const auto& family : families)
     for (auto& row : family()) all.push_back(std::move(row));
   all.push_back(row<EventDriven>());
   all.push_back(row<Reversal>());

@@ -47,15 +47,7 @@ struct AlphaMethod {
       x.v += h * (1.0 - gamma) * a;
       equation.solve(x.t + h, weights<Dof>(h), x.u, x.v, a);
     } else {
-      Scratch<Dof> u_m = equation.scratch(0), v_m = equation.scratch(1),
-                   shift = equation.scratch(2);
-      // x_m without the new acceleration: x0 plus (1 - alpha_f) of what the predictor adds to it.
-      u_m = x.u + (1.0 - alpha_f) * (h * x.v + h * h * (0.5 - beta) * a);
-      v_m = x.v + (1.0 - alpha_f) * h * (1.0 - gamma) * a;
-      shift = alpha_m * a;
-      x.u += h * x.v + h * h * (0.5 - beta) * a;
-      x.v += h * (1.0 - gamma) * a;
-      equation.solve(x.t + (1.0 - alpha_f) * h, weights<Dof>(h), u_m, v_m, a, &shift);
+      solve_weighted(equation, h, x, a);
     }
     x.u += h * h * beta * a;
     x.v += h * gamma * a;
@@ -63,6 +55,20 @@ struct AlphaMethod {
   }
 
  private:
+  // Out of the way of Newmark's steps, which are twice as short.
+  template <int Dof>
+  [[gnu::noinline]] void solve_weighted(MotionEquation<Dof>& equation, double h,
+                                        model::State<Dof>& x, model::Vector<Dof>& a) const {
+    Scratch<Dof> u_m = equation.scratch(0), v_m = equation.scratch(1), shift = equation.scratch(2);
+    // x_m without the new acceleration: x0 plus (1 - alpha_f) of what the predictor adds to it.
+    u_m = x.u + (1.0 - alpha_f) * (h * x.v + h * h * (0.5 - beta) * a);
+    v_m = x.v + (1.0 - alpha_f) * h * (1.0 - gamma) * a;
+    shift = alpha_m * a;
+    x.u += h * x.v + h * h * (0.5 - beta) * a;
+    x.v += h * (1.0 - gamma) * a;
+    equation.solve(x.t + (1.0 - alpha_f) * h, weights<Dof>(h), u_m, v_m, a, &shift);
+  }
+
   template <int Dof>
   typename MotionEquation<Dof>::Weights weights(double h) const {
     return {1.0 - alpha_m, (1.0 - alpha_f) * h * gamma, (1.0 - alpha_f) * h * h * beta};

@@ -26,6 +26,7 @@ double radius_at_infinity(const AlphaMethod& m) {
 
 bool is_plain(const AlphaMethod& m) { return m.alpha_m == 0.0 && m.alpha_f == 0.0; }
 
+// The member with the largest dissipation of high frequencies that is of order 2 and stable for every h.
 AlphaMethod second_order(double alpha_m, double alpha_f) {
   const double x = 1.0 - alpha_m + alpha_f;
   return {.beta = 0.25 * x * x, .gamma = x - 0.5, .alpha_m = alpha_m, .alpha_f = alpha_f};
@@ -72,6 +73,77 @@ Memory      a0, taken from the last step; computed anew after an impact.
 Cost        one back-substitution a step; one factorization for each (system, h).
 Source      N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (EM3), 67-94 (1959).
 )"},
+      {"average-acceleration",
+       "Newmark's method with the mean of both accelerations: trapezoidal rule",
+       {},
+       [](Values) { return AlphaMethod{.beta = 0.25, .gamma = 0.5}; },
+       R"(Newmark's method with beta = 1/4, gamma = 1/2, the trapezoidal rule:
+
+    u1 = u0 + h v0 + h²/4 (a0 + a1)
+    v1 = v0 + h/2 (a0 + a1)
+    M a1 + C v1 + K u1 + p(u1, v1) = f(t0 + h)
+
+Order       2.
+Stability   for every h.
+Dissipation none for C = 0.
+Memory      a0, taken from the last step; computed anew after an impact.
+Cost        one back-substitution a step; one factorization for each (system, h).
+Source      N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (EM3), 67-94 (1959).
+)"},
+      {"linear-acceleration",
+       "Newmark's method with the acceleration linear in the step",
+       {},
+       [](Values) { return AlphaMethod{.beta = 1.0 / 6, .gamma = 0.5}; },
+       R"(Newmark's method with beta = 1/6, gamma = 1/2:
+
+    u1 = u0 + h v0 + h²/6 (2 a0 + a1)
+    v1 = v0 + h/2 (a0 + a1)
+    M a1 + C v1 + K u1 + p(u1, v1) = f(t0 + h)
+
+Order       2.
+Stability   omega h <= 2 sqrt(3) = 3.464.
+Dissipation none for C = 0.
+Memory      a0, taken from the last step; computed anew after an impact.
+Cost        one back-substitution a step; one factorization for each (system, h).
+Source      N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (EM3), 67-94 (1959).
+)"},
+      {"fox-goodwin",
+       "Newmark's method with beta = 1/12: the period to order four without damping",
+       {},
+       [](Values) { return AlphaMethod{.beta = 1.0 / 12, .gamma = 0.5}; },
+       R"(Newmark's method with beta = 1/12, gamma = 1/2:
+
+    u1 = u0 + h v0 + h²/12 (5 a0 + a1)
+    v1 = v0 + h/2 (a0 + a1)
+    M a1 + C v1 + K u1 + p(u1, v1) = f(t0 + h)
+
+Order       2; the period is of order 4 for C = 0, f = 0.
+Stability   omega h <= sqrt(6) = 2.449.
+Dissipation none for C = 0.
+Memory      a0, taken from the last step; computed anew after an impact.
+Cost        one back-substitution a step; one factorization for each (system, h).
+Source      L. Fox, E. T. Goodwin, Math. Proc. Camb. Phil. Soc. 45, 373-388 (1949).
+)"},
+      {"dissipative-newmark",
+       "Newmark's method of order one with the largest dissipation of high frequencies",
+       {{"gamma", 0.6, 0.5, 1.0, "1/2 <= gamma <= 1", "weight of the new acceleration in v"}},
+       [](Values x) {
+         return AlphaMethod{.beta = 0.25 * (x[0] + 0.5) * (x[0] + 0.5), .gamma = x[0]};
+       },
+       R"(Newmark's method with beta = (gamma + 1/2)²/4:
+
+    u1 = u0 + h v0 + h² [(1/2 - beta) a0 + beta a1]
+    v1 = v0 + h [(1 - gamma) a0 + gamma a1]
+    M a1 + C v1 + K u1 + p(u1, v1) = f(t0 + h)
+
+Order       1; 2 for gamma = 1/2.
+Stability   for every h.
+Dissipation grows with gamma, for all frequencies; rho = (3/2 - gamma)/(gamma + 1/2) at infinite
+            omega h.
+Memory      a0, taken from the last step; computed anew after an impact.
+Cost        one back-substitution a step; one factorization for each (system, h).
+Source      T. J. R. Hughes, The Finite Element Method, 9.1.3, Prentice-Hall (1987).
+)"},
       {"central-difference",
        "explicit central difference with the velocity at the end of the step",
        {},
@@ -115,6 +187,46 @@ Dissipation none for rho = 1, C = 0; grows as rho falls, for high frequencies fi
 Memory      a0, taken from the last step; computed anew from equilibrium after an impact.
 Cost        one back-substitution a step; one factorization for each (system, h).
 Source      J. Chung, G. M. Hulbert, J. Appl. Mech. 60, 371-375 (1993).
+)"},
+      {"hht-alpha",
+       "Hilber, Hughes and Taylor's method, dissipation set by alpha",
+       {{"alpha", -0.1, -1.0 / 3, 0.0, "-1/3 <= alpha <= 0",
+         "weight of the start of the step in the equilibrium, negative; 0: no dissipation"}},
+       [](Values x) { return second_order(0.0, -x[0]); },
+       R"(The alpha method of Hilber, Hughes and Taylor, x_m = (1 + alpha) x1 - alpha x0 for x = u, v, t:
+
+    M a1 + C v_m + K u_m + p(u_m, v_m) = f(t_m)
+    u1 = u0 + h v0 + h² [(1/2 - beta) a0 + beta a1]
+    v1 = v0 + h [(1 - gamma) a0 + gamma a1]
+    gamma = 1/2 - alpha, beta = (1 - alpha)²/4
+
+Some programs call 1 + alpha what is alpha here.
+
+Order       2 in u and v; the stored a is of order 1.
+Stability   for every h.
+Dissipation none for alpha = 0, C = 0; rho = (1 + alpha)/(1 - alpha) at infinite omega h.
+Memory      a0, taken from the last step; computed anew after an impact.
+Cost        one back-substitution a step; one factorization for each (system, h).
+Source      H. M. Hilber, T. J. R. Hughes, R. L. Taylor, Earthq. Eng. Struct. Dyn. 5, 283-292 (1977).
+)"},
+      {"wbz-alpha",
+       "Wood, Bossak and Zienkiewicz's method, dissipation set by rho",
+       {{"rho", 0.8, 0.0, 1.0, "0 <= rho <= 1",
+         "spectral radius at infinite omega h; 1: no dissipation"}},
+       [](Values x) { return second_order((x[0] - 1.0) / (x[0] + 1.0), 0.0); },
+       R"(The alpha method of Wood, Bossak and Zienkiewicz, with rho the spectral radius at infinite omega h:
+
+    M [(1 - alpha_m) a1 + alpha_m a0] + C v1 + K u1 + p(u1, v1) = f(t0 + h)
+    u1 = u0 + h v0 + h² [(1/2 - beta) a0 + beta a1]
+    v1 = v0 + h [(1 - gamma) a0 + gamma a1]
+    alpha_m = (rho - 1)/(rho + 1), gamma = 1/2 - alpha_m, beta = (1 - alpha_m)²/4
+
+Order       2 in u and v; the stored a is of order 1.
+Stability   for every h.
+Dissipation none for rho = 1, C = 0; grows as rho falls, for high frequencies first.
+Memory      a0, taken from the last step; computed anew after an impact.
+Cost        one back-substitution a step; one factorization for each (system, h).
+Source      W. L. Wood, M. Bossak, O. C. Zienkiewicz, Int. J. Numer. Methods Eng. 15, 1562-1566 (1980).
 )"},
   });
 }

@@ -1,9 +1,10 @@
 #include "clackers/base/testing/refusal.hpp"
-#include "clackers/methods/testing/stepper_checks.hpp"
+#include "clackers/methods/testing/one_step.hpp"
 
 namespace clackers::methods {
 namespace {
 
+using checks::OneStep;
 using checks::SingleSteps;
 
 TEST(CentralDifference, GivesTheDisplacementsOfTheTwoStepForm) {
@@ -34,25 +35,6 @@ TEST(Newmark, KeepsTheEnergyOfAnUndampedMotionWithAverageAcceleration) {
   // A thousand steps of a few roundings each.
   EXPECT_NEAR(now.u.squaredNorm() + now.v.squaredNorm(), 1.0, 1000 * 8 * 0x1p-53);
 }
-
-// One step from x0 in a problem with load and damping, and what the formula asks of it.
-struct OneStep {
-  checks::Ramps<1> problem{1, 0.3};
-  model::State<1> x0 = problem.exact(1.0), x1 = x0;
-  double m = problem.system.mass(0, 0), c = problem.system.damping(0, 0),
-         k = problem.system.stiffness(0, 0);
-
-  OneStep(const std::string& specification, double h) {
-    SingleSteps<1> stepper(specification, problem.system, h, x0);
-    stepper.step(x1);
-  }
-  double load(double t) const {
-    double f = 0.0;
-    problem.system.add_load(t, {&f, 1});
-    return f;
-  }
-  double a(const model::State<1>& x) const { return (load(x.t) - c * x.v[0] - k * x.u[0]) / m; }
-};
 
 TEST(Newmark, StepsByItsFormula) {
   const double h = 0.1, beta = 0.2, gamma = 0.7;

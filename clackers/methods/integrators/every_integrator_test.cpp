@@ -58,12 +58,18 @@ std::string test_name(const testing::TestParamInfo<std::string>& which) {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryIntegrator, testing::ValuesIn(registered()), test_name);
 
 // Other values of their parameters.
-INSTANTIATE_TEST_SUITE_P(Parameters, EveryIntegrator,
-                         testing::Values("newmark:beta=0", "newmark:beta=0.2",
-                                         "newmark:beta=0.3025,gamma=0.6",
-                                         "newmark:beta=0.2,gamma=0.55", "generalized-alpha:rho=0",
-                                         "generalized-alpha:rho=0.5", "generalized-alpha:rho=0.8"),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(
+    Parameters, EveryIntegrator,
+    testing::Values("newmark:beta=0", "newmark:beta=0.2", "newmark:beta=0.3025,gamma=0.6",
+                    "newmark:beta=0.2,gamma=0.55", "dissipative-newmark:gamma=0.9",
+                    "generalized-alpha:rho=0", "generalized-alpha:rho=0.5",
+                    "generalized-alpha:rho=0.8", "hht-alpha:alpha=-0.3", "wbz-alpha:rho=0.2",
+                    "wilson-theta:theta=1.37", "collocation:theta=1.02,beta=0.245",
+                    "rho-infinity-bathe:rho=0", "rho-infinity-bathe:rho=1",
+                    "explicit-generalized-alpha:rho=0.3665", "explicit-generalized-alpha:rho=1",
+                    "tchamwa-wielgosz:phi=1.1", "noh-bathe:p=0.58", "kr-alpha:rho=0.9",
+                    "kr-alpha:rho=0"),
+    test_name);
 
 }  // namespace
 }  // namespace clackers::methods

@@ -32,6 +32,18 @@ struct Tableau {
   }
 };
 
+/// The method of order 5 in the pair of J. R. Dormand and P. J. Prince, J. Comput. Appl. Math. 6, 19-26
+/// (1980).
+inline constexpr Tableau<6> dormand_prince{
+    .order = 5.0,
+    .a = {{{},
+           {1.0 / 5},
+           {3.0 / 40, 9.0 / 40},
+           {44.0 / 45, -56.0 / 15, 32.0 / 9},
+           {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+           {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656}}},
+    .b = {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
+
 /// Explicit Runge-Kutta methods on (u, v)' = (v, a(t, u, v)), the stages of u written out:
 ///
 ///     k_i = a(t0 + c_i h, u0 + c_i h v0 + h² sum_j (A²)_ij k_j, v0 + h sum_j A_ij k_j)

@@ -140,8 +140,8 @@ class MotionEquation {
     Weights weights{};
     Solver solver;
   };
-  // Two at h, two of a part of it, and as many of a start.
-  static constexpr std::size_t most_factors = 6;
+  // Four of a step, and four of a part of one.
+  static constexpr std::size_t most_factors = 8;
 
   void fail(Code failure) {
     if (!tally_.failed) tally_.failure = failure;
