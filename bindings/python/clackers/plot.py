@@ -310,7 +310,7 @@ def _datasets(record: Record, figure: str, case: str | None) -> dict[str, Any]:
 
 
 def _refuse_empty(figure: str, allowed: str) -> None:
-    _core.refuse(f"plot.{figure}", "record", "a record with nothing to draw", allowed, "", "no-rows")
+    _core.refuse(f"plot.{figure}", "record", "a record with nothing to draw", allowed, "", "wrong-size")
 
 
 def _is_drawable(value: float | None) -> bool:
