@@ -37,7 +37,7 @@ ${rows}};
 
 }  // namespace
 
-std::string_view card(std::string_view name) {
+std::string_view card_in_header(std::string_view name) {
   for (const auto& row : cards)
     if (row.name == name) return row.text;
   return {};

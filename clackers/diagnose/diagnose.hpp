@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "clackers/assess/convergence/assessment.hpp"
-#include "clackers/assess/convergence/self_convergence.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
+#include "clackers/diagnose/limit.hpp"
 #include "clackers/diagnose/observation.hpp"
 
 namespace clackers::diagnose {
@@ -21,8 +21,7 @@ struct Question {
   const assess::Ladder& ladder;           ///< all runs, failed ones as well
   const assess::LadderFit& displacement;  ///< the fit of their errors
   const assess::LadderFit& velocity;
-  /// Of the histories at common times, where there are enough of them; nullptr otherwise.
-  const assess::LadderFit* differences = nullptr;
+  Limit limit{};              ///< limit_of() the histories
   bool by_tolerance = false;  ///< the ladder is of tolerances, not of steps
 };
 

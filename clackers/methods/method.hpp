@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,10 +15,13 @@ namespace clackers::methods {
 
 /// A card as data: what the tests measure and the verdict compares with.
 struct Facts {
-  std::string name;              ///< the specification: "generalized-alpha:rho=0.8+event-driven"
+  std::string name{};            ///< the specification: "generalized-alpha:rho=0.8+event-driven"
   double smooth_order = 0.0;     ///< of u and v while nothing collides
-  double stability_limit = 0.0;  ///< largest omega h of undamped smooth motion; may be infinite
-  Claim through_impacts{};       ///< of an integrator alone: nothing
+  /// Largest omega h of undamped smooth motion; may be infinite. 0: it grows in every short step.
+  double stability_limit = 0.0;
+  /// Spectral radius at infinite omega h; NaN where not every step is stable, or it is not known.
+  double radius_at_infinity = std::numeric_limits<double>::quiet_NaN();
+  Claim through_impacts{};  ///< of an integrator alone: nothing
   bool reports_impacts = true;
 
   bool is_unconditionally_stable() const { return std::isinf(stability_limit); }

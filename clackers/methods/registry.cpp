@@ -2,32 +2,45 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
+#include "clackers/methods/integrators/families.hpp"
+#include "clackers/methods/joined_method.hpp"
 #include "clackers/methods/method_specification.hpp"
 
 namespace clackers::methods {
 
-struct Newmark;
-struct CentralDifference;
-struct Rk4;
-struct GeneralizedAlpha;
 struct EventDriven;
 struct Reversal;
 struct Penalty;
 struct MoreauJean;
 
+template <class T>
+Row row();
+
 namespace {
 
-// Integrators, contact treatments, standalone methods.
-std::span<const Row> rows() {
-  static const std::array all{row<Newmark>(),          row<CentralDifference>(), row<Rk4>(),
-                              row<GeneralizedAlpha>(), row<EventDriven>(),       row<Reversal>(),
-                              row<Penalty>(),          row<MoreauJean>()};
+// Families of integrators, contact treatments, methods that stand alone.
+std::vector<Row> all_rows() {
+  std::vector<Row> all;
+  for (const auto& family : families)
+    for (auto& row : family()) all.push_back(std::move(row));
+  all.push_back(row<EventDriven>());
+  all.push_back(row<Reversal>());
+  all.push_back(row<Penalty>());
+  all.push_back(row<MoreauJean>());
   return all;
+}
+
+const std::vector<Row>& rows() {
+  static const auto all = all_rows();
+  return all;
+}
+
+const Row* find(std::string_view name) {
+  for (const auto& row : rows())
+    if (row.entry.name == name) return &row;
+  return nullptr;
 }
 
 std::vector<std::string> names(std::string_view kind, std::string_view or_kind = {}) {
@@ -48,21 +61,44 @@ std::span<const Entry> entries() {
   return all;
 }
 
+std::string_view card(std::string_view name) {
+  const auto* row = find(name);
+  return row != nullptr ? std::string_view(row->entry.card) : std::string_view();
+}
+
+std::shared_ptr<const Integrator> integrator(std::string_view text) {
+  const auto [first, contact] = parse_specification(text);
+  const auto* row = find(first.name);
+  if (row == nullptr || !row->integrator)
+    refuse_name("integrator", first.name, names("integrator"), "clackers list integrators");
+  if (contact)
+    throw InputError(fmt::format("clackers: integrator \"{}\" with a contact treatment; allowed: "
+                                 "{} alone.",
+                                 text, first.name),
+                     "bad-syntax");
+  return row->integrator(first.settings);
+}
+
 std::shared_ptr<const Method> method(std::string_view text) {
   const auto [first, contact] = parse_specification(text);
-  for (const auto& row : rows()) {
-    if (row.entry.name != first.name || row.make == nullptr) continue;
-    if (contact && row.entry.kind == "method")
+  const auto* row = find(first.name);
+  if (row == nullptr || row->treatment)
+    refuse_name("method", first.name, names("integrator", "method"), "clackers list methods");
+  if (row->method) {
+    if (contact)
       throw InputError(
           fmt::format("clackers: method \"{}\": {} brings its own contact treatment; allowed: "
                       "{} alone.",
                       text, first.name, first.name),
           "bad-syntax");
-    const auto treatment = contact.value_or(Term{"event-driven", {}});
-    if (auto made = row.make(first.settings, treatment.name, treatment.settings)) return made;
-    refuse_name("contact treatment", treatment.name, names("contact"), "clackers list contacts");
+    return row->method(first.settings);
   }
-  refuse_name("method", first.name, names("integrator", "method"), "clackers list methods");
+  const auto integrator = row->integrator(first.settings);
+  const auto of_contact = contact.value_or(Term{"event-driven", {}});
+  const auto* treatment = find(of_contact.name);
+  if (treatment == nullptr || !treatment->treatment)
+    refuse_name("contact treatment", of_contact.name, names("contact"), "clackers list contacts");
+  return std::make_shared<JoinedMethod>(integrator, treatment->treatment(of_contact.settings));
 }
 
 std::vector<std::string> pairs() {

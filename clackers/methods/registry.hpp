@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -7,7 +8,9 @@
 #include <vector>
 
 #include "clackers/base/parameter.hpp"
+#include "clackers/methods/integrator.hpp"
 #include "clackers/methods/method.hpp"
+#include "clackers/methods/treatment.hpp"
 
 namespace clackers::methods {
 
@@ -20,26 +23,26 @@ struct Entry {
   std::string card;  ///< the card of its header, as text
 };
 
-/// A row of the registry: the entry of a type, and how a method is made of it.
+/// A row of the registry: its entry, and how it is made of its parameters. One of the functions is
+/// there; each throws InputError for parameters.
 struct Row {
   Entry entry;
-  /// Of an integrator the method with this treatment, empty for an unknown treatment; of a standalone
-  /// method the method itself; nullptr for a contact treatment. Throws InputError for
-  /// parameters.
-  std::shared_ptr<const Method> (*make)(const Settings& settings, std::string_view treatment,
-                                        const Settings& of_treatment);
+  std::function<std::shared_ptr<const Integrator>(const Settings&)> integrator;
+  std::function<std::shared_ptr<const Treatment>(const Settings&)> treatment;
+  std::function<std::shared_ptr<const Method>(const Settings&)> method;  ///< stands alone
 };
-
-/// The row of a type, defined in rows.hpp and compiled in the source of the type.
-template <class T>
-Row row();
 
 /// Everything registered, integrators first, then contact treatments, then whole methods.
 std::span<const Entry> entries();
 
-/// The card of a method as it stands above its type, taken from the header at build time. Empty for
-/// a name that is not registered.
+/// The card of everything registered; empty for another name.
 std::string_view card(std::string_view name);
+/// The comment above a type with this name, taken out of its header at build time.
+std::string_view card_in_header(std::string_view name);
+
+/// The integrator of a specification such as "newmark:beta=0.25", without a contact treatment. Throws
+/// InputError like method().
+std::shared_ptr<const Integrator> integrator(std::string_view specification);
 
 /// The method of a specification such as "newmark:beta=0.25+penalty:stiffness=1e6"; the grammar is
 /// the command line's. Without "+contact" the treatment is event-driven. Throws InputError with

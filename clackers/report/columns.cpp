@@ -77,6 +77,12 @@ Cell count(Whole value) {
   return value > 0 ? Cell(static_cast<long long>(value)) : Cell();
 }
 
+template <study::Resolution resolved_by>
+Cell resolution(const Row& row) {
+  const bool has = row.score.runs > 0 && row.subject->resolution == resolved_by;
+  return has ? number(row.score.step) : Cell();
+}
+
 bool is_by_step(const study::Subject& subject) {
   return subject.resolution == study::Resolution::step;
 }
@@ -152,8 +158,8 @@ const Column all[] = {
     {"file", "", "file", "", "history, as given", name, true, file<&File::file>},
     {"file_name", "", "file", "", "history, without its folder", name, false, short_file},
     {"level", "", "level", "", "1 is the coarsest", Kind::count, true, [](const Row& row) { return count(row.level); }},
-    {"step", "s", "step", "", "h", Kind::number, true, [](const Row& row) { return row.score.runs > 0 ? number(row.score.step) : Cell(); }},
-    {"tolerance", "", "tolerance", "", "of an adaptive solver", Kind::number, false, [](const Row& row) { return row.score.runs > 0 ? number(row.score.step) : Cell(); }},
+    {"step", "s", "step", "", "h", Kind::number, true, resolution<study::Resolution::step>},
+    {"tolerance", "", "tolerance", "", "of an adaptive solver, which has no step", Kind::number, true, resolution<study::Resolution::tolerance>},
     {"step_source", "", "step from", "", "data (median spacing), name or option", word, true, [](const Row& row) { return file_of(row) ? text(to_string(file_of(row)->step_source)) : Cell(); }},
     {"steps_per_fast_period", "", "steps per fast period", "", "shortest damped period of the free masses / h", Kind::number, true, steps_per_fast_period},
     {"runs", "", "runs", "", "of the level", Kind::count, false, [](const Row& row) { return count(row.score.runs); }},

@@ -150,5 +150,18 @@ TEST(SummaryTable, TheWorstOfTheFinestLevelThatRanIsShown) {
   EXPECT_EQ(column("step").get(row), Cell(0.05 / 128));
 }
 
+TEST(Columns, ARunOfALadderOfTolerancesHasAToleranceAndNoStep) {
+  auto record = sample_record();
+  auto& problem = record.cases[0];
+  auto& subject = problem.subjects[0];
+  const auto& run = subject.levels[1].runs[0];
+  const auto row = run_row(problem, subject, 2, run);
+  EXPECT_EQ(column("step").get(row), Cell(run.score.step));
+  EXPECT_EQ(column("tolerance").get(row), Cell());
+  subject.resolution = study::Resolution::tolerance;
+  EXPECT_EQ(column("step").get(row), Cell());
+  EXPECT_EQ(column("tolerance").get(row), Cell(run.score.step));
+}
+
 }  // namespace
 }  // namespace clackers::report

@@ -132,11 +132,12 @@ class Examples(PluginTest):
         work = self.path("work")
         self.record("--plugin", library, *STOP, "--levels", "1", "--neighbours", "1", "--work", work)
         folder, = (os.path.join(work, name) for name in os.listdir(work))
-        done = run("--plugin-run", library, "report.txt", "problem.txt", "0.05", "160", "0", "out.csv",
-                   "events.csv", cwd=folder)
+        done = run("--plugin-run", library, "report.txt", "problem.txt", "0.05", "160", "0", "out.npy",
+                   "events.npy", cwd=folder)
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
-        with open(os.path.join(folder, "out.csv")) as file:
-            self.assertEqual(len(file.readlines()), 162)
+        size = os.path.getsize(os.path.join(folder, "out.npy"))
+        self.assertEqual(size % 64, 161 * 3 * 8 % 64)  # a header of blocks, then t, u and v
+        self.assertGreater(size, 161 * 3 * 8)
 
 
 class Good(PluginTest):

@@ -16,6 +16,10 @@ def largest(values: clackers.Kinematics) -> float:
     return float(np.abs(values.u).max())
 
 
+def solver(problem: clackers.Problem, h: float) -> tuple[list[float], list[npt.NDArray[np.float64]]]:
+    return [problem.start.t, problem.end], [problem.start.u, problem.start.u]
+
+
 def main() -> None:
     case = clackers.case("three-parameter", N=2, xi1=0.05)
     t = np.linspace(0.0, case.end, 11)
@@ -26,6 +30,11 @@ def main() -> None:
     impacts: clackers.Impacts = case.impacts(first=1, last=2)
     problem: clackers.Problem = case.problem
     rate: npt.NDArray[np.float64] = problem.rhs(0.0, problem.y0)
+    record: clackers.Record = clackers.verify("rk4", solver, case=case, expect="proper:2")
+    order: float | None = record["rk4"].order
+    causes: list[str] = [cause.code for cause in record["solver"].diagnoses]
+    again: clackers.Record = clackers.check(t, u, v, case="three-parameter", N=2, collisions=impacts.t)
+    figure: clackers.Figure = again.figure("response")
     names: list[str] = [column.name for column in case.spectrum(3, 1.0).columns]
     tables: dict[str, clackers.Table] = clackers.catalogue()
     try:
@@ -34,6 +43,7 @@ def main() -> None:
         code: str = error.code
         print(code, clackers.__version__)
     print(total_energy(case, t), largest(case.error_bound(t)), len(impacts), rate.shape, names, len(tables))
+    print(order, causes, figure.name)
 
 
 if __name__ == "__main__":

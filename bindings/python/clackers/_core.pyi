@@ -1,12 +1,12 @@
 """The extension module: private, called by the other files of this package."""
 from collections.abc import Callable, Sequence
-from typing import Any, NoReturn, Union
+from typing import Any, NoReturn
 
 import numpy as np
 import numpy.typing as npt
 
 from clackers._case import Buffers
-from clackers._history import Columns
+from clackers._history import Source
 from clackers._problem import Array
 from clackers._solver import Runs
 
@@ -74,8 +74,6 @@ def table_text(
 ) -> str: ...
 def cell_text(cell: str | float | int | None) -> str: ...
 def refuse_column(table: str, name: str, columns: Sequence[str]) -> NoReturn: ...
-
-Source = Union[str, tuple[str, Columns]]
 
 def read_number(who: str, name: str, value: object) -> float: ...
 def read_whole(who: str, name: str, value: object) -> int: ...

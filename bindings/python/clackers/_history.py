@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Union
 
 import numpy as np
 
@@ -10,6 +10,8 @@ from clackers import _core
 from clackers._problem import Array
 
 Columns = list[tuple[str, Array]]
+Source = Union[str, tuple[str, Columns]]
+"""The path of a file, or columns under a name."""
 
 ALLOWED = "(t, u), (t, u, v), (t, u, v, a), a mapping or an object with t and u (or y = (u, v)), or results of solve_ivp"
 

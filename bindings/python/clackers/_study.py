@@ -12,7 +12,7 @@ from clackers import _core
 from clackers._case import Case
 from clackers._case import case as make_case
 from clackers._errors import Interrupted, SolverError
-from clackers._history import Columns, read_collisions, read_history
+from clackers._history import Columns, Source, read_collisions, read_history
 from clackers._record import Record
 from clackers._solver import Runs, Solver, name_of
 
@@ -181,8 +181,8 @@ def check(
     titles = _titles(name, len(given))
     events = _one_each("collisions", collisions, len(given))
     dof = 0 if all(map(_is_path, given)) else (case if isinstance(case, Case) else make_case(case, **parameters)).dof
-    sources: list[_core.Source] = []
-    reported: list[_core.Source | None] = []
+    sources: list[Source] = []
+    reported: list[Source | None] = []
     for history, title, event in zip(given, titles, events):
         found: Columns | None = None
         if not _is_path(history):

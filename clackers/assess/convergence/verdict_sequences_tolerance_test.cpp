@@ -67,6 +67,18 @@ const VerdictSequence rows[] = {
      .make = [] { return decades([](double tol) { return 1.5 * std::tanh(2e4 * tol); }); },
      .claim = claims(1), .behaviour = proper, .verdict = Verdict::agrees, .order = 1.0,
      .within = 0.1, .by_tolerance = true},
+    {.name = "errors as large as the motion at every tolerance decide nothing",
+     .make = [] { return decades([](double tol) { return 1.5 + tol; }); },
+     .claim = claims(1), .behaviour = undecided, .verdict = Verdict::undecided,
+     .reason = "larger-than-motion", .by_tolerance = true},
+    {.name = "tolerances that span one octave are too few",
+     .make = [] {
+       std::vector<ErrorLevel> made;
+       for (const double tol : {1e-4, 8e-5, 6.5e-5, 5e-5}) made.push_back({{tol, 20.0 * tol, 0.0}});
+       return made;
+     },
+     .claim = claims(1), .behaviour = undecided, .verdict = Verdict::undecided,
+     .reason = "too-few-levels", .by_tolerance = true},
 };
 // clang-format on
 

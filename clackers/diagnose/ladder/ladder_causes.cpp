@@ -6,16 +6,15 @@
 namespace clackers::diagnose {
 
 std::vector<Diagnosis> ladder_causes(const Question& question) {
-  const auto limit = limit_of(question.histories, question.problem, question.motion);
   std::vector<Diagnosis> all;
   const auto add = [&](std::vector<Diagnosis> found) {
     std::ranges::move(found, std::back_inserter(all));
   };
-  add(limit_causes(limit));
+  add(limit_causes(question.limit));
   add(location_causes(question));
   const bool at_steps = std::ranges::any_of(
       all, [](const Diagnosis& one) { return one.code == "impact-at-step-end"; });
-  add(noise_causes(question, limit));
+  add(noise_causes(question));
   add(step_causes(question, at_steps));
   add(tension_causes(question));
   add(energy_causes(question));

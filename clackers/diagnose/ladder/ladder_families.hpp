@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "clackers/diagnose/causes.hpp"
-#include "clackers/diagnose/limit.hpp"
 
 // The parts of ladder_causes().
 namespace clackers::diagnose {
@@ -25,7 +24,7 @@ std::vector<Diagnosis> location_causes(const Question& question);
 /// wrong-limit.
 std::vector<Diagnosis> limit_causes(const Limit& limit);
 /// noise-floor.
-std::vector<Diagnosis> noise_causes(const Question& question, const Limit& limit);
+std::vector<Diagnosis> noise_causes(const Question& question);
 /// commensurate-steps, unstable-coarse-steps. `impacts_at_steps`: impact-at-step-end was found.
 std::vector<Diagnosis> step_causes(const Question& question, bool impacts_at_steps);
 /// contact-in-tension.

@@ -77,7 +77,7 @@ std::optional<Diagnosis> in_rows(const Question& question) {
 // Errors that go up and down without falling over the finest three octaves, where impacts are
 // located well: a limit would settle, a method of order 1/2 would fall by 2.8. Two of three values
 // of a random sequence are turning points, at most two of one that passes zero once.
-std::optional<Diagnosis> in_ladder(const Question& question, const Limit& limit) {
+std::optional<Diagnosis> in_ladder(const Question& question) {
   constexpr double saturated = 0.3, above_floor = 30.0, most_factor = 2.5;
   std::vector<const assess::RunScore*> runs;  // finest first
   for (auto level = question.ladder.rbegin(); level != question.ladder.rend(); ++level)
@@ -109,7 +109,7 @@ std::optional<Diagnosis> in_ladder(const Question& question, const Limit& limit)
   if (largest > most_factor * mean || least < mean / most_factor) return {};
   const auto located = locate_impacts(finest, question.problem);
   if (located.is_resolved()) return {};
-  if (limit.wrong || limit.difference < 0.5) return {};
+  if (question.limit.wrong || question.limit.difference < 0.5) return {};
   auto found = diagnosis_of(Code("noise-floor"), mean, "1");
   found.confidence = 0.85;
   found.evidence = {{"floor", mean}, {"files", double(within.size())}};
@@ -118,10 +118,10 @@ std::optional<Diagnosis> in_ladder(const Question& question, const Limit& limit)
 
 }  // namespace
 
-std::vector<Diagnosis> noise_causes(const Question& question, const Limit& limit) {
+std::vector<Diagnosis> noise_causes(const Question& question) {
   if (question.histories.empty() || question.ladder.empty()) return {};
   if (auto found = in_rows(question)) return {*found};
-  if (auto found = in_ladder(question, limit)) return {*found};
+  if (auto found = in_ladder(question)) return {*found};
   return {};
 }
 

@@ -136,7 +136,13 @@ struct Files {
   }
 
   Question question() const {
-    return {problem.problem, *problem.motion, histories, ladder, displacement, velocity};
+    return {problem.problem,
+            *problem.motion,
+            histories,
+            ladder,
+            displacement,
+            velocity,
+            limit_of(histories, problem.problem, *problem.motion)};
   }
 };
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "clackers/methods/integrators/rk4.hpp"
+#include "clackers/methods/testing/stepper_checks.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -41,12 +41,10 @@ void moves_as_one_mass() {
                                    [](double t, std::span<double> f) {
                                      f[0] += std::sin(t) - 2.0 * t - 4.0 * 0.3;  // k1 (u2 + gap)
                                    }};
-  Rk4::Stepper<Dof> stepper({}, constrained.system(), 0.01);
-  Rk4::Stepper<1> reference({}, one, 0.01);
   auto now = problem.start;
   model::State<1> other{1.0, model::Vector<1>(0.4), model::Vector<1>(-0.5)};
-  stepper.restart(now);
-  reference.restart(other);
+  checks::SingleSteps<Dof> stepper("rk4", constrained.system(), 0.01, now);
+  checks::SingleSteps<1> reference("rk4", one, 0.01, other);
   for (int i = 0; i < 200; ++i) {
     stepper.step(now);
     reference.step(other);

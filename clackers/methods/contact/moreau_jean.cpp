@@ -11,8 +11,8 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/methods/contact/impact_law.hpp"
-#include "clackers/methods/integrators/motion_equation.hpp"
 #include "clackers/methods/rows.hpp"
+#include "clackers/methods/stepping/motion_equation.hpp"
 
 namespace clackers::methods {
 
@@ -49,12 +49,12 @@ std::optional<Objection> MoreauJean::objection(const model::ImpactProblem<>& pro
 
 /// A run under Moreau and Jean's scheme.
 template <int Dof>
-class MoreauJean::TimeLoop {
+class MoreauJean::Loop {
  public:
   using State = model::State<Dof>;
   using Vector = model::Vector<Dof>;
 
-  TimeLoop(const MoreauJean& method, model::ImpactProblem<Dof> problem, const StepPlan& plan)
+  Loop(const MoreauJean& method, model::ImpactProblem<Dof> problem, const StepPlan& plan)
       : theta_(method.theta),
         problem_(std::move(problem)),
         plan_(plan),
@@ -68,8 +68,8 @@ class MoreauJean::TimeLoop {
         impulses_(laws_.size(), 0.0) {
     prepare(plan.h);
   }
-  TimeLoop(const TimeLoop&) = delete;
-  TimeLoop& operator=(const TimeLoop&) = delete;
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
 
   void advance(Recorder<Dof>& out) {
     State now = problem_.start;

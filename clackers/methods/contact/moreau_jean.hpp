@@ -43,7 +43,7 @@ struct MoreauJean {
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const;
 
   template <int Dof>
-  class TimeLoop;
+  class Loop;
 };
 
 }  // namespace clackers::methods

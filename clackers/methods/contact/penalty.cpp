@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <utility>
 
 #include "clackers/base/check.hpp"
+#include "clackers/methods/contact/impact_law.hpp"
 #include "clackers/methods/rows.hpp"
+#include "clackers/methods/stepping/time_loop.hpp"
+#include "clackers/numerics/roots.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -154,6 +158,87 @@ double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<1>&) const;
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<2>&) const;
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<>&) const;
+
+/// A run with penalty springs.
+template <int Dof>
+class Penalty::Loop {
+ public:
+  using State = model::State<Dof>;
+
+  Loop(const Integrator& integrator, const Penalty& penalty, const model::ImpactProblem<Dof>& rigid,
+       const StepPlan& plan)
+      : problem_(with_springs(rigid, penalty.stiffnesses(rigid))),
+        time_loop_(plan, problem_.dof()),
+        stepper_(integrator.stepper(problem_.system, plan)),
+        at_(problem_.start) {
+    touches_.reserve(problem_.contacts.size());
+  }
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+
+  void advance(Recorder<Dof>& out) {
+    stepper_->reset();
+    searches_ = 0;
+    stepper_->restart(problem_.start);
+    steps_ = time_loop_.run(*this, problem_.start, out);
+  }
+
+  model::Work work() const {
+    model::Work work;
+    work.steps = steps_;
+    work.event_searches = searches_;
+    stepper_->add_work(work);
+    return work;
+  }
+
+  AnyStepper<Dof>& stepper() { return *stepper_; }
+
+  bool is_quiet(const State& before, const State& now) const {
+    for (const auto& contact : problem_.contacts)
+      if (contact.gap_at(before.u) >= 0.0 && contact.gap_at(now.u) < 0.0) return false;
+    return true;
+  }
+
+  // Reports the contacts first touched in this step, in order of time.
+  Handled handle(const State& before, const State& now, Recorder<Dof>& out) {
+    touches_.clear();
+    for (std::size_t i = 0; i < problem_.contacts.size(); ++i) {
+      const auto& contact = problem_.contacts[i];
+      const double g0 = contact.gap_at(before.u), g1 = contact.gap_at(now.u);
+      if (!(g0 >= 0.0 && g1 < 0.0)) continue;
+      const double length = now.t - before.t;
+      const auto bracket =
+          numerics::shrink([&](double s) { return contact.gap_at(stepper_->partial(before, s).u); },
+                           {0.0, g0, length, g1}, std::numeric_limits<double>::epsilon() * length);
+      touches_.push_back({bracket.a, static_cast<int>(i)});
+      ++searches_;
+    }
+    std::sort(touches_.begin(), touches_.end(),
+              [](const Touch& one, const Touch& other) { return one.s < other.s; });
+    for (const auto& [s, contact] : touches_) {
+      at_ = before;
+      if (s > 0.0) at_ = stepper_->partial(before, s);
+      at_.t = std::min(before.t + s, now.t);
+      if (!out.impact(at_, contact, at_.v, 0.0)) return Handled::ended;
+    }
+    if (!stepper_->failed()) return Handled::unchanged;
+    out.fail_step(now.t, stepper_->failure());
+    return Handled::ended;
+  }
+
+ private:
+  struct Touch {
+    double s;
+    int contact;
+  };
+
+  model::ImpactProblem<Dof> problem_;
+  TimeLoop<Dof> time_loop_;
+  std::unique_ptr<AnyStepper<Dof>> stepper_;
+  State at_;
+  std::vector<Touch> touches_;
+  long long steps_ = 0, searches_ = 0;
+};
 
 template Row row<Penalty>();
 

@@ -2,13 +2,10 @@
 
 #include <optional>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "clackers/methods/contact/impact_law.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
-#include "clackers/methods/time_loop.hpp"
 
 namespace clackers::methods {
 
@@ -41,68 +38,8 @@ struct Reversal {
                                      const model::ImpactProblem<>& problem) const;
   double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
 
-  template <class Integrator, int Dof>
-  class TimeLoop;
-};
-
-/// A run with end-of-step reversal.
-template <class Integrator, int Dof>
-class Reversal::TimeLoop {
- public:
-  using Stepper = typename Integrator::template Stepper<Dof>;
-  using State = model::State<Dof>;
-
-  TimeLoop(const Integrator& integrator, const Reversal&, model::ImpactProblem<Dof> problem,
-           const StepPlan& plan)
-      : problem_(std::move(problem)),
-        plan_(plan),
-        laws_(impact_laws(problem_)),
-        stepper_(integrator, problem_.system, plan.h),
-        v_before_(problem_.start.v),
-        is_reversed_(laws_.size(), false) {}
-  TimeLoop(const TimeLoop&) = delete;
-  TimeLoop& operator=(const TimeLoop&) = delete;
-
-  void advance(Recorder<Dof>& out) {
-    stepper_.reset();
-    steps_ = time_loop(stepper_, plan_, problem_.start, out,
-                       [&](const State&, State& now, bool) { return reverse(now, out); });
-  }
-
-  model::Work work() const {
-    model::Work work;
-    work.steps = steps_;
-    stepper_.add_work(work);
-    return work;
-  }
-
- private:
-  bool reverse(State& now, Recorder<Dof>& out) {
-    // Decided before any reversal, so that the numbers of the contacts do not matter.
-    for (std::size_t i = 0; i < laws_.size(); ++i) {
-      const auto& contact = laws_[i].contact;
-      is_reversed_[i] = contact.gap_at(now.u) < 0.0 && contact.gap_rate(now.v) < 0.0;
-      for (std::size_t j = 0; j < i; ++j)
-        if (is_reversed_[i] && is_reversed_[j] && are_coupled(laws_[i], laws_[j]))
-          return out.fail("simultaneous-contacts", now.t, simultaneous(j, i));
-    }
-    for (std::size_t i = 0; i < laws_.size(); ++i) {
-      if (!is_reversed_[i]) continue;
-      v_before_ = now.v;
-      const double impulse = laws_[i].apply(now.v);
-      if (!out.impact(now, static_cast<int>(i), v_before_, impulse)) return false;
-      stepper_.restart(now);
-    }
-    return true;
-  }
-
-  model::ImpactProblem<Dof> problem_;
-  StepPlan plan_;
-  std::vector<ImpactLaw<Dof>> laws_;
-  Stepper stepper_;
-  model::Vector<Dof> v_before_;
-  std::vector<bool> is_reversed_;
-  long long steps_ = 0;
+  template <int Dof>
+  class Loop;
 };
 
 }  // namespace clackers::methods

@@ -43,7 +43,8 @@ std::string findings_html(const study::CaseRecord& problem, const Place& place) 
 
 // Of a page with one subject the finding and its causes stand at the head.
 bool is_check(const study::CaseRecord& problem, const Place& place) {
-  return place.suffix.empty() && problem.plan.levels == 0 && problem.subjects.size() == 1;
+  return place.suffix.empty() && problem.subjects.size() == 1 &&
+         problem.subjects.front().kind == study::SubjectKind::histories;
 }
 
 }  // namespace

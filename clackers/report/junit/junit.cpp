@@ -105,6 +105,8 @@ void add_measured(Properties& properties, const study::CaseRecord& problem,
         "energy_error", "collisions_expected", "collisions_found", "collisions_matched",
         "collisions_missed", "collisions_extra", "collision_time_error", "force_evaluations"})
     properties.add(name, column(name).get(row));
+  // "tolerance" is the error that is accepted.
+  properties.add("solver_tolerance", column("tolerance").get(row));
   if (subject.tolerance) properties.add("tolerance", *subject.tolerance);
   properties.add("seconds_of_all_runs", seconds_of(subject));
   if (const auto* run = subject.shown_run())

@@ -127,5 +127,17 @@ TEST(Junit, NoTextBecomesMarkup) {
   EXPECT_EQ(name, "]]><b x='\">&\xEF\xBF\xBD\xEF\xBF\xBD\n");
 }
 
+TEST(Junit, ALadderOfTolerancesHasNoStep) {
+  auto record = sample_record();
+  auto document = parsed(record);
+  EXPECT_FALSE(property(test_of(document, "newmark"), "step").empty());
+  EXPECT_EQ(property(test_of(document, "newmark"), "solver_tolerance"), "");
+  record.cases[0].subjects[0].resolution = study::Resolution::tolerance;
+  document = parsed(record);
+  const auto test = test_of(document, record.cases[0].subjects[0].name.c_str());
+  EXPECT_EQ(property(test, "step"), "");
+  EXPECT_FALSE(property(test, "solver_tolerance").empty());
+}
+
 }  // namespace
 }  // namespace clackers::report

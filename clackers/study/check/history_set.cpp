@@ -149,7 +149,8 @@ Subject HistorySet::assess(SubjectKind kind, std::string name, const Claim& clai
   subject.levels = levels_of(runs);
   const auto ladder = ladder_of(subject);
   auto facts = facts_of(file, subject, problem_);
-  facts.wrong_limit = diagnose::limit_of(histories, problem_.problem, *problem_.motion).wrong;
+  const auto limit = diagnose::limit_of(histories, problem_.problem, *problem_.motion);
+  facts.wrong_limit = limit.wrong;
   const auto diagnosed = [&] {
     subject.assessment = assess::judge(ladder, claim, facts);
     return diagnose::diagnose({.problem = problem_.problem,
@@ -158,7 +159,7 @@ Subject HistorySet::assess(SubjectKind kind, std::string name, const Claim& clai
                                .ladder = ladder,
                                .displacement = subject.assessment.displacement,
                                .velocity = subject.assessment.velocity,
-                               .differences = nullptr,
+                               .limit = limit,
                                .by_tolerance = subject.resolution == Resolution::tolerance});
   };
   subject.diagnoses = diagnosed();

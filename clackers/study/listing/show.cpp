@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "clackers/methods/registry.hpp"
 #include "clackers/study/listing.hpp"
@@ -64,7 +65,11 @@ Sheet claim_sheet(const methods::Facts& facts) {
   sheet.rows.push_back(
       {"smooth_order", facts.smooth_order, "order of u and v while nothing collides"});
   sheet.rows.push_back({"stability_limit", facts.stability_limit,
-                        "largest omega h of undamped smooth motion; inf: every step is stable"});
+                        "largest omega h of undamped smooth motion; inf: every step is stable, 0: "
+                        "it grows in every short step"});
+  if (!std::isnan(facts.radius_at_infinity))
+    sheet.rows.push_back({"radius_at_infinity", facts.radius_at_infinity,
+                          "spectral radius at infinite omega h, undamped"});
   sheet.rows.push_back({"behaviour", std::string(to_string(claim.behaviour)),
                         "claimed through impacts; clackers explain says what it means"});
   if (claim.order > 0.0)

@@ -1,16 +1,17 @@
 #include "clackers/study/plugin/number_file.hpp"
 
-#include <fmt/format.h>
-
-#include <iterator>
+#include <bit>
 #include <utility>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/npy_header.hpp"
 
 namespace clackers::study {
 namespace {
 
-constexpr std::size_t most_buffered = 1 << 16;  // [bytes]
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::size_t most_buffered = 1 << 13;  // numbers
 
 }  // namespace
 
@@ -23,31 +24,33 @@ NumberFile::~NumberFile() {
   std::filesystem::remove(temporary_, error);  // none after commit()
 }
 
-void NumberFile::add(std::string_view name) {
-  buffer_ += name;
-  buffer_ += ',';
-}
-
-void NumberFile::add(double value) { fmt::format_to(std::back_inserter(buffer_), "{},", value); }
-
-void NumberFile::add(const double* values, int count) {
-  for (int i = 0; i < count; ++i) add(values[i]);
-}
+void NumberFile::set_names(std::vector<std::string> names) { names_ = std::move(names); }
 
 void NumberFile::end_row() {
-  buffer_.back() = '\n';  // instead of the last comma
   if (buffer_.size() >= most_buffered) flush();
 }
 
+// The header of the rows so far; its length does not depend on them.
+std::string NumberFile::header() const {
+  constexpr long long most_rows = 1LL << 60;
+  return npy_header(names_, static_cast<long long>(written_ / names_.size()), most_rows);
+}
+
 void NumberFile::flush() {
-  if (!file_.is_open()) file_.open(temporary_, std::ios::binary);
-  file_ << buffer_;
+  if (!file_.is_open()) {
+    file_.open(temporary_, std::ios::binary);
+    file_ << header();
+  }
+  file_.write(reinterpret_cast<const char*>(buffer_.data()),
+              static_cast<std::streamsize>(buffer_.size() * sizeof(double)));
   written_ += buffer_.size();
   buffer_.clear();
 }
 
 void NumberFile::commit() {
   flush();
+  file_.seekp(0);
+  file_ << header();
   file_.close();
   std::error_code error;
   if (file_) std::filesystem::rename(temporary_, path_, error);

@@ -88,7 +88,8 @@ std::vector<SolverSubject> subjects_of(const PluginRequest& request,
     subject.prepare = [command, name = subject.name, timeout = request.timeout,
                        fresh = request.fresh, folder](const cases::Case& problem) {
       return std::make_unique<ProgramRunner>(command, name, problem.entry->name, problem.problem,
-                                             timeout, fresh, folder, complete);
+                                             timeout, fresh, folder,
+                                             ProgramRunner::Results{".npy", complete});
     };
   }
   return subjects;

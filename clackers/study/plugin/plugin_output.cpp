@@ -6,6 +6,7 @@
 #include <exception>
 #include <initializer_list>
 #include <utility>
+#include <vector>
 
 #include "clackers/base/error.hpp"
 
@@ -14,11 +15,10 @@ namespace {
 
 PluginOutput& ours(clackers_solver_host* host) { return *static_cast<PluginOutput*>(host); }
 
-std::string names(const char* quantity, int dof, const char* suffix) {
-  std::string text;
-  for (int i = 1; i <= dof; ++i)
-    text += fmt::format("{}{}{}{}", i > 1 ? "," : "", quantity, i, suffix);
-  return text;
+// "u1", "u2", ...
+void add_names(std::vector<std::string>& names, const char* quantity, int dof,
+               const char* suffix = "") {
+  for (int i = 1; i <= dof; ++i) names.push_back(fmt::format("{}{}{}", quantity, i, suffix));
 }
 
 [[noreturn]] void misused(const char* who, std::string_view what) {
@@ -109,11 +109,11 @@ void PluginOutput::take_state(double t, const double* u, const double* v, const 
   if (u == nullptr) misused("state", "u = null; allowed: an array of dof numbers.");
   if (!states_) {
     states_ = {t, t, v != nullptr, a != nullptr};
-    history_.add("t");
-    history_.add(names("u", dof_, ""));
-    if (v != nullptr) history_.add(names("v", dof_, ""));
-    if (a != nullptr) history_.add(names("a", dof_, ""));
-    history_.end_row();
+    std::vector<std::string> names{"t"};
+    add_names(names, "u", dof_);
+    if (v != nullptr) add_names(names, "v", dof_);
+    if (a != nullptr) add_names(names, "a", dof_);
+    history_.set_names(std::move(names));
   }
   require_time("state", t, states_->last_t);
   require_same("state", "v", v != nullptr, states_->has_v);
@@ -142,11 +142,11 @@ void PluginOutput::take_collision(double t, double impulse, const double* before
   const bool has_impulse = !std::isnan(impulse);
   if (!collisions_) {
     collisions_ = {t, t, before != nullptr, false, has_impulse};
-    events_.add("t");
-    if (has_impulse) events_.add("impulse");
-    if (before != nullptr) events_.add(names("v", dof_, "-"));
-    if (before != nullptr) events_.add(names("v", dof_, "+"));
-    events_.end_row();
+    std::vector<std::string> names{"t"};
+    if (has_impulse) names.emplace_back("impulse");
+    if (before != nullptr) add_names(names, "v", dof_, "-");
+    if (before != nullptr) add_names(names, "v", dof_, "+");
+    events_.set_names(std::move(names));
   }
   require_time(who, t, collisions_->last_t);
   require_same(who, "v_before", before != nullptr, collisions_->has_v);

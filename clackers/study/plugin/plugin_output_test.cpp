@@ -2,15 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <limits>
+
+#include "clackers/exchange/events.hpp"
+#include "clackers/exchange/history.hpp"
 
 namespace clackers::study {
 namespace {
 
 namespace fs = std::filesystem;
+using Numbers = std::vector<double>;
 
 class PluginOutputTest : public testing::Test {
  protected:
@@ -20,16 +21,15 @@ class PluginOutputTest : public testing::Test {
     fs::remove(events_);
   }
 
-  static std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+  model::Trajectory history() const {
+    return exchange::read_history(history_.string(), {.dof = 2}).motion;
   }
   int state(double t, const double* v = nullptr, const double* a = nullptr) {
     return output_.state(&output_, t, u_, v, a);
   }
 
-  const fs::path history_ = fs::path(testing::TempDir()) / "plugin_history.csv";
-  const fs::path events_ = fs::path(testing::TempDir()) / "plugin_events.csv";
+  const fs::path history_ = fs::path(testing::TempDir()) / "plugin_history.npy";
+  const fs::path events_ = fs::path(testing::TempDir()) / "plugin_events.npy";
   PluginOutput output_{2, history_, events_};
   const double u_[2] = {1.0 / 3.0, -1e-300};
   const double v_[2] = {0.0, 2.0}, after_[2] = {0.5, -2.0};
@@ -39,9 +39,11 @@ TEST_F(PluginOutputTest, StatesReadBackToTheSameNumbers) {
   EXPECT_EQ(state(0.0, v_, after_), 0);
   EXPECT_EQ(state(0.1, v_, after_), 0);
   output_.commit();
-  EXPECT_EQ(text_of(history_),
-            "t,u1,u2,v1,v2,a1,a2\n0,0.3333333333333333,-1e-300,0,2,0.5,-2\n"
-            "0.1,0.3333333333333333,-1e-300,0,2,0.5,-2\n");
+  const auto motion = history();
+  EXPECT_EQ(motion.t, (Numbers{0.0, 0.1}));
+  EXPECT_EQ(motion.u, (Numbers{u_[0], u_[1], u_[0], u_[1]}));
+  EXPECT_EQ(motion.v, (Numbers{0.0, 2.0, 0.0, 2.0}));
+  EXPECT_EQ(motion.a, (Numbers{0.5, -2.0, 0.5, -2.0}));
   EXPECT_FALSE(fs::exists(events_));
 }
 
@@ -50,16 +52,22 @@ TEST_F(PluginOutputTest, CollisionsHaveTheirOwnFile) {
   EXPECT_EQ(state(1.0), 0);
   EXPECT_EQ(output_.collision(&output_, 0.25, 3.0, v_, after_), 0);
   output_.commit();
-  EXPECT_EQ(text_of(events_), "t,impulse,v1-,v2-,v1+,v2+\n0.25,3,0,2,0.5,-2\n");
-  EXPECT_EQ(text_of(history_).substr(0, 8), "t,u1,u2\n");
+  EXPECT_TRUE(history().v.empty());
+  const auto impacts = exchange::read_events(events_.string(), 2);
+  ASSERT_EQ(impacts.size(), 1u);
+  EXPECT_EQ(impacts[0].t, 0.25);
+  EXPECT_EQ(impacts[0].impulse, 3.0);
+  EXPECT_EQ(impacts[0].v_before, (Numbers{0.0, 2.0}));
+  EXPECT_EQ(impacts[0].v_after, (Numbers{0.5, -2.0}));
 }
 
 TEST_F(PluginOutputTest, FilesAppearAtTheEnd) {
   for (int i = 0; i < 10000; ++i) EXPECT_EQ(state(0.1 * i, v_), 0);
   EXPECT_FALSE(fs::exists(history_));
   output_.commit();
-  const auto text = text_of(history_);
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10001);
+  const auto motion = history();
+  ASSERT_EQ(motion.t.size(), 10000u);
+  for (std::size_t i = 0; i < motion.t.size(); ++i) EXPECT_EQ(motion.t[i], 0.1 * int(i));
 }
 
 TEST_F(PluginOutputTest, NothingIsLeftWithoutCommit) {
@@ -94,12 +102,12 @@ TEST_F(PluginOutputTest, HasALargestSize) {
   while (other.state(&other, states, u_, nullptr, nullptr) == 0) ++states;
   EXPECT_EQ(other.failure_code(), "program-output");
   EXPECT_EQ(other.failure(), "host->state: more than 1000 bytes");
-  EXPECT_EQ(states, 33);  // 8 bytes of names; 29 bytes each up to t = 9, then 30
+  EXPECT_EQ(states, 41);  // of 24 bytes
   PluginOutput events(2, history_, events_, 1000);
   events.accept(true);
   while (events.collision(&events, collisions, 0.0, nullptr, nullptr) == 0) ++collisions;
   EXPECT_EQ(events.failure(), "host->collision: more than 1000 bytes");
-  EXPECT_GT(collisions, 100);
+  EXPECT_EQ(collisions, 62);  // of 16 bytes
 }
 
 TEST_F(PluginOutputTest, IsOfTheVersionOfTheHeader) {

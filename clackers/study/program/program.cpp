@@ -40,7 +40,7 @@ std::vector<SolverSubject> subjects_of(const ProgramRequest& request) {
     subject.prepare = [command, name = subject.name, timeout = request.timeout,
                        fresh = request.fresh, folder](const cases::Case& problem) {
       return std::make_unique<ProgramRunner>(command, name, problem.entry->name, problem.problem,
-                                             timeout, fresh, folder);
+                                             timeout, fresh, folder, ProgramRunner::Results{});
     };
   }
   return subjects;

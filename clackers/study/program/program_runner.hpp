@@ -17,13 +17,17 @@ namespace clackers::study {
 /// Runs one program on one case. run() may be called from several threads.
 class ProgramRunner : public Solver {
  public:
-  /// Completes how a run ended by what it left in its folder.
-  using Completion = std::function<void(const std::filesystem::path& folder, SolverOutput& output)>;
+  /// What the runs of a kind of program leave.
+  struct Results {
+    std::string extension = ".csv";  ///< of the files for histories and collisions
+    /// Completes how a run ended by what it left in its folder.
+    std::function<void(const std::filesystem::path& folder, SolverOutput& output)> complete{};
+  };
 
   /// `timeout` of a run [s]; `fresh`: earlier runs are not reused.
   ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
                 const model::ImpactProblem<>& problem, double timeout, bool fresh,
-                std::shared_ptr<WorkFolder> folder, Completion complete = {});
+                std::shared_ptr<WorkFolder> folder, Results results);
 
   /// The result of an earlier run of the same command, with the same files of the program, problem,
   /// step and tolerance, if there is one; else that of a new run in a folder of its own, which holds
@@ -41,7 +45,8 @@ class ProgramRunner : public Solver {
   double timeout_;
   bool fresh_;
   std::shared_ptr<WorkFolder> folder_;
-  Completion complete_;
+  Results results_;
+  std::string history_name_, events_name_;
 };
 
 }  // namespace clackers::study

@@ -30,7 +30,8 @@ std::size_t begin_of_floor(const RawPoints& points) {
 
 RuleResult tolerance_ladder(const Range& range, const FitContext& context) {
   if (!context.by_tolerance) return {};
-  if (range.tracked > range.clear) return undecided(range, "larger-than-motion");
+  if (range.tracked > range.clear || range.level(range.tracked).error >= context.saturation)
+    return undecided(range, "larger-than-motion");
   auto points = raw_points(range.levels, range.tracked, range.clear);
   if (points.x.size() < fewest || octaves_of(points) < shortest_line)
     return undecided(range, "too-few-levels");

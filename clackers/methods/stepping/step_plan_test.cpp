@@ -1,4 +1,4 @@
-#include "clackers/methods/step_plan.hpp"
+#include "clackers/methods/stepping/step_plan.hpp"
 
 #include <gtest/gtest.h>
 

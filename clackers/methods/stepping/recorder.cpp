@@ -1,4 +1,4 @@
-#include "clackers/methods/recorder.hpp"
+#include "clackers/methods/stepping/recorder.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
-#include "clackers/methods/integrators/motion_equation.hpp"
+#include "clackers/methods/stepping/motion_equation.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -23,8 +24,49 @@ MotionEquation<Dof>::MotionEquation(const model::SmoothSystem<Dof>& system)
       matrix_(Matrix::Zero(system.dof(), system.dof())),
       dp_du_(matrix_),
       dp_dv_(matrix_),
+      by_u_(matrix_),
+      by_v_(matrix_),
       tangent_(system.dof()) {
+  for (auto& factors : factors_) factors.solver.compute(system.mass);  // allocates
+  scratch_.fill(r_);
   rebuild();
+}
+
+template <int Dof>
+void MotionEquation<Dof>::rebuild() {
+  mass_.compute(s_.mass);
+  by_u_ = -s_.stiffness;
+  by_v_ = -s_.damping;
+  mass_.solve_in_place(by_u_);
+  mass_.solve_in_place(by_v_);
+  is_free_ = !s_.nonlinear && !s_.add_load;
+}
+
+template <int Dof>
+const typename MotionEquation<Dof>::Solver& MotionEquation<Dof>::factorize(const Weights& w) {
+  assert(used_ < most_factors);
+  auto& factors = factors_[used_++];
+  factors.weights = w;
+  matrix_ = w.a * s_.mass + w.v * s_.damping + w.u * s_.stiffness;
+  ++tally_.factorizations;
+  if (!factors.solver.compute(matrix_)) fail("not-positive-definite");
+  return factors.solver;
+}
+
+template <int Dof>
+void MotionEquation<Dof>::add_load(const LoadTime& load, Vector& to) {
+  const auto span = [](Vector& x) {
+    return std::span<double>(x.data(), static_cast<std::size_t>(x.size()));
+  };
+  if (load.weight == 0.0) {
+    s_.add_load(load.t, span(to));
+    return;
+  }
+  r_.setZero();
+  s_.add_load(load.t, span(r_));
+  term_.setZero();
+  s_.add_load(load.other, span(term_));
+  to += (1.0 - load.weight) * r_ + load.weight * term_;
 }
 
 template <int Dof>
@@ -36,7 +78,7 @@ void MotionEquation<Dof>::subtract_nonlinear(const Vector& u, const Vector& v, V
 
 // Newton's iteration down to rounding, so that no tolerance can limit an observed order.
 template <int Dof>
-bool MotionEquation<Dof>::solve_nonlinear(double t, const Weights& w, const Vector& u0,
+bool MotionEquation<Dof>::solve_nonlinear(const LoadTime& load, const Weights& w, const Vector& u0,
                                           const Vector& v0, Vector& a, const Vector* shift) {
   for (int i = 0; i < most_iterations; ++i) {
     u_ = u0 + w.u * a;
@@ -44,14 +86,14 @@ bool MotionEquation<Dof>::solve_nonlinear(double t, const Weights& w, const Vect
     dp_du_.setZero();
     dp_dv_.setZero();
     s_.nonlinear->add_tangent(u_, v_, dp_du_, dp_dv_);
-    const bool is_solved = balance(t, w, u0, v0, a, shift);
-    ++evaluations_;
+    const bool is_solved = balance(load, w, u0, v0, a, shift);
+    ++tally_.evaluations;
     if (is_solved) return true;
     matrix_ = w.a * s_.mass + w.v * (s_.damping + dp_dv_) + w.u * (s_.stiffness + dp_du_);
     tangent_.compute(matrix_);
     a += tangent_.solve(r_);
-    ++iterations_;
-    ++factorizations_;
+    ++tally_.iterations;
+    ++tally_.factorizations;
   }
   return false;
 }
@@ -60,12 +102,11 @@ bool MotionEquation<Dof>::solve_nonlinear(double t, const Weights& w, const Vect
 // is a sum of 3 n products and a few terms, so its error is below (3 n + 13) 2^-53 times the sum
 // of their magnitudes; p counts through its tangent, since a gap is a difference of large terms.
 template <int Dof>
-bool MotionEquation<Dof>::balance(double t, const Weights& w, const Vector& u0, const Vector& v0,
-                                  const Vector& a, const Vector* shift) {
-  r_.setZero();
-  if (s_.add_load)
-    s_.add_load(t, std::span<double>(r_.data(), static_cast<std::size_t>(r_.size())));
-  term_ = r_;
+bool MotionEquation<Dof>::balance(const LoadTime& load, const Weights& w, const Vector& u0,
+                                  const Vector& v0, const Vector& a, const Vector* shift) {
+  magnitude_.setZero();
+  if (s_.add_load) add_load(load, magnitude_);
+  r_ = term_ = magnitude_;
   subtract_nonlinear(u_, v_, r_);  // leaves p in magnitude_
   magnitude_ = magnitude_.cwiseAbs() + term_.cwiseAbs();
   const auto add = [this](const Matrix& matrix, const Vector& x) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "clackers/methods/integrator.hpp"
+#include "clackers/methods/treatment.hpp"
+
+namespace clackers::methods {
+
+/// An integrator joined with a contact treatment, which computes the claim through impacts from the
+/// integrator's facts.
+class JoinedMethod final : public Method {
+ public:
+  JoinedMethod(std::shared_ptr<const Integrator> integrator,
+               std::shared_ptr<const Treatment> treatment)
+      : integrator_(std::move(integrator)), treatment_(std::move(treatment)) {}
+
+  Facts facts() const override {
+    auto facts = integrator_->facts();
+    facts.through_impacts = treatment_->claim(facts);
+    facts.name += '+' + treatment_->specification();
+    return facts;
+  }
+  std::optional<Objection> objection(const model::ImpactProblem<>& problem) const override {
+    return treatment_->objection(facts().name, problem);
+  }
+  double contact_time(const model::ImpactProblem<>& problem) const override {
+    return treatment_->contact_time(problem);
+  }
+  std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>& problem,
+                                      double step) const override {
+    return treatment_->prepare(*this, *integrator_, problem, step);
+  }
+
+ private:
+  std::shared_ptr<const Integrator> integrator_;
+  std::shared_ptr<const Treatment> treatment_;
+};
+
+}  // namespace clackers::methods

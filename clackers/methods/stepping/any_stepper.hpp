@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "clackers/base/codes.hpp"
+#include "clackers/model/run.hpp"
+#include "clackers/model/system.hpp"
+
+namespace clackers::methods {
+
+/// One trajectory of an integrator, as a contact treatment sees it. Steps are made in blocks, so
+/// that a virtual call costs nothing beside them. After construction nothing is allocated, except
+/// by a nonlinear force or a load.
+template <int Dof>
+class AnyStepper {
+ public:
+  using State = model::State<Dof>;
+
+  static constexpr std::size_t most_steps = 64;  ///< in a block
+
+  virtual ~AnyStepper() = default;
+
+  /// Takes in changed matrices of the system.
+  virtual void rebuild() = 0;
+  /// Starts at `from`, or starts again after a jump in velocity: what the integrator remembers of
+  /// the steps before no longer holds.
+  virtual void restart(const State& from) = 0;
+  /// Fills states[i], i >= 1, from states[0], the state at step `first` of the plan. Times are
+  /// counted, never summed. Returns the number of steps: all of them, or up to the one that failed.
+  virtual std::size_t advance(long long first, std::span<State> states) = 0;
+  /// Goes back into the block that advance() has just filled, to states[steps]: the next step or
+  /// partial step is from there. The work is that of one step more, since its end has been seen.
+  virtual void rewind(long long first, std::span<const State> states, std::size_t steps) = 0;
+  /// The state s after `from`, 0 < s <= h; `from` is the state before the next step. Valid until the
+  /// next call. For locating impacts.
+  virtual const State& partial(const State& from, double s) = 0;
+
+  /// True after a step whose equations could not be solved; its state is meaningless.
+  virtual bool failed() const = 0;
+  virtual Code failure() const = 0;
+  /// Forgets failures and counts, for a new run.
+  virtual void reset() = 0;
+  virtual void add_work(model::Work& work) const = 0;
+};
+
+}  // namespace clackers::methods

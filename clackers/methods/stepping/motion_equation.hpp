@@ -1,0 +1,178 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <array>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "clackers/base/codes.hpp"
+#include "clackers/model/run.hpp"
+#include "clackers/model/system.hpp"
+#include "clackers/numerics/spd_solver.hpp"
+
+namespace clackers::methods {
+
+/// Working memory of a step, made from MotionEquation::scratch(): a local variable, kept in
+/// registers, where the size is known to the compiler; otherwise a reference, so that nothing is
+/// allocated.
+template <int Dof>
+using Scratch = std::conditional_t<Dof == model::any_dof, model::Vector<Dof>&, model::Vector<Dof>>;
+
+/// A load of a step: f(t), or (1 - weight) f(t) + weight f(other).
+struct LoadTime {
+  double t, other = 0.0, weight = 0.0;
+
+  LoadTime(double at) : t(at) {}
+  LoadTime(double one, double two, double of_two) : t(one), other(two), weight(of_two) {}
+};
+
+/// What integrators ask of M a + C v + K u + p(u, v) = f(t): its acceleration, and its solution
+/// where the acceleration also moves u and v. Counts what it does. After construction nothing is
+/// allocated (except by a nonlinear force or a load).
+template <int Dof>
+class MotionEquation {
+ public:
+  using Vector = model::Vector<Dof>;
+  using Matrix = model::Matrix<Dof>;
+  using Solver = numerics::SpdSolver<Dof>;
+
+  /// How the unknown acceleration a enters: inertia M a_weight a, v = v0 + v_weight a,
+  /// u = u0 + u_weight a.
+  struct Weights {
+    double a, v, u;
+    bool operator==(const Weights&) const = default;
+  };
+
+  /// What has been done, and whether something has failed.
+  struct Tally {
+    long long evaluations = 0, factorizations = 0, iterations = 0;
+    bool failed = false;
+    Code failure = "run-failed";
+  };
+
+  /// The system must outlive the equation.
+  explicit MotionEquation(const model::SmoothSystem<Dof>& system);
+
+  /// Takes in changed matrices.
+  void rebuild();
+
+  /// a becomes M^-1 (f(t) - C v - K u - p(u, v)).
+  void accelerate(double t, const Vector& u, const Vector& v, Vector& a) {
+    a.noalias() = -(s_.damping * v);
+    a.noalias() -= s_.stiffness * u;
+    if (s_.add_load)
+      s_.add_load(t, std::span<double>(a.data(), static_cast<std::size_t>(a.size())));
+    if (s_.nonlinear) subtract_nonlinear(u, v, a);
+    mass_.solve_in_place(a);
+    ++tally_.evaluations;
+  }
+
+  /// Calls `steps` with a function that does the same as accelerate(); where there is neither load
+  /// nor nonlinear force it is two products. One branch a step and not one an evaluation.
+  template <class Steps>
+  void with_acceleration(Steps&& steps) {
+    if (is_free_) {
+      steps([this](double, const Vector& u, const Vector& v, Vector& a) {
+        a.noalias() = by_u_ * u;
+        a.noalias() += by_v_ * v;
+        ++tally_.evaluations;
+      });
+    } else {
+      steps([this](double t, const Vector& u, const Vector& v, Vector& a) {
+        accelerate(t, u, v, a);
+      });
+    }
+  }
+
+  /// M a_weight + C v_weight + K u_weight, factorized; one with these weights is made only once
+  /// until it is dropped. It fails unless the matrix is positive definite.
+  const Solver& factorized(const Weights& w) {
+    for (std::size_t i = 0; i < used_; ++i)
+      if (factors_[i].weights == w) return factors_[i].solver;
+    return factorize(w);
+  }
+  /// Those made until now stay until drop_all().
+  void keep() { kept_ = used_; }
+  /// Drops those made since keep().
+  void drop_parts() { used_ = kept_; }
+  void drop_all() { used_ = kept_ = 0; }
+
+  /// Solves  M (a_weight a + shift) + C v + K u + p(u, v) = f  for a, with u = u0 + u_weight a
+  /// and v = v0 + v_weight a; without `shift` it counts as 0. It fails where Newton's iteration,
+  /// which starts at the given a, finds no solution.
+  void solve(const LoadTime& load, const Weights& w, const Vector& u0, const Vector& v0, Vector& a,
+             const Vector* shift = nullptr) {
+    if (s_.nonlinear) {
+      if (!solve_nonlinear(load, w, u0, v0, a, shift)) fail("newton-failed");
+      return;
+    }
+    a.noalias() = -(s_.damping * v0);
+    a.noalias() -= s_.stiffness * u0;
+    if (shift != nullptr) a.noalias() -= s_.mass * *shift;
+    if (s_.add_load) add_load(load, a);
+    factorized(w).solve_in_place(a);
+    ++tally_.evaluations;
+  }
+
+  /// True after something has failed; the state computed since is meaningless.
+  bool failed() const { return tally_.failed; }
+  /// The first failure. Meaningful only where failed().
+  Code failure() const { return tally_.failure; }
+
+  const Tally& tally() const { return tally_; }
+  void set_tally(const Tally& tally) { tally_ = tally; }
+  void add_work(model::Work& work) const {
+    work.force_evaluations += tally_.evaluations;
+    work.factorizations += tally_.factorizations;
+    work.newton_iterations += tally_.iterations;
+  }
+
+  const model::SmoothSystem<Dof>& system() const { return s_; }
+  /// Vectors for an integrator to work with inside one step.
+  Vector& scratch(std::size_t i) { return scratch_[i]; }
+
+  static constexpr std::size_t most_scratch = 12;
+
+ private:
+  struct Factors {
+    Weights weights{};
+    Solver solver;
+  };
+  // Four of a step, and four of a part of one.
+  static constexpr std::size_t most_factors = 8;
+
+  void fail(Code failure) {
+    if (!tally_.failed) tally_.failure = failure;
+    tally_.failed = true;
+  }
+  const Solver& factorize(const Weights& w);
+  void add_load(const LoadTime& load, Vector& to);
+  void subtract_nonlinear(const Vector& u, const Vector& v, Vector& r);
+  bool solve_nonlinear(const LoadTime& load, const Weights& w, const Vector& u0, const Vector& v0,
+                       Vector& a, const Vector* shift);
+  bool balance(const LoadTime& load, const Weights& w, const Vector& u0, const Vector& v0,
+               const Vector& a, const Vector* shift);
+
+  const model::SmoothSystem<Dof>& s_;
+  Solver mass_;
+  Vector r_, u_, v_, magnitude_, term_;
+  Matrix matrix_, dp_du_, dp_dv_;
+  Matrix by_u_, by_v_;  // -M^-1 K and -M^-1 C: a = by_u u + by_v v
+  Eigen::PartialPivLU<Matrix> tangent_;
+  std::array<Factors, most_factors> factors_;
+  std::size_t used_ = 0, kept_ = 0;
+  std::array<Vector, most_scratch> scratch_;
+  bool is_free_ = true;
+  Tally tally_;
+};
+
+extern template class MotionEquation<1>;
+extern template class MotionEquation<2>;
+extern template class MotionEquation<model::any_dof>;
+
+/// Throws InputError if `failed`: the implicit matrix of a step of h is not positive definite.
+void require_definite(std::string_view who, double h, bool failed);
+
+}  // namespace clackers::methods

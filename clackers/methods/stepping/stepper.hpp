@@ -1,0 +1,124 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "clackers/base/check.hpp"
+#include "clackers/methods/stepping/any_stepper.hpp"
+#include "clackers/methods/stepping/motion_equation.hpp"
+#include "clackers/methods/stepping/step_plan.hpp"
+
+namespace clackers::methods {
+
+/// The stepper of every integrator. An integrator is a value with
+///
+///     struct Memory<Dof>                            what survives a step; made from the size
+///     prepare(equation, h)                          names the weights of its equations at h
+///     start(equation, state, memory)                fills the memory
+///     advance(equation, h, state, memory)           moves state and memory by h
+///     partial(equation, h, s, state, memory)        only where advance() by s < h is impossible,
+///                                                   because the memory holds steps of length h
+///
+/// none of which allocates. Time, blocks, going back, factorizations, failure and work are here.
+template <class Integrator, int Dof>
+class Stepper final : public AnyStepper<Dof> {
+ public:
+  using State = model::State<Dof>;
+  using Memory = typename Integrator::template Memory<Dof>;
+
+  /// The system must outlive the stepper. Throws InputError unless 0 < h < infinity, and for a
+  /// system whose effective mass at h is not positive definite; `who` opens its message.
+  Stepper(const Integrator& integrator, std::string_view who,
+          const model::SmoothSystem<Dof>& system, const StepPlan& plan)
+      : integrator_(integrator),
+        who_(who),
+        plan_(plan),
+        equation_(system),
+        memory_(system.dof()),
+        first_memory_(memory_),
+        part_memory_(memory_) {
+    require_step(who_, plan_.h);
+    part_.u = part_.v = model::Vector<Dof>::Zero(system.dof());
+    prepare();
+  }
+
+  void rebuild() override {
+    equation_.rebuild();
+    prepare();
+  }
+
+  void restart(const State& from) override { integrator_.start(equation_, from, memory_); }
+
+  std::size_t advance(long long first, std::span<State> states) override {
+    first_memory_ = memory_;
+    first_tally_ = equation_.tally();
+    if constexpr (Dof == model::any_dof) {
+      for (std::size_t i = 1; i < states.size(); ++i) {
+        states[i] = states[i - 1];
+        step(first + static_cast<long long>(i), states[i], memory_);
+        if (equation_.failed()) return i;
+      }
+    } else {  // kept in registers where the size is known
+      const Integrator integrator = integrator_;
+      Memory memory = memory_;
+      State now = states[0];
+      for (std::size_t i = 1; i < states.size(); ++i) {
+        integrator.advance(equation_, plan_.h, now, memory);
+        now.t = plan_.time(first + static_cast<long long>(i));
+        states[i] = now;
+        if (equation_.failed()) return i;
+      }
+      memory_ = memory;
+    }
+    return states.size() - 1;
+  }
+
+  void rewind(long long first, std::span<const State> states, std::size_t steps) override {
+    memory_ = first_memory_;
+    equation_.set_tally(first_tally_);
+    part_ = states[0];
+    for (std::size_t i = 1; i <= steps; ++i)
+      step(first + static_cast<long long>(i), part_, memory_);
+    part_memory_ = memory_;
+    step(first + static_cast<long long>(steps) + 1, part_, part_memory_);
+  }
+
+  const State& partial(const State& from, double s) override {
+    part_ = from;
+    part_memory_ = memory_;
+    equation_.drop_parts();
+    if constexpr (requires { integrator_.partial(equation_, plan_.h, s, part_, part_memory_); })
+      integrator_.partial(equation_, plan_.h, s, part_, part_memory_);
+    else
+      integrator_.advance(equation_, s, part_, part_memory_);
+    return part_;
+  }
+
+  bool failed() const override { return equation_.failed(); }
+  Code failure() const override { return equation_.failure(); }
+  void reset() override { equation_.set_tally({}); }
+  void add_work(model::Work& work) const override { equation_.add_work(work); }
+
+ private:
+  void prepare() {
+    equation_.drop_all();
+    integrator_.prepare(equation_, plan_.h);
+    equation_.keep();
+    require_definite(who_, plan_.h, equation_.failed());
+  }
+
+  void step(long long k, State& now, Memory& memory) {
+    integrator_.advance(equation_, plan_.h, now, memory);
+    now.t = plan_.time(k);
+  }
+
+  Integrator integrator_;
+  std::string who_;
+  StepPlan plan_;
+  MotionEquation<Dof> equation_;
+  Memory memory_, first_memory_, part_memory_;
+  typename MotionEquation<Dof>::Tally first_tally_;
+  State part_;
+};
+
+}  // namespace clackers::methods

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "clackers/methods/stepping/any_stepper.hpp"
+#include "clackers/methods/stepping/recorder.hpp"
+#include "clackers/methods/stepping/step_plan.hpp"
+
+namespace clackers::methods {
+
+/// What a contact treatment has done with a step.
+enum class Handled {
+  ended,      ///< the run
+  changed,    ///< the end of the step; the stepper has been started there
+  unchanged,  ///< the step holds as it was; the stepper is at its beginning
+};
+
+/// The loop over the steps of a run, in blocks. A contact treatment has
+///
+///     stepper()                  the stepper in use
+///     is_quiet(before, now)      whether nothing happens between the two ends of a step
+///     handle(before, now, out)   otherwise, what happens: a Handled; `now` may be changed
+///
+/// When handle() is called the stepper is at `before`.
+template <int Dof>
+class TimeLoop {
+ public:
+  using State = model::State<Dof>;
+
+  TimeLoop(const StepPlan& plan, Eigen::Index dof)
+      : plan_(plan), states_(AnyStepper<Dof>::most_steps + 1) {
+    for (auto& state : states_) state.u = state.v = model::Vector<Dof>::Zero(dof);
+    now_ = states_[0];
+  }
+
+  /// From `start`, where the stepper has been started. Returns the number of steps.
+  template <class Treatment>
+  long long run(Treatment& treatment, const State& start, Recorder<Dof>& out) {
+    states_[0] = start;
+    if (!out.append(start)) return 0;
+    std::size_t length = shortest;
+    for (long long k = 0; k < plan_.total;) {
+      if (k == plan_.whole) return k + (last_step(treatment, out) ? 1 : 0);
+      length = std::min(
+          {length, AnyStepper<Dof>::most_steps, static_cast<std::size_t>(plan_.whole - k)});
+      const std::span<State> block{states_.data(), length + 1};
+      auto& stepper = treatment.stepper();
+      const std::size_t made = stepper.advance(k, block);
+      const std::size_t sound = made - (stepper.failed() ? 1 : 0);
+      std::size_t i = 0;
+      bool goes_on = true;
+      while (i < sound && goes_on && treatment.is_quiet(states_[i], states_[i + 1]))
+        goes_on = out.append(states_[++i]);
+      k += static_cast<long long>(i);
+      if (!goes_on) {
+        if (i < made) stepper.rewind(k - static_cast<long long>(i), block, i - 1);
+        return k;
+      }
+      if (i == made) {
+        states_[0] = states_[made];
+        length = 2 * made;
+        continue;
+      }
+      stepper.rewind(k - static_cast<long long>(i), block, i);
+      now_ = states_[i + 1];
+      if (stepper.failed()) {
+        out.fail_step(now_.t, stepper.failure());
+        return k;
+      }
+      const Handled handled = treatment.handle(states_[i], now_, out);
+      if (handled == Handled::ended) return k;
+      if (handled == Handled::unchanged) {
+        states_[0] = states_[i];
+        stepper.advance(k, {states_.data(), 2});
+        now_ = states_[1];
+      }
+      ++k;
+      if (!out.append(now_)) return k;
+      states_[0] = now_;
+      length = shortest;
+    }
+    return plan_.total;
+  }
+
+ private:
+  // After an event: what is made beyond the next one is lost.
+  static constexpr std::size_t shortest = 8;
+
+  template <class Treatment>
+  bool last_step(Treatment& treatment, Recorder<Dof>& out) {
+    const State& before = states_[0];
+    auto& stepper = treatment.stepper();
+    now_ = stepper.partial(before, plan_.end - before.t);
+    now_.t = plan_.end;
+    if (stepper.failed()) return out.fail_step(plan_.end, stepper.failure());
+    if (!treatment.is_quiet(before, now_) && treatment.handle(before, now_, out) == Handled::ended)
+      return false;
+    out.append(now_);
+    return true;
+  }
+
+  StepPlan plan_;
+  std::vector<State> states_;
+  State now_;
+};
+
+}  // namespace clackers::methods

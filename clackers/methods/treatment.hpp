@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "clackers/methods/integrator.hpp"
+#include "clackers/methods/method.hpp"
+
+namespace clackers::methods {
+
+/// A contact treatment with its parameters: how a run of an integrator meets contacts.
+class Treatment {
+ public:
+  virtual ~Treatment() = default;
+  /// Name and parameters, "penalty:stiffness=1000000".
+  virtual std::string specification() const = 0;
+  /// What it claims through impacts with an integrator.
+  virtual Claim claim(const Facts& integrator) const = 0;
+  /// See Method; `who` opens the sentence.
+  virtual std::optional<Objection> objection(const std::string& who,
+                                             const model::ImpactProblem<>& problem) const = 0;
+  virtual double contact_time(const model::ImpactProblem<>& problem) const = 0;
+  /// Method::prepare() of `method`, which joins it with the integrator.
+  virtual std::unique_ptr<model::Run> prepare(const Method& method, const Integrator& integrator,
+                                              const model::ImpactProblem<>& problem,
+                                              double step) const = 0;
+};
+
+}  // namespace clackers::methods
