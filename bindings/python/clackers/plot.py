@@ -155,8 +155,6 @@ def convergence(
     data = _datasets(record, "convergence", case)
     runs = [row for row in data["runs"] if row["finished"] == "yes" and _is_drawable(row["u_error"])]
     levels = [row for row in data["levels"] if _is_drawable(row["u_error"])]
-    if not runs or not levels:
-        _refuse_empty("convergence", "one with runs of a finite positive error")
     with _axes(ax, width) as axes:
         _draw_slopes(axes, data.get("slopes", ()))
         for number, method in enumerate(dict.fromkeys(row["method"] for row in runs)):
