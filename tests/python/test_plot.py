@@ -42,6 +42,13 @@ def with_errors(change):
     return clackers.Record.from_json(json.dumps(text))
 
 
+def history_of(error):
+    """Replaces the errors against time of every record."""
+    row = {"method": "rk4", "mass": 1, "step": 0.1, "t": [0.1 * i for i in range(len(error))], "error": error}
+    figure = clackers.Figure("history", {"datasets": {"history": [row]}})
+    return mock.patch.object(clackers.Record, "figure", lambda *_: figure)
+
+
 class Plots(unittest.TestCase):
     def setUp(self):
         self.addCleanup(pyplot.close, "all")
@@ -59,7 +66,8 @@ class OfACase(Plots):
         self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("time $t$ [s]", "displacement [m]"))
 
     def test_response_marks_every_collision_among_its_times(self):
-        for t, expected in ((None, CASE.impacts().t), ([1.0, 5.0], CASE.impacts().t[:2])):
+        for t, expected in ((None, CASE.impacts().t), ([1.0, 5.0], CASE.impacts().t[:2]),
+                            ([8.0, 5.0], CASE.impacts().t[2:3])):
             (marks,) = clackers.plot.response(CASE, t).collections
             self.assertEqual([path[0, 0] for path in marks.get_segments()], list(expected))
         self.assertEqual(len(clackers.plot.response(CASE, [0.0, 1.0]).collections), 0)
@@ -122,6 +130,17 @@ class OfARecord(Plots):
         self.assertEqual((axes.get_xlabel(), axes.get_ylabel()),
                          ("step $h$ [s]", "largest error in $u$ / initial envelope"))
 
+    def test_runs_without_a_positive_error_are_not_drawn(self):
+        smallest = RECORD["rk4"].runs["u_error"].min()
+        shown = lines(clackers.plot.convergence(with_errors(lambda value: value if value > smallest else 0.0)))
+        runs = RECORD["rk4"].runs
+        np.testing.assert_array_equal(shown["_runs of rk4"].get_xdata(), runs["step"][runs["u_error"] > smallest])
+
+    def test_a_history_has_a_gap_where_the_error_is_zero(self):
+        with history_of([1e-3, 0.0, float("inf"), 1e-2]):
+            line = lines(clackers.plot.history(RECORD))["rk4"]
+        np.testing.assert_array_equal(line.get_ydata(), [1e-3, np.nan, np.nan, 1e-2])
+
     def test_grey_lines_have_the_slopes_beside_them(self):
         axes = clackers.plot.convergence(RECORD)
         slopes = [line for line in axes.lines if line.get_label() == "_slope"]
@@ -130,6 +149,7 @@ class OfARecord(Plots):
             step, error = (np.log(line.get_data()[axis]) for axis in (0, 1))
             rises = np.diff(error)[np.diff(step) > 0], np.diff(step)[np.diff(step) > 0]
             self.assertAlmostEqual(max(rises[0] / rises[1]), float(text.get_text()), places=9)
+            self.assertEqual(text.xy, (max(line.get_xdata()), max(line.get_ydata())))
 
     def test_the_floor_is_drawn_where_errors_come_near(self):
         self.assertNotIn("rounding", lines(clackers.plot.convergence(RECORD)))
@@ -180,6 +200,8 @@ class Refusals(Plots):
                 clackers.plot.convergence(record)
         with self.assertRaisesRegex(clackers.InputError, "nothing to draw"):
             clackers.plot.history(failed)
+        with history_of([0.0, 0.0]), self.assertRaisesRegex(clackers.InputError, "nothing to draw"):
+            clackers.plot.history(RECORD)
         self.assertEqual(pyplot.get_fignums(), [])
 
     def test_a_mass_that_is_not_there(self):
@@ -225,6 +247,19 @@ class Files(Plots):
                 extent = part.get_window_extent()
                 self.assertTrue(inside.x0 <= extent.x0 and extent.x1 <= inside.x1, part)
                 self.assertTrue(inside.y0 <= extent.y0 and extent.y1 <= inside.y1, part)
+
+    def test_a_long_legend_takes_no_room_from_the_axes(self):
+        def measured(record):
+            axes = clackers.plot.convergence(record)
+            axes.figure.canvas.draw()
+            return axes.get_window_extent(), axes.get_legend().get_window_extent(), axes.figure.get_window_extent()
+
+        methods = ("rk4", "newmark", "newmark+reversal", "generalized-alpha", "newmark+penalty")
+        short, _, _ = measured(clackers.verify("rk4", case=CASE, levels=3, neighbours=2))
+        box, legend, inside = measured(clackers.verify(*methods, case=CASE, levels=3, neighbours=2))
+        self.assertGreater(box.height, 0.95 * short.height)
+        self.assertGreater(box.width, 0.9 * short.width)
+        self.assertLessEqual(legend.x1, inside.x1)
 
     def test_given_axes_are_drawn_on(self):
         figure, (left, right) = pyplot.subplots(1, 2)

@@ -7,9 +7,8 @@ Each function draws one figure and returns its ``Axes``, to change or to save:
 >>> axes.figure.savefig(os.devnull, format="pdf")
 
 Without ``ax`` the figure is new, ``width`` inches wide: ``COLUMN`` by default, or ``PAGE``. Its letters have
-8 points, and the fonts of a PDF are embedded as TrueType. With ``ax`` the settings of that figure hold. Series
-differ in colour, which the colour-blind can tell apart, and in dashes and markers. matplotlib is imported by the
-first call; without it ImportError is raised.
+7 and 8 points. With ``ax`` the settings of that figure hold. Series differ in colour, which the colour-blind can
+tell apart, and in dashes and markers. matplotlib is imported by the first call; without it ImportError is raised.
 """
 from __future__ import annotations
 
@@ -33,6 +32,7 @@ PAGE = 7.0
 """Width of a page of a journal [in]."""
 
 _HEIGHT = 0.65  # without the legend, of the width of a column
+_DPI = 200
 _SAMPLES = 2001
 _MOST_LINES = 60  # more collisions than that are ticks instead of lines
 _NEAR_FLOOR = 1e3  # the floor is drawn where an error comes as close as this
@@ -41,8 +41,7 @@ _GREY = "#707070"
 _SETTINGS: dict[str, Any] = {
     "font.size": 8, "axes.labelsize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7,
     "lines.linewidth": 1.1, "lines.markersize": 4, "axes.linewidth": 0.6, "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4, "pdf.fonttype": 42,
-    "figure.dpi": 200, "savefig.dpi": 300,
+    "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
 }  # fmt: skip
 
 
@@ -156,8 +155,6 @@ def convergence(
     data = _datasets(record, "convergence", case)
     runs = [row for row in data["runs"] if row["finished"] == "yes" and _is_drawable(row["u_error"])]
     levels = [row for row in data["levels"] if _is_drawable(row["u_error"])]
-    if not runs or not levels:
-        _refuse_empty("convergence", "one with runs of a finite positive error")
     with _axes(ax, width) as axes:
         _draw_slopes(axes, data.get("slopes", ()))
         for number, method in enumerate(dict.fromkeys(row["method"] for row in runs)):
@@ -237,9 +234,11 @@ def _axes(ax: Axes | None, width: float) -> Iterator[Axes]:
     inches = _core.read_number("plot", "width", width)
     if not 1.0 <= inches <= 100.0:
         _core.refuse("plot", "width", f"{inches:g}", "1 to 100, in inches", "clackers.plot.COLUMN is 3.4, PAGE is 7.")
+    height = _HEIGHT * min(inches, COLUMN + (inches - COLUMN) / 4)
+    # Outside of rc_context, which would undo what the backend of a notebook sets when it is loaded.
+    figure = pyplot.figure(figsize=(inches, height), dpi=_DPI, layout="constrained")
     with matplotlib.rc_context(_SETTINGS):
-        height = _HEIGHT * min(inches, COLUMN + (inches - COLUMN) / 4)
-        figure, axes = pyplot.subplots(figsize=(inches, height), layout="constrained")
+        axes = figure.add_subplot()
         yield axes
         legend = axes.get_legend()
         if legend is not None:  # above the axes, not at their cost
@@ -309,7 +308,7 @@ def _datasets(record: Record, figure: str, case: str | None) -> dict[str, Any]:
 
 
 def _refuse_empty(figure: str, allowed: str) -> None:
-    _core.refuse(f"plot.{figure}", "record", "a record with nothing to draw", allowed, "", "no-rows")
+    _core.refuse(f"plot.{figure}", "record", "a record with nothing to draw", allowed, "", "wrong-size")
 
 
 def _is_drawable(value: float | None) -> bool:
