@@ -48,6 +48,16 @@ TEST(JudgeHistories, GoByTheExpectation) {
   EXPECT_TRUE(assessed(one(run(0.01, 1e-4))).reason.empty());
 }
 
+TEST(JudgeHistories, ThatConvergeToAnotherMotionDisagreeUnlessAFloorIsExpected) {
+  const auto verdict = [](const Claim& claim) {
+    return judge(levels(2.0), claim, {.finest = HistoryFacts{}, .wrong_limit = true}).verdict;
+  };
+  EXPECT_EQ(verdict({}), Verdict::disagrees);
+  EXPECT_EQ(verdict(proper_2), Verdict::disagrees);
+  EXPECT_EQ(verdict(any_floor), judge(levels(2.0), any_floor, {.finest = HistoryFacts{}}).verdict);
+  EXPECT_EQ(judge(levels(2.0), {}, {.finest = HistoryFacts{}}).verdict, Verdict::not_claimed);
+}
+
 TEST(JudgeHistories, PrintedDigitsThatStopTheLevelsAreNamed) {
   // Errors of order 2 and of printing, which adds up to its floor.
   const HistoryFacts printed{.printed_floor = 5e-5};
