@@ -15,8 +15,8 @@ namespace clackers::methods {
 
 /// A card as data: what the tests measure and the verdict compares with.
 struct Facts {
-  std::string name{};            ///< the specification: "generalized-alpha:rho=0.8+event-driven"
-  double smooth_order = 0.0;     ///< of u and v while nothing collides
+  std::string name{};         ///< the specification: "generalized-alpha:rho=0.8+event-driven"
+  double smooth_order = 0.0;  ///< of u and v while nothing collides
   /// Largest omega h of undamped smooth motion; may be infinite. 0: it grows in every short step.
   double stability_limit = 0.0;
   /// Spectral radius at infinite omega h; NaN where not every step is stable, or it is not known.

@@ -59,6 +59,17 @@ TEST(GeneralizedAlpha, StepsByItsFormula) {
               s.load(1.0 + (1 - af) * h), 1e-13);
 }
 
+TEST(AlphaMethods, HaveTheSpectralRadiusThatTheirParameterSays) {
+  const auto radius = [](const char* text) { return integrator(text)->facts().radius_at_infinity; };
+  // A double root is good to the square root of rounding.
+  EXPECT_NEAR(radius("generalized-alpha:rho=0.7"), 0.7, 1e-7);
+  EXPECT_NEAR(radius("wbz-alpha:rho=0.7"), 0.7, 1e-7);
+  EXPECT_NEAR(radius("hht-alpha:alpha=-0.2"), 0.8 / 1.2, 1e-7);
+  EXPECT_NEAR(radius("dissipative-newmark:gamma=0.8"), 0.7 / 1.3, 1e-7);
+  EXPECT_NEAR(radius("newmark"), 1.0, 1e-15);
+  EXPECT_TRUE(std::isnan(radius("newmark:beta=0.1")));
+}
+
 TEST(AlphaMethods, RefuseParametersOutsideTheirRange) {
   for (const auto* text :
        {"newmark:beta=-0.1", "newmark:beta=0.51", "newmark:gamma=0.4", "newmark:gamma=1.1",

@@ -137,7 +137,7 @@ template class MotionEquation<model::any_dof>;
 void require_definite(std::string_view who, double h, bool failed) {
   if (failed)
     refuse(who, "h", h, "steps for which the effective mass matrix is positive definite",
-           "Stiffness or damping has a negative part; use a smaller step.",
+           "Stiffness, damping or a weight of the method has a negative part; use a smaller step.",
            "not-positive-definite");
 }
 

@@ -89,7 +89,9 @@ class MotionEquation {
   /// M a_weight + C v_weight + K u_weight, factorized; one with these weights is made only once
   /// until it is dropped. It fails unless the matrix is positive definite.
   const Solver& factorized(const Weights& w) {
-    for (std::size_t i = 0; i < used_; ++i)
+    if (used_ > 0 && factors_[0].weights == w) [[likely]]
+      return factors_[0].solver;
+    for (std::size_t i = 1; i < used_; ++i)
       if (factors_[i].weights == w) return factors_[i].solver;
     return factorize(w);
   }

@@ -58,19 +58,10 @@ class Stepper final : public AnyStepper<Dof> {
         step(first + static_cast<long long>(i), states[i], memory_);
         if (equation_.failed()) return i;
       }
-    } else {  // kept in registers where the size is known
-      const Integrator integrator = integrator_;
-      Memory memory = memory_;
-      State now = states[0];
-      for (std::size_t i = 1; i < states.size(); ++i) {
-        integrator.advance(equation_, plan_.h, now, memory);
-        now.t = plan_.time(first + static_cast<long long>(i));
-        states[i] = now;
-        if (equation_.failed()) return i;
-      }
-      memory_ = memory;
+      return states.size() - 1;
+    } else {
+      return advance_in_registers(first, states);
     }
-    return states.size() - 1;
   }
 
   void rewind(long long first, std::span<const State> states, std::size_t steps) override {
@@ -105,6 +96,21 @@ class Stepper final : public AnyStepper<Dof> {
     integrator_.prepare(equation_, plan_.h);
     equation_.keep();
     require_definite(who_, plan_.h, equation_.failed());
+  }
+
+  // Of a size that the compiler knows. All is to be inlined, however much else the source holds.
+  [[gnu::flatten]] std::size_t advance_in_registers(long long first, std::span<State> states) {
+    const Integrator integrator = integrator_;
+    Memory memory = memory_;
+    State now = states[0];
+    for (std::size_t i = 1; i < states.size(); ++i) {
+      integrator.advance(equation_, plan_.h, now, memory);
+      now.t = plan_.time(first + static_cast<long long>(i));
+      states[i] = now;
+      if (equation_.failed()) return i;
+    }
+    memory_ = memory;
+    return states.size() - 1;
   }
 
   void step(long long k, State& now, Memory& memory) {

@@ -334,6 +334,7 @@ inline void goes_back_into_a_block(const std::string& specification) {
   ASSERT_EQ(stepper->advance(0, block), 19u);
   for (const std::size_t back : {0u, 1u, 12u}) {
     stepper->rewind(0, block, back);
+    EXPECT_FALSE(stepper->failed());
     again[0] = block[back];
     ASSERT_EQ(stepper->advance(static_cast<long long>(back), {again.data(), 20 - back}), 19 - back);
     for (std::size_t i = 0; i + back < 20; ++i) {
