@@ -2,13 +2,15 @@
 
 #include "bindings/python/problem.hpp"
 #include "bindings/python/study_arrays.hpp"
+#include "clackers/base/codes.hpp"
 #include "clackers/cases/case.hpp"
 
 namespace clackers::python {
 namespace {
 
-// Of a failed run; nothing for a history.
-using Failure = std::tuple<std::string, std::string, std::string, bool>;
+// Of a failed run: whether the callable returned, the sentence, the end of the traceback, and whether
+// smaller steps fail likewise.
+using Failure = std::tuple<bool, std::string, std::string, bool>;
 
 class CallableSolver : public study::Solver {
  public:
@@ -37,8 +39,9 @@ class CallableSolver : public study::Solver {
 
   void take(py::tuple result, study::SolverOutput& output) {
     if (py::len(result) == 4) {
-      const auto [code, sentence, printed, would_repeat] = result.cast<Failure>();
-      output.failure_code = code;
+      const auto [has_returned, sentence, printed, would_repeat] = result.cast<Failure>();
+      output.failure_code =
+          (has_returned ? Code("callable-output") : Code("callable-failed")).name();
       output.failure = sentence;
       output.printed = printed;
       output.would_repeat = would_repeat;

@@ -16,7 +16,7 @@ namespace clackers::python {
 struct CallableSubject {
   std::string name;
   /// Called with (_core.Problem, step or tolerance); returns (columns, events or None) as
-  /// columns_of() reads them, or (code, sentence, printed, would_repeat) of a failed run.
+  /// columns_of() reads them, or (has_returned, sentence, printed, would_repeat) of a failed run.
   py::object run;
   std::optional<Claim> expect;
   std::vector<double> steps, tolerances;

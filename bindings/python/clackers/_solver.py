@@ -14,8 +14,8 @@ from clackers._problem import Problem
 Solver = Callable[[Problem, float], object]
 """``solver(problem, h)``, or ``solver(problem, tolerance)``, returns a history; see ``clackers.verify``."""
 
-Failure = tuple[str, str, str, bool]
-"""Code, sentence, last lines of the traceback, and whether smaller steps fail likewise."""
+Failure = tuple[bool, str, str, bool]
+"""Whether the callable returned, sentence, last lines of the traceback, and whether smaller steps fail likewise."""
 
 # Mistakes that do not depend on the step.
 _MISTAKES = (AttributeError, ImportError, NameError, NotImplementedError, SyntaxError, TypeError)
@@ -39,11 +39,11 @@ class Runs:
         except KeyboardInterrupt:
             raise
         except BaseException as error:  # SystemExit among them: it ends this run alone
-            return self._failed("callable-failed", error, isinstance(error, _MISTAKES), error.__traceback__)
+            return self._failed(False, error, isinstance(error, _MISTAKES), error.__traceback__)
         try:
             return read_history(f"{self.name}(problem, {resolution:g})", result, task.dof)
         except Exception as error:  # also what attributes and items of the result raise
-            return self._failed("callable-output", error, True, None)
+            return self._failed(True, error, True, None)
 
     def _problem(self, core: _core.Problem) -> Problem:
         """The same object for every run of a case, so that a solver can keep what it prepared."""
@@ -51,15 +51,15 @@ class Runs:
             self._problems[id(core)] = (core, Problem(core))
         return self._problems[id(core)][1]
 
-    def _failed(self, code: str, error: BaseException, would_repeat: bool, trace: Any) -> Failure:
+    def _failed(self, has_returned: bool, error: BaseException, would_repeat: bool, trace: Any) -> Failure:
         if self.first_error is None:
             self.first_error = error
-        if isinstance(error, InputError) and code == "callable-output":
-            return code, str(error), "", would_repeat
+        if isinstance(error, InputError) and has_returned:
+            return has_returned, str(error), "", would_repeat
         sentence = "".join(traceback.format_exception_only(type(error), error)).strip().splitlines()[-1]
         # Without the frame of this file.
         lines = "".join(traceback.format_tb(trace.tb_next if trace is not None else None)).splitlines()
-        return code, sentence, "\n".join(line.strip() for line in lines[-_LINES_OF_TRACEBACK:]), would_repeat
+        return has_returned, sentence, "\n".join(line.strip() for line in lines[-_LINES_OF_TRACEBACK:]), would_repeat
 
 
 def name_of(solver: Solver) -> str:
