@@ -51,17 +51,19 @@ def verify(
     consecutive flights, whose ``t_events`` are the collisions. A time that stands twice has both limits of
     a jump. Callables are called in the thread of the caller, one at a time.
 
-    case        a name with ``**parameters``, a ``clackers.Case``, or a list of these; default three-parameter
-    steps       the steps of callables [s], in any order, instead of a ladder
-    tolerances  callables are ``solver(problem, tolerance)``: a list, "1e-3:1e-10" (one a decade), or True
-    levels      number of levels, each half the step of the one before; default 8, 6 with callables
-    coarsest    largest step [s]; default a fourteenth of the fast period of the case
-    neighbours  steps a level; default 8, 4 with callables
-    expect      what callables should show: "proper:2", "irregular:1", "exact", ...; default nothing
-    name        names of callables in the record; default those of the functions
-    budget      time for further steps of what is undecided [s]; default 20, 0 with levels or steps
-    jobs        threads; default one a processor
-    progress    a callable that gets the share that is done, or True for a line on standard error
+    Options::
+
+        case        a name with **parameters, a clackers.Case, or a list of these; default three-parameter
+        steps       the steps of callables [s], in any order, instead of a ladder
+        tolerances  callables are solver(problem, tolerance): a list, "1e-3:1e-10" (one a decade), or True
+        levels      number of levels, each half the step of the one before; default 8, 6 with callables
+        coarsest    largest step [s]; default a fourteenth of the fast period of the case
+        neighbours  steps a level; default 8, 4 with callables
+        expect      what callables should show: "proper:2", "irregular:1", "exact", ...; default nothing
+        name        names of callables in the record; default those of the functions
+        budget      time for further steps of what is undecided [s]; default 20, 0 with levels or steps
+        jobs        threads; default one a processor
+        progress    a callable that gets the share that is done, or True for a line on standard error
 
     A run that raises, or returns something else, is a failed run of its step. Raises SolverError where
     every run failed, from the first exception; Interrupted (a KeyboardInterrupt) with the record of what
@@ -152,16 +154,18 @@ def check(
     ``clackers.verify`` may return, or the path of a file (text, or NumPy's npy). Several histories are levels
     of one method and give an order: a list of histories or paths, or a mapping from steps [s] to them.
 
-    collisions  times of the collisions, or as ``Case.impacts`` returns them; of a file a path; of several
-                histories a list of these; default: found in the history
-    step        step of the history [s], a list of several; default: the median time between rows
-    tolerances  of an adaptive solver, one a history, instead of steps
-    case        a name with ``**parameters``, or a ``clackers.Case``; default three-parameter
-    expect      what the histories should show: "proper:2", "irregular:1", "exact", ...; default nothing
-    tolerance   largest error in u over the initial envelope that is allowed
-    columns     names of the columns of files where a header lacks or differs
-    name        of the history in the record, a list of several
-    progress    a callable that gets the share that is done, or True for a line on standard error
+    Options::
+
+        collisions  times of the collisions, or as Case.impacts returns them; of a file a path; of several
+                    histories a list of these; default: found in the history
+        step        step of the history [s], a list of several; default: the median time between rows
+        tolerances  of an adaptive solver, one a history, instead of steps
+        case        a name with **parameters, or a clackers.Case; default three-parameter
+        expect      what the histories should show: "proper:2", "irregular:1", "exact", ...; default nothing
+        tolerance   largest error in u over the initial envelope that is allowed
+        columns     names of the columns of files where a header lacks or differs
+        name        of the history in the record, a list of several
+        progress    a callable that gets the share that is done, or True for a line on standard error
 
     Raises InputError for what is no history, or one of another case; Interrupted after Ctrl-C.
 
