@@ -53,7 +53,7 @@ set(test_headers testing/[a-z_]+ test_[a-z_]* toy_motion sample_record record_fi
 list(JOIN test_headers "|" test_headers)
 foreach(module IN LISTS modules)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-    ${PROJECT_SOURCE_DIR}/clackers/${module}/*.hpp)
+    ${PROJECT_SOURCE_DIR}/clackers/${module}/*.hpp ${PROJECT_SOURCE_DIR}/clackers/${module}/*.h)
   list(FILTER headers EXCLUDE REGEX "/(${test_headers})\\.hpp$|/testing/")
   foreach(header IN LISTS headers)
     get_filename_component(folder ${header} DIRECTORY)

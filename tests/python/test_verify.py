@@ -213,7 +213,7 @@ class Callables(unittest.TestCase):
 
         text = str(clackers.verify(my_solver, case="three-parameter", N=2))
         self.assertIn("Stagnates", text)
-        self.assertIn("Verdict: not claimed.", text)
+        self.assertIn("Verdict: disagrees.", text)
         self.assertIn("[restitution-differs]", text)
 
 

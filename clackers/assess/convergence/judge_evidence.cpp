@@ -152,9 +152,9 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   if (fit.reason == Code("printed-digits").name())
     all.push_back({fit.reason, of_behaviour, {finest.u_error, printed}});
   if (claimed) add(miscounted(ladder, fit, claim));
-  // Whatever the order, it is that of another motion; only a claimed floor or divergence says so.
-  if (facts.wrong_limit && (!claimed || claims_convergence(claim)))
-    all.push_back({std::string(Code("wrong-limit").name()), Verdict::disagrees, {}});
+  // Whatever the order, it is that of another motion.
+  const Evidence wrong_limit{std::string(Code("wrong-limit").name()), Verdict::disagrees, {}};
+  if (facts.wrong_limit && claims_convergence(claim)) all.push_back(wrong_limit);
   if (facts.tolerance) add(tolerance_evidence(finest, *facts.tolerance, printed));
   for (auto& found : of_the_fit(fit, ladder, claim, facts)) all.push_back(std::move(found));
   add(velocity_order(fits));
@@ -165,6 +165,7 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   if (!facts.tolerance && finest.impacts && !facts.finest->rows_resolve_collisions)
     all.push_back({"sparse-rows", Verdict::not_claimed, {}});
   add(other_motion(finest, *facts.finest));
+  if (facts.wrong_limit) all.push_back(wrong_limit);
   return all;
 }
 
