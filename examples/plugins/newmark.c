@@ -24,7 +24,8 @@ static void solve(int n, double A[most][most], double* b, double* x) {
       for (int j = k; j < n; ++j) A[i][j] -= factor * A[k][j];
       b[i] -= factor * b[k];
     }
-  for (int i = n - 1; i >= 0; --i) x[i] = (b[i] - dot(n - 1 - i, A[i] + i + 1, x + i + 1)) / A[i][i];
+  for (int i = n - 1; i >= 0; --i)
+    x[i] = (b[i] - dot(n - 1 - i, A[i] + i + 1, x + i + 1)) / A[i][i];
 }
 
 /* (M + h/2 C + h^2/4 K) a1 = -C (v + h/2 a) - K (u + h v + h^2/4 a); h = 0: M a1 = -C v - K u. */
@@ -98,8 +99,10 @@ static int32_t run(void* state, const clackers_solver_problem* p, const clackers
       for (int k = 0; k < 60; ++k) {
         const double middle = (before + after) / 2;
         step(p, x, middle, &next);
-        if (violated(p, &next) < 0) before = middle;
-        else after = middle;
+        if (violated(p, &next) < 0)
+          before = middle;
+        else
+          after = middle;
       }
       step(p, x, before, &next);
       *x = next;
@@ -112,7 +115,7 @@ static int32_t run(void* state, const clackers_solver_problem* p, const clackers
   return result;
 }
 
-static const clackers_solver solver = {CLACKERS_SOLVER_VERSION, CLACKERS_SOLVER_STEP, "newmark-c",
-                                       prepare, run, free};
+static const clackers_solver solver = {
+    CLACKERS_SOLVER_VERSION, CLACKERS_SOLVER_STEP, "newmark-c", prepare, run, free};
 
 const clackers_solver* clackers_plugin(void) { return &solver; }
