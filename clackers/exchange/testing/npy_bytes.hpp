@@ -15,7 +15,7 @@ namespace clackers::exchange {
 template <class Number>
 std::string bytes_of(const std::vector<Number>& numbers, bool swapped = false) {
   std::string bytes(numbers.size() * sizeof(Number), '\0');
-  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  if (!numbers.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
   if (swapped)
     for (auto at = bytes.begin(); at != bytes.end(); at += sizeof(Number))
       std::reverse(at, at + sizeof(Number));

@@ -1,5 +1,6 @@
 #include "clackers/study/plugin/plugin_output.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -28,8 +29,13 @@ class PluginOutputTest : public testing::Test {
     return output_.state(&output_, t, u_, v, a);
   }
 
-  const fs::path history_ = fs::path(testing::TempDir()) / "plugin_history.npy";
-  const fs::path events_ = fs::path(testing::TempDir()) / "plugin_events.npy";
+  // Tests run beside each other.
+  static fs::path file(const std::string& name) {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    return fs::path(testing::TempDir()) / fmt::format("{}_{}.npy", test->name(), name);
+  }
+
+  const fs::path history_ = file("history"), events_ = file("events");
   PluginOutput output_{2, history_, events_};
   const double u_[2] = {1.0 / 3.0, -1e-300};
   const double v_[2] = {0.0, 2.0}, after_[2] = {0.5, -2.0};
