@@ -1,5 +1,6 @@
 #pragma once
 
+#include "clackers/methods/integrators/acceleration_memory.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 
@@ -12,29 +13,26 @@ namespace clackers::methods {
 ///     v1 = v0 + h [(1 - gamma) a0 + gamma a1]
 ///
 /// alpha_m = alpha_f = 0 is Newmark's method. With p the first line is solved by Newton's iteration
-/// down to rounding.
+/// down to rounding. That a0 of a start belongs to t0, and not to the time that the equilibrium of a
+/// step shifts it to, costs h² in v once, not a step.
 struct AlphaMethod {
   double beta, gamma, alpha_m = 0.0, alpha_f = 0.0;
 
   Facts facts() const;
 
+  // Not a base, so that members alone are initialised.
   template <int Dof>
-  struct Memory {
-    explicit Memory(Eigen::Index dof) : a(model::Vector<Dof>::Zero(dof)) {}
-    model::Vector<Dof> a;  ///< acceleration at the start of the step
-  };
+  using Memory = AccelerationMemory::Memory<Dof>;
+
+  template <int Dof>
+  void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
+             Memory<Dof>& memory) const {
+    AccelerationMemory().start(equation, from, memory);
+  }
 
   template <int Dof>
   void prepare(MotionEquation<Dof>& equation, double h) const {
     equation.factorized(weights<Dof>(h));
-  }
-
-  /// That a0 belongs to t0, and not to the time that the equilibrium of a step shifts it to, costs
-  /// h² in v once, not a step.
-  template <int Dof>
-  void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
-             Memory<Dof>& memory) const {
-    equation.accelerate(from.t, from.u, from.v, memory.a);
   }
 
   template <int Dof>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "clackers/methods/integrators/acceleration_memory.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 
@@ -17,21 +18,19 @@ struct CollocationMethod {
 
   Facts facts() const;
 
+  // Not a base, so that members alone are initialised.
   template <int Dof>
-  struct Memory {
-    explicit Memory(Eigen::Index dof) : a(model::Vector<Dof>::Zero(dof)) {}
-    model::Vector<Dof> a;  ///< acceleration at the start of the step
-  };
-
-  template <int Dof>
-  void prepare(MotionEquation<Dof>& equation, double h) const {
-    equation.factorized(weights<Dof>(h));
-  }
+  using Memory = AccelerationMemory::Memory<Dof>;
 
   template <int Dof>
   void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
              Memory<Dof>& memory) const {
-    equation.accelerate(from.t, from.u, from.v, memory.a);
+    AccelerationMemory().start(equation, from, memory);
+  }
+
+  template <int Dof>
+  void prepare(MotionEquation<Dof>& equation, double h) const {
+    equation.factorized(weights<Dof>(h));
   }
 
   template <int Dof>

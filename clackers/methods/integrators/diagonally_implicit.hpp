@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "clackers/methods/integrators/acceleration_memory.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 
@@ -14,7 +15,7 @@ namespace clackers::methods {
 ///     M a_i + C v_i + K u_i + p(u_i, v_i) = f(t0 + c_i h),  c_i = sum_j A_ij
 ///     u1  = u0 + h sum_j b_j v_j,  v1 = v0 + h sum_j b_j a_j
 ///
-/// A first stage with A_11 = 0 is the end of the last step.
+/// A first stage with A_11 = 0 is the end of the last step, whose last acceleration is remembered.
 struct DiagonallyImplicit {
   static constexpr int most_stages = 3;
 
@@ -25,22 +26,20 @@ struct DiagonallyImplicit {
 
   Facts facts() const;
 
+  // Not a base, so that members alone are initialised.
   template <int Dof>
-  struct Memory {
-    explicit Memory(Eigen::Index dof) : a(model::Vector<Dof>::Zero(dof)) {}
-    model::Vector<Dof> a;  ///< acceleration at the start of the step, or of the last stage
-  };
+  using Memory = AccelerationMemory::Memory<Dof>;
+
+  template <int Dof>
+  void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
+             Memory<Dof>& memory) const {
+    AccelerationMemory().start(equation, from, memory);
+  }
 
   template <int Dof>
   void prepare(MotionEquation<Dof>& equation, double h) const {
     for (int i = 0; i < stages; ++i)
       if (at(i, i) != 0.0) equation.factorized(weights<Dof>(at(i, i) * h));
-  }
-
-  template <int Dof>
-  void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
-             Memory<Dof>& memory) const {
-    equation.accelerate(from.t, from.u, from.v, memory.a);
   }
 
   template <int Dof>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "clackers/methods/integrators/acceleration_memory.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 
@@ -7,21 +8,9 @@
 namespace clackers::methods {
 
 /// What the methods of this file share.
-struct ExplicitStep {
-  template <int Dof>
-  struct Memory {
-    explicit Memory(Eigen::Index dof) : a(model::Vector<Dof>::Zero(dof)) {}
-    model::Vector<Dof> a;  ///< acceleration at the start of the step
-  };
-
+struct ExplicitStep : AccelerationMemory {
   template <int Dof>
   void prepare(MotionEquation<Dof>&, double) const {}
-
-  template <int Dof>
-  void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
-             Memory<Dof>& memory) const {
-    equation.accelerate(from.t, from.u, from.v, memory.a);
-  }
 };
 
 /// u1 = u0 + h v0 + h²/2 a0,  a1 = a(t1, u1, v0 + h a0),  v1 = v0 + h/2 (a0 + a1)

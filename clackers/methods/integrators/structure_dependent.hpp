@@ -1,5 +1,6 @@
 #pragma once
 
+#include "clackers/methods/integrators/acceleration_memory.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 
@@ -7,23 +8,8 @@
 // linear.
 namespace clackers::methods {
 
-/// What the methods of this file share.
-struct StructureDependent {
-  template <int Dof>
-  struct Memory {
-    explicit Memory(Eigen::Index dof) : a(model::Vector<Dof>::Zero(dof)) {}
-    model::Vector<Dof> a;  ///< acceleration at the start of the step
-  };
-
-  template <int Dof>
-  void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
-             Memory<Dof>& memory) const {
-    equation.accelerate(from.t, from.u, from.v, memory.a);
-  }
-};
-
 /// D = M + h/2 C + h²/4 K; see the card.
-struct Chang : StructureDependent {
+struct Chang : AccelerationMemory {
   Facts facts() const;
 
   template <int Dof>
@@ -60,7 +46,7 @@ struct Chang : StructureDependent {
 };
 
 /// The method of Kolay and Ricles, for rho = 1 that of Chen and Ricles; see the card of kr-alpha.
-struct KrAlpha : StructureDependent {
+struct KrAlpha : AccelerationMemory {
   double rho;
 
   double alpha_m() const { return (2.0 * rho - 1.0) / (rho + 1.0); }
