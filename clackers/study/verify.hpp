@@ -26,14 +26,6 @@ struct VerifyRequest {
   std::string command;  ///< as typed, for the record
 };
 
-/// A case of a request, by its number.
-inline cases::Case make_case(const VerifyRequest& request, std::size_t number) {
-  const auto name =
-      request.cases.empty() ? cases::default_case() : std::string_view(request.cases.at(number));
-  return cases::make(
-      name, request.case_settings.empty() ? request.settings : request.case_settings.at(number));
-}
-
 /// Assesses every method on every case over the plan's steps. Throws InputError before any work for
 /// what cannot be run: unknown names, values outside their range, too many steps, a method or a case
 /// named twice, a case that no method takes. A method that objects to a case is kept with its

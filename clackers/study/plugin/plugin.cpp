@@ -85,12 +85,8 @@ std::vector<SolverSubject> subjects_of(const PluginRequest& request,
                                           : library.stem().string();
     subject.claim = request.expect.value_or(Claim{});
     if (report.by_tolerance) subject.tolerances = tolerances_of(request);
-    subject.prepare = [command, name = subject.name, timeout = request.timeout,
-                       fresh = request.fresh, folder](const cases::Case& problem) {
-      return std::make_unique<ProgramRunner>(command, name, problem.entry->name, problem.problem,
-                                             timeout, fresh, folder,
-                                             ProgramRunner::Results{".npy", complete});
-    };
+    subject.prepare =
+        ProgramRunner::maker(command, subject.name, request, folder, {".npy", complete});
   }
   return subjects;
 }

@@ -37,11 +37,7 @@ std::vector<SolverSubject> subjects_of(const ProgramRequest& request) {
     subject.name = program.name.empty() ? command.name() : program.name;
     subject.claim = request.expect.value_or(Claim{});
     if (command.uses("tolerance")) subject.tolerances = tolerances;
-    subject.prepare = [command, name = subject.name, timeout = request.timeout,
-                       fresh = request.fresh, folder](const cases::Case& problem) {
-      return std::make_unique<ProgramRunner>(command, name, problem.entry->name, problem.problem,
-                                             timeout, fresh, folder, ProgramRunner::Results{});
-    };
+    subject.prepare = ProgramRunner::maker(command, subject.name, request, folder, {});
   }
   return subjects;
 }

@@ -91,6 +91,15 @@ ProgramRunner::ProgramRunner(CommandTemplate command, std::string name, std::str
       history_name_("history" + results_.extension),
       events_name_("events" + results_.extension) {}
 
+std::function<std::unique_ptr<Solver>(const cases::Case&)> ProgramRunner::maker(
+    const CommandTemplate& command, const std::string& name, const ProcessOptions& options,
+    const std::shared_ptr<WorkFolder>& folder, const Results& results) {
+  return [=, timeout = options.timeout, fresh = options.fresh](const cases::Case& problem) {
+    return std::make_unique<ProgramRunner>(command, name, problem.entry->name, problem.problem,
+                                           timeout, fresh, folder, results);
+  };
+}
+
 std::string ProgramRunner::command_in(const fs::path& folder, const SolverRun& run) const {
   return command_.filled({{"case", (folder / "problem.json").string()},
                           {"case:text", (folder / "problem.txt").string()},

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "clackers/model/impact_problem.hpp"
+#include "clackers/study/program.hpp"
 #include "clackers/study/program/command_template.hpp"
 #include "clackers/study/program/work_folder.hpp"
-#include "clackers/study/solver.hpp"
 
 namespace clackers::study {
 
@@ -28,6 +28,11 @@ class ProgramRunner : public Solver {
   ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
                 const model::ImpactProblem<>& problem, double timeout, bool fresh,
                 std::shared_ptr<WorkFolder> folder, Results results);
+
+  /// What SolverSubject::prepare calls.
+  static std::function<std::unique_ptr<Solver>(const cases::Case&)> maker(
+      const CommandTemplate& command, const std::string& name, const ProcessOptions& options,
+      const std::shared_ptr<WorkFolder>& folder, const Results& results);
 
   /// The result of an earlier run of the same command, with the same files of the program, problem,
   /// step and tolerance, if there is one; else that of a new run in a folder of its own, which holds

@@ -28,20 +28,12 @@ struct Task {
   double cost() const { return start_steps + double(run.steps); }
 };
 
-std::vector<std::string> case_names(const VerifyRequest& request) {
-  if (!request.cases.empty()) return request.cases;
-  return {std::string(cases::default_case())};
-}
-
 // A record of the cases, without subjects.
-Record empty_record(const VerifyRequest& request, bool has_plan) {
+Record empty_record(const VerifyRequest& request, const std::vector<cases::Case>& problems,
+                    bool has_plan) {
   Record record;
   record.provenance = provenance(request.command);
-  const auto names = case_names(request);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (std::ranges::count(names, names[i]) > 1)
-      refuse("verify", "case", names[i], "each case once", {}, "bad-syntax");
-    const auto problem = make_case(request, i);
+  for (const auto& problem : problems) {
     CaseRecord one;
     one.problem = summary_of(problem);
     one.plan = has_plan ? plan_for(request.plan, one.problem) : no_refinement;
@@ -74,18 +66,18 @@ void require_levels(const SolverSubject& solver) {
 
 class SolverStudies {
  public:
-  SolverStudies(const VerifyRequest& request, const std::vector<SolverSubject>& solvers,
-                Record& record, const std::atomic<bool>* interrupt)
+  SolverStudies(const VerifyRequest& request, const std::vector<cases::Case>& problems,
+                const std::vector<SolverSubject>& solvers, Record& record,
+                const std::atomic<bool>* interrupt)
       : request_(request),
         record_(record),
         interrupt_(interrupt),
         threads_(thread_count(request.jobs)) {
-    for (std::size_t i = 0; i < record.cases.size(); ++i) {
-      auto& one = record.cases[i];
-      const auto problem = make_case(request, i);
+    for (std::size_t i = 0; i < problems.size(); ++i) {
+      const auto& one = record.cases[i];
       auto& studies = cases_.emplace_back();
       for (const auto& solver : solvers)
-        studies.emplace_back(solver, problem, one.problem, plan_for(request.plan, one.problem),
+        studies.emplace_back(solver, problems[i], one.problem, plan_for(request.plan, one.problem),
                              interrupt);
     }
   }
@@ -163,8 +155,9 @@ Record verify(const VerifyRequest& request, std::vector<SolverSubject> solvers,
       !request.methods.empty() || std::ranges::any_of(solvers, [](const SolverSubject& one) {
         return one.tolerances.empty() && one.steps.empty();
       });
-  auto record = empty_record(request, has_plan);
-  SolverStudies studies(request, solvers, record, interrupt);
+  const auto problems = cases_of(request);
+  auto record = empty_record(request, problems, has_plan);
+  SolverStudies studies(request, problems, solvers, record, interrupt);
   // Progress of either comes in rounds of its own.
   if (!request.methods.empty()) record = verify(request, progress, interrupt);
   studies.run(progress);

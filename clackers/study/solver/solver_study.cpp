@@ -148,7 +148,6 @@ NextPlan SolverStudy::next() const {
 }
 
 void SolverStudy::close(RefinementEnd end, double next_seconds) {
-  is_closed_ = true;
   subject_.refinement = refinement_of(first_, plan_, end, next_seconds);
 }
 

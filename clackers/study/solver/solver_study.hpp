@@ -35,7 +35,6 @@ class SolverStudy {
   NextPlan next() const;
   void close(RefinementEnd end, double next_seconds = 0.0);
   SubjectKind kind() const { return asked_.kind; }
-  bool is_closed() const { return is_closed_; }
   const RefinementPlan& plan() const { return plan_; }
   Subject finish() { return std::move(subject_); }
 
@@ -55,7 +54,6 @@ class SolverStudy {
   RefinementPlan plan_;
   const std::atomic<bool>* interrupt_;
   Subject subject_;
-  bool is_closed_ = false;
 
   std::mutex guard_;            // of what follows
   std::set<long long> made_;    // numbers of steps

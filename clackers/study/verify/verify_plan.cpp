@@ -61,9 +61,9 @@ void require_some_method(const std::vector<PlannedMethod>& all,
   throw InputError(objection->sentence, objection->code);
 }
 
-CasePlan plan_of(const VerifyRequest& request, std::size_t number) {
+CasePlan plan_of(const VerifyRequest& request, cases::Case problem) {
   CasePlan plan;
-  plan.problem = make_case(request, number);
+  plan.problem = std::move(problem);
   plan.summary = summary_of(plan.problem);
   plan.steps = plan_for(request.plan, plan.summary);
   require_steps(plan.steps, plan.summary.end);
@@ -115,15 +115,22 @@ std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const RefinementP
                              plan.summary.end, plan.summary.impact_times);
 }
 
-std::vector<CasePlan> plans_of(const VerifyRequest& request) {
+std::vector<cases::Case> cases_of(const VerifyRequest& request) {
   auto names = request.cases;
   if (names.empty()) names.emplace_back(cases::default_case());
-  std::vector<CasePlan> plans;
+  std::vector<cases::Case> all;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::ranges::count(names, names[i]) > 1)
       refuse("verify", "case", names[i], "each case once", {}, "bad-syntax");
-    plans.push_back(plan_of(request, i));
+    all.push_back(cases::make(
+        names[i], request.case_settings.empty() ? request.settings : request.case_settings.at(i)));
   }
+  return all;
+}
+
+std::vector<CasePlan> plans_of(const VerifyRequest& request) {
+  std::vector<CasePlan> plans;
+  for (auto& problem : cases_of(request)) plans.push_back(plan_of(request, std::move(problem)));
   return plans;
 }
 

@@ -35,6 +35,9 @@ std::string short_name(const std::string& name);
 /// The steps of a plan on a case.
 std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const RefinementPlan& steps);
 
+/// The cases of a request. Throws InputError for one that is named twice, and as cases::make() does.
+std::vector<cases::Case> cases_of(const VerifyRequest& request);
+
 /// Throws InputError for what verify() refuses.
 std::vector<CasePlan> plans_of(const VerifyRequest& request);
 
