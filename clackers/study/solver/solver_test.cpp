@@ -94,6 +94,21 @@ TEST_F(SolversUnderTest, AreNotRunFurtherAfterThreeFailuresThatSmallerStepsShare
   EXPECT_EQ(last.score.failure, "not made after 3 runs in a row: exit status 1.");
 }
 
+TEST_F(SolversUnderTest, AreRunFurtherWhereAnotherFailureStandsBetween) {
+  struct EverySecond : FailingSolver {
+    using FailingSolver::FailingSolver;
+    SolverOutput run(const SolverRun& run, const std::atomic<bool>* interrupt) override {
+      would_repeat = runs.size() % 2 == 0;
+      return FailingSolver::run(run, interrupt);
+    }
+  };
+  subject_.prepare = [this](const cases::Case&) {
+    return std::make_unique<EverySecond>(runs_, true);
+  };
+  verify_one();
+  EXPECT_EQ(runs_.size(), 6u);
+}
+
 TEST_F(SolversUnderTest, AreRefusedWithTwoOfOneName) {
   EXPECT_REFUSED(verify(request_, {subject_, subject_}), "bad-syntax", "mine");
   request_.methods = {"rk4"};
