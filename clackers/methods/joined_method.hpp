@@ -24,14 +24,21 @@ class JoinedMethod final : public Method {
     return facts;
   }
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const override {
-    return treatment_->objection(facts().name, problem);
+    const auto joined = facts();
+    if (joined.is_linear_only && problem.system.nonlinear)
+      return Objection{
+          joined.name +
+              ": the problem has a nonlinear force, and the step is exact for linear ones "
+              "alone. Use newmark or rk4.",
+          "linear-only"};
+    return treatment_->objection(joined, problem);
   }
   double contact_time(const model::ImpactProblem<>& problem) const override {
     return treatment_->contact_time(problem);
   }
   std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>& problem,
-                                      double step) const override {
-    return treatment_->prepare(*this, *integrator_, problem, step);
+                                      const Resolution& resolution) const override {
+    return treatment_->prepare(*this, *integrator_, problem, resolution);
   }
 
  private:

@@ -15,8 +15,10 @@ namespace clackers::methods {
 
 /// A card as data: what the tests measure and the verdict compares with.
 struct Facts {
-  std::string name{};         ///< the specification: "generalized-alpha:rho=0.8+event-driven"
-  double smooth_order = 0.0;  ///< of u and v while nothing collides
+  std::string name{};           ///< the specification: "generalized-alpha:rho=0.8+event-driven"
+  double smooth_order = 0.0;    ///< of u and v while nothing collides
+  bool is_adaptive = false;     ///< chooses its steps by a tolerance
+  bool is_linear_only = false;  ///< takes no nonlinear force
   /// Largest omega h of undamped smooth motion; may be infinite. 0: it grows in every short step.
   double stability_limit = 0.0;
   /// Spectral radius at infinite omega h; NaN where not every step is stable, or it is not known.
@@ -33,6 +35,20 @@ struct Objection {
   Code code;
 };
 
+/// What a run is to resolve: a step, or the tolerance of an adaptive method.
+struct Resolution {
+  double step = std::numeric_limits<double>::quiet_NaN();       ///< [s]
+  double tolerance = std::numeric_limits<double>::quiet_NaN();  ///< of a step's relative error
+
+  Resolution(double step) : step(step) {}  // NOLINT(google-explicit-constructor): a step is one
+  static Resolution by_tolerance(double tolerance) {
+    Resolution resolution(std::numeric_limits<double>::quiet_NaN());
+    resolution.tolerance = tolerance;
+    return resolution;
+  }
+  bool is_tolerance() const { return !std::isnan(tolerance); }
+};
+
 /// A time-integration method, assessed as a whole: an integrator joined with a contact treatment,
 /// or a method that brings its own integration.
 class Method {
@@ -44,10 +60,11 @@ class Method {
   /// How long one contact lasts [s] for a compliant contact treatment; 0 for a rigid one. A run
   /// resolves the contact where its step is at most 1/25 of this.
   virtual double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
-  /// Throws InputError unless 0 < step < infinity [s], the problem is valid and there is no
-  /// objection. The run copies what it needs of the problem.
+  /// Throws InputError unless 0 < step < infinity [s] (of an adaptive method: unless there is a
+  /// tolerance that it takes), the problem is valid and there is no objection. The run copies what
+  /// it needs of the problem.
   virtual std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>& problem,
-                                              double step) const = 0;
+                                              const Resolution& resolution) const = 0;
 };
 
 }  // namespace clackers::methods

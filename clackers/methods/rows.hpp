@@ -43,8 +43,8 @@ class MethodRun final : public model::Run {
 /// Method::prepare() of a method whose loop for each size is Loop<Dof>.
 template <template <int> class Loop, class... Parts>
 std::unique_ptr<model::Run> prepare_run(const Method& method, const model::ImpactProblem<>& problem,
-                                        double step, const Parts&... parts) {
-  const auto plan = checked_plan(method, problem, step);
+                                        const Resolution& resolution, const Parts&... parts) {
+  const auto plan = checked_plan(method, problem, resolution);
   const auto run = [&]<int Dof>() -> std::unique_ptr<model::Run> {
     return std::make_unique<MethodRun<Loop<Dof>, Dof>>(method.facts().name, problem, plan,
                                                        parts...);
@@ -64,17 +64,17 @@ class TypedTreatment final : public Treatment {
 
   std::string specification() const override { return methods::specification(treatment_); }
   Claim claim(const Facts& integrator) const override { return treatment_.claim(integrator); }
-  std::optional<Objection> objection(const std::string& who,
+  std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const override {
-    return treatment_.objection(who, problem);
+    return treatment_.objection(method, problem);
   }
   double contact_time(const model::ImpactProblem<>& problem) const override {
     return treatment_.contact_time(problem);
   }
   std::unique_ptr<model::Run> prepare(const Method& method, const Integrator& integrator,
                                       const model::ImpactProblem<>& problem,
-                                      double step) const override {
-    return prepare_run<T::template Loop>(method, problem, step, integrator, treatment_);
+                                      const Resolution& resolution) const override {
+    return prepare_run<T::template Loop>(method, problem, resolution, integrator, treatment_);
   }
 
  private:
@@ -92,8 +92,8 @@ class StandaloneMethod final : public Method {
     return scheme_.objection(problem);
   }
   std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>& problem,
-                                      double step) const override {
-    return prepare_run<T::template Loop>(*this, problem, step, scheme_);
+                                      const Resolution& resolution) const override {
+    return prepare_run<T::template Loop>(*this, problem, resolution, scheme_);
   }
 
  private:

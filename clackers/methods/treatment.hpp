@@ -17,14 +17,15 @@ class Treatment {
   virtual std::string specification() const = 0;
   /// What it claims through impacts with an integrator.
   virtual Claim claim(const Facts& integrator) const = 0;
-  /// See Method; `who` opens the sentence.
-  virtual std::optional<Objection> objection(const std::string& who,
+  /// See Method. `method` are the facts of the integrator joined with this; its name opens the
+  /// sentence.
+  virtual std::optional<Objection> objection(const Facts& method,
                                              const model::ImpactProblem<>& problem) const = 0;
   virtual double contact_time(const model::ImpactProblem<>& problem) const = 0;
   /// Method::prepare() of `method`, which joins it with the integrator.
   virtual std::unique_ptr<model::Run> prepare(const Method& method, const Integrator& integrator,
                                               const model::ImpactProblem<>& problem,
-                                              double step) const = 0;
+                                              const Resolution& resolution) const = 0;
 };
 
 }  // namespace clackers::methods

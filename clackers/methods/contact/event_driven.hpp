@@ -45,9 +45,9 @@ struct EventDriven {
   Claim claim(const Facts& integrator) const {
     return {Behaviour::proper, integrator.smooth_order, {}};
   }
-  std::optional<Objection> objection(const std::string& who,
+  std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const {
-    return objection_to_closed_contacts(who, problem);
+    return objection_to_closed_contacts(method.name, problem);
   }
   double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
 

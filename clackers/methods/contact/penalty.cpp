@@ -122,14 +122,14 @@ std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& proble
   return all;
 }
 
-std::optional<Objection> Penalty::objection(const std::string& who,
+std::optional<Objection> Penalty::objection(const Facts& method,
                                             const model::ImpactProblem<>& problem) const {
   for (const auto& contact : problem.contacts) {
     if (contact.restitution != 1.0)
       return Objection{
           fmt::format("{} with eta = {}: a linear penalty spring gives back what it takes, "
                       "so it can only stand for eta = 1. Use event-driven.",
-                      who, contact.restitution),
+                      method.name, contact.restitution),
           "penalty-needs-elastic"};
   }
   const auto all = stiffnesses(problem);
@@ -139,7 +139,7 @@ std::optional<Objection> Penalty::objection(const std::string& who,
           fmt::format("{}: contact {} has no default stiffness, since degree of freedom {}, "
                       "the first in its row, has none of its own. Give one: "
                       "penalty:stiffness=VALUE, in N/m.",
-                      who, j + 1, first_touched(problem.contacts[j]) + 1),
+                      method.name, j + 1, first_touched(problem.contacts[j]) + 1),
           "no-default-stiffness"};
   return std::nullopt;
 }

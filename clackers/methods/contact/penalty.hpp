@@ -42,7 +42,7 @@ struct Penalty {
   /// Throws InputError unless 0 < stiffness < infinity, or NaN.
   void validate() const;
   Claim claim(const Facts& integrator) const;
-  std::optional<Objection> objection(const std::string& who,
+  std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const;
   /// The shortest of the contacts' [s]; 0 without contacts.
   double contact_time(const model::ImpactProblem<>& problem) const;

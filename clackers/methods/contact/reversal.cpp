@@ -16,9 +16,9 @@ const std::vector<Field<Reversal>>& Reversal::fields() {
 
 Claim Reversal::claim(const Facts&) const { return {Behaviour::irregular, 1.0, {}}; }
 
-std::optional<Objection> Reversal::objection(const std::string& who,
+std::optional<Objection> Reversal::objection(const Facts& method,
                                              const model::ImpactProblem<>& problem) const {
-  return objection_to_closed_contacts(who, problem);
+  return objection_to_closed_contacts(method.name, problem);
 }
 
 /// A run with end-of-step reversal.

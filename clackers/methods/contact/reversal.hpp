@@ -34,7 +34,7 @@ struct Reversal {
 
   void validate() const {}
   Claim claim(const Facts& integrator) const;
-  std::optional<Objection> objection(const std::string& who,
+  std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const;
   double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
 

@@ -38,8 +38,13 @@ StepPlan plan_steps(std::string_view who, double start, double end, double h) {
   return plan;
 }
 
-StepPlan checked_plan(const Method& method, const model::ImpactProblem<>& problem, double h) {
+StepPlan checked_plan(const Method& method, const model::ImpactProblem<>& problem,
+                      const Resolution& resolution) {
   const auto who = method.facts().name;
+  if (resolution.is_tolerance())
+    refuse(who, "tolerance", resolution.tolerance, "a step; it is not adaptive", {},
+           "wrong-resolution");
+  const double h = resolution.step;
   require_step(who, h);
   model::validate(problem);
   if (const auto no = method.objection(problem)) throw InputError(no->sentence, no->code);

@@ -23,6 +23,7 @@ struct StepPlan {
 StepPlan plan_steps(std::string_view who, double start, double end, double h);
 
 /// The plan of a run of `method`, after the checks that Method::prepare() promises.
-StepPlan checked_plan(const Method& method, const model::ImpactProblem<>& problem, double h);
+StepPlan checked_plan(const Method& method, const model::ImpactProblem<>& problem,
+                      const Resolution& resolution);
 
 }  // namespace clackers::methods

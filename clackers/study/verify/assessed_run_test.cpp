@@ -23,7 +23,8 @@ class ScriptedMethod : public methods::Method {
   std::optional<methods::Objection> objection(const model::ImpactProblem<>&) const override {
     return {};
   }
-  std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>&, double) const override {
+  std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>&,
+                                      const methods::Resolution&) const override {
     ++prepared;
     return std::make_unique<ScriptedRun>(script_);
   }
