@@ -40,7 +40,7 @@ struct Resolution {
   double step = std::numeric_limits<double>::quiet_NaN();       ///< [s]
   double tolerance = std::numeric_limits<double>::quiet_NaN();  ///< of a step's relative error
 
-  Resolution(double step) : step(step) {}  // NOLINT(google-explicit-constructor): a step is one
+  Resolution(double h) : step(h) {}  // NOLINT(google-explicit-constructor): a step is one
   static Resolution by_tolerance(double tolerance) {
     Resolution resolution(std::numeric_limits<double>::quiet_NaN());
     resolution.tolerance = tolerance;
