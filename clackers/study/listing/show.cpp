@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/study/listing.hpp"
+#include "clackers/study/listing/amplification.hpp"
 #include "clackers/study/listing/show_sheets.hpp"
 #include "clackers/study/program/problem_text.hpp"
 #include "clackers/study/respond.hpp"
@@ -77,10 +79,24 @@ Sheet claim_sheet(const methods::Facts& facts) {
                           claim.behaviour == Behaviour::irregular
                               ? "claimed of the upper envelope of the displacement error"
                               : "claimed of the displacement error"});
+  if (facts.model_order > 0.0)
+    sheet.rows.push_back({"model_order", facts.model_order,
+                          "the error of the contact law falls as stiffness^-model_order"});
   if (!claim.reason.empty())
     sheet.rows.push_back({"reason", claim.reason, "of the claimed behaviour"});
   sheet.rows.push_back({"reports_impacts", std::string(facts.reports_impacts ? "yes" : "no"),
                         "whether a run says when the masses collide"});
+  return sheet;
+}
+
+Sheet word_sheet(const methods::Entry& entry, const Parameter& parameter) {
+  Sheet sheet{
+      "clackers/words/1",
+      fmt::format("{} of {}", parameter.name, entry.name),
+      {{parameter.name, "", "as typed"}, {"summary", "", "in one line"}, {"source", "", ""}},
+      {}};
+  for (const auto& word : parameter.words)
+    sheet.rows.push_back({word.name, word.summary, word.source});
   return sheet;
 }
 
@@ -95,6 +111,8 @@ void add_entry(std::vector<Sheet>& sheets, const methods::Entry& entry) {
   for (const auto& p : entry.parameters)
     parameters.rows.push_back({p.name, p.default_text(), p.allowed, p.meaning});
   if (!parameters.rows.empty()) sheets.push_back(std::move(parameters));
+  for (const auto& p : entry.parameters)
+    if (!p.words.empty()) sheets.push_back(word_sheet(entry, p));
   sheets.push_back({"clackers/card/1",
                     fmt::format("{} ({}): {}", entry.name, entry.kind, entry.summary),
                     {{"card", "", ""}},
@@ -121,6 +139,15 @@ std::vector<std::string> parts(std::string_view full_name) {
   return names;
 }
 
+// The integrator of a method; none of a method that brings its own integration.
+std::shared_ptr<const methods::Integrator> integrator_of(const std::string& method) {
+  const auto first = method.substr(0, method.find('+'));
+  for (const auto& entry : methods::entries())
+    if (entry.kind == "integrator" && entry.name == first.substr(0, first.find(':')))
+      return methods::integrator(first);
+  return nullptr;
+}
+
 }  // namespace
 
 std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
@@ -141,17 +168,19 @@ std::string show_problem(std::string_view name, const cases::Settings& settings)
 }
 
 std::vector<Sheet> show_method(std::string_view specification) {
-  const auto is_contact = [&](const methods::Entry& entry) {
-    return entry.kind == "contact" && entry.name == specification;
-  };
   std::vector<Sheet> sheets;
   // A contact treatment alone is no method, yet it has a card to show.
-  if (const auto entries = methods::entries(); std::ranges::any_of(entries, is_contact)) {
-    add_entry(sheets, *std::ranges::find_if(entries, is_contact));
-    return sheets;
-  }
+  const auto first = methods::parse_specification(specification).first;
+  for (const auto& entry : methods::entries())
+    if (entry.kind == "contact" && entry.name == first.name) {
+      complete(entry.name, entry.parameters, first.settings);
+      add_entry(sheets, entry);
+      return sheets;
+    }
   const auto facts = methods::method(specification)->facts();
   sheets.push_back(claim_sheet(facts));
+  if (const auto integrator = integrator_of(facts.name); integrator && !facts.is_adaptive)
+    for (auto& sheet : amplification_sheets(*integrator)) sheets.push_back(std::move(sheet));
   for (const auto& name : parts(facts.name)) {
     const auto entries = methods::entries();
     add_entry(sheets, *std::ranges::find(entries, name, &methods::Entry::name));
