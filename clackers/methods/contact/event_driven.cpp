@@ -151,7 +151,7 @@ class EventDriven::Loop {
         is_suppressed_[i] = true;
         return true;
       }
-    } else if (!(contacts_.gap_rate(i, from_.v) < 0.0)) {
+    } else if (!(contacts_.gap_rate(i, from_.v) < -contacts_.rate_rounding(i, from_.v))) {
       // Gap and rate of the step map disagree by its error: grazing, where no impulse is defined.
       // Where the motion does not leave this instant, the contact is watched again after the next
       // event, or from the end of the step.
