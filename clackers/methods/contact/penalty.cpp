@@ -43,12 +43,12 @@ double fastest_squared(const model::SmoothSystem<Dof>& system, const model::Cont
 // which has one contact time at every speed.
 template <int Dof>
 double largest_speed(const CompliantLaw& law, const model::ImpactProblem<Dof>& problem,
-                     const ImpactLaw<Dof>& contact) {
+                     double mass) {
   if (law.exponent == 1.0) return 0.0;
   const auto& [t, u, v] = problem.start;
   const double energy =
       0.5 * (v.dot(problem.system.mass * v) + u.dot(problem.system.stiffness * u));
-  return std::sqrt(2.0 * std::max(energy, 0.0) * contact.inverse_effective_mass);
+  return std::sqrt(2.0 * std::max(energy, 0.0) / mass);
 }
 
 }  // namespace
@@ -86,17 +86,19 @@ std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& proble
     return all;
   }
   const auto& chosen = compliant_law(law);
-  for (const auto& contact : impact_laws(problem)) {
-    const auto i = first_touched(contact.contact);
+  const ContactSet<Dof> contacts(problem);
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    const auto& contact = problem.contacts[j];
+    const auto i = first_touched(contact);
     // pi sqrt(m_e / k) <= 2 pi / omega / contacts_per_period, solved for k.
-    const double mass = 1.0 / contact.inverse_effective_mass;
+    const double mass = 1.0 / contacts.inverse_effective_mass(j);
     const double shortest = 0.25 * contacts_per_period * contacts_per_period *
-                            fastest_squared(problem.system, contact.contact) * mass;
+                            fastest_squared(problem.system, contact) * mass;
     const double linear = std::max(default_factor * problem.system.stiffness(i, i), shortest);
     all.push_back(chosen.exponent == 1.0
                       ? linear
                       : chosen.stiffness_for(std::numbers::pi * std::sqrt(mass / linear), mass,
-                                             largest_speed(chosen, problem, contact)));
+                                             largest_speed(chosen, problem, mass)));
   }
   return all;
 }
@@ -139,13 +141,14 @@ std::optional<Objection> Penalty::objection(const Facts& method,
 
 double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
   const auto& chosen = compliant_law(law);
-  const auto contacts = impact_laws(problem);
+  const ContactSet<model::any_dof> contacts(problem);
   const auto all = stiffnesses(problem);
   double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < contacts.size(); ++j)
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    const double mass = 1.0 / contacts.inverse_effective_mass(j);
     shortest =
-        std::min(shortest, chosen.contact_time(all[j], 1.0 / contacts[j].inverse_effective_mass,
-                                               largest_speed(chosen, problem, contacts[j])));
+        std::min(shortest, chosen.contact_time(all[j], mass, largest_speed(chosen, problem, mass)));
+  }
   return std::isfinite(shortest) ? shortest : 0.0;
 }
 
@@ -162,9 +165,8 @@ class Penalty::Loop {
   Loop(const Integrator& integrator, const Penalty& penalty, const model::ImpactProblem<Dof>& rigid,
        const StepPlan& plan)
       : problem_(rigid),
-        force_(std::make_shared<CompliantForce<Dof>>(compliant_law(penalty.law), impact_laws(rigid),
-                                                     penalty.stiffnesses(rigid),
-                                                     std::move(problem_.system.nonlinear))),
+        force_(std::make_shared<CompliantForce<Dof>>(compliant_law(penalty.law), rigid,
+                                                     penalty.stiffnesses(rigid))),
         time_loop_(plan, problem_.dof()),
         at_(problem_.start) {
     problem_.system.nonlinear = force_;
