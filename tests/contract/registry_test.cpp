@@ -17,7 +17,8 @@
 namespace clackers::methods {
 namespace {
 
-// Masses in a row on springs of their own, a load on the first, contacts between neighbours.
+// Masses in a row on springs of their own, a load on the first, contacts between neighbours. The
+// first mass strikes the second, which touches the ones behind it: their contacts are closed at once.
 model::ImpactProblem<> row_of(int n, double eta) {
   model::ImpactProblem<> p;
   p.system.mass = p.system.stiffness = Eigen::MatrixXd::Identity(n, n);
@@ -28,7 +29,7 @@ model::ImpactProblem<> row_of(int n, double eta) {
     Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
     b[i] = 1.0;
     b[i + 1] = -1.0;
-    p.contacts.push_back({b, -0.3, eta});
+    p.contacts.push_back({b, i == 0 ? -0.3 : 0.0, eta});
   }
   if (n == 1) p.contacts.push_back({Eigen::VectorXd::Ones(1), -0.3, eta});
   p.start = {0.5, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
@@ -107,14 +108,7 @@ TEST_P(EveryMethod, RunsOrRefusesWithItsReason) {
       }
       model::TrajectorySink sink(true);
       const auto outcome = chosen->prepare(problem, 0.005)->advance(sink);
-      if (outcome.failed()) {
-        // Only several contacts that share a mass may end a run, and the message says so.
-        EXPECT_GT(problem.contacts.size(), 1u) << outcome.detail;
-        EXPECT_EQ(outcome.reason, Code("simultaneous-contacts"));
-        EXPECT_EQ(outcome.detail.find(chosen->facts().name + ": t = "), 0u) << outcome.detail;
-      } else {
-        expect_whole_run(*chosen, sink.trajectory(), outcome, n);
-      }
+      expect_whole_run(*chosen, sink.trajectory(), outcome, n);
       EXPECT_EQ(chosen->contact_time(problem) > 0.0,
                 chosen->facts().through_impacts.reason == "contact-stiffness");
     }
