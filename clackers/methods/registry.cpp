@@ -14,6 +14,7 @@ struct EventDriven;
 struct Reversal;
 struct Penalty;
 struct MoreauJean;
+struct PiecewiseExact;
 
 template <class T>
 Row row();
@@ -29,6 +30,7 @@ std::vector<Row> all_rows() {
   all.push_back(row<Reversal>());
   all.push_back(row<Penalty>());
   all.push_back(row<MoreauJean>());
+  all.push_back(row<PiecewiseExact>());
   return all;
 }
 
