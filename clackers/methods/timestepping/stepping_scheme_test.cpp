@@ -176,10 +176,12 @@ INSTANTIATE_TEST_SUITE_P(Names, Scheme,
                          testing::Values("paoli-schatzman", "cd-lagrange", "d1-minus",
                                          "forward-increment-lagrange", "augmented-lagrangian",
                                          "nonsmooth-generalized-alpha",
-                                         "newmark-position-multiplier"),
+                                         "newmark-position-multiplier", "moreau-jean",
+                                         "moreau-jean:theta=1"),
                          [](const auto& which) {
                            std::string name = which.param;
-                           std::ranges::replace(name, '-', '_');
+                           std::ranges::replace_if(
+                               name, [](unsigned char c) { return !std::isalnum(c); }, '_');
                            return name;
                          });
 
