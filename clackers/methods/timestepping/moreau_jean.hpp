@@ -24,7 +24,8 @@ namespace clackers::methods {
 /// Stability   for every h.
 /// Dissipation none in flight for theta = 1/2, C = 0; grows with theta.
 /// Memory      none.
-/// Cost        one back-substitution a step; one factorization and a back-substitution a contact.
+/// Cost        one evaluation and one back-substitution a step, one more at an impact with its
+///             complementarity problem; one factorization.
 /// Source      J. J. Moreau, Comput. Methods Appl. Mech. Eng. 177, 329-349 (1999).
 struct MoreauJean {
   static constexpr std::string_view name = "moreau-jean";
