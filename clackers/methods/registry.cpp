@@ -21,6 +21,7 @@ struct CdLagrange;
 struct ForwardIncrementLagrange;
 struct AugmentedLagrangian;
 struct NewmarkPositionMultiplier;
+struct PiecewiseExact;
 
 template <class T>
 Row row();
@@ -45,6 +46,7 @@ std::vector<Row> all_rows() {
   all.push_back(row<ForwardIncrementLagrange>());
   all.push_back(row<AugmentedLagrangian>());
   all.push_back(row<NewmarkPositionMultiplier>());
+  all.push_back(row<PiecewiseExact>());
   return all;
 }
 

@@ -118,6 +118,17 @@ TEST_P(ImpactOrder, IsTheClaimedOne) {
       return for_each_case([&](const cases::Case& which, double coarsest) {
         EXPECT_NEAR(observed_order(*chosen, which, coarsest), claim.order, 0.1 * claim.order);
       });
+    case Behaviour::exact:
+      // From about the coarsest step of a study of the fastest of these motions.
+      for (const auto& task : tasks()) {
+        SCOPED_TRACE(task.name);
+        const auto which = cases::make(task.name, task.settings);
+        for (const double steps : {411.0, 2011.0, 20011.0}) {
+          const auto score = score_of(*chosen, which, steps);
+          EXPECT_LT(score.u_error, score.rounding_floor) << steps;
+        }
+      }
+      return;
     case Behaviour::irregular: {
       const auto which = cases::make("stop");
       const double fall = envelope(*chosen, which, 0.02) / envelope(*chosen, which, 0.00125);

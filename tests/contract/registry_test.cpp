@@ -54,8 +54,9 @@ TEST_P(EveryMethod, ClaimsWhatCanBeMeasured) {
   EXPECT_GE(facts.stability_limit, 0.0);
   const auto& claim = facts.through_impacts;
   EXPECT_NE(claim.behaviour, Behaviour::undecided);
-  EXPECT_EQ(claim.order == 0.0,
-            claim.behaviour == Behaviour::stagnating || claim.behaviour == Behaviour::divergent);
+  EXPECT_EQ(claim.order == 0.0, claim.behaviour == Behaviour::stagnating ||
+                                    claim.behaviour == Behaviour::divergent ||
+                                    claim.behaviour == Behaviour::exact);
   if (!claim.reason.empty()) {
     EXPECT_NE(find_code(claim.reason), nullptr);
   }
