@@ -31,7 +31,14 @@ class JoinedMethod final : public Method {
               ": the problem has a nonlinear force, and the step is exact for linear ones "
               "alone. Use newmark or rk4.",
           "linear-only"};
-    return treatment_->objection(joined, problem);
+    if (auto no = treatment_->objection(joined, problem)) return no;
+    if (joined.is_linear_only && treatment_->contact_time(problem) > 0.0)
+      return Objection{
+          joined.name +
+              ": the force of a compliant contact is nonlinear, and the step is exact for linear "
+              "ones alone. Use event-driven.",
+          "linear-only"};
+    return std::nullopt;
   }
   double contact_time(const model::ImpactProblem<>& problem) const override {
     return treatment_->contact_time(problem);

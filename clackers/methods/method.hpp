@@ -17,6 +17,7 @@ namespace clackers::methods {
 struct Facts {
   std::string name{};           ///< the specification: "generalized-alpha:rho=0.8+event-driven"
   double smooth_order = 0.0;    ///< of u and v while nothing collides
+  double dense_order = 0.0;     ///< of the output inside a step; 0: that of a step of its own
   bool is_adaptive = false;     ///< chooses its steps by a tolerance
   bool is_linear_only = false;  ///< takes no nonlinear force
   /// Largest omega h of undamped smooth motion; may be infinite. 0: it grows in every short step.
