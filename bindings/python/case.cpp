@@ -35,7 +35,7 @@ py::dict values(const std::vector<cases::Constant>& constants) {
 
 py::dict parameters(const Case& which) {
   py::dict all;
-  for (const auto& [name, value] : which.values) all[py::str(name)] = value;
+  for (const auto& [name, value] : which.values) all[py::str(name)] = double(value);
   return all;
 }
 

@@ -9,9 +9,38 @@
 #include "clackers/base/suggest.hpp"
 
 namespace clackers {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<Word>& words) {
+  std::vector<std::string> names;
+  for (const auto& word : words) names.push_back(word.name);
+  return names;
+}
+
+void check_kind(std::string_view owner, const Parameter& parameter, const ParameterValue& value) {
+  if (parameter.words.empty()) {
+    if (value.is_word())
+      refuse(owner, parameter.name, value.text(), parameter.allowed, "It is a number.",
+             "not-a-number");
+    return;
+  }
+  const auto names = names_of(parameter.words);
+  if (std::ranges::find(names, value.text()) == names.end())
+    refuse_name(fmt::format("{} of {}", parameter.name, owner), value.text(), names,
+                fmt::format("{}", fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+ParameterValue::operator double() const {
+  if (is_word()) throw std::logic_error(fmt::format("the parameter is \"{}\", no number", word_));
+  return number_;
+}
+
+std::string ParameterValue::text() const { return is_word() ? word_ : fmt::format("{}", number_); }
 
 std::string Parameter::default_text() const {
-  return default_words.empty() ? fmt::format("{}", default_value) : default_words;
+  return default_words.empty() ? default_value.text() : default_words;
 }
 
 Settings complete(std::string_view owner, std::span<const Parameter> parameters,
@@ -30,13 +59,15 @@ Settings complete(std::string_view owner, std::span<const Parameter> parameters,
                   fmt::format("{}{}clackers show {}{}", fmt::join(names, ", "),
                               names.empty() ? "" : " (", owner, names.empty() ? "" : ")"));
     if (std::ranges::find(given.begin(), setting, name, &Settings::value_type::first) != setting)
-      refuse(owner, name, value, "each parameter once", "It was set twice.", "bad-syntax");
-    values[static_cast<std::size_t>(place - names.begin())].second = value;
+      refuse(owner, name, value.text(), "each parameter once", "It was set twice.", "bad-syntax");
+    const auto index = static_cast<std::size_t>(place - names.begin());
+    check_kind(owner, parameters[index], value);
+    values[index].second = value;
   }
   return values;
 }
 
-double value_of(const Settings& settings, std::string_view name) {
+const ParameterValue& value_of(const Settings& settings, std::string_view name) {
   const auto found = std::ranges::find(settings, name, &Settings::value_type::first);
   if (found == settings.end())
     throw std::logic_error(fmt::format("no parameter \"{}\" among the settings", name));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -12,7 +13,14 @@
 namespace clackers::methods {
 namespace {
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_small_letter(char c) { return c >= 'a' && c <= 'z'; }
+bool is_letter(char c) { return is_small_letter(c) || (c >= 'A' && c <= 'Z'); }
+
+bool is_word(std::string_view text) {
+  return !text.empty() && is_small_letter(text.front()) && std::ranges::all_of(text, [](char c) {
+    return is_small_letter(c) || (c >= '0' && c <= '9') || c == '-';
+  });
+}
 
 class Parser {
  public:
@@ -63,19 +71,23 @@ class Parser {
     }
   }
 
-  std::pair<std::string, double> setting(std::string_view text) const {
+  std::pair<std::string, ParameterValue> setting(std::string_view text) const {
     const auto equals = text.find('=');
     if (equals == std::string_view::npos || equals == 0)
       refuse(fmt::format("\"{}\" is not parameter=value", text));
     const auto name = text.substr(0, equals);
-    return {std::string(name), number(name, text.substr(equals + 1))};
+    return {std::string(name), value(name, text.substr(equals + 1))};
   }
 
-  double number(std::string_view name, std::string_view text) const {
+  ParameterValue value(std::string_view name, std::string_view text) const {
     double value = 0.0;
     const auto* end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || rest != end || std::isnan(value))
+    if (error == std::errc::invalid_argument || rest != end) {
+      if (is_word(text)) return std::string(text);
+      refuse(fmt::format("{} = \"{}\" is neither a number nor a word", name, text), "not-a-number");
+    }
+    if (error != std::errc() || std::isnan(value))
       refuse(fmt::format("{} = \"{}\" is no number", name, text), "not-a-number");
     if (std::isinf(value))
       refuse(fmt::format("{} = \"{}\" is not finite", name, text), "not-finite");
@@ -96,9 +108,9 @@ std::string specification(std::string_view name, std::span<const Parameter> para
   std::string text(name);
   char mark = ':';
   for (const auto& parameter : parameters) {
-    const double value = value_of(values, parameter.name);
-    if (value == parameter.default_value || std::isnan(value)) continue;
-    text += fmt::format("{}{}={}", mark, parameter.name, value);
+    const auto& value = value_of(values, parameter.name);
+    if (value == parameter.default_value || (!value.is_word() && std::isnan(value))) continue;
+    text += fmt::format("{}{}={}", mark, parameter.name, value.text());
     mark = ',';
   }
   return text;

@@ -22,7 +22,8 @@ struct MethodSpecification {
 };
 
 /// Takes a specification apart; a "+" separates only before a letter, so 1e+6 is a number. Names are
-/// not looked up. Throws InputError for text outside the grammar and values that are no finite number.
+/// not looked up. Throws InputError for text outside the grammar and values that are neither a finite
+/// number nor a word: a small letter, then small letters, digits and hyphens.
 MethodSpecification parse_specification(std::string_view text);
 
 /// The reverse for one name: the parameters that differ from their default, those that are NaN left

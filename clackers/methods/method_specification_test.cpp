@@ -32,8 +32,22 @@ TEST(MethodSpecification, RefusesWhatIsOutsideTheGrammar) {
     EXPECT_REFUSED(parse_specification(text), "bad-syntax", "allowed: name:parameter=value");
 }
 
-TEST(MethodSpecification, RefusesValuesThatAreNoFiniteNumber) {
-  for (const char* text : {"a:b=x", "a:b=", "a:b=1x", "a:b=nan"})
+TEST(MethodSpecification, TakesWordsAsValues) {
+  const auto specification = parse_specification("newmark+penalty:law=kelvin-voigt,stiffness=1e6");
+  EXPECT_EQ(specification.contact->settings,
+            (Settings{{"law", "kelvin-voigt"}, {"stiffness", 1e6}}));
+  EXPECT_EQ(parse_specification("a:b=x2").first.settings, (Settings{{"b", "x2"}}));
+}
+
+TEST(MethodSpecification, WritesWordsThatDifferFromTheDefault) {
+  const std::vector<Parameter> law{
+      {"law", "linear", "", "", "", {}, {{"linear", ""}, {"hertz", ""}}}};
+  EXPECT_EQ(specification("penalty", law, {{"law", "hertz"}}), "penalty:law=hertz");
+  EXPECT_EQ(specification("penalty", law, {{"law", "linear"}}), "penalty");
+}
+
+TEST(MethodSpecification, RefusesValuesThatAreNeitherAFiniteNumberNorAWord) {
+  for (const char* text : {"a:b=", "a:b=1x", "a:b=nan", "a:b=X", "a:b=-x", "a:b=x_y", "a:b=1e999"})
     EXPECT_REFUSED(parse_specification(text), "not-a-number", "b = ");
   for (const char* text : {"a:b=inf", "a:b=-inf"})
     EXPECT_REFUSED(parse_specification(text), "not-finite", "not finite");

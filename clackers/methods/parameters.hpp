@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "clackers/base/parameter.hpp"
@@ -9,21 +10,35 @@
 
 namespace clackers::methods {
 
-/// A parameter that is a member of the value type T. The default is that of T{}, or NaN with the
-/// words for it. A type lists its fields in `T::fields()`.
+/// A parameter that is a member of the value type T: a number, or a name out of `words`, which then
+/// are what is allowed. The default is that of T{}, or NaN with the words for it. A type lists its
+/// fields in `T::fields()`.
 template <class T>
 struct Field {
   std::string_view name, allowed, meaning;
-  double T::*member;
+  std::variant<double T::*, std::string T::*> member;
   std::string_view default_words{};
+  std::vector<Word> words{};
+
+  ParameterValue get(const T& x) const {
+    if (const auto* number = std::get_if<double T::*>(&member)) return x.*(*number);
+    return x.*std::get<std::string T::*>(member);
+  }
+  void set(T& x, const ParameterValue& value) const {
+    if (const auto* number = std::get_if<double T::*>(&member))
+      x.*(*number) = value;
+    else
+      x.*std::get<std::string T::*>(member) = value.text();
+  }
 };
 
 template <class T>
 std::vector<Parameter> parameters_of() {
   std::vector<Parameter> all;
+  static const T standard{};
   for (const Field<T>& field : T::fields())
-    all.push_back({std::string(field.name), T{}.*field.member, "", std::string(field.allowed),
-                   std::string(field.meaning), std::string(field.default_words)});
+    all.push_back({std::string(field.name), field.get(standard), "", std::string(field.allowed),
+                   std::string(field.meaning), std::string(field.default_words), field.words});
   return all;
 }
 
@@ -33,7 +48,7 @@ template <class T>
 T configured(const Settings& given) {
   T x{};
   const auto values = complete(T::name, parameters_of<T>(), given);
-  for (const Field<T>& field : T::fields()) x.*field.member = value_of(values, field.name);
+  for (const Field<T>& field : T::fields()) field.set(x, value_of(values, field.name));
   x.validate();
   return x;
 }
@@ -43,7 +58,7 @@ T configured(const Settings& given) {
 template <class T>
 std::string specification(const T& x) {
   Settings values;
-  for (const Field<T>& field : T::fields()) values.emplace_back(field.name, x.*field.member);
+  for (const Field<T>& field : T::fields()) values.emplace_back(field.name, field.get(x));
   return specification(T::name, parameters_of<T>(), values);
 }
 

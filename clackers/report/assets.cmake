@@ -33,6 +33,7 @@ set(page
   ${report_dir}/page/convergence.vl.json
   ${report_dir}/page/history.vl.json
   ${report_dir}/page/work.vl.json
+  ${report_dir}/page/curves.vl.json
   ${report_dir}/page/profile.vl.json)
 
 set(CLACKERS_REPORT_ASSETS ${PROJECT_BINARY_DIR}/clackers_report_assets.cpp)

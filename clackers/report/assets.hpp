@@ -17,7 +17,7 @@ extern const std::string_view script_hashes;
 
 /// Vega-Lite specifications with "$placeholders".
 extern const std::string_view response_vl_json, convergence_vl_json, history_vl_json, work_vl_json,
-    profile_vl_json;
+    profile_vl_json, curves_vl_json;
 extern const std::string_view history_rows_vl_json;  ///< a layer for response_vl_json
 
 extern const std::string_view vega_min_js, vega_lite_min_js, vega_embed_min_js;

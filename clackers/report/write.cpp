@@ -14,6 +14,7 @@
 #include "clackers/report/junit/junit.hpp"
 #include "clackers/report/latex/latex.hpp"
 #include "clackers/report/rows/rows.hpp"
+#include "clackers/report/text/plot.hpp"
 #include "clackers/report/text/text.hpp"
 #include "clackers/study/record_json.hpp"
 
@@ -96,7 +97,10 @@ void write(std::span<const study::Sheet> sheets, std::string_view schema, Format
   for (const auto& sheet : sheets) {
     out << between;
     study::SheetRows rows(sheet);
-    write(rows, format, out, style);
+    if (sheet.curves && format == Format::table)
+      out << curves(sheet, style);
+    else
+      write(rows, format, out, style);
     between = "\n";
   }
 }

@@ -30,7 +30,7 @@ struct Style {
 /// columns and the rows, or NumPy's file. Numbers of csv and json read back to the same double.
 void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style = {});
 
-/// Several sheets, one below the other; json: one object whose "sheets" holds all. `schema` names
+/// Several sheets, one below the other, curves of tables as pictures of characters; json: one object whose "sheets" holds all. `schema` names
 /// it; `problem`, the text of a json object, stands in it as well unless it is empty.
 void write(std::span<const study::Sheet> sheets, std::string_view schema, Format format,
            std::ostream& out, const Style& style = {}, std::string_view problem = {});
@@ -48,6 +48,10 @@ void write_changes(const study::BaselineComparison& changes, std::ostream& out,
 
 /// A record as one self-contained page that opens without a network.
 std::string html(const study::Record& record, const study::BaselineComparison* changes = nullptr);
+
+/// Sheets as such a page: tables, texts, and figures of the curves; `name` is what they are about.
+std::string html(std::span<const study::Sheet> sheets, const std::string& name,
+                 const study::Provenance& from);
 
 /// The displacements as a picture of characters, masses marked 1 and 2, collisions on the axis.
 std::string plot(const study::Curve& response, std::span<const double> impact_times,

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -63,11 +65,19 @@ class NumberRows : public RowSource {
   std::size_t read_ = 0;  // of block_
 };
 
+/// How curves are drawn.
+struct Axes {
+  bool log_x = false, log_y = false;
+  double highest = std::numeric_limits<double>::infinity();  ///< what is above is cut off
+};
+
 /// Rows held in memory.
 struct Sheet {
   std::string schema, title;
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
+  /// The rows are points of curves over the first column: people see a figure instead of a table.
+  std::optional<Axes> curves{};
 };
 
 /// Reads a sheet row by row; the sheet must outlive it.

@@ -9,7 +9,9 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/listing.hpp"
+#include "clackers/study/provenance.hpp"
 #include "cli/command.hpp"
+#include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
 #include "cli/options.hpp"
 #include "cli/values.hpp"
@@ -20,7 +22,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> settings;
-  std::string name, threshold;
+  std::string name, threshold, report;
 };
 
 bool is_case(const std::string& name) {
@@ -58,7 +60,8 @@ std::vector<study::Sheet> sheets_of(const Options& options) {
   return study::show_method(options.name);
 }
 
-int run(const Options& options) {
+int run(const Options& options, const std::string& line) {
+  ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop);
   const auto sheets = sheets_of(options);
   // Only json has a place for it.
@@ -69,7 +72,9 @@ int run(const Options& options) {
   report::write(sheets, "clackers/show/1", results.format(), results.stream(), results.style(),
                 problem);
   results.finish();
-  return 0;
+  return !page.wanted() || page.write(report::html(sheets, options.name, study::provenance(line)))
+             ? 0
+             : 4;
 }
 
 }  // namespace
@@ -80,11 +85,14 @@ void add_show(Grammar& root) {
   set_help(
       *app,
       {.examples = "  clackers show three-parameter --set N=3,xi1=0.1\n"
-                   "  clackers show newmark:beta=0.25,gamma=0.5\n",
+                   "  clackers show newmark:beta=0.25,gamma=0.5\n"
+                   "  clackers show generalized-alpha:rho=0.8 --report page.html\n",
        .about = "Of a case: parameters, derived constants, the indicators I_ms, T_L, T_S and "
                 "I_OC, the admissibility margin, the conditioning and the first collisions. Of "
-                "a method: what it claims, its parameters and its card.",
-       .usage = "  clackers show CASE|METHOD [--set name=value,...] [--threshold x]\n"});
+                "a method: what it claims; period elongation, amplitude decay, spectral radius "
+                "and overshoot of its integrator; its parameters and its card.",
+       .usage = "  clackers show CASE|METHOD [--set name=value,...] [--threshold x]\n"
+                "                [--report FILE.html]\n"});
   app->add_option("NAME", options->name, "A case or a method. All names: clackers list.")
       ->option_text("CASE|METHOD");
   add_set_option(*app, options->settings);
@@ -93,8 +101,12 @@ void add_show(Grammar& root) {
                   "the spectral peak (T_S and I_OC depend on it); between 0 and 1, dimensionless. "
                   "Default: 0.1.")
       ->option_text("x");
+  app->add_option("--report", options->report,
+                  "Also write a page with the tables and figures that opens without a network, "
+                  "whole or not at all.")
+      ->writes_file("FILE.html");
   add_common_options(*app, options->common);
-  app->run = [options](const std::string&) { return run(*options); };
+  app->run = [options](const std::string& line) { return run(*options, line); };
 }
 
 }  // namespace clackers::cli

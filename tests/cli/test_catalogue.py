@@ -68,6 +68,20 @@ class Show(CommandTest):
         self.assertEqual(self.good("show", "--set", "N=3", "three-parameter"),
                          self.good("show", "three-parameter", "--set", "N=3"))
 
+    def test_a_method_has_its_curves_as_figures_and_as_numbers(self):
+        self.assertIn("Period elongation and amplitude decay of newmark", self.good("show", "newmark"))
+        sheets = {sheet["schema"]: sheet for sheet in self.json_of("show", "newmark+penalty")["sheets"]}
+        decay = sheets["clackers/accuracy/1"]
+        self.assertEqual([column["name"] for column in decay["columns"]], ["h/T", "period_elongation", "amplitude_decay"])
+        self.assertEqual(len(decay["rows"]), 40)
+
+    def test_writes_a_page(self):
+        for name in ("three-parameter", "newmark", "moreau-jean", "penalty"):
+            self.good("show", name, "--quiet", "--report", self.path("page.html"))
+            page = self.text_of("page.html")
+            self.assertIn(f"<h1>{name}</h1>", page)
+            self.assertIn("clackers show " + name, page)
+
     def test_takes_fractions(self):
         self.assertEqual(self.good("show", "sdof", "--set", "xi1=1/10"),
                          self.good("show", "sdof", "--set", "xi1=0.1"))

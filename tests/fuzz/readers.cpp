@@ -90,7 +90,8 @@ void read_specification(std::string_view bytes) {
   const auto terms = methods::parse_specification(bytes);
   require(!terms.first.name.empty(), "a specification has a name");
   for (const auto& [name, value] : terms.first.settings)
-    require(!name.empty() && std::isfinite(value), "a parameter has a name and a finite value");
+    require(!name.empty() && (value.is_word() || std::isfinite(double(value))),
+            "a parameter has a name and a finite value or a word");
   const auto method = methods::method(bytes);
   const auto again = methods::method(method->facts().name);
   require(again->facts().name == method->facts().name, "a method's name is its specification");
@@ -99,7 +100,8 @@ void read_specification(std::string_view bytes) {
 void read_settings(std::string_view bytes) {
   const auto settings = cli::read_settings({std::string(bytes)});
   require(!settings.empty(), "one setting a part");
-  for (const auto& [name, value] : settings) {
+  for (const auto& [name, setting] : settings) {
+    const double value = setting;
     require(!name.empty() && name.find('=') == std::string::npos, "a name holds no =");
     const auto text = bytes.substr(bytes.rfind('=') + 1);
     if (std::isfinite(value) && value == std::floor(value) && std::abs(value) < 1e15 &&

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "clackers/base/check.hpp"
-#include "clackers/methods/contact/impact_law.hpp"
+#include "clackers/methods/contact/contact_set.hpp"
 #include "clackers/methods/rows.hpp"
 #include "clackers/methods/stepping/time_loop.hpp"
 #include "clackers/numerics/roots.hpp"
@@ -110,13 +110,13 @@ std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& proble
     all.assign(problem.contacts.size(), stiffness);
     return all;
   }
-  const auto laws = impact_laws(problem);
-  for (const auto& law : laws) {
-    const auto i = first_touched(law.contact);
+  const ContactSet<Dof> contacts(problem);
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    const auto i = first_touched(problem.contacts[j]);
     // pi sqrt(m_e / k) <= 2 pi / omega / contacts_per_period, solved for k.
     const double shortest = 0.25 * contacts_per_period * contacts_per_period *
-                            fastest_squared(problem.system, law.contact) /
-                            law.inverse_effective_mass;
+                            fastest_squared(problem.system, problem.contacts[j]) /
+                            contacts.inverse_effective_mass(j);
     all.push_back(std::max(default_factor * problem.system.stiffness(i, i), shortest));
   }
   return all;
@@ -145,11 +145,11 @@ std::optional<Objection> Penalty::objection(const Facts& method,
 }
 
 double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
-  const auto laws = impact_laws(problem);
+  const ContactSet<model::any_dof> contacts(problem);
   const auto all = stiffnesses(problem);
   double shortest = 0.0;
-  for (std::size_t j = 0; j < laws.size(); ++j) {
-    const double time = std::numbers::pi / std::sqrt(all[j] * laws[j].inverse_effective_mass);
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    const double time = std::numbers::pi / std::sqrt(all[j] * contacts.inverse_effective_mass(j));
     shortest = j == 0 ? time : std::min(shortest, time);
   }
   return shortest;

@@ -84,6 +84,7 @@ Row row(const Member<Family>& member) {
                                     "",
                                     std::string(range.allowed),
                                     std::string(range.meaning),
+                                    {},
                                     {}});
   row.integrator = [member, parameters = row.entry.parameters](const Settings& given) {
     const auto settings = complete(member.name, parameters, given);

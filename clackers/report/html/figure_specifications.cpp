@@ -143,6 +143,24 @@ Json profile_specification(const std::vector<study::Profile>& profiles) {
                           counter_values(counters_of(profiles), "times the least "));
 }
 
+Json curves_specification(const study::Sheet& sheet, std::string_view name) {
+  const auto scale = [](bool is_log) {
+    Json axis{{"type", is_log ? "log" : "linear"}, {"nice", false}};
+    if (!is_log) axis["zero"] = false;
+    return axis;
+  };
+  std::vector<std::string> names;
+  for (std::size_t c = 1; c < sheet.columns.size(); ++c) names.push_back(sheet.columns[c].name);
+  auto specification =
+      specification_of(assets::curves_vl_json, names,
+                       {{"data", std::string(name)},
+                        {"x_scale", scale(sheet.curves->log_x)},
+                        {"y_scale", scale(sheet.curves->log_y)},
+                        {"x_title", sheet.columns[0].meaning},
+                        {"y_title", names.size() == 1 ? sheet.columns[1].meaning : "value"}});
+  return specification;
+}
+
 void rename_data(Json& specification, std::string_view suffix) {
   if (!specification.is_structured()) return;
   if (specification.is_object() && specification.contains("data"))

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "clackers/study/record.hpp"
+#include "clackers/study/sheet.hpp"
 
 namespace clackers::report {
 
@@ -16,6 +17,9 @@ nlohmann::ordered_json figure_specifications(const study::CaseRecord& problem);
 
 /// That of profiles over several cases, which name the methods.
 nlohmann::ordered_json profile_specification(const std::vector<study::Profile>& profiles);
+
+/// That of a sheet of curves, whose data set is `name`.
+nlohmann::ordered_json curves_specification(const study::Sheet& sheet, std::string_view name);
 
 /// Appends `suffix` to the names of the data sets, so that the figures of several cases can stand in
 /// one page.

@@ -11,13 +11,6 @@
 #include "clackers/report/markup.hpp"
 
 namespace clackers::report {
-namespace {
-
-// The words around a drawn figure, html. `rows` is the data set that its button CSV saves.
-struct FigureText {
-  std::string name, rows, title, caption, reading;
-  std::string choices;  ///< buttons of its own, before the tools
-};
 
 std::string figure_html(int& number, const Place& place, const FigureText& text) {
   return fill(assets::figure_html, {{"name", text.name + place.suffix},
@@ -34,6 +27,8 @@ std::string toggle(const std::string& series, const std::string& key, const std:
       "<button type=\"button\" data-series=\"{}\" aria-pressed=\"true\">{}{}</button>\n",
       escape(series), key, escape(text));
 }
+
+namespace {
 
 std::string small_key(std::string_view color, std::string_view shape) {
   return fmt::format(

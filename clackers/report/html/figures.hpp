@@ -7,6 +7,18 @@
 
 namespace clackers::report {
 
+/// The words around a drawn figure, html. `rows` is the data set that its button CSV saves.
+struct FigureText {
+  std::string name, rows, title, caption, reading;
+  std::string choices{};  ///< buttons of its own, before the tools
+};
+
+/// A figure in its frame.
+std::string figure_html(int& number, const Place& place, const FigureText& text);
+
+/// A button of a legend that shows or hides a series; `key` is html.
+std::string toggle(const std::string& series, const std::string& key, const std::string& text);
+
 /// The figures of a case: frames with captions, legends and tools. `number` counts the figures of the
 /// page and is raised.
 std::string figures_html(const study::CaseRecord& problem, const Place& place, int& number);

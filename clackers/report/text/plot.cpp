@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "clackers/base/error.hpp"
 #include "clackers/report/format.hpp"
+#include "clackers/report/text/plot.hpp"
 #include "clackers/report/text/table.hpp"
 #include "clackers/report/write.hpp"
 
@@ -15,8 +17,6 @@ namespace clackers::report {
 namespace {
 
 constexpr int margin = 10;  // for the numbers of the vertical axis
-constexpr int rows = 15;    // of characters, each four dots high and two wide
-
 struct Range {
   double lo = std::numeric_limits<double>::infinity();
   double hi = -std::numeric_limits<double>::infinity();
@@ -32,20 +32,21 @@ Range range_of(const std::vector<std::vector<double>>& curves) {
   return range;
 }
 
-/// Dots of braille characters, and which mass set each character last.
+/// Dots of braille characters, four high and two wide, and which curve set each character last.
 class Canvas {
  public:
-  explicit Canvas(int columns) : columns_(columns), cells_(std::size_t(columns * rows)) {}
+  Canvas(int columns, int rows)
+      : columns_(columns), rows_(rows), cells_(std::size_t(columns * rows)) {}
   int dots_wide() const { return 2 * columns_; }
-  static int dots_high() { return 4 * rows; }
+  int dots_high() const { return 4 * rows_; }
 
-  void set(int x, int y, int mass) {
+  void set(int x, int y, int curve) {
     constexpr int bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
     auto& cell = at(x, y);
     cell.dots |= bits[y % 4][x % 2];
-    cell.mass = mass;
+    cell.curve = curve;
   }
-  void label(int x, int y, int mass) { at(x, y) = {0, mass, char('1' + mass)}; }
+  void label(int x, int y, int curve) { at(x, y) = {0, curve, char('1' + curve)}; }
 
   std::string line(int row, const Style& style) const {
     constexpr TextColor colors[] = {TextColor::blue, TextColor::yellow};
@@ -53,14 +54,14 @@ class Canvas {
     for (int c = 0; c < columns_; ++c) {
       const auto& cell = cells_[std::size_t(row * columns_ + c)];
       const auto text = cell.label != 0 ? std::string(1, cell.label) : braille(cell.dots);
-      out += cell.mass < 0 ? text : colored(text, colors[cell.mass % 2], style);
+      out += cell.curve < 0 ? text : colored(text, colors[cell.curve % 2], style);
     }
     return out.substr(0, out.find_last_not_of(' ') + 1);
   }
 
  private:
   struct Cell {
-    int dots = 0, mass = -1;
+    int dots = 0, curve = -1;
     char label = 0;
   };
 
@@ -72,7 +73,7 @@ class Canvas {
     return {char(0xE2), char(0xA0 + (dots >> 6)), char(0x80 + (dots & 0x3F))};
   }
 
-  int columns_;
+  int columns_, rows_;
   std::vector<Cell> cells_;
 };
 
@@ -80,99 +81,149 @@ int dot_of(double value, const Range& range, int dots) {
   return int(std::lround((value - range.lo) / (range.hi - range.lo) * (dots - 1)));
 }
 
-void draw(Canvas& canvas, const std::vector<double>& t, const std::vector<double>& y, int mass,
+void draw(Canvas& canvas, const std::vector<double>& x, const std::vector<double>& y, int curve,
           const Range& across, const Range& up) {
-  const auto x_of = [&](double time) { return dot_of(time, across, canvas.dots_wide()); };
-  const auto y_of = [&](double u) {
-    return Canvas::dots_high() - 1 - dot_of(u, up, Canvas::dots_high());
+  const auto column = [&](double value) { return dot_of(value, across, canvas.dots_wide()); };
+  const auto row = [&](double value) {
+    return canvas.dots_high() - 1 - dot_of(value, up, canvas.dots_high());
   };
-  for (std::size_t next = 1; next < t.size(); ++next) {
+  for (std::size_t next = 1; next < x.size(); ++next) {
     const auto i = next - 1;
-    const int x0 = x_of(t[i]), x1 = x_of(t[next]), y0 = y_of(y[i]), y1 = y_of(y[next]);
+    if (std::isnan(y[i]) || std::isnan(y[next])) continue;
+    const int x0 = column(x[i]), x1 = column(x[next]), y0 = row(y[i]), y1 = row(y[next]);
     const int parts = std::max({std::abs(x1 - x0), std::abs(y1 - y0), 1});
     for (int k = 0; k <= parts; ++k)
-      canvas.set(x0 + (x1 - x0) * k / parts, y0 + (y1 - y0) * k / parts, mass);
+      canvas.set(x0 + (x1 - x0) * k / parts, y0 + (y1 - y0) * k / parts, curve);
   }
 }
 
-// Digits on the curves: the masses take turns along the axis.
-void label(Canvas& canvas, const std::vector<double>& t, const std::vector<std::vector<double>>& y,
+// Digits on the curves, which take turns along the axis.
+void label(Canvas& canvas, const std::vector<double>& x, const std::vector<std::vector<double>>& y,
            const Range& across, const Range& up) {
   constexpr int dots_apart = 24;
   std::size_t i = 0;
-  for (int x = dots_apart / 2, turn = 0; x < canvas.dots_wide(); x += dots_apart, ++turn) {
-    while (i + 1 < t.size() && dot_of(t[i], across, canvas.dots_wide()) < x) ++i;
-    const auto mass = std::size_t(turn) % y.size();
-    const int row = Canvas::dots_high() - 1 - dot_of(y[mass][i], up, Canvas::dots_high());
-    canvas.label(x, row, int(mass));
+  for (int dot = dots_apart / 2, turn = 0; dot < canvas.dots_wide(); dot += dots_apart, ++turn) {
+    while (i + 1 < x.size() && dot_of(x[i], across, canvas.dots_wide()) < dot) ++i;
+    const auto curve = std::size_t(turn) % y.size();
+    if (std::isnan(y[curve][i])) continue;
+    const int row = canvas.dots_high() - 1 - dot_of(y[curve][i], up, canvas.dots_high());
+    canvas.label(dot, row, int(curve));
   }
 }
 
-std::string axis(const Range& across, std::span<const double> impact_times, int columns) {
+std::string axis(const Range& across, std::span<const double> marks, int columns) {
   std::vector<std::string> cells(std::size_t(columns), "─");
-  for (const double t : impact_times)
-    if (t >= across.lo && t <= across.hi) cells[std::size_t(dot_of(t, across, columns))] = "▲";
+  for (const double x : marks)
+    if (x >= across.lo && x <= across.hi) cells[std::size_t(dot_of(x, across, columns))] = "▲";
   std::string out = std::string(margin - 1, ' ') + "└";
   for (const auto& cell : cells) out += cell;
   return out;
 }
 
-std::string tick_labels(const Range& across, int columns) {
+// A number of an axis; of a logarithmic one, `value` is the power of ten.
+std::string tick(double value, bool is_log, int digits, std::size_t width = 32) {
+  return short_number(is_log ? std::pow(10.0, value) : value, digits, width);
+}
+
+std::string tick_labels(const CharacterPlot& plot, const Range& across, int columns) {
   constexpr int ticks = 4;
   std::string out(std::size_t(margin + columns), ' ');
   for (int k = 0; k <= ticks; ++k) {
     const double value = across.lo + (across.hi - across.lo) * k / ticks;
-    const auto text = short_number(value, 4) + (k == ticks ? " s" : "");
+    const auto text = tick(value, plot.log_x, 4) + (k == ticks ? plot.x_unit : "");
     const int centre = margin + (columns - 1) * k / ticks - int(text.size()) / 2;
     const int last = int(out.size()) - int(text.size());
     out.replace(std::size_t(std::clamp(centre, 0, last)), text.size(), text);
   }
-  return out;
+  return out.substr(0, out.find_last_not_of(' ') + 1);
 }
 
-void require_curves(const study::Curve& response) {
-  bool fits = response.t.size() >= 2 && !response.y.empty() && response.y.size() <= 9;
-  for (const auto& y : response.y) fits = fits && y.size() == response.t.size();
+void require_curves(const CharacterPlot& plot) {
+  bool fits = plot.x.size() >= 2 && !plot.y.empty() && plot.y.size() <= 9;
+  for (const auto& y : plot.y) fits = fits && y.size() == plot.x.size();
   if (!fits)
-    refuse("plot", "response",
-           fmt::format("{} times, {} masses", response.t.size(), response.y.size()),
-           "at least two times and one to nine masses with a value a time", {}, "wrong-size");
+    refuse("plot", "curves", fmt::format("{} points, {} curves", plot.x.size(), plot.y.size()),
+           "at least two points and one to nine curves with a value a point", {}, "wrong-size");
+}
+
+void take_logarithms(CharacterPlot& plot) {
+  const auto log = [](std::vector<double>& values) {
+    for (double& value : values) value = std::log10(value);
+  };
+  if (plot.log_x) log(plot.x);
+  if (plot.log_y) std::ranges::for_each(plot.y, log);
 }
 
 }  // namespace
 
-std::string plot(const study::Curve& response, std::span<const double> impact_times,
-                 const Style& style) {
-  require_curves(response);
+std::string draw(CharacterPlot plot, const Style& style) {
+  require_curves(plot);
+  take_logarithms(plot);
   const int columns = std::max(style.width, margin + 20) - margin;
-  const Range across{response.t.front(), response.t.back()};
-  Range up = range_of(response.y);
-  if (!(up.hi > up.lo)) up = {up.lo - 1.0, up.lo + 1.0};  // a motion at rest stands in the middle
+  const Range across{plot.x.front(), plot.x.back()};
+  Range up = range_of(plot.y);
+  if (!(up.hi - up.lo > plot.least_height)) {  // what does not change stands in the middle
+    const double middle = std::isfinite(up.lo) ? 0.5 * (up.lo + up.hi) : 0.0;
+    up = {middle - 1.0, middle + 1.0};
+  }
 
-  Canvas canvas(columns);
-  for (std::size_t mass = response.y.size(); mass-- > 0;)
-    draw(canvas, response.t, response.y[mass], int(mass), across, up);
-  label(canvas, response.t, response.y, across, up);
+  Canvas canvas(columns, plot.rows);
+  for (std::size_t curve = plot.y.size(); curve-- > 0;)
+    draw(canvas, plot.x, plot.y[curve], int(curve), across, up);
+  label(canvas, plot.x, plot.y, across, up);
 
-  std::string title = "u [m] against t [s]; 1: mass 1";
-  if (response.y.size() > 1) title += ", 2: mass 2";
-  if (!impact_times.empty()) title += "; ▲ collision";
   std::string out;
-  for (const auto& line : wrap(title, std::size_t(columns)))
+  for (const auto& line : wrap(plot.title, std::size_t(columns)))
     out += std::string(margin, ' ') + line + '\n';
-  for (int row = 0; row < rows; ++row) {
+  for (int row = 0; row < plot.rows; ++row) {
     std::string number;
-    if (row % 7 == 0) {
-      const double share = double(row) / (rows - 1);
+    if (row % (plot.rows / 2) == 0) {
+      const double share = double(row) / (plot.rows - 1);
       const double value = up.hi + (up.lo - up.hi) * share;
       // The middle of a symmetric axis is zero up to rounding.
       const bool zero = std::abs(value) < 1e-12 * std::max(std::abs(up.lo), std::abs(up.hi));
-      number = (zero ? "0" : short_number(value, 3, margin - 4)) + " m";
+      number = tick(zero ? 0.0 : value, plot.log_y, 3, margin - 4) + plot.y_unit;
     }
     out += pad(number, margin - 2, true) + (number.empty() ? " │" : " ┤") +
            canvas.line(row, style) + '\n';
   }
-  return out + axis(across, impact_times, columns) + '\n' + tick_labels(across, columns) + '\n';
+  return out + axis(across, plot.marks, columns) + '\n' + tick_labels(plot, across, columns) + '\n';
+}
+
+std::string plot(const study::Curve& response, std::span<const double> impact_times,
+                 const Style& style) {
+  CharacterPlot picture{.title = "u [m] against t [s]; 1: mass 1",
+                        .x = response.t,
+                        .y = response.y,
+                        .marks = {impact_times.begin(), impact_times.end()},
+                        .x_unit = " s",
+                        .y_unit = " m"};
+  if (response.y.size() > 1) picture.title += ", 2: mass 2";
+  if (!impact_times.empty()) picture.title += "; ▲ collision";
+  return draw(std::move(picture), style);
+}
+
+std::string curves(const study::Sheet& sheet, const Style& style) {
+  const auto& axes = *sheet.curves;
+  CharacterPlot picture{.title = sheet.title + "; across: " + sheet.columns[0].name,
+                        .log_x = axes.log_x,
+                        .log_y = axes.log_y,
+                        .rows = 9,
+                        .least_height = 1e-6};
+  const auto number = [](const study::Cell& cell) {
+    const auto* value = std::get_if<double>(&cell);
+    return value != nullptr ? *value : std::numeric_limits<double>::quiet_NaN();
+  };
+  for (const auto& row : sheet.rows) picture.x.push_back(number(row[0]));
+  for (std::size_t c = 1; c < sheet.columns.size(); ++c) {
+    picture.title += fmt::format("{} {}: {}", c == 1 ? ";" : ",", c, sheet.columns[c].name);
+    auto& curve = picture.y.emplace_back();
+    for (const auto& row : sheet.rows) {
+      const double value = number(row[c]);
+      curve.push_back(value <= axes.highest ? value : std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  return draw(std::move(picture), style);
 }
 
 }  // namespace clackers::report

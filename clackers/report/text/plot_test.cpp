@@ -6,6 +6,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/testing/sample_record.hpp"
+#include "clackers/report/text/plot.hpp"
 #include "clackers/report/write.hpp"
 
 namespace clackers::report {
@@ -88,6 +89,38 @@ TEST(Plot, DrawsAMotionAtRestInTheMiddle) {
   const auto out = lines(plot({{0.0, 1.0}, {{0.25, 0.25}}}, {}));
   EXPECT_NE(out[8].find("0.25 m ┤"), std::string::npos);
   EXPECT_EQ(display_width(out[8]), 80u);
+}
+
+study::Sheet decay(study::Axes axes) {
+  return {"clackers/decay/1",
+          "Decay",
+          {{"h/T", "", ""}, {"slow", "", ""}, {"fast", "", ""}},
+          {{0.01, 1.0, 10.0}, {1.0, 10.0, {}}, {100.0, 100.0, 1e4}},
+          axes};
+}
+
+TEST(CurvesPlot, HasTheNamesOfTheCurvesAndLogarithmicAxes) {
+  const auto out = lines(curves(decay({.log_x = true, .log_y = true}), {}));
+  EXPECT_NE(out[0].find("Decay; across: h/T; 1: slow, 2: fast"), std::string::npos);
+  EXPECT_NE(out[1].find("1e4 ┤"), std::string::npos);  // the point of the second curve alone
+  EXPECT_NE(out[5].find("100 ┤"), std::string::npos);
+  EXPECT_NE(out[9].find("1 ┤⣀"), std::string::npos);
+  EXPECT_NE(out[11].find("0.01"), std::string::npos);
+  EXPECT_TRUE(out[11].ends_with("100"));
+}
+
+TEST(CurvesPlot, CutsOffWhatIsTooHigh) {
+  const auto out = lines(curves(decay({.log_x = true, .highest = 50.0}), {}));
+  EXPECT_NE(out[1].find("10 ┤"), std::string::npos);
+}
+
+TEST(CurvesPlot, DrawsACurveThatOnlyRoundingChangesAsALine) {
+  auto sheet = decay({});
+  sheet.columns.pop_back();
+  sheet.rows = {{0.0, 1.0}, {1.0, 1.0 + 1e-9}, {2.0, 1.0 - 1e-9}};
+  const auto out = lines(curves(sheet, {}));
+  EXPECT_NE(out[5].find("1 ┤"), std::string::npos);
+  EXPECT_EQ(display_width(out[5]), 80u);
 }
 
 TEST(Plot, RefusesWhatIsNoCurve) {

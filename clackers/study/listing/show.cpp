@@ -5,6 +5,7 @@
 
 #include "clackers/methods/registry.hpp"
 #include "clackers/study/listing.hpp"
+#include "clackers/study/listing/amplification.hpp"
 #include "clackers/study/listing/show_sheets.hpp"
 #include "clackers/study/program/problem_text.hpp"
 #include "clackers/study/respond.hpp"
@@ -121,6 +122,15 @@ std::vector<std::string> parts(std::string_view full_name) {
   return names;
 }
 
+// The integrator of a method; none of a method that brings its own integration.
+std::shared_ptr<const methods::Integrator> integrator_of(const std::string& method) {
+  const auto first = method.substr(0, method.find('+'));
+  for (const auto& entry : methods::entries())
+    if (entry.kind == "integrator" && entry.name == first.substr(0, first.find(':')))
+      return methods::integrator(first);
+  return nullptr;
+}
+
 }  // namespace
 
 std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
@@ -152,6 +162,8 @@ std::vector<Sheet> show_method(std::string_view specification) {
   }
   const auto facts = methods::method(specification)->facts();
   sheets.push_back(claim_sheet(facts));
+  if (const auto integrator = integrator_of(facts.name); integrator && !facts.is_adaptive)
+    for (auto& sheet : amplification_sheets(*integrator)) sheets.push_back(std::move(sheet));
   for (const auto& name : parts(facts.name)) {
     const auto entries = methods::entries();
     add_entry(sheets, *std::ranges::find(entries, name, &methods::Entry::name));

@@ -42,12 +42,14 @@ def main():
     pages = sources()
     rewriter = links.Links(ROOT, {path: page for page, path in pages.items()}, out / "files")
     texts = {page: rewriter.rewrite(path, page) for page, path in pages.items()}
-    texts.update(generated.pages(command.Command(options.command)))
+    program = command.Command(options.command)
+    texts.update(generated.pages(program))
     texts.update(api.pages())
     texts["explanation/decisions/index.md"] = decisions_index(pages)
     for page, text in texts.items():
         (out / page).parent.mkdir(parents=True, exist_ok=True)
         (out / page).write_text(text)
+    generated.draw_figures(program, out)
     rewriter.copy_pictures(out)
     modules.draw(ROOT / "layers.txt", ROOT / "clackers", out / "_static" / "modules.svg")
 

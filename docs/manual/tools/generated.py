@@ -1,7 +1,12 @@
 """Reference pages that the command generates: cases, methods, metrics, codes, columns and the commands."""
+import pathlib
 import re
+import subprocess
+import tempfile
 
 COMMANDS_LINE = re.compile(r"^  clackers ([a-z]+) ", re.MULTILINE)
+# Sheets of curves, by their schema, drawn as figures by figures.mjs.
+FIGURES = ("accuracy", "spectral-radius", "overshoot")
 CARD_WORDS = ("Order", "Stability", "Dissipation", "Memory", "Cost", "Source")
 
 
@@ -46,7 +51,19 @@ def card(text):
     return "\n\n".join(out) + "\n\n" + table(["fact", ""], block, code_column=-1)
 
 
-def method_page(command, row):
+def measured(record, name):
+    """What `verify --all` measured of the methods with this part: a row each."""
+    rows = []
+    for subject in record["cases"][0]["subjects"]:
+        parts = [part.split(":")[0] for part in subject["name"].split("+")]
+        if name in parts and subject.get("assessment"):
+            found = subject["assessment"]["displacement"]
+            rows.append([subject["name"], found["behaviour"], f"{found['order']:.2f}" if found["has_line"] else "",
+                         subject["assessment"]["verdict"]])
+    return table(["method", "behaviour", "order", "against its claim"], rows)
+
+
+def method_page(command, row, record):
     name, kind, _, summary = row
     specification = f"newmark+{name}" if kind == "contact" else name
     sheets = command.json("show", specification)["sheets"]
@@ -59,19 +76,36 @@ def method_page(command, row):
             out.append("## Parameters\n\n" + sheet_table(sheet))
         if sheet["schema"] == "clackers/facts/1":
             out.append(f"## Claims of `{sheet['title']}`\n\n" + sheet_table(sheet))
+    curves = [sheet for sheet in sheets if sheet["schema"].split("/")[1] in FIGURES]
+    if kind == "integrator" and curves:
+        out.append("## Free vibration\n")
+        out += [f"![{cell(sheet['title'])}]({name}-{sheet['schema'].split('/')[1]}.svg)\n" for sheet in curves]
+    out.append("## Measured through impacts\n\nOn the default case, by `clackers verify --all`.\n\n" + measured(record, name))
     out.append(f"`{shown}` prints the same, from the card in the method's header.\n")
     return "\n".join(out)
 
 
 def methods(command):
     listed = command.json("list", "methods")
-    texts = {f"reference/methods/{row[0]}.md": method_page(command, row) for row in listed["rows"]}
+    record = command.json("verify", "--all", "--quiet")
+    texts = {f"reference/methods/{row[0]}.md": method_page(command, row, record) for row in listed["rows"]}
     pairs = command.json("list", "pairs")
     texts["reference/methods/index.md"] = (
         "# Methods\n\nA method is an integrator and a contact treatment joined by `+`, or a method that needs no separate "
         "treatment. Without `+contact` the treatment is `event-driven`.\n\n" + toctree(row[0] for row in listed["rows"]) +
         "\n## In one table\n\n" + sheet_table(listed) + "\n## All pairs and what they claim\n\n" + sheet_table(pairs))
     return texts
+
+
+def draw_figures(command, out):
+    """The figures of the integrators beside their pages."""
+    with tempfile.TemporaryDirectory() as folder:
+        pages = []
+        for row in command.json("list", "integrators")["rows"]:
+            pages.append(f"{folder}/{row[0]}.html")
+            command.text("show", row[0], "--report", pages[-1], "--quiet")
+        subprocess.run(["node", pathlib.Path(__file__).with_name("figures.mjs"), out / "reference" / "methods", *pages],
+                       check=True)
 
 
 def cases(command):

@@ -1,0 +1,63 @@
+#include "clackers/numerics/realization.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+
+#include "clackers/base/testing/refusal.hpp"
+
+namespace clackers::numerics {
+namespace {
+
+std::vector<Eigen::MatrixXd> iterates(const Eigen::MatrixXd& map, const Eigen::MatrixXd& outputs,
+                                      Eigen::MatrixXd state, int count) {
+  std::vector<Eigen::MatrixXd> samples;
+  for (int k = 0; k < count; ++k) {
+    samples.push_back(outputs * state);
+    state = map * state;
+  }
+  return samples;
+}
+
+double distance(const std::vector<std::complex<double>>& found, std::complex<double> eigenvalue) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& one : found) least = std::min(least, std::abs(one - eigenvalue));
+  return least;
+}
+
+TEST(Realization, FindsTheEigenvaluesOfAMapThatIsSeenInPart) {
+  // A rotation by 1 radian that shrinks by 0.9, and two real modes, behind a change of basis.
+  Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(4, 4);
+  modes.topLeftCorner(2, 2) << 0.9 * std::cos(1.0), -0.9 * std::sin(1.0), 0.9 * std::sin(1.0),
+      0.9 * std::cos(1.0);
+  modes(2, 2) = -0.5;
+  modes(3, 3) = 0.1;
+  Eigen::MatrixXd basis(4, 4), outputs(2, 4), starts(4, 2);
+  basis << 1, 2, 0, 1, 0, 1, 3, 1, 2, 0, 1, 1, 1, 1, 1, 3;
+  outputs << 1, 0, 0, 0, 0, 1, 0, 0;
+  starts << 1, 0, 0, 1, 1, 1, 0, 1;
+  const auto found =
+      eigenvalues_of_iterates(iterates(basis * modes * basis.inverse(), outputs, starts, 15));
+  EXPECT_EQ(found.size(), 4u);
+  for (const auto& one : {std::polar(0.9, 1.0), std::polar(0.9, -1.0),
+                          std::complex<double>(-0.5, 0.0), std::complex<double>(0.1, 0.0)})
+    EXPECT_LT(distance(found, one), 1e-9) << one;
+}
+
+TEST(Realization, FindsNothingInZeros) {
+  EXPECT_TRUE(eigenvalues_of_iterates(std::vector(5, Eigen::MatrixXd(Eigen::MatrixXd::Zero(2, 2))))
+                  .empty());
+}
+
+TEST(Realization, RefusesTooFewUnlikeAndInfiniteSamples) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2),
+                        wide = Eigen::MatrixXd::Identity(2, 3),
+                        infinite = one * std::numeric_limits<double>::infinity();
+  for (const auto& samples : {std::vector{one, one}, {one, one, wide}, {one, one, infinite}})
+    EXPECT_REFUSED(eigenvalues_of_iterates(samples), "out-of-range", "three finite matrices");
+}
+
+}  // namespace
+}  // namespace clackers::numerics

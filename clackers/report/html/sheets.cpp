@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "clackers/report/html/figure_data.hpp"
+#include "clackers/report/html/figure_specifications.hpp"
+#include "clackers/report/html/figures.hpp"
+#include "clackers/report/html/page.hpp"
+#include "clackers/report/html/plot_style.hpp"
+#include "clackers/report/html/tables.hpp"
+#include "clackers/report/markup.hpp"
+#include "clackers/report/write.hpp"
+
+namespace clackers::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// "clackers/spectral-radius/1": "spectral-radius".
+std::string name_of(const study::Sheet& sheet) {
+  const auto first = sheet.schema.find('/') + 1;
+  return sheet.schema.substr(first, sheet.schema.rfind('/') - first);
+}
+
+std::string cell_html(const study::Cell& cell) {
+  if (const auto* real = std::get_if<double>(&cell)) return html_number(*real, 6);
+  if (const auto* whole = std::get_if<long long>(&cell)) return html_count(*whole);
+  if (const auto* text = std::get_if<std::string>(&cell)) return escape(*text);
+  return {};
+}
+
+bool is_text(const study::Sheet& sheet) {
+  return sheet.columns.size() == 1 && sheet.rows.size() == 1 &&
+         std::holds_alternative<std::string>(sheet.rows[0][0]);
+}
+
+std::string table_html(const study::Sheet& sheet) {
+  if (is_text(sheet))
+    return fmt::format("<pre tabindex=\"0\">{}</pre>\n", cell_html(sheet.rows[0][0]));
+  std::vector<HtmlColumn> columns;
+  for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
+    const auto is_number = [&](const auto& row) {
+      return row[c].index() == 1 || row[c].index() == 2;
+    };
+    columns.push_back(
+        {sheet.columns[c].name, sheet.columns[c].unit, std::ranges::any_of(sheet.rows, is_number)});
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& row : sheet.rows) {
+    auto& cells = rows.emplace_back();
+    for (const auto& cell : row) cells.push_back(cell_html(cell));
+  }
+  return html_table(sheet.title, {}, columns, rows);
+}
+
+// A row a point that has a value and is not cut off.
+Json points(const study::Sheet& sheet) {
+  Json rows = Json::array();
+  for (std::size_t c = 1; c < sheet.columns.size(); ++c)
+    for (const auto& row : sheet.rows) {
+      const auto *x = std::get_if<double>(&row[0]), *y = std::get_if<double>(&row[c]);
+      if (x != nullptr && y != nullptr && *y <= sheet.curves->highest)
+        rows.push_back({{"series", sheet.columns[c].name}, {"x", rounded(*x)}, {"y", rounded(*y)}});
+    }
+  return rows;
+}
+
+std::string legend(const study::Sheet& sheet) {
+  if (sheet.columns.size() < 3) return {};
+  auto out = fmt::format(
+      "<div class=\"legend\" role=\"group\" aria-label=\"Curves shown\" data-legend=\"{}\">\n",
+      name_of(sheet));
+  for (std::size_t c = 1; c < sheet.columns.size(); ++c)
+    out += toggle(sheet.columns[c].name, key_svg(plot_style(c - 1)), sheet.columns[c].name);
+  return out + "</div>\n";
+}
+
+FigureText figure_of(const study::Sheet& sheet) {
+  std::string reading;
+  for (std::size_t c = 1; c < sheet.columns.size(); ++c)
+    reading += fmt::format("{}{}: {}", c == 1 ? "" : "; ", escape(sheet.columns[c].name),
+                           escape(sheet.columns[c].meaning));
+  if (std::isfinite(sheet.curves->highest))
+    reading += fmt::format(". Values above {} are cut off", html_number(sheet.curves->highest, 3));
+  const auto name = name_of(sheet);
+  return {name,
+          name,
+          escape(sheet.title),
+          fmt::format("Against the {}.", escape(sheet.columns[0].meaning)),
+          reading + ". A curve ends where the quantity has no meaning.",
+          legend(sheet)};
+}
+
+}  // namespace
+
+std::string html(std::span<const study::Sheet> sheets, const std::string& name,
+                 const study::Provenance& from) {
+  Page page;
+  page.command = "show";
+  page.title = "clackers: " + name;
+  page.heading = escape(name);
+  page.data = page.specifications = Json::object();
+  int number = 1;
+  for (const auto& sheet : sheets) {
+    if (sheet.curves) {
+      page.data[name_of(sheet)] = points(sheet);
+      page.specifications[name_of(sheet)] = curves_specification(sheet, name_of(sheet));
+      if (number == 1) page.sections.push_back({"figures", "Figures", "Figures", {}});
+      auto& figures = *std::ranges::find(page.sections, "figures", &PageSection::id);
+      figures.html += figure_html(number, {}, figure_of(sheet));
+    } else {
+      const auto section = name_of(sheet);
+      auto link = section;
+      link[0] = char(std::toupper(static_cast<unsigned char>(link[0])));
+      page.sections.push_back({fmt::format("{}-{}", section, page.sections.size() + 1), link,
+                               sheet.title, table_html(sheet)});
+    }
+  }
+  page.sections.push_back({"again", "Run again", "Run it again", again_html(from)});
+  return page_html(page, from);
+}
+
+}  // namespace clackers::report

@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "clackers/report/markup.hpp"
+#include "clackers/report/write.hpp"
+
+namespace clackers::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<study::Sheet> sheets() {
+  return {{"clackers/facts/1", "Facts", {{"name", "", ""}, {"value", "m", ""}}, {{"a<b", 0.25}}},
+          {"clackers/card/1", "Card", {{"card", "", ""}}, {{"u1 = u0 & v0"}}},
+          {"clackers/decay/1",
+           "Decay",
+           {{"h/T", "", "step"}, {"slow", "", "one"}, {"fast", "", "other"}},
+           {{0.1, 1.0, 0.5}, {1.0, 2.0, {}}, {10.0, 4.0, 0.25}},
+           study::Axes{.log_x = true, .highest = 3.0}}};
+}
+
+// What stands in the script element `id` of the page.
+Json embedded(const std::string& page, const std::string& id) {
+  const auto head = "<script type=\"application/json\" id=\"" + id + "\">";
+  const auto from = page.find(head) + head.size();
+  return Json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+TEST(SheetsPage, HasTablesTextsAndTheCommand) {
+  study::Provenance from;
+  from.command = "clackers show newmark";
+  const auto page = html(sheets(), "newmark", from);
+  for (const auto* part : {"a&lt;b", "0.25", "u1 = u0 &amp; v0", "clackers show newmark"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+TEST(SheetsPage, DrawsThePointsThatHaveAValueAndAreNotCutOff) {
+  const auto page = html(sheets(), "newmark", {});
+  EXPECT_EQ(embedded(page, "data")["decay"],
+            Json::parse(R"([{"series":"slow","x":0.1,"y":1.0},{"series":"slow","x":1.0,"y":2.0},
+                            {"series":"fast","x":0.1,"y":0.5},{"series":"fast","x":10.0,"y":0.25}])"));
+  const auto drawn = embedded(page, "specifications")["decay"];
+  EXPECT_EQ(drawn["data"]["name"], "decay");
+  EXPECT_EQ(drawn["encoding"]["x"]["scale"]["type"], "log");
+  EXPECT_EQ(drawn["encoding"]["y"]["scale"]["type"], "linear");
+  EXPECT_EQ(drawn["encoding"]["color"]["scale"]["domain"], Json({"slow", "fast"}));
+  EXPECT_EQ(drawn.dump().find("\"$"), drawn.dump().find("\"$schema"));  // no placeholder is left
+}
+
+TEST(SheetsPage, HasALegendForSeveralCurvesOnly) {
+  auto all = sheets();
+  EXPECT_NE(html(all, "newmark", {}).find("data-legend=\"decay\""), std::string::npos);
+  all[2].columns.pop_back();
+  for (auto& row : all[2].rows) row.pop_back();
+  EXPECT_EQ(html(all, "newmark", {}).find("data-legend=\"decay\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clackers::report
