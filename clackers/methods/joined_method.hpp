@@ -31,14 +31,8 @@ class JoinedMethod final : public Method {
               ": the problem has a nonlinear force, and the step is exact for linear ones "
               "alone. Use newmark or rk4.",
           "linear-only"};
-    if (auto no = treatment_->objection(joined, problem)) return no;
-    if (joined.is_linear_only && treatment_->contact_time(problem) > 0.0)
-      return Objection{
-          joined.name +
-              ": the force of a compliant contact is nonlinear, and the step is exact for linear "
-              "ones alone. Use event-driven.",
-          "linear-only"};
-    return std::nullopt;
+    if (auto no = treatment_->objection_to(joined)) return no;
+    return treatment_->objection(joined, problem);
   }
   double contact_time(const model::ImpactProblem<>& problem) const override {
     return treatment_->contact_time(problem);

@@ -24,11 +24,22 @@ struct Facts {
   double stability_limit = 0.0;
   /// Spectral radius at infinite omega h; NaN where not every step is stable, or it is not known.
   double radius_at_infinity = std::numeric_limits<double>::quiet_NaN();
+  /// The orders are those of motion under a load; without one every step is exact to rounding.
+  bool is_exact_without_load = false;
   Claim through_impacts{};  ///< of an integrator alone: nothing
   bool reports_impacts = true;
 
   bool is_unconditionally_stable() const { return std::isinf(stability_limit); }
 };
+
+/// What a method claims on a problem: through impacts or, where nothing collides, in smooth motion.
+inline Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool collides) {
+  const Claim claim =
+      collides ? facts.through_impacts : Claim{Behaviour::proper, facts.smooth_order, {}};
+  const bool is_exact = facts.is_exact_without_load && !problem.system.add_load;
+  return is_exact && claim.behaviour == Behaviour::proper ? Claim{Behaviour::exact, 0.0, {}}
+                                                          : claim;
+}
 
 /// Why a method cannot take a problem.
 struct Objection {

@@ -160,6 +160,25 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, testing::ValuesIn(pairs()), [](c
   return name;
 });
 
+TEST(Registry, RefusesThePairsItLeavesOutWithAReason) {
+  const auto all = pairs();
+  int refused = 0;
+  for (const auto& one : entries())
+    for (const auto& other : entries()) {
+      if (one.kind != "integrator" || other.kind != "contact") continue;
+      const auto name = one.name + '+' + other.name;
+      const auto no = method(name)->objection(row_of(2, 1.0));
+      const bool is_taken = std::ranges::find(all, name) != all.end();
+      if (is_taken) continue;
+      ASSERT_TRUE(no) << name;
+      EXPECT_EQ(no->sentence.find(name), 0u) << no->sentence;
+      EXPECT_TRUE(no->code == Code("integrator-not-taken") || no->code == Code("linear-only"));
+      expect_refused_as_objected(*method(name), row_of(2, 1.0), *no);
+      ++refused;
+    }
+  EXPECT_GT(refused, 0);
+}
+
 TEST(Registry, HasMethodsForTheDefaultPanel) {
   for (const auto& name : default_panel())
     EXPECT_FALSE(method(name)->objection(row_of(2, 1.0))) << name;

@@ -42,6 +42,8 @@ struct Penalty {
   /// Throws InputError unless 0 < stiffness < infinity, or NaN.
   void validate() const;
   Claim claim(const Facts& integrator) const;
+  /// To those of linear motion alone.
+  std::optional<Objection> objection_to(const Facts& method) const;
   std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const;
   /// The shortest of the contacts' [s]; 0 without contacts.

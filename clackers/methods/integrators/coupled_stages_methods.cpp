@@ -44,7 +44,8 @@ Facts ExactFlow::facts() const {
   return {.smooth_order = 4.0,
           .is_linear_only = true,
           .stability_limit = always,
-          .radius_at_infinity = 1.0};
+          .radius_at_infinity = 1.0,
+          .is_exact_without_load = true};
 }
 
 std::vector<Row> coupled_stages_methods() {

@@ -29,12 +29,6 @@ void require_steps(const RefinementPlan& plan, double end) {
 
 Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
 
-// While nothing collides a method is held to its smooth order, not to what it does at impacts.
-Claim claim_of(const methods::Facts& facts, bool collides) {
-  if (collides) return facts.through_impacts;
-  return {Behaviour::proper, facts.smooth_order, {}};
-}
-
 PlannedMethod planned(const std::string& specification, const model::ImpactProblem<>& problem,
                       bool collides) {
   PlannedMethod planned;
@@ -44,7 +38,7 @@ PlannedMethod planned(const std::string& specification, const model::ImpactProbl
   planned.order = facts.smooth_order;
   auto& subject = planned.subject;
   subject.name = short_name(facts.name);
-  subject.claim = claim_of(facts, collides);
+  subject.claim = methods::claim_on(facts, problem, collides);
   if (facts.is_adaptive) {
     subject.resolution = Resolution::tolerance;
     // The estimate falls with the power of the step that the error over a run does.
