@@ -108,8 +108,12 @@ class EventDriven::Loop {
       if (t1 > from_.t) now = stepper().partial(from_, t1 - from_.t);
       now.t = t1;
     }
+    if (passes_through(now, is_changed))
+      return ended(out.fail("too-many-impacts", from_.t,
+                            "impacts accumulate, closer than rounding of the time can separate"));
     if (!is_changed) return Handled::unchanged;
-    return finish_step(now, out) ? Handled::changed : Handled::ended;
+    stepper().restart(now);
+    return Handled::changed;
   }
 
  private:
@@ -140,17 +144,16 @@ class EventDriven::Loop {
     return true;
   }
 
-  // The end of a step with events.
-  bool finish_step(const State& now, Recorder<Dof>& out) {
-    // Flights shorter than the rounding of time end before they are seen to reverse: going on would
-    // let the structure pass through the contact.
+  // Flights shorter than the rounding of time end before they are seen to reverse: going on would let
+  // the structure pass through the contact. Without an event in the step it was in one before, which
+  // left a contact violated.
+  bool passes_through(const State& now, bool has_event) const {
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       if (!constrained_.is_active(i) && !is_suppressed_[i] && contacts_.gap_rate(i, now.v) < 0.0 &&
-          contacts_.gap(i, now.u) < -contacts_.rounding(i, now.u))
-        return out.fail("too-many-impacts", from_.t,
-                        "impacts accumulate, closer than rounding of the time can separate");
-    stepper().restart(now);
-    return true;
+          contacts_.gap(i, now.u) < -contacts_.rounding(i, now.u) &&
+          (has_event || contacts_.gap(i, from_.u) < -contacts_.rounding(i, from_.u)))
+        return true;
+    return false;
   }
 
   // Moves from_ to the later side of an event between it and `now`. False: the run ends.
