@@ -28,14 +28,18 @@ struct Facts {
   bool is_exact_without_load = false;
   Claim through_impacts{};  ///< of an integrator alone: nothing
   bool reports_impacts = true;
+  /// Of a compliant contact: the error of its model falls as stiffness^-model_order where it models
+  /// the restitution; 0 for rigid contact.
+  double model_order = 0.0;
 
   bool is_unconditionally_stable() const { return std::isinf(stability_limit); }
 };
 
 /// What a method claims on a problem: through impacts or, where nothing collides, in smooth motion.
 inline Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool collides) {
+  const bool is_of_impacts = collides || facts.through_impacts.behaviour == Behaviour::exact;
   const Claim claim =
-      collides ? facts.through_impacts : Claim{Behaviour::proper, facts.smooth_order, {}};
+      is_of_impacts ? facts.through_impacts : Claim{Behaviour::proper, facts.smooth_order, {}};
   const bool is_exact = facts.is_exact_without_load && !problem.system.add_load;
   return is_exact && claim.behaviour == Behaviour::proper ? Claim{Behaviour::exact, 0.0, {}}
                                                           : claim;

@@ -70,6 +70,10 @@ class TypedTreatment final : public Treatment {
     else
       return std::nullopt;
   }
+  double model_order() const override {
+    if constexpr (requires { treatment_.model_order(); }) return treatment_.model_order();
+    return 0.0;
+  }
   std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const override {
     return treatment_.objection(method, problem);

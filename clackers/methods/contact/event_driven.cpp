@@ -35,6 +35,7 @@ class EventDriven::Loop {
         constrained_stepper_(integrator.stepper(constrained_.system(), plan)),
         h_(plan.is_adaptive() ? plan.end - plan.start : plan.h),
         is_suppressed_(contacts_.size(), false),
+        is_struck_(contacts_.size(), false),
         from_(problem_.start),
         v_before_(problem_.start.v),
         impulses_(contacts_.no_impulses()),
@@ -82,6 +83,7 @@ class EventDriven::Loop {
   Handled handle(const State& before, State& now, Recorder<Dof>& out) {
     const double t1 = now.t;
     is_suppressed_.assign(is_suppressed_.size(), false);
+    is_struck_.assign(is_struck_.size(), false);
     from_ = before;
     if (!(before.t < counted_until_)) {
       counted_until_ = t1;
@@ -149,9 +151,10 @@ class EventDriven::Loop {
   // left a contact violated.
   bool passes_through(const State& now, bool has_event) const {
     for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (!constrained_.is_active(i) && !is_suppressed_[i] && contacts_.gap_rate(i, now.v) < 0.0 &&
-          contacts_.gap(i, now.u) < -contacts_.rounding(i, now.u) &&
-          (has_event || contacts_.gap(i, from_.u) < -contacts_.rounding(i, from_.u)))
+      if ((is_struck_[i] ||
+           (!has_event && contacts_.gap(i, from_.u) < -contacts_.rounding(i, from_.u))) &&
+          !constrained_.is_active(i) && !is_suppressed_[i] && contacts_.gap_rate(i, now.v) < 0.0 &&
+          contacts_.gap(i, now.u) < -contacts_.rounding(i, now.u))
         return true;
     return false;
   }
@@ -167,7 +170,7 @@ class EventDriven::Loop {
         is_suppressed_[i] = true;
         return true;
       }
-    } else if (!(contacts_.gap_rate(i, from_.v) < 0.0)) {
+    } else if (!(contacts_.gap_rate(i, from_.v) < -contacts_.rate_rounding(i, from_.v))) {
       // Gap and rate of the step map disagree by its error: grazing, where no impulse is defined.
       // Where the motion does not leave this instant, the contact is watched again after the next
       // event, or from the end of the step.
@@ -240,9 +243,12 @@ class EventDriven::Loop {
     });
     v_before_ = from_.v;
     if (const auto no = contacts_.impact(closed_, from_.v, impulses_)) return fail(*no, out);
-    for (const auto i : closed_)
-      if (const double impulse = impulses_[static_cast<Eigen::Index>(i)]; impulse > 0.0)
-        if (!out.impact(from_, static_cast<int>(i), v_before_, impulse)) return false;
+    for (const auto i : closed_) {
+      const double impulse = impulses_[static_cast<Eigen::Index>(i)];
+      if (!(impulse > 0.0)) continue;
+      is_struck_[i] = true;
+      if (!out.impact(from_, static_cast<int>(i), v_before_, impulse)) return false;
+    }
     std::erase_if(closed_, [&](std::size_t i) { return !is_resting_after_impact(i); });
     return decide(from_, out);
   }
@@ -301,7 +307,7 @@ class EventDriven::Loop {
   ConstrainedSystem<Dof> constrained_;
   std::unique_ptr<AnyStepper<Dof>> free_stepper_, constrained_stepper_;
   double h_;
-  std::vector<bool> is_suppressed_;
+  std::vector<bool> is_suppressed_, is_struck_;  // in this step
   State from_;
   Vector v_before_;
   Eigen::VectorXd impulses_;

@@ -205,7 +205,7 @@ class MotionEquation {
 
   const model::SmoothSystem<Dof>& s_;
   Solver mass_;
-  Vector r_, u_, v_, magnitude_, term_;
+  Vector r_, u_, v_, magnitude_, term_, correction_;
   Vector point_, part_, stage_u_, stage_v_;
   Matrix matrix_, dp_du_, dp_dv_, by_chord_, other_;
   Matrix by_u_, by_v_;  // -M^-1 K and -M^-1 C: a = by_u u + by_v v
