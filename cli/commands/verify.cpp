@@ -15,6 +15,7 @@
 #include "clackers/base/suggest.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/study/listing.hpp"
+#include "clackers/study/program.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/verify_programs.hpp"
 #include "cli/files/record_output.hpp"
@@ -61,6 +62,8 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
     request.budget = read_duration("--budget", options.budget);
   else if (options.levels.empty())
     request.budget = default_budget;
+  const auto& tolerances = options.programs.tolerances;
+  if (!tolerances.empty()) request.tolerances = study::tolerances_from(tolerances);
   request.jobs = whole("--jobs", options.jobs, 1, request.jobs);
   request.command = line;
   if (options.programs.any()) plan = program_plan(plan, !options.neighbours.empty());
