@@ -30,7 +30,7 @@ Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c
 
 // While nothing collides a method is held to its smooth order, not to what it does at impacts.
 Claim claim_of(const methods::Facts& facts, bool collides) {
-  if (collides) return facts.through_impacts;
+  if (collides || facts.through_impacts.behaviour == Behaviour::exact) return facts.through_impacts;
   return {Behaviour::proper, facts.smooth_order, {}};
 }
 
@@ -48,6 +48,8 @@ PlannedMethod planned(const std::string& specification, const model::ImpactProbl
     subject.refusal_code = objection->code.name();
   } else if (collides) {
     subject.contact_time = planned.method->contact_time(problem);
+    constexpr double of_linear_spring = 0.5;
+    if (facts.model_order == of_linear_spring) planned.spring_time = subject.contact_time;
   }
   return planned;
 }
