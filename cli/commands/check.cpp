@@ -144,7 +144,7 @@ void add_check(Grammar& root) {
                   "stagnating or divergent.")
       ->option_text("BEHAVIOUR[:ORDER]");
   app->add_option("--tolerance", options->tolerance,
-                  "Largest error in u, relative to the initial envelope, of the finest history.")
+                  "Largest error in u, relative to the largest envelope, of the finest history.")
       ->option_text("x");
   app->add_option(
          "--metrics", options->metrics,

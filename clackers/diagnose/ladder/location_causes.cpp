@@ -5,7 +5,6 @@
 #include <numbers>
 #include <optional>
 
-#include "clackers/assess/errors/comparison.hpp"
 #include "clackers/assess/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
@@ -130,7 +129,7 @@ std::optional<Diagnosis> tolerance(const Question& question,
   for (const auto& file : files)
     for (const auto& impact : file.impacts) largest = std::max(largest, std::abs(impact.delay));
   // Impacts of the finest file may be located well by chance.
-  const double scale = assess::reference_scale(question.motion).u.minCoeff();
+  const double scale = question.motion.peak().u.minCoeff();
   std::vector<double> parts;
   for (auto file = files.rbegin(); file != files.rend() && parts.size() < most_compared; ++file) {
     double displaced = 0.0;

@@ -149,7 +149,7 @@ FigureText convergence_text(const study::CaseRecord& problem) {
       "runs",
       "Convergence",
       fmt::format("Largest displacement error over all masses and times of a run, divided by "
-                  "the initial envelope of the mass, against the {}. Both axes are logarithmic.",
+                  "the largest envelope of the mass, against the {}. Both axes are logarithmic.",
                   by_step ? "step h in seconds" : "tolerance"),
       "Faint points are single runs; the line joins the worst run of each level (the upper "
       "envelope), without levels of which more than half of the runs failed. A method of order "
@@ -164,7 +164,7 @@ FigureText history_text(const study::CaseRecord& problem, const Place& place) {
   return {"history",
           "history",
           "Error against time",
-          "Displacement error divided by the initial envelope of the mass against time in seconds, "
+          "Displacement error divided by the largest envelope of the mass against time in seconds, "
           "one run of each. The error axis is logarithmic.",
           "Steps up at collisions are errors that collisions bring in; downward spikes are changes "
           "of sign; a level line in a history may be its printed digits. Point at a curve to see "

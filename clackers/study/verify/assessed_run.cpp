@@ -27,9 +27,9 @@ Curve curve_of(const assess::ErrorHistory& history, int dof) {
   return curve;
 }
 
-// Displacements over the initial envelopes.
+// Displacements over the largest envelopes.
 std::vector<double> relative(std::vector<double> u, const model::Motion& motion) {
-  const auto envelope = motion.envelope(0.0).u;
+  const auto envelope = motion.peak().u;
   for (std::size_t i = 0; i < u.size(); ++i) u[i] /= envelope[Eigen::Index(i)];
   return u;
 }
