@@ -53,7 +53,10 @@ std::string html(const study::Record& record, const study::BaselineComparison* c
 std::string html(std::span<const study::Sheet> sheets, const std::string& name,
                  const study::Provenance& from);
 
-/// The displacements as a picture of characters, masses marked 1 and 2, collisions on the axis.
+/// Figures draw the displacements of this many masses at most, the first ones, and say so.
+inline constexpr std::size_t most_drawn_masses = 9;
+
+/// The displacements as a picture of characters, masses marked 1, 2, ..., collisions on the axis.
 std::string plot(const study::Curve& response, std::span<const double> impact_times,
                  const Style& style = {});
 

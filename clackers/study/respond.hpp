@@ -31,13 +31,15 @@ TimeGrid grid_of(long long n, double end);
 /// times.
 TimeGrid grid_every(double step, double end);
 
-/// The exact response, columns t,side,u1,v1,a1[,u2,v2,a2]. Where a time is the double nearest to a
+/// The exact response, columns t,side,u1,v1,a1[,u2,v2,a2,...]. Where a time is the double nearest to a
 /// collision two rows appear, side "-" then "+". The case must outlive the rows. Throws InputError
 /// for a time outside [0, end], before any row.
 std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& grid);
 
 /// All collisions up to the case's end:
-/// k,t,u1,v1-,v1+[,v2-,v2+],impulse,energy_before,energy_after. The case must outlive the rows.
+/// k,t[,contact],u1,v1-,v1+[,u2,v2-,v2+,...],impulse,energy_before,energy_after. Of a pair with one
+/// contact u2 is left out, since the masses touch. Contacts that close together have a row each,
+/// with the velocities before and after all of them. The case must outlive the rows.
 std::unique_ptr<RowSource> collisions(const cases::Case& which);
 
 /// Where the energy is: t,side,kinetic,potential,dissipated,lost,total,momentum at the times of

@@ -126,8 +126,9 @@ void add_check(Grammar& root) {
   app->add_option(
          "--events", options->events,
          "Collisions of the history, text or .npy: a column t and optionally "
-         "impulse,v1-,v1+,v2-,v2+. Of several histories one file each, in their order. Without it "
-         "collisions are found in the history.")
+         "impulse,v1-,v1+,v2-,v2+; of a case with several contacts also contact, from 0. Of several "
+         "histories one file each, in their order. Without it collisions are found in the "
+         "history.")
       ->reads_file("FILE");
   app->add_option(
          "--steps", options->steps,

@@ -11,6 +11,7 @@
 #include "clackers/assess/cost/work_precision.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/html/counters.hpp"
+#include "clackers/report/write.hpp"
 #include "clackers/study/reduced_curve.hpp"
 
 namespace clackers::report {
@@ -46,8 +47,14 @@ void for_each_run(const study::CaseRecord& problem, const Use& use) {
       for (const auto& run : level.runs) use(run.score);
 }
 
+// The masses and points of a figure.
+study::Curve drawn(study::Curve whole) {
+  whole.y.resize(std::min(whole.y.size(), most_drawn_masses));
+  return study::reduced(whole);
+}
+
 Json displacements(const study::Curve& whole) {
-  const auto curve = study::reduced(whole);
+  const auto curve = drawn(whole);
   Json out = Json::array();
   for (std::size_t mass = 0; mass < curve.y.size(); ++mass)
     out.push_back({{"series", fmt::format("mass {}", mass + 1)},
@@ -126,7 +133,7 @@ Json history(const study::CaseRecord& problem) {
   for (const auto& subject : problem.subjects) {
     const auto* run = subject.shown_run();
     if (run == nullptr) continue;
-    const auto curve = study::reduced(run->error_history);
+    const auto curve = drawn(run->error_history);
     for (std::size_t mass = 0; mass < curve.y.size(); ++mass)
       out.push_back({{"method", subject.name},
                      {"mass", mass + 1},

@@ -37,15 +37,24 @@ std::string small_key(std::string_view color, std::string_view shape) {
       color, shape);
 }
 
+std::size_t drawn_masses(const study::CaseRecord& problem) {
+  return std::min(problem.response.y.size(), most_drawn_masses);
+}
+
+std::string masses_left_out(const study::CaseRecord& problem) {
+  const auto masses = problem.response.y.size(), drawn = drawn_masses(problem);
+  return drawn == masses ? std::string()
+                         : fmt::format(" Of {} masses the first {} are drawn.", masses, drawn);
+}
+
 std::string response_legend(const study::CaseRecord& problem, const Place& place) {
   auto out = fmt::format(
       "<div class=\"legend\" role=\"group\" aria-label=\"Shown in the response\" "
       "data-legend=\"response{}\">\n",
       place.suffix);
-  for (std::size_t mass = 0; mass < problem.response.y.size(); ++mass) {
+  for (std::size_t mass = 0; mass < drawn_masses(problem); ++mass) {
     const auto name = fmt::format("mass {}", mass + 1);
-    out += toggle(name, line_svg(fmt::format("var(--m{})", mass + 1), mass == 0 ? "1 0" : "5 2"),
-                  name);
+    out += toggle(name, key_svg(mass_style(mass)), name);
   }
   if (!problem.problem.impact_times.empty())
     out +=
@@ -83,7 +92,7 @@ std::string mass_choice(const study::CaseRecord& problem, const Place& place) {
   if (problem.response.y.size() < 2) return {};
   std::string out =
       "<div class=\"tools\" role=\"group\" aria-label=\"Mass shown in the figure\">\n";
-  for (std::size_t mass = 1; mass <= problem.response.y.size(); ++mass)
+  for (std::size_t mass = 1; mass <= drawn_masses(problem); ++mass)
     out += fmt::format(
         "<button type=\"button\" data-mass=\"{0}\" data-of=\"history{2}\" "
         "aria-pressed=\"{1}\">mass {0}</button>\n",
@@ -133,7 +142,7 @@ FigureText response_text(const study::CaseRecord& record, const Place& place) {
   return {"response",
           rows != nullptr ? "history_rows" : "response",
           rows != nullptr ? "The history over the exact response" : "Exact response",
-          caption,
+          caption + masses_left_out(record),
           reading +
               " Of long curves the lowest and highest point of every stretch are drawn. Drag "
               "to move, pinch or hold Ctrl and turn the wheel to zoom.",
@@ -165,7 +174,8 @@ FigureText history_text(const study::CaseRecord& problem, const Place& place) {
           "history",
           "Error against time",
           "Displacement error divided by the largest envelope of the mass against time in seconds, "
-          "one run of each. The error axis is logarithmic.",
+          "one run of each. The error axis is logarithmic." +
+              masses_left_out(problem),
           "Steps up at collisions are errors that collisions bring in; downward spikes are changes "
           "of sign; a level line in a history may be its printed digits. Point at a curve to see "
           "which run it is.",
