@@ -20,6 +20,7 @@ class JoinedMethod final : public Method {
   Facts facts() const override {
     auto facts = integrator_->facts();
     facts.through_impacts = treatment_->claim(facts);
+    facts.model_order = treatment_->model_order();
     facts.name += '+' + treatment_->specification();
     return facts;
   }

@@ -25,6 +25,9 @@ struct Facts {
   double radius_at_infinity = std::numeric_limits<double>::quiet_NaN();
   Claim through_impacts{};  ///< of an integrator alone: nothing
   bool reports_impacts = true;
+  /// Of a compliant contact: the error of its model falls as stiffness^-model_order where it models
+  /// the restitution; 0 for rigid contact.
+  double model_order = 0.0;
 
   bool is_unconditionally_stable() const { return std::isinf(stability_limit); }
 };

@@ -20,6 +20,8 @@ Row row();
 
 namespace {
 
+constexpr auto panel_implicit = "newmark", panel_explicit = "central-difference";
+
 // Families of integrators, contact treatments, methods that stand alone.
 std::vector<Row> all_rows() {
   std::vector<Row> all;
@@ -105,13 +107,28 @@ std::vector<std::string> pairs() {
   std::vector<std::string> all;
   for (const auto& integrator : names("integrator"))
     for (const auto& contact : names("contact")) all.push_back(integrator + '+' + contact);
+  for (const auto& entry : entries())
+    if (entry.kind == "contact")
+      for (const auto& variant : variants(entry))
+        for (const auto integrator : {panel_implicit, panel_explicit})
+          all.push_back(fmt::format("{}+{}", integrator, variant.specification));
   for (const auto& alone : names("method")) all.push_back(alone);
   return all;
 }
 
+std::vector<Variant> variants(const Entry& entry) {
+  std::vector<Variant> all;
+  for (const auto& parameter : entry.parameters)
+    for (const auto& word : parameter.words)
+      if (word.name != parameter.default_value.text())
+        all.push_back({specification(entry.name, {&parameter, 1}, {{parameter.name, word.name}}),
+                       word.summary});
+  return all;
+}
+
 std::vector<std::string> default_panel() {
-  return {"newmark",          "central-difference", "rk4",        "generalized-alpha:rho=0.8",
-          "newmark+reversal", "newmark+penalty",    "moreau-jean"};
+  return {panel_implicit,     panel_explicit,    "rk4",        "generalized-alpha:rho=0.8",
+          "newmark+reversal", "newmark+penalty", "moreau-jean"};
 }
 
 }  // namespace clackers::methods

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -119,7 +120,7 @@ TEST_P(EveryMethod, RunsOrRefusesWithItsReason) {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, testing::ValuesIn(pairs()), [](const auto& which) {
   std::string name = which.param;
   std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == '-' || c == '+'; }, '_');
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;
 });
 

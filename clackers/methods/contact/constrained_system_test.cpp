@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "clackers/methods/testing/stepper_checks.hpp"
 
 namespace clackers::methods {
 namespace {
+
+constexpr std::array<std::size_t, 1> first{0};
 
 // Two masses on springs of their own, a load on each, contact u1 - u2 >= 0.3. Held together they
 // are one mass on both springs.
@@ -30,10 +33,10 @@ model::ImpactProblem<Dof> two_masses() {
 template <int Dof>
 void moves_as_one_mass() {
   const auto problem = two_masses<Dof>();
-  const auto laws = impact_laws(problem);
-  ConstrainedSystem<Dof> constrained(problem.system, laws);
+  ContactSet<Dof> contacts(problem);
+  ConstrainedSystem<Dof> constrained(problem.system, contacts);
   EXPECT_FALSE(constrained.is_any_active());
-  constrained.activate(0, problem.start.u);
+  constrained.activate(first, problem.start.u);
   EXPECT_TRUE(constrained.is_active(0) && constrained.is_any_active());
 
   using Number = model::Matrix<1>;
@@ -56,9 +59,9 @@ void moves_as_one_mass() {
 
   // The force is what mass 1 needs to accelerate with the other.
   const double a = (std::sin(3.0) - 6.0 - 1.2 - 0.3 * now.v[1] - 9.0 * now.u[1]) / 5.0;
-  EXPECT_NEAR(constrained.contact_force(0, now),
+  EXPECT_NEAR(constrained.contact_forces(now)[0],
               2.0 * a + 0.1 * now.v[0] + 4.0 * now.u[0] - std::sin(3.0), 1e-11);
-  constrained.deactivate(0, now.u);
+  constrained.activate({}, now.u);
   EXPECT_FALSE(constrained.is_any_active());
   EXPECT_LT((constrained.system().stiffness - problem.system.stiffness).norm(), 1e-15);
 }
@@ -84,9 +87,9 @@ struct Spring : model::NonlinearForce<model::any_dof> {
 TEST(ConstrainedSystem, ProjectsANonlinearForceToo) {
   auto problem = two_masses<model::any_dof>();
   problem.system.nonlinear = std::make_shared<Spring>();
-  const auto laws = impact_laws(problem);
-  ConstrainedSystem<model::any_dof> constrained(problem.system, laws);
-  constrained.activate(0, problem.start.u);
+  ContactSet<model::any_dof> contacts(problem);
+  ConstrainedSystem<model::any_dof> constrained(problem.system, contacts);
+  constrained.activate(first, problem.start.u);
   const auto& s = constrained.system();
   const auto& now = problem.start;
   Eigen::VectorXd f = Eigen::VectorXd::Zero(2), p = f, q = f;

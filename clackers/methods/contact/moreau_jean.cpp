@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/methods/contact/impact_law.hpp"
+#include "clackers/methods/contact/contact_set.hpp"
 #include "clackers/methods/rows.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 
@@ -58,14 +58,15 @@ class MoreauJean::Loop {
       : theta_(method.theta),
         problem_(std::move(problem)),
         plan_(plan),
-        laws_(impact_laws(problem_)),
+        contacts_(problem_),
         v_before_(problem_.start.v),
         r_(v_before_),
         load_(r_),
         end_load_(r_),
         matrix_(problem_.system.mass),
-        response_(laws_.size(), v_before_),
-        impulses_(laws_.size(), 0.0) {
+        rates_(contacts_.no_impulses()),
+        impulses_(rates_) {
+    closed_.reserve(contacts_.size());
     prepare(plan.h);
   }
   Loop(const Loop&) = delete;
@@ -96,21 +97,7 @@ class MoreauJean::Loop {
     matrix_ = s.mass + th * s.damping + th * th * s.stiffness;
     require_definite(name, h, !effective_.compute(matrix_));
     ++work_.factorizations;
-    for (std::size_t j = 0; j < laws_.size(); ++j) {
-      response_[j] = laws_[j].contact.direction;
-      effective_.solve_in_place(response_[j]);
-    }
-  }
-
-  bool is_active(std::size_t j, const State& x, double h) const {
-    const auto& contact = laws_[j].contact;
-    return contact.gap_at(x.u) + 0.5 * h * contact.gap_rate(x.v) <= 0.0;
-  }
-
-  // What the rate at the end of the step would fall short of Newton's law without an impulse.
-  double shortfall(std::size_t j, const State& x, const Vector& v_free) const {
-    const auto& contact = laws_[j].contact;
-    return contact.gap_rate(v_free) + contact.restitution * contact.gap_rate(x.v);
+    contacts_.respond(effective_, response_);
   }
 
   bool step(State& x, double h, double t1, Recorder<Dof>& out) {
@@ -128,46 +115,27 @@ class MoreauJean::Loop {
     effective_.solve_in_place(r_);
     ++work_.force_evaluations;
 
-    // Which contacts need an impulse is decided by the velocity without any, so that their numbers
-    // do not matter.
-    for (std::size_t j = 0; j < laws_.size(); ++j) {
-      const double lack = is_active(j, x, h) ? shortfall(j, x, r_) : 0.0;
-      impulses_[j] = lack < 0.0 ? -lack / laws_[j].contact.direction.dot(response_[j]) : 0.0;
+    closed_.clear();
+    for (std::size_t j = 0; j < contacts_.size(); ++j) {
+      const double rate = contacts_.gap_rate(j, x.v);
+      if (!(contacts_.gap(j, x.u) + 0.5 * h * rate <= 0.0)) continue;
+      closed_.push_back(j);
+      rates_[static_cast<Eigen::Index>(j)] =
+          contacts_.gap_rate(j, r_) + contacts_.restitution(j) * rate;
     }
-    for (std::size_t j = 0; j < laws_.size(); ++j)
-      if (impulses_[j] > 0.0) r_ += impulses_[j] * response_[j];
-    if (!are_complementary(x, h, t1, out)) return false;
+    if (!closed_.empty()) {
+      if (const auto no = contacts_.solve(response_, closed_, rates_, impulses_))
+        return out.fail(no->code, t1, no->sentence);
+      r_.noalias() += response_.velocity * impulses_;
+    }
 
     x.u += h * (theta_ * r_ + rest * x.v);
     x.v = r_;
     x.t = t1;
-    for (std::size_t j = 0; j < laws_.size(); ++j)
-      if (impulses_[j] > 0.0 && !out.impact(x, static_cast<int>(j), v_before_, impulses_[j]))
-        return false;
+    for (const auto j : closed_)
+      if (const double impulse = impulses_[static_cast<Eigen::Index>(j)]; impulse > 0.0)
+        if (!out.impact(x, static_cast<int>(j), v_before_, impulse)) return false;
     return true;
-  }
-
-  // False, having ended the run, where an impulse has changed the rate at another contact that has
-  // an impulse itself or now needs one.
-  bool are_complementary(const State& x, double h, double t1, Recorder<Dof>& out) const {
-    for (std::size_t i = 0; i < laws_.size(); ++i)
-      for (std::size_t j = 0; j < laws_.size(); ++j) {
-        if (j == i || !(impulses_[j] > 0.0) || !is_active(i, x, h)) continue;
-        if (!(impulses_[i] > 0.0 || shortfall(i, x, r_) < 0.0)) continue;
-        if (respond_to_each_other(i, j))
-          return out.fail("simultaneous-contacts", t1,
-                          simultaneous(std::min(i, j), std::max(i, j)));
-      }
-    return true;
-  }
-
-  bool respond_to_each_other(std::size_t i, std::size_t j) const {
-    const auto& b = laws_[j].contact.direction;
-    const double cross = std::abs(b.dot(response_[i]));
-    const double own = laws_[i].contact.direction.dot(response_[i]), other = b.dot(response_[j]);
-    // Uncoupled rows leave n products' rounding.
-    const double rounding = 16.0 * double(b.size()) * std::numeric_limits<double>::epsilon();
-    return cross > rounding * std::sqrt(own * other);
   }
 
   // theta f(t1) + (1 - theta) f(t0)
@@ -184,12 +152,13 @@ class MoreauJean::Loop {
   double theta_;
   model::ImpactProblem<Dof> problem_;
   StepPlan plan_;
-  std::vector<ImpactLaw<Dof>> laws_;
+  ContactSet<Dof> contacts_;
   Vector v_before_, r_, load_, end_load_;
   model::Matrix<Dof> matrix_;
   numerics::SpdSolver<Dof> effective_;
-  std::vector<Vector> response_;  // effective mass^-1 b: the change of v1 by a unit impulse
-  std::vector<double> impulses_;  // of the step [N s]
+  ContactResponse<Dof> response_;     // of the effective mass
+  Eigen::VectorXd rates_, impulses_;  // at the end of the step without impulses; of the step [N s]
+  std::vector<std::size_t> closed_;
   model::Work work_;
 };
 

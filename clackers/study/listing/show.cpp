@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/study/listing.hpp"
 #include "clackers/study/listing/amplification.hpp"
@@ -78,10 +79,24 @@ Sheet claim_sheet(const methods::Facts& facts) {
                           claim.behaviour == Behaviour::irregular
                               ? "claimed of the upper envelope of the displacement error"
                               : "claimed of the displacement error"});
+  if (facts.model_order > 0.0)
+    sheet.rows.push_back({"model_order", facts.model_order,
+                          "the error of the contact law falls as stiffness^-model_order"});
   if (!claim.reason.empty())
     sheet.rows.push_back({"reason", claim.reason, "of the claimed behaviour"});
   sheet.rows.push_back({"reports_impacts", std::string(facts.reports_impacts ? "yes" : "no"),
                         "whether a run says when the masses collide"});
+  return sheet;
+}
+
+Sheet word_sheet(const methods::Entry& entry, const Parameter& parameter) {
+  Sheet sheet{
+      "clackers/words/1",
+      fmt::format("{} of {}", parameter.name, entry.name),
+      {{parameter.name, "", "as typed"}, {"summary", "", "in one line"}, {"source", "", ""}},
+      {}};
+  for (const auto& word : parameter.words)
+    sheet.rows.push_back({word.name, word.summary, word.source});
   return sheet;
 }
 
@@ -96,6 +111,8 @@ void add_entry(std::vector<Sheet>& sheets, const methods::Entry& entry) {
   for (const auto& p : entry.parameters)
     parameters.rows.push_back({p.name, p.default_text(), p.allowed, p.meaning});
   if (!parameters.rows.empty()) sheets.push_back(std::move(parameters));
+  for (const auto& p : entry.parameters)
+    if (!p.words.empty()) sheets.push_back(word_sheet(entry, p));
   sheets.push_back({"clackers/card/1",
                     fmt::format("{} ({}): {}", entry.name, entry.kind, entry.summary),
                     {{"card", "", ""}},
@@ -151,15 +168,15 @@ std::string show_problem(std::string_view name, const cases::Settings& settings)
 }
 
 std::vector<Sheet> show_method(std::string_view specification) {
-  const auto is_contact = [&](const methods::Entry& entry) {
-    return entry.kind == "contact" && entry.name == specification;
-  };
   std::vector<Sheet> sheets;
   // A contact treatment alone is no method, yet it has a card to show.
-  if (const auto entries = methods::entries(); std::ranges::any_of(entries, is_contact)) {
-    add_entry(sheets, *std::ranges::find_if(entries, is_contact));
-    return sheets;
-  }
+  const auto first = methods::parse_specification(specification).first;
+  for (const auto& entry : methods::entries())
+    if (entry.kind == "contact" && entry.name == first.name) {
+      complete(entry.name, entry.parameters, first.settings);
+      add_entry(sheets, entry);
+      return sheets;
+    }
   const auto facts = methods::method(specification)->facts();
   sheets.push_back(claim_sheet(facts));
   if (const auto integrator = integrator_of(facts.name); integrator && !facts.is_adaptive)

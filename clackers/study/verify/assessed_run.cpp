@@ -84,7 +84,7 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   // A state that is not finite is no row of a history.
   if (task.metrics && std::isfinite(result.run.score.u_error)) {
     auto metrics = all_metrics({stored.trajectory(), motion, plan.problem.problem},
-                               facts_of(plan.summary, method.subject.contact_time), {}, interrupt);
+                               facts_of(plan.summary, method.spring_time), {}, interrupt);
     if (!metrics) return {};
     result.run.metrics = std::move(*metrics);
   }

@@ -61,6 +61,8 @@ PlannedMethod planned(const std::string& specification, const model::ImpactProbl
     subject.refusal_code = objection->code.name();
   } else if (collides) {
     subject.contact_time = planned.method->contact_time(problem);
+    constexpr double of_linear_spring = 0.5;
+    if (facts.model_order == of_linear_spring) planned.spring_time = subject.contact_time;
   }
   return planned;
 }
