@@ -43,8 +43,8 @@ std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& gri
 std::unique_ptr<RowSource> collisions(const cases::Case& which);
 
 /// Where the energy is: t,side,kinetic,potential,dissipated,lost,total,momentum at the times of
-/// respond(), with its two rows at collisions. The case must outlive the rows. Throws InputError as
-/// respond() does, and for a motion without closed form (no-closed-form).
+/// respond(), with its two rows at collisions. A motion that is no pair's has neither dissipated nor
+/// total. The case must outlive the rows. Throws InputError as respond() does.
 std::unique_ptr<RowSource> energies(const cases::Case& which, const TimeGrid& grid);
 
 /// The columns of respond() differentiated: t,side,du1,dv1,da1[,du2,dv2,da2]. `name` is a raw
@@ -62,6 +62,9 @@ std::unique_ptr<RowSource> spectrum(const cases::Case& which, long long n, doubl
 
 /// Times of the response in a report.
 inline constexpr int response_points = 1501;
+
+/// A case without subjects: its summary and response, for a page.
+CaseRecord response_record(const cases::Case& which);
 
 /// Exact displacements at `n` equally spaced times, for a picture. Throws InputError for n < 2.
 Curve response_curve(const cases::Case& which, int n);

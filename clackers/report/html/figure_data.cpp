@@ -19,6 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t most_player_numbers = 60000;
+
 Json rounded_list(const std::vector<double>& values) {
   Json out = Json::array();
   for (const double value : values) out.push_back(rounded(value));
@@ -242,6 +244,37 @@ const study::Subject* drawn_subject(const study::CaseRecord& problem) {
     if (run != nullptr && run->file && !run->file->history.t.empty()) return &subject;
   }
   return nullptr;
+}
+
+bool has_player(const study::CaseRecord& problem) {
+  return problem.response.t.size() > 1 &&
+         problem.problem.drawing.blocks.size() == problem.response.y.size();
+}
+
+Json player_data(const study::CaseRecord& problem) {
+  const auto& drawing = problem.problem.drawing;
+  const auto& whole = problem.response;
+  const auto every = 1 + whole.y.size() * whole.t.size() / most_player_numbers;
+  const auto thinned = [&](const std::vector<double>& values) {
+    std::vector<double> kept;
+    for (std::size_t i = 0; i < values.size(); i += every) kept.push_back(values[i]);
+    return rounded_list(kept);
+  };
+  Json u = Json::array(), blocks = Json::array(), springs = Json::array(), contacts = Json::array(),
+       impacts = Json::array();
+  for (const auto& curve : whole.y) u.push_back(thinned(curve));
+  for (const auto& block : drawing.blocks)
+    blocks.push_back({{"column", block.column}, {"height", block.height}});
+  for (const auto& spring : drawing.springs)
+    springs.push_back({{"one", spring.one}, {"other", spring.other}});
+  for (const auto& touch : drawing.contacts)
+    contacts.push_back({{"left", touch.left}, {"right", touch.right}, {"gap", touch.gap}});
+  for (std::size_t k = 0; k < problem.problem.impact_contacts.size(); ++k)
+    impacts.push_back({{"t", rounded(problem.problem.impact_times[k])},
+                       {"contact", problem.problem.impact_contacts[k]}});
+  return {{"t", thinned(whole.t)}, {"u", u},
+          {"blocks", blocks},      {"springs", springs},
+          {"contacts", contacts},  {"impacts", impacts}};
 }
 
 Json figure_data(const study::CaseRecord& problem) {

@@ -9,6 +9,7 @@
 #include "clackers/report/html/figure_data.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/markup.hpp"
+#include "clackers/report/write.hpp"
 
 namespace clackers::report {
 
@@ -182,6 +183,23 @@ FigureText history_text(const study::CaseRecord& problem, const Place& place) {
           mass_choice(problem, place)};
 }
 
+std::string player_html(int& number, const study::CaseRecord& problem, const Place& place) {
+  return fill(
+      assets::player_html,
+      {{"name", "motion" + place.suffix},
+       {"number", fmt::format("{}", number++)},
+       {"title", "The exact motion"},
+       {"caption",
+        fmt::format("The structure over {} s, as fast as in truth unless another speed is chosen.",
+                    html_number(problem.problem.end, 6))},
+       {"choices", ""},
+       {"response", "response" + place.suffix},
+       {"reading",
+        "Blocks are masses with their numbers, lines below and between them are springs. All "
+        "displacements are enlarged by one factor. A dot flashes where masses collide. The line in "
+        "the response shows the time."}});
+}
+
 FigureText work_text(const std::vector<ShownCounter>& counters, const Place& place) {
   return {
       "work",
@@ -225,12 +243,18 @@ FigureText profile_text(const std::vector<study::Profile>& profiles, const Place
 
 }  // namespace
 
+std::string response_html(const study::CaseRecord& problem, const Place& place, int& number) {
+  auto out = figure_html(number, place, response_text(problem, place));
+  if (has_player(problem)) out += player_html(number, problem, place);
+  return out;
+}
+
 std::string figures_html(const study::CaseRecord& problem, const Place& place, int& number) {
   const auto has_error_history = [](const study::Subject& subject) {
     const auto* run = subject.shown_run();
     return run != nullptr && !run->error_history.t.empty();
   };
-  auto out = figure_html(number, place, response_text(problem, place));
+  auto out = response_html(problem, place, number);
   out += method_legend(problem, place);
   if (has_convergence(problem)) out += figure_html(number, place, convergence_text(problem));
   if (std::ranges::any_of(problem.subjects, has_error_history))

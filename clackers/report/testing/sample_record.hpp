@@ -43,6 +43,8 @@ inline study::CaseSummary sample_case() {
   problem.fast_period = 1.2582;
   for (int k = 0; k < 6; ++k) problem.impact_times.push_back(std::numbers::pi * (k + 0.5));
   problem.impact_count = 6;
+  problem.impact_contacts.assign(6, 0);
+  problem.drawing = {{{1, 1.0}, {0, 1.0}}, {{0, -1}, {1, -1}}, {{1, 0, 0.0}}};
   return problem;
 }
 

@@ -120,8 +120,12 @@ CaseSummary summary_of(const cases::Case& problem) {
   summary.end = problem.motion->end();
   summary.fast_period = fast_period(problem);
   summary.impact_count = problem.motion->impact_count(summary.end);
-  for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k)
-    summary.impact_times.push_back(problem.motion->impact(k).t);
+  for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k) {
+    const auto impact = problem.motion->impact(k);
+    summary.impact_times.push_back(impact.t);
+    summary.impact_contacts.push_back(impact.contact);
+  }
+  summary.drawing = schematic(problem.problem);
   return summary;
 }
 
