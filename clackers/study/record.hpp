@@ -136,6 +136,7 @@ struct Run {
   std::optional<HistoryFile> file;    ///< of a history
   std::vector<MetricResult> metrics;  ///< empty where none were measured
   Curve error_history;    ///< |error in u| / envelope against time; empty where none was kept
+  Curve motion{};         ///< displacements of a method's run that is shown [m]; not in files
   std::string printed{};  ///< last lines that a program printed whose run failed
 };
 

@@ -158,6 +158,10 @@ try {
   check("a key plays and pauses", await clock() === held && await player("Play").count() === 1, `${held}, ${await clock()}`);
   await stage.locator("xpath=following-sibling::div[1]").locator("input").fill("20");
   check("the slider goes to any time", await clock() === "20.000 s");
+  await stage.locator("xpath=following-sibling::div[1]").locator("select").nth(1).selectOption({ index: 1 });
+  const outline = await page.locator('[data-outline="1"]').evaluate((rect) => Number(rect.getAttribute("x")) + Number(rect.getAttribute("width")) / 2);
+  check("a run stands beside the exact motion as outlines", Math.abs(outline - await place(1)) < 1
+    && await page.locator('[data-outline="1"]').getAttribute("visibility") === "visible", `${outline}, ${await place(1)}`);
   const frame = async (label) => {
     const [saved] = await Promise.all([page.waitForEvent("download"), player(label).click()]);
     return readFileSync(await saved.path());

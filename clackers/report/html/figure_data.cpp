@@ -272,9 +272,22 @@ Json player_data(const study::CaseRecord& problem) {
   for (std::size_t k = 0; k < problem.problem.impact_contacts.size(); ++k)
     impacts.push_back({{"t", rounded(problem.problem.impact_times[k])},
                        {"contact", problem.problem.impact_contacts[k]}});
-  return {{"t", thinned(whole.t)}, {"u", u},
-          {"blocks", blocks},      {"springs", springs},
-          {"contacts", contacts},  {"impacts", impacts}};
+  Json runs = Json::array();
+  for (const auto& subject : problem.subjects) {
+    const auto* run = subject.shown_run();
+    if (run == nullptr) continue;
+    const auto& curve = run->file ? run->file->history : run->motion;
+    if (curve.t.size() < 2 || curve.y.size() != drawing.blocks.size()) continue;
+    Json displacements = Json::array();
+    for (const auto& y : curve.y) displacements.push_back(rounded_list(y));
+    runs.push_back({{"name", subject.name},
+                    {"step", rounded(run->score.step)},
+                    {"t", rounded_list(curve.t)},
+                    {"u", std::move(displacements)}});
+  }
+  return {{"runs", runs},      {"t", thinned(whole.t)}, {"u", u},
+          {"blocks", blocks},  {"springs", springs},    {"contacts", contacts},
+          {"impacts", impacts}};
 }
 
 Json figure_data(const study::CaseRecord& problem) {

@@ -197,7 +197,7 @@ std::string player_html(int& number, const study::CaseRecord& problem, const Pla
        {"reading",
         "Blocks are masses with their numbers, lines below and between them are springs. All "
         "displacements are enlarged by one factor. A dot flashes where masses collide. The line in "
-        "the response shows the time."}});
+        "the response shows the time. A run chosen beside the exact motion is drawn as outlines."}});
 }
 
 FigureText work_text(const std::vector<ShownCounter>& counters, const Place& place) {

@@ -78,6 +78,11 @@ function startPlayer(stage) {
       svgElement(group, "text", { "text-anchor": "middle", dy: "0.35em", fill: "var(--paper)" }, String(i + 1));
     return group;
   });
+  // A run beside the exact motion: outlines.
+  const outlines = scene.blocks.map((_, i) => svgElement(svg, "rect", {
+    width, height: blockHeight, rx: 3, fill: "none", stroke: "var(--ink)", "stroke-width": 2, "stroke-dasharray": "5 3",
+    y: y[i] - blockHeight / 2, visibility: "hidden", "data-outline": i + 1
+  }));
   const sparks = scene.contacts.map((contact, k) => ({
     ...contact,
     times: scene.impacts.filter((impact) => impact.contact === k).map((impact) => impact.t),
@@ -106,10 +111,19 @@ function startPlayer(stage) {
   }
 
   let now = 0, playing = false, last = 0, speed = 1;
+  let beside = null;  // a run
+  function placesOf({ t, u }) {
+    const before = Math.min(Math.max(countUpTo(t, now), 1), t.length - 1) - 1;
+    const share = Math.min(Math.max((now - t[before]) / (t[before + 1] - t[before] || 1), 0), 1);
+    return u.map((of, i) => x[i] + scale * ((1 - share) * of[before] + share * of[before + 1]));
+  }
   function show() {
-    const before = Math.min(Math.max(countUpTo(scene.t, now), 1), scene.t.length - 1) - 1;
-    const share = (now - scene.t[before]) / (scene.t[before + 1] - scene.t[before] || 1);
-    const at = scene.u.map((u, i) => x[i] + scale * ((1 - share) * u[before] + share * u[before + 1]));
+    const at = placesOf(scene);
+    const other = beside ? placesOf(beside) : [];
+    outlines.forEach((outline, i) => {
+      outline.setAttribute("visibility", beside ? "visible" : "hidden");
+      if (beside) outline.setAttribute("x", (other[i] - width / 2).toFixed(2));
+    });
     blocks.forEach((block, i) => block.setAttribute("transform", `translate(${at[i].toFixed(2)},${y[i]})`));
     for (const { one, other, path } of springs) {
       const foot = other < 0 ? [x[one], groundLevel] : [at[other], y[other]];
@@ -166,6 +180,11 @@ function startPlayer(stage) {
   for (const [name, value] of [["1/16", 1 / 16], ["1/4", 1 / 4], ["1", 1], ["4", 4], ["16", 16]])
     rate.append(new Option(`${name} x`, String(value), value === 1, value === 1));
   rate.addEventListener("change", () => { speed = Number(rate.value); });
+  const choice = document.createElement("select");
+  choice.setAttribute("aria-label", `Beside the exact motion: ${what}`);
+  choice.append(new Option("exact motion alone", "-1"));
+  scene.runs.forEach((run, k) => choice.append(new Option(`beside it: ${run.name}, ${run.step}`, String(k))));
+  choice.addEventListener("change", () => { beside = scene.runs[Number(choice.value)] || null; show(); });
   const frameSvg = () => withLightColors(new XMLSerializer().serializeToString(svg)
     .replace("<svg ", `<svg width="${stageWidth}" height="${stageHeight}" style="background:var(--paper)" `));
   const file = () => `clackers-${stage.dataset.player}-${now.toFixed(3)}s`;
@@ -173,7 +192,7 @@ function startPlayer(stage) {
     toggle,
     button("◂ impact", `Impact before: ${what}`, () => jump(allTimes.findLast((t) => t < now - 1e-9 * end) ?? 0)),
     button("impact ▸", `Impact after: ${what}`, () => jump(allTimes.find((t) => t > now + 1e-9 * end) ?? end)),
-    slider, rate,
+    slider, rate, ...(scene.runs.length ? [choice] : []),
     button("SVG", `Save this moment as SVG: ${what}`, () => save(frameSvg(), "image/svg+xml", `${file()}.svg`)),
     button("PNG", `Save this moment as PNG: ${what}`, async () => save(await rasterized(frameSvg(), 2), "image/png", `${file()}.png`)));
   stage.addEventListener("keydown", (event) => {

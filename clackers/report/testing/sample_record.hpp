@@ -223,6 +223,8 @@ inline study::Record sample_record(const SampleSize& size = {}) {
     problem.subjects.push_back(sample_method(method, of_method));
   }
   problem.subjects.push_back(sample_refusal());
+  for (auto& run : problem.subjects.front().levels.back().runs)
+    run.motion = sample_response(size.points);
   problem.profiles = study::profiles_of({&problem, 1});
   problem.subjects[6].complete = false;
   return record;
