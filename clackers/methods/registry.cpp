@@ -14,6 +14,14 @@ struct EventDriven;
 struct Reversal;
 struct Penalty;
 struct MoreauJean;
+struct NonsmoothGeneralizedAlpha;
+struct D1Minus;
+struct PaoliSchatzman;
+struct CdLagrange;
+struct ForwardIncrementLagrange;
+struct AugmentedLagrangian;
+struct NewmarkPositionMultiplier;
+struct PiecewiseExact;
 
 template <class T>
 Row row();
@@ -31,6 +39,14 @@ std::vector<Row> all_rows() {
   all.push_back(row<Reversal>());
   all.push_back(row<Penalty>());
   all.push_back(row<MoreauJean>());
+  all.push_back(row<NonsmoothGeneralizedAlpha>());
+  all.push_back(row<D1Minus>());
+  all.push_back(row<PaoliSchatzman>());
+  all.push_back(row<CdLagrange>());
+  all.push_back(row<ForwardIncrementLagrange>());
+  all.push_back(row<AugmentedLagrangian>());
+  all.push_back(row<NewmarkPositionMultiplier>());
+  all.push_back(row<PiecewiseExact>());
   return all;
 }
 

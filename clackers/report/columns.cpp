@@ -256,7 +256,8 @@ const Column& column(std::string_view wanted) {
   return *found;
 }
 
-Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind) {
+Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind,
+                    const std::vector<std::string>& only) {
   const bool methods = kind == study::SubjectKind::method;
   const bool by_step = std::ranges::all_of(problem.subjects, is_by_step);
   Table table{methods
@@ -265,13 +266,16 @@ Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind) {
                   : named({"file_name", "rows", by_step ? "step" : "tolerance", "digits", "u_error",
                            "v_error", "collisions", "collision_time_error", "collision_source"}),
               {}};
-  for (const auto& subject : problem.subjects) {
-    // A program is a method of others.
-    if ((subject.kind != study::SubjectKind::histories) != methods) continue;
-    if (methods)
-      table.rows.push_back(subject_row(problem, subject));
-    else
-      std::ranges::move(run_rows(problem, subject), std::back_inserter(table.rows));
+  for (const auto& group : groups_of(problem, only)) {
+    if (methods && group.is_headed) table.heads.push_back({table.rows.size(), group});
+    for (const auto* subject : group.subjects) {
+      // A program is a method of others.
+      if ((subject->kind != study::SubjectKind::histories) != methods) continue;
+      if (methods)
+        table.rows.push_back(subject_row(problem, *subject));
+      else
+        std::ranges::move(run_rows(problem, *subject), std::back_inserter(table.rows));
+    }
   }
   return table;
 }

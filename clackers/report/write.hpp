@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "clackers/study/baseline.hpp"
 #include "clackers/study/record.hpp"
@@ -23,7 +24,8 @@ Format format_from(std::string_view text, Content content = Content::rows);
 struct Style {
   bool color = false;
   int width = 80;
-  bool all_metrics = false;  ///< of histories, not only those marked for reports
+  bool all_metrics = false;         ///< of histories, not only those marked for reports
+  std::vector<std::string> only{};  ///< verdicts to show, "disagrees"; empty: all
 };
 
 /// Rows, one by one: a table at 80 columns, csv with a header line, or json with the schema, the

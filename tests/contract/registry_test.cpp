@@ -17,7 +17,8 @@
 namespace clackers::methods {
 namespace {
 
-// Masses in a row on springs of their own, a load on the first, contacts between neighbours.
+// Masses in a row on springs of their own, a load on the first, contacts between neighbours. The
+// first mass strikes the second, which touches the ones behind it: their contacts are closed at once.
 model::ImpactProblem<> row_of(int n, double eta) {
   model::ImpactProblem<> p;
   p.system.mass = p.system.stiffness = Eigen::MatrixXd::Identity(n, n);
@@ -28,7 +29,7 @@ model::ImpactProblem<> row_of(int n, double eta) {
     Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
     b[i] = 1.0;
     b[i + 1] = -1.0;
-    p.contacts.push_back({b, -0.3, eta});
+    p.contacts.push_back({b, i == 0 ? -0.3 : 0.0, eta});
   }
   if (n == 1) p.contacts.push_back({Eigen::VectorXd::Ones(1), -0.3, eta});
   p.start = {0.5, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
@@ -53,7 +54,9 @@ TEST_P(EveryMethod, ClaimsWhatCanBeMeasured) {
   EXPECT_GE(facts.stability_limit, 0.0);
   const auto& claim = facts.through_impacts;
   EXPECT_NE(claim.behaviour, Behaviour::undecided);
-  EXPECT_EQ(claim.order == 0.0, claim.behaviour == Behaviour::stagnating);
+  EXPECT_EQ(claim.order == 0.0, claim.behaviour == Behaviour::stagnating ||
+                                    claim.behaviour == Behaviour::divergent ||
+                                    claim.behaviour == Behaviour::exact);
   if (!claim.reason.empty()) {
     EXPECT_NE(find_code(claim.reason), nullptr);
   }
@@ -78,7 +81,8 @@ void expect_refused_as_objected(const Method& method, const model::ImpactProblem
             objection.sentence + " [" + std::string(objection.code.name()) + "]");
 }
 
-void expect_whole_run(const model::Trajectory& path, const model::Outcome& outcome, int n) {
+void expect_whole_run(const Method& method, const model::Trajectory& path,
+                      const model::Outcome& outcome, int n) {
   ASSERT_TRUE(outcome.finished) << outcome.detail;
   ASSERT_EQ(path.t.size(), 2001u);
   EXPECT_EQ(path.dof, n);
@@ -88,7 +92,8 @@ void expect_whole_run(const model::Trajectory& path, const model::Outcome& outco
   EXPECT_EQ(path.v[0], -1.0);
   EXPECT_TRUE(std::is_sorted(path.t.begin(), path.t.end()));
   EXPECT_GE(path.impacts->size(), 1u);
-  for (const double u : path.u) ASSERT_LT(std::abs(u), 5.0);
+  const bool diverges = method.facts().through_impacts.behaviour == Behaviour::divergent;
+  for (const double u : path.u) ASSERT_LT(std::abs(u), diverges ? 50.0 : 5.0);
   EXPECT_EQ(outcome.work.steps, 2000);
   EXPECT_GT(outcome.work.force_evaluations, 0);
 }
@@ -104,14 +109,7 @@ TEST_P(EveryMethod, RunsOrRefusesWithItsReason) {
       }
       model::TrajectorySink sink(true);
       const auto outcome = chosen->prepare(problem, 0.005)->advance(sink);
-      if (outcome.failed()) {
-        // Only several contacts that share a mass may end a run, and the message says so.
-        EXPECT_GT(problem.contacts.size(), 1u) << outcome.detail;
-        EXPECT_EQ(outcome.reason, Code("simultaneous-contacts"));
-        EXPECT_EQ(outcome.detail.find(chosen->facts().name + ": t = "), 0u) << outcome.detail;
-      } else {
-        expect_whole_run(sink.trajectory(), outcome, n);
-      }
+      expect_whole_run(*chosen, sink.trajectory(), outcome, n);
       EXPECT_EQ(chosen->contact_time(problem) > 0.0,
                 chosen->facts().through_impacts.reason == "contact-stiffness");
     }

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "clackers/methods/contact/compliant_law.hpp"
@@ -20,15 +19,15 @@ class CompliantForce final : public model::NonlinearForce<Dof> {
   using Vector = model::Vector<Dof>;
   using Matrix = model::Matrix<Dof>;
 
-  /// One stiffness a contact; `other` may be empty.
-  CompliantForce(const CompliantLaw& law, const ContactSet<Dof>& contacts,
-                 std::span<const double> stiffnesses,
-                 std::shared_ptr<const model::NonlinearForce<Dof>> other)
-      : law_(law), other_(std::move(other)) {
-    for (std::size_t j = 0; j < contacts.size(); ++j)
-      contacts_.push_back({contacts.contact(j),
-                           {stiffnesses[j], 1.0 / contacts.inverse_effective_mass(j),
-                            law.damping(contacts.restitution(j))}});
+  /// One stiffness a contact.
+  CompliantForce(const CompliantLaw& law, const model::ImpactProblem<Dof>& problem,
+                 std::span<const double> stiffnesses)
+      : law_(law), other_(problem.system.nonlinear) {
+    const ContactSet<Dof> set(problem);
+    for (std::size_t j = 0; j < set.size(); ++j)
+      contacts_.push_back(
+          {problem.contacts[j],
+           {stiffnesses[j], 1.0 / set.inverse_effective_mass(j), law.damping(set.restitution(j))}});
   }
 
   bool is_closed(std::size_t j) const { return contacts_[j].is_closed; }
@@ -72,7 +71,7 @@ class CompliantForce final : public model::NonlinearForce<Dof> {
 
   const CompliantLaw& law_;
   std::vector<Contact> contacts_;
-  std::shared_ptr<const model::NonlinearForce<Dof>> other_;
+  std::shared_ptr<const model::NonlinearForce<Dof>> other_;  // may be empty
 };
 
 }  // namespace clackers::methods

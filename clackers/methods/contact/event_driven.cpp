@@ -35,6 +35,7 @@ class EventDriven::Loop {
         constrained_stepper_(integrator.stepper(constrained_.system(), plan)),
         h_(plan.h),
         is_suppressed_(contacts_.size(), false),
+        is_struck_(contacts_.size(), false),
         from_(problem_.start),
         v_before_(problem_.start.v),
         impulses_(contacts_.no_impulses()) {
@@ -81,6 +82,7 @@ class EventDriven::Loop {
   Handled handle(const State& before, State& now, Recorder<Dof>& out) {
     const double t1 = now.t;
     is_suppressed_.assign(is_suppressed_.size(), false);
+    is_struck_.assign(is_struck_.size(), false);
     from_ = before;
     int events = 0;
     while (true) {
@@ -132,7 +134,8 @@ class EventDriven::Loop {
     // Flights shorter than the rounding of time end before they are seen to reverse: going on would
     // let the structure pass through the contact.
     for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (!constrained_.is_active(i) && !is_suppressed_[i] && contacts_.gap_rate(i, now.v) < 0.0 &&
+      if (is_struck_[i] && !constrained_.is_active(i) && !is_suppressed_[i] &&
+          contacts_.gap_rate(i, now.v) < 0.0 &&
           contacts_.gap(i, now.u) < -contacts_.rounding(i, now.u))
         return out.fail("too-many-impacts", from_.t,
                         "impacts accumulate, closer than rounding of the time can separate");
@@ -151,7 +154,7 @@ class EventDriven::Loop {
         is_suppressed_[i] = true;
         return true;
       }
-    } else if (!(contacts_.gap_rate(i, from_.v) < 0.0)) {
+    } else if (!(contacts_.gap_rate(i, from_.v) < -contacts_.rate_rounding(i, from_.v))) {
       // Gap and rate of the step map disagree by its error: grazing, where no impulse is defined.
       // Where the motion does not leave this instant, the contact is watched again after the next
       // event, or from the end of the step.
@@ -224,9 +227,12 @@ class EventDriven::Loop {
     });
     v_before_ = from_.v;
     if (const auto no = contacts_.impact(closed_, from_.v, impulses_)) return fail(*no, out);
-    for (const auto i : closed_)
-      if (const double impulse = impulses_[static_cast<Eigen::Index>(i)]; impulse > 0.0)
-        if (!out.impact(from_, static_cast<int>(i), v_before_, impulse)) return false;
+    for (const auto i : closed_) {
+      const double impulse = impulses_[static_cast<Eigen::Index>(i)];
+      if (!(impulse > 0.0)) continue;
+      is_struck_[i] = true;
+      if (!out.impact(from_, static_cast<int>(i), v_before_, impulse)) return false;
+    }
     std::erase_if(closed_, [&](std::size_t i) { return !is_resting_after_impact(i); });
     return decide(from_, out);
   }
@@ -285,7 +291,7 @@ class EventDriven::Loop {
   ConstrainedSystem<Dof> constrained_;
   std::unique_ptr<AnyStepper<Dof>> free_stepper_, constrained_stepper_;
   double h_;
-  std::vector<bool> is_suppressed_;
+  std::vector<bool> is_suppressed_, is_struck_;  // in this step
   State from_;
   Vector v_before_;
   Eigen::VectorXd impulses_;

@@ -43,12 +43,12 @@ double fastest_squared(const model::SmoothSystem<Dof>& system, const model::Cont
 // which has one contact time at every speed.
 template <int Dof>
 double largest_speed(const CompliantLaw& law, const model::ImpactProblem<Dof>& problem,
-                     double inverse_effective_mass) {
+                     double mass) {
   if (law.exponent == 1.0) return 0.0;
   const auto& [t, u, v] = problem.start;
   const double energy =
       0.5 * (v.dot(problem.system.mass * v) + u.dot(problem.system.stiffness * u));
-  return std::sqrt(2.0 * std::max(energy, 0.0) * inverse_effective_mass);
+  return std::sqrt(2.0 * std::max(energy, 0.0) / mass);
 }
 
 }  // namespace
@@ -88,16 +88,17 @@ std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& proble
   const auto& chosen = compliant_law(law);
   const ContactSet<Dof> contacts(problem);
   for (std::size_t j = 0; j < contacts.size(); ++j) {
-    const auto i = first_touched(contacts.contact(j));
+    const auto& contact = problem.contacts[j];
+    const auto i = first_touched(contact);
     // pi sqrt(m_e / k) <= 2 pi / omega / contacts_per_period, solved for k.
     const double mass = 1.0 / contacts.inverse_effective_mass(j);
     const double shortest = 0.25 * contacts_per_period * contacts_per_period *
-                            fastest_squared(problem.system, contacts.contact(j)) * mass;
+                            fastest_squared(problem.system, contact) * mass;
     const double linear = std::max(default_factor * problem.system.stiffness(i, i), shortest);
     all.push_back(chosen.exponent == 1.0
                       ? linear
                       : chosen.stiffness_for(std::numbers::pi * std::sqrt(mass / linear), mass,
-                                             largest_speed(chosen, problem, 1.0 / mass)));
+                                             largest_speed(chosen, problem, mass)));
   }
   return all;
 }
@@ -144,10 +145,9 @@ double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
   const auto all = stiffnesses(problem);
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < contacts.size(); ++j) {
-    const double inverse_mass = contacts.inverse_effective_mass(j);
+    const double mass = 1.0 / contacts.inverse_effective_mass(j);
     shortest =
-        std::min(shortest, chosen.contact_time(all[j], 1.0 / inverse_mass,
-                                               largest_speed(chosen, problem, inverse_mass)));
+        std::min(shortest, chosen.contact_time(all[j], mass, largest_speed(chosen, problem, mass)));
   }
   return std::isfinite(shortest) ? shortest : 0.0;
 }
@@ -165,9 +165,8 @@ class Penalty::Loop {
   Loop(const Integrator& integrator, const Penalty& penalty, const model::ImpactProblem<Dof>& rigid,
        const StepPlan& plan)
       : problem_(rigid),
-        force_(std::make_shared<CompliantForce<Dof>>(
-            compliant_law(penalty.law), ContactSet<Dof>(rigid), penalty.stiffnesses(rigid),
-            std::move(problem_.system.nonlinear))),
+        force_(std::make_shared<CompliantForce<Dof>>(compliant_law(penalty.law), rigid,
+                                                     penalty.stiffnesses(rigid))),
         time_loop_(plan, problem_.dof()),
         at_(problem_.start) {
     problem_.system.nonlinear = force_;

@@ -260,9 +260,8 @@ TEST(Penalty, EveryLawEndsARunThatIsNoMultipleOfTheStepInsideAContact) {
 
 TEST(CompliantForce, OfClosedContactsAddsToAForceThatIsThereAlready) {
   auto p = RattlingMass{}.problem(10.0);
-  CompliantForce<model::any_dof> force(compliant_law("linear"), ContactSet<model::any_dof>(p),
-                                       std::vector{100.0},
-                                       std::make_shared<checks::CubicForce<model::any_dof>>());
+  p.system.nonlinear = std::make_shared<checks::CubicForce<model::any_dof>>();
+  CompliantForce<model::any_dof> force(compliant_law("linear"), p, std::vector{100.0});
   const Eigen::VectorXd u = Eigen::VectorXd::Constant(1, -0.5), v = Eigen::VectorXd::Zero(1);
   const auto total = [&] {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(1);

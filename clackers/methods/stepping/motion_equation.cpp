@@ -10,6 +10,7 @@ namespace clackers::methods {
 namespace {
 
 constexpr int most_iterations = 50;
+constexpr int undamped_iterations = 5;  // enough where the iteration converges quadratically
 
 }  // namespace
 
@@ -21,6 +22,7 @@ MotionEquation<Dof>::MotionEquation(const model::SmoothSystem<Dof>& system)
       v_(r_),
       magnitude_(r_),
       term_(r_),
+      correction_(r_),
       matrix_(Matrix::Zero(system.dof(), system.dof())),
       dp_du_(matrix_),
       dp_dv_(matrix_),
@@ -76,10 +78,13 @@ void MotionEquation<Dof>::subtract_nonlinear(const Vector& u, const Vector& v, V
   r -= magnitude_;
 }
 
-// Newton's iteration down to rounding, so that no tolerance can limit an observed order.
+// Newton's iteration down to rounding, so that no tolerance can limit an observed order. A correction
+// that makes the unbalanced force larger is halved: with the kink of a contact force, full ones may
+// alternate between two states.
 template <int Dof>
 bool MotionEquation<Dof>::solve_nonlinear(const LoadTime& load, const Weights& w, const Vector& u0,
                                           const Vector& v0, Vector& a, const Vector* shift) {
+  double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_iterations; ++i) {
     u_ = u0 + w.u * a;
     v_ = v0 + w.v * a;
@@ -89,9 +94,17 @@ bool MotionEquation<Dof>::solve_nonlinear(const LoadTime& load, const Weights& w
     const bool is_solved = balance(load, w, u0, v0, a, shift);
     ++tally_.evaluations;
     if (is_solved) return true;
+    const double unbalanced = r_.norm();
+    if (i >= undamped_iterations && unbalanced > last) {
+      correction_ *= 0.5;
+      a -= correction_;
+      continue;
+    }
+    last = unbalanced;
     matrix_ = w.a * s_.mass + w.v * (s_.damping + dp_dv_) + w.u * (s_.stiffness + dp_du_);
     tangent_.compute(matrix_);
-    a += tangent_.solve(r_);
+    correction_ = tangent_.solve(r_);
+    a += correction_;
     ++tally_.iterations;
     ++tally_.factorizations;
   }

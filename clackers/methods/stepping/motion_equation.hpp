@@ -159,7 +159,7 @@ class MotionEquation {
 
   const model::SmoothSystem<Dof>& s_;
   Solver mass_;
-  Vector r_, u_, v_, magnitude_, term_;
+  Vector r_, u_, v_, magnitude_, term_, correction_;
   Matrix matrix_, dp_du_, dp_dv_;
   Matrix by_u_, by_v_;  // -M^-1 K and -M^-1 C: a = by_u u + by_v v
   Eigen::PartialPivLU<Matrix> tangent_;

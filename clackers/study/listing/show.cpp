@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "clackers/methods/method_specification.hpp"
@@ -197,6 +198,19 @@ std::vector<Sheet> show_method(std::string_view specification) {
     add_entry(sheets, *std::ranges::find(entries, name, &methods::Entry::name));
   }
   return sheets;
+}
+
+std::string treatment_of(std::string_view specification) {
+  const auto name = specification.substr(0, specification.find_first_of(":+"));
+  const auto is_integrator = [&](const methods::Entry& entry) {
+    return entry.kind == "integrator" && entry.name == name;
+  };
+  if (std::ranges::none_of(methods::entries(), is_integrator)) return {};
+  // A "+" before a digit belongs to a number.
+  for (std::size_t i = name.size(); i + 1 < specification.size(); ++i)
+    if (specification[i] == '+' && std::isalpha(static_cast<unsigned char>(specification[i + 1])))
+      return std::string(specification.substr(i + 1));
+  return "event-driven";
 }
 
 }  // namespace clackers::study

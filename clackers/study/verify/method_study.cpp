@@ -28,7 +28,7 @@ std::optional<SelfResult> self_convergence(const PlannedMethod& planned, const S
                                            std::span<const double> exact) {
   const double order =
       subject.claim.order > 0.0 ? subject.claim.order : planned.method->facts().smooth_order;
-  if (ends.empty() || !(order > 0.0)) return {};
+  if (ends.empty() || !(order > 0.0) || !std::isfinite(order)) return {};
   return self_result(std::move(ends), exact,
                      {.claimed_order = order, .size = 1.0, .contact_time = subject.contact_time});
 }

@@ -43,7 +43,7 @@ Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c
 
 // While nothing collides a method is held to its smooth order, not to what it does at impacts.
 Claim claim_of(const methods::Facts& facts, bool collides) {
-  if (collides) return facts.through_impacts;
+  if (collides || facts.through_impacts.behaviour == Behaviour::exact) return facts.through_impacts;
   return {Behaviour::proper, facts.smooth_order, {}};
 }
 
