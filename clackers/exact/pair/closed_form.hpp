@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "clackers/exact/pair/flight_phase.hpp"
 #include "clackers/exact/pair/high_precision.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
@@ -55,11 +56,6 @@ class ClosedForm : public model::Motion {
   const Parameters& parameters() const { return parameters_; }
   const std::optional<PairConstants>& pair() const { return pair_; }
 
-  /// Flight k, counted as a double to avoid conversions, and theta / pi in it.
-  struct Phase {
-    double flight = 0.0;
-    numerics::DoubleDouble theta_over_pi;
-  };
   /// The flight that holds at t, or that `side` means where t is the double nearest to a collision.
   /// theta / pi lies in [-1/2, 1/2], without a stop in [-1, 1]. Throws InputError outside
   /// [0, end()].
@@ -71,10 +67,6 @@ class ClosedForm : public model::Motion {
 
  private:
   ClosedForm(const Parameters& parameters, Derived derived);
-  Phase phase_at(double t) const;
-  Phase flight_at(double t, model::Side side) const;
-  numerics::Neighbour instant(double k) const;
-  void require_inside(double t) const;
   void sample_one(double t, model::Side side, double* u, double* v, double* a) const;
 
   Parameters parameters_;
