@@ -52,10 +52,15 @@ void write_changes(const study::BaselineComparison& changes, std::ostream& out,
 std::string html(const study::Record& record, const study::BaselineComparison* changes = nullptr);
 
 /// Sheets as such a page: tables, texts, and figures of the curves; `name` is what they are about.
+/// With the `motion` of a case, which has no subjects, its response and animation stand first.
 std::string html(std::span<const study::Sheet> sheets, const std::string& name,
-                 const study::Provenance& from);
+                 const study::Provenance& from, const study::CaseRecord* motion = nullptr,
+                 const std::string& command = "show");
 
-/// The displacements as a picture of characters, masses marked 1 and 2, collisions on the axis.
+/// Figures draw the displacements of this many masses at most, the first ones, and say so.
+inline constexpr std::size_t most_drawn_masses = 9;
+
+/// The displacements as a picture of characters, masses marked 1, 2, ..., collisions on the axis.
 std::string plot(const study::Curve& response, std::span<const double> impact_times,
                  const Style& style = {});
 

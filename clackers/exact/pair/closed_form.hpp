@@ -28,6 +28,8 @@ class ClosedForm : public model::Motion {
   /// |b| E, |b| E omega and |b| E omega^2 of each mass, omega its undamped frequency. At the
   /// double nearest to a collision E is that of the flight before it, the larger one.
   model::Kinematics envelope(double t) const override;
+  /// The envelope at t = 0: it never grows.
+  model::Kinematics peak() const override { return envelope(0.0); }
 
   /// 0.51 units of 2^-52 of the envelope, and one subnormal spacing (5e-324). Of the first, 1/2 is
   /// the rounding of the result, which never exceeds the envelope; the cosine and sine add

@@ -190,7 +190,7 @@ std::string verdicts_html(const study::CaseRecord& problem, const Place& place) 
   if (!histories.rows.empty())
     out += html_table("Histories",
                       std::string(by_step ? "Coarsest step" : "Loosest tolerance") +
-                          " first. Errors relative to the initial envelope; v in the mean "
+                          " first. Errors relative to the largest envelope; v in the mean "
                           "over time; collisions matched / exact. A dash: not measured.",
                       histories, [](const Row& row) {
                         return breakable(escape(row.run->file ? short_path(row.run->file->file)

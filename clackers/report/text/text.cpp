@@ -128,7 +128,7 @@ void print_methods(const study::CaseRecord& problem, std::ostream& out, const St
   print(table, out, style);
   out << '\n';
   print_wrapped(
-      "Worst of the finest level's steps; errors relative to the initial envelope and energy; "
+      "Worst of the finest level's steps; errors relative to the largest envelope and energy; "
       "order ± 95 %; collisions matched/exact.",
       out, style);
 }
@@ -150,7 +150,7 @@ void print_histories(const study::CaseRecord& problem, std::ostream& out, const 
   print(table, out, style);
   out << '\n';
   print_wrapped(
-      "Errors relative to the initial envelope; v in the mean over time; collisions "
+      "Errors relative to the largest envelope; v in the mean over time; collisions "
       "matched/exact.",
       out, style);
   for (const auto& subject : problem.subjects) {

@@ -44,12 +44,23 @@ Sheet constant_sheet(std::string schema, std::string title,
   return sheet;
 }
 
+// Without the states of the masses, which fill more than a page where there are many.
+void keep_collisions_alone(Sheet& sheet) {
+  for (auto c = sheet.columns.size(); c-- > 0;) {
+    const char first = sheet.columns[c].name.front();
+    if (first != 'u' && first != 'v') continue;
+    sheet.columns.erase(sheet.columns.begin() + std::ptrdiff_t(c));
+    for (auto& row : sheet.rows) row.erase(row.begin() + std::ptrdiff_t(c));
+  }
+}
+
 Sheet collision_sheet(const cases::Case& which) {
   const auto rows = collisions(which);
   const auto total = which.motion->impact_count(which.motion->end());
   Sheet sheet{rows->schema(), {}, rows->columns(), {}};
   std::vector<Cell> row;
   while (sheet.rows.size() < collisions_shown && rows->next(row)) sheet.rows.push_back(row);
+  if (which.motion->dof() > 2) keep_collisions_alone(sheet);
   sheet.title = total <= static_cast<long long>(sheet.rows.size())
                     ? fmt::format("Collisions: {}", total)
                     : fmt::format(

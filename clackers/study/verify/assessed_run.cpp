@@ -8,6 +8,7 @@
 #include "clackers/assess/errors/error_sink.hpp"
 #include "clackers/model/trajectory.hpp"
 #include "clackers/study/cause_metrics.hpp"
+#include "clackers/study/reduced_curve.hpp"
 #include "clackers/study/verify/run_sinks.hpp"
 
 namespace clackers::study {
@@ -27,9 +28,18 @@ Curve curve_of(const assess::ErrorHistory& history, int dof) {
   return curve;
 }
 
-// Displacements over the initial envelopes.
+// The points of a run that an animation needs; the whole run would fill memory.
+Curve motion_of(const model::Trajectory& history) {
+  constexpr std::size_t most = 500;
+  const auto dof = std::size_t(history.dof);
+  return reduced(
+      history.t.size(), dof, [&](std::size_t row) { return history.t[row]; },
+      [&](std::size_t mass, std::size_t row) { return history.u[row * dof + mass]; }, most);
+}
+
+// Displacements over the largest envelopes.
 std::vector<double> relative(std::vector<double> u, const model::Motion& motion) {
-  const auto envelope = motion.envelope(0.0).u;
+  const auto envelope = motion.peak().u;
   for (std::size_t i = 0; i < u.size(); ++i) u[i] /= envelope[Eigen::Index(i)];
   return u;
 }
@@ -92,6 +102,7 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
                                facts_of(plan.summary, method.spring_time), {}, interrupt);
     if (!metrics) return {};
     result.run.metrics = std::move(*metrics);
+    if (motion.dof() <= most_blocks) result.run.motion = motion_of(stored.trajectory());
   }
   WatchedSink timed(nullptr, share, timed_state, interrupt);
   const auto seconds = time_of(*run, timed);

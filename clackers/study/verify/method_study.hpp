@@ -35,7 +35,7 @@ class MethodStudy {
   bool is_closed() const { return is_closed_; }
 
   /// The subject with what runs with steps say without the reference solution; `exact` are the reference
-  /// displacements at the end over the initial envelopes. The runs are moved from.
+  /// displacements at the end over the largest envelopes. The runs are moved from.
   Subject finish(std::span<const double> exact);
 
  private:

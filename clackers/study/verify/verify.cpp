@@ -111,10 +111,10 @@ void require_budget(double budget) {
     refuse("verify", "budget", budget, "0 s or more", "0 refines nothing beyond the plan.");
 }
 
-// The reference displacements at the end over the initial envelopes.
+// The reference displacements at the end over the largest envelopes.
 std::vector<double> reference_end(const model::Motion& motion) {
   const auto end = motion.at(motion.end(), model::Side::right).u;
-  const auto envelope = motion.envelope(0.0).u;
+  const auto envelope = motion.peak().u;
   std::vector<double> u;
   for (Eigen::Index i = 0; i < end.size(); ++i) u.push_back(end[i] / envelope[i]);
   return u;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "clackers/base/error.hpp"
 #include "clackers/methods/registry.hpp"
@@ -25,6 +27,17 @@ void require_steps(const RefinementPlan& plan, double end) {
   if (plan.samples_per_level < 1 || plan.samples_per_level > 64)
     refuse("verify", "neighbours", fmt::format("{}", plan.samples_per_level),
            "1 <= neighbours <= 64");
+}
+
+// The shortest period of the free masses: of the case where it has damped ones, else of the undamped
+// modes of M and K.
+double fast_period(const cases::Case& problem) {
+  if (!problem.damped_periods.empty()) return *std::ranges::min_element(problem.damped_periods);
+  const auto& system = problem.problem.system;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+      system.stiffness, system.mass, Eigen::EigenvaluesOnly);
+  const double largest = modes.eigenvalues().maxCoeff();
+  return largest > 0.0 ? 2.0 * std::numbers::pi / std::sqrt(largest) : problem.motion->end();
 }
 
 Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
@@ -108,10 +121,14 @@ CaseSummary summary_of(const cases::Case& problem) {
   for (const auto& c : problem.constants) summary.constants.push_back(quantity(c));
   for (const auto& c : problem.indicators) summary.constants.push_back(quantity(c));
   summary.end = problem.motion->end();
-  summary.fast_period = *std::ranges::min_element(problem.damped_periods);
+  summary.fast_period = fast_period(problem);
   summary.impact_count = problem.motion->impact_count(summary.end);
-  for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k)
-    summary.impact_times.push_back(problem.motion->impact(k).t);
+  for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k) {
+    const auto impact = problem.motion->impact(k);
+    summary.impact_times.push_back(impact.t);
+    summary.impact_contacts.push_back(impact.contact);
+  }
+  summary.drawing = schematic(problem.problem);
   return summary;
 }
 
