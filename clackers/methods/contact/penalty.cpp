@@ -55,12 +55,12 @@ double largest_speed(const CompliantLaw& law, const model::ImpactProblem<Dof>& p
 
 const std::vector<Field<Penalty>>& Penalty::fields() {
   static const std::vector<Field<Penalty>> all = [] {
-    Field<Penalty> law{"law", {}, "force of penetration and its rate", &Penalty::law};
+    Field<Penalty> law_field{"law", {}, "force of penetration and its rate", &Penalty::law};
     for (const auto& row : compliant_laws())
-      law.words.push_back(
+      law_field.words.push_back(
           {std::string(row.name), std::string(row.summary), std::string(row.source)});
     return std::vector<Field<Penalty>>{
-        law,
+        law_field,
         {"stiffness", "0 < stiffness < infinity", "k of the law [N/m], or [N/m^1.5]",
          &Penalty::stiffness, "1e4 k1 or more, or of the same contact time"}};
   }();
