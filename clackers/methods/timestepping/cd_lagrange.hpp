@@ -24,7 +24,7 @@ namespace clackers::methods {
 /// Stability   omega h <= 2.
 /// Dissipation none in flight for C = 0: the scheme is symplectic.
 /// Memory      w0, kept as acceleration and velocity.
-/// Cost        one evaluation and one back-substitution a step, an impact two more and a
+/// Cost        one evaluation and one back-substitution a step, one more at an impact with its
 ///             complementarity problem; one factorization.
 /// Source      F.-E. Fekak, M. Brun, A. Gravouil, B. Depale, Comput. Mech. 60, 233-258 (2017);
 ///             J. Di Stasio et al., Adv. Model. Simul. Eng. Sci. 6, 2 (2019).

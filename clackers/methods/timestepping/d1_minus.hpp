@@ -15,7 +15,8 @@ namespace clackers::methods {
 ///     u1 = u0 + h/2 (v0 + V)
 ///     v- = v0 + h/2 M^-1 [F0 + B^T p0 + F(t1, u1, V) + B^T p1]
 ///     v1 = v- + M^-1 B^T P
-///     0 <= b.M^-1 (F + B^T p) _|_ p >= 0   where g(u0) <= 0 and b.v0 = 0
+///     0 <= b.M^-1 (F + B^T p) _|_ p >= 0   p0 where g(u0) <= 0 and b.v0 = 0,
+///                                          p1 where p0 > 0
 ///     0 <= b.v1 + eta b.v- _|_ P >= 0      at others with g(u1) <= 0
 ///
 /// The gap stays negative by the motion since the impact. Impacts are reported at the end of the step.

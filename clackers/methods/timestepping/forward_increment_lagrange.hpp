@@ -27,7 +27,7 @@ namespace clackers::methods {
 /// Stability   omega h <= 2.
 /// Dissipation none in flight for C = 0.
 /// Memory      u0, kept as acceleration and velocity.
-/// Cost        one evaluation and one back-substitution a step, while in contact two more and a
+/// Cost        one evaluation and one back-substitution a step, one more in contact with a
 ///             complementarity problem; one factorization.
 /// Source      N. J. Carpenter, R. L. Taylor, M. G. Katona, Int. J. Numer. Methods Eng. 32, 103-128
 ///             (1991).

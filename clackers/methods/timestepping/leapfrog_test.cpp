@@ -132,6 +132,26 @@ TEST(PaoliSchatzman, AnImpactThatTheRunCutsIsReportedAtItsEnd) {
   EXPECT_LT(path.impacts->front().impulse, 4.0);
 }
 
+// The first block of states, 256 of them, ends in the middle of the impact.
+TEST(PaoliSchatzman, ARunEndedInAnImpactLeavesNothingToTheNext) {
+  struct FirstBlock : model::TrajectorySink {
+    FirstBlock() : TrajectorySink(true) {}
+    bool take(const model::SampleBlock&) override { return false; }
+    bool take(const model::ReportedImpact&) override {
+      ADD_FAILURE() << "the impact is over";
+      return false;
+    }
+  } ended;
+  const auto prepared =
+      method("paoli-schatzman")->prepare(mass_on_stop(2.0, 0.0, 0.0, 2.545, -1.0, 1.0, 5.0), 0.01);
+  prepared->advance(ended);
+  model::TrajectorySink whole(true);
+  prepared->advance(whole);
+  ASSERT_EQ(whole.trajectory().impacts->size(), 1u);
+  EXPECT_NEAR(whole.trajectory().impacts->front().t, 2.56, 1e-12);
+  EXPECT_NEAR(whole.trajectory().impacts->front().impulse, 4.0, 1e-12);
+}
+
 TEST(PaoliSchatzman, IsNotTakenForEtaZeroAlone) {
   const auto p = mass_on_stop(2.0, 0.0, 1.0, 1.0, 0.0, 0.0, 2.0);
   EXPECT_REFUSED(method("paoli-schatzman")->prepare(p, 0.1), "law-needs-restitution",

@@ -27,7 +27,7 @@ namespace clackers::methods {
 /// Stability   for every h.
 /// Dissipation none in flight for rho = 1, C = 0; grows as rho falls, for high frequencies first.
 /// Memory      a0 and s0; both live through an impact.
-/// Cost        one evaluation and one back-substitution a step, an impact two more and a
+/// Cost        one evaluation and one back-substitution a step, one more at an impact with its
 ///             complementarity problem; one factorization.
 /// Source      Q.-Z. Chen, V. Acary, G. Virlez, O. Bruls, Int. J. Numer. Methods Eng. 96, 487-511
 ///             (2013).

@@ -25,8 +25,8 @@ namespace clackers::methods {
 /// Stability   omega h <= 2.
 /// Dissipation none in flight for C = 0.
 /// Memory      u0, kept as acceleration and velocity.
-/// Cost        one evaluation and one back-substitution a step; an impact twice two more and a
-///             complementarity problem; one factorization.
+/// Cost        one evaluation and one back-substitution a step, one more in both steps of an impact
+///             with its complementarity problem; one factorization.
 /// Source      L. Paoli, M. Schatzman, SIAM J. Numer. Anal. 40, 702-733 and 734-768 (2002).
 struct PaoliSchatzman {
   static constexpr std::string_view name = "paoli-schatzman";

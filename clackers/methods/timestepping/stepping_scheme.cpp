@@ -87,13 +87,13 @@ bool SteppingScheme<Dof>::find_impulses(double h, double t1, Recorder<Dof>& out)
   for (std::size_t j = 0; j < contacts_.size(); ++j) least_[j] = least_rate(j, h);
   // A motion that is not finite is the recorder's to report.
   for (int i = 0; !equation_.failed() && y_.allFinite(); ++i) {
-    const bool is_larger = take_violated();
+    take_violated();
     if (rows_.empty()) return true;
     change_ = impulses_;
     improve_impulses();
     if (failure_) return out.fail(failure_->code, t1, failure_->sentence);
     change_ = impulses_ - change_;
-    if (!is_larger && is_settled(h)) return true;
+    if (is_settled(h)) return true;
     if (i == most_iterations())
       return out.fail("complementarity-failed", t1,
                       "the iteration for the impulses at the contacts does not end");
@@ -103,15 +103,13 @@ bool SteppingScheme<Dof>::find_impulses(double h, double t1, Recorder<Dof>& out)
   return equation_.failed() ? out.fail_step(t1, equation_.failure()) : true;
 }
 
-// Adds all contacts below their least rate to rows_. True where there is a new one.
+// Adds all contacts below their least rate to rows_.
 template <int Dof>
-bool SteppingScheme<Dof>::take_violated() {
-  const auto count = rows_.size();
+void SteppingScheme<Dof>::take_violated() {
   for (std::size_t j = 0; j < contacts_.size(); ++j) {
     const auto at = std::lower_bound(rows_.begin(), rows_.end(), j);
     if ((at == rows_.end() || *at != j) && excess(j) < 0.0) rows_.insert(at, j);
   }
-  return rows_.size() > count;
 }
 
 template <int Dof>

@@ -88,7 +88,7 @@ class SteppingScheme {
 
   bool step(double h, double t1, Recorder<Dof>& out);
   bool find_impulses(double h, double t1, Recorder<Dof>& out);
-  bool take_violated();
+  void take_violated();
   bool report(Recorder<Dof>& out);
 
   StepPlan plan_;
