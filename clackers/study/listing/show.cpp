@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "clackers/methods/method_specification.hpp"
@@ -43,12 +44,23 @@ Sheet constant_sheet(std::string schema, std::string title,
   return sheet;
 }
 
+// Without the states of the masses, which fill more than a page where there are many.
+void keep_collisions_alone(Sheet& sheet) {
+  for (auto c = sheet.columns.size(); c-- > 0;) {
+    const char first = sheet.columns[c].name.front();
+    if (first != 'u' && first != 'v') continue;
+    sheet.columns.erase(sheet.columns.begin() + std::ptrdiff_t(c));
+    for (auto& row : sheet.rows) row.erase(row.begin() + std::ptrdiff_t(c));
+  }
+}
+
 Sheet collision_sheet(const cases::Case& which) {
   const auto rows = collisions(which);
   const auto total = which.motion->impact_count(which.motion->end());
   Sheet sheet{rows->schema(), {}, rows->columns(), {}};
   std::vector<Cell> row;
   while (sheet.rows.size() < collisions_shown && rows->next(row)) sheet.rows.push_back(row);
+  if (which.motion->dof() > 2) keep_collisions_alone(sheet);
   sheet.title = total <= static_cast<long long>(sheet.rows.size())
                     ? fmt::format("Collisions: {}", total)
                     : fmt::format(
@@ -186,6 +198,19 @@ std::vector<Sheet> show_method(std::string_view specification) {
     add_entry(sheets, *std::ranges::find(entries, name, &methods::Entry::name));
   }
   return sheets;
+}
+
+std::string treatment_of(std::string_view specification) {
+  const auto name = specification.substr(0, specification.find_first_of(":+"));
+  const auto is_integrator = [&](const methods::Entry& entry) {
+    return entry.kind == "integrator" && entry.name == name;
+  };
+  if (std::ranges::none_of(methods::entries(), is_integrator)) return {};
+  // A "+" before a digit belongs to a number.
+  for (std::size_t i = name.size(); i + 1 < specification.size(); ++i)
+    if (specification[i] == '+' && std::isalpha(static_cast<unsigned char>(specification[i + 1])))
+      return std::string(specification.substr(i + 1));
+  return "event-driven";
 }
 
 }  // namespace clackers::study
