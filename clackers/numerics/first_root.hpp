@@ -99,9 +99,8 @@ double falling_root(Function&& f, double s, LocalBound now, const NextZero& zero
     if (!(root >= from && root <= to)) break;
     // The term of fourth degree, whose derivative is about the bound of the third times that over
     // the bound of the second.
-    const double left_out =
-        now.third_bound * now.third_bound * x * x * x * x / (24.0 * now.curvature * -now.slope);
-    if (left_out <= 0.25 * std::numeric_limits<double>::epsilon() * root) return root;
+    const double b = now.third_bound, allowed = 0.25 * std::numeric_limits<double>::epsilon();
+    if (b * b * x * x * x * x <= 24.0 * now.curvature * -now.slope * allowed * root) return root;
     s = root;
     now = f(s);
     if (!now.whole || !(now.slope < 0.0)) break;
