@@ -106,7 +106,6 @@ bool LcpSolver::pivot_to_solution(const Eigen::MatrixXd& w, const Eigen::VectorX
     table_(i, right) = scale_[i] * q[row(i)];
   }
   auto values = table_.col(right).head(n_);
-  if (!values.allFinite()) return false;
   if (n_ == 0 || values.minCoeff() >= 0.0) return true;
   const double size = values.cwiseAbs().maxCoeff();
   values /= size;

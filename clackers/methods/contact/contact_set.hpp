@@ -37,6 +37,7 @@ class ContactSet {
   explicit ContactSet(const model::ImpactProblem<Dof>& problem);
 
   std::size_t size() const { return contacts_.size(); }
+  const model::Contact<Dof>& contact(std::size_t i) const { return contacts_[i]; }
   const Vector& row(std::size_t i) const { return contacts_[i].direction; }
   double restitution(std::size_t i) const { return contacts_[i].restitution; }
 

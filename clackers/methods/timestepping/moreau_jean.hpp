@@ -9,24 +9,23 @@
 
 namespace clackers::methods {
 
-/// Moreau and Jean's time-stepping for M dv + (C v + K u - f(t)) dt = sum_j b_j dP_j, with
-/// x_th = theta x1 + (1 - theta) x0 for x = u, v, f:
+/// Moreau and Jean's time-stepping, with x_th = theta x1 + (1 - theta) x0 for x = u, v, f:
 ///
-///     M (v1 - v0) + h C v_th + h K u_th = h f_th + sum_j b_j P_j
+///     M (v1 - v0) + h C v_th + h K u_th + h p(u_th, v_th) = h f_th + B^T P
 ///     u1 = u0 + h v_th
-///     P_j = 0                                    while g_j(u0 + h/2 v0) > 0
-///     0 <= b_j . v1 + eta_j b_j . v0 _|_ P_j >= 0   otherwise, for all of these j together
+///     0 <= b.v1 + eta b.v0 _|_ P >= 0    where g(u0 + h/2 v0) <= 0, else P = 0
 ///
 /// The contact is thus decided by a predictor at half a step, and the impact happens somewhere in
-/// the step. It is reported at the end of the step. Contacts with linearly dependent b_j that are
-/// decided closed in one step end the run.
+/// the step. It is reported at the end of the step. Contacts with linearly dependent b that need
+/// impulses in one step end the run.
 ///
 /// Order       1 of the upper envelope; in smooth motion 2 for theta = 1/2, otherwise 1, and where
 ///             that error, of the size (theta - 1/2) h, is the larger one, errors lie on a line.
 /// Stability   for every h.
 /// Dissipation none in flight for theta = 1/2, C = 0; grows with theta.
 /// Memory      none.
-/// Cost        one back-substitution a step; one factorization and a back-substitution a contact.
+/// Cost        one evaluation and one back-substitution a step, one more at an impact with its
+///             complementarity problem; one factorization.
 /// Source      J. J. Moreau, Comput. Methods Appl. Mech. Eng. 177, 329-349 (1999).
 struct MoreauJean {
   static constexpr std::string_view name = "moreau-jean";
