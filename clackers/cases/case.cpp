@@ -10,27 +10,17 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/cases/constants.hpp"
+#include "clackers/cases/row.hpp"
 #include "clackers/exact/pair/admissibility.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/exact/pair/parameters.hpp"
 
 namespace clackers::cases {
+
+Parameter eta() { return {"eta", 1.0, "", "0 <= eta <= 1", "restitution; 1 is elastic"}; }
+Parameter t_end() { return {"t_end", 20.0, "s", "0 < t_end < infinity", "end of the run"}; }
+
 namespace {
-
-// The value of a parameter that the case has.
-struct Values {
-  const Settings& settings;
-  double operator()(std::string_view name) const { return value_of(settings, name); }
-};
-
-// Fills problem, motion, constants, indicators and periods of a case whose entry and values are
-// set. Throws InputError for values outside their range.
-using Builder = void (*)(Case& which, const Values& value, double threshold);
-
-struct Row {
-  CaseEntry entry;
-  Builder build;
-};
 
 void use(Case& which, std::shared_ptr<const exact::ClosedForm> motion) {
   which.problem = motion->problem();
@@ -74,8 +64,6 @@ double ratio(const Case& which, double N) {
 
 // A parameter of the same name means the same in every case.
 Parameter xi1() { return {"xi1", 0.05, "", "0 or 1e-60 <= xi1 < 1", "damping ratio of mass 1"}; }
-Parameter eta() { return {"eta", 1.0, "", "0 <= eta <= 1", "restitution; 1 is elastic"}; }
-Parameter t_end() { return {"t_end", 20.0, "s", "0 < t_end < infinity", "end of the run"}; }
 Parameter whole_N() {
   return {"N", 2.0, "", "a whole number, 0 <= N <= 249999999",
           "mass 2 is X = 4N + 1 times as fast as mass 1, Eq. (9)"};
@@ -85,9 +73,8 @@ Parameter scale(const char* name, double default_value, const char* unit, const 
   return {name, default_value, unit, allowed, meaning};
 }
 
-// One row a case is all that the command line, the manual and the tests know.
-const std::vector<Row>& rows() {
-  static const std::vector<Row> all{
+std::vector<Row> pair_rows() {
+  return {
       {{"three-parameter",
         "Two colliding masses, the second 4N + 1 times as fast; t_end = 20 a_t.",
         "Eq. (25)-(26)",
@@ -190,6 +177,14 @@ const std::vector<Row>& rows() {
                   threshold);
        }},
   };
+}
+
+const std::vector<Row>& rows() {
+  static const auto all = [] {
+    auto list = pair_rows();
+    for (auto& row : orbit_rows()) list.push_back(std::move(row));
+    return list;
+  }();
   return all;
 }
 

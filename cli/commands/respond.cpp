@@ -24,7 +24,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> settings;
-  std::string name, samples, step, times, digits, sensitivity, highest;
+  std::string name, samples, step, times, digits, sensitivity, highest, problem;
   bool collisions = false, plot = false, energy = false, spectrum = false;
 
   int ways() const {
@@ -141,12 +141,13 @@ void write(study::RowSource& rows, Results& results, bool quiet) {
   report::write(rows, results.format(), results.stream(), results.style());
 }
 
-int run(const Options& options) {
+int run(Options options) {
+  options.name = case_of(options.name, options.problem);
   check_kind(options);
   check(options);
   Results results(options.common, OnInterrupt::stop, report::Content::numbers);
   check_format(options, results);
-  const auto which = cases::make(options.name, read_settings(options.settings));
+  const auto which = cases::make(options.name, read_settings(options.settings, options.problem));
   const auto rows = options.ways() > 0 ? rows_of(options, which) : nullptr;
   if (options.plot) {
     OutputStream out(1, "standard output", OnInterrupt::stop);
@@ -180,6 +181,7 @@ void add_respond(Grammar& root) {
                      "  clackers respond CASE [--set ...] --spectrum --samples n --highest w\n"});
   app->add_option("CASE", options->name, "The case. All names: clackers list cases.");
   add_set_option(*app, options->settings);
+  add_problem_option(*app, options->problem);
   app->add_option(
          "--samples", options->samples,
          "Equally spaced times from 0 to the end of the case, both included; 2 to 1e9. With "
