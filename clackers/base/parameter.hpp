@@ -35,8 +35,9 @@ using Settings = std::vector<std::pair<std::string, ParameterValue>>;
 
 /// One word that a parameter may be set to.
 struct Word {
-  std::string name;     ///< "hertz": a letter, then letters, digits and hyphens
-  std::string summary;  ///< one line
+  std::string name;      ///< "hertz": a letter, then letters, digits and hyphens
+  std::string summary;   ///< one line
+  std::string source{};  ///< of the literature; may be empty
 };
 
 /// One `name=value` of a method or a case.

@@ -153,7 +153,7 @@ Limit limit_of(std::span<const Observation> histories, const model::ImpactProble
                const model::Motion& motion) {
   Limit limit;
   if (histories.size() < 2) return limit;
-  const auto scale = assess::reference_scale(motion);
+  const auto scale = motion.peak();
   std::vector<ErrorCurve> curves;  // finest first
   std::vector<double> steps;
   for (auto i = histories.size(); i-- > 0 && curves.size() < most_compared;) {

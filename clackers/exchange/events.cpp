@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -41,6 +42,14 @@ double number_in(Table& table, std::size_t column) {
   return number.value;
 }
 
+int contact_in(Table& table, std::size_t column, int contacts) {
+  const double number = number_in(table, column);
+  if (!(number >= 0.0 && number < contacts && number == std::floor(number)))
+    refuse(table.place(), "contact", number,
+           fmt::format("a whole number from 0 to {}", contacts - 1));
+  return int(number);
+}
+
 std::vector<double> numbers_in(Table& table, const std::vector<Column>& columns) {
   std::vector<double> numbers;
   for (const auto& column : columns)
@@ -50,7 +59,7 @@ std::vector<double> numbers_in(Table& table, const std::vector<Column>& columns)
 
 }  // namespace
 
-std::vector<model::Impact> read_events(const Source& source, int dof,
+std::vector<model::Impact> read_events(const Source& source, int dof, int contacts,
                                        const std::atomic<bool>* interrupt) {
   const auto opened = open_table(source, {}, TableKind::events, interrupt);
   auto& table = *opened;
@@ -58,6 +67,12 @@ std::vector<model::Impact> read_events(const Source& source, int dof,
   if (!t) t = find(table, "time");
   if (!t)
     throw InputError(table.name() + " has no column t; collisions need their times.", "no-column");
+  const auto contact = contacts > 1 ? find(table, "contact") : Column();
+  if (contacts > 1 && !contact)
+    throw InputError(fmt::format("{} has no column contact; the problem has {} contacts, and each "
+                                 "collision needs the number of one, from 0.",
+                                 table.name(), contacts),
+                     "no-column");
   const auto impulse = find(table, "impulse");
   const auto u = find_all(table, "u", "", dof);
   const auto before = find_all(table, "v", "-", dof), after = find_all(table, "v", "+", dof);
@@ -69,6 +84,7 @@ std::vector<model::Impact> read_events(const Source& source, int dof,
       refuse(table.place(), "t", impact.t,
              fmt::format("at least {} s, the time above it", impacts.back().t),
              "Sort the collisions by time.", "not-sorted");
+    if (contact) impact.contact = contact_in(table, *contact, contacts);
     impact.impulse = impulse ? number_in(table, *impulse) : unknown;
     impact.u = numbers_in(table, u);
     impact.v_before = numbers_in(table, before);

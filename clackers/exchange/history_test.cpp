@@ -144,6 +144,20 @@ TEST(Events, AreReadWithWhatIsKnownOfThem) {
   EXPECT_TRUE(std::isnan(events[1].u[1]));
 }
 
+TEST(Events, NameTheirContactWhereThereAreSeveral) {
+  const TestFile file("t,contact\n1.5,2\n1.5,0\n"), nameless("t\n1.5\n"),
+      beyond("t,contact\n1.5,3\n"), half("t,contact\n1.5,0.5\n");
+  const auto events = read_events(file.path(), 3, 3);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].contact, 2);
+  EXPECT_EQ(events[1].contact, 0);
+  EXPECT_REFUSED(read_events(nameless.path(), 3, 3), "no-column", "3 contacts");
+  for (const auto* wrong : {&beyond, &half})
+    EXPECT_REFUSED(read_events(wrong->path(), 3, 3), "out-of-range", "a whole number from 0 to 2");
+  // With one contact the column says nothing.
+  EXPECT_EQ(read_events(beyond.path(), 2).front().contact, 0);
+}
+
 TEST(Events, MayBeTimesAloneOrNone) {
   const TestFile times("# found by the solver\n1.5\n4.7\n"), none("t,impulse\n"),
       back("t\n4.7\n1.5\n"), other("k,u\n1,2\n");

@@ -11,7 +11,7 @@
 namespace clackers::methods {
 
 /// A parameter that is a member of the value type T: a number, or a name out of `words`, which then
-/// are what is allowed. The default is that of T{}, or NaN with the words for it. A type lists its
+/// say what is allowed. The default is that of T{}, or NaN with the words for it. A type lists its
 /// fields in `T::fields()`.
 template <class T>
 struct Field {
@@ -23,6 +23,12 @@ struct Field {
   ParameterValue get(const T& x) const {
     if (const auto* number = std::get_if<double T::*>(&member)) return x.*(*number);
     return x.*std::get<std::string T::*>(member);
+  }
+  std::string allowed_text() const {
+    std::string text(allowed);
+    for (const auto& word : words)
+      text += (text.empty() ? std::string(name) + " = " : ", ") + word.name;
+    return text;
   }
   void set(T& x, const ParameterValue& value) const {
     if (const auto* number = std::get_if<double T::*>(&member))
@@ -37,7 +43,7 @@ std::vector<Parameter> parameters_of() {
   std::vector<Parameter> all;
   static const T standard{};
   for (const Field<T>& field : T::fields())
-    all.push_back({std::string(field.name), field.get(standard), "", std::string(field.allowed),
+    all.push_back({std::string(field.name), field.get(standard), "", field.allowed_text(),
                    std::string(field.meaning), std::string(field.default_words), field.words});
   return all;
 }

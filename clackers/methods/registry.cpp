@@ -14,11 +14,21 @@ struct EventDriven;
 struct Reversal;
 struct Penalty;
 struct MoreauJean;
+struct NonsmoothGeneralizedAlpha;
+struct D1Minus;
+struct PaoliSchatzman;
+struct CdLagrange;
+struct ForwardIncrementLagrange;
+struct AugmentedLagrangian;
+struct NewmarkPositionMultiplier;
+struct PiecewiseExact;
 
 template <class T>
 Row row();
 
 namespace {
+
+constexpr auto panel_implicit = "newmark", panel_explicit = "central-difference";
 
 // Families of integrators, contact treatments, methods that stand alone.
 std::vector<Row> all_rows() {
@@ -29,6 +39,14 @@ std::vector<Row> all_rows() {
   all.push_back(row<Reversal>());
   all.push_back(row<Penalty>());
   all.push_back(row<MoreauJean>());
+  all.push_back(row<NonsmoothGeneralizedAlpha>());
+  all.push_back(row<D1Minus>());
+  all.push_back(row<PaoliSchatzman>());
+  all.push_back(row<CdLagrange>());
+  all.push_back(row<ForwardIncrementLagrange>());
+  all.push_back(row<AugmentedLagrangian>());
+  all.push_back(row<NewmarkPositionMultiplier>());
+  all.push_back(row<PiecewiseExact>());
   return all;
 }
 
@@ -103,15 +121,32 @@ std::shared_ptr<const Method> method(std::string_view text) {
 
 std::vector<std::string> pairs() {
   std::vector<std::string> all;
-  for (const auto& integrator : names("integrator"))
-    for (const auto& contact : names("contact")) all.push_back(integrator + '+' + contact);
+  for (const auto& name : names("integrator"))
+    for (const auto& contact : names("contact"))
+      if (!find(contact)->treatment({})->objection_to(integrator(name)->facts()))
+        all.push_back(name + '+' + contact);
+  for (const auto& entry : entries())
+    if (entry.kind == "contact")
+      for (const auto& variant : variants(entry))
+        for (const auto integrator : {panel_implicit, panel_explicit})
+          all.push_back(fmt::format("{}+{}", integrator, variant.specification));
   for (const auto& alone : names("method")) all.push_back(alone);
   return all;
 }
 
+std::vector<Variant> variants(const Entry& entry) {
+  std::vector<Variant> all;
+  for (const auto& parameter : entry.parameters)
+    for (const auto& word : parameter.words)
+      if (word.name != parameter.default_value.text())
+        all.push_back({specification(entry.name, {&parameter, 1}, {{parameter.name, word.name}}),
+                       word.summary});
+  return all;
+}
+
 std::vector<std::string> default_panel() {
-  return {"newmark",          "central-difference", "rk4",        "generalized-alpha:rho=0.8",
-          "newmark+reversal", "newmark+penalty",    "moreau-jean"};
+  return {panel_implicit,     panel_explicit,    "rk4",        "generalized-alpha:rho=0.8",
+          "newmark+reversal", "newmark+penalty", "moreau-jean"};
 }
 
 }  // namespace clackers::methods

@@ -50,8 +50,17 @@ std::shared_ptr<const Integrator> integrator(std::string_view specification);
 std::shared_ptr<const Method> method(std::string_view specification);
 
 /// Every integrator joined with every treatment that takes it, and the standalone methods,
-/// all with default parameters: the specifications.
+/// all with default parameters; and every other variant of a treatment with the implicit and the
+/// explicit integrator that begin the default panel: the specifications.
 std::vector<std::string> pairs();
+
+/// An entry with one of its parameters set to a word: "penalty:law=hertz".
+struct Variant {
+  std::string specification, summary;
+};
+
+/// The variants of an entry, without those that its defaults give.
+std::vector<Variant> variants(const Entry& entry);
 
 /// The specifications assessed when none is named: one of each kind.
 std::vector<std::string> default_panel();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "clackers/base/testing/refusal.hpp"
 
 namespace clackers::methods {
@@ -70,6 +72,20 @@ TEST(Registry, ListsEveryNameWithItsCard) {
 TEST(Registry, TheCardIsTheCommentAboveTheType) {
   EXPECT_TRUE(card("newmark").starts_with("Newmark's one-step family for M a"));
   EXPECT_TRUE(card("no-such-method").empty());
+}
+
+TEST(Registry, PairsHaveEveryVariantWithTwoIntegratorsOfThePanel) {
+  const auto all = pairs();
+  int found = 0;
+  for (const auto& entry : entries())
+    for (const auto& variant : variants(entry))
+      for (const auto& integrator : {default_panel()[0], default_panel()[1]})
+        found += int(std::ranges::count(all, integrator + '+' + variant.specification));
+  EXPECT_EQ(found, 14);  // seven laws besides the default one
+  EXPECT_EQ(std::ranges::count(all, "newmark+penalty:law=hertz"), 1);
+  EXPECT_EQ(std::ranges::count(all, "newmark+penalty:law=linear"), 0);
+  EXPECT_TRUE(method(default_panel()[0])->facts().is_unconditionally_stable());
+  EXPECT_FALSE(method(default_panel()[1])->facts().is_unconditionally_stable());
 }
 
 TEST(Registry, PairsAndPanelAreMethods) {

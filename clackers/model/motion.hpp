@@ -60,8 +60,12 @@ class Motion {
     return now;
   }
 
-  /// The amplitude that each component has around t; for errors relative to it.
+  /// The amplitude that each component has around t.
   virtual Kinematics envelope(double t) const = 0;
+  /// The largest envelope of each component over the run, what errors are divided by: positive for
+  /// a mass that starts at rest, too. Taken at 1024 equal parts of [0, end()]; a solution that has
+  /// it in closed form overrides.
+  virtual Kinematics peak() const;
   /// Bound on |computed - true| of each component at t. Each solution says how it is derived.
   virtual Kinematics error_bound(double t) const = 0;
 

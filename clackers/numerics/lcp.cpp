@@ -15,7 +15,8 @@ Index to_index(std::size_t i) { return static_cast<Index>(i); }
 
 }  // namespace
 
-PrincipalCholesky::PrincipalCholesky(std::size_t most) : factors_(to_index(most), to_index(most)) {}
+PrincipalCholesky::PrincipalCholesky(std::size_t most)
+    : factors_(to_index(most), to_index(most)), products_(to_index(most)) {}
 
 std::size_t PrincipalCholesky::compute(const Eigen::MatrixXd& a,
                                        std::span<const std::size_t> rows) {
@@ -25,24 +26,24 @@ std::size_t PrincipalCholesky::compute(const Eigen::MatrixXd& a,
     const Index i = to_index(rows[static_cast<std::size_t>(count_)]);
     double pivot = a(i, i);
     for (Index k = 0; k < count_; ++k) {
-      const Index j = to_index(rows[static_cast<std::size_t>(k)]);
-      const double product = factors_.row(count_).head(k).dot(factors_.row(k).head(k));
-      factors_(count_, k) = (a(i, j) - product) / factors_(k, k);
-      pivot -= factors_(count_, k) * factors_(count_, k);
+      double product = a(i, to_index(rows[static_cast<std::size_t>(k)]));
+      for (Index j = 0; j < k; ++j) product -= products_[j] * factors_(k, j);
+      products_[k] = product;  // L D
+      factors_(count_, k) = product / factors_(k, k);
+      pivot -= product * factors_(count_, k);
     }
     if (!(pivot > unit * a(i, i))) break;
-    factors_(count_, count_) = std::sqrt(pivot);
+    factors_(count_, count_) = pivot;
   }
   return static_cast<std::size_t>(count_);
 }
 
 void PrincipalCholesky::solve_in_place(Eigen::VectorXd& x) const {
-  for (Index i = 0; i < count_; ++i)
-    x[i] = (x[i] - factors_.row(i).head(i).dot(x.head(i))) / factors_(i, i);
+  for (Index i = 0; i < count_; ++i) x[i] -= factors_.row(i).head(i).dot(x.head(i));
   for (Index i = count_ - 1; i >= 0; --i) {
     const Index below = count_ - 1 - i;
-    x[i] = (x[i] - factors_.col(i).segment(i + 1, below).dot(x.segment(i + 1, below))) /
-           factors_(i, i);
+    x[i] =
+        x[i] / factors_(i, i) - factors_.col(i).segment(i + 1, below).dot(x.segment(i + 1, below));
   }
 }
 
@@ -68,8 +69,8 @@ bool LcpSolver::solve(const Eigen::MatrixXd& w, const Eigen::VectorXd& q,
     return false;
   }
   if (!pivot_to_solution(w, q, rows)) return false;
-  // Where the solution is degenerate, rounding may leave a value below 0: its row does not belong to
-  // the positive ones.
+  // Where the solution is degenerate, rounding may leave a value below 0: its row does not belong
+  // to the positive ones.
   while (!positive_.empty()) {
     if (factors_.compute(w, positive_) < positive_.size()) return false;
     for (std::size_t k = 0; k < positive_.size(); ++k)
@@ -105,7 +106,6 @@ bool LcpSolver::pivot_to_solution(const Eigen::MatrixXd& w, const Eigen::VectorX
     table_(i, right) = scale_[i] * q[row(i)];
   }
   auto values = table_.col(right).head(n_);
-  if (!values.allFinite()) return false;
   if (n_ == 0 || values.minCoeff() >= 0.0) return true;
   const double size = values.cwiseAbs().maxCoeff();
   values /= size;
@@ -131,8 +131,8 @@ bool LcpSolver::pivot_to_solution(const Eigen::MatrixXd& w, const Eigen::VectorX
   return false;
 }
 
-// The row with the lexicographically least (value, w columns) / entry, or -1: the artificial variable
-// can grow for ever, and no z has W z + q >= 0.
+// The row with the lexicographically least (value, w columns) / entry, or -1: the artificial
+// variable can grow for ever, and no z has W z + q >= 0.
 Index LcpSolver::leaving_row(Index entering) const {
   const double unit = 16.0 * double(n_) * epsilon;
   const Index artificial = 2 * n_, right = 2 * n_ + 1;

@@ -7,8 +7,8 @@
 
 namespace clackers::numerics {
 
-/// Cholesky factors of principal submatrices of a symmetric positive semidefinite matrix. After
-/// construction nothing is allocated.
+/// Cholesky factors L D L^T of principal submatrices of a symmetric positive semidefinite matrix.
+/// After construction nothing is allocated.
 class PrincipalCholesky {
  public:
   /// For submatrices of at most `most` rows.
@@ -21,17 +21,18 @@ class PrincipalCholesky {
   void solve_in_place(Eigen::VectorXd& x) const;
 
  private:
-  Eigen::MatrixXd factors_;
+  Eigen::MatrixXd factors_;  // L below the diagonal, D on it
+  Eigen::VectorXd products_;
   Eigen::Index count_ = 0;
 };
 
 /// Solves linear complementarity problems 0 <= z _|_ w = W z + q >= 0, W symmetric positive
 /// semidefinite, by Lemke's pivoting with the lexicographic rule, which cannot cycle. Its rows are
-/// scaled by the diagonal of W, and the solution is computed anew from the rows of W where z > 0. It
-/// is unique if W is definite; W z and the minimum of z . (W z / 2 + q) are unique in any case. Takes
-/// about n pivots of 2 n^2 products. After construction nothing is allocated.
-/// Source: R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, SIAM (2009),
-/// sections 4.4 and 4.9.
+/// scaled by the diagonal of W, and the solution is computed anew from the rows of W where z > 0.
+/// It is unique if W is definite; W z and the minimum of z . (W z / 2 + q) are unique in any case.
+/// Takes about n pivots of 2 n^2 products. After construction nothing is allocated. Source: R. W.
+/// Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, SIAM (2009), sections 4.4
+/// and 4.9.
 class LcpSolver {
  public:
   /// For problems of at most `most` rows.

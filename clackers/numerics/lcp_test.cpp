@@ -145,6 +145,25 @@ TEST(Lcp, SolvesRandomProblemsOfHundredsOfRows) {
   }
 }
 
+// z and w vanish together in many rows, and rounding decides which of them is positive.
+TEST(Lcp, SolvesDegenerateProblemsWithRounding) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Index n = 2 + trial % 12;
+    Eigen::MatrixXd b(n, n);
+    for (auto& x : b.reshaped()) x = normal(random);
+    const Eigen::MatrixXd w = b * b.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n);
+    Eigen::VectorXd expected(n), z;
+    for (auto& x : expected) x = std::max(0.0, normal(random));
+    LcpSolver solver(static_cast<std::size_t>(n));
+    ASSERT_TRUE(solver.solve(w, -(w * expected), all_of(std::size_t(n)), z)) << trial;
+    // Condition numbers below 1000.
+    EXPECT_LT((z - expected).cwiseAbs().maxCoeff(), 1e-12) << trial;
+    EXPECT_GE(z.minCoeff(), 0.0);
+  }
+}
+
 TEST(Lcp, DoesNotDependOnTheScaleOfItsRows) {
   std::mt19937 random(4);
   for (int trial = 0; trial < 100; ++trial) {

@@ -1,20 +1,54 @@
 #include "clackers/numerics/modal_flight.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 namespace clackers::numerics {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 namespace {
 
-constexpr double coupling_tolerance = 1e-10;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double worst_condition = 1e5;
 
 bool is_diagonal(const MatrixXd& x) { return x == MatrixXd(x.diagonal().asDiagonal()); }
+
+// A and B are seen through modes: those that an entry above rounding of either matrix connects.
+std::vector<std::vector<Index>> coupled_blocks(const MatrixXd& a, const MatrixXd& b) {
+  const Index n = a.rows();
+  const double unit = 64.0 * double(n) * epsilon;
+  const double a_size = unit * a.cwiseAbs().maxCoeff(), b_size = unit * b.cwiseAbs().maxCoeff();
+  std::vector<std::vector<Index>> blocks;
+  std::vector<bool> is_taken(std::size_t(n), false);
+  for (Index first = 0; first < n; ++first) {
+    if (is_taken[std::size_t(first)]) continue;
+    is_taken[std::size_t(first)] = true;
+    std::vector<Index> block{first};
+    for (std::size_t k = 0; k < block.size(); ++k)
+      for (Index j = 0; j < n; ++j) {
+        if (is_taken[std::size_t(j)]) continue;
+        if (!(std::abs(a(block[k], j)) > a_size || std::abs(b(block[k], j)) > b_size)) continue;
+        is_taken[std::size_t(j)] = true;
+        block.push_back(j);
+      }
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+MatrixXd part(const MatrixXd& x, const std::vector<Index>& rows) {
+  MatrixXd made(rows.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < rows.size(); ++j) made(Index(i), Index(j)) = x(rows[i], rows[j]);
+  return made;
+}
 
 }  // namespace
 
@@ -22,7 +56,11 @@ Mode::Mode(double decay, double square)
     : sigma(decay),
       omega_square(square),
       w(std::sqrt(std::abs(square - decay * decay))),
-      omega(std::sqrt(square)) {}
+      omega(std::sqrt(std::abs(square))) {}
+
+double Mode::growth() const {
+  return std::max(0.0, -2.0 * sigma) + (omega_square < 0.0 ? omega : 0.0);
+}
 
 ModalState advance(const Mode& mode, const ModalState& start, double s) {
   const double p = start.y, r = start.rate + mode.sigma * start.y;
@@ -35,7 +73,9 @@ ModalState advance(const Mode& mode, const ModalState& start, double s) {
     decay = std::exp(-mode.sigma * s);
   } else if (mode.w > 0.0) {
     // e^(-sigma s) cosh and sinh, neither of which may overflow alone.
-    const double slow = std::exp((mode.w - mode.sigma) * s);
+    const double rate =
+        mode.sigma > 0.0 ? -mode.omega_square / (mode.sigma + mode.w) : mode.w - mode.sigma;
+    const double slow = std::exp(rate * s);
     const double e = std::exp(-2.0 * x);
     c = 0.5 * (1.0 + e);
     n = -0.5 * std::expm1(-2.0 * x) / mode.w;
@@ -53,45 +93,165 @@ std::optional<ModalSystem> ModalSystem::make(const MatrixXd& mass, const MatrixX
   if (!mass.allFinite() || !damping.allFinite() || !stiffness.allFinite()) return std::nullopt;
   ModalSystem made;
   const Index n = mass.rows();
+  made.shapes_ = made.rate_shapes_ = made.inverse_ = MatrixXd::Zero(n, n);
+  if (n == 0) return made;
   made.diagonal_ = is_diagonal(mass) && is_diagonal(damping) && is_diagonal(stiffness);
-  Eigen::VectorXd squares;
+  MatrixXd basis, modal_damping, modal_stiffness;
   if (made.diagonal_) {
     if (!(mass.diagonal().minCoeff() > 0.0)) return std::nullopt;
-    made.shapes_ = mass.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
-    squares = stiffness.diagonal().cwiseQuotient(mass.diagonal());
+    basis = mass.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
+    modal_damping = damping.diagonal().cwiseQuotient(mass.diagonal()).asDiagonal();
+    modal_stiffness = stiffness.diagonal().cwiseQuotient(mass.diagonal()).asDiagonal();
   } else {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(stiffness, mass);
-    if (solver.info() != Eigen::Success) return std::nullopt;
-    made.shapes_ = solver.eigenvectors();
-    squares = solver.eigenvalues();
+    // Where K has equal eigenvalues any basis of theirs is one of eigenvectors; K + C weight, of no
+    // special weight, has those of both if there are any.
+    const double c = damping.cwiseAbs().maxCoeff(), k = stiffness.cwiseAbs().maxCoeff();
+    for (const double weight : {0.0, c > 0.0 ? 0.6180339887498949 * (k > 0.0 ? k : c) / c : 0.0}) {
+      const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(stiffness + weight * damping,
+                                                                      mass);
+      if (solver.info() != Eigen::Success) return std::nullopt;
+      basis = solver.eigenvectors();
+      modal_damping = basis.transpose() * damping * basis;
+      modal_stiffness = basis.transpose() * stiffness * basis;
+      if (weight == 0.0) modal_stiffness = solver.eigenvalues().asDiagonal();
+      if (coupled_blocks(modal_damping, modal_stiffness).size() == std::size_t(n)) break;
+    }
   }
-  const MatrixXd modal_damping = made.diagonal_
-                                     ? MatrixXd(damping * mass.inverse())
-                                     : MatrixXd(made.shapes_.transpose() * damping * made.shapes_);
-  if (!modal_damping.allFinite() || !squares.allFinite()) return std::nullopt;
-  const MatrixXd coupling = modal_damping - MatrixXd(modal_damping.diagonal().asDiagonal());
-  if (coupling.cwiseAbs().maxCoeff() > coupling_tolerance * modal_damping.cwiseAbs().maxCoeff())
-    return std::nullopt;
-  made.inverse_ = made.shapes_.transpose() * mass;
-  for (Index j = 0; j < n; ++j) {
-    // A rigid body mode has an eigenvalue 0 give or take a rounding.
-    double square = squares[j];
-    if (square < 0.0 && square > -1e-12 * squares.cwiseAbs().maxCoeff()) square = 0.0;
-    if (!(square >= 0.0)) return std::nullopt;
+  if (!modal_damping.allFinite() || !modal_stiffness.allFinite()) return std::nullopt;
+  // A rigid body mode has an eigenvalue 0 give or take a rounding.
+  const double rounding = 64.0 * double(n) * epsilon * modal_stiffness.cwiseAbs().maxCoeff();
+  for (const auto& block : coupled_blocks(modal_damping, modal_stiffness)) {
+    if (block.size() > 1) {
+      if (!made.add_coupled(block, modal_damping, modal_stiffness)) return std::nullopt;
+      continue;
+    }
+    const Index j = block[0];
+    double square = modal_stiffness(j, j);
+    if (!made.diagonal_ && std::abs(square) <= rounding) square = 0.0;
+    made.shapes_(j, Index(made.modes_.size())) = 1.0;
     made.modes_.emplace_back(0.5 * modal_damping(j, j), square);
-    made.fastest_ = std::max(
-        {made.fastest_, made.modes_.back().omega, 2.0 * std::abs(made.modes_.back().sigma)});
   }
+  for (const auto& mode : made.modes_)
+    made.fastest_ = std::max({made.fastest_, mode.omega, 2.0 * std::abs(mode.sigma)});
+  made.inverse_ = basis.transpose() * mass;
+  if (!made.rate_shapes_.isZero(0.0)) {
+    VectorXd square(n), decay(n);
+    for (Index j = 0; j < n; ++j) {
+      square[j] = made.modes_[std::size_t(j)].omega_square;
+      decay[j] = made.modes_[std::size_t(j)].sigma;
+    }
+    MatrixXd whole(2 * n, 2 * n);
+    whole << made.shapes_, made.rate_shapes_, -made.rate_shapes_ * square.asDiagonal(),
+        made.shapes_ - 2.0 * made.rate_shapes_ * decay.asDiagonal();
+    MatrixXd both = MatrixXd::Zero(2 * n, 2 * n);
+    both.topLeftCorner(n, n) = both.bottomRightCorner(n, n) = made.inverse_;
+    made.whole_inverse_ = whole.partialPivLu().solve(both);
+    if (!made.whole_inverse_.allFinite()) return std::nullopt;
+  } else {
+    made.inverse_ = made.shapes_.transpose() * made.inverse_;
+  }
+  made.shapes_ = basis * made.shapes_;
+  made.rate_shapes_ = basis * made.rate_shapes_;
   return made;
+}
+
+// The modes of a block that damping couples; their shapes in the coordinates of the block.
+bool ModalSystem::add_coupled(const std::vector<Index>& block, const MatrixXd& damping,
+                              const MatrixXd& stiffness) {
+  const MatrixXd c = part(damping, block), k = part(stiffness, block);
+  const Index m = c.rows();
+  // In units of time in which all entries are 1 at most.
+  const double fast = std::max(std::sqrt(k.cwiseAbs().maxCoeff()), c.cwiseAbs().maxCoeff());
+  MatrixXd first_order = MatrixXd::Zero(2 * m, 2 * m);
+  first_order.topRightCorner(m, m).setIdentity();
+  first_order.bottomLeftCorner(m, m) = -k / (fast * fast);
+  first_order.bottomRightCorner(m, m) = -c / fast;
+  const Eigen::EigenSolver<MatrixXd> solver(first_order);
+  if (solver.info() != Eigen::Success) return false;
+  const auto values = solver.eigenvalues();
+  const Eigen::MatrixXcd vectors = solver.eigenvectors().colwise().normalized();
+  if (!(vectors.inverse().norm() * vectors.norm() < worst_condition)) return false;
+
+  const auto add = [&](const Mode& mode, const VectorXd& shape, const VectorXd& rate_shape) {
+    const auto column = Index(modes_.size());
+    for (Index i = 0; i < m; ++i) {
+      shapes_(block[std::size_t(i)], column) = shape[i];
+      rate_shapes_(block[std::size_t(i)], column) = rate_shape[i];
+    }
+    modes_.push_back(mode);
+  };
+  std::vector<Index> real;
+  for (Index i = 0; i < 2 * m; ++i) {
+    const double decay = -values[i].real() * fast, w = values[i].imag() * fast;
+    if (w == 0.0) real.push_back(i);
+    if (!(w > 0.0)) continue;
+    const Eigen::VectorXcd x = vectors.col(i).head(m);
+    Mode mode(decay, decay * decay + w * w);
+    mode.w = w;
+    add(mode, x.real() + (decay / w) * x.imag(), x.imag() / w);
+  }
+  // Two real eigenvalues are a mode as well; the farthest from each other are best told apart.
+  std::ranges::sort(real, {}, [&](Index i) { return values[i].real(); });
+  for (std::size_t i = 0; i < real.size() / 2; ++i) {
+    const Index one = real[i], other = real[real.size() - 1 - i];
+    const double a = values[one].real() * fast, b = values[other].real() * fast;
+    const VectorXd x = vectors.col(one).head(m).real(), y = vectors.col(other).head(m).real();
+    Mode mode(-0.5 * (a + b), a * b);
+    mode.w = 0.5 * std::abs(a - b);
+    add(mode, (a * y - b * x) / (a - b), (x - y) / (a - b));
+  }
+  return true;
+}
+
+ModalSystem ModalSystem::seen_through(const MatrixXd& basis, const MatrixXd& inverse) const {
+  ModalSystem seen = *this;
+  const Index n = inverse.cols(), m = std::ssize(modes_);
+  seen.diagonal_ = false;
+  seen.shapes_ = basis * shapes_;
+  seen.rate_shapes_ = basis * rate_shapes_;
+  seen.inverse_ = inverse_ * inverse;
+  if (whole_inverse_.size() == 0) return seen;
+  seen.whole_inverse_.resize(2 * m, 2 * n);
+  seen.whole_inverse_ << whole_inverse_.leftCols(m) * inverse,
+      whole_inverse_.rightCols(m) * inverse;
+  return seen;
+}
+
+void ModalSystem::add_amplitudes(std::span<const ModalState> start, std::span<double> u,
+                                 std::span<double> v) const {
+  for (Index j = 0; j < std::ssize(modes_); ++j) {
+    const Mode& mode = modes_[std::size_t(j)];
+    const auto& [y, rate] = start[std::size_t(j)];
+    const double z = std::hypot(rate, mode.omega * y);
+    const double y_size = mode.omega > 0.0 ? z / mode.omega : std::abs(y);
+    const double acceleration = std::hypot(2.0 * mode.sigma, mode.omega) * z;
+    for (Index i = 0; i < dof(); ++i) {
+      const double shape = std::abs(shapes_(i, j)), rate_shape = std::abs(rate_shapes_(i, j));
+      u[std::size_t(i)] += shape * y_size + rate_shape * z;
+      v[std::size_t(i)] += shape * z + rate_shape * acceleration;
+    }
+  }
 }
 
 void ModalSystem::to_modes(std::span<const double> u, std::span<const double> v,
                            std::span<ModalState> modes) const {
-  for (Index j = 0; j < dof(); ++j) {
+  const Index n = dof(), m = std::ssize(modes_);
+  for (Index j = 0; j < m; ++j) {
     ModalState state;
-    for (Index i = 0; i < dof(); ++i) {
-      state.y += inverse_(j, i) * u[std::size_t(i)];
-      state.rate += inverse_(j, i) * v[std::size_t(i)];
+    if (diagonal_) {
+      state = {inverse_(j, j) * u[std::size_t(j)], inverse_(j, j) * v[std::size_t(j)]};
+    } else if (whole_inverse_.size() == 0) {
+      for (Index i = 0; i < n; ++i) {
+        state.y += inverse_(j, i) * u[std::size_t(i)];
+        state.rate += inverse_(j, i) * v[std::size_t(i)];
+      }
+    } else {
+      for (Index i = 0; i < n; ++i) {
+        state.y += whole_inverse_(j, i) * u[std::size_t(i)];
+        state.y += whole_inverse_(j, n + i) * v[std::size_t(i)];
+        state.rate += whole_inverse_(m + j, i) * u[std::size_t(i)];
+        state.rate += whole_inverse_(m + j, n + i) * v[std::size_t(i)];
+      }
     }
     modes[std::size_t(j)] = state;
   }
@@ -101,36 +261,20 @@ void ModalSystem::sample(std::span<const ModalState> start, double s, std::span<
                          std::span<double> v) const {
   std::fill(u.begin(), u.end(), 0.0);
   std::fill(v.begin(), v.end(), 0.0);
-  for (Index j = 0; j < dof(); ++j) {
-    const auto now = advance(modes_[std::size_t(j)], start[std::size_t(j)], s);
+  const bool is_coupled = whole_inverse_.size() > 0;
+  for (Index j = 0; j < std::ssize(modes_); ++j) {
+    const Mode& mode = modes_[std::size_t(j)];
+    const auto now = advance(mode, start[std::size_t(j)], s);
+    const double acceleration = mode.acceleration(now.y, now.rate);
     const Index first = diagonal_ ? j : 0, last = diagonal_ ? j + 1 : dof();
     for (Index i = first; i < last; ++i) {
       u[std::size_t(i)] += shapes_(i, j) * now.y;
       if (!v.empty()) v[std::size_t(i)] += shapes_(i, j) * now.rate;
+      if (!is_coupled) continue;
+      u[std::size_t(i)] += rate_shapes_(i, j) * now.rate;
+      if (!v.empty()) v[std::size_t(i)] += rate_shapes_(i, j) * acceleration;
     }
   }
-}
-
-LocalBound linear_form(const ModalSystem& system, std::span<const ModalState> start,
-                       std::span<const double> row, double offset, double sign, double s) {
-  LocalBound bound{offset, 0.0, 0.0, std::numeric_limits<double>::infinity()};
-  double growth = 0.0;
-  for (std::size_t j = 0; j < row.size(); ++j) {
-    const Mode& mode = system.modes()[j];
-    const auto now = advance(mode, start[j], s);
-    bound.value += row[j] * now.y;
-    bound.slope += row[j] * now.rate;
-    bound.curvature += std::abs(row[j]) * std::hypot(2.0 * mode.sigma, mode.omega) *
-                       std::hypot(now.rate, mode.omega * now.y);
-    growth = std::max(growth, -mode.sigma);
-  }
-  if (growth > 0.0) {
-    bound.reach = 0.25 / growth;
-    bound.curvature *= 1.6488;  // more than e^(2 growth reach) = e^(1/2)
-  }
-  bound.value *= sign;
-  bound.slope *= sign;
-  return bound;
 }
 
 }  // namespace clackers::numerics

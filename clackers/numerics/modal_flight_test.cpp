@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 namespace clackers::numerics {
@@ -70,39 +71,110 @@ TEST(ModalFlight, CoupledMassesObeyTheirEquationOfMotion) {
   }
 }
 
-TEST(ModalFlight, RefusesDampingThatCouplesModes) {
-  Eigen::MatrixXd stiffness(2, 2), damping = Eigen::MatrixXd::Zero(2, 2);
-  stiffness << 30.0, -7.0, -7.0, 9.0;
-  damping(0, 0) = 0.5;
-  EXPECT_FALSE(ModalSystem::make(Eigen::MatrixXd::Identity(2, 2), damping, stiffness));
-  const Eigen::MatrixXd uncoupled = stiffness.diagonal().asDiagonal();
-  EXPECT_TRUE(ModalSystem::make(Eigen::MatrixXd::Identity(2, 2), damping, uncoupled));
-  EXPECT_FALSE(ModalSystem::make(-Eigen::MatrixXd::Identity(2, 2), damping, uncoupled));
+using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+// e^(A s) by squaring a Taylor series, in long double.
+Matrix exponential(Matrix a, double s) {
+  const int squarings = 20;
+  a *= (long double)(s) / std::exp2((long double)squarings);
+  Matrix sum = Matrix::Identity(a.rows(), a.rows()), term = sum;
+  for (int k = 1; k <= 8; ++k) sum += term = term * a / (long double)k;
+  for (int k = 0; k < squarings; ++k) sum = (sum * sum).eval();
+  return sum;
 }
 
-TEST(FirstRoot, FindsTheFirstOfTwoNearbyRoots) {
-  // cos s + 1 - dip is below 0 for sqrt(8 dip) around pi.
-  for (const double dip : {1e-3, 1e-6, 1e-9}) {
-    const auto f = [&](double s) {
-      return LocalBound{std::cos(s) + 1.0 - dip, -std::sin(s), 1.0, 1e9};
-    };
-    const auto root = first_root(f, 0.0, 100.0, 1e-9, 100000);
-    ASSERT_EQ(root.status, FirstRoot::Status::found);
-    const double known = std::numbers::pi - std::acos(1.0 - dip);
-    // The slope there is sqrt(2 dip); f is rounded to 2^-52.
-    EXPECT_NEAR(root.s, known, 4.0 * 0x1p-52 / std::sqrt(2.0 * dip) + 1e-15) << dip;
+void expect_follows_exponential(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& damping,
+                                const Eigen::MatrixXd& stiffness) {
+  const auto system = ModalSystem::make(mass, damping, stiffness);
+  ASSERT_TRUE(system);
+  const auto n = mass.rows();
+  Matrix a = Matrix::Zero(2 * n, 2 * n);
+  a.topRightCorner(n, n).setIdentity();
+  const Matrix inverse = mass.cast<long double>().inverse();
+  a.bottomLeftCorner(n, n) = -inverse * stiffness.cast<long double>();
+  a.bottomRightCorner(n, n) = -inverse * damping.cast<long double>();
+  Eigen::VectorXd start(2 * n), u(n), v(n);
+  for (Eigen::Index i = 0; i < 2 * n; ++i) start[i] = std::cos(1.7 * double(i));
+  std::vector<ModalState> modes{std::size_t(n)};
+  const auto size = std::size_t(n);
+  system->to_modes({start.data(), size}, {start.data() + n, size}, modes);
+  for (const double s : {0.0, 0.3, 2.0, 6.0}) {
+    system->sample(modes, s, {u.data(), size}, {v.data(), size});
+    const Eigen::VectorXd known = (exponential(a, s) * start.cast<long double>()).cast<double>();
+    // The condition of the eigenvectors and phases of up to 40 radians, in units of 2^-53.
+    const double allowed = 3e-13 * std::max(1.0, known.cwiseAbs().maxCoeff());
+    EXPECT_LT((u - known.head(n)).cwiseAbs().maxCoeff(), allowed) << s;
+    EXPECT_LT((v - known.tail(n)).cwiseAbs().maxCoeff(), allowed * 7.0) << s;
   }
 }
 
-TEST(FirstRoot, SaysWhetherThereIsNone) {
-  const auto above = [](double s) {
-    return LocalBound{std::cos(s) + 1.01, -std::sin(s), 1.0, 1e9};
+Eigen::MatrixXd matrix(std::initializer_list<double> entries) {
+  const auto n = Eigen::Index(std::lround(std::sqrt(double(entries.size()))));
+  Eigen::MatrixXd made(n, n);
+  auto entry = entries.begin();
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) made(i, j) = *entry++;
+  return made;
+}
+
+TEST(ModalFlight, DampingThatCouplesModesHasComplexOnes) {
+  const auto mass = matrix({2, 0.3, 0, 0.3, 1, 0, 0, 0, 0.7});
+  const auto stiffness = matrix({30, -7, 0, -7, 9, -2, 0, -2, 8});
+  expect_follows_exponential(mass, matrix({0.5, 0, 0, 0, 0, 0, 0, 0, 0.1}), stiffness);
+  // One mass overdamped, the others not.
+  expect_follows_exponential(mass, matrix({0.5, -0.2, 0, -0.2, 20, 0, 0, 0, 0.1}), stiffness);
+  // All overdamped.
+  expect_follows_exponential(mass, matrix({25, -2, 0, -2, 30, 0, 0, 0, 40}), stiffness);
+  // Growing.
+  expect_follows_exponential(mass, matrix({-0.2, 0, 0, 0, 0.3, 0, 0, 0, 0.1}), stiffness);
+}
+
+TEST(ModalFlight, RigidBodiesEqualFrequenciesAndUnstableEquilibriaAreSumsOfModes) {
+  // Two free masses with a dashpot and a spring between them, and a third on its own.
+  expect_follows_exponential(matrix({2, 0, 0, 0, 1, 0, 0, 0, 3}),
+                             matrix({1, -1, 0, -1, 1, 0, 0, 0, 0.2}),
+                             matrix({5, -5, 0, -5, 5, 0, 0, 0, 4}));
+  // A dashpot alone.
+  expect_follows_exponential(matrix({2, 0, 0, 1}), matrix({1, -1, -1, 1}), matrix({0, 0, 0, 0}));
+  // Equal frequencies that damping tells apart.
+  expect_follows_exponential(matrix({1, 0, 0, 0, 1, 0, 0, 0, 1}),
+                             matrix({0.5, -0.2, 0, -0.2, 0.9, 0.3, 0, 0.3, 0.4}),
+                             matrix({4, 0, 0, 0, 4, 0, 0, 0, 4}));
+  expect_follows_exponential(matrix({1, 0, 0, 1}), matrix({0.1, 0, 0, 0.1}),
+                             matrix({-0.5, 0.2, 0.2, 3}));
+}
+
+TEST(ModalFlight, RefusesWhatIsNoSumOfModes) {
+  const auto one = matrix({1, 0, 0, 1});
+  EXPECT_FALSE(ModalSystem::make(-one, one, one));
+  EXPECT_FALSE(ModalSystem::make(one, one, matrix({1, 0, 0, std::nan("")})));
+  // Two masses of equal frequencies, of which damping couples one with the other: critical coupled
+  // damping, found where two eigenvalues of the first-order equations meet.
+  const auto stiffness = matrix({1, 0, 0, 4});
+  const auto closest = [&](double c) {
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(4, 4);
+    a.topRightCorner(2, 2).setIdentity();
+    a.bottomLeftCorner(2, 2) = -stiffness;
+    a.bottomRightCorner(2, 2) = -matrix({c, -1, -1, 1});
+    const Eigen::VectorXcd values = a.eigenvalues();
+    return values.imag().cwiseAbs().minCoeff() > 0.0;
   };
-  EXPECT_EQ(first_root(above, 0.0, 50.0, 1e-9, 100000).status, FirstRoot::Status::none);
-  EXPECT_EQ(first_root(above, 0.0, 50.0, 1e-9, 3).status, FirstRoot::Status::undecided);
-  const auto line = [](double s) { return LocalBound{1.0 - s, -1.0, 0.0, 0.3}; };
-  EXPECT_NEAR(first_root(line, 0.0, 50.0, 1e-9, 100).s, 1.0, 1e-15);
-  EXPECT_EQ(first_root(line, 0.0, 0.9, 1e-9, 100).status, FirstRoot::Status::none);
+  double oscillating = 1.5, damped = 50.0;
+  ASSERT_TRUE(closest(oscillating));
+  ASSERT_FALSE(closest(damped));
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (oscillating + damped);
+    (closest(middle) ? oscillating : damped) = middle;
+  }
+  EXPECT_FALSE(ModalSystem::make(one, matrix({damped, -1, -1, 1}), stiffness));
+  EXPECT_TRUE(ModalSystem::make(one, matrix({1.01 * damped, -1, -1, 1}), stiffness));
+}
+
+TEST(ModalFlight, OfNoDegreesOfFreedomIsEmpty) {
+  const Eigen::MatrixXd none(0, 0);
+  const auto system = ModalSystem::make(none, none, none);
+  ASSERT_TRUE(system);
+  EXPECT_EQ(system->dof(), 0);
 }
 
 }  // namespace

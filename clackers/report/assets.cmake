@@ -21,6 +21,7 @@ set(page
   ${report_dir}/page/section.html
   ${report_dir}/page/table.html
   ${report_dir}/page/figure.html
+  ${report_dir}/page/player.html
   ${report_dir}/page/subject.html
   ${report_dir}/page/self.html
   ${report_dir}/page/notebook.html
@@ -28,6 +29,7 @@ set(page
   ${report_dir}/page/theme.js
   ${report_dir}/page/page.js
   ${report_dir}/page/figures.js
+  ${report_dir}/page/player.js
   ${report_dir}/page/response.vl.json
   ${report_dir}/page/history_rows.vl.json
   ${report_dir}/page/convergence.vl.json

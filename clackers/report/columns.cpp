@@ -170,10 +170,10 @@ const Column all[] = {
     {"last_time", "s", "last time", "", "of the rows assessed", Kind::number, true, file<&File::last>},
     {"digits", "", "digits", "", "most significant digits of a displacement, or single (precision)", Kind::count, true, digits},
     {"printed_floor", "", "printed floor", "", "error in u that printing alone may make", error, true, file<&File::printed_floor>},
-    {"u_error", "", "error in u", "", "largest |error in u| / initial envelope over masses and own times", error, true, score<&Score::u_error>},
+    {"u_error", "", "error in u", "", "largest |error in u| / largest envelope over masses and own times", error, true, score<&Score::u_error>},
     {"u_error_absolute", "m", "error in u", "", "the same, not divided", error, true, score<&Score::u_error_absolute>},
-    {"v_error", "", "error in v", "", "L1 over time / length / initial envelope, largest over masses", error, true, score<&Score::v_error>},
-    {"energy_error", "", "energy error", "", "largest |E - E exact| / E exact at t = 0; stays of order one where restitution < 1", error, true, score<&Score::energy_error>},
+    {"v_error", "", "error in v", "", "L1 over time / length / largest envelope, largest over masses", error, true, score<&Score::v_error>},
+    {"energy_error", "", "energy error", "", "largest |E - E exact| / largest E exact of the run; stays of order one where restitution < 1", error, true, score<&Score::energy_error>},
     {"energy_ratio", "", "energy ratio", "", "E / E exact at the last state", Kind::number, true, score<&Score::energy_ratio>},
     {"rounding_floor", "", "rounding floor", "", "of u_error, estimated", error, true, score<&Score::rounding_floor>},
     {"collision_source", "", "collisions from", "", "events, history (found in it) or unknown", word, true, [](const Row& row) { return file_of(row) ? text(to_string(file_of(row)->collisions)) : Cell(); }},
@@ -256,7 +256,8 @@ const Column& column(std::string_view wanted) {
   return *found;
 }
 
-Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind) {
+Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind,
+                    const std::vector<std::string>& only) {
   const bool methods = kind == study::SubjectKind::method;
   const bool by_step = std::ranges::all_of(problem.subjects, is_by_step);
   Table table{methods
@@ -265,13 +266,16 @@ Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind) {
                   : named({"file_name", "rows", by_step ? "step" : "tolerance", "digits", "u_error",
                            "v_error", "collisions", "collision_time_error", "collision_source"}),
               {}};
-  for (const auto& subject : problem.subjects) {
-    // A program is a method of others.
-    if ((subject.kind != study::SubjectKind::histories) != methods) continue;
-    if (methods)
-      table.rows.push_back(subject_row(problem, subject));
-    else
-      std::ranges::move(run_rows(problem, subject), std::back_inserter(table.rows));
+  for (const auto& group : groups_of(problem, only)) {
+    if (methods && group.is_headed) table.heads.push_back({table.rows.size(), group});
+    for (const auto* subject : group.subjects) {
+      // A program is a method of others.
+      if ((subject->kind != study::SubjectKind::histories) != methods) continue;
+      if (methods)
+        table.rows.push_back(subject_row(problem, *subject));
+      else
+        std::ranges::move(run_rows(problem, *subject), std::back_inserter(table.rows));
+    }
   }
   return table;
 }

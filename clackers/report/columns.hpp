@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/report/groups.hpp"
 #include "clackers/study/record.hpp"
 #include "clackers/study/sheet.hpp"
 
@@ -57,11 +58,20 @@ const Column& column(std::string_view name);
 
 /// A table for people.
 struct Table {
+  /// Above the rows of a group.
+  struct Head {
+    std::size_t row;  ///< the first of the group
+    SubjectGroup group;
+  };
+
   std::vector<const Column*> columns;
   std::vector<Row> rows;
+  std::vector<Head> heads{};  ///< empty: the rows are no groups
 };
-/// A row a subject of the kind; for histories a row a file.
-Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind);
+/// A row a subject of the kind, in the order of groups_of(); for histories a row a file. `only` as
+/// there.
+Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind,
+                    const std::vector<std::string>& only = {});
 /// The levels of one subject.
 Table level_table(const study::CaseRecord& problem, const study::Subject& subject);
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "clackers/study/baseline.hpp"
 #include "clackers/study/record.hpp"
@@ -23,7 +24,8 @@ Format format_from(std::string_view text, Content content = Content::rows);
 struct Style {
   bool color = false;
   int width = 80;
-  bool all_metrics = false;  ///< of histories, not only those marked for reports
+  bool all_metrics = false;         ///< of histories, not only those marked for reports
+  std::vector<std::string> only{};  ///< verdicts to show, "disagrees"; empty: all
 };
 
 /// Rows, one by one: a table at 80 columns, csv with a header line, or json with the schema, the
@@ -50,10 +52,15 @@ void write_changes(const study::BaselineComparison& changes, std::ostream& out,
 std::string html(const study::Record& record, const study::BaselineComparison* changes = nullptr);
 
 /// Sheets as such a page: tables, texts, and figures of the curves; `name` is what they are about.
+/// With the `motion` of a case, which has no subjects, its response and animation stand first.
 std::string html(std::span<const study::Sheet> sheets, const std::string& name,
-                 const study::Provenance& from);
+                 const study::Provenance& from, const study::CaseRecord* motion = nullptr,
+                 const std::string& command = "show");
 
-/// The displacements as a picture of characters, masses marked 1 and 2, collisions on the axis.
+/// Figures draw the displacements of this many masses at most, the first ones, and say so.
+inline constexpr std::size_t most_drawn_masses = 9;
+
+/// The displacements as a picture of characters, masses marked 1, 2, ..., collisions on the axis.
 std::string plot(const study::Curve& response, std::span<const double> impact_times,
                  const Style& style = {});
 

@@ -26,7 +26,7 @@ struct RunFacts {
   /// Growth of a disturbance per collision and unit of detuning; 0 where none grows or the case is
   /// no pair. The constant "detuning_rate" of the case.
   double detuning_rate = 0.0;
-  double contact_time = 0.0;  ///< half a period of the contact spring [s], 0 for rigid or unknown
+  double contact_time = 0.0;  ///< half a period of a linear contact spring [s], 0: none is known
 };
 
 RunFacts facts_of(const CaseSummary& problem, double contact_time);

@@ -14,6 +14,7 @@
 #include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/study/metric_result.hpp"
 #include "clackers/study/profile.hpp"
+#include "clackers/study/schematic.hpp"
 #include "clackers/study/self_result.hpp"
 
 namespace clackers::assess {
@@ -47,6 +48,8 @@ struct CaseSummary {
   double end = 0.0;                  ///< [s]
   double fast_period = 0.0;          ///< shortest damped period of the free masses [s]
   std::vector<double> impact_times;  ///< at most the first 1000 [s]
+  std::vector<int> impact_contacts;  ///< the contact of each, from 0; not in files
+  Schematic drawing;                 ///< not in files
   long long impact_count = 0;
 };
 
@@ -133,6 +136,7 @@ struct Run {
   std::optional<HistoryFile> file;    ///< of a history
   std::vector<MetricResult> metrics;  ///< empty where none were measured
   Curve error_history;    ///< |error in u| / envelope against time; empty where none was kept
+  Curve motion{};         ///< displacements of a method's run that is shown [m]; not in files
   std::string printed{};  ///< last lines that a program printed whose run failed
 };
 

@@ -31,18 +31,20 @@ TimeGrid grid_of(long long n, double end);
 /// times.
 TimeGrid grid_every(double step, double end);
 
-/// The exact response, columns t,side,u1,v1,a1[,u2,v2,a2]. Where a time is the double nearest to a
+/// The exact response, columns t,side,u1,v1,a1[,u2,v2,a2,...]. Where a time is the double nearest to a
 /// collision two rows appear, side "-" then "+". The case must outlive the rows. Throws InputError
 /// for a time outside [0, end], before any row.
 std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& grid);
 
 /// All collisions up to the case's end:
-/// k,t,u1,v1-,v1+[,v2-,v2+],impulse,energy_before,energy_after. The case must outlive the rows.
+/// k,t[,contact],u1,v1-,v1+[,u2,v2-,v2+,...],impulse,energy_before,energy_after. Of a pair with one
+/// contact u2 is left out, since the masses touch. Contacts that close together have a row each,
+/// with the velocities before and after all of them. The case must outlive the rows.
 std::unique_ptr<RowSource> collisions(const cases::Case& which);
 
 /// Where the energy is: t,side,kinetic,potential,dissipated,lost,total,momentum at the times of
-/// respond(), with its two rows at collisions. The case must outlive the rows. Throws InputError as
-/// respond() does, and for a motion without closed form (no-closed-form).
+/// respond(), with its two rows at collisions. A motion that is no pair's has neither dissipated nor
+/// total. The case must outlive the rows. Throws InputError as respond() does.
 std::unique_ptr<RowSource> energies(const cases::Case& which, const TimeGrid& grid);
 
 /// The columns of respond() differentiated: t,side,du1,dv1,da1[,du2,dv2,da2]. `name` is a raw
@@ -60,6 +62,9 @@ std::unique_ptr<RowSource> spectrum(const cases::Case& which, long long n, doubl
 
 /// Times of the response in a report.
 inline constexpr int response_points = 1501;
+
+/// A case without subjects: its summary and response, for a page.
+CaseRecord response_record(const cases::Case& which);
 
 /// Exact displacements at `n` equally spaced times, for a picture. Throws InputError for n < 2.
 Curve response_curve(const cases::Case& which, int n);

@@ -11,7 +11,7 @@ namespace clackers::study {
 
 /// What one would conclude of a method's runs without the true motion, beside what is true of the
 /// same runs. Compared are the displacements at the end of each run, the one instant that runs of
-/// all steps share, each divided by the initial envelope of its mass.
+/// all steps share, each divided by the largest envelope of its mass.
 struct SelfResult {
   double order = 0.0;            ///< q that the differences are held to
   assess::SelfConvergence self;  ///< by differences between runs at successive steps

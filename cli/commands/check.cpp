@@ -76,7 +76,7 @@ int run(const Options& options, const std::string& line) {
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
   const auto record = run_check(options, request);
-  const RecordOutput output(record, baseline, options.common, options.metrics == "all");
+  const RecordOutput output(record, baseline, options.common, {.all_metrics = options.metrics == "all"});
   const bool written = !page.wanted() || page.write(output.html());
   try {
     output.write(results);
@@ -128,8 +128,9 @@ void add_check(Grammar& root) {
   app->add_option(
          "--events", options->events,
          "Collisions of the history, text or .npy: a column t and optionally "
-         "impulse,v1-,v1+,v2-,v2+. Of several histories one file each, in their order. Without it "
-         "collisions are found in the history.")
+         "impulse,v1-,v1+,v2-,v2+; of a case with several contacts also contact, from 0. Of several "
+         "histories one file each, in their order. Without it collisions are found in the "
+         "history.")
       ->reads_file("FILE");
   app->add_option(
          "--steps", options->steps,
@@ -146,7 +147,7 @@ void add_check(Grammar& root) {
                   "stagnating or divergent.")
       ->option_text("BEHAVIOUR[:ORDER]");
   app->add_option("--tolerance", options->tolerance,
-                  "Largest error in u, relative to the initial envelope, of the finest history.")
+                  "Largest error in u, relative to the largest envelope, of the finest history.")
       ->option_text("x");
   app->add_option(
          "--metrics", options->metrics,

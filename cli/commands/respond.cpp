@@ -10,8 +10,11 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/digit_rows.hpp"
+#include "clackers/study/listing.hpp"
+#include "clackers/study/provenance.hpp"
 #include "cli/command.hpp"
 #include "cli/files/input_files.hpp"
+#include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
@@ -24,7 +27,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> settings;
-  std::string name, samples, step, times, digits, sensitivity, highest, problem;
+  std::string name, samples, step, times, digits, sensitivity, highest, report, problem;
   bool collisions = false, plot = false, energy = false, spectrum = false;
 
   int ways() const {
@@ -50,8 +53,8 @@ void check(const Options& options) {
   if (options.name.empty())
     refuse_usage("needs a CASE, for example three-parameter. All names: clackers list cases");
   if (options.ways() > 1) refuse_usage("takes only " + ways + ".");
-  if (options.ways() == 0 && !options.plot)
-    refuse_usage("needs times: " + ways + ", or --plot for a picture alone.");
+  if (options.ways() == 0 && !options.plot && options.report.empty())
+    refuse_usage("needs times: " + ways + ", or --plot or --report for a picture alone.");
   if (options.ways() == 0 && !options.common.out.empty())
     refuse_usage("--out needs rows to write: " + ways + ". The picture goes to standard output.");
   if (!options.digits.empty() && options.plot)
@@ -141,10 +144,19 @@ void write(study::RowSource& rows, Results& results, bool quiet) {
   report::write(rows, results.format(), results.stream(), results.style());
 }
 
-int run(Options options) {
+std::string page_of(const cases::Case& which, const Options& options, const std::string& line) {
+  const auto motion = study::response_record(which);
+  return report::html(
+      study::show_case(options.name, read_settings(options.settings, options.problem),
+                       cases::default_threshold),
+      options.name, study::provenance(line), &motion, "respond");
+}
+
+int run(Options options, const std::string& line) {
   options.name = case_of(options.name, options.problem);
   check_kind(options);
   check(options);
+  ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::numbers);
   check_format(options, results);
   const auto which = cases::make(options.name, read_settings(options.settings, options.problem));
@@ -154,10 +166,11 @@ int run(Options options) {
     out << picture(which, standard_style(options.common.no_color));
     out.finish();
   }
-  if (!rows) return 0;
-  write(*rows, results, options.common.quiet);
-  results.finish();
-  return 0;
+  if (rows) {
+    write(*rows, results, options.common.quiet);
+    results.finish();
+  }
+  return !page.wanted() || page.write(page_of(which, options, line)) ? 0 : 4;
 }
 
 }  // namespace
@@ -175,7 +188,7 @@ void add_respond(Grammar& root) {
                      "rows stand: side - before it and side + after it.",
             .usage = "  clackers respond CASE [--set name=value,...]\n"
                      "           (--samples n | --step h | --times FILE | --collisions)\n"
-                     "           [--digits n] [--plot]\n"
+                     "           [--digits n] [--plot] [--report FILE.html]\n"
                      "  clackers respond CASE [--set ...] (--energy | --sensitivity NAME)\n"
                      "           (--samples n | --step h | --times FILE) [--plot]\n"
                      "  clackers respond CASE [--set ...] --spectrum --samples n --highest w\n"});
@@ -216,6 +229,10 @@ void add_respond(Grammar& root) {
       ->option_text("n");
   app->add_flag("--plot", options->plot,
                 "Draw the displacements in the terminal; alone, or above the rows.");
+  app->add_option("--report", options->report,
+                  "Also write a page with the response and the motion as an animation, which opens "
+                  "without a network, whole or not at all.")
+      ->writes_file("FILE.html");
   add_common_options(*app, options->common);
   app->get_option("--format")
       ->description(
@@ -223,7 +240,7 @@ void add_respond(Grammar& root) {
           "(a NumPy structured array of float64, one field a column; side is -1, 0 or 1; not with "
           "--digits). Default: table.")
       ->option_text("table|csv|json|npy");
-  app->run = [options](const std::string&) { return run(*options); };
+  app->run = [options](const std::string& line) { return run(*options, line); };
 }
 
 }  // namespace clackers::cli

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "clackers/report/write.hpp"
 #include "clackers/study/listing.hpp"
 #include "clackers/study/provenance.hpp"
+#include "clackers/study/respond.hpp"
 #include "cli/command.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
@@ -74,7 +76,12 @@ int run(Options options, const std::string& line) {
   report::write(sheets, "clackers/show/1", results.format(), results.stream(), results.style(),
                 problem);
   results.finish();
-  return !page.wanted() || page.write(report::html(sheets, options.name, study::provenance(line)))
+  if (!page.wanted()) return 0;
+  std::optional<study::CaseRecord> motion;
+  if (is_case(options.name))
+    motion = study::response_record(cases::make(options.name, read_settings(options.settings)));
+  return page.write(report::html(sheets, options.name, study::provenance(line),
+                                 motion ? &*motion : nullptr))
              ? 0
              : 4;
 }
@@ -106,8 +113,8 @@ void add_show(Grammar& root) {
                   "Default: 0.1.")
       ->option_text("x");
   app->add_option("--report", options->report,
-                  "Also write a page with the tables and figures that opens without a network, "
-                  "whole or not at all.")
+                  "Also write a page with the tables and figures, of a case its motion as an "
+                  "animation, that opens without a network, whole or not at all.")
       ->writes_file("FILE.html");
   add_common_options(*app, options->common);
   app->run = [options](const std::string& line) { return run(*options, line); };

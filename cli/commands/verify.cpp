@@ -1,7 +1,9 @@
 #include "clackers/study/verify.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
@@ -10,8 +12,10 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/suggest.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/study/listing.hpp"
+#include "clackers/study/program.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/verify_programs.hpp"
 #include "cli/files/record_output.hpp"
@@ -31,7 +35,7 @@ constexpr double default_budget = 20.0;  // [s]
 
 struct Options {
   CommonOptions common;
-  std::vector<std::string> methods, cases, settings, requirements;
+  std::vector<std::string> methods, cases, settings, requirements, only;
   std::string levels, coarsest, neighbours, budget, jobs, report, baseline, problem;
   bool all = false;
   ProgramOptions programs;
@@ -61,6 +65,8 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
     request.budget = read_duration("--budget", options.budget);
   else if (options.levels.empty())
     request.budget = default_budget;
+  const auto& tolerances = options.programs.tolerances;
+  if (!tolerances.empty()) request.tolerances = study::tolerances_from(tolerances);
   request.jobs = whole("--jobs", options.jobs, 1, request.jobs);
   request.command = line;
   if (options.programs.any()) plan = program_plan(plan, !options.neighbours.empty());
@@ -69,6 +75,22 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
 
 [[noreturn]] void refuse_usage(const std::string& sentence) {
   throw InputError("verify " + sentence, "bad-syntax");
+}
+
+// As typed, with a hyphen for the blank in the words of a record.
+std::vector<std::string> verdicts_to_show(const Options& options) {
+  static const std::vector<std::string> known{"disagrees", "undecided", "agrees", "not-claimed",
+                                              "refused"};
+  if (!options.only.empty() && options.common.format != "table")
+    refuse_usage("--only: this is for tables; leave --only or --format " + options.common.format +
+                 " out.");
+  auto words = options.only;
+  for (auto& word : words) {
+    if (std::ranges::find(known, word) == known.end())
+      refuse_name("verdict", word, known, fmt::format("{}", fmt::join(known, ", ")));
+    std::ranges::replace(word, '-', ' ');
+  }
+  return words;
 }
 
 void check(const Options& options) {
@@ -92,13 +114,14 @@ int run(const Options& options, const std::string& line) {
   check(options);
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
+  const RecordView view{false, verdicts_to_show(options)};
   // Before the work: where it cannot go must not be found out afterwards.
   Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
   const auto baseline = baseline_of(options.baseline, request);
   ReportPage page(options.report, options.common, OnInterrupt::finish);
 
   const auto record = run_study(options, request);
-  const RecordOutput output(record, baseline, options.common);
+  const RecordOutput output(record, baseline, options.common, view);
   bool written = !page.wanted() || page.write(output.html());
   try {
     if (!try_to_write([&] { output.write(results); })) {
@@ -133,6 +156,7 @@ void add_verify(Grammar& root) {
            "  clackers verify --report report.html --format json --out record.json\n"
            "  clackers verify --baseline record.json\n"
            "  clackers verify rk4 newmark --case stop --case symmetric-pair\n"
+           "  clackers verify --all --only disagrees --only undecided\n"
            "  clackers verify --exec './solver {case} {h} {out}' --expect proper:2\n"
            "  clackers verify --plugin ./solver.so --expect proper:2\n",
        .about =
@@ -145,14 +169,17 @@ void add_verify(Grammar& root) {
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--neighbours n] [--budget TIME]\n"
                 "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
-                "           [--report FILE.html]\n"
+                "           [--only VERDICT] [--report FILE.html]\n"
                 "  clackers verify [METHOD ...] --exec COMMAND|--plugin FILE.so ...\n"
                 "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
                 "           [--timeout TIME] [--work FOLDER] [--fresh] ...\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods).");
-  app->add_flag("--all", options->all, "Every integrator with every contact treatment.");
+  app->add_flag(
+      "--all", options->all,
+      "Every method (clackers list pairs): every integrator with every contact treatment that "
+      "takes it, every contact law with two of them, and methods that stand alone.");
   app->add_option(
          "--case", options->cases,
          "The case (clackers list cases). Default: three-parameter. Several, each with its "
@@ -179,6 +206,11 @@ void add_verify(Grammar& root) {
   add_program_options(*app, options->programs);
   app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
   add_require_option(*app, options->requirements);
+  app->add_option(
+         "--only", options->only,
+         "Show only methods with this verdict: disagrees, undecided, agrees, not-claimed or "
+         "refused. May be repeated. All are run; reports and other formats have all.")
+      ->option_text("VERDICT");
   add_report_option(*app, options->report);
   app->add_option(
          "--baseline", options->baseline,

@@ -8,8 +8,8 @@ namespace clackers::cli {
 
 RecordOutput::RecordOutput(const study::Record& record,
                            const std::optional<study::Record>& baseline,
-                           const CommonOptions& options, bool all_metrics)
-    : record_(record), quiet_(options.quiet), all_metrics_(all_metrics) {
+                           const CommonOptions& options, const RecordView& view)
+    : record_(record), quiet_(options.quiet), view_(view) {
   if (baseline) changes_ = study::compare(record, *baseline);
 }
 
@@ -17,7 +17,8 @@ std::string RecordOutput::html() const { return report::html(record_, changes())
 
 void RecordOutput::write(Results& to) const {
   auto style = to.style();
-  style.all_metrics = all_metrics_;
+  style.all_metrics = view_.all_metrics;
+  style.only = view_.only;
   report::write(record_, to.format(), to.stream(), style, changes());
   to.finish();
 }

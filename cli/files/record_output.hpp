@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "clackers/report/write.hpp"
 #include "clackers/study/baseline.hpp"
@@ -21,11 +22,17 @@ std::optional<study::Record> baseline_of(const std::string& path, const Request&
   return baseline;
 }
 
+/// What tables on a terminal show of a record.
+struct RecordView {
+  bool all_metrics = false;
+  std::vector<std::string> only{};  ///< verdicts; empty: all
+};
+
 /// A record of verify or check with what changed since its baseline. The record must outlive it.
 class RecordOutput {
  public:
   RecordOutput(const study::Record& record, const std::optional<study::Record>& baseline,
-               const CommonOptions& options, bool all_metrics = false);
+               const CommonOptions& options, const RecordView& view = {});
 
   std::string html() const;
   void write(Results& to) const;
@@ -37,7 +44,8 @@ class RecordOutput {
 
   const study::Record& record_;
   std::optional<study::BaselineComparison> changes_;
-  bool quiet_, all_metrics_;
+  bool quiet_;
+  RecordView view_;
 };
 
 }  // namespace clackers::cli

@@ -23,8 +23,9 @@ class List(CommandTest):
         self.assertTrue(title.endswith("Default panel: " + ", ".join(PANEL)), title)
 
     def test_methods_are_integrators_contacts_and_what_stands_alone(self):
-        self.assertEqual(self.names("methods"),
-                         self.names("integrators") + self.names("contacts") + ["moreau-jean"])
+        joined = self.names("integrators") + self.names("contacts")
+        self.assertEqual(self.names("methods")[:len(joined)], joined)
+        self.assertIn("moreau-jean", self.names("methods")[len(joined):])
 
     def test_shows_every_kind_in_every_format_at_80_columns(self):
         for kind in KINDS:

@@ -128,7 +128,7 @@ class OfARecord(Plots):
             np.testing.assert_array_equal(shown[method].get_ydata(), largest)
         self.assertEqual((axes.get_xscale(), axes.get_yscale()), ("log", "log"))
         self.assertEqual((axes.get_xlabel(), axes.get_ylabel()),
-                         ("step $h$ [s]", "largest error in $u$ / initial envelope"))
+                         ("step $h$ [s]", "largest error in $u$ / largest envelope"))
 
     def test_runs_without_a_positive_error_are_not_drawn(self):
         smallest = RECORD["rk4"].runs["u_error"].min()
@@ -170,7 +170,7 @@ class OfARecord(Plots):
             np.testing.assert_array_equal(line.get_ydata(), row["error"])
         self.assertEqual(axes.get_legend().get_title().get_text(), f"$h$ = {rows[0]['step']:.3g} s")
         self.assertEqual((axes.get_xlabel(), axes.get_ylabel()),
-                         ("time $t$ [s]", "|error in $u_2$| / initial envelope"))
+                         ("time $t$ [s]", "|error in $u_2$| / largest envelope"))
 
     def test_a_case_is_chosen_by_name(self):
         record = clackers.verify("rk4", case=["stop", "three-parameter"], levels=2, neighbours=1)

@@ -128,6 +128,48 @@ try {
   await page.waitForTimeout(100);
   check("the error of mass 2 can be chosen", await page.evaluate(() => embedded.history.signal("mass")) === 2);
 
+  // The player.
+  const stage = page.locator('[data-player="motion"]');
+  const player = (label) => stage.locator("xpath=following-sibling::div[1]").locator("button", { hasText: label });
+  const clock = () => stage.locator("svg > text").innerHTML();
+  const place = (mass) => page.evaluate((i) =>
+    Number(document.querySelector(`[data-player] [data-block="${i}"]`).getAttribute("transform").match(/\(([-\d.]+)/)[1]), mass);
+  const spark = () => stage.locator("[data-contact]").getAttribute("opacity").then(Number);
+  check("the motion starts at its beginning with a block a mass",
+    await stage.locator("[data-block]").count() === 2 && await clock() === "0.000 s", await clock());
+  const apart = await place(1) - await place(2);
+  await player("impact ▸").focus();
+  await page.keyboard.press("Enter");
+  check("the next impact is where the masses meet and flash", await clock() === "1.571 s" && await spark() > 0.99,
+    `${await clock()}, ${await spark()}`);
+  check("masses move apart by their displacements", await place(1) - await place(2) < apart - 100);
+  const line = page.locator('[data-plot="response"] .cursor');
+  check("a line in the response shows the time", await line.isVisible() && await page.evaluate(() =>
+    Math.abs(parseFloat(document.querySelector(".cursor").style.left) - embedded.response.scale("x")(Math.PI / 2)
+      - embedded.response.origin()[0]) < 0.01));
+  await stage.focus();
+  await page.keyboard.press("Home");
+  check("a key goes back to the beginning", await clock() === "0.000 s" && await spark() === 0);
+  await page.keyboard.press("Space");
+  await page.waitForFunction(() => parseFloat(document.querySelector("[data-player] svg > text").textContent) > 0.2);
+  await page.keyboard.press("Space");
+  const held = await clock();
+  await page.waitForTimeout(100);
+  check("a key plays and pauses", await clock() === held && await player("Play").count() === 1, `${held}, ${await clock()}`);
+  await stage.locator("xpath=following-sibling::div[1]").locator("input").fill("20");
+  check("the slider goes to any time", await clock() === "20.000 s");
+  await stage.locator("xpath=following-sibling::div[1]").locator("select").nth(1).selectOption({ index: 1 });
+  const outline = await page.locator('[data-outline="1"]').evaluate((rect) => Number(rect.getAttribute("x")) + Number(rect.getAttribute("width")) / 2);
+  check("a run stands beside the exact motion as outlines", Math.abs(outline - await place(1)) < 1
+    && await page.locator('[data-outline="1"]').getAttribute("visibility") === "visible", `${outline}, ${await place(1)}`);
+  const frame = async (label) => {
+    const [saved] = await Promise.all([page.waitForEvent("download"), player(label).click()]);
+    return readFileSync(await saved.path());
+  };
+  const still = (await frame("SVG")).toString();
+  check("a moment is saved as SVG with colours of its own", still.startsWith("<svg ") && !still.includes("var(--"));
+  check("a moment is saved as PNG", (await frame("PNG")).subarray(1, 4).toString() === "PNG");
+
   // What is counted, chosen on the keyboard.
   const axisTitle = (name) => page.locator(`[data-plot="${name}"] svg .role-axis-title text`).first().innerHTML();
   check("work is shown by force evaluations first", await axisTitle("work") === "force evaluations", await axisTitle("work"));

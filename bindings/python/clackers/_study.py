@@ -162,7 +162,7 @@ def check(
         tolerances  of an adaptive solver, one a history, instead of steps
         case        a name with **parameters, or a clackers.Case; default three-parameter
         expect      what the histories should show: "proper:2", "irregular:1", "exact", ...; default nothing
-        tolerance   largest error in u over the initial envelope that is allowed
+        tolerance   largest error in u over the largest envelope that is allowed
         columns     names of the columns of files where a header lacks or differs
         name        of the history in the record, a list of several
         progress    a callable that gets the share that is done, or True for a line on standard error

@@ -169,7 +169,7 @@ def convergence(
         _draw_floor(axes, runs, floor)
         axes.set(
             xscale="log", yscale="log", xlabel="step $h$ [s]",
-            ylabel=r"largest error in $u$ / initial envelope",
+            ylabel=r"largest error in $u$ / largest envelope",
         )
         _legend(axes)
     return axes
@@ -186,7 +186,7 @@ def history(
     >>> import clackers
     >>> record = clackers.verify("rk4", "newmark", case="three-parameter", levels=3, neighbours=4)
     >>> clackers.plot.history(record, mass=2).get_ylabel()
-    '|error in $u_2$| / initial envelope'
+    '|error in $u_2$| / largest envelope'
     """
     rows = _datasets(record, "history", case)["history"]
     masses = sorted({int(row["mass"]) for row in rows})
@@ -208,7 +208,7 @@ def history(
             )
         axes.set(
             yscale="log", xlabel="time $t$ [s]",
-            ylabel=f"|error in {_indexed('u', mass - 1, len(masses))}| / initial envelope",
+            ylabel=f"|error in {_indexed('u', mass - 1, len(masses))}| / largest envelope",
         )
         axes.margins(x=0)
         _legend(axes, steps.pop() if len(steps) == 1 else None)

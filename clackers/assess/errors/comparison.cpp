@@ -35,22 +35,6 @@ void forget_what_is_not_finite(model::Impact& impact) {
 
 }  // namespace
 
-model::Kinematics reference_scale(const model::Motion& reference) {
-  auto scale = reference.envelope(0.0);
-  const auto all = {&model::Kinematics::u, &model::Kinematics::v, &model::Kinematics::a};
-  const auto is_complete = [&](auto part) { return ((scale.*part).array() > 0.0).all(); };
-  if (std::ranges::all_of(all, is_complete)) return scale;
-  auto largest = scale;
-  constexpr int parts = 1024;
-  for (int i = 1; i <= parts; ++i) {
-    const auto now = reference.envelope(reference.end() * i / parts);
-    for (const auto part : all) largest.*part = (largest.*part).cwiseMax(now.*part);
-  }
-  for (const auto part : all)
-    scale.*part = ((scale.*part).array() > 0.0).select(scale.*part, largest.*part);
-  return scale;
-}
-
 double relative_bound(const model::Motion& reference, const model::Kinematics& scale, double t) {
   const auto bound = reference.error_bound(std::clamp(t, 0.0, reference.end()));
   double largest = 0.0;
@@ -66,7 +50,7 @@ Comparison::Comparison(const model::Trajectory& history, const model::Motion& re
   require_comparable(history, reference, problem);
   step_ = median_difference(history.t);
   widened_ = with_jump_limits(history);
-  const auto scale = reference_scale(reference);
+  const auto scale = reference.peak();
   u_envelope_ = entries(scale.u);
   v_envelope_ = entries(scale.v);
   a_envelope_ = entries(scale.a);
@@ -101,7 +85,7 @@ void Comparison::sample_reference() {
 
 double Comparison::rounding_floor() const {
   double floor = std::numeric_limits<double>::epsilon() * double(rows());
-  const auto scale = reference_scale(reference_);
+  const auto scale = reference_.peak();
   for (const double t : {given_.t.front(), given_.t.back()})
     floor = std::max(floor, relative_bound(reference_, scale, t));
   return floor;

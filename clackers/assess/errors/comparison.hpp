@@ -14,12 +14,8 @@
 
 namespace clackers::assess {
 
-/// What errors are divided by, component by component: the envelope of the reference at t = 0, or
-/// where that is 0, as of a mass that starts at rest, the largest at 1024 equal parts of the run.
-model::Kinematics reference_scale(const model::Motion& reference);
-
-/// The largest proved error of the reference at time t over that scale, of u and v of all masses;
-/// components without a scale are left out.
+/// The largest proved error of the reference at time t over `scale`, its peak(), of u and v of all
+/// masses; components without a scale are left out.
 double relative_bound(const model::Motion& reference, const model::Kinematics& scale, double t);
 
 /// A collision of the history and the true one it belongs to.
@@ -84,7 +80,7 @@ class Comparison {
   std::span<const double> reference_v() const { return reference_v_; }
   /// Empty unless the history has accelerations.
   std::span<const double> reference_a() const { return reference_a_; }
-  /// What relative errors are divided by, one a mass: see reference_scale().
+  /// What relative errors are divided by, one a mass: the peak() of the reference.
   std::span<const double> u_envelope() const { return u_envelope_; }
   std::span<const double> v_envelope() const { return v_envelope_; }
   std::span<const double> a_envelope() const { return a_envelope_; }

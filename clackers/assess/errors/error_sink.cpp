@@ -14,15 +14,17 @@ constexpr auto who = "error sink";
 constexpr std::size_t block_size = 256;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Of the reference at the start; where it starts without energy the largest at 1024 equal parts.
-double energy_scale(const MechanicalEnergy& energy, const model::Motion& reference, double start) {
+// The largest of the reference over the run: that at the start, unless it has none there or a load
+// brings some; then the largest at 1024 equal parts.
+double energy_scale(const MechanicalEnergy& energy, const model::Motion& reference, double start,
+                    bool is_loaded) {
   const auto at = [&](double t) {
     const auto now = reference.at(t, model::Side::right);
     return energy.total(now.u.data(), now.v.data());
   };
   double scale = at(start);
   constexpr int parts = 1024;
-  if (!(scale > 0.0))
+  if (is_loaded || !(scale > 0.0))
     for (int i = 1; i <= parts; ++i) scale = std::max(scale, at(reference.end() * i / parts));
   return require_positive(who, "energy of the reference", scale);
 }
@@ -37,7 +39,7 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
       options_(options),
       contacts_(problem.contacts),
       energy_(problem.system),
-      scale_(reference_scale(reference)),
+      scale_(reference.peak()),
       start_(problem.start.t),
       times_(block_size),
       u_reference_(block_size * dof_),
@@ -53,7 +55,7 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
            "wrong-size");
   for (const double scale : scale_.u) require_positive(who, "envelope of u", scale);
   for (const double scale : scale_.v) require_positive(who, "envelope of v", scale);
-  energy_scale_ = energy_scale(energy_, reference, start_);
+  energy_scale_ = energy_scale(energy_, reference, start_, bool(problem.system.add_load));
 }
 
 void ErrorSink::sample_reference(std::span<const double> times) {

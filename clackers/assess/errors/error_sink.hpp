@@ -27,7 +27,7 @@ struct ErrorSinkOptions {
 class ErrorSink : public model::Sink {
  public:
   /// Motion and problem must outlive the sink. Throws InputError unless both have the same number
-  /// of masses, every mass has a positive reference_scale() of u and v, the reference has energy at
+  /// of masses, every mass has a positive peak() of u and v, the reference has energy at
   /// some time, and 0 < step < infinity [s].
   ErrorSink(const model::Motion& reference, const model::ImpactProblem<>& problem, double step,
             const ErrorSinkOptions& options = {});

@@ -253,6 +253,50 @@ TEST(ErrorSink, RefusesAMotionWithoutAScale) {
   EXPECT_THROW(ErrorSink(ToyMotion(), weightless, 0.1), InputError);
 }
 
+// Mass 2 starts without an envelope and has its largest one in the middle of the run.
+class Rising : public ToyMotion {
+ public:
+  model::Kinematics envelope(double t) const override {
+    const Eigen::Vector2d now(1.0, 4.0 * t * (end() - t) / (end() * end()));
+    return {now, 3.0 * now, now};
+  }
+};
+
+TEST(ErrorSink, ErrorsAreRelativeToTheLargestEnvelopeOfTheRun) {
+  const Rising reference;
+  EXPECT_EQ(reference.peak().u, Eigen::Vector2d(1.0, 1.0));
+  EXPECT_EQ(reference.peak().v, Eigen::Vector2d(3.0, 3.0));
+  History history(reference, 0.1, 200);
+  history.u[2 * 3 + 1] += 0.25;  // early, where the envelope is small
+  ErrorSink sink(reference, toy_problem(), 0.1);
+  history.deliver(sink);
+  EXPECT_NEAR(sink.score(finished()).u_error, 0.25, 1e-15);
+}
+
+// The state at the start has 3/4 J; a load may bring more, a motion without one has no more.
+TEST(ErrorSink, EnergyErrorsAreRelativeToTheLargestEnergyOfTheRun) {
+  struct Growing : ToyMotion {
+    void sample(std::span<const double> times, model::Side side,
+                model::SampleBuffers out) const override {
+      ToyMotion::sample(times, side, out);
+      for (std::size_t i = 0; i < out.u.size(); ++i) {
+        const double factor = 1.0 + times[i / 2] / end();
+        out.u[i] *= factor;
+        out.v[i] *= factor;
+      }
+    }
+  };
+  const Growing reference;
+  auto loaded = toy_problem();
+  loaded.system.add_load = [](double, std::span<double>) {};
+  const double still[] = {0.0, 0.0}, t = 0.0;
+  for (const auto& [problem, expected] : {std::pair{toy_problem(), 1.0}, {loaded, 0.25}}) {
+    ErrorSink sink(reference, problem, 0.1);
+    sink.take(model::SampleBlock{2, {&t, 1}, still, still});
+    EXPECT_NEAR(sink.score(finished()).energy_error, expected, 1e-14);
+  }
+}
+
 TEST(ErrorSink, FloorIsTheBoundOfTheReferenceWhereThatIsLarger) {
   struct Rough : ToyMotion {
     model::Kinematics error_bound(double t) const override {

@@ -3,16 +3,18 @@
 #include <Eigen/Cholesky>
 
 namespace clackers::assess {
-namespace {
-
-std::vector<double> row_major(const Eigen::MatrixXd& matrix) {
-  std::vector<double> entries;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) entries.push_back(matrix(i, j));
-  return entries;
+MechanicalEnergy::Rows MechanicalEnergy::rows_of(const Eigen::MatrixXd& matrix) {
+  Rows rows;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      if (matrix(i, j) != 0.0) {
+        rows.columns.push_back(std::size_t(j));
+        rows.values.push_back(matrix(i, j));
+      }
+    rows.ends.push_back(rows.values.size());
+  }
+  return rows;
 }
-
-}  // namespace
 
 FreeMotion::FreeMotion(const model::SmoothSystem<>& system)
     : system_(system),
@@ -46,8 +48,6 @@ FreeState FreeMotion::moved(const FreeState& from, double s) const {
 }
 
 MechanicalEnergy::MechanicalEnergy(const model::SmoothSystem<>& system)
-    : dof_(std::size_t(system.dof())),
-      mass_(row_major(system.mass)),
-      stiffness_(row_major(system.stiffness)) {}
+    : mass_(rows_of(system.mass)), stiffness_(rows_of(system.stiffness)) {}
 
 }  // namespace clackers::assess

@@ -42,19 +42,26 @@ class MechanicalEnergy {
   double total(const double* u, const double* v) const { return kinetic(v) + potential(u); }
 
  private:
-  // x' A x, A row-major.
-  double form(const std::vector<double>& matrix, const double* x) const {
+  // The entries of a matrix that are not zero, row by row.
+  struct Rows {
+    std::vector<std::size_t> ends, columns;
+    std::vector<double> values;
+  };
+  static Rows rows_of(const Eigen::MatrixXd& matrix);
+
+  // x' A x.
+  static double form(const Rows& matrix, const double* x) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < dof_; ++i) {
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < matrix.ends.size(); ++i) {
       double row = 0.0;
-      for (std::size_t j = 0; j < dof_; ++j) row += matrix[i * dof_ + j] * x[j];
+      for (; k < matrix.ends[i]; ++k) row += matrix.values[k] * x[matrix.columns[k]];
       sum += x[i] * row;
     }
     return sum;
   }
 
-  std::size_t dof_;
-  std::vector<double> mass_, stiffness_;  ///< row-major
+  Rows mass_, stiffness_;
 };
 
 }  // namespace clackers::assess

@@ -24,14 +24,14 @@ struct RunScore {
   bool finished = false;
   std::string failure_code;  ///< of a run that failed: "diverged", "newton-failed", ...
   std::string failure;       ///< and its sentence
-  /// Largest over masses and output times of |error in u| over its scale, see reference_scale().
+  /// Largest over masses and output times of |error in u| over its peak, see model::Motion.
   double u_error = 0.0;
   double u_error_absolute = 0.0;  ///< the same, not divided [m]
   /// L1 over time by the rule of VelocityError, over the run's length and the scale of v; largest
   /// over masses.
   double v_error = 0.0;
-  /// Largest over output times of |E - E*| / E* at t = 0, E kinetic energy and that of the structure
-  /// (not of a contact spring). Where collisions take energy (eta < 1) it does not tend to zero with
+  /// Largest over output times of |E - E*| over the largest E* of the run, E kinetic energy and that
+  /// of the structure (not of a contact spring). Where collisions take energy (eta < 1) it does not tend to zero with
   /// the step: between a collision and that of the run the two are on either side of the jump.
   double energy_error = 0.0;
   double energy_ratio = 1.0;  ///< E / E* at the last state; NaN where E* is 0

@@ -25,9 +25,12 @@ ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double
       start_(start),
       known_(reference.impact_count(reference.end())),
       tracks_(std::size_t(std::max(contacts, 1))) {
-  // The impact before the start may still be found late.
-  const auto first = start > 0.0 ? std::max(1LL, reference.impact_count(start)) : 1;
-  for (std::size_t i = 0; i < tracks_.size(); ++i) tracks_[i].target = target(int(i), first);
+  // The impact of each contact before the start may still be found late.
+  const auto before = start > 0.0 ? reference.impact_count(start) : 0;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const auto late = impact_of(int(i), before, -1);
+    tracks_[i].target = target(int(i), late ? late->index : 1);
+  }
 }
 
 // The first impact of a contact from an index on, upwards or downwards.

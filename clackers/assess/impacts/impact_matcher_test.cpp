@@ -218,6 +218,57 @@ TEST(ImpactMatcher, ReportsMatchImpactsOfTheirOwnContact) {
   EXPECT_EQ(pairs[2].reference, 4);
 }
 
+// Three contacts that close together, contact 1 once more alone.
+class TogetherMotion : public ToyMotion {
+ public:
+  TogetherMotion() : ToyMotion(20.0, {4.0, 4.0, 4.0, 7.0, 10.0, 10.0, 10.0}) {}
+  model::MotionImpact impact(long long index) const override {
+    constexpr int contacts[] = {2, 0, 1, 1, 0, 1, 2};
+    auto impact = ToyMotion::impact(index);
+    impact.contact = contacts[index - 1];
+    return impact;
+  }
+};
+
+TEST(ImpactMatcher, SimultaneousImpactsMatchInWhateverOrderTheyAreReported) {
+  const TogetherMotion reference;
+  std::vector<int> order{0, 1, 2};
+  do {
+    ImpactMatcher matcher(reference, 0.01, 0.0, 3);
+    matcher.keep_pairs();
+    for (const int contact : order) matcher.take(4.0, false, contact);
+    matcher.take(7.02, false, 1);
+    for (const int contact : order) matcher.take(10.05, false, contact);
+    const auto score = matcher.score(20.0, 0.0);
+    EXPECT_SCORE(score, 7, 7, 7, 0, 0);
+    EXPECT_NEAR(score.worst_time_error, 0.05, 1e-14);
+    const auto pairs = matcher.pairs(20.0);
+    ASSERT_EQ(pairs.size(), 7u);
+    constexpr long long first[] = {2, 3, 1}, last[] = {5, 6, 7};
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(pairs[i].reference, first[order[i]]);
+      EXPECT_EQ(pairs[i + 4].reference, last[order[i]]);
+    }
+  } while (std::ranges::next_permutation(order).found);
+}
+
+TEST(ImpactMatcher, OneContactLeftOutOfSeveralIsMissedAndReportedTwiceIsOne) {
+  const TogetherMotion reference;
+  ImpactMatcher matcher(reference, 0.01, 0.0, 3);
+  matcher.take(4.0, false, 0);
+  matcher.take(4.0, false, 2);
+  matcher.take(4.0, false, 0);
+  matcher.take(7.0, false, 0);  // of contact 1 in truth
+  EXPECT_SCORE(matcher.score(9.0, 0.0), 4, 3, 2, 2, 1);
+}
+
+TEST(ImpactMatcher, EachContactMayFindItsLastImpactBeforeALateStart) {
+  const TogetherMotion reference;
+  ImpactMatcher matcher(reference, 0.01, 4.1, 3);
+  for (const int contact : {1, 2, 0}) matcher.take(4.2, false, contact);
+  EXPECT_SCORE(matcher.score(6.0, 0.0), 3, 3, 3, 0, 0);
+}
+
 TEST(ImpactMatcher, TimeFloorIsTheUncertaintyOfTheTrueInstantWhereThatIsLarger) {
   struct Vague : ToyMotion {
     model::MotionImpact impact(long long index) const override {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/errors/comparison.hpp"
 #include "clackers/diagnose/file/reading.hpp"
 
 namespace clackers::diagnose {
@@ -31,7 +30,7 @@ double rms(const std::vector<double>& found, const std::vector<double>& referenc
 FileSample::FileSample(const Observation& history, const model::Motion& motion)
     : history_(history),
       motion_(motion),
-      scale_(assess::reference_scale(motion)),
+      scale_(motion.peak()),
       reference_(reference_rows(motion, history.sample.t)),
       distance_(distance(rows(), reference_, 0)) {
   const auto masses = std::size_t(rows().dof);

@@ -5,8 +5,6 @@
 
 #include <Eigen/Dense>
 
-#include "clackers/assess/errors/comparison.hpp"
-
 namespace clackers::diagnose {
 namespace {
 
@@ -62,7 +60,7 @@ FirstRow::FirstRow(const Opening& opening, const model::ImpactProblem<>& problem
   for (std::size_t mass = 0; mass < masses_; ++mass)
     if (mass < opening.has_u.size() && !opening.has_u[mass]) given_[mass] = unknown;
   expected_ = state_at(time());
-  const auto scale = assess::reference_scale(motion);
+  const auto scale = motion.peak();
   for (std::size_t q = 0; q < given_.size(); ++q) {
     const auto mass = Eigen::Index(q % masses_);
     scale_.push_back(q < masses_ ? scale.u[mass] : scale.v[mass]);

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <optional>
 
-#include "clackers/assess/errors/comparison.hpp"
 #include "clackers/assess/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
@@ -130,7 +129,7 @@ std::optional<Diagnosis> tolerance(const Question& question,
   for (const auto& file : files)
     for (const auto& impact : file.impacts) largest = std::max(largest, std::abs(impact.delay));
   // Impacts of the finest file may be located well by chance.
-  const double scale = assess::reference_scale(question.motion).u.minCoeff();
+  const double scale = question.motion.peak().u.minCoeff();
   std::vector<double> parts;
   for (auto file = files.rbegin(); file != files.rend() && parts.size() < most_compared; ++file) {
     double displaced = 0.0;
@@ -182,13 +181,17 @@ std::optional<Diagnosis> compliant(const Question& question,
   const auto alike = std::ranges::count_if(
       durations, [&](double x) { return std::abs(x / duration - 1.0) < 0.2; });
   if (2 * alike < std::ssize(durations)) return {};
-  const auto& contact = question.problem.contacts.front();
-  const Eigen::VectorXd push = question.problem.system.mass.llt().solve(contact.direction);
-  const double mass = 1.0 / contact.direction.dot(push), w = std::numbers::pi / duration;
+  const double w = std::numbers::pi / duration;
   auto found = diagnosis_of(Code("contact-compliant"), duration, "s");
   found.confidence = resolving >= 2 ? 0.9 : 0.75;
-  found.evidence = {
-      {"penetration", speed / w}, {"stiffness", mass * w * w}, {"files", double(resolving)}};
+  found.evidence = {{"penetration", speed / w}};
+  if (question.problem.contacts.size() == 1) {
+    const auto& contact = question.problem.contacts.front();
+    const Eigen::VectorXd push = question.problem.system.mass.llt().solve(contact.direction);
+    const double mass = 1.0 / contact.direction.dot(push);
+    found.evidence.push_back({"stiffness", mass * w * w});
+  }
+  found.evidence.push_back({"files", double(resolving)});
   return found;
 }
 

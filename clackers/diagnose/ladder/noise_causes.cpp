@@ -2,7 +2,6 @@
 #include <cmath>
 #include <optional>
 
-#include "clackers/assess/errors/comparison.hpp"
 #include "clackers/assess/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
@@ -54,7 +53,7 @@ double printing_of(const Observation& seen) {
 
 // The same white noise in files of different steps, and much of the finest one's error.
 std::optional<Diagnosis> in_rows(const Question& question) {
-  const auto scale = assess::reference_scale(question.motion).u;
+  const auto scale = question.motion.peak().u;
   const auto& finest = question.histories.back();
   const double noise = white_noise(finest, question.motion, scale);
   if (!(noise > 2.0 * printing_of(finest))) return {};

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/assess/errors/comparison.hpp"
-
 namespace clackers::diagnose {
 
 namespace {
@@ -54,7 +52,7 @@ double FitRows::distance_of(std::size_t rows) const {
 FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& problem,
                  const model::Motion& motion) {
   FitRows rows;
-  const auto scale = assess::reference_scale(motion);
+  const auto scale = motion.peak();
   for (Eigen::Index j = 0; j < scale.u.size(); ++j)
     rows.inverse_scale.push_back(scale.u[j] > 0.0 ? 1.0 / scale.u[j] : 0.0);
   const auto& sample = observation.sample;

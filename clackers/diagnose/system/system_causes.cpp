@@ -314,9 +314,17 @@ double nearest_departure(const std::vector<Trial>& trials) {
   return second;
 }
 
+// The hypotheses are about masses on springs of their own, at most two, that meet in one contact.
+bool can_be_varied(const model::ImpactProblem<>& problem) {
+  const auto& [mass, damping, stiffness, load, nonlinear] = problem.system;
+  return problem.dof() <= 2 && problem.contacts.size() <= 1 && !load && !nonlinear &&
+         mass.isDiagonal(0.0) && damping.isDiagonal(0.0) && stiffness.isDiagonal(0.0);
+}
+
 }  // namespace
 
 std::vector<Diagnosis> system_causes(const Question& asked) {
+  if (!can_be_varied(asked.problem)) return {};
   auto question = fit_question(asked);
   if (question.files.empty()) return {};
   const auto dof = question.problem.dof();

@@ -66,7 +66,7 @@ inline FileFacts facts_of(const cases::Case& problem, const model::Trajectory& r
   facts.step = step;
   facts.spacing = rows.t.size() > 1 ? rows.t[1] - rows.t[0] : step;
   facts.columns.push_back({"t", 17, false, 0.0});
-  const auto envelope = problem.motion->envelope(0.0);
+  const auto envelope = problem.motion->peak();
   for (int mass = 0; mass < rows.dof; ++mass)
     for (const auto& [letter, values, scale] :
          {std::tuple{"u", &rows.u, &envelope.u}, std::tuple{"v", &rows.v, &envelope.v}}) {
@@ -97,7 +97,7 @@ inline Observation observed(const cases::Case& problem, const model::Trajectory&
 inline double velocity_error(const model::Trajectory& rows, const assess::Comparison& comparison) {
   assess::VelocityError error(comparison.reference());
   error.take(rows.t, rows.v, comparison.reference_v());
-  const auto scale = assess::reference_scale(comparison.reference()).v;
+  const auto scale = comparison.reference().peak().v;
   double largest = 0.0;
   for (int mass = 0; mass < rows.dof; ++mass)
     largest = std::max(largest, error.integral(mass) / scale[mass] / rows.t.back());

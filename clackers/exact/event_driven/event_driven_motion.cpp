@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "clackers/base/error.hpp"
+#include "clackers/numerics/modal_form.hpp"
 
 namespace clackers::exact {
 
@@ -60,7 +61,7 @@ class EventDrivenMotion::Builder {
     int index = 0;
     double inverse_effective_mass = 0.0;     // b' M^-1 b [1/kg]
     VectorXd push;                           // M^-1 b
-    std::vector<std::vector<double>> modal;  // b' shapes, of each system
+    std::vector<numerics::ModalForm> forms;  // of the gap, of each system
     bool inside = false;                     // passed through, not yet back
   };
   struct Hit {
@@ -82,10 +83,10 @@ class EventDrivenMotion::Builder {
       row.index = int(contacts_.size());
       row.push = inverse_mass * contact.direction;
       row.inverse_effective_mass = contact.direction.dot(row.push);
-      for (const auto& system : motion_.systems_) {
-        const VectorXd modal = system.shapes().transpose() * contact.direction;
-        row.modal.emplace_back(modal.data(), modal.data() + modal.size());
-      }
+      const std::span<const double> b{contact.direction.data(),
+                                      std::size_t(contact.direction.size())};
+      for (const auto& system : motion_.systems_)
+        row.forms.emplace_back(system, b, std::span<const double>(), -contact.gap);
       contacts_.push_back(std::move(row));
     }
   }
@@ -103,15 +104,9 @@ class EventDrivenMotion::Builder {
     double gap = 0.0, rate = 0.0;
   };
   Size size(const Row& row) const {
-    Size size{std::abs(row.law->gap), 0.0};
-    const auto& modes = system().modes();
-    for (std::size_t j = 0; j < modes.size(); ++j) {
-      const auto& now = modal_state()[j];
-      const double part = std::abs(row.modal[which()][j]), omega = modes[j].omega;
-      size.gap += part * (omega > 0.0 ? std::hypot(now.y, now.rate / omega) : std::abs(now.y));
-      size.rate += part * std::hypot(now.rate, omega * now.y);
-    }
-    return size;
+    const auto& form = row.forms[which()];
+    return {std::abs(row.law->gap) + form.amplitude(system(), modal_state(), 0.0),
+            form.derivative_bound(system(), modal_state(), 1)};
   }
   // A plastic impact at equilibrium leaves nothing but rounding of the speed before it.
   bool at_rest() const {
@@ -130,11 +125,8 @@ class EventDrivenMotion::Builder {
     t_ = t;
   }
 
-  FirstRoot crossing(const Row& row, double sign, double span) const {
-    const auto form = [&](double s) {
-      return numerics::linear_form(system(), modal_state(), row.modal[which()], -row.law->gap, sign,
-                                   s);
-    };
+  FirstRoot crossing(const Row& row, double sign, double span) {
+    const numerics::FormAhead form(system(), row.forms[which()], modal_state(), sign, amplitudes_);
     const double shortest =
         1e-6 / std::max({system().fastest(), 1e-3 / span, std::numeric_limits<double>::min()});
     return numerics::first_root(form, 0.0, span, shortest, most_root_steps);
@@ -204,6 +196,7 @@ class EventDrivenMotion::Builder {
   std::vector<Row> contacts_;
   double t_ = 0.0;
   VectorXd u_, v_;
+  std::vector<double> amplitudes_;
   double speed_ = 0.0;  // before the last crossing
   bool undecided_ = false;
 };

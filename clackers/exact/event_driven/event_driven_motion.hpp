@@ -38,8 +38,8 @@ struct Collision {
 /// the motion itself.
 class EventDrivenMotion {
  public:
-  /// Nothing where the motion is not available: a load, a nonlinear force, damping that couples
-  /// modes, a contact violated at the start, more than `most_impacts` flights, contacts that close
+  /// Nothing where the motion is not available: a load, a nonlinear force, a free motion
+  /// that is no sum of modes, a contact violated at the start, more than `most_impacts` flights, contacts that close
   /// without speed (grazing, resting contact), or a flight with more than 1e5 root steps.
   static std::optional<EventDrivenMotion> make(const model::ImpactProblem<>& problem,
                                                const ImpactLaw& law, double until,

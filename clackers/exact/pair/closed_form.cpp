@@ -1,15 +1,11 @@
 #include "clackers/exact/pair/closed_form.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "clackers/base/error.hpp"
 #include "clackers/exact/pair/sampling.hpp"
-#include "clackers/numerics/exp2.hpp"
 #include "clackers/numerics/sincospi.hpp"
 
 namespace clackers::exact {
@@ -24,13 +20,6 @@ namespace {
 // Never -0, which would be printed as such.
 double rounded(const DoubleDouble& x, int exponent) {
   return numerics::scale(x.hi, exponent) + 0.0;
-}
-
-// E of flight k at time t as a number of any size. Below 2^-4000 every product with a constant
-// (all below 1e300) is nearer to 0 than to the smallest subnormal.
-Scaled power(const DoubleDouble& halvings) {
-  if (halvings.hi < -4000.0) return {};
-  return numerics::exp2(halvings);
 }
 
 Kinematics make_kinematics(int n) {
@@ -52,71 +41,14 @@ const ClosedForm* as_closed_form(const model::Motion& motion) {
   return dynamic_cast<const ClosedForm*>(&motion);
 }
 
-ClosedForm::Phase ClosedForm::phase_at(double t) const {
-  const auto turns = c_.turns * t;
-  double k = numerics::nearest_whole(turns.hi);
-  // k <= 2^50 + 1, so the difference is exact.
-  const auto top = numerics::two_sum(turns.hi - k, turns.mid);
-  auto y = numerics::quick_two_sum(top.hi, top.lo + turns.lo);
-  // The parts below turns.hi may carry y over the edge of [-1/2, 1/2).
-  if (y.hi > 0.5 || (y.hi == 0.5 && y.lo >= 0.0)) {
-    k += 1.0;
-    y = y + DoubleDouble{-1.0, 0.0};
-  } else if (y.hi < -0.5 || (y.hi == -0.5 && y.lo < 0.0)) {
-    k -= 1.0;
-    y = y + DoubleDouble{1.0, 0.0};
-  }
-  return {k, y};
-}
-
-numerics::Neighbour ClosedForm::instant(double k) const {
-  return numerics::nearest_double(c_.period * (k - 0.5));
-}
-
-ClosedForm::Phase ClosedForm::flight_at(double t, Side side) const {
-  auto phase = phase_at(t);
-  const double natural = phase.flight;
-  if (!c_.collides) {
-    phase.flight = 0.0;
-    // An even number of half turns changes nothing, an odd one is a half turn.
-    if (std::fmod(natural, 2.0) != 0.0)
-      phase.theta_over_pi = phase.theta_over_pi + DoubleDouble{1.0, 0.0};
-    return phase;
-  }
-  // Half an ulp of t is at most 2^-53 Omega t / pi < 2^-53 (k + 1) half turns; twice that filters.
-  constexpr double two_to_minus_52 = 0x1p-52;
-  const double y = phase.theta_over_pi.hi;
-  if (0.5 - std::abs(y) <= (natural + 1.0) * two_to_minus_52) {
-    const double k = y > 0.0 ? natural + 1.0 : natural;
-    if (instant(k).nearest == t) {
-      phase.flight = side == Side::left ? k - 1.0 : k;
-      phase.theta_over_pi = phase.theta_over_pi + DoubleDouble{natural - phase.flight, 0.0};
-    }
-  }
-  return phase;
-}
-
-ClosedForm::Phase ClosedForm::phase(double t, Side side) const {
-  require_inside(t);
-  return flight_at(t, side);
-}
-
-void ClosedForm::require_inside(double t) const {
-  if (!(t >= 0.0 && t <= c_.end))
-    refuse("motion", "t", t, fmt::format("0 <= t <= {} (the end of the motion, in s)", c_.end), {},
-           "time-outside");
+Phase ClosedForm::phase(double t, Side side) const {
+  require_inside(c_, t);
+  return phase_at(c_, t, side);
 }
 
 void ClosedForm::sample(std::span<const double> times, Side side, model::SampleBuffers out) const {
   const auto masses = c_.masses.size();
-  const auto size = times.size() * masses;
-  if (out.u.size() != size || out.v.size() != size || (!out.a.empty() && out.a.size() != size))
-    throw InputError(
-        fmt::format("motion: buffers for u, v, a hold {}, {}, {} numbers; allowed: {} each, one a "
-                    "time and mass (a may be empty).",
-                    out.u.size(), out.v.size(), out.a.size(), size),
-        "wrong-size");
-
+  require_buffers(out, times.size(), masses);
   const auto one = [&](std::size_t i) {
     const auto at = i * masses;
     sample_one(times[i], side, &out.u[at], &out.v[at], out.a.empty() ? nullptr : &out.a[at]);
@@ -138,8 +70,8 @@ void ClosedForm::sample(std::span<const double> times, Side side, model::SampleB
 }
 
 void ClosedForm::sample_one(double t, Side side, double* u, double* v, double* a) const {
-  require_inside(t);
-  const auto [k, theta_over_pi] = c_.collides ? flight_at(t, side) : phase_at(t);
+  require_inside(c_, t);
+  const auto [k, theta_over_pi] = c_.collides ? phase_at(c_, t, side) : natural_phase(c_, t);
   const bool rests = c_.eta == 0.0 && k > 0.0;
   const double flight = c_.collides ? k : 0.0;
   auto [e, exponent] = rests ? Scaled{} : power(c_.log2_eta * flight - c_.decay * t);
@@ -155,8 +87,8 @@ void ClosedForm::sample_one(double t, Side side, double* u, double* v, double* a
 }
 
 Kinematics ClosedForm::envelope(double t) const {
-  require_inside(t);
-  const double flight = flight_at(t, Side::left).flight;
+  require_inside(c_, t);
+  const double flight = phase_at(c_, t, Side::left).flight;
   auto result = make_kinematics(dof());
   if (c_.eta == 0.0 && flight > 0.0) return result;
   const auto [e, exponent] = power(c_.log2_eta * flight - c_.decay * t);
@@ -178,24 +110,19 @@ Kinematics ClosedForm::error_bound(double t) const {
 }
 
 long long ClosedForm::impact_count(double t) const {
-  require_inside(t);
+  require_inside(c_, t);
   if (!c_.collides) return 0;
-  const auto count = static_cast<long long>(phase_at(t).flight);
+  const auto count = static_cast<long long>(natural_phase(c_, t).flight);
   return c_.eta == 0.0 ? std::min(count, 1LL) : count;
 }
 
 model::MotionImpact ClosedForm::impact(long long index) const {
   const auto count = impact_count(c_.end);
-  if (index < 1 || index > count)
-    throw InputError(
-        fmt::format("motion: impact {} was asked for; allowed: {}.", index,
-                    count == 0 ? std::string("none, since nothing collides up to the end")
-                               : fmt::format("1 to {}, those up to t = {} s", count, c_.end)),
-        "beyond-last-impact");
+  if (index < 1 || index > count) refuse_impact(c_, index, count);
   const auto k = static_cast<double>(index);
   model::MotionImpact hit;
   hit.index = index;
-  const auto when = instant(k);
+  const auto when = collision_instant(c_, k);
   hit.t = when.nearest;
   const double other = std::nextafter(hit.t, when.beyond > 0.0 ? INFINITY : 0.0);
   hit.when = {std::min(hit.t, other), std::max(hit.t, other)};

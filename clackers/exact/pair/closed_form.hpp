@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "clackers/exact/pair/flight_phase.hpp"
 #include "clackers/exact/pair/high_precision.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
@@ -27,6 +28,8 @@ class ClosedForm : public model::Motion {
   /// |b| E, |b| E omega and |b| E omega^2 of each mass, omega its undamped frequency. At the
   /// double nearest to a collision E is that of the flight before it, the larger one.
   model::Kinematics envelope(double t) const override;
+  /// The envelope at t = 0: it never grows.
+  model::Kinematics peak() const override { return envelope(0.0); }
 
   /// 0.51 units of 2^-52 of the envelope, and one subnormal spacing (5e-324). Of the first, 1/2 is
   /// the rounding of the result, which never exceeds the envelope; the cosine and sine add
@@ -53,11 +56,6 @@ class ClosedForm : public model::Motion {
   const Parameters& parameters() const { return parameters_; }
   const std::optional<PairConstants>& pair() const { return pair_; }
 
-  /// Flight k, counted as a double to avoid conversions, and theta / pi in it.
-  struct Phase {
-    double flight = 0.0;
-    numerics::DoubleDouble theta_over_pi;
-  };
   /// The flight that holds at t, or that `side` means where t is the double nearest to a collision.
   /// theta / pi lies in [-1/2, 1/2], without a stop in [-1, 1]. Throws InputError outside
   /// [0, end()].
@@ -69,10 +67,6 @@ class ClosedForm : public model::Motion {
 
  private:
   ClosedForm(const Parameters& parameters, Derived derived);
-  Phase phase_at(double t) const;
-  Phase flight_at(double t, model::Side side) const;
-  numerics::Neighbour instant(double k) const;
-  void require_inside(double t) const;
   void sample_one(double t, model::Side side, double* u, double* v, double* a) const;
 
   Parameters parameters_;

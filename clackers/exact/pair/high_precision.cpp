@@ -281,6 +281,20 @@ Derived derive(std::string_view who, const Parameters& parameters) {
   return derived;
 }
 
+FlightConstants derive_flight(std::string_view who, double omega, double sigma, double eta,
+                              double end) {
+  require_scale(who, "Omega", omega);
+  if (sigma != 0.0) require_scale(who, "sigma", sigma);
+  require_restitution(who, eta);
+  RealMotion motion;
+  motion.omega = omega;
+  motion.sigma = sigma;
+  motion.eta = eta;
+  motion.end = end;
+  require_end(who, motion);
+  return flight_constants(motion);
+}
+
 double r_star(double X) {
   return X == 1.0 ? std::numeric_limits<double>::infinity() : to_double(real_r_star(X));
 }

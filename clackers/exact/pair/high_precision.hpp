@@ -41,6 +41,12 @@ struct Derived {
 /// data with which some model input is no binary64 number; `who` opens the message.
 Derived derive(std::string_view who, const Parameters& parameters);
 
+/// What derive() puts into FlightConstants for any masses with the slowest damped frequency Omega
+/// [1/s], from 1e-60 to 1e60, and the common rate of decay sigma [1/s], 0 or in the same range: all
+/// but the constants of masses, impulse and energy. Throws as derive().
+FlightConstants derive_flight(std::string_view who, double omega, double sigma, double eta,
+                              double end);
+
 /// r/r*(X) - 1, or its negative beyond 1/r*, for r = m1/m2: below 0 where the masses stay apart; 0
 /// where they graze, which is decided to 1e-25.
 double excess_over_r_star(const FrequencyRatio& ratio, double r);

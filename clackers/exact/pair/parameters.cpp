@@ -26,11 +26,6 @@ void require_damping_ratio(std::string_view who, double xi1) {
                      : "A negative damping ratio would feed energy in.");
 }
 
-void require_restitution(std::string_view who, double eta) {
-  if (!(eta >= 0.0 && eta <= 1.0))
-    refuse(who, "eta", eta, "0 <= eta <= 1", "0 is perfectly plastic, 1 perfectly elastic.");
-}
-
 void require(std::string_view who, const FreeMassParameters& p) {
   require_damping_ratio(who, p.xi1);
 }
@@ -64,6 +59,11 @@ void require(std::string_view who, const ExactDataParameters& p) {
 }
 
 }  // namespace
+
+void require_restitution(std::string_view who, double eta) {
+  if (!(eta >= 0.0 && eta <= 1.0))
+    refuse(who, "eta", eta, "0 <= eta <= 1", "0 is perfectly plastic, 1 perfectly elastic.");
+}
 
 double quarter_sine(double odd) { return std::fmod(odd, 4.0) == 1.0 ? 1.0 : -1.0; }
 

@@ -69,6 +69,8 @@ inline constexpr double smallest_scale = 1e-60, largest_scale = 1e60;
 /// Throws InputError unless smallest <= value <= largest (the limits above unless given).
 void require_scale(std::string_view who, std::string_view name, double value,
                    double smallest = smallest_scale, double largest = largest_scale);
+/// Throws InputError unless 0 <= eta <= 1.
+void require_restitution(std::string_view who, double eta);
 /// Throws InputError unless each parameter by itself is in its range; t_end is left to derive().
 void require_ranges(std::string_view who, const Parameters& parameters);
 

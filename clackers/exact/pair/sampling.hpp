@@ -32,6 +32,7 @@ struct FlightConstants {
   bool collides = true;               ///< false: the free mass
   double eta = 1.0;
   double end = 0.0;                     ///< [s]
+  double first_collision = 0.5;         ///< t_1 / T: 1/2, or 1 for a start just after a collision
   numerics::TripleDouble turns;         ///< Omega / pi, half turns a second
   numerics::TripleDouble period;        ///< T = pi / Omega [s], time between collisions
   numerics::DoubleDouble decay;         ///< sigma / ln 2, halvings a second

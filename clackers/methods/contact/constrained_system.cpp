@@ -1,6 +1,18 @@
 #include "clackers/methods/contact/constrained_system.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace clackers::methods {
+namespace {
+
+Eigen::Index to_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+// The part of a step after which vanishing forces are looked at: enough for their trend to stand
+// out from rounding, and too little for others to change.
+constexpr double instant = 0x1p-20;
+
+}  // namespace
 
 // Q^T p(u, v); its tangents follow.
 template <int Dof>
@@ -29,43 +41,61 @@ class ConstrainedSystem<Dof>::ProjectedForce : public model::NonlinearForce<Dof>
 
 template <int Dof>
 ConstrainedSystem<Dof>::ConstrainedSystem(const model::SmoothSystem<Dof>& free,
-                                          const std::vector<ImpactLaw<Dof>>& laws)
-    : free_(free), laws_(laws), constrained_(free), is_active_(laws.size(), false) {
+                                          ContactSet<Dof>& contacts)
+    : free_(free),
+      contacts_(contacts),
+      constrained_(free),
+      is_active_(contacts.size(), false),
+      factors_(contacts.size()) {
   const auto n = free.dof();
   projector_ = matrix_ = Matrix::Identity(n, n);
-  constant_ = force_ = Vector::Zero(n);
+  constant_ = force_ = size_ = Vector::Zero(n);
+  active_.reserve(contacts.size());
+  solution_ = forces_ = acceleration_ = rounding_ = earlier_ = contacts.no_impulses();
   constrained_.add_load = [this](double t, std::span<double> force) { add_load(t, force); };
   if (free.nonlinear)
     constrained_.nonlinear = std::make_shared<ProjectedForce>(*free.nonlinear, projector_);
 }
 
 template <int Dof>
-void ConstrainedSystem<Dof>::activate(std::size_t contact, const Vector& u) {
-  if (!is_active_[contact]) ++count_;
-  is_active_[contact] = true;
+void ConstrainedSystem<Dof>::activate(Rows contacts, const Vector& u) {
+  active_.assign(contacts.begin(), contacts.end());
   project(u);
 }
 
 template <int Dof>
-void ConstrainedSystem<Dof>::deactivate(std::size_t contact, const Vector& u) {
-  if (is_active_[contact]) --count_;
-  is_active_[contact] = false;
-  project(u);
-}
-
-template <int Dof>
-void ConstrainedSystem<Dof>::deactivate_all() {
-  count_ = 0;
-  is_active_.assign(is_active_.size(), false);
+std::optional<Objection> ConstrainedSystem<Dof>::decide(Rows resting, const State& now,
+                                                        const State& later) {
+  find_gap_accelerations(now);
+  earlier_ = acceleration_;
+  find_gap_accelerations(later);
+  acceleration_ = earlier_ + instant * (acceleration_ - earlier_);
+  if (auto no = contacts_.solve(contacts_.response(), resting, acceleration_, forces_)) return no;
+  active_.clear();
+  const auto& w = contacts_.response().delassus;
+  for (const auto i : resting) {
+    const double gap_acceleration = acceleration_[to_index(i)] + w.row(to_index(i)).dot(forces_);
+    if (forces_[to_index(i)] > 0.0 || gap_acceleration <= rounding_[to_index(i)])
+      active_.push_back(i);
+  }
+  project(now.u);
+  return std::nullopt;
 }
 
 template <int Dof>
 void ConstrainedSystem<Dof>::project(const Vector& u) {
+  is_active_.assign(is_active_.size(), false);
+  for (const auto i : active_) is_active_[i] = true;
   projector_.setIdentity();
-  for (std::size_t i = 0; i < laws_.size(); ++i)
-    if (is_active_[i])
-      projector_.noalias() -= laws_[i].inverse_mass_direction / laws_[i].inverse_effective_mass *
-                              laws_[i].contact.direction.transpose();
+  factors_.compute(contacts_.response().delassus, active_);
+  for (Eigen::Index column = 0; column < projector_.cols(); ++column) {
+    for (std::size_t k = 0; k < active_.size(); ++k)
+      solution_[to_index(k)] = contacts_.row(active_[k])[column];
+    factors_.solve_in_place(solution_);
+    for (std::size_t k = 0; k < active_.size(); ++k)
+      projector_.col(column) -=
+          solution_[to_index(k)] * contacts_.response().velocity.col(to_index(active_[k]));
+  }
   matrix_.noalias() = free_.damping * projector_;
   constrained_.damping.noalias() = projector_.transpose() * matrix_;
   matrix_.noalias() = free_.stiffness * projector_;
@@ -84,19 +114,58 @@ void ConstrainedSystem<Dof>::add_load(double t, std::span<double> force) {
   to.noalias() += projector_.transpose() * force_;
 }
 
+// With the rounding of their terms: some products a row.
 template <int Dof>
-double ConstrainedSystem<Dof>::contact_force(std::size_t contact, const State& now) {
+void ConstrainedSystem<Dof>::find_gap_accelerations(const State& now) {
   force_.setZero();
-  if (free_.nonlinear) {
-    free_.nonlinear->add(now.u, now.v, force_);
-    force_ = -force_;
-  }
-  force_.noalias() -= free_.damping * now.v;
-  force_.noalias() -= free_.stiffness * now.u;
   if (free_.add_load)
     free_.add_load(now.t,
                    std::span<double>(force_.data(), static_cast<std::size_t>(force_.size())));
-  return -laws_[contact].inverse_mass_direction.dot(force_) / laws_[contact].inverse_effective_mass;
+  size_ = force_.cwiseAbs();
+  if (free_.nonlinear) {
+    force_ = -force_;
+    free_.nonlinear->add(now.u, now.v, force_);
+    force_ = -force_;
+    size_ += force_.cwiseAbs();
+  }
+  force_.noalias() -= free_.damping * now.v;
+  force_.noalias() -= free_.stiffness * now.u;
+  size_.noalias() += free_.damping.cwiseAbs() * now.v.cwiseAbs();
+  size_.noalias() += free_.stiffness.cwiseAbs() * now.u.cwiseAbs();
+  const double unit = 8.0 * double(force_.size() + 1) * std::numeric_limits<double>::epsilon();
+  const auto& velocity = contacts_.response().velocity;
+  acceleration_.noalias() = velocity.transpose() * force_;
+  rounding_.noalias() = unit * (velocity.cwiseAbs().transpose() * size_);
+}
+
+template <int Dof>
+const Eigen::VectorXd& ConstrainedSystem<Dof>::contact_forces(const State& now) {
+  find_gap_accelerations(now);
+  for (std::size_t k = 0; k < active_.size(); ++k)
+    solution_[to_index(k)] = -acceleration_[to_index(active_[k])];
+  factors_.solve_in_place(solution_);
+  forces_.setZero();
+  for (std::size_t k = 0; k < active_.size(); ++k)
+    forces_[to_index(active_[k])] = solution_[to_index(k)];
+  return forces_;
+}
+
+template <int Dof>
+double ConstrainedSystem<Dof>::release_margin(std::size_t contact, const State& now) {
+  const double force = contact_forces(now)[to_index(contact)];
+  // The rounding of every gap acceleration, as the force that makes it.
+  double rounding = 0.0;
+  for (const auto j : active_)
+    rounding += rounding_[to_index(j)] / std::sqrt(contacts_.inverse_effective_mass(j));
+  return force +
+         double(active_.size()) * rounding / std::sqrt(contacts_.inverse_effective_mass(contact));
+}
+
+template <int Dof>
+bool ConstrainedSystem<Dof>::is_any_released(const State& now) {
+  for (const auto i : active_)
+    if (!(release_margin(i, now) >= 0.0)) return true;
+  return false;
 }
 
 template class ConstrainedSystem<1>;

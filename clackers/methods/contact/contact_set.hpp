@@ -22,12 +22,12 @@ struct ContactResponse {
 };
 
 /// All contacts of a problem: the rows b_i of B, gaps g = B u - gap, gap rates U = B v, and the
-/// impulses or forces that keep them from being violated, found together as the solution of a linear
-/// complementarity problem. Such a solution does not depend on the numbers of the contacts.
+/// impulses or forces that keep them from being violated, found together as the solution of a
+/// linear complementarity problem. Such a solution does not depend on the numbers of the contacts.
 ///
-/// `rows` are the numbers of the contacts that take part, ascending, from 0; vectors of impulses have
-/// an entry for every contact of the set, 0 for those that do not take part. After construction
-/// nothing is allocated but for a failure.
+/// `rows` are the numbers of the contacts that take part, ascending, from 0; vectors of impulses
+/// have an entry for every contact of the set, 0 for those that do not take part. After
+/// construction nothing is allocated but for a failure.
 template <int Dof>
 class ContactSet {
  public:
@@ -37,8 +37,12 @@ class ContactSet {
   explicit ContactSet(const model::ImpactProblem<Dof>& problem);
 
   std::size_t size() const { return contacts_.size(); }
+  const model::Contact<Dof>& contact(std::size_t i) const { return contacts_[i]; }
   const Vector& row(std::size_t i) const { return contacts_[i].direction; }
   double restitution(std::size_t i) const { return contacts_[i].restitution; }
+
+  /// An entry for every contact, all 0.
+  Eigen::VectorXd no_impulses() const { return Eigen::VectorXd::Zero(q_.size()); }
 
   /// g [m]: open where positive.
   double gap(std::size_t i, const Vector& u) const { return contacts_[i].gap_at(u); }
@@ -62,8 +66,8 @@ class ContactSet {
   ///
   ///     0 <= W P + q _|_ P >= 0
   ///
-  /// with W = response.delassus and q, which has an entry for every contact. Returns nothing, or why
-  /// there are none: "redundant-contacts" where the rows of B depend linearly on each other,
+  /// with W = response.delassus and q, which has an entry for every contact. Returns nothing, or
+  /// why there are none: "redundant-contacts" where the rows of B depend linearly on each other,
   /// "complementarity-failed" where rounding hides the solution.
   std::optional<Objection> solve(const ContactResponse<Dof>& response, Rows rows,
                                  const Eigen::VectorXd& q, Eigen::VectorXd& impulses);
@@ -72,8 +76,9 @@ class ContactSet {
   ///
   ///     v(+) = v(-) + M^-1 B^T P,   0 <= U(+) + eta U(-) _|_ P >= 0
   ///
-  /// `v` becomes v(+). Kinetic energy does not grow if all eta are equal; contacts that separate,
-  /// U(-) > 0, should not take part. Returns what solve() does; after a failure `v` is unchanged.
+  /// `v` becomes v(+). Kinetic energy does not grow if all rows close or rest, U(-) <= 0, or if all
+  /// eta are equal; so contacts that separate should not take part. Returns what solve() does;
+  /// after a failure `v` is unchanged.
   std::optional<Objection> impact(Rows rows, Vector& v, Eigen::VectorXd& impulses);
 
   /// "redundant-contacts" where the rows of B depend linearly on each other, or nothing.

@@ -17,8 +17,8 @@ const std::vector<Field<EventDriven>>& EventDriven::fields() {
   return none;
 }
 
-/// A run with located impacts. While nothing is near a contact and no contact is active, a step is the
-/// integrator's own and a few comparisons; all else is off that path.
+/// A run with located impacts. While nothing is near a contact and no contact is active, a step is
+/// the integrator's own and a few comparisons; all else is off that path.
 template <int Dof>
 class EventDriven::Loop {
  public:
@@ -29,19 +29,29 @@ class EventDriven::Loop {
        const StepPlan& plan)
       : problem_(std::move(problem)),
         time_loop_(plan, problem_.dof()),
-        laws_(impact_laws(problem_)),
-        constrained_(problem_.system, laws_),
+        contacts_(problem_),
+        constrained_(problem_.system, contacts_),
         free_stepper_(integrator.stepper(problem_.system, plan)),
         constrained_stepper_(integrator.stepper(constrained_.system(), plan)),
-        is_suppressed_(laws_.size(), false),
+        h_(plan.is_adaptive() ? plan.end - plan.start : plan.h),
+        is_suppressed_(contacts_.size(), false),
+        is_struck_(contacts_.size(), false),
         from_(problem_.start),
-        v_before_(problem_.start.v) {}
+        v_before_(problem_.start.v),
+        impulses_(contacts_.no_impulses()),
+        is_adaptive_(plan.is_adaptive()) {
+    closed_.reserve(contacts_.size());
+    before_.reserve(contacts_.size());
+  }
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
   void advance(Recorder<Dof>& out) {
-    start(problem_.start);
-    steps_ = time_loop_.run(*this, problem_.start, out);
+    steps_ = 0;
+    if (start(out))
+      steps_ = time_loop_.run(*this, problem_.start, out);
+    else
+      out.append(problem_.start);
   }
 
   model::Work work() const {
@@ -60,13 +70,12 @@ class EventDriven::Loop {
   // True where nothing can have happened between the two ends of a step.
   bool is_quiet(const State& before, const State& now) {
     const double length = now.t - before.t;
-    for (std::size_t i = 0; i < laws_.size(); ++i)
-      if (constrained_.is_any_active() && constrained_.is_active(i)) {
-        if (!(constrained_.contact_force(i, now) >= 0.0)) return false;
-      } else if (!GapCubic(sample(i, 0.0, before), sample(i, length, now)).stays_above(0.0)) {
+    const bool is_free = !constrained_.is_any_active();
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if ((is_free || !constrained_.is_active(i)) &&
+          !GapCubic(sample(i, 0.0, before), sample(i, length, now)).stays_above(0.0))
         return false;
-      }
-    return true;
+    return is_free || !constrained_.is_any_released(now);
   }
 
   // Everything that happens between `before` and `now`, the end of the step as it would be without
@@ -74,23 +83,39 @@ class EventDriven::Loop {
   Handled handle(const State& before, State& now, Recorder<Dof>& out) {
     const double t1 = now.t;
     is_suppressed_.assign(is_suppressed_.size(), false);
+    is_struck_.assign(is_struck_.size(), false);
     from_ = before;
-    int events = 0;
+    if (!(before.t < counted_until_)) {
+      counted_until_ = t1;
+      counted_ = 0;
+    }
+    bool is_changed = false;
     while (true) {
       if (stepper().failed()) return ended(out.fail_step(t1, stepper().failure()));
       if (!now.u.allFinite() || !now.v.allFinite()) return ended(out.fail_diverged(t1));
       const auto event = first_event(now);
       if (!event) break;
-      if (++events > most_events)
+      if (++counted_ > most_events)
         return ended(out.fail("too-many-impacts", from_.t, "more than 1000 impacts in one step"));
-      if (!apply(*event, t1, out)) return Handled::ended;
+      if (!apply(*event, now, out)) return Handled::ended;
+      is_changed = true;
+      if (is_adaptive_) {
+        if (is_suppressed_[event->contact]) continue;  // where the step began
+        now = from_;
+        stepper().restart(now);
+        return Handled::shortened;
+      }
       stepper().restart(from_);
       now = from_;
       if (t1 > from_.t) now = stepper().partial(from_, t1 - from_.t);
       now.t = t1;
     }
-    if (events == 0) return Handled::unchanged;
-    return finish_step(now, out) ? Handled::changed : Handled::ended;
+    if (passes_through(now, is_changed))
+      return ended(out.fail("too-many-impacts", from_.t,
+                            "impacts accumulate, closer than rounding of the time can separate"));
+    if (!is_changed) return Handled::unchanged;
+    stepper().restart(now);
+    return Handled::changed;
   }
 
  private:
@@ -103,59 +128,56 @@ class EventDriven::Loop {
   static Handled ended(bool) { return Handled::ended; }
 
   GapSample sample(std::size_t i, double s, const State& x) const {
-    return {s, laws_[i].contact.gap_at(x.u), laws_[i].contact.gap_rate(x.v)};
+    return {s, contacts_.gap(i, x.u), contacts_.gap_rate(i, x.v)};
   }
 
-  void start(const State& now) {
+  // False: the run ends.
+  bool start(Recorder<Dof>& out) {
     searches_ = 0;
+    counted_until_ = problem_.start.t;
     free_stepper_->reset();
     constrained_stepper_->reset();
-    constrained_.deactivate_all();
-    for (std::size_t i = 0; i < laws_.size(); ++i)
-      if (const auto at = sample(i, 0.0, now); at.g == 0.0 && at.rate == 0.0)
-        activate_if_pressed(i, now);
-    stepper().restart(now);
-  }
-
-  // A closed contact whose gap rate is 0 becomes active if the free motion would close it.
-  void activate_if_pressed(std::size_t i, const State& now) {
-    if (!(constrained_.contact_force(i, now) > 0.0)) return;
-    constrained_.activate(i, now.u);
-    constrained_stepper_->rebuild();
-  }
-
-  // The end of a step with events.
-  bool finish_step(const State& now, Recorder<Dof>& out) {
-    // Flights shorter than the rounding of time end before they are seen to reverse: going on would
-    // let the structure pass through the contact.
-    for (std::size_t i = 0; i < laws_.size(); ++i)
-      if (!constrained_.is_active(i) && !is_suppressed_[i] &&
-          laws_[i].contact.gap_rate(now.v) < 0.0 &&
-          laws_[i].contact.gap_at(now.u) < -laws_[i].rounding(now.u))
-        return out.fail("too-many-impacts", from_.t,
-                        "impacts accumulate, closer than rounding of the time can separate");
-    stepper().restart(now);
+    constrained_.activate({}, problem_.start.u);
+    from_ = problem_.start;
+    find_closed();
+    std::erase_if(closed_, [&](std::size_t i) { return !is_resting(i, from_.v); });
+    if (!decide(from_, out)) return false;
+    stepper().restart(from_);
     return true;
   }
 
-  // Moves from_ to the later side of an event. False: the run ends.
-  bool apply(const Event& event, double t1, Recorder<Dof>& out) {
+  // Flights shorter than the rounding of time end before they are seen to reverse: going on would let
+  // the structure pass through the contact. Without an event in the step it was in one before, which
+  // left a contact violated.
+  bool passes_through(const State& now, bool has_event) const {
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if ((is_struck_[i] ||
+           (!has_event && contacts_.gap(i, from_.u) < -contacts_.rounding(i, from_.u))) &&
+          !constrained_.is_active(i) && !is_suppressed_[i] && contacts_.gap_rate(i, now.v) < 0.0 &&
+          contacts_.gap(i, now.u) < -contacts_.rounding(i, now.u))
+        return true;
+    return false;
+  }
+
+  // Moves from_ to the later side of an event between it and `now`. False: the run ends.
+  bool apply(const Event& event, const State& now, Recorder<Dof>& out) {
     const std::size_t i = event.contact;
+    move_to(event.s, now.t);
     if (event.is_release) {
-      move_to(event.s, t1);
-      constrained_.deactivate(i, from_.u);
-      if (constrained_.is_any_active()) constrained_stepper_->rebuild();
-    } else {
-      const double arrived_after = event.s;
-      move_to(event.s, t1);
-      if (!(laws_[i].contact.gap_rate(from_.v) < 0.0)) {
-        // Gap and rate of the step map disagree by its error: grazing, where no impulse is defined.
-        // Where the motion does not leave this instant, the contact is watched again after the next
-        // event, or from the end of the step.
-        if (!(arrived_after > 0.0)) is_suppressed_[i] = true;
+      if (!release(now, out)) return false;
+      if (constrained_.is_active(i)) {
+        // Its force only touches 0.
+        is_suppressed_[i] = true;
         return true;
       }
-      if (!apply_impact(i, out)) return false;
+    } else if (!(contacts_.gap_rate(i, from_.v) < -contacts_.rate_rounding(i, from_.v))) {
+      // Gap and rate of the step map disagree by its error: grazing, where no impulse is defined.
+      // Where the motion does not leave this instant, the contact is watched again after the next
+      // event, or from the end of the step.
+      if (!(event.s > 0.0)) is_suppressed_[i] = true;
+      return true;
+    } else if (!apply_impact(i, out)) {
+      return false;
     }
     is_suppressed_.assign(is_suppressed_.size(), false);
     return true;
@@ -172,31 +194,35 @@ class EventDriven::Loop {
   std::optional<Event> first_event(const State& now) {
     const double length = now.t - from_.t;
     std::optional<Event> first;
-    for (std::size_t i = 0; i < laws_.size(); ++i) {
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
       if (is_suppressed_[i]) continue;
-      const auto s =
-          constrained_.is_active(i) ? release_time(i, length, now) : impact_time(i, length, now);
-      if (s && (!first || *s < first->s)) first = Event{*s, i, constrained_.is_active(i)};
+      const bool is_release = constrained_.is_active(i);
+      const auto s = is_release ? release_time(i, length, now) : impact_time(i, length, now);
+      // Of an impact and a release at one instant the impact, which decides all contacts anew.
+      if (s && (!first || *s < first->s || (*s == first->s && !is_release && first->is_release)))
+        first = Event{*s, i, is_release};
     }
     return first;
   }
 
   std::optional<double> release_time(std::size_t i, double length, const State& now) {
-    const double before = constrained_.contact_force(i, from_),
-                 after = constrained_.contact_force(i, now);
+    const double before = constrained_.release_margin(i, from_),
+                 after = constrained_.release_margin(i, now);
     if (before < 0.0) return 0.0;
     if (!(after < 0.0)) return std::nullopt;
     const double unit = std::numeric_limits<double>::epsilon() * length;
     ++searches_;
     return numerics::shrink(
-               [&](double s) { return constrained_.contact_force(i, stepper().partial(from_, s)); },
+               [&](double s) {
+                 return constrained_.release_margin(i, stepper().partial(from_, s));
+               },
                {0.0, before, length, after}, unit)
         .b;
   }
 
   std::optional<double> impact_time(std::size_t i, double length, const State& now) {
     const auto a = sample(i, 0.0, from_), b = sample(i, length, now);
-    const double rounding = std::max(laws_[i].rounding(from_.u), laws_[i].rounding(now.u));
+    const double rounding = std::max(contacts_.rounding(i, from_.u), contacts_.rounding(i, now.u));
     // Violated at the start: closing, the impact is now; opening, it is watched again once open.
     if (a.g < -rounding) return a.rate < 0.0 ? std::optional(0.0) : std::nullopt;
     if (GapCubic(a, b).stays_above(-rounding)) return std::nullopt;
@@ -206,33 +232,89 @@ class EventDriven::Loop {
                           rounding, budget);
   }
 
-  // The impulse at from_. False: the run ends.
-  bool apply_impact(std::size_t i, Recorder<Dof>& out) {
-    const auto& law = laws_[i];
-    for (std::size_t j = 0; j < laws_.size(); ++j)
-      if (j != i && is_closed(j) && are_coupled(law, laws_[j]))
-        return out.fail("simultaneous-contacts", from_.t,
-                        simultaneous(std::min(i, j), std::max(i, j)));
+  // The impulses at from_, where contact `first` closes. False: the run ends.
+  bool apply_impact(std::size_t first, Recorder<Dof>& out) {
+    find_closed();
+    if (!std::ranges::binary_search(closed_, first))
+      closed_.insert(std::ranges::lower_bound(closed_, first), first);
+    // Contacts that separate take no part.
+    std::erase_if(closed_, [&](std::size_t i) {
+      return contacts_.gap_rate(i, from_.v) > 0.0 && !is_resting(i, from_.v);
+    });
     v_before_ = from_.v;
-    const double impulse = law.apply(from_.v);
-    if (!out.impact(from_, static_cast<int>(i), v_before_, impulse)) return false;
-    if (law.contact.restitution == 0.0) activate_if_pressed(i, from_);
+    if (const auto no = contacts_.impact(closed_, from_.v, impulses_)) return fail(*no, out);
+    for (const auto i : closed_) {
+      const double impulse = impulses_[static_cast<Eigen::Index>(i)];
+      if (!(impulse > 0.0)) continue;
+      is_struck_[i] = true;
+      if (!out.impact(from_, static_cast<int>(i), v_before_, impulse)) return false;
+    }
+    std::erase_if(closed_, [&](std::size_t i) { return !is_resting_after_impact(i); });
+    return decide(from_, out);
+  }
+
+  // The contacts that hold the structure at from_ let it go. False: the run ends.
+  bool release(const State& now, Recorder<Dof>& out) {
+    find_closed();
+    std::erase_if(closed_, [&](std::size_t i) { return !is_resting(i, from_.v); });
+    return decide(now, out);
+  }
+
+  // Which of the contacts in closed_, with gap rate 0, become or stay active; `later` see
+  // ConstrainedSystem. False: the run ends.
+  bool decide(const State& later, Recorder<Dof>& out) {
+    before_.assign(constrained_.active().begin(), constrained_.active().end());
+    if (const auto no = constrained_.decide(closed_, from_, later)) return fail(*no, out);
+    if (constrained_.is_any_active() && !std::ranges::equal(before_, constrained_.active()))
+      constrained_stepper_->rebuild();
     return true;
   }
 
-  bool is_closed(std::size_t i) const {
+  // The contacts closed at from_, also those that close within rounding of its time.
+  void find_closed() {
+    const double instant = 4.0 * std::numeric_limits<double>::epsilon() * (std::abs(from_.t) + h_);
+    closed_.clear();
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const double approach = instant * std::max(0.0, -contacts_.gap_rate(i, from_.v));
+      if (constrained_.is_active(i) ||
+          contacts_.gap(i, from_.u) <= contacts_.rounding(i, from_.u) + approach)
+        closed_.push_back(i);
+    }
+  }
+
+  // Whether the gap rate of a closed contact is 0: by its constraint, or within rounding.
+  bool is_resting(std::size_t i, const Vector& v) const {
     return constrained_.is_active(i) ||
-           laws_[i].contact.gap_at(from_.u) <= laws_[i].rounding(from_.u);
+           std::abs(contacts_.gap_rate(i, v)) <= contacts_.rate_rounding(i, v);
+  }
+
+  // Newton's law leaves the rate -eta U(-) where there is an impulse.
+  bool is_resting_after_impact(std::size_t i) const {
+    if (impulses_[static_cast<Eigen::Index>(i)] > 0.0)
+      return contacts_.restitution(i) == 0.0 || is_resting(i, v_before_);
+    if (!is_resting(i, v_before_)) return false;
+    return std::abs(contacts_.gap_rate(i, from_.v) - contacts_.gap_rate(i, v_before_)) <=
+           contacts_.rate_rounding(i, v_before_) + contacts_.rate_rounding(i, from_.v);
+  }
+
+  bool fail(const Objection& objection, Recorder<Dof>& out) {
+    return out.fail(objection.code, from_.t, objection.sentence);
   }
 
   model::ImpactProblem<Dof> problem_;
   TimeLoop<Dof> time_loop_;
-  std::vector<ImpactLaw<Dof>> laws_;
+  ContactSet<Dof> contacts_;
   ConstrainedSystem<Dof> constrained_;
   std::unique_ptr<AnyStepper<Dof>> free_stepper_, constrained_stepper_;
-  std::vector<bool> is_suppressed_;
+  double h_;
+  std::vector<bool> is_suppressed_, is_struck_;  // in this step
   State from_;
   Vector v_before_;
+  Eigen::VectorXd impulses_;
+  std::vector<std::size_t> closed_, before_;
+  bool is_adaptive_;
+  double counted_until_ = 0.0;  // events are counted until the end of a step as it was begun
+  int counted_ = 0;
   long long steps_ = 0, searches_ = 0;
 };
 

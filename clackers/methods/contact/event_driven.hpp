@@ -5,26 +5,32 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/methods/contact/impact_law.hpp"
+#include "clackers/methods/contact/contact_set.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/parameters.hpp"
 
 namespace clackers::methods {
 
-/// Impacts located inside the step. A contact j with gap g_j and Newton's law,
+/// Impacts located inside the step. Contacts j with gaps g_j and Newton's law,
 ///
-///     g_j = b_j . u - gap_j >= 0,   b_j . v(+) = -eta_j b_j . v(-),   M [v(+) - v(-)] = b_j P
+///     g_j = b_j . u - gap_j >= 0,   M [v(+) - v(-)] = sum_j b_j P_j,
+///     0 <= b_j . v(+) + eta_j b_j . v(-) _|_ P_j >= 0
 ///
-/// has an impact where the step map crosses g_j = 0 from above with b_j . v < 0; the state there is
-/// that of the integrator's partial step. The integrator is restarted from v(+) and completes the
-/// rest of the step, so output stays on the grid. Crossings are looked for whenever the cubic
-/// through gap and gap rate at both ends of the step does not stay open, also when both ends are.
-/// A crossing with b_j . v >= 0 is grazing: the integrator is restarted there without an impulse.
+/// have an impact where the step map crosses g_j = 0 from above with b_j . v < 0; the state there
+/// is that of the integrator's partial step. All contacts that are closed there, within rounding,
+/// and do not separate take part in it at once, so nothing depends on their numbers. A neighbour
+/// that touches at rest takes its part of the momentum. The integrator is restarted from v(+) and
+/// completes the rest of the step, so output stays on the grid. Crossings are looked for whenever
+/// the cubic through gap and gap rate at both ends of the step does not stay open, also when both
+/// ends are. A crossing with b_j . v >= 0 is grazing: the integrator is restarted there without an
+/// impulse. A step of an adaptive integrator ends at the event, located on the dense output; the state
+/// there is in the report of the impact alone.
 ///
-/// A contact is an active constraint when it is closed, its gap rate is 0 and the free motion would
-/// close it: after an impact with eta = 0, or from a start at rest. It is deactivated where its
-/// force changes sign. One contact is handled at a time: two that share a mass and are closed
-/// together end the run, and so do more than 1000 events in one step.
+/// Contacts that are closed with gap rate 0, after an impact with eta = 0 or from a start at rest,
+/// are active constraints where their accelerations A and forces F say so: 0 <= A _|_ F >= 0,
+/// solved for all of them. A contact is let go where its force changes sign. Contacts that are
+/// closed at once with linearly dependent b_j end the run, and so do more than 1000 events in one
+/// step.
 ///
 /// Order       that of the integrator.
 /// Stability   that of the integrator.

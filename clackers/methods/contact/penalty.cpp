@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "clackers/base/check.hpp"
-#include "clackers/methods/contact/impact_law.hpp"
+#include "clackers/methods/contact/compliant_force.hpp"
 #include "clackers/methods/rows.hpp"
 #include "clackers/methods/stepping/time_loop.hpp"
 #include "clackers/numerics/roots.hpp"
@@ -39,59 +39,31 @@ double fastest_squared(const model::SmoothSystem<Dof>& system, const model::Cont
   return most;
 }
 
-// Linear one-sided springs at the contacts, p = sum_j stiffness_j min(g_j, 0) b_j, in addition to
-// the force that a system has already.
+// The largest approach speed of a contact that the energy at the start allows; 0 for a linear law,
+// which has one contact time at every speed.
 template <int Dof>
-class PenaltyForce final : public model::NonlinearForce<Dof> {
- public:
-  using Vector = model::Vector<Dof>;
-  using Matrix = model::Matrix<Dof>;
-
-  // One stiffness a contact [N/m]. `other` may be empty.
-  PenaltyForce(std::vector<model::Contact<Dof>> contacts, std::vector<double> stiffnesses,
-               std::shared_ptr<const model::NonlinearForce<Dof>> other)
-      : contacts_(std::move(contacts)),
-        stiffnesses_(std::move(stiffnesses)),
-        other_(std::move(other)) {}
-
-  void add(const Vector& u, const Vector& v, Vector& p) const override {
-    if (other_) other_->add(u, v, p);
-    for (std::size_t j = 0; j < contacts_.size(); ++j)
-      if (const double g = contacts_[j].gap_at(u); g < 0.0)
-        p += stiffnesses_[j] * g * contacts_[j].direction;
-  }
-
-  void add_tangent(const Vector& u, const Vector& v, Matrix& dp_du, Matrix& dp_dv) const override {
-    if (other_) other_->add_tangent(u, v, dp_du, dp_dv);
-    for (std::size_t j = 0; j < contacts_.size(); ++j)
-      if (contacts_[j].gap_at(u) < 0.0)
-        dp_du += stiffnesses_[j] * contacts_[j].direction * contacts_[j].direction.transpose();
-  }
-
- private:
-  std::vector<model::Contact<Dof>> contacts_;
-  std::vector<double> stiffnesses_;
-  std::shared_ptr<const model::NonlinearForce<Dof>> other_;
-};
+double largest_speed(const CompliantLaw& law, const model::ImpactProblem<Dof>& problem,
+                     double mass) {
+  if (law.exponent == 1.0) return 0.0;
+  const auto& [t, u, v] = problem.start;
+  const double energy =
+      0.5 * (v.dot(problem.system.mass * v) + u.dot(problem.system.stiffness * u));
+  return std::sqrt(2.0 * std::max(energy, 0.0) / mass);
+}
 
 }  // namespace
 
-template <int Dof>
-model::ImpactProblem<Dof> with_springs(model::ImpactProblem<Dof> problem,
-                                       std::vector<double> stiffnesses) {
-  problem.system.nonlinear = std::make_shared<PenaltyForce<Dof>>(
-      problem.contacts, std::move(stiffnesses), std::move(problem.system.nonlinear));
-  return problem;
-}
-
-template model::ImpactProblem<1> with_springs(model::ImpactProblem<1>, std::vector<double>);
-template model::ImpactProblem<2> with_springs(model::ImpactProblem<2>, std::vector<double>);
-template model::ImpactProblem<> with_springs(model::ImpactProblem<>, std::vector<double>);
-
 const std::vector<Field<Penalty>>& Penalty::fields() {
-  static const std::vector<Field<Penalty>> all = {{"stiffness", "0 < stiffness < infinity",
-                                                   "of the contact spring [N/m]",
-                                                   &Penalty::stiffness, "1e4 k1 or more"}};
+  static const std::vector<Field<Penalty>> all = [] {
+    Field<Penalty> law{"law", {}, "force of penetration and its rate", &Penalty::law};
+    for (const auto& row : compliant_laws())
+      law.words.push_back(
+          {std::string(row.name), std::string(row.summary), std::string(row.source)});
+    return std::vector<Field<Penalty>>{
+        law,
+        {"stiffness", "0 < stiffness < infinity", "k of the law [N/m], or [N/m^1.5]",
+         &Penalty::stiffness, "1e4 k1 or more, or of the same contact time"}};
+  }();
   return all;
 }
 
@@ -103,6 +75,9 @@ Claim Penalty::claim(const Facts&) const {
   return {Behaviour::stagnating, 0.0, "contact-stiffness"};
 }
 
+// The masses are late by a part of the contact time at each impact.
+double Penalty::model_order() const { return 1.0 / (compliant_law(law).exponent + 1.0); }
+
 template <int Dof>
 std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& problem) const {
   std::vector<double> all;
@@ -110,56 +85,86 @@ std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& proble
     all.assign(problem.contacts.size(), stiffness);
     return all;
   }
-  const auto laws = impact_laws(problem);
-  for (const auto& law : laws) {
-    const auto i = first_touched(law.contact);
+  const auto& chosen = compliant_law(law);
+  const ContactSet<Dof> contacts(problem);
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    const auto& contact = problem.contacts[j];
+    const auto i = first_touched(contact);
     // pi sqrt(m_e / k) <= 2 pi / omega / contacts_per_period, solved for k.
+    const double mass = 1.0 / contacts.inverse_effective_mass(j);
     const double shortest = 0.25 * contacts_per_period * contacts_per_period *
-                            fastest_squared(problem.system, law.contact) /
-                            law.inverse_effective_mass;
-    all.push_back(std::max(default_factor * problem.system.stiffness(i, i), shortest));
+                            fastest_squared(problem.system, contact) * mass;
+    const double linear = std::max(default_factor * problem.system.stiffness(i, i), shortest);
+    all.push_back(chosen.exponent == 1.0
+                      ? linear
+                      : chosen.stiffness_for(std::numbers::pi * std::sqrt(mass / linear), mass,
+                                             largest_speed(chosen, problem, mass)));
   }
   return all;
 }
 
+std::optional<Objection> Penalty::objection_to(const Facts& method) const {
+  if (!method.is_linear_only) return std::nullopt;
+  return Objection{method.name +
+                       ": the force of a compliant contact is nonlinear, and the step is exact for "
+                       "linear ones alone. Use event-driven.",
+                   "linear-only"};
+}
+
 std::optional<Objection> Penalty::objection(const Facts& method,
                                             const model::ImpactProblem<>& problem) const {
+  const auto& chosen = compliant_law(law);
   for (const auto& contact : problem.contacts) {
-    if (contact.restitution != 1.0)
+    const double eta = contact.restitution;
+    if (chosen.models(eta)) continue;
+    if (chosen.restitution == CompliantLaw::Restitution::elastic)
       return Objection{
-          fmt::format("{} with eta = {}: a linear penalty spring gives back what it takes, "
-                      "so it can only stand for eta = 1. Use event-driven.",
-                      method.name, contact.restitution),
+          fmt::format("{} with eta = {}: the law {} gives back what it takes, so it can "
+                      "only stand for eta = 1. Use penalty:law=kelvin-voigt or "
+                      "event-driven.",
+                      method.name, eta, law),
           "penalty-needs-elastic"};
+    return Objection{
+        fmt::format("{} with eta = {}: the law {} has infinite damping there; allowed: "
+                    "0 < eta <= 1. Use penalty:law=kelvin-voigt or event-driven.",
+                    method.name, eta, law),
+        "law-needs-restitution"};
   }
   const auto all = stiffnesses(problem);
-  for (std::size_t j = 0; j < all.size(); ++j)
-    if (!(all[j] > 0.0))
-      return Objection{
-          fmt::format("{}: contact {} has no default stiffness, since degree of freedom {}, "
-                      "the first in its row, has none of its own. Give one: "
-                      "penalty:stiffness=VALUE, in N/m.",
-                      method.name, j + 1, first_touched(problem.contacts[j]) + 1),
-          "no-default-stiffness"};
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    if (all[j] > 0.0 && std::isfinite(all[j])) continue;
+    const auto i = first_touched(problem.contacts[j]);
+    const auto why =
+        problem.system.stiffness(i, i) > 0.0
+            ? std::string("the problem starts without energy, so that no approach speed is known")
+            : fmt::format("degree of freedom {}, the first in its row, has none of its own", i + 1);
+    return Objection{
+        fmt::format("{}: contact {} has no default stiffness, since {}. Give one: "
+                    "penalty:stiffness=VALUE, in {}.",
+                    method.name, j + 1, why, chosen.exponent == 1.0 ? "N/m" : "N/m^1.5"),
+        "no-default-stiffness"};
+  }
   return std::nullopt;
 }
 
 double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
-  const auto laws = impact_laws(problem);
+  const auto& chosen = compliant_law(law);
+  const ContactSet<model::any_dof> contacts(problem);
   const auto all = stiffnesses(problem);
-  double shortest = 0.0;
-  for (std::size_t j = 0; j < laws.size(); ++j) {
-    const double time = std::numbers::pi / std::sqrt(all[j] * laws[j].inverse_effective_mass);
-    shortest = j == 0 ? time : std::min(shortest, time);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    const double mass = 1.0 / contacts.inverse_effective_mass(j);
+    shortest =
+        std::min(shortest, chosen.contact_time(all[j], mass, largest_speed(chosen, problem, mass)));
   }
-  return shortest;
+  return std::isfinite(shortest) ? shortest : 0.0;
 }
 
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<1>&) const;
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<2>&) const;
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<>&) const;
 
-/// A run with penalty springs.
+/// A run with compliant contacts.
 template <int Dof>
 class Penalty::Loop {
  public:
@@ -167,10 +172,13 @@ class Penalty::Loop {
 
   Loop(const Integrator& integrator, const Penalty& penalty, const model::ImpactProblem<Dof>& rigid,
        const StepPlan& plan)
-      : problem_(with_springs(rigid, penalty.stiffnesses(rigid))),
+      : problem_(rigid),
+        force_(std::make_shared<CompliantForce<Dof>>(compliant_law(penalty.law), rigid,
+                                                     penalty.stiffnesses(rigid))),
         time_loop_(plan, problem_.dof()),
-        stepper_(integrator.stepper(problem_.system, plan)),
         at_(problem_.start) {
+    problem_.system.nonlinear = force_;
+    stepper_ = integrator.stepper(problem_.system, plan);
     touches_.reserve(problem_.contacts.size());
   }
   Loop(const Loop&) = delete;
@@ -179,6 +187,7 @@ class Penalty::Loop {
   void advance(Recorder<Dof>& out) {
     stepper_->reset();
     searches_ = 0;
+    force_->open_all();
     stepper_->restart(problem_.start);
     steps_ = time_loop_.run(*this, problem_.start, out);
   }
@@ -194,45 +203,70 @@ class Penalty::Loop {
   AnyStepper<Dof>& stepper() { return *stepper_; }
 
   bool is_quiet(const State& before, const State& now) const {
-    for (const auto& contact : problem_.contacts)
-      if (contact.gap_at(before.u) >= 0.0 && contact.gap_at(now.u) < 0.0) return false;
+    for (std::size_t j = 0; j < problem_.contacts.size(); ++j)
+      if (force_->is_closed(j) ? has_left(j, before) : problem_.contacts[j].gap_at(now.u) < 0.0)
+        return false;
     return true;
   }
 
-  // Reports the contacts first touched in this step, in order of time.
+  // Opens contacts that were left before the step and closes those touched in it, which it reports in
+  // order of time. Forces change, so the step is made anew.
   Handled handle(const State& before, const State& now, Recorder<Dof>& out) {
     touches_.clear();
-    for (std::size_t i = 0; i < problem_.contacts.size(); ++i) {
-      const auto& contact = problem_.contacts[i];
-      const double g0 = contact.gap_at(before.u), g1 = contact.gap_at(now.u);
-      if (!(g0 >= 0.0 && g1 < 0.0)) continue;
-      const double length = now.t - before.t;
-      const auto bracket =
-          numerics::shrink([&](double s) { return contact.gap_at(stepper_->partial(before, s).u); },
-                           {0.0, g0, length, g1}, std::numeric_limits<double>::epsilon() * length);
-      touches_.push_back({bracket.a, static_cast<int>(i)});
-      ++searches_;
-    }
+    for (std::size_t j = 0; j < problem_.contacts.size(); ++j)
+      if (is_touched(j, before, now)) touches_.push_back({touch_time(j, before, now), j, 0.0});
     std::sort(touches_.begin(), touches_.end(),
               [](const Touch& one, const Touch& other) { return one.s < other.s; });
-    for (const auto& [s, contact] : touches_) {
+    for (auto& [s, j, w0] : touches_) {
       at_ = before;
       if (s > 0.0) at_ = stepper_->partial(before, s);
       at_.t = std::min(before.t + s, now.t);
-      if (!out.impact(at_, contact, at_.v, 0.0)) return Handled::ended;
+      w0 = -problem_.contacts[j].gap_rate(at_.v);
+      if (!out.impact(at_, static_cast<int>(j), at_.v, 0.0)) return Handled::ended;
     }
-    if (!stepper_->failed()) return Handled::unchanged;
-    out.fail_step(now.t, stepper_->failure());
-    return Handled::ended;
+    if (stepper_->failed()) {
+      out.fail_step(now.t, stepper_->failure());
+      return Handled::ended;
+    }
+    for (std::size_t j = 0; j < problem_.contacts.size(); ++j)
+      if (force_->is_closed(j) && has_left(j, before)) force_->open(j);
+    for (const auto& [s, j, w0] : touches_) force_->close(j, w0);
+    return Handled::unchanged;
   }
 
  private:
   struct Touch {
     double s;
-    int contact;
+    std::size_t contact;
+    double w0;
   };
 
+  bool has_left(std::size_t j, const State& at) const {
+    const auto& contact = problem_.contacts[j];
+    return contact.gap_at(at.u) >= 0.0 && contact.gap_rate(at.v) > 0.0;
+  }
+
+  bool is_touched(std::size_t j, const State& before, const State& now) const {
+    return (!force_->is_closed(j) || has_left(j, before)) &&
+           problem_.contacts[j].gap_at(now.u) < 0.0;
+  }
+
+  // After `before`; 0 where the contact is violated there, because it was left and touched again in
+  // the step that ends there.
+  double touch_time(std::size_t j, const State& before, const State& now) {
+    const auto& contact = problem_.contacts[j];
+    const double g0 = contact.gap_at(before.u), g1 = contact.gap_at(now.u);
+    if (!(g0 >= 0.0)) return 0.0;
+    const double length = now.t - before.t;
+    ++searches_;
+    return numerics::shrink(
+               [&](double s) { return contact.gap_at(stepper_->partial(before, s).u); },
+               {0.0, g0, length, g1}, std::numeric_limits<double>::epsilon() * length)
+        .a;
+  }
+
   model::ImpactProblem<Dof> problem_;
+  std::shared_ptr<CompliantForce<Dof>> force_;
   TimeLoop<Dof> time_loop_;
   std::unique_ptr<AnyStepper<Dof>> stepper_;
   State at_;

@@ -1,6 +1,7 @@
 #include "clackers/methods/contact/penalty.hpp"
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
+#include "clackers/methods/contact/compliant_force.hpp"
 #include "clackers/methods/testing/runs.hpp"
 #include "clackers/methods/testing/stepper_checks.hpp"
 
@@ -104,7 +105,7 @@ TEST(Penalty, TakesItsDefaultStiffnessFromTheFirstMassInTheRow) {
   p.start = {0.0, Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d::Zero()};
   p.end = 1.0;
   EXPECT_EQ(Penalty{}.stiffnesses(p), (std::vector<double>{3e4, 7e4}));
-  EXPECT_EQ(Penalty{5.0}.stiffnesses(p), (std::vector<double>{5.0, 5.0}));
+  EXPECT_EQ(Penalty{.stiffness = 5.0}.stiffnesses(p), (std::vector<double>{5.0, 5.0}));
 }
 
 TEST(Penalty, TakesAStifferDefaultBesideAFastMass) {
@@ -119,16 +120,40 @@ TEST(Penalty, TakesAStifferDefaultBesideAFastMass) {
   EXPECT_NEAR(method("newmark+penalty")->contact_time(p), 2.0 * M_PI / 400.0 / 40.0, 1e-17);
 }
 
-TEST(Penalty, StandsForElasticImpactsOnly) {
+TEST(Penalty, ElasticLawsStandForElasticImpactsOnly) {
   const auto p = RattlingMass{.eta = 0.5}.problem(10.0);
-  const auto no = method("newmark+penalty")->objection(p);
-  ASSERT_TRUE(no);
-  EXPECT_EQ(no->code, Code("penalty-needs-elastic"));
-  EXPECT_EQ(
-      no->sentence,
-      "newmark+penalty with eta = 0.5: a linear penalty spring gives back what it takes, so it can "
-      "only stand for eta = 1. Use event-driven.");
-  EXPECT_THROW(method("newmark+penalty")->prepare(p, 0.1), InputError);
+  for (const std::string law : {"linear", "hertz"}) {
+    const auto chosen = method("newmark+penalty:law=" + law);
+    const auto no = chosen->objection(p);
+    ASSERT_TRUE(no);
+    EXPECT_EQ(no->code, Code("penalty-needs-elastic"));
+    EXPECT_EQ(no->sentence, chosen->facts().name + " with eta = 0.5: the law " + law +
+                                " gives back what it takes, so it can only stand for eta = 1. Use "
+                                "penalty:law=kelvin-voigt or event-driven.");
+    EXPECT_REFUSED(chosen->prepare(p, 0.1), "penalty-needs-elastic", "with eta = 0.5");
+  }
+}
+
+TEST(Penalty, LawsWithoutCoefficientsForARestitutionAreRefused) {
+  const auto p = RattlingMass{.eta = 0.0}.problem(10.0);
+  for (const std::string law : {"ye", "jankowski"})
+    EXPECT_REFUSED(method("newmark+penalty:law=" + law)->prepare(p, 0.1), "law-needs-restitution",
+                   "with eta = 0: the law " + law + " has infinite damping there");
+  EXPECT_FALSE(method("newmark+penalty:law=hunt-crossley")->objection(p));
+}
+
+TEST(Penalty, ModelErrorFallsAsTheContactTime) {
+  const auto order = [](const char* text) { return method(text)->facts().model_order; };
+  EXPECT_EQ(order("newmark+penalty"), 0.5);
+  EXPECT_EQ(order("newmark+penalty:law=kelvin-voigt"), 0.5);
+  EXPECT_EQ(order("newmark+penalty:law=hertz"), 0.4);
+  EXPECT_EQ(order("newmark+event-driven"), 0.0);
+  EXPECT_EQ(order("moreau-jean"), 0.0);
+}
+
+TEST(Penalty, WrongLawsAreRefusedWithAGuess) {
+  EXPECT_REFUSED(method("newmark+penalty:law=herz"), "unknown-name",
+                 "no law of penalty \"herz\". Did you mean \"hertz\"?");
 }
 
 TEST(Penalty, AsksForAStiffnessWhereThereIsNoDefault) {
@@ -139,17 +164,119 @@ TEST(Penalty, AsksForAStiffnessWhereThereIsNoDefault) {
   EXPECT_FALSE(method("rk4+penalty:stiffness=3")->objection(p));
 }
 
-TEST(Penalty, AddsToAForceThatIsThereAlready) {
+TEST(Penalty, NonlinearLawsNeedEnergyAtTheStartForADefault) {
+  const auto p = mass_on_stop(1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0);
+  EXPECT_REFUSED(method("rk4+penalty:law=hertz")->prepare(p, 0.1), "no-default-stiffness",
+                 "the problem starts without energy", "N/m^1.5");
+  EXPECT_FALSE(method("rk4+penalty:law=hertz,stiffness=3")->objection(p));
+  EXPECT_EQ(method("rk4+penalty:law=hertz,stiffness=3")->contact_time(p), 0.0);
+}
+
+TEST(Penalty, DefaultsOfAllLawsHaveOneContactTime) {
+  const auto p = RattlingMass{.eta = 1.0}.problem(10.0);
+  const double time = method("rk4+penalty")->contact_time(p);
+  for (const auto& law : compliant_laws())
+    EXPECT_NEAR(method("rk4+penalty:law=" + std::string(law.name))->contact_time(p), time,
+                1e-13 * time)
+        << law.name;
+}
+
+// A free mass that meets a stop with speed 1: rebound speed, largest penetration and contact time.
+struct Rebound {
+  double speed = 0.0, penetration = 0.0, time = 0.0;
+};
+
+Rebound rebound(const std::string& integrator, std::string_view law, double eta) {
+  const double h = 2e-6;  // 1/1500 of the shortest contact
+  auto p = mass_on_stop(0.5, 0.0, 0.0, 0.31 * h, -1.0, eta, 0.02);
+  const auto [path, outcome] =
+      run(integrator + "+penalty:stiffness=5e5,law=" + std::string(law), p, h);
+  EXPECT_TRUE(outcome.finished) << outcome.detail;
+  EXPECT_EQ(path.impacts->size(), 1u);
+  EXPECT_NEAR(path.impacts->at(0).t, 0.31 * h, 1e-12);
+  Rebound found{path.v.back(), 0.0, 0.0};
+  for (std::size_t i = 0; i < path.t.size(); ++i) {
+    found.penetration = std::max(found.penetration, -path.u[i]);
+    if (path.u[i] < 0.0) found.time = path.t[i];
+  }
+  return found;
+}
+
+TEST(Penalty, ReboundsOfLawsAreThoseOfAnIndependentTrial) {
+  struct Expected {
+    std::string_view law;
+    double speeds[4];
+  };
+  constexpr double nominal[] = {0.9, 0.7, 0.5, 0.3};
+  constexpr Expected all[] = {{"kelvin-voigt", {0.900, 0.700, 0.500, 0.300}},
+                              {"kelvin-voigt-no-tension", {0.902, 0.718, 0.550, 0.397}},
+                              {"hunt-crossley", {0.909, 0.768, 0.663, 0.581}},
+                              {"lankarani-nikravesh", {0.913, 0.796, 0.725, 0.684}},
+                              {"ye", {0.894, 0.683, 0.470, 0.256}},
+                              {"jankowski", {0.900, 0.698, 0.495, 0.292}}};
+  std::size_t laws = 0;
+  for (const auto& law : compliant_laws()) laws += law.models(0.5);
+  EXPECT_EQ(std::size(all), laws);
+  for (const auto& [law, speeds] : all)
+    for (std::size_t i = 0; i < 4; ++i)
+      for (const std::string integrator : {"newmark", "central-difference"})
+        EXPECT_NEAR(rebound(integrator, law, nominal[i]).speed, speeds[i], 6e-4)
+            << law << " eta " << nominal[i] << ' ' << integrator;
+}
+
+TEST(Penalty, ElasticLawsReboundWithTheApproachSpeedAfterTheirContactTime) {
+  for (const auto& law : compliant_laws()) {
+    const auto found = rebound("newmark", law.name, 1.0);
+    const double n = law.exponent, peak = std::pow(0.25 * (n + 1) / 5e5, 1 / (n + 1));
+    EXPECT_NEAR(found.speed, 1.0, 1e-6) << law.name;
+    EXPECT_NEAR(found.penetration, peak, 1e-6 * peak) << law.name;
+    EXPECT_NEAR(found.time, law.contact_time(5e5, 0.5, 1.0), 4e-6) << law.name;  // rows 2e-6 apart
+  }
+}
+
+TEST(Penalty, AContactThatIsPressedStaysClosedAndCarriesTheLoad) {
+  for (const auto& law : compliant_laws()) {
+    const double eta = law.models(0.5) ? 0.5 : 1.0;
+    auto p = mass_on_stop(1.0, 2.0, 1.0, 0.0, 0.0, eta, 40.0);
+    p.system.add_load = [](double, std::span<double> f) { f[0] -= 3.0; };
+    const auto [path, outcome] =
+        run("newmark+penalty:stiffness=100,law=" + std::string(law.name), p, 0.01);
+    ASSERT_TRUE(outcome.finished) << outcome.detail;
+    // At rest k d^n + K d = 3.
+    const double d = -path.u.back();
+    EXPECT_NEAR(100.0 * std::pow(d, law.exponent) + d, 3.0, 1e-9) << law.name;
+    EXPECT_EQ(path.impacts->size(), 1u) << law.name;
+  }
+}
+
+TEST(Penalty, EveryLawEndsARunThatIsNoMultipleOfTheStepInsideAContact) {
+  // The last, shorter step closes the contact: it must have its force.
+  auto p = mass_on_stop(1.0, 0.0, 0.0, 0.0, -1.0, 1.0, 0.0105);
+  p.start.u[0] = 0.0101;
+  const auto path = run("newmark+penalty:stiffness=1e8", p, 0.001).trajectory;
+  EXPECT_EQ(path.impacts->size(), 1u);
+  EXPECT_GT(path.v.back(), -0.9);
+}
+
+TEST(CompliantForce, OfClosedContactsAddsToAForceThatIsThereAlready) {
   auto p = RattlingMass{}.problem(10.0);
   p.system.nonlinear = std::make_shared<checks::CubicForce<model::any_dof>>();
-  const auto springs = with_springs(p, {100.0});
+  CompliantForce<model::any_dof> force(compliant_law("linear"), p, std::vector{100.0});
   const Eigen::VectorXd u = Eigen::VectorXd::Constant(1, -0.5), v = Eigen::VectorXd::Zero(1);
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(1);
+  const auto total = [&] {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(1);
+    force.add(u, v, sum);
+    return sum[0];
+  };
+  EXPECT_NEAR(total(), -0.125, 1e-14);
+  force.close(0, 1.0);
+  EXPECT_TRUE(force.is_closed(0));
+  EXPECT_NEAR(total(), -50.0 - 0.125, 1e-14);
   Eigen::MatrixXd du = Eigen::MatrixXd::Zero(1, 1), dv = du;
-  springs.system.nonlinear->add(u, v, force);
-  springs.system.nonlinear->add_tangent(u, v, du, dv);
-  EXPECT_NEAR(force[0], -50.0 - 0.125, 1e-14);
+  force.add_tangent(u, v, du, dv);
   EXPECT_NEAR(du(0, 0), 100.0 + 0.75, 1e-13);
+  force.open_all();
+  EXPECT_NEAR(total(), -0.125, 1e-14);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "clackers/methods/contact/impact_law.hpp"
+#include "clackers/methods/contact/contact_set.hpp"
 #include "clackers/methods/rows.hpp"
 #include "clackers/methods/stepping/time_loop.hpp"
 
@@ -15,6 +15,14 @@ const std::vector<Field<Reversal>>& Reversal::fields() {
 }
 
 Claim Reversal::claim(const Facts&) const { return {Behaviour::irregular, 1.0, {}}; }
+
+std::optional<Objection> Reversal::objection_to(const Facts& method) const {
+  if (!method.is_adaptive) return std::nullopt;
+  return Objection{method.name +
+                       ": reversal errs by the step in which an impact falls, and an adaptive "
+                       "integrator chooses its steps without regard to impacts. Use event-driven.",
+                   "integrator-not-taken"};
+}
 
 std::optional<Objection> Reversal::objection(const Facts& method,
                                              const model::ImpactProblem<>& problem) const {
@@ -31,10 +39,12 @@ class Reversal::Loop {
        const StepPlan& plan)
       : problem_(std::move(problem)),
         time_loop_(plan, problem_.dof()),
-        laws_(impact_laws(problem_)),
+        contacts_(problem_),
         stepper_(integrator.stepper(problem_.system, plan)),
         v_before_(problem_.start.v),
-        is_reversed_(laws_.size(), false) {}
+        impulses_(contacts_.no_impulses()) {
+    closed_.reserve(contacts_.size());
+  }
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
@@ -54,42 +64,37 @@ class Reversal::Loop {
   AnyStepper<Dof>& stepper() { return *stepper_; }
 
   bool is_quiet(const State&, const State& now) const {
-    for (const auto& law : laws_)
-      if (is_closing(law.contact, now)) return false;
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (contacts_.gap(i, now.u) < 0.0 && contacts_.gap_rate(i, now.v) < 0.0) return false;
     return true;
   }
 
   Handled handle(const State&, State& now, Recorder<Dof>& out) {
-    // Decided before any reversal, so that the numbers of the contacts do not matter.
-    for (std::size_t i = 0; i < laws_.size(); ++i) {
-      is_reversed_[i] = is_closing(laws_[i].contact, now);
-      for (std::size_t j = 0; j < i; ++j)
-        if (is_reversed_[i] && is_reversed_[j] && are_coupled(laws_[i], laws_[j])) {
-          out.fail("simultaneous-contacts", now.t, simultaneous(j, i));
-          return Handled::ended;
-        }
+    closed_.clear();
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (contacts_.gap(i, now.u) <= contacts_.rounding(i, now.u) &&
+          contacts_.gap_rate(i, now.v) <= contacts_.rate_rounding(i, now.v))
+        closed_.push_back(i);
+    v_before_ = now.v;
+    if (const auto no = contacts_.impact(closed_, now.v, impulses_)) {
+      out.fail(no->code, now.t, no->sentence);
+      return Handled::ended;
     }
-    for (std::size_t i = 0; i < laws_.size(); ++i) {
-      if (!is_reversed_[i]) continue;
-      v_before_ = now.v;
-      const double impulse = laws_[i].apply(now.v);
-      if (!out.impact(now, static_cast<int>(i), v_before_, impulse)) return Handled::ended;
-    }
+    for (const auto i : closed_)
+      if (const double impulse = impulses_[static_cast<Eigen::Index>(i)]; impulse > 0.0)
+        if (!out.impact(now, static_cast<int>(i), v_before_, impulse)) return Handled::ended;
     stepper_->restart(now);
     return Handled::changed;
   }
 
  private:
-  static bool is_closing(const model::Contact<Dof>& contact, const State& now) {
-    return contact.gap_at(now.u) < 0.0 && contact.gap_rate(now.v) < 0.0;
-  }
-
   model::ImpactProblem<Dof> problem_;
   TimeLoop<Dof> time_loop_;
-  std::vector<ImpactLaw<Dof>> laws_;
+  ContactSet<Dof> contacts_;
   std::unique_ptr<AnyStepper<Dof>> stepper_;
   model::Vector<Dof> v_before_;
-  std::vector<bool> is_reversed_;
+  Eigen::VectorXd impulses_;
+  std::vector<std::size_t> closed_;
   long long steps_ = 0;
 };
 

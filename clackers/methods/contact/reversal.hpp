@@ -12,11 +12,14 @@ namespace clackers::methods {
 /// Velocities reversed at the end of the step, as a code does that looks at a contact only there:
 /// where a step ends with
 ///
-///     g = b . u1 - gap < 0 and b . v1 < 0:   b . v1(+) = -eta b . v1(-),   M [v1(+) - v1(-)] = b P
+///     g = b . u1 - gap < 0 and b . v1 < 0,
 ///
-/// The penetration stays as it is. Which contacts are reversed is decided by the end of the step as
-/// the integrator leaves it; one that starts to close by the impulse of another is looked at again
-/// at the end of the next step. Two that share a mass and are reversed in the same step end the run.
+/// Newton's law changes the velocity: M [v1(+) - v1(-)] = sum_j b_j P_j with
+///
+///     0 <= b_j . v1(+) + eta_j b_j . v1(-) _|_ P_j >= 0
+///
+/// for all contacts j that are closed or violated there and do not separate. The penetration stays
+/// as it is. Contacts with linearly dependent b_j in one step end the run.
 ///
 /// Order       1 of the upper envelope whatever the integrator's; errors of neighbouring steps
 ///             scatter.
@@ -34,6 +37,8 @@ struct Reversal {
 
   void validate() const {}
   Claim claim(const Facts& integrator) const;
+  /// To adaptive ones.
+  std::optional<Objection> objection_to(const Facts& method) const;
   std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const;
   double contact_time(const model::ImpactProblem<>&) const { return 0.0; }

@@ -14,7 +14,8 @@ namespace clackers::methods {
 enum class Handled {
   ended,      ///< the run
   changed,    ///< the end of the step; the stepper has been started there
-  unchanged,  ///< the step holds as it was; the stepper is at its beginning
+  unchanged,  ///< the step is made again; the stepper is at its beginning
+  shortened,  ///< as changed, and the step ends earlier, at an event: `now` is no state of output
 };
 
 /// The loop over the steps of a run, in blocks. A contact treatment has
@@ -41,7 +42,8 @@ class TimeLoop {
     states_[0] = start;
     if (!out.append(start)) return 0;
     std::size_t length = shortest;
-    for (long long k = 0; k < plan_.total;) {
+    long long k = 0;
+    while (states_[0].t != plan_.end) {
       if (k == plan_.whole) return k + (last_step(treatment, out) ? 1 : 0);
       length = std::min(
           {length, AnyStepper<Dof>::most_steps, static_cast<std::size_t>(plan_.whole - k)});
@@ -75,13 +77,18 @@ class TimeLoop {
         states_[0] = states_[i];
         stepper.advance(k, {states_.data(), 2});
         now_ = states_[1];
+        if (stepper.failed()) {
+          out.fail_step(now_.t, stepper.failure());
+          return k;
+        }
       }
       ++k;
-      if (!out.append(now_)) return k;
+      const bool is_output = handled != Handled::shortened || now_.t == plan_.end;
+      if (is_output && !out.append(now_)) return k;
       states_[0] = now_;
       length = shortest;
     }
-    return plan_.total;
+    return k;
   }
 
  private:
@@ -91,14 +98,20 @@ class TimeLoop {
   template <class Treatment>
   bool last_step(Treatment& treatment, Recorder<Dof>& out) {
     const State& before = states_[0];
-    auto& stepper = treatment.stepper();
-    now_ = stepper.partial(before, plan_.end - before.t);
-    now_.t = plan_.end;
-    if (stepper.failed()) return out.fail_step(plan_.end, stepper.failure());
-    if (!treatment.is_quiet(before, now_) && treatment.handle(before, now_, out) == Handled::ended)
-      return false;
+    if (!make_last_step(treatment.stepper(), out)) return false;
+    if (!treatment.is_quiet(before, now_)) {
+      const Handled handled = treatment.handle(before, now_, out);
+      if (handled == Handled::ended) return false;
+      if (handled == Handled::unchanged && !make_last_step(treatment.stepper(), out)) return false;
+    }
     out.append(now_);
     return true;
+  }
+
+  bool make_last_step(AnyStepper<Dof>& stepper, Recorder<Dof>& out) {
+    now_ = stepper.partial(states_[0], plan_.end - states_[0].t);
+    now_.t = plan_.end;
+    return !stepper.failed() || out.fail_step(plan_.end, stepper.failure());
   }
 
   StepPlan plan_;

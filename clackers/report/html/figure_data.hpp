@@ -24,6 +24,12 @@ namespace clackers::report {
 ///     profile                  the performance profiles of the case
 nlohmann::ordered_json figure_data(const study::CaseRecord& problem);
 
+/// Whether the motion of a case can be played: its structure has a drawing.
+bool has_player(const study::CaseRecord& problem);
+/// What player.js draws: the displacements "u" of all masses at the times "t"; "blocks", "springs" and "contacts" as study::Schematic has them; "impacts"; and of each subject one
+/// of its "runs", with its own times.
+nlohmann::ordered_json player_data(const study::CaseRecord& problem);
+
 /// Lines of profiles. Methods that refused every one of the cases have none.
 nlohmann::ordered_json profile_data(const std::vector<study::Profile>& profiles,
                                     std::span<const study::CaseRecord> cases);

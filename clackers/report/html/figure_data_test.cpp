@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "clackers/assess/cost/work_precision.hpp"
 #include "clackers/report/html/figure_specifications.hpp"
@@ -36,6 +37,28 @@ TEST(FigureData, SubnormalNumbersAreDrawn) {
         for (auto& y : run.error_history.y) y.assign(y.size(), 1e-310);
       }
   EXPECT_EQ(figure_data(problem)["response"][0]["u"][0].get<double>(), 4.2e-311);
+}
+
+TEST(FigureData, TheFirstNineMassesHaveCurvesOfTheirOwnStyle) {
+  auto problem = sample();
+  for (auto* curve : {&problem.response, &problem.subjects[0].levels.back().runs[0].error_history})
+    curve->y.resize(14, curve->y[0]);
+  const auto data = figure_data(problem);
+  EXPECT_EQ(data["response"].size(), 9u);
+  const auto figure = figure_specifications(problem)["response"]["layer"][1]["encoding"];
+  for (const auto* channel : {"color", "strokeDash"}) {
+    EXPECT_EQ(figure[channel]["scale"]["domain"].size(), 9u);
+    EXPECT_EQ(figure[channel]["scale"]["range"].size(), 9u);
+  }
+  EXPECT_EQ(figure["color"]["scale"]["domain"][8], "mass 9");
+  for (const auto& curve : data["history"]) EXPECT_LE(curve["mass"], 9);
+}
+
+TEST(PlotStyle, TheFirstThirtyTwoMassesDiffer) {
+  std::set<std::pair<std::string, std::vector<double>>> styles;
+  for (std::size_t mass = 0; mass < 32; ++mass)
+    styles.insert({mass_style(mass).color, mass_style(mass).dash});
+  EXPECT_EQ(styles.size(), 32u);
 }
 
 TEST(FigureData, RunsAreWholeToTheLastDigit) {

@@ -1,11 +1,15 @@
 #include "clackers/report/html/figure_specifications.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/counters.hpp"
 #include "clackers/report/html/figure_data.hpp"
 #include "clackers/report/html/plot_style.hpp"
+#include "clackers/report/write.hpp"
 
 namespace clackers::report {
 namespace {
@@ -104,6 +108,18 @@ Json counter_values(const std::vector<ShownCounter>& counters, const std::string
            "indexof(hidden, datum.method) < 0"}};
 }
 
+Json mass_scales(const study::CaseRecord& problem) {
+  Json names = Json::array(), colors = Json::array(), dashes = Json::array();
+  for (std::size_t mass = 0; mass < std::min(problem.response.y.size(), most_drawn_masses);
+       ++mass) {
+    const auto style = mass_style(mass);
+    names.push_back(fmt::format("mass {}", mass + 1));
+    colors.push_back(style.color);
+    dashes.push_back(style.dash);
+  }
+  return {{"masses", names}, {"mass_colors", colors}, {"mass_dashes", dashes}};
+}
+
 }  // namespace
 
 Json figure_specifications(const study::CaseRecord& problem) {
@@ -114,9 +130,11 @@ Json figure_specifications(const study::CaseRecord& problem) {
     const auto* run = subject.shown_run();
     has_history = has_history || (run != nullptr && !run->error_history.t.empty());
   }
-  Json all{{"response", specification_of(assets::response_vl_json, names)}};
+  const auto masses = mass_scales(problem);
+  Json all{{"response", specification_of(assets::response_vl_json, names, masses)}};
   if (drawn_subject(problem) != nullptr)
-    all["response"]["layer"].push_back(Json::parse(assets::history_rows_vl_json));
+    all["response"]["layer"].push_back(
+        specification_of(assets::history_rows_vl_json, names, masses));
   const bool by_step = std::ranges::any_of(problem.subjects, [](const study::Subject& subject) {
     return subject.resolution == study::Resolution::step;
   });

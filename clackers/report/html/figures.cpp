@@ -9,6 +9,7 @@
 #include "clackers/report/html/figure_data.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/markup.hpp"
+#include "clackers/report/write.hpp"
 
 namespace clackers::report {
 
@@ -37,15 +38,24 @@ std::string small_key(std::string_view color, std::string_view shape) {
       color, shape);
 }
 
+std::size_t drawn_masses(const study::CaseRecord& problem) {
+  return std::min(problem.response.y.size(), most_drawn_masses);
+}
+
+std::string masses_left_out(const study::CaseRecord& problem) {
+  const auto masses = problem.response.y.size(), drawn = drawn_masses(problem);
+  return drawn == masses ? std::string()
+                         : fmt::format(" Of {} masses the first {} are drawn.", masses, drawn);
+}
+
 std::string response_legend(const study::CaseRecord& problem, const Place& place) {
   auto out = fmt::format(
       "<div class=\"legend\" role=\"group\" aria-label=\"Shown in the response\" "
       "data-legend=\"response{}\">\n",
       place.suffix);
-  for (std::size_t mass = 0; mass < problem.response.y.size(); ++mass) {
+  for (std::size_t mass = 0; mass < drawn_masses(problem); ++mass) {
     const auto name = fmt::format("mass {}", mass + 1);
-    out += toggle(name, line_svg(fmt::format("var(--m{})", mass + 1), mass == 0 ? "1 0" : "5 2"),
-                  name);
+    out += toggle(name, key_svg(mass_style(mass)), name);
   }
   if (!problem.problem.impact_times.empty())
     out +=
@@ -83,7 +93,7 @@ std::string mass_choice(const study::CaseRecord& problem, const Place& place) {
   if (problem.response.y.size() < 2) return {};
   std::string out =
       "<div class=\"tools\" role=\"group\" aria-label=\"Mass shown in the figure\">\n";
-  for (std::size_t mass = 1; mass <= problem.response.y.size(); ++mass)
+  for (std::size_t mass = 1; mass <= drawn_masses(problem); ++mass)
     out += fmt::format(
         "<button type=\"button\" data-mass=\"{0}\" data-of=\"history{2}\" "
         "aria-pressed=\"{1}\">mass {0}</button>\n",
@@ -133,7 +143,7 @@ FigureText response_text(const study::CaseRecord& record, const Place& place) {
   return {"response",
           rows != nullptr ? "history_rows" : "response",
           rows != nullptr ? "The history over the exact response" : "Exact response",
-          caption,
+          caption + masses_left_out(record),
           reading +
               " Of long curves the lowest and highest point of every stretch are drawn. Drag "
               "to move, pinch or hold Ctrl and turn the wheel to zoom.",
@@ -149,7 +159,7 @@ FigureText convergence_text(const study::CaseRecord& problem) {
       "runs",
       "Convergence",
       fmt::format("Largest displacement error over all masses and times of a run, divided by "
-                  "the initial envelope of the mass, against the {}. Both axes are logarithmic.",
+                  "the largest envelope of the mass, against the {}. Both axes are logarithmic.",
                   by_step ? "step h in seconds" : "tolerance"),
       "Faint points are single runs; the line joins the worst run of each level (the upper "
       "envelope), without levels of which more than half of the runs failed. A method of order "
@@ -164,12 +174,30 @@ FigureText history_text(const study::CaseRecord& problem, const Place& place) {
   return {"history",
           "history",
           "Error against time",
-          "Displacement error divided by the initial envelope of the mass against time in seconds, "
-          "one run of each. The error axis is logarithmic.",
+          "Displacement error divided by the largest envelope of the mass against time in seconds, "
+          "one run of each. The error axis is logarithmic." +
+              masses_left_out(problem),
           "Steps up at collisions are errors that collisions bring in; downward spikes are changes "
           "of sign; a level line in a history may be its printed digits. Point at a curve to see "
           "which run it is.",
           mass_choice(problem, place)};
+}
+
+std::string player_html(int& number, const study::CaseRecord& problem, const Place& place) {
+  return fill(
+      assets::player_html,
+      {{"name", "motion" + place.suffix},
+       {"number", fmt::format("{}", number++)},
+       {"title", "The exact motion"},
+       {"caption",
+        fmt::format("The structure over {} s, as fast as in truth unless another speed is chosen.",
+                    html_number(problem.problem.end, 6))},
+       {"choices", ""},
+       {"response", "response" + place.suffix},
+       {"reading",
+        "Blocks are masses with their numbers, lines below and between them are springs. All "
+        "displacements are enlarged by one factor. A dot flashes where masses collide. The line in "
+        "the response shows the time. A run chosen beside the exact motion is drawn as outlines."}});
 }
 
 FigureText work_text(const std::vector<ShownCounter>& counters, const Place& place) {
@@ -215,12 +243,18 @@ FigureText profile_text(const std::vector<study::Profile>& profiles, const Place
 
 }  // namespace
 
+std::string response_html(const study::CaseRecord& problem, const Place& place, int& number) {
+  auto out = figure_html(number, place, response_text(problem, place));
+  if (has_player(problem)) out += player_html(number, problem, place);
+  return out;
+}
+
 std::string figures_html(const study::CaseRecord& problem, const Place& place, int& number) {
   const auto has_error_history = [](const study::Subject& subject) {
     const auto* run = subject.shown_run();
     return run != nullptr && !run->error_history.t.empty();
   };
-  auto out = figure_html(number, place, response_text(problem, place));
+  auto out = response_html(problem, place, number);
   out += method_legend(problem, place);
   if (has_convergence(problem)) out += figure_html(number, place, convergence_text(problem));
   if (std::ranges::any_of(problem.subjects, has_error_history))

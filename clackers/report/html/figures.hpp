@@ -19,6 +19,9 @@ std::string figure_html(int& number, const Place& place, const FigureText& text)
 /// A button of a legend that shows or hides a series; `key` is html.
 std::string toggle(const std::string& series, const std::string& key, const std::string& text);
 
+/// The figure "response" and, of a case whose structure has a drawing, the player of its motion.
+std::string response_html(const study::CaseRecord& problem, const Place& place, int& number);
+
 /// The figures of a case: frames with captions, legends and tools. `number` counts the figures of the
 /// page and is raised.
 std::string figures_html(const study::CaseRecord& problem, const Place& place, int& number);

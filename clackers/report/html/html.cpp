@@ -43,6 +43,7 @@ PageSection case_section(const study::CaseRecord& problem, std::size_t index, in
 void add_figures(Page& page, const study::CaseRecord& problem, const Place& place) {
   const auto data = figure_data(problem);
   for (const auto& [name, rows] : data.items()) page.data[name + place.suffix] = rows;
+  if (has_player(problem)) page.data["motion" + place.suffix] = player_data(problem);
   auto specifications = figure_specifications(problem);
   for (auto& [name, specification] : specifications.items()) {
     if (!place.suffix.empty()) rename_data(specification, place.suffix);

@@ -36,7 +36,8 @@ std::string page_html(const Page& page, const study::Provenance& from) {
                                   {"vega_lite", std::string(assets::vega_lite_min_js)},
                                   {"vega_embed", std::string(assets::vega_embed_min_js)},
                                   {"figures_script", std::string(assets::figures_js)},
-                                  {"page_script", std::string(assets::page_js)}});
+                                  {"page_script", std::string(assets::page_js)},
+                                  {"player_script", std::string(assets::player_js)}});
 }
 
 }  // namespace clackers::report

@@ -26,13 +26,19 @@ const std::array<std::vector<double>, 6>& dashes() {
   return table;
 }
 
+std::string color(std::size_t index) { return fmt::format("var(--m{})", index % colors + 1); }
+
 }  // namespace
+
+MassStyle mass_style(std::size_t mass) {
+  static const std::array<std::vector<double>, 4> dashes{{{1, 0}, {5, 2}, {2, 2}, {8, 3, 2, 3}}};
+  return {color(mass), dashes[(mass + mass / colors) % dashes.size()]};
+}
 
 PlotStyle plot_style(std::size_t index) {
   // Every round of colours shifts dashes and markers, by amounts that do not come round at once.
   const auto round = index / colors;
-  return {fmt::format("var(--m{})", index % colors + 1),
-          shapes[(index + round) % shapes.size()].first,
+  return {color(index), shapes[(index + round) % shapes.size()].first,
           dashes()[(index + 2 * round) % dashes().size()]};
 }
 
@@ -42,6 +48,10 @@ std::string key_svg(const PlotStyle& style) {
     if (name == style.shape) path = shape;
   return line_svg(style.color, fmt::format("{}", fmt::join(style.dash, " ")),
                   fmt::format("<path d=\"{}\" fill=\"currentColor\"/>", path));
+}
+
+std::string key_svg(const MassStyle& style) {
+  return line_svg(style.color, fmt::format("{}", fmt::join(style.dash, " ")));
 }
 
 std::string line_svg(std::string_view color, std::string_view dash, std::string_view marker) {

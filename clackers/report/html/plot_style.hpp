@@ -17,6 +17,16 @@ struct PlotStyle {
 };
 PlotStyle plot_style(std::size_t index);
 
+/// How the displacement of a mass looks, by its colour and dash.
+struct MassStyle {
+  std::string color;         ///< a variable of page.css
+  std::vector<double> dash;  ///< lengths of strokes and gaps
+};
+/// `mass` from 0; the first 32 styles are all different.
+MassStyle mass_style(std::size_t mass);
+/// A short stroke in that style, for legends.
+std::string key_svg(const MassStyle& style);
+
 /// A short stroke with its marker, as inline svg, for tables and legends. Decoration only: it
 /// stands beside the name.
 std::string key_svg(const PlotStyle& style);

@@ -7,10 +7,12 @@
 #include "clackers/report/html/figure_data.hpp"
 #include "clackers/report/html/figure_specifications.hpp"
 #include "clackers/report/html/figures.hpp"
+#include "clackers/report/html/head.hpp"
 #include "clackers/report/html/page.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/html/tables.hpp"
 #include "clackers/report/markup.hpp"
+#include "clackers/report/words/words.hpp"
 #include "clackers/report/write.hpp"
 
 namespace clackers::report {
@@ -96,18 +98,29 @@ FigureText figure_of(const study::Sheet& sheet) {
 }  // namespace
 
 std::string html(std::span<const study::Sheet> sheets, const std::string& name,
-                 const study::Provenance& from) {
+                 const study::Provenance& from, const study::CaseRecord* motion,
+                 const std::string& command) {
   Page page;
-  page.command = "show";
+  page.command = command;
   page.title = "clackers: " + name;
   page.heading = escape(name);
   page.data = page.specifications = Json::object();
   int number = 1;
+  if (motion != nullptr) {
+    page.heading = escape(case_text(motion->problem, "\u00a0"));
+    page.lead = lead_html(*motion);
+    auto data = figure_data(*motion);
+    for (const auto* rows : {"response", "collisions"}) page.data[rows] = data[rows];
+    page.data["motion"] = player_data(*motion);
+    page.specifications["response"] = figure_specifications(*motion)["response"];
+    page.sections.push_back({"figures", "Figures", "Figures", response_html(*motion, {}, number)});
+  }
   for (const auto& sheet : sheets) {
     if (sheet.curves) {
       page.data[name_of(sheet)] = points(sheet);
       page.specifications[name_of(sheet)] = curves_specification(sheet, name_of(sheet));
-      if (number == 1) page.sections.push_back({"figures", "Figures", "Figures", {}});
+      if (motion == nullptr && number == 1)
+        page.sections.push_back({"figures", "Figures", "Figures", {}});
       auto& figures = *std::ranges::find(page.sections, "figures", &PageSection::id);
       figures.html += figure_html(number, {}, figure_of(sheet));
     } else {

@@ -71,7 +71,7 @@ std::string extrapolation_html(const study::SelfResult& result) {
   for (const double value : found.value)
     values += (values.empty() ? "" : ", ") + html_number(value, 10);
   return fmt::format(
-      "u / initial envelope at the end = {}, within {} of the limit of the runs; the error is {}{}",
+      "u / largest envelope at the end = {}, within {} of the limit of the runs; the error is {}{}",
       values, html_scientific(found.bound), html_scientific(result.extrapolation_error),
       result.extrapolation_error > found.bound ? ": the limit is not the reference solution" : "");
 }

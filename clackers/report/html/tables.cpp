@@ -34,10 +34,14 @@ std::string linked(const std::string& name, const Place& place, std::size_t subj
 
 std::string findings_html(const study::CaseRecord& problem, const Place& place) {
   std::string out;
-  for (std::size_t i = 0; i < problem.subjects.size(); ++i)
-    if (const auto found = finding(problem.subjects[i]))
-      out += fmt::format("<li>{}: {}</li>\n", linked(escape(problem.subjects[i].name), place, i),
-                         finding_html(*found));
+  const auto all = named_findings(groups_of(problem), [](const study::Subject& subject) {
+    const auto found = finding(subject);
+    return found ? std::vector{*found} : std::vector<Finding>{};
+  });
+  for (const auto& [subject, who, found] : all)
+    out += fmt::format("<li>{}: {}</li>\n",
+                       linked(escape(who), place, std::size_t(subject - problem.subjects.data())),
+                       finding_html(found));
   return out.empty() ? out : "<ul class=\"remarks\">\n" + out + "</ul>\n";
 }
 
@@ -186,7 +190,7 @@ std::string verdicts_html(const study::CaseRecord& problem, const Place& place) 
   if (!histories.rows.empty())
     out += html_table("Histories",
                       std::string(by_step ? "Coarsest step" : "Loosest tolerance") +
-                          " first. Errors relative to the initial envelope; v in the mean "
+                          " first. Errors relative to the largest envelope; v in the mean "
                           "over time; collisions matched / exact. A dash: not measured.",
                       histories, [](const Row& row) {
                         return breakable(escape(row.run->file ? short_path(row.run->file->file)

@@ -97,7 +97,7 @@ void write_methods(const study::CaseRecord& problem, bool interrupted, std::ostr
   const auto table = summary_table(problem, study::SubjectKind::method);
   if (table.rows.empty()) return;
   Frame frame{fmt::format("{}: {}. Of each method the worst run of the finest level; errors "
-                          "relative to the initial envelope and energy, order with its 95\\,\\% "
+                          "relative to the largest envelope and energy, order with its 95\\,\\% "
                           "interval, collisions matched/exact.{}",
                           tex_text(case_text(problem.problem)), tex_text(plan_text(problem)),
                           interrupted ? " Interrupted: only what was finished is shown." : ""),
@@ -121,7 +121,7 @@ void write_histories(const study::CaseRecord& problem, std::ostream& out) {
   const auto table = summary_table(problem, study::SubjectKind::histories);
   if (table.rows.empty()) return;
   Frame frame{fmt::format("{}: time histories against the exact motion. Errors relative to the "
-                          "initial envelope, of velocities in the mean over time; collisions "
+                          "largest envelope, of velocities in the mean over time; collisions "
                           "matched/exact.",
                           tex_text(case_text(problem.problem))),
               "check-" + problem.problem.name,

@@ -164,8 +164,10 @@ async function asSvg(name) {
   return text;
 }
 
-async function asPng(name, scale = 2) {
-  const url = URL.createObjectURL(new Blob([await asSvg(name)], { type: "image/svg+xml" }));
+const asPng = async (name) => rasterized(await asSvg(name), 2);
+
+async function rasterized(svg, scale) {
+  const url = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   try {
     const image = new Image();
     image.src = url;

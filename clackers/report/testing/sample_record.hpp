@@ -43,6 +43,8 @@ inline study::CaseSummary sample_case() {
   problem.fast_period = 1.2582;
   for (int k = 0; k < 6; ++k) problem.impact_times.push_back(std::numbers::pi * (k + 0.5));
   problem.impact_count = 6;
+  problem.impact_contacts.assign(6, 0);
+  problem.drawing = {{{1, 1.0}, {0, 1.0}}, {{0, -1}, {1, -1}}, {{1, 0, 0.0}}};
   return problem;
 }
 
@@ -221,6 +223,8 @@ inline study::Record sample_record(const SampleSize& size = {}) {
     problem.subjects.push_back(sample_method(method, of_method));
   }
   problem.subjects.push_back(sample_refusal());
+  for (auto& run : problem.subjects.front().levels.back().runs)
+    run.motion = sample_response(size.points);
   problem.profiles = study::profiles_of({&problem, 1});
   problem.subjects[6].complete = false;
   return record;

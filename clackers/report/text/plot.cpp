@@ -49,12 +49,15 @@ class Canvas {
   void label(int x, int y, int curve) { at(x, y) = {0, curve, char('1' + curve)}; }
 
   std::string line(int row, const Style& style) const {
-    constexpr TextColor colors[] = {TextColor::blue, TextColor::yellow};
+    constexpr TextColor colors[] = {TextColor::blue, TextColor::yellow, TextColor::green,
+                                    TextColor::red};
     std::string out;
     for (int c = 0; c < columns_; ++c) {
       const auto& cell = cells_[std::size_t(row * columns_ + c)];
       const auto text = cell.label != 0 ? std::string(1, cell.label) : braille(cell.dots);
-      out += cell.curve < 0 ? text : colored(text, colors[cell.curve % 2], style);
+      out += cell.curve < 0
+                 ? text
+                 : colored(text, colors[std::size_t(cell.curve) % std::size(colors)], style);
     }
     return out.substr(0, out.find_last_not_of(' ') + 1);
   }
@@ -192,13 +195,16 @@ std::string draw(CharacterPlot plot, const Style& style) {
 
 std::string plot(const study::Curve& response, std::span<const double> impact_times,
                  const Style& style) {
+  const auto masses = response.y.size(), drawn = std::min(masses, most_drawn_masses);
   CharacterPlot picture{.title = "u [m] against t [s]; 1: mass 1",
                         .x = response.t,
-                        .y = response.y,
+                        .y = {response.y.begin(), response.y.begin() + std::ptrdiff_t(drawn)},
                         .marks = {impact_times.begin(), impact_times.end()},
                         .x_unit = " s",
                         .y_unit = " m"};
-  if (response.y.size() > 1) picture.title += ", 2: mass 2";
+  if (masses == 2) picture.title += ", 2: mass 2";
+  if (masses > 2) picture.title += fmt::format(", ..., {0}: mass {0}", drawn);
+  if (drawn < masses) picture.title += fmt::format(" of {}", masses);
   if (!impact_times.empty()) picture.title += "; ▲ collision";
   return draw(std::move(picture), style);
 }

@@ -85,6 +85,20 @@ TEST(Plot, TellsTheMassesApartWithoutColour) {
   EXPECT_NE(colored.find("\x1b[33m"), std::string::npos);
 }
 
+study::Curve rising_curves(std::size_t masses) {
+  study::Curve curve{{0.0, 1.0}, {}};
+  for (std::size_t i = 1; i <= masses; ++i) curve.y.push_back({0.0, double(i)});
+  return curve;
+}
+
+TEST(Plot, NumbersUpToNineMassesAndSaysHowManyThereAre) {
+  EXPECT_EQ(lines(plot(rising_curves(5), {}))[0],
+            std::string(10, ' ') + "u [m] against t [s]; 1: mass 1, ..., 5: mass 5");
+  const auto out = lines(plot(rising_curves(14), {}));
+  EXPECT_EQ(out[0], std::string(10, ' ') + "u [m] against t [s]; 1: mass 1, ..., 9: mass 9 of 14");
+  EXPECT_NE(out[1].find("9 m ┤"), std::string::npos);  // the tenth mass is not drawn
+}
+
 TEST(Plot, DrawsAMotionAtRestInTheMiddle) {
   const auto out = lines(plot({{0.0, 1.0}, {{0.25, 0.25}}}, {}));
   EXPECT_NE(out[8].find("0.25 m ┤"), std::string::npos);

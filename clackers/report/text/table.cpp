@@ -73,7 +73,7 @@ void print_wrapped(std::string_view text, std::ostream& out, const Style& style,
 }
 
 void print_table(std::vector<TextColumn> columns, const std::vector<std::vector<TextCell>>& rows,
-                 std::ostream& out, const Style& style) {
+                 std::ostream& out, const Style& style, std::span<const TableHead> heads) {
   constexpr std::size_t least_text = 8;
   std::size_t gap = 2;
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -94,7 +94,14 @@ void print_table(std::vector<TextColumn> columns, const std::vector<std::vector<
     fit(columns, gap, width);
   }
   print_header(columns, gap, out, style);
-  for (const auto& row : rows) print_row(columns, row, gap, out, style);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!heads.empty() && heads.front().row == i) {
+      if (i > 0) out << '\n';
+      print_wrapped(heads.front().text, out, style, TextColor::bold);
+      heads = heads.subspan(1);
+    }
+    print_row(columns, rows[i], gap, out, style);
+  }
 }
 
 bool fit(std::span<TextColumn> columns, std::size_t gap, std::size_t total) {

@@ -36,11 +36,17 @@ struct TextCell {
   TextColor color = TextColor::plain;
 };
 
+/// A line of its own above a row of a table.
+struct TableHead {
+  std::size_t row;
+  std::string text;
+};
+
 /// A whole table of at most style.width characters a line. The columns' widths are measured: the
 /// first column and text to the right of it may be wrapped, numbers stay whole unless the terminal is
 /// very narrow.
 void print_table(std::vector<TextColumn> columns, const std::vector<std::vector<TextCell>>& rows,
-                 std::ostream& out, const Style& style);
+                 std::ostream& out, const Style& style, std::span<const TableHead> heads = {});
 
 // The parts of print_table, for rows that come one by one.
 

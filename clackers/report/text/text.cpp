@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <ostream>
 
 #include "clackers/assess/cost/performance_profile.hpp"
@@ -12,6 +14,7 @@
 #include "clackers/base/text.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
+#include "clackers/report/groups.hpp"
 #include "clackers/report/text/table.hpp"
 #include "clackers/report/words/words.hpp"
 
@@ -43,7 +46,16 @@ TextCell cell_of(const Column& shown, const Row& row) {
   return {std::move(text), color};
 }
 
-void print(const Table& table, std::ostream& out, const Style& style) {
+// Columns of which long names take the place where rows stand in groups.
+constexpr auto left_out =
+    std::to_array<std::string_view>({"collision_time_error", "force_evaluations"});
+constexpr int width_for_all = 100;
+
+void print(Table table, std::ostream& out, const Style& style) {
+  if (!table.heads.empty() && style.width < width_for_all)
+    std::erase_if(table.columns, [](const Column* shown) {
+      return std::ranges::find(left_out, shown->name) != left_out.end();
+    });
   std::vector<TextColumn> columns;
   for (const auto* shown : table.columns) {
     auto header = std::string(shown->brief_heading());
@@ -55,7 +67,14 @@ void print(const Table& table, std::ostream& out, const Style& style) {
     auto& cells = rows.emplace_back();
     for (const auto* shown : table.columns) cells.push_back(cell_of(*shown, row));
   }
-  print_table(std::move(columns), rows, out, style);
+  std::vector<TableHead> heads;
+  for (std::size_t i = 0; i < table.heads.size(); ++i) {
+    const auto& [row, group] = table.heads[i];
+    heads.push_back({row, heading_of(group)});
+    for (std::size_t k = 0; k < group.subjects.size(); ++k)
+      rows[row + k].front().text = name_in(group, *group.subjects[k]);
+  }
+  print_table(std::move(columns), rows, out, style, heads);
 }
 
 bool is_in_reports(const study::MetricResult& metric) {
@@ -97,13 +116,19 @@ void print_metrics(const study::Run& run, std::ostream& out, const Style& style)
 }
 
 void print_methods(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
-  const auto table = summary_table(problem, study::SubjectKind::method);
+  const auto table = summary_table(problem, study::SubjectKind::method, style.only);
+  if (!style.only.empty()) {
+    out << '\n';
+    print_wrapped(fmt::format("Only {}: {} of {}.", fmt::join(style.only, " or "),
+                              table.rows.size(), counted(std::ssize(problem.subjects), "method")),
+                  out, style);
+  }
   if (table.rows.empty()) return;
   out << '\n';
   print(table, out, style);
   out << '\n';
   print_wrapped(
-      "Worst of the finest level's steps; errors relative to the initial envelope and energy; "
+      "Worst of the finest level's steps; errors relative to the largest envelope and energy; "
       "order ± 95 %; collisions matched/exact.",
       out, style);
 }
@@ -125,7 +150,7 @@ void print_histories(const study::CaseRecord& problem, std::ostream& out, const 
   print(table, out, style);
   out << '\n';
   print_wrapped(
-      "Errors relative to the initial envelope; v in the mean over time; collisions "
+      "Errors relative to the largest envelope; v in the mean over time; collisions "
       "matched/exact.",
       out, style);
   for (const auto& subject : problem.subjects) {
@@ -138,30 +163,29 @@ void print_histories(const study::CaseRecord& problem, std::ostream& out, const 
   }
 }
 
+void print_named(const study::CaseRecord& problem, bool is_named, std::ostream& out,
+                 const Style& style,
+                 const std::function<std::vector<Finding>(const study::Subject&)>& findings) {
+  const auto all = named_findings(groups_of(problem, style.only), findings);
+  if (!all.empty()) out << '\n';
+  for (const auto& [subject, who, found] : all)
+    print_wrapped((is_named ? who + ": " : "") + text_of(found), out, style);
+}
+
 void print_findings(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
   // The name of the only subject of `check` says nothing.
   const bool is_named = problem.plan.levels > 0 || problem.subjects.size() > 1;
-  for (const auto& texts : {&finding, &false_convergence}) {
-    bool is_first = true;
-    for (const auto& subject : problem.subjects)
-      if (const auto found = texts(subject)) {
-        if (is_first) out << '\n';
-        is_first = false;
-        print_wrapped((is_named ? subject.name + ": " : "") + text_of(*found), out, style);
-      }
-  }
+  for (const auto& texts : {&finding, &false_convergence})
+    print_named(problem, is_named, out, style, [&](const study::Subject& subject) {
+      const auto found = texts(subject);
+      return found ? std::vector{*found} : std::vector<Finding>{};
+    });
 }
 
 // Causes stand before the numbers.
 void print_diagnoses(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
   const bool is_named = problem.plan.levels > 0 || problem.subjects.size() > 1;
-  bool is_first = true;
-  for (const auto& subject : problem.subjects)
-    for (const auto& cause : diagnosis_texts(subject)) {
-      if (is_first) out << '\n';
-      is_first = false;
-      print_wrapped((is_named ? subject.name + ": " : "") + text_of(cause), out, style);
-    }
+  print_named(problem, is_named, out, style, diagnosis_texts);
 }
 
 void print_case(const study::CaseRecord& problem, std::ostream& out, const Style& style) {

@@ -53,12 +53,12 @@ std::string size_text(const assess::RunScore& run) {
   if (error <= run.rounding_floor) return "The error in u is at the rounding floor.";
   if (error >= 1.0)
     return fmt::format(
-        "The largest error in u is {} times the initial envelope: larger than the motion.",
+        "The largest error in u is {} times the largest envelope: larger than the motion.",
         short_number(error, 2));
   if (error >= 1e-3)
-    return fmt::format("The largest error in u is {} % of the initial envelope.",
+    return fmt::format("The largest error in u is {} % of the largest envelope.",
                        short_number(100.0 * error, 2));
-  return fmt::format("The largest error in u is {} of the initial envelope.", scientific(error));
+  return fmt::format("The largest error in u is {} of the largest envelope.", scientific(error));
 }
 
 std::string one_file(const study::Subject& subject, const assess::RunScore& run) {

@@ -181,7 +181,7 @@ study::Subject histories(std::vector<double> steps, std::string reason = {}) {
 
 TEST(HintText, OfOneFileHasTheErrorAndTheStepsToAdd) {
   EXPECT_EQ(hint_text(histories({0.01})),
-            "The largest error in u is 2.3 % of the initial envelope. 5 of 6 collisions matched, 1 "
+            "The largest error in u is 2.3 % of the largest envelope. 5 of 6 collisions matched, 1 "
             "extra. One step shows no order: add the same run at h = 0.005, 0.0025 and 0.00125 s; "
             "four are the least.");
 }

@@ -23,7 +23,7 @@ void compare(StartDifference& most, const char* letter, const std::vector<double
 StartDifference start_difference(const FirstRow& row, const cases::Case& problem) {
   const auto& motion = *problem.motion;
   const auto reference = motion.at(std::clamp(row.t, 0.0, motion.end()), model::Side::right);
-  const auto envelope = motion.envelope(0.0);
+  const auto envelope = motion.peak();
   StartDifference most;
   compare(most, "u", row.u, reference.u, envelope.u);
   compare(most, "v", row.v, reference.v, envelope.v);

@@ -17,7 +17,7 @@ struct FirstRow {
 struct StartDifference {
   std::string name;  ///< "u1"; empty for a row without numbers
   double given = 0.0, expected = 0.0;
-  double relative = 0.0;  ///< the difference over the initial envelope
+  double relative = 0.0;  ///< the difference over the largest envelope
 };
 
 StartDifference start_difference(const FirstRow& row, const cases::Case& problem);

@@ -42,14 +42,21 @@ Sheet list_cases() {
   return sheet;
 }
 
+// The parameters of a variant are those of its entry.
+void add_with_variants(Sheet& sheet, const methods::Entry& entry) {
+  const auto parameters = with_defaults(entry.parameters);
+  sheet.rows.push_back({entry.name, parameters, entry.summary});
+  for (const auto& variant : methods::variants(entry))
+    sheet.rows.push_back({variant.specification, Cell{}, variant.summary});
+}
+
 Sheet list_entries(std::string_view title, std::string_view schema, std::string_view kind) {
   Sheet sheet{std::string(schema),
               std::string(title),
               {name_column, {"parameters", "", "with their defaults"}, summary_column},
               {}};
   for (const auto& entry : methods::entries())
-    if (entry.kind == kind)
-      sheet.rows.push_back({entry.name, with_defaults(entry.parameters), entry.summary});
+    if (entry.kind == kind) add_with_variants(sheet, entry);
   return sheet;
 }
 

@@ -76,6 +76,12 @@ TEST(Listing, OfMethodsComesFromTheRegistry) {
   EXPECT_EQ(cell(list("pairs"), "rk4+event-driven", "smooth_order"), Cell{4.0});
 }
 
+TEST(Listing, OfContactsHasALawARow) {
+  const auto sheet = list("contacts");
+  EXPECT_EQ(cell(sheet, "penalty:law=hertz", "summary"), Cell{std::string("F = k d^1.5, elastic")});
+  EXPECT_FALSE(holds(sheet, "penalty:law=linear"));
+}
+
 TEST(Listing, OfMetricsNamesWhatARunIsJudgedBy) {
   EXPECT_EQ(cell(list("metrics"), "impact-time-max", "unit"), Cell{std::string("s")});
   EXPECT_EQ(cell(list("metrics"), "v-max", "across_impacts"), Cell{std::string("no")});
@@ -167,7 +173,28 @@ TEST(ShowMethod, ShowsEverythingRegistered) {
     EXPECT_FALSE(show_method(specification).empty());
 }
 
+TEST(ShowMethod, ShowsATreatmentWithItsWordsAndTheirSources) {
+  const auto sheets = show_method("penalty:law=ye");
+  const auto words = std::ranges::find(sheets, "clackers/words/1", &Sheet::schema);
+  ASSERT_NE(words, sheets.end());
+  EXPECT_NE(std::get<std::string>(cell(*words, "ye", "source")).find("38, 1135-1142 (2009)"),
+            std::string::npos);
+  EXPECT_EQ(cell(show_method("rk4+penalty:law=ye").front(), "model_order", "value"), Cell{0.4});
+}
+
+TEST(TreatmentOf, IsWhatFollowsTheIntegrator) {
+  EXPECT_EQ(treatment_of("newmark"), "event-driven");
+  EXPECT_EQ(treatment_of("newmark:beta=1e-1"), "event-driven");
+  EXPECT_EQ(treatment_of("newmark+penalty:law=hertz"), "penalty:law=hertz");
+  EXPECT_EQ(treatment_of("generalized-alpha:rho=1e+0+penalty:stiffness=1e+6"),
+            "penalty:stiffness=1e+6");
+  EXPECT_EQ(treatment_of("moreau-jean:theta=1"), "");
+  EXPECT_EQ(treatment_of("a program"), "");
+}
+
 TEST(ShowMethod, RefusesUnknownNames) {
+  EXPECT_NE(refusal([] { show_method("penalty:law=yo"); }).find("Did you mean \"ye\"?"),
+            std::string::npos);
   EXPECT_NE(refusal([] { show_method("newmrak"); }).find("Did you mean \"newmark\"?"),
             std::string::npos);
 }

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
+#include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/study/listing.hpp"
 #include "clackers/study/listing/amplification.hpp"
@@ -42,12 +44,23 @@ Sheet constant_sheet(std::string schema, std::string title,
   return sheet;
 }
 
+// Without the states of the masses, which fill more than a page where there are many.
+void keep_collisions_alone(Sheet& sheet) {
+  for (auto c = sheet.columns.size(); c-- > 0;) {
+    const char first = sheet.columns[c].name.front();
+    if (first != 'u' && first != 'v') continue;
+    sheet.columns.erase(sheet.columns.begin() + std::ptrdiff_t(c));
+    for (auto& row : sheet.rows) row.erase(row.begin() + std::ptrdiff_t(c));
+  }
+}
+
 Sheet collision_sheet(const cases::Case& which) {
   const auto rows = collisions(which);
   const auto total = which.motion->impact_count(which.motion->end());
   Sheet sheet{rows->schema(), {}, rows->columns(), {}};
   std::vector<Cell> row;
   while (sheet.rows.size() < collisions_shown && rows->next(row)) sheet.rows.push_back(row);
+  if (which.motion->dof() > 2) keep_collisions_alone(sheet);
   sheet.title = total <= static_cast<long long>(sheet.rows.size())
                     ? fmt::format("Collisions: {}", total)
                     : fmt::format(
@@ -78,10 +91,24 @@ Sheet claim_sheet(const methods::Facts& facts) {
                           claim.behaviour == Behaviour::irregular
                               ? "claimed of the upper envelope of the displacement error"
                               : "claimed of the displacement error"});
+  if (facts.model_order > 0.0)
+    sheet.rows.push_back({"model_order", facts.model_order,
+                          "the error of the contact law falls as stiffness^-model_order"});
   if (!claim.reason.empty())
     sheet.rows.push_back({"reason", claim.reason, "of the claimed behaviour"});
   sheet.rows.push_back({"reports_impacts", std::string(facts.reports_impacts ? "yes" : "no"),
                         "whether a run says when the masses collide"});
+  return sheet;
+}
+
+Sheet word_sheet(const methods::Entry& entry, const Parameter& parameter) {
+  Sheet sheet{
+      "clackers/words/1",
+      fmt::format("{} of {}", parameter.name, entry.name),
+      {{parameter.name, "", "as typed"}, {"summary", "", "in one line"}, {"source", "", ""}},
+      {}};
+  for (const auto& word : parameter.words)
+    sheet.rows.push_back({word.name, word.summary, word.source});
   return sheet;
 }
 
@@ -96,6 +123,8 @@ void add_entry(std::vector<Sheet>& sheets, const methods::Entry& entry) {
   for (const auto& p : entry.parameters)
     parameters.rows.push_back({p.name, p.default_text(), p.allowed, p.meaning});
   if (!parameters.rows.empty()) sheets.push_back(std::move(parameters));
+  for (const auto& p : entry.parameters)
+    if (!p.words.empty()) sheets.push_back(word_sheet(entry, p));
   sheets.push_back({"clackers/card/1",
                     fmt::format("{} ({}): {}", entry.name, entry.kind, entry.summary),
                     {{"card", "", ""}},
@@ -151,15 +180,15 @@ std::string show_problem(std::string_view name, const cases::Settings& settings)
 }
 
 std::vector<Sheet> show_method(std::string_view specification) {
-  const auto is_contact = [&](const methods::Entry& entry) {
-    return entry.kind == "contact" && entry.name == specification;
-  };
   std::vector<Sheet> sheets;
   // A contact treatment alone is no method, yet it has a card to show.
-  if (const auto entries = methods::entries(); std::ranges::any_of(entries, is_contact)) {
-    add_entry(sheets, *std::ranges::find_if(entries, is_contact));
-    return sheets;
-  }
+  const auto first = methods::parse_specification(specification).first;
+  for (const auto& entry : methods::entries())
+    if (entry.kind == "contact" && entry.name == first.name) {
+      complete(entry.name, entry.parameters, first.settings);
+      add_entry(sheets, entry);
+      return sheets;
+    }
   const auto facts = methods::method(specification)->facts();
   sheets.push_back(claim_sheet(facts));
   if (const auto integrator = integrator_of(facts.name); integrator && !facts.is_adaptive)
@@ -169,6 +198,19 @@ std::vector<Sheet> show_method(std::string_view specification) {
     add_entry(sheets, *std::ranges::find(entries, name, &methods::Entry::name));
   }
   return sheets;
+}
+
+std::string treatment_of(std::string_view specification) {
+  const auto name = specification.substr(0, specification.find_first_of(":+"));
+  const auto is_integrator = [&](const methods::Entry& entry) {
+    return entry.kind == "integrator" && entry.name == name;
+  };
+  if (std::ranges::none_of(methods::entries(), is_integrator)) return {};
+  // A "+" before a digit belongs to a number.
+  for (std::size_t i = name.size(); i + 1 < specification.size(); ++i)
+    if (specification[i] == '+' && std::isalpha(static_cast<unsigned char>(specification[i + 1])))
+      return std::string(specification.substr(i + 1));
+  return "event-driven";
 }
 
 }  // namespace clackers::study

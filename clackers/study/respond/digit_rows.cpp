@@ -77,9 +77,9 @@ class CollisionDigits : public DigitRows {
   void round(std::vector<Cell>& row) override {
     const auto hit = digits_.impact(std::get<long long>(row[0]));
     row[1] = hit.t;
-    row[2] = hit.before.u[0];
-    std::size_t at = 3;
+    std::size_t at = columns_[2].name == "contact" ? 3 : 2;
     for (std::size_t i = 0; i < hit.before.v.size(); ++i) {
+      if (columns_[at].name.front() == 'u') row[at++] = hit.before.u[i];
       row[at++] = hit.before.v[i];
       row[at++] = hit.after.v[i];
     }

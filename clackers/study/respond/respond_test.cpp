@@ -145,6 +145,32 @@ TEST(Collisions, ListEveryCollisionWithBothSides) {
   EXPECT_EQ(all(*rows), expected);
 }
 
+TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
+  // Two contacts that close together.
+  struct Several : ToyMotion {
+    Several() : ToyMotion(3, 4.0, {1.0, 1.0}) {}
+    model::MotionImpact impact(long long index) const override {
+      auto now = ToyMotion::impact(index);
+      now.contact = int(2 - index);
+      return now;
+    }
+  };
+  auto which = toy(3, 4.0, {});
+  which.motion = std::make_shared<Several>();
+  which.problem.contacts.resize(2);
+  const auto rows = collisions(which);
+  EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "contact", "u1", "v1-", "v1+", "u2",
+                                                    "v2-", "v2+", "u3", "v3-", "v3+", "impulse",
+                                                    "energy_before", "energy_after"}));
+  // Both together turn the velocities around twice.
+  const std::vector<std::vector<Cell>> expected{
+      {1LL, 1.0, 1LL, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 0.5, 3.0, 2.0},
+      {2LL, 1.0, 0LL, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 1.0, 6.0, 4.0}};
+  EXPECT_EQ(all(*rows), expected);
+  // Rows of the response have two limits there, not four.
+  EXPECT_EQ(all(*respond(which, grid_of(5, 4.0))).size(), 6u);
+}
+
 TEST(Collisions, OfOneMassLeaveOutTheSecond) {
   const auto which = toy(1, 4.0, {1.0});
   const auto rows = collisions(which);

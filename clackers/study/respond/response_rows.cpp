@@ -2,6 +2,7 @@
 
 #include "clackers/study/respond.hpp"
 #include "clackers/study/respond/timed_rows.hpp"
+#include "clackers/study/verify/verify_plan.hpp"
 
 namespace clackers::study {
 namespace {
@@ -45,6 +46,14 @@ std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& gri
   return std::make_unique<TimedRows>(
       motion, grid, "clackers/response/1", "Exact response of " + which.entry->name,
       response_columns(motion.dof()), block, States{motion, {}, {}, {}});
+}
+
+CaseRecord response_record(const cases::Case& which) {
+  CaseRecord record;
+  record.problem = summary_of(which);
+  record.plan = no_refinement;
+  record.response = response_curve(which, response_points);
+  return record;
 }
 
 Curve response_curve(const cases::Case& which, int n) {

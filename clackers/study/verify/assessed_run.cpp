@@ -8,6 +8,7 @@
 #include "clackers/assess/errors/error_sink.hpp"
 #include "clackers/model/trajectory.hpp"
 #include "clackers/study/cause_metrics.hpp"
+#include "clackers/study/reduced_curve.hpp"
 #include "clackers/study/verify/run_sinks.hpp"
 
 namespace clackers::study {
@@ -27,9 +28,18 @@ Curve curve_of(const assess::ErrorHistory& history, int dof) {
   return curve;
 }
 
-// Displacements over the initial envelopes.
+// The points of a run that an animation needs; the whole run would fill memory.
+Curve motion_of(const model::Trajectory& history) {
+  constexpr std::size_t most = 500;
+  const auto dof = std::size_t(history.dof);
+  return reduced(
+      history.t.size(), dof, [&](std::size_t row) { return history.t[row]; },
+      [&](std::size_t mass, std::size_t row) { return history.u[row * dof + mass]; }, most);
+}
+
+// Displacements over the largest envelopes.
 std::vector<double> relative(std::vector<double> u, const model::Motion& motion) {
-  const auto envelope = motion.envelope(0.0).u;
+  const auto envelope = motion.peak().u;
   for (std::size_t i = 0; i < u.size(); ++i) u[i] /= envelope[Eigen::Index(i)];
   return u;
 }
@@ -66,9 +76,13 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   const double start = processor_time();
   const auto& method = plan.methods[task.method];
   const auto& motion = *plan.problem.motion;
-  const auto run = method.method->prepare(plan.problem.problem, task.step);
+  const bool by_tolerance = method.subject.resolution == Resolution::tolerance;
+  const auto run = method.method->prepare(
+      plan.problem.problem,
+      by_tolerance ? methods::Resolution::by_tolerance(task.step) : methods::Resolution(task.step));
+  const double step = by_tolerance ? plan.summary.end / double(task.steps) : task.step;
   assess::ErrorSink errors(
-      motion, plan.problem.problem, task.step,
+      motion, plan.problem.problem, step,
       {.impacts_are_reported = method.reports_impacts, .history_bins = task.history_bins});
   model::TrajectorySink stored(method.reports_impacts);
   RunRecorder recorder(errors, task.metrics ? &stored : nullptr);
@@ -77,6 +91,7 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   if (outcome.stopped_by_sink) return {};
   AssessedRun result;
   result.run.score = errors.score(outcome);
+  result.run.score.step = task.step;
   if (task.history_bins > 0) result.run.error_history = curve_of(errors.history(), motion.dof());
   result.seconds = processor_time() - start;
   if (!outcome.finished) return result;
@@ -84,9 +99,10 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   // A state that is not finite is no row of a history.
   if (task.metrics && std::isfinite(result.run.score.u_error)) {
     auto metrics = all_metrics({stored.trajectory(), motion, plan.problem.problem},
-                               facts_of(plan.summary, method.subject.contact_time), {}, interrupt);
+                               facts_of(plan.summary, method.spring_time), {}, interrupt);
     if (!metrics) return {};
     result.run.metrics = std::move(*metrics);
+    if (motion.dof() <= most_blocks) result.run.motion = motion_of(stored.trajectory());
   }
   WatchedSink timed(nullptr, share, timed_state, interrupt);
   const auto seconds = time_of(*run, timed);

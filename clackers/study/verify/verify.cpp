@@ -111,10 +111,10 @@ void require_budget(double budget) {
     refuse("verify", "budget", budget, "0 s or more", "0 refines nothing beyond the plan.");
 }
 
-// The reference displacements at the end over the initial envelopes.
+// The reference displacements at the end over the largest envelopes.
 std::vector<double> reference_end(const model::Motion& motion) {
   const auto end = motion.at(motion.end(), model::Side::right).u;
-  const auto envelope = motion.envelope(0.0).u;
+  const auto envelope = motion.peak().u;
   std::vector<double> u;
   for (Eigen::Index i = 0; i < end.size(); ++i) u.push_back(end[i] / envelope[i]);
   return u;
@@ -137,6 +137,9 @@ Record verify(const VerifyRequest& request, const Progress& progress,
               const std::atomic<bool>* interrupt) {
   const int threads = thread_count(request.jobs);
   require_budget(request.budget);
+  if (!request.tolerances.empty() && !has_adaptive_method(request))
+    refuse("verify", "tolerances", request.tolerances.front(),
+           "those of a method that is adaptive, such as dopri5", {}, "wrong-resolution");
   const auto plans = plans_of(request);
   std::vector<CaseStudies> cases;
   std::vector<Round> rounds;

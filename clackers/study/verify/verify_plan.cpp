@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "clackers/base/error.hpp"
 #include "clackers/methods/registry.hpp"
+#include "clackers/study/program.hpp"
 
 namespace clackers::study {
 namespace {
@@ -26,13 +29,18 @@ void require_steps(const RefinementPlan& plan, double end) {
            "1 <= neighbours <= 64");
 }
 
-Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
-
-// While nothing collides a method is held to its smooth order, not to what it does at impacts.
-Claim claim_of(const methods::Facts& facts, bool collides) {
-  if (collides) return facts.through_impacts;
-  return {Behaviour::proper, facts.smooth_order, {}};
+// The shortest period of the free masses: of the case where it has damped ones, else of the undamped
+// modes of M and K.
+double fast_period(const cases::Case& problem) {
+  if (!problem.damped_periods.empty()) return *std::ranges::min_element(problem.damped_periods);
+  const auto& system = problem.problem.system;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+      system.stiffness, system.mass, Eigen::EigenvaluesOnly);
+  const double largest = modes.eigenvalues().maxCoeff();
+  return largest > 0.0 ? 2.0 * std::numbers::pi / std::sqrt(largest) : problem.motion->end();
 }
+
+Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
 
 PlannedMethod planned(const std::string& specification, const model::ImpactProblem<>& problem,
                       bool collides) {
@@ -40,14 +48,22 @@ PlannedMethod planned(const std::string& specification, const model::ImpactProbl
   planned.method = methods::method(specification);
   const auto facts = planned.method->facts();
   planned.reports_impacts = facts.reports_impacts;
+  planned.order = facts.smooth_order;
   auto& subject = planned.subject;
   subject.name = short_name(facts.name);
-  subject.claim = claim_of(facts, collides);
+  subject.claim = methods::claim_on(facts, problem, collides);
+  if (facts.is_adaptive) {
+    subject.resolution = Resolution::tolerance;
+    // The estimate falls with the power of the step that the error over a run does.
+    if (subject.claim.order > 0.0) subject.claim.order = 1.0;
+  }
   if (const auto objection = planned.method->objection(problem)) {
     subject.refusal = objection->sentence;
     subject.refusal_code = objection->code.name();
   } else if (collides) {
     subject.contact_time = planned.method->contact_time(problem);
+    constexpr double of_linear_spring = 0.5;
+    if (facts.model_order == of_linear_spring) planned.spring_time = subject.contact_time;
   }
   return planned;
 }
@@ -80,6 +96,8 @@ CasePlan plan_of(const VerifyRequest& request, cases::Case problem) {
   }
   require_some_method(plan.methods, plan.problem.problem);
   levels_of(plan, plan.steps);  // refuses too many steps before any work
+  plan.tolerances = request.tolerances;
+  if (plan.tolerances.empty()) plan.tolerances = tolerances_from(default_tolerances);
   return plan;
 }
 
@@ -103,16 +121,40 @@ CaseSummary summary_of(const cases::Case& problem) {
   for (const auto& c : problem.constants) summary.constants.push_back(quantity(c));
   for (const auto& c : problem.indicators) summary.constants.push_back(quantity(c));
   summary.end = problem.motion->end();
-  summary.fast_period = *std::ranges::min_element(problem.damped_periods);
+  summary.fast_period = fast_period(problem);
   summary.impact_count = problem.motion->impact_count(summary.end);
-  for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k)
-    summary.impact_times.push_back(problem.motion->impact(k).t);
+  for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k) {
+    const auto impact = problem.motion->impact(k);
+    summary.impact_times.push_back(impact.t);
+    summary.impact_contacts.push_back(impact.contact);
+  }
+  summary.drawing = schematic(problem.problem);
   return summary;
 }
 
 std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const RefinementPlan& steps) {
   return assess::step_ladder({steps.coarsest, steps.levels, steps.samples_per_level},
                              plan.summary.end, plan.summary.impact_times);
+}
+
+std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const PlannedMethod& method,
+                                         const RefinementPlan& steps) {
+  if (method.subject.resolution == Resolution::step) return levels_of(plan, steps);
+  std::vector<assess::StepLevel> levels;
+  long long count = 0;
+  for (const double tolerance : plan.tolerances) {
+    const double per_period = 2.5 * std::pow(tolerance, -1.0 / method.order);
+    count =
+        std::max(count + 1, std::llround(per_period * plan.summary.end / plan.summary.fast_period));
+    levels.push_back({tolerance, {count}, {tolerance}});
+  }
+  return levels;
+}
+
+bool has_adaptive_method(const VerifyRequest& request) {
+  return std::ranges::any_of(request.methods, [](const std::string& specification) {
+    return methods::method(specification)->facts().is_adaptive;
+  });
 }
 
 std::vector<cases::Case> cases_of(const VerifyRequest& request) {

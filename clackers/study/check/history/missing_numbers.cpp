@@ -27,7 +27,8 @@ void complete_u(model::Impact& impact, const cases::Case& problem) {
 void add_events(PreparedHistory& history, const exchange::Source& events,
                 const cases::Case& problem, const std::atomic<bool>* interrupt) {
   auto& m = history.data.motion;
-  auto impacts = exchange::read_events(events, m.dof, interrupt);
+  auto impacts =
+      exchange::read_events(events, m.dof, int(problem.problem.contacts.size()), interrupt);
   const auto outside = [&](const model::Impact& i) {
     return i.t < m.t.front() || i.t > m.t.back();
   };

@@ -65,7 +65,7 @@ class Preparation {
   // What printing may make of a displacement error, relative to the envelope: the rounding of u,
   // and that of t times the largest velocity.
   void find_printed_floor() {
-    const auto envelope = problem_.motion->envelope(0.0);
+    const auto envelope = problem_.motion->peak();
     for (int j = 0; j < h_.motion.dof; ++j) {
       const auto at = std::ranges::find_if(h_.columns, [&](const exchange::ColumnPrint& c) {
         return c.name == fmt::format("u{}", j + 1) || c.name == "u";

@@ -1,4 +1,4 @@
-#include "clackers/methods/contact/moreau_jean.hpp"
+#include "clackers/methods/timestepping/moreau_jean.hpp"
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/methods/testing/runs.hpp"
@@ -11,9 +11,11 @@ using runs::RattlingMass;
 using runs::run;
 
 TEST(MoreauJean, StepsByItsFormula) {
-  for (const double theta : {0.5, 0.8, 1.0}) {
+  for (const auto& [theta, is_nonlinear] :
+       {std::pair(0.5, false), {0.8, false}, {1.0, false}, {0.5, true}, {0.8, true}}) {
     auto p = RattlingMass{.sigma = 0.2, .eta = 0.6, .w = 1.3}.problem(11.0);
     p.system.add_load = [](double t, std::span<double> f) { f[0] += std::sin(t); };
+    if (is_nonlinear) p.system.nonlinear = std::make_shared<checks::CubicForce<model::any_dof>>();
     const double h = 0.125, m = p.system.mass(0, 0), c = p.system.damping(0, 0),
                  k = p.system.stiffness(0, 0);
     const auto [path, outcome] = run("moreau-jean:theta=" + std::to_string(theta), p, h);
@@ -23,52 +25,26 @@ TEST(MoreauJean, StepsByItsFormula) {
       const double vt = theta * v1 + (1 - theta) * v0, ut = theta * u1 + (1 - theta) * u0;
       const double ft = theta * std::sin(path.t[n + 1]) + (1 - theta) * std::sin(path.t[n]);
       EXPECT_NEAR(u1, u0 + h * vt, 1e-15);
-      const double impulse = m * (v1 - v0) + h * (c * vt + k * ut - ft);
+      const double force = is_nonlinear ? ut * ut * ut + 0.2 * ut * ut * vt : 0.0;
+      const double impulse = m * (v1 - v0) + h * (c * vt + k * ut + force - ft);
       if (u0 + 0.5 * h * v0 > 0.0) {
         EXPECT_NEAR(impulse, 0.0, 1e-14);
         continue;
       }
-      // 0 <= v1 + eta v0 complements P >= 0
-      EXPECT_GE(v1 + 0.6 * v0, -1e-15);
+      // 0 <= v1 + eta v0 complements P >= 0; with a nonlinear force within the end of the iteration.
+      const double slack = is_nonlinear ? 1e-12 : 1e-14;
+      EXPECT_GE(v1 + 0.6 * v0, -slack);
       EXPECT_GE(impulse, -1e-14);
-      EXPECT_NEAR((v1 + 0.6 * v0) * impulse, 0.0, 1e-14);
+      EXPECT_NEAR((v1 + 0.6 * v0) * impulse, 0.0, slack);
       if (impulse < 1e-12) continue;
       const auto& reported = path.impacts->at(impacts++);
-      EXPECT_NEAR(reported.impulse, impulse, 1e-13);
+      EXPECT_NEAR(reported.impulse, impulse, 10.0 * slack);
       EXPECT_EQ(reported.t, path.t[n + 1]);
       EXPECT_EQ(reported.v_before[0], v0);
       EXPECT_EQ(reported.v_after[0], v1);
     }
     EXPECT_EQ(impacts, path.impacts->size());
     EXPECT_GE(impacts, 3u);
-  }
-}
-
-TEST(MoreauJean, HasTheSmoothOrderItClaims) {
-  for (const std::string name : {"moreau-jean", "moreau-jean:theta=0.75", "moreau-jean:theta=1"}) {
-    const checks::Ramps<model::any_dof> ramps(2, 0.3);
-    model::ImpactProblem<> p;
-    p.system = ramps.system;
-    p.start = ramps.exact(1.0);
-    p.end = 6.0;
-    const auto fit = checks::observed_order(
-        [&](double h) {
-          const auto path = run(name, p, 5.0 / std::round(5.0 / h)).trajectory;
-          const auto reference = ramps.exact(6.0);
-          return std::hypot(path.u.back() - reference.u[1], path.v.back() - reference.v[1]);
-        },
-        1.0 / 256, 4);
-    EXPECT_NEAR(fit.order, method(name)->facts().smooth_order, 0.05) << name;
-  }
-}
-
-TEST(MoreauJean, IsStableAtALargeStep) {
-  auto p = RattlingMass{.sigma = 0.0}.problem(100001.0);
-  p.contacts.clear();
-  for (const std::string name : {"moreau-jean", "moreau-jean:theta=0.75"}) {
-    const auto path = run(name, p, 100.0).trajectory;
-    EXPECT_LT(std::abs(path.u.back()), 1e3);
-    EXPECT_TRUE(method(name)->facts().is_unconditionally_stable());
   }
 }
 
@@ -113,49 +89,51 @@ TEST(MoreauJean, EndsARunThatIsNoWholeNumberOfStepsWithAShorterOne) {
               0.05 * (one.trajectory().v[4] + one.trajectory().v[3]), 1e-15);
 }
 
-TEST(MoreauJean, RefusesWhatItCannotTake) {
-  auto p = RattlingMass{}.problem(10.0);
-  p.system.nonlinear = std::make_shared<checks::CubicForce<model::any_dof>>();
-  const auto no = method("moreau-jean")->objection(p);
-  ASSERT_TRUE(no);
-  EXPECT_EQ(no->code, Code("linear-only"));
+TEST(MoreauJean, RefusesAWeightOutsideItsRange) {
   for (const double theta : {0.49, 1.01, double(NAN)})
     EXPECT_REFUSED(MoreauJean{theta}.validate(), theta != theta ? "not-a-number" : "out-of-range",
                    "1/2 <= theta <= 1");
 }
 
-TEST(MoreauJean, EndsWhereTwoImpulsesChangeEachOther) {
+model::ImpactProblem<> three_masses(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
   model::ImpactProblem<> p;
   p.system.mass = Eigen::Matrix3d::Identity();
   p.system.damping = p.system.stiffness = Eigen::Matrix3d::Zero();
   p.contacts = {{Eigen::Vector3d(1, -1, 0), 0.0, 1.0}, {Eigen::Vector3d(0, 1, -1), 0.0, 1.0}};
-  p.start = {0.0, Eigen::Vector3d(2, 0, -2), Eigen::Vector3d(-1, 0, 1)};
+  p.start = {0.0, u, v};
   p.end = 6.0;
-  EXPECT_EQ(run("moreau-jean", p, 0.3).outcome.reason, Code("simultaneous-contacts"));
-  p.contacts[1] = {Eigen::Vector3d(0, 0, -1), 0.0,
-                   1.0};  // another stop for mass 3 at the same time
+  return p;
+}
+
+// Both outer masses reach the middle one in one step and leave it as they came.
+TEST(MoreauJean, SolvesTwoCoupledImpactsInOneStep) {
+  auto p = three_masses({2, 0, -2}, {-1, 0, 1});
   const auto [path, outcome] = run("moreau-jean", p, 0.3);
-  EXPECT_TRUE(outcome.finished);
-  EXPECT_EQ(path.impacts->size(), 2u);
+  ASSERT_TRUE(outcome.finished) << outcome.detail;
+  ASSERT_EQ(path.impacts->size(), 2u);
+  EXPECT_NEAR(path.v[path.v.size() - 3], 1.0, 1e-15);
+  EXPECT_NEAR(path.v[path.v.size() - 2], 0.0, 1e-15);
+  EXPECT_NEAR(path.v.back(), -1.0, 1e-15);
+  p.contacts.push_back({Eigen::Vector3d(1, 0, -1), 0.0, 1.0});
+  EXPECT_EQ(run("moreau-jean", p, 0.3).outcome.reason, Code("redundant-contacts"));
 }
 
 // Masses 1 and 2 touch at rest when mass 3 strikes mass 2 from below. That impulse makes the closed
-// contact close, whichever number it has.
+// contact close, whichever number it has, and the momentum is shared.
 TEST(MoreauJean, DoesNotDependOnTheNumbersOfTheContacts) {
-  model::ImpactProblem<> p;
-  p.system.mass = Eigen::Matrix3d::Identity();
-  p.system.damping = p.system.stiffness = Eigen::Matrix3d::Zero();
-  p.contacts = {{Eigen::Vector3d(1, -1, 0), 0.0, 1.0}, {Eigen::Vector3d(0, 1, -1), 0.0, 1.0}};
-  p.start = {0.0, Eigen::Vector3d(0, 0, -2), Eigen::Vector3d(0, 0, 1)};
-  p.end = 6.0;
+  auto p = three_masses({0, 0, -2}, {0, 0, 1});
   const auto one = run("moreau-jean", p, 0.3);
   std::swap(p.contacts[0], p.contacts[1]);
   const auto other = run("moreau-jean", p, 0.3);
-  EXPECT_EQ(one.outcome.reason, Code("simultaneous-contacts"));
-  EXPECT_FALSE(one.outcome.finished);
-  EXPECT_EQ(other.outcome.reason, Code("simultaneous-contacts"));
-  EXPECT_FALSE(other.outcome.finished);
-  EXPECT_EQ(one.trajectory.u, other.trajectory.u);
+  for (const auto& [path, outcome] : {one, other}) {
+    ASSERT_TRUE(outcome.finished) << outcome.detail;
+    EXPECT_EQ(path.impacts->size(), 2u);
+    EXPECT_NEAR(path.v[path.v.size() - 3], 2.0 / 3, 1e-15);
+    EXPECT_NEAR(path.v[path.v.size() - 2], 2.0 / 3, 1e-15);
+    EXPECT_NEAR(path.v.back(), -1.0 / 3, 1e-15);
+  }
+  for (std::size_t i = 0; i < one.trajectory.u.size(); ++i)
+    EXPECT_NEAR(one.trajectory.u[i], other.trajectory.u[i], 1e-14);
 }
 
 }  // namespace

@@ -9,25 +9,23 @@
 
 namespace clackers::methods {
 
-/// Moreau and Jean's time-stepping for M dv + (C v + K u - f(t)) dt = sum_j b_j dP_j, with
-/// x_th = theta x1 + (1 - theta) x0 for x = u, v, f:
+/// Moreau and Jean's time-stepping, with x_th = theta x1 + (1 - theta) x0 for x = u, v, f:
 ///
-///     M (v1 - v0) + h C v_th + h K u_th = h f_th + b P
+///     M (v1 - v0) + h C v_th + h K u_th + h p(u_th, v_th) = h f_th + B^T P
 ///     u1 = u0 + h v_th
-///     P = 0                               while g(u0 + h/2 v0) > 0
-///     0 <= b.v1 + eta b.v0 _|_ P >= 0     otherwise
+///     0 <= b.v1 + eta b.v0 _|_ P >= 0    where g(u0 + h/2 v0) <= 0, else P = 0
 ///
 /// The contact is thus decided by a predictor at half a step, and the impact happens somewhere in
-/// the step. It is reported at the end of the step. One contact is handled at a time: an impulse
-/// that changes the gap rate of another contact ends the run where that one has an impulse in the
-/// same step or, closed, needs one because of it.
+/// the step. It is reported at the end of the step. Contacts with linearly dependent b that need
+/// impulses in one step end the run.
 ///
 /// Order       1 of the upper envelope; in smooth motion 2 for theta = 1/2, otherwise 1, and where
 ///             that error, of the size (theta - 1/2) h, is the larger one, errors lie on a line.
 /// Stability   for every h.
 /// Dissipation none in flight for theta = 1/2, C = 0; grows with theta.
 /// Memory      none.
-/// Cost        one back-substitution a step and one more an impact; one factorization.
+/// Cost        one evaluation and one back-substitution a step, one more at an impact with its
+///             complementarity problem; one factorization.
 /// Source      J. J. Moreau, Comput. Methods Appl. Mech. Eng. 177, 329-349 (1999).
 struct MoreauJean {
   static constexpr std::string_view name = "moreau-jean";

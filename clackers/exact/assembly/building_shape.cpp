@@ -1,0 +1,150 @@
+#include "clackers/exact/assembly/building_shape.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "clackers/exact/pair/parameters.hpp"
+#include "clackers/numerics/sincospi.hpp"
+
+namespace clackers::exact {
+
+using numerics::DoubleDouble;
+
+namespace {
+
+// x over a whole number; one Newton step from the double quotient.
+DoubleDouble divide(const DoubleDouble& x, double whole) {
+  const double head = x.hi / whole;
+  const auto back = numerics::two_product(head, whole);
+  return numerics::quick_two_sum(head, ((x.hi - back.hi) - back.lo + x.lo) / whole);
+}
+
+// first, first f(1), first f(1) f(2), ... with f a ratio of whole numbers.
+template <class Numerator, class Denominator>
+std::vector<double> products(const DoubleDouble& first, int count, Numerator numerator,
+                             Denominator denominator) {
+  std::vector<double> all{first.hi};
+  DoubleDouble product = first;
+  for (int i = 1; i < count; ++i) {
+    product = divide(product * numerator(i), denominator(i));
+    all.push_back(product.hi);
+  }
+  return all;
+}
+
+// max over x of |cos^p(x) sin^q(x)| as a logarithm.
+double log_peak(double p, double q) {
+  const auto part = [&](double x) { return x == 0.0 ? 0.0 : 0.5 * x * std::log(x / (p + q)); };
+  return part(p) + part(q);
+}
+
+constexpr std::size_t table_size = static_cast<std::size_t>(most_storeys);
+
+// 1, x^2, x^4, ...
+void fill_even_powers(const DoubleDouble& x, int count, std::array<double, table_size>& powers) {
+  const double square = (x * x).hi;
+  powers[0] = 1.0;
+  for (std::size_t j = 1; j < static_cast<std::size_t>(count); ++j)
+    powers[j] = powers[j - 1] * square;
+}
+
+}  // namespace
+
+std::vector<double> Building::masses() const {
+  const int n = storeys;
+  return products(
+      {roof_mass, 0.0}, n, [n](int i) { return double(2 * i - 1) * double(2 * n - 2 * i + 1); },
+      [n](int i) { return double(2 * i) * double(2 * n - 2 * i); });
+}
+
+std::vector<double> Building::stiffnesses() const {
+  auto values = masses();
+  for (int i = 1; i <= storeys; ++i)
+    values[static_cast<std::size_t>(i - 1)] *=
+        double(2 * i - 1) * double(2 * storeys - 2 * i + 1) * frequency * frequency;
+  return values;
+}
+
+BuildingShape::BuildingShape(const std::vector<Part>& parts, double omega, double sigma)
+    : sigma_(sigma) {
+  for (const auto& part : parts) {
+    const int n = part.storeys;
+    Coefficients c{n, part.multiple, omega * part.multiple, quarter_sine(part.multiple) < 0.0, {},
+                   {}};
+    const auto numerator = [n](int i) { return double(2 * (n - i)); };
+    c.v = products({part.velocity, 0.0}, n, numerator, [](int i) { return double(2 * i - 1); });
+    // velocity / frequency, rounded like a whole number's quotient.
+    const DoubleDouble first = divide(divide({part.velocity, 0.0}, omega), part.multiple);
+    c.u = products(first, n, numerator, [](int i) { return double(2 * i + 1); });
+    parts_.push_back(std::move(c));
+    dof_ += static_cast<std::size_t>(n);
+  }
+}
+
+void BuildingShape::sample(std::span<const FlightInstant> instants,
+                           model::SampleBuffers out) const {
+  for (std::size_t row = 0; row < instants.size(); ++row) {
+    std::size_t at = row * dof_;
+    for (const auto& part : parts_) {
+      sample_one(part, instants[row], &out.u[at], &out.v[at], out.a.empty() ? nullptr : &out.a[at]);
+      at += static_cast<std::size_t>(part.storeys);
+    }
+  }
+}
+
+void BuildingShape::sample_one(const Coefficients& c, const FlightInstant& now, double* u,
+                               double* v, double* a) const {
+  // cos(x) and sin(x) of x = multiple (theta + pi/2), multiple odd.
+  auto [cosine, sine] = numerics::sincospi(now.theta_over_pi * c.multiple);
+  c.reverses ? sine = -sine : cosine = -cosine;
+  std::array<double, table_size> cosines, sines;
+  fill_even_powers(cosine, c.storeys, cosines);
+  fill_even_powers(sine, c.storeys, sines);
+
+  const double e = numerics::scale(now.decay.significand.hi, now.decay.exponent);
+  const auto n = static_cast<std::size_t>(c.storeys);
+  double displacement = 0.0;
+  for (std::size_t i = n; i-- > 0;) {
+    const double term = cosines[n - 1 - i] * sines[i];
+    displacement += c.u[i] * sine.hi * term;
+    const double velocity = c.v[i] * cosine.hi * term;
+    u[i] = e * displacement + 0.0;  // never -0
+    v[i] = e * (velocity - sigma_ * displacement) + 0.0;
+    if (a == nullptr) continue;
+    double change = -double(2 * (n - 1 - i) + 1) * term;
+    if (i > 0) change += double(2 * i) * (cosines[n - i] * sines[i - 1]);
+    const double acceleration = c.frequency * c.v[i] * sine.hi * change;
+    a[i] = e * (acceleration - sigma_ * (2.0 * velocity - sigma_ * displacement)) + 0.0;
+  }
+}
+
+model::Kinematics BuildingShape::amplitude() const {
+  const auto size = static_cast<Eigen::Index>(dof_);
+  model::Kinematics peak{Eigen::VectorXd(size), Eigen::VectorXd(size), Eigen::VectorXd(size)};
+  Eigen::Index at = 0;
+  for (const auto& c : parts_) {
+    const int n = c.storeys;
+    // Displacements rise until the last drift alone is left, at x = pi/2.
+    const double u = std::abs(c.u.back());
+    for (int i = 1; i <= n; ++i, ++at) {
+      const double p = 2 * (n - i) + 1, q = 2 * i - 2;
+      const double scale = std::log(std::abs(c.v[static_cast<std::size_t>(i - 1)]));
+      const double v = std::exp(scale + log_peak(p, q));
+      double a = p * std::exp(scale + log_peak(p - 1.0, q + 1.0));
+      if (q > 0.0) a += q * std::exp(scale + log_peak(p + 1.0, q - 1.0));
+      peak.u[at] = u;
+      peak.v[at] = v + sigma_ * u;
+      peak.a[at] = c.frequency * a + sigma_ * (2.0 * v + sigma_ * u);
+    }
+  }
+  return peak;
+}
+
+double BuildingShape::roundings() const {
+  int most = 1;
+  for (const auto& c : parts_) most = std::max(most, c.storeys);
+  return 3.0 * most + 14.0;
+}
+
+}  // namespace clackers::exact

@@ -1,0 +1,125 @@
+#include "clackers/exact/assembly/shaped_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "clackers/base/error.hpp"
+#include "clackers/exact/pair/flight_phase.hpp"
+
+namespace clackers::exact {
+
+using model::Kinematics;
+using model::Side;
+using numerics::DoubleDouble;
+
+ShapedMotion::ShapedMotion(FlightConstants constants, std::unique_ptr<const FlightShape> shape,
+                           ImpactPattern pattern, std::string_view who)
+    : c_(std::move(constants)), shape_(std::move(shape)), pattern_(std::move(pattern)) {
+  const double impacts = natural_phase(c_, c_.end).flight * double(contacts_at_once());
+  if (!(impacts <= 0x1p62))
+    refuse(who, "t_end", c_.end, "at most 2^62 impacts",
+           fmt::format("There would be {:.3g}, {} at once.", impacts, contacts_at_once()));
+}
+
+FlightInstant ShapedMotion::instant(double flight, const DoubleDouble& theta_over_pi,
+                                    const DoubleDouble& halvings) const {
+  const bool rests = c_.eta == 0.0 && flight > 0.0;
+  return {theta_over_pi, std::fmod(flight, 2.0) != 0.0,
+          rests ? numerics::Scaled{} : power(c_.log2_eta * flight - halvings)};
+}
+
+FlightInstant ShapedMotion::instant_at(double t, Side side) const {
+  require_inside(c_, t);
+  const auto [flight, theta_over_pi] = phase_at(c_, t, side);
+  return instant(flight, theta_over_pi, c_.decay * t);
+}
+
+void ShapedMotion::sample(std::span<const double> times, Side side,
+                          model::SampleBuffers out) const {
+  const auto n = shape_->dof();
+  require_buffers(out, times.size(), n);
+  std::array<FlightInstant, 16> block;
+  for (std::size_t first = 0; first < times.size(); first += block.size()) {
+    const auto count = std::min(block.size(), times.size() - first);
+    for (std::size_t i = 0; i < count; ++i) block[i] = instant_at(times[first + i], side);
+    const auto part = [&](std::span<double> x) {
+      return x.empty() ? x : x.subspan(first * n, count * n);
+    };
+    shape_->sample({block.data(), count}, {part(out.u), part(out.v), part(out.a)});
+  }
+}
+
+Kinematics ShapedMotion::state(const FlightInstant& now) const {
+  const auto n = static_cast<Eigen::Index>(shape_->dof());
+  Kinematics x{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  const auto values = [](Eigen::VectorXd& column) {
+    return std::span<double>(column.data(), static_cast<std::size_t>(column.size()));
+  };
+  shape_->sample({&now, 1}, {values(x.u), values(x.v), values(x.a)});
+  return x;
+}
+
+Kinematics ShapedMotion::envelope(double t) const {
+  const auto [significand, exponent] = instant_at(t, Side::left).decay;
+  const double e = numerics::scale(significand.hi, exponent);
+  auto size = shape_->amplitude();
+  for (auto* x : {&size.u, &size.v, &size.a}) *x *= e;
+  return size;
+}
+
+Kinematics ShapedMotion::error_bound(double t) const {
+  const double relative = (shape_->roundings() + 3.0) * 0x1p-53;
+  const double spacing = (shape_->roundings() + 3.0) * std::numeric_limits<double>::denorm_min();
+  const auto size = shape_->amplitude();
+  auto bound = envelope(t);
+  bound.u = (bound.u * relative).array() + spacing * (1.0 + size.u.array());
+  bound.v = (bound.v * relative).array() + spacing * (1.0 + size.u.array() + size.v.array());
+  bound.a = (bound.a * relative).array() + spacing * (1.0 + size.u.array() + size.a.array());
+  return bound;
+}
+
+long long ShapedMotion::impact_count(double t) const {
+  require_inside(c_, t);
+  const auto instants = static_cast<long long>(natural_phase(c_, t).flight);
+  return contacts_at_once() * (c_.eta == 0.0 ? std::min(instants, 1LL) : instants);
+}
+
+model::MotionImpact ShapedMotion::impact(long long index) const {
+  const auto count = impact_count(c_.end);
+  if (index < 1 || index > count) refuse_impact(c_, index, count);
+  const auto number = (index - 1) / contacts_at_once() + 1;
+  const auto& contacts =
+      pattern_.contacts[static_cast<std::size_t>(number - 1) % pattern_.contacts.size()];
+  const auto& [contact, impulse] =
+      contacts[static_cast<std::size_t>((index - 1) % contacts_at_once())];
+
+  const auto k = static_cast<double>(number);
+  const auto halvings = c_.period_decay * (k - 1.0 + c_.first_collision);
+  const auto before = instant(k - 1.0, {0.5, 0.0}, halvings);
+  const auto after = instant(k, {-0.5, 0.0}, halvings);
+  const auto when = collision_instant(c_, k);
+  model::MotionImpact hit;
+  hit.index = index;
+  hit.t = when.nearest;
+  const double other = std::nextafter(hit.t, when.beyond > 0.0 ? INFINITY : 0.0);
+  hit.when = {std::min(hit.t, other), std::max(hit.t, other)};
+  hit.contact = contact;
+  hit.before = state(before);
+  hit.after = state(after);
+  const auto times_decay = [](double x, const numerics::Scaled& e) {
+    return numerics::scale((e.significand * x).hi, e.exponent);
+  };
+  const auto square = [](const numerics::Scaled& e) {
+    return numerics::Scaled{e.significand * e.significand, 2 * e.exponent};
+  };
+  hit.impulse = times_decay(impulse, before.decay);
+  hit.energy_before = times_decay(pattern_.energy, square(before.decay));
+  hit.energy_after = times_decay(pattern_.energy, square(after.decay));
+  return hit;
+}
+
+}  // namespace clackers::exact

@@ -1,0 +1,84 @@
+#include "clackers/methods/timestepping/moreau_jean.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "clackers/base/error.hpp"
+#include "clackers/methods/rows.hpp"
+#include "clackers/methods/timestepping/stepping_scheme.hpp"
+
+namespace clackers::methods {
+
+const std::vector<Field<MoreauJean>>& MoreauJean::fields() {
+  static const std::vector<Field<MoreauJean>> all = {
+      {"theta", "1/2 <= theta <= 1", "weight of the end of the step", &MoreauJean::theta}};
+  return all;
+}
+
+void MoreauJean::validate() const {
+  if (!(theta >= 0.5 && theta <= 1.0))
+    refuse(name, "theta", theta, "1/2 <= theta <= 1",
+           "Below 1/2 undamped motion grows at every step size; use theta = 0.5 for no numerical "
+           "dissipation.");
+}
+
+Facts MoreauJean::facts() const {
+  return {.name = specification(*this),
+          .smooth_order = theta == 0.5 ? 2.0 : 1.0,
+          .stability_limit = std::numeric_limits<double>::infinity(),
+          .through_impacts = {Behaviour::irregular, 1.0, {}}};
+}
+
+std::optional<Objection> MoreauJean::objection(const model::ImpactProblem<>& problem) const {
+  return objection_to_closed_contacts(specification(*this), problem);
+}
+
+template <int Dof>
+class MoreauJean::Loop final : public SteppingScheme<Dof> {
+ public:
+  Loop(const MoreauJean& method, model::ImpactProblem<Dof> problem, const StepPlan& plan)
+      : Base(std::move(problem), plan), theta_(method.theta), a_(x0_.v), u_(a_), shift_(a_) {
+    prepare(plan.h);
+  }
+
+ private:
+  using Base = SteppingScheme<Dof>;
+  using Base::before_, Base::contacts_, Base::equation_, Base::jump_, Base::x0_, Base::x1_;
+  using Base::y_;
+
+  // v1 = v0 + h a, v_th = v0 + theta h a and u_th = u0 + theta h v_th.
+  typename MotionEquation<Dof>::Weights weights(double h) const {
+    return {1.0, theta_ * h, theta_ * theta_ * h * h};
+  }
+
+  void prepare(double h) override { this->respond(name, h, weights(h)); }
+  void start() override { a_.setZero(); }
+
+  void predict(double h) override {
+    before_ = x0_.v;
+    u_ = x0_.u + theta_ * h * x0_.v;
+  }
+
+  void complete(double h) override {
+    shift_ = jump_ / -h;
+    equation_.solve({x1_.t, x0_.t, 1.0 - theta_}, weights(h), u_, x0_.v, a_, &shift_);
+    x1_.v = y_ = x0_.v + h * a_;
+    x1_.u = x0_.u + h * x0_.v + theta_ * h * h * a_;
+  }
+
+  double least_rate(std::size_t j, double h) const override {
+    const double rate = contacts_.gap_rate(j, x0_.v);
+    if (contacts_.gap(j, x0_.u) + 0.5 * h * rate > 0.0)
+      return -std::numeric_limits<double>::infinity();
+    return -contacts_.restitution(j) * rate;
+  }
+
+  void accept() override {}
+
+  double theta_;
+  model::Vector<Dof> a_, u_, shift_;
+};
+
+template Row row<MoreauJean>();
+
+}  // namespace clackers::methods

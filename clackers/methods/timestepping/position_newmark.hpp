@@ -1,0 +1,97 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "clackers/methods/timestepping/stepping_scheme.hpp"
+
+namespace clackers::methods {
+
+/// What both schemes with a gap kept at the end of the step claim: nothing but a gain of energy.
+inline Facts position_newmark_facts(std::string name) {
+  return {.name = std::move(name),
+          .smooth_order = 2.0,
+          .stability_limit = std::numeric_limits<double>::infinity(),
+          .radius_at_infinity = 1.0,
+          .through_impacts = {Behaviour::divergent, 0.0, "energy-growth"}};
+}
+
+inline std::optional<Objection> position_newmark_objection(const std::string& who,
+                                                           const model::ImpactProblem<>& problem) {
+  for (const auto& contact : problem.contacts)
+    if (contact.restitution != 1.0)
+      return Objection{
+          fmt::format("{} with eta = {}: it has no law of restitution, and is run with "
+                      "eta = 1 alone, which it misses. Use moreau-jean.",
+                      who, contact.restitution),
+          "law-needs-restitution"};
+  return std::nullopt;
+}
+
+/// Newmark's average acceleration with contact forces L at the end of the step that keep the gap there:
+///
+///     M a1 + C v1 + K u1 + p(u1, v1) = f(t1) + B^T L,   0 <= g(u1) _|_ L >= 0
+///     u1 = u0 + h/2 (v0 + v1),   v1 = v0 + h/2 (a0 + a1)
+///
+/// where g(u1) >= 0 is b.v1 >= -b.v0 - 2 g(u0) / h.
+template <int Dof>
+class PositionNewmark : public SteppingScheme<Dof> {
+ protected:
+  using Base = SteppingScheme<Dof>;
+  using Base::before_, Base::contacts_, Base::equation_, Base::jump_, Base::response_;
+  using Base::x0_, Base::x1_, Base::y_;
+
+  PositionNewmark(std::string_view who, model::ImpactProblem<Dof> problem, const StepPlan& plan)
+      : Base(std::move(problem), plan),
+        who_(who),
+        a0_(x0_.v),
+        a1_(a0_),
+        u_(a0_),
+        v_(a0_),
+        shift_(a0_) {
+    prepare(plan.h);
+  }
+
+ private:
+  static constexpr auto weights(double h) {
+    return typename MotionEquation<Dof>::Weights{1.0, 0.5 * h, 0.25 * h * h};
+  }
+
+  void prepare(double h) final {
+    this->respond(who_, h, weights(h));
+    response_.velocity *= 0.5;
+    response_.delassus *= 0.5;
+  }
+
+  void start() final { equation_.accelerate(x0_.t, x0_.u, x0_.v, a0_); }
+
+  void predict(double h) final {
+    before_ = x0_.v;
+    u_ = x0_.u + h * x0_.v + 0.25 * h * h * a0_;
+    v_ = x0_.v + 0.5 * h * a0_;
+  }
+
+  void complete(double h) final {
+    shift_ = jump_ / -h;
+    a1_ = a0_;
+    equation_.solve({x1_.t}, weights(h), u_, v_, a1_, &shift_);
+    x1_.u = u_ + 0.25 * h * h * a1_;
+    x1_.v = y_ = v_ + 0.5 * h * a1_;
+  }
+
+  double least_rate(std::size_t j, double h) const final {
+    return -contacts_.gap_rate(j, x0_.v) - 2.0 * contacts_.gap(j, x0_.u) / h;
+  }
+
+  void accept() final { a0_ = a1_; }
+
+  std::string who_;
+  model::Vector<Dof> a0_, a1_, u_, v_, shift_;
+};
+
+}  // namespace clackers::methods

@@ -1,0 +1,161 @@
+#include "clackers/methods/timestepping/stepping_scheme.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace clackers::methods {
+
+template <int Dof>
+SteppingScheme<Dof>::SteppingScheme(model::ImpactProblem<Dof> problem, const StepPlan& plan,
+                                    int impact_steps)
+    : problem_(std::move(problem)),
+      equation_(problem_.system),
+      contacts_(problem_),
+      response_(contacts_.response()),
+      x0_(problem_.start),
+      x1_(x0_),
+      before_(x0_.v),
+      y_(x0_.v),
+      jump_(x0_.v),
+      impulses_(Eigen::VectorXd::Zero(Eigen::Index(contacts_.size()))),
+      change_(impulses_),
+      plan_(plan),
+      is_two_steps_(impact_steps == 2),
+      after_(x0_),
+      least_(contacts_.size(), 0.0),
+      unfinished_(contacts_.size(), {false, 0.0, x0_.v}),
+      q_(impulses_) {
+  rows_.reserve(contacts_.size());
+}
+
+template <int Dof>
+void SteppingScheme<Dof>::advance(Recorder<Dof>& out) {
+  equation_.set_tally({});
+  steps_ = 0;
+  failure_.reset();
+  for (auto& impact : unfinished_) impact.exists = false;
+  x0_ = problem_.start;
+  start();
+  if (!out.append(x0_)) return;
+  for (long long k = 1; k <= plan_.total; ++k) {
+    const double t1 = plan_.time(k);
+    const double h = k <= plan_.whole ? plan_.h : t1 - x0_.t;
+    if (k > plan_.whole) prepare(h);  // a shorter last step
+    ++steps_;
+    const bool goes_on = step(h, t1, out);
+    x0_ = x1_;
+    if (!goes_on || !out.append(x0_)) break;
+  }
+  if (plan_.total > plan_.whole) prepare(plan_.h);
+}
+
+template <int Dof>
+model::Work SteppingScheme<Dof>::work() const {
+  model::Work work;
+  work.steps = steps_;
+  equation_.add_work(work);
+  return work;
+}
+
+template <int Dof>
+void SteppingScheme<Dof>::respond(std::string_view who, double h,
+                                  const typename Equation::Weights& weights) {
+  equation_.drop_all();
+  const auto& effective = equation_.factorized(weights);
+  require_definite(who, h, equation_.failed());
+  contacts_.respond(effective, response_);
+}
+
+template <int Dof>
+bool SteppingScheme<Dof>::step(double h, double t1, Recorder<Dof>& out) {
+  x1_.t = t1;
+  predict(h);
+  if (!find_impulses(h, t1, out)) return false;
+  accept();
+  return report(out);
+}
+
+template <int Dof>
+bool SteppingScheme<Dof>::find_impulses(double h, double t1, Recorder<Dof>& out) {
+  rows_.clear();
+  impulses_.setZero();
+  jump_.setZero();
+  if (failure_) return out.fail(failure_->code, t1, failure_->sentence);
+  complete(h);
+  for (std::size_t j = 0; j < contacts_.size(); ++j) least_[j] = least_rate(j, h);
+  // A motion that is not finite is the recorder's to report.
+  for (int i = 0; !equation_.failed() && y_.allFinite(); ++i) {
+    take_violated();
+    if (rows_.empty()) return true;
+    change_ = impulses_;
+    improve_impulses();
+    if (failure_) return out.fail(failure_->code, t1, failure_->sentence);
+    change_ = impulses_ - change_;
+    if (is_settled(h)) return true;
+    if (i == most_iterations())
+      return out.fail("complementarity-failed", t1,
+                      "the iteration for the impulses at the contacts does not end");
+    jump_.noalias() = contacts_.response().velocity * impulses_;
+    complete(h);
+  }
+  return equation_.failed() ? out.fail_step(t1, equation_.failure()) : true;
+}
+
+// Adds all contacts below their least rate to rows_.
+template <int Dof>
+void SteppingScheme<Dof>::take_violated() {
+  for (std::size_t j = 0; j < contacts_.size(); ++j) {
+    const auto at = std::lower_bound(rows_.begin(), rows_.end(), j);
+    if ((at == rows_.end() || *at != j) && excess(j) < 0.0) rows_.insert(at, j);
+  }
+}
+
+template <int Dof>
+void SteppingScheme<Dof>::improve_impulses() {
+  q_.noalias() = -(response_.delassus * impulses_);
+  for (const auto j : rows_) q_[Eigen::Index(j)] += excess(j);
+  failure_ = contacts_.solve(response_, rows_, q_, impulses_);
+}
+
+// Rates are sums of a few products of the velocities and the responses, each with an error of some
+// units in the last place; 2^-40 leaves room for a matrix of condition 1e3.
+template <int Dof>
+bool SteppingScheme<Dof>::is_settled(double) const {
+  return std::ranges::all_of(rows_, [this](std::size_t j) {
+    const auto i = Eigen::Index(j);
+    const double own = response_.delassus(i, i);
+    const double rate = contacts_.row(j).cwiseAbs().dot(y_.cwiseAbs() + before_.cwiseAbs()) +
+                        std::abs(least_[j]) + own * impulses_[i];
+    return own * std::abs(change_[i]) <= 0x1p-40 * rate;
+  });
+}
+
+template <int Dof>
+bool SteppingScheme<Dof>::report(Recorder<Dof>& out) {
+  for (std::size_t j = 0; j < contacts_.size(); ++j) {
+    const double impulse = impulses_[Eigen::Index(j)];
+    auto& first = unfinished_[j];
+    if (!first.exists && !(impulse > 0.0)) continue;
+    if (is_two_steps_ && !first.exists && x1_.t < plan_.end) {
+      first.exists = true;
+      first.impulse = impulse;
+      first.before = before_;
+      continue;
+    }
+    const double total = first.exists ? first.impulse + impulse : impulse;
+    if (!first.exists) first.before = before_;
+    first.exists = false;
+    after_ = x1_;
+    after_.v = y_;
+    if (!out.impact(after_, static_cast<int>(j), first.before, total)) return false;
+  }
+  return true;
+}
+
+template class SteppingScheme<1>;
+template class SteppingScheme<2>;
+template class SteppingScheme<model::any_dof>;
+
+}  // namespace clackers::methods

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "clackers/numerics/first_root.hpp"
+#include "clackers/numerics/modal_flight.hpp"
+
+namespace clackers::numerics {
+
+/// f = offset + b . u + d . v of a modal motion as a function of time, with what first_root() needs
+/// to know of it ahead. For every mode and z = sqrt(y'^2 + omega^2 y^2), which does not grow where
+/// sigma >= 0 and omega^2 >= 0 and grows by e^(growth s) at most elsewhere, the k-th derivative of
+/// its part is at most a constant times z.
+class ModalForm {
+ public:
+  ModalForm() = default;
+  /// `d` may be empty.
+  ModalForm(const ModalSystem& system, std::span<const double> b, std::span<const double> d,
+            double offset);
+
+  double offset() const { return offset_; }
+  /// Sum over the modes of the largest |part| in the `until` seconds after `start`.
+  double amplitude(const ModalSystem& system, std::span<const ModalState> start,
+                   double until) const;
+  /// How far from its value s seconds after `start` it can be by rounding alone: 4 units a term and
+  /// those of the phase omega s.
+  double rounding(const ModalSystem& system, std::span<const ModalState> start, double s) const;
+  /// The k-th derivative, k = 0 ... 3, at a state.
+  double derivative(std::span<const ModalState> now, int k) const;
+  /// Bound of the k-th derivative, k = 0 ... 4, at this state and, without growth, after it.
+  double derivative_bound(const ModalSystem& system, std::span<const ModalState> now, int k) const;
+
+ private:
+  friend class FormAhead;
+  struct Part {
+    std::size_t mode;
+    double y[4], rate[4];  // f^(k) = sum y[k] y + rate[k] y'
+    double bound[5];       // |f^(k)| <= bound[k] z
+    double omega;
+  };
+  std::vector<Part> parts_;  // by ascending omega
+  double offset_ = 0.0, growth_ = 0.0;
+};
+
+/// One flight of a form from modal states `start`, `sign` times it. Modes are added from the slowest
+/// to the fastest and only as far as needed: as long as the sum of the slow ones is above the
+/// amplitudes of the others, their bounds say how far it stays so, whatever the fast ones do.
+class FormAhead {
+ public:
+  /// Takes `amplitudes` for its use.
+  FormAhead(const ModalSystem& system, const ModalForm& form, std::span<const ModalState> start,
+            double sign, std::vector<double>& amplitudes);
+
+  /// What is known of it ahead of s.
+  LocalBound operator()(double s) const;
+
+ private:
+  const ModalSystem& system_;
+  const ModalForm& form_;
+  std::span<const ModalState> start_;
+  double sign_;
+  std::span<const double> amplitudes_;  // of all parts after this one
+};
+
+}  // namespace clackers::numerics

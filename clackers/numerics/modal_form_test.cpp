@@ -1,0 +1,178 @@
+#include "clackers/numerics/modal_form.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace clackers::numerics {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Flight {
+  ModalSystem system;
+  std::vector<ModalState> start;
+};
+
+Flight flight(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& damping,
+              const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& u,
+              const Eigen::VectorXd& v) {
+  Flight made{*ModalSystem::make(mass, damping, stiffness), {}};
+  const auto n = std::size_t(u.size());
+  made.start.resize(n);
+  made.system.to_modes({u.data(), n}, {v.data(), n}, made.start);
+  return made;
+}
+
+// Unit masses of frequencies 1 and X, apart from each other by sin s + (r/X) sin X s.
+Flight pair(double X, double r, double sigma = 0.0) {
+  const Eigen::Vector2d stiffness(1.0 + sigma * sigma, X * X + sigma * sigma);
+  return flight(Eigen::Matrix2d::Identity(), 2.0 * sigma * Eigen::Matrix2d::Identity(),
+                Eigen::Matrix2d(stiffness.asDiagonal()), Eigen::Vector2d::Zero(),
+                Eigen::Vector2d(1.0, -r));
+}
+
+Eigen::Matrix3d coupled_damping() {
+  Eigen::Matrix3d c;
+  c << 0.5, -0.2, 0.0, -0.2, 0.3, 0.1, 0.0, 0.1, 0.05;
+  return c;
+}
+
+TEST(ModalForm, ItsDerivativesAreThoseOfTheMotion) {
+  Eigen::Matrix3d k;
+  k << 30.0, -7.0, 0.0, -7.0, 9.0, -2.0, 0.0, -2.0, 8.0;
+  const Eigen::Vector3d u(0.3, -0.2, 0.5), v(1.0, 0.4, -0.7), b(1.0, -1.0, 0.5), d(0.2, 0.1, -0.4);
+  const Eigen::Matrix3d c = coupled_damping();
+  const auto [system, start] = flight(Eigen::Matrix3d::Identity(), c, k, u, v);
+  const ModalForm form(system, {b.data(), 3}, {d.data(), 3}, 0.25);
+  const Eigen::Vector3d a = -c * v - k * u, jerk = -c * a - k * v, snap = -c * jerk - k * a;
+  EXPECT_NEAR(form.derivative(start, 0), 0.25 + b.dot(u) + d.dot(v), 1e-13);
+  EXPECT_NEAR(form.derivative(start, 1), b.dot(v) + d.dot(a), 1e-12);
+  EXPECT_NEAR(form.derivative(start, 2), b.dot(a) + d.dot(jerk), 1e-11);
+  EXPECT_NEAR(form.derivative(start, 3), b.dot(jerk) + d.dot(snap), 1e-10);
+  // Bounds hold for the whole flight and are not idle.
+  std::vector<ModalState> now(3);
+  for (int k_th = 1; k_th <= 3; ++k_th) {
+    double largest = 0.0;
+    for (double s = 0.0; s < 30.0; s += 0.01) {
+      for (std::size_t j = 0; j < 3; ++j) now[j] = advance(system.modes()[j], start[j], s);
+      largest = std::max(largest, std::abs(form.derivative(now, k_th)));
+    }
+    const double bound = form.derivative_bound(system, start, k_th);
+    EXPECT_GE(bound, largest) << k_th;
+    EXPECT_LE(bound, 4.0 * largest) << k_th;
+  }
+}
+
+TEST(ModalForm, AmplitudeBoundsEveryKindOfMode) {
+  // Underdamped, overdamped, free, growing, and falling from an unstable equilibrium.
+  for (const auto& [sigma, square] :
+       {std::pair{0.05, 4.0}, {3.0, 1.0}, {0.0, 0.0}, {0.4, 0.0}, {-0.1, 4.0}, {0.1, -2.0}}) {
+    using One = Eigen::Matrix<double, 1, 1>;
+    const auto [system, start] =
+        flight(One(1.0), One(2.0 * sigma), One(square), One(0.4), One(-1.0));
+    const double b = 2.0;
+    const ModalForm form(system, {&b, 1}, {}, 7.0);
+    double largest = 0.0;
+    for (double s = 0.0; s <= 5.0; s += 0.01)
+      largest = std::max(largest, std::abs(b * advance(system.modes()[0], start[0], s).y));
+    EXPECT_GE(form.amplitude(system, start, 5.0), largest * (1.0 - 1e-15)) << sigma << square;
+    EXPECT_LE(form.amplitude(system, start, 5.0), 30.0 * largest) << sigma << square;
+  }
+}
+
+struct Search {
+  FirstRoot root;
+  int calls = 0;
+};
+
+Search search(const Flight& flight, const ModalForm& form, double until) {
+  std::vector<double> amplitudes;
+  const FormAhead ahead(flight.system, form, flight.start, 1.0, amplitudes);
+  Search made;
+  made.root = first_root(
+      [&](double s) {
+        ++made.calls;
+        return ahead(s);
+      },
+      0.0, until, 2e-8 / flight.system.fastest(), 1000000);
+  return made;
+}
+
+const double apart[2] = {1.0, -1.0};
+
+TEST(ModalForm, ItsFirstRootCostsTheSameForEveryRatioOfFrequencies) {
+  for (const double X : {5.0, 81.0, 401.0, 100001.0}) {
+    const auto colliding = pair(X, 3.0);
+    const auto found = search(colliding, ModalForm(colliding.system, apart, {}, 0.0), 10.0);
+    ASSERT_EQ(found.root.status, FirstRoot::Status::found) << X;
+    EXPECT_NEAR(found.root.s, pi, 1e-15) << X;
+    EXPECT_LE(found.calls, 25) << X;
+  }
+}
+
+// The largest r at which sin s + (r/X) sin X s touches 0 between 0 and pi: where its slope is 0 too.
+double grazing_ratio(double X) {
+  long double low = std::numbers::pi_v<long double>, high = 1.5L * low;
+  for (int i = 0; i < 80; ++i) {
+    const long double x = 0.5L * (low + high);
+    const bool is_before = X * std::sin(x / X) * std::cos(x) - std::sin(x) * std::cos(x / X) < 0.0L;
+    (is_before ? low : high) = x;
+  }
+  return double(-X * std::sin(low / X) / std::sin(low));
+}
+
+TEST(ModalForm, ItsFirstRootIsNotSkippedWhereTheFastModeGrazes) {
+  for (const double X : {9.0, 401.0})
+    for (const double share : {1.0 - 1e-9, 1.0 - 1e-12, 1.0 + 1e-12, 1.0 + 1e-9}) {
+      const auto colliding = pair(X, grazing_ratio(X) * share);
+      const auto found = search(colliding, ModalForm(colliding.system, apart, {}, 0.0), 10.0);
+      ASSERT_EQ(found.root.status, FirstRoot::Status::found);
+      if (share < 1.0) {
+        EXPECT_NEAR(found.root.s, pi, 1e-14) << X << ' ' << share;
+      } else {
+        EXPECT_LT(found.root.s * X, 5.0) << X << ' ' << share;
+      }
+    }
+}
+
+TEST(ModalForm, ItsFirstRootIsThatOfDenseSampling) {
+  // Three modes, two of them fast, damped and not by the same rate, with a gap.
+  for (const double gap : {0.05, 0.4, 1.1}) {
+    const Eigen::Vector3d square(1.0, 300.0, 2000.0), sigma(0.01, 0.3, 0.02);
+    const auto three =
+        flight(Eigen::Matrix3d::Identity(), Eigen::Matrix3d(2.0 * sigma.asDiagonal()),
+               Eigen::Matrix3d(square.asDiagonal()), Eigen::Vector3d(1.0, 0.1, -0.05),
+               Eigen::Vector3d(0.3, -4.0, 9.0));
+    const double b[3] = {1.0, 1.0, 0.7};
+    const ModalForm form(three.system, b, {}, gap);
+    std::vector<ModalState> now(3);
+    double first = 0.0;
+    for (double s = 0.0; s < 20.0 && first == 0.0; s += 1e-4) {
+      for (std::size_t j = 0; j < 3; ++j)
+        now[j] = advance(three.system.modes()[j], three.start[j], s);
+      if (form.derivative(now, 0) < 0.0) first = s;
+    }
+    const auto found = search(three, form, 20.0).root;
+    EXPECT_EQ(found.status == FirstRoot::Status::found, first > 0.0);
+    EXPECT_NEAR(found.s, first, 1.01e-4) << gap;
+  }
+}
+
+TEST(ModalForm, FirstRootOfAGrowingMotionIsFound) {
+  using One = Eigen::Matrix<double, 1, 1>;
+  const double b = 1.0;
+  // cosh s reaches 1000, and e^(0.1 s) cos w s reaches -8.
+  const auto falling = flight(One(1.0), One(0.0), One(-1.0), One(-1.0), One(0.0));
+  EXPECT_NEAR(search(falling, ModalForm(falling.system, {&b, 1}, {}, 1000.0), 50.0).root.s,
+              std::acosh(1000.0), 1e-13);
+  const auto fluttering = flight(One(1.0), One(-0.2), One(1.01), One(1.0), One(0.1));
+  const auto found = search(fluttering, ModalForm(fluttering.system, {&b, 1}, {}, 8.0), 50.0).root;
+  EXPECT_NEAR(std::exp(0.1 * found.s) * std::cos(found.s), -8.0, 1e-12);
+  EXPECT_LT(found.s, 7.0 * pi);
+}
+
+}  // namespace
+}  // namespace clackers::numerics

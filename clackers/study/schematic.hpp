@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "clackers/model/impact_problem.hpp"
+
+namespace clackers::study {
+
+/// How a structure is drawn: masses that springs couple stand above each other in one column, in
+/// layers by their distance from the ground; what may collide stands side by side. Masses are
+/// numbered from 0.
+struct Schematic {
+  struct Block {
+    int column = 0;       ///< from 0, left to right
+    double height = 1.0;  ///< in (0, 1], of the tallest layer of its structure
+  };
+  /// A spring between masses, or to the ground where `other` is -1.
+  struct Spring {
+    int one = 0, other = -1;
+  };
+  /// A contact of two masses, or of a mass and a wall, which is -1; both are -1 where the contact
+  /// condition has more masses.
+  struct Touch {
+    int left = -1, right = -1;
+    double gap = 0.0;  ///< between the faces at u = 0 [m]
+  };
+  std::vector<Block> blocks;
+  std::vector<Spring> springs;
+  std::vector<Touch> contacts;  ///< one a contact of the problem, in its order
+};
+
+/// A structure with more masses is not drawn.
+inline constexpr int most_blocks = 64;
+
+/// Read from the stiffness matrix and the contacts; empty beyond most_blocks.
+Schematic schematic(const model::ImpactProblem<>& problem);
+
+}  // namespace clackers::study
