@@ -32,6 +32,7 @@ class JoinedMethod final : public Method {
               ": the problem has a nonlinear force, and the step is exact for linear ones "
               "alone. Use newmark or rk4.",
           "linear-only"};
+    if (auto no = treatment_->objection_to(joined)) return no;
     return treatment_->objection(joined, problem);
   }
   double contact_time(const model::ImpactProblem<>& problem) const override {

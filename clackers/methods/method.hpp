@@ -17,12 +17,15 @@ namespace clackers::methods {
 struct Facts {
   std::string name{};           ///< the specification: "generalized-alpha:rho=0.8+event-driven"
   double smooth_order = 0.0;    ///< of u and v while nothing collides
+  double dense_order = 0.0;     ///< of the output inside a step; 0: that of a step of its own
   bool is_adaptive = false;     ///< chooses its steps by a tolerance
   bool is_linear_only = false;  ///< takes no nonlinear force
   /// Largest omega h of undamped smooth motion; may be infinite. 0: it grows in every short step.
   double stability_limit = 0.0;
   /// Spectral radius at infinite omega h; NaN where not every step is stable, or it is not known.
   double radius_at_infinity = std::numeric_limits<double>::quiet_NaN();
+  /// The orders are those of motion under a load; without one every step is exact to rounding.
+  bool is_exact_without_load = false;
   Claim through_impacts{};  ///< of an integrator alone: nothing
   bool reports_impacts = true;
   /// Of a compliant contact: the error of its model falls as stiffness^-model_order where it models
@@ -31,6 +34,16 @@ struct Facts {
 
   bool is_unconditionally_stable() const { return std::isinf(stability_limit); }
 };
+
+/// What a method claims on a problem: through impacts or, where nothing collides, in smooth motion.
+inline Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool collides) {
+  const bool is_of_impacts = collides || facts.through_impacts.behaviour == Behaviour::exact;
+  const Claim claim =
+      is_of_impacts ? facts.through_impacts : Claim{Behaviour::proper, facts.smooth_order, {}};
+  const bool is_exact = facts.is_exact_without_load && !problem.system.add_load;
+  return is_exact && claim.behaviour == Behaviour::proper ? Claim{Behaviour::exact, 0.0, {}}
+                                                          : claim;
+}
 
 /// Why a method cannot take a problem.
 struct Objection {

@@ -121,8 +121,10 @@ std::shared_ptr<const Method> method(std::string_view text) {
 
 std::vector<std::string> pairs() {
   std::vector<std::string> all;
-  for (const auto& integrator : names("integrator"))
-    for (const auto& contact : names("contact")) all.push_back(integrator + '+' + contact);
+  for (const auto& name : names("integrator"))
+    for (const auto& contact : names("contact"))
+      if (!find(contact)->treatment({})->objection_to(integrator(name)->facts()))
+        all.push_back(name + '+' + contact);
   for (const auto& entry : entries())
     if (entry.kind == "contact")
       for (const auto& variant : variants(entry))

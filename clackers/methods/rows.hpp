@@ -64,6 +64,12 @@ class TypedTreatment final : public Treatment {
 
   std::string specification() const override { return methods::specification(treatment_); }
   Claim claim(const Facts& integrator) const override { return treatment_.claim(integrator); }
+  std::optional<Objection> objection_to(const Facts& method) const override {
+    if constexpr (requires { treatment_.objection_to(method); })
+      return treatment_.objection_to(method);
+    else
+      return std::nullopt;
+  }
   double model_order() const override {
     if constexpr (requires { treatment_.model_order(); }) return treatment_.model_order();
     return 0.0;

@@ -19,6 +19,9 @@ class Treatment {
   virtual Claim claim(const Facts& integrator) const = 0;
   /// See Facts; 0 for rigid contact.
   virtual double model_order() const { return 0.0; }
+  /// Why it cannot drive an integrator, whatever the problem; nothing for most. `method` see
+  /// objection().
+  virtual std::optional<Objection> objection_to(const Facts& method) const = 0;
   /// See Method. `method` are the facts of the integrator joined with this; its name opens the
   /// sentence.
   virtual std::optional<Objection> objection(const Facts& method,

@@ -41,6 +41,9 @@ struct ProgramRequest : ProcessOptions {
 /// CommandTemplate refuses, FileError where the folder of runs cannot be made.
 std::vector<SolverSubject> subjects_of(const ProgramRequest& request);
 
+/// The tolerances of adaptive solvers and methods where none are asked for.
+inline constexpr std::string_view default_tolerances = "1e-3:1e-10";
+
 /// The tolerances that are asked for, or the default ones.
 std::vector<double> tolerances_of(const ProcessOptions& options);
 

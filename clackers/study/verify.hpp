@@ -19,6 +19,8 @@ struct VerifyRequest {
   /// Of each case instead; empty: none has settings of its own.
   std::vector<cases::Settings> case_settings{};
   RefinementRequest plan;
+  /// The levels of adaptive methods, descending; empty: default_tolerances.
+  std::vector<double> tolerances{};
   /// Time for refinement beyond the plan, of all cases together [s]; 0: none. What is run within it
   /// does not depend on it, only where it ends.
   double budget = 0.0;
@@ -26,7 +28,8 @@ struct VerifyRequest {
   std::string command;  ///< as typed, for the record
 };
 
-/// Assesses every method on every case over the plan's steps. Throws InputError before any work for
+/// Assesses every method on every case over the plan's steps, adaptive ones over tolerances, of which
+/// there are none without an adaptive method. Throws InputError before any work for
 /// what cannot be run: unknown names, values outside their range, too many steps, a method or a case
 /// named twice, a case that no method takes. A method that objects to a case is kept with its
 /// refusal. Subjects that the plan leaves undecided are refined further, round by round, while the

@@ -50,8 +50,8 @@ void add_program_options(Command& command, ProgramOptions& options) {
   command
       .add_option(
           "--tolerances", options.tolerances,
-          "Levels of commands with {tolerance} and of plug-ins that refine by tolerance: one a decade, "
-          "or a list. Default: 1e-3:1e-10.")
+          "Levels of adaptive METHODs, of commands with {tolerance} and of plug-ins that refine by "
+          "tolerance: one a decade, or a list. Default: 1e-3:1e-10.")
       ->option_text("a:b|x,y,...");
   command
       .add_option(
@@ -84,7 +84,6 @@ void require_any(const ProgramOptions& options) {
   };
   refuse_given("--name", !options.names.empty());
   refuse_given("--expect", !options.expect.empty());
-  refuse_given("--tolerances", !options.tolerances.empty());
   refuse_given("--timeout", !options.timeout.empty());
   refuse_given("--work", !options.work.empty());
   refuse_given("--fresh", options.fresh);

@@ -31,7 +31,8 @@ class Help(CommandTest):
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--set", "--levels", "--coarsest", "--neighbours",
                           "--budget", "--exec", "--plugin", "--name", "--expect", "--tolerances", "--timeout",
-                          "--work", "--fresh", "--jobs", "--require", "--baseline", "--report"]}
+                          "--work", "--fresh", "--jobs", "--require", "--baseline", "--only",
+                          "--report"]}
         for command, options in own.items():
             text = self.good(command, "--help").split("\nOptions\n")[1]
             named = re.findall(r"^  (?:-h,)?(--[a-z-]+)", text, re.M)

@@ -44,6 +44,16 @@ class Verdicts(CommandTest):
         self.assertEqual(len(names), len(self.json_of("list", "pairs")["rows"]))
         self.refused("verify", "--all", "rk4", code="bad-syntax", says="--all")
 
+    def test_only_shows_the_verdicts_asked_for(self):
+        done = run("verify", "rk4", "newmark+penalty:stiffness=100", *SHORT, "--only", "agrees")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("Only agrees: 1 of 2 methods.", done.stdout)
+        self.assertNotIn("newmark", done.stdout.split("Of 2 methods")[0].split("Only")[1])
+        self.refused("verify", "--only", "disagree", code="unknown-name",
+                     says='Did you mean "disagrees"?')
+        self.refused("verify", "--only", "agrees", "--format", "json", code="bad-syntax",
+                     says="--only: this is for tables")
+
 
 class Requirements(CommandTest):
     def test_decide_the_exit_code_and_name_what_fails(self):

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "clackers/assess/errors/error_sink.hpp"
 #include "clackers/cases/case.hpp"
@@ -65,6 +66,36 @@ double observed_order(const methods::Method& method, const cases::Case& which, d
   return numerics::fit_line(x, y).slope;
 }
 
+// Slopes of the error over the mean step and over the tolerance, of an adaptive method. Where
+// impacts end many of its steps there is no mean one: `in_mean_step` is nothing.
+struct AdaptiveOrder {
+  std::optional<double> in_mean_step;
+  double in_tolerance;
+};
+AdaptiveOrder adaptive_order(const methods::Method& method, const cases::Case& which) {
+  std::vector<double> steps, tolerances, errors;
+  bool has_mean_step = true;
+  for (int i = 0; i <= 8; ++i) {
+    const double tolerance = std::pow(10.0, -6.0 - 0.5 * i);
+    const double scale = which.problem.end / 1e4;  // of the matcher of impacts, which are not used
+    assess::ErrorSink sink(*which.motion, which.problem, scale);
+    const auto outcome =
+        method.prepare(which.problem, methods::Resolution::by_tolerance(tolerance))->advance(sink);
+    EXPECT_TRUE(outcome.finished) << outcome.detail;
+    const double error = sink.score(outcome).u_error;
+    if (i > 5 && error < 3e-12) break;
+    const auto events = outcome.work.event_searches;
+    has_mean_step = has_mean_step && 20 * events < outcome.work.steps;
+    // A step that an event ends is half of one on average.
+    steps.push_back(-std::log(double(outcome.work.steps) - 0.5 * double(events)));
+    tolerances.push_back(std::log(tolerance));
+    errors.push_back(std::log(error));
+  }
+  AdaptiveOrder found{{}, numerics::fit_line(tolerances, errors).slope};
+  if (has_mean_step) found.in_mean_step = numerics::fit_line(steps, errors).slope;
+  return found;
+}
+
 // The largest error of eight neighbouring steps.
 double envelope(const methods::Method& method, const cases::Case& which, double coarsest) {
   double worst = 0.0;
@@ -107,6 +138,19 @@ class ImpactOrder : public testing::TestWithParam<std::string> {
     EXPECT_GE(measured, 1) << "no case measures the claim of " << facts.name;
   }
 
+  void expect_floor_by_tolerance(const cases::Case& which) const {
+    const auto error = [&](double tolerance) {
+      assess::ErrorSink sink(*which.motion, which.problem, which.problem.end / 1e4);
+      const auto run = chosen->prepare(which.problem, methods::Resolution::by_tolerance(tolerance));
+      const auto outcome = run->advance(sink);
+      EXPECT_TRUE(outcome.finished) << outcome.detail;
+      return sink.score(outcome).u_error;
+    };
+    const double coarse = error(1e-8), fine = error(1e-10);
+    EXPECT_GT(fine, 1e-4);
+    EXPECT_NEAR(fine / coarse, 1.0, 0.1);
+  }
+
   std::shared_ptr<const methods::Method> chosen = methods::method(GetParam());
   methods::Facts facts = chosen->facts();
 };
@@ -116,6 +160,19 @@ TEST_P(ImpactOrder, IsTheClaimedOne) {
   switch (claim.behaviour) {
     case Behaviour::proper:
       return for_each_case([&](const cases::Case& which, double coarsest) {
+        if (methods::claim_on(facts, which.problem, true).behaviour == Behaviour::exact) {
+          for (const double h : {0.4, 0.05})
+            EXPECT_LT(error_of(*chosen, which, std::round(which.problem.end / h)), 1e-11) << h;
+          return;
+        }
+        if (facts.is_adaptive) {
+          const auto found = adaptive_order(*chosen, which);
+          if (found.in_mean_step) {
+            EXPECT_NEAR(*found.in_mean_step, claim.order, 0.1 * claim.order);
+          }
+          EXPECT_NEAR(found.in_tolerance, 1.0, 0.15);
+          return;
+        }
         EXPECT_NEAR(observed_order(*chosen, which, coarsest), claim.order, 0.1 * claim.order);
       });
     case Behaviour::exact:
@@ -137,6 +194,7 @@ TEST_P(ImpactOrder, IsTheClaimedOne) {
     }
     case Behaviour::stagnating:
       return for_each_case([&](const cases::Case& which, double) {
+        if (facts.is_adaptive) return expect_floor_by_tolerance(which);
         // At 25 steps a contact or more the error no longer falls, and it is not rounding. The error
         // of first order falls below it later.
         const double steps = (facts.smooth_order > 1.5 ? 25.0 : 400.0) * which.problem.end /

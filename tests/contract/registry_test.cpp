@@ -38,6 +38,10 @@ model::ImpactProblem<> row_of(int n, double eta) {
   return p;
 }
 
+Resolution resolution_of(const Method& method, double h) {
+  return method.facts().is_adaptive ? Resolution::by_tolerance(1e-6) : Resolution(h);
+}
+
 class EveryMethod : public testing::TestWithParam<std::string> {
  protected:
   std::shared_ptr<const Method> chosen = method(GetParam());
@@ -68,23 +72,48 @@ TEST_P(EveryMethod, RefusesStepsThatAreNotPositiveAndFinite) {
     EXPECT_THROW(chosen->prepare(row_of(2, 1.0), h), InputError) << "h = " << h;
 }
 
+TEST_P(EveryMethod, TakesAStepOrATolerance) {
+  const bool is_adaptive = chosen->facts().is_adaptive;
+  const auto problem = row_of(2, 1.0);
+  const auto refused = [&](const Resolution& resolution) {
+    return test::refusal_of([&] { chosen->prepare(problem, resolution); });
+  };
+  const auto name = chosen->facts().name;
+  if (!is_adaptive) {
+    EXPECT_EQ(
+        refused(Resolution::by_tolerance(1e-6)),
+        name + ": tolerance = 1e-06; allowed: a step; it is not adaptive. [wrong-resolution]");
+    return;
+  }
+  EXPECT_EQ(refused(0.01), name +
+                               ": h = 0.01; allowed: a tolerance; it chooses its steps itself. "
+                               "[wrong-resolution]");
+  EXPECT_EQ(refused(Resolution::by_tolerance(1e-15)),
+            name +
+                ": tolerance = 1e-15; allowed: tolerance >= 2.2e-14. Rounding of a step is larger "
+                "than a smaller one. [tolerance-too-small]");
+  for (const double tolerance : {0.0, -1e-6, 1.0})
+    EXPECT_NE(refused(Resolution::by_tolerance(tolerance)).find("[out-of-range]"),
+              std::string::npos)
+        << tolerance;
+}
+
 TEST_P(EveryMethod, RefusesAnUnsoundProblem) {
   auto problem = row_of(2, 1.0);
   problem.system.mass(0, 0) = -1.0;
-  EXPECT_THROW(chosen->prepare(problem, 0.1), InputError);
+  EXPECT_THROW(chosen->prepare(problem, resolution_of(*chosen, 0.1)), InputError);
 }
 
 void expect_refused_as_objected(const Method& method, const model::ImpactProblem<>& problem,
                                 const Objection& objection) {
   EXPECT_EQ(objection.sentence.find(method.facts().name), 0u) << objection.sentence;
-  EXPECT_EQ(test::refusal_of([&] { method.prepare(problem, 0.01); }),
+  EXPECT_EQ(test::refusal_of([&] { method.prepare(problem, resolution_of(method, 0.01)); }),
             objection.sentence + " [" + std::string(objection.code.name()) + "]");
 }
 
 void expect_whole_run(const Method& method, const model::Trajectory& path,
                       const model::Outcome& outcome, int n) {
   ASSERT_TRUE(outcome.finished) << outcome.detail;
-  ASSERT_EQ(path.t.size(), 2001u);
   EXPECT_EQ(path.dof, n);
   EXPECT_EQ(path.t.front(), 0.5);
   EXPECT_EQ(path.t.back(), 10.5);
@@ -94,7 +123,14 @@ void expect_whole_run(const Method& method, const model::Trajectory& path,
   EXPECT_GE(path.impacts->size(), 1u);
   const bool diverges = method.facts().through_impacts.behaviour == Behaviour::divergent;
   for (const double u : path.u) ASSERT_LT(std::abs(u), diverges ? 50.0 : 5.0);
-  EXPECT_EQ(outcome.work.steps, 2000);
+  if (method.facts().is_adaptive) {
+    // A step that an event ends has no row.
+    EXPECT_GE(outcome.work.steps + 1, static_cast<long long>(path.t.size()));
+    EXPECT_LT(outcome.work.steps, 5000);
+  } else {
+    EXPECT_EQ(path.t.size(), 2001u);
+    EXPECT_EQ(outcome.work.steps, 2000);
+  }
   EXPECT_GT(outcome.work.force_evaluations, 0);
 }
 
@@ -108,7 +144,7 @@ TEST_P(EveryMethod, RunsOrRefusesWithItsReason) {
         continue;
       }
       model::TrajectorySink sink(true);
-      const auto outcome = chosen->prepare(problem, 0.005)->advance(sink);
+      const auto outcome = chosen->prepare(problem, resolution_of(*chosen, 0.005))->advance(sink);
       expect_whole_run(*chosen, sink.trajectory(), outcome, n);
       EXPECT_EQ(chosen->contact_time(problem) > 0.0,
                 chosen->facts().through_impacts.reason == "contact-stiffness");
@@ -121,6 +157,25 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, testing::ValuesIn(pairs()), [](c
       name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;
 });
+
+TEST(Registry, RefusesThePairsItLeavesOutWithAReason) {
+  const auto all = pairs();
+  int refused = 0;
+  for (const auto& one : entries())
+    for (const auto& other : entries()) {
+      if (one.kind != "integrator" || other.kind != "contact") continue;
+      const auto name = one.name + '+' + other.name;
+      const auto no = method(name)->objection(row_of(2, 1.0));
+      const bool is_taken = std::ranges::find(all, name) != all.end();
+      if (is_taken) continue;
+      ASSERT_TRUE(no) << name;
+      EXPECT_EQ(no->sentence.find(name), 0u) << no->sentence;
+      EXPECT_TRUE(no->code == Code("integrator-not-taken") || no->code == Code("linear-only"));
+      expect_refused_as_objected(*method(name), row_of(2, 1.0), *no);
+      ++refused;
+    }
+  EXPECT_GT(refused, 0);
+}
 
 TEST(Registry, HasMethodsForTheDefaultPanel) {
   for (const auto& name : default_panel())

@@ -126,7 +126,8 @@ std::vector<Evidence> of_the_fit(const LadderFit& fit, const Ladder& ladder, con
   if (fit.cancel_step > 0.0) note(Code("errors-cancel").name(), {fit.cancel_step});
   if (fit.stable_step > 0.0) note(Code("unstable-coarse-steps").name(), {fit.stable_step});
   const bool unresolved = fit.reason == Code("contact-not-resolved").name();
-  if (facts.contact_time > 0.0 && (unresolved || fit.behaviour == Behaviour::stagnating))
+  if (facts.contact_time > 0.0 && !facts.by_tolerance &&
+      (unresolved || fit.behaviour == Behaviour::stagnating))
     note("steps-per-contact", {facts.contact_time / finest_run(ladder).step, facts.contact_time});
   const double order = claim.behaviour == Behaviour::irregular ? claim.order : fit.order;
   if (fit.on_envelope && fit.spread > envelope_order_tolerance * order)

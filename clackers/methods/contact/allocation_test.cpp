@@ -54,7 +54,7 @@ TEST(StepLoop, AllocatesNothingForAnyMethodAndSize) {
         if (chosen->objection(problem)) continue;
         // A penalty is a nonlinear force; Newton's iteration of general size may allocate.
         if (n > 2 && name.find("penalty") != std::string::npos) continue;
-        const auto prepared = chosen->prepare(problem, 0.01);
+        const auto prepared = chosen->prepare(problem, runs::resolution_of(*chosen, 0.01));
         CountingSink sink;
         is_counting = true;
         count = 0;

@@ -33,12 +33,13 @@ class EventDriven::Loop {
         constrained_(problem_.system, contacts_),
         free_stepper_(integrator.stepper(problem_.system, plan)),
         constrained_stepper_(integrator.stepper(constrained_.system(), plan)),
-        h_(plan.h),
+        h_(plan.is_adaptive() ? plan.end - plan.start : plan.h),
         is_suppressed_(contacts_.size(), false),
         is_struck_(contacts_.size(), false),
         from_(problem_.start),
         v_before_(problem_.start.v),
-        impulses_(contacts_.no_impulses()) {
+        impulses_(contacts_.no_impulses()),
+        is_adaptive_(plan.is_adaptive()) {
     closed_.reserve(contacts_.size());
     before_.reserve(contacts_.size());
   }
@@ -84,22 +85,37 @@ class EventDriven::Loop {
     is_suppressed_.assign(is_suppressed_.size(), false);
     is_struck_.assign(is_struck_.size(), false);
     from_ = before;
-    int events = 0;
+    if (!(before.t < counted_until_)) {
+      counted_until_ = t1;
+      counted_ = 0;
+    }
+    bool is_changed = false;
     while (true) {
       if (stepper().failed()) return ended(out.fail_step(t1, stepper().failure()));
       if (!now.u.allFinite() || !now.v.allFinite()) return ended(out.fail_diverged(t1));
       const auto event = first_event(now);
       if (!event) break;
-      if (++events > most_events)
+      if (++counted_ > most_events)
         return ended(out.fail("too-many-impacts", from_.t, "more than 1000 impacts in one step"));
       if (!apply(*event, now, out)) return Handled::ended;
+      is_changed = true;
+      if (is_adaptive_) {
+        if (is_suppressed_[event->contact]) continue;  // where the step began
+        now = from_;
+        stepper().restart(now);
+        return Handled::shortened;
+      }
       stepper().restart(from_);
       now = from_;
       if (t1 > from_.t) now = stepper().partial(from_, t1 - from_.t);
       now.t = t1;
     }
-    if (events == 0) return Handled::unchanged;
-    return finish_step(now, out) ? Handled::changed : Handled::ended;
+    if (passes_through(now, is_changed))
+      return ended(out.fail("too-many-impacts", from_.t,
+                            "impacts accumulate, closer than rounding of the time can separate"));
+    if (!is_changed) return Handled::unchanged;
+    stepper().restart(now);
+    return Handled::changed;
   }
 
  private:
@@ -118,6 +134,7 @@ class EventDriven::Loop {
   // False: the run ends.
   bool start(Recorder<Dof>& out) {
     searches_ = 0;
+    counted_until_ = problem_.start.t;
     free_stepper_->reset();
     constrained_stepper_->reset();
     constrained_.activate({}, problem_.start.u);
@@ -129,18 +146,17 @@ class EventDriven::Loop {
     return true;
   }
 
-  // The end of a step with events.
-  bool finish_step(const State& now, Recorder<Dof>& out) {
-    // Flights shorter than the rounding of time end before they are seen to reverse: going on would
-    // let the structure pass through the contact.
+  // Flights shorter than the rounding of time end before they are seen to reverse: going on would let
+  // the structure pass through the contact. Without an event in the step it was in one before, which
+  // left a contact violated.
+  bool passes_through(const State& now, bool has_event) const {
     for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (is_struck_[i] && !constrained_.is_active(i) && !is_suppressed_[i] &&
-          contacts_.gap_rate(i, now.v) < 0.0 &&
+      if ((is_struck_[i] ||
+           (!has_event && contacts_.gap(i, from_.u) < -contacts_.rounding(i, from_.u))) &&
+          !constrained_.is_active(i) && !is_suppressed_[i] && contacts_.gap_rate(i, now.v) < 0.0 &&
           contacts_.gap(i, now.u) < -contacts_.rounding(i, now.u))
-        return out.fail("too-many-impacts", from_.t,
-                        "impacts accumulate, closer than rounding of the time can separate");
-    stepper().restart(now);
-    return true;
+        return true;
+    return false;
   }
 
   // Moves from_ to the later side of an event between it and `now`. False: the run ends.
@@ -296,6 +312,9 @@ class EventDriven::Loop {
   Vector v_before_;
   Eigen::VectorXd impulses_;
   std::vector<std::size_t> closed_, before_;
+  bool is_adaptive_;
+  double counted_until_ = 0.0;  // events are counted until the end of a step as it was begun
+  int counted_ = 0;
   long long steps_ = 0, searches_ = 0;
 };
 

@@ -23,7 +23,8 @@ namespace clackers::methods {
 /// completes the rest of the step, so output stays on the grid. Crossings are looked for whenever
 /// the cubic through gap and gap rate at both ends of the step does not stay open, also when both
 /// ends are. A crossing with b_j . v >= 0 is grazing: the integrator is restarted there without an
-/// impulse.
+/// impulse. A step of an adaptive integrator ends at the event, located on the dense output; the state
+/// there is in the report of the impact alone.
 ///
 /// Contacts that are closed with gap rate 0, after an impact with eta = 0 or from a start at rest,
 /// are active constraints where their accelerations A and forces F say so: 0 <= A _|_ F >= 0,

@@ -103,6 +103,14 @@ std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& proble
   return all;
 }
 
+std::optional<Objection> Penalty::objection_to(const Facts& method) const {
+  if (!method.is_linear_only) return std::nullopt;
+  return Objection{method.name +
+                       ": the force of a compliant contact is nonlinear, and the step is exact for "
+                       "linear ones alone. Use event-driven.",
+                   "linear-only"};
+}
+
 std::optional<Objection> Penalty::objection(const Facts& method,
                                             const model::ImpactProblem<>& problem) const {
   const auto& chosen = compliant_law(law);

@@ -69,6 +69,8 @@ struct Penalty {
   void validate() const;
   Claim claim(const Facts& integrator) const;
   double model_order() const;
+  /// To those of linear motion alone.
+  std::optional<Objection> objection_to(const Facts& method) const;
   std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const;
   /// The shortest of the contacts', at the largest approach speed that the energy at the start

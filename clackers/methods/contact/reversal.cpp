@@ -16,6 +16,14 @@ const std::vector<Field<Reversal>>& Reversal::fields() {
 
 Claim Reversal::claim(const Facts&) const { return {Behaviour::irregular, 1.0, {}}; }
 
+std::optional<Objection> Reversal::objection_to(const Facts& method) const {
+  if (!method.is_adaptive) return std::nullopt;
+  return Objection{method.name +
+                       ": reversal errs by the step in which an impact falls, and an adaptive "
+                       "integrator chooses its steps without regard to impacts. Use event-driven.",
+                   "integrator-not-taken"};
+}
+
 std::optional<Objection> Reversal::objection(const Facts& method,
                                              const model::ImpactProblem<>& problem) const {
   return objection_to_closed_contacts(method.name, problem);

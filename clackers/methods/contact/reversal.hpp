@@ -37,6 +37,8 @@ struct Reversal {
 
   void validate() const {}
   Claim claim(const Facts& integrator) const;
+  /// To adaptive ones.
+  std::optional<Objection> objection_to(const Facts& method) const;
   std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const;
   double contact_time(const model::ImpactProblem<>&) const { return 0.0; }

@@ -20,52 +20,11 @@ constexpr Tableau<4> three_eighths{.order = 4.0,
                                    .a = {{{}, {1.0 / 3}, {-1.0 / 3, 1.0}, {1.0, -1.0, 1.0}}},
                                    .b = {1.0 / 8, 3.0 / 8, 3.0 / 8, 1.0 / 8}};
 
-constexpr Tableau<6> tsitouras{
-    .order = 5.0,
-    .a = {{{},
-           {0.161},
-           {-0.008480655492356989, 0.335480655492357},
-           {2.8971530571054935, -6.359448489975075, 4.3622954328695815},
-           {5.325864828439257, -11.748883564062828, 7.4955393428898365, -0.09249506636175525},
-           {5.86145544294642, -12.92096931784711, 8.159367898576159, -0.071584973281401,
-            -0.028269050394068383}}},
-    .b = {0.09646076681806523, 0.01, 0.4798896504144996, 1.379008574103742, -3.290069515436081,
-          2.324710524099774}};
-
-// |R(i y)| of  R(z) = 1 + sum_k b A^(k-1) 1 z^k.
-double amplification(const std::vector<double>& coefficients, double y) {
-  double real = 1.0, imaginary = 0.0, power = 1.0;
-  for (std::size_t k = 1; k <= coefficients.size(); ++k) {
-    power *= y;
-    const double term = k % 4 < 2 ? coefficients[k - 1] * power : -coefficients[k - 1] * power;
-    (k % 2 == 0 ? real : imaginary) += term;
-  }
-  return std::hypot(real, imaginary);
-}
-
-template <int Stages>
-double limit_of(const Tableau<Stages>& table) {
-  std::array<double, Stages> x;
-  x.fill(1.0);
-  std::vector<double> coefficients;
-  for (int k = 0; k < Stages; ++k) {
-    double sum = 0.0;
-    std::array<double, Stages> next{};
-    for (std::size_t i = 0; i < Stages; ++i) {
-      sum += table.b[i] * x[i];
-      for (std::size_t j = 0; j < Stages; ++j) next[i] += table.a[i][j] * x[j];
-    }
-    coefficients.push_back(sum);
-    x = next;
-  }
-  return stability_limit([&](double y) { return amplification(coefficients, y); });
-}
-
 }  // namespace
 
 template <const auto& Table>
 Facts RungeKutta<Table>::facts() const {
-  return {.smooth_order = Table.order, .stability_limit = limit_of(Table)};
+  return {.smooth_order = Table.order, .stability_limit = limit_of(Table.a, Table.b, Table.stages)};
 }
 
 std::vector<Row> runge_kutta_methods() {
@@ -128,7 +87,7 @@ Cost        four force evaluations a step.
 Source      W. Kutta, Z. Math. Phys. 46, 435-453 (1901).
 )"}),
       row<RungeKutta<dormand_prince>>(
-          {"dopri5",
+          {"dopri5-fixed-step",
            "Dormand and Prince's method of order five, with a fixed step",
            {},
            [](Values) { return RungeKutta<dormand_prince>{}; },
@@ -145,7 +104,7 @@ Cost        six force evaluations a step.
 Source      J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6, 19-26 (1980).
 )"}),
       row<RungeKutta<tsitouras>>(
-          {"tsit5",
+          {"tsit5-fixed-step",
            "Tsitouras' method of order five, with a fixed step",
            {},
            [](Values) { return RungeKutta<tsitouras>{}; },

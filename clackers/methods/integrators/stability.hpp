@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 namespace clackers::methods {
 
 /// The end of the interval of omega h, from 0 on, on which an undamped motion does not grow; 0 if it
@@ -13,6 +16,26 @@ double stability_limit(const Radius& radius) {
   for (double step = 0.01; step > 1e-12; step *= 0.5)
     while (!grows(stable + step)) stable += step;
   return stable;
+}
+
+/// |R(i y)| of  R(z) = 1 + sum_k coefficients_k z^(k+1).
+double amplification(const std::vector<double>& coefficients, double y);
+
+/// The limit of an explicit Runge-Kutta method; its coefficients are b A^k 1.
+template <class Table, class Weights>
+double limit_of(const Table& a, const Weights& b, std::size_t stages) {
+  std::vector<double> x(stages, 1.0), coefficients;
+  for (std::size_t k = 0; k < stages; ++k) {
+    double sum = 0.0;
+    std::vector<double> next(stages);
+    for (std::size_t i = 0; i < stages; ++i) {
+      sum += b[i] * x[i];
+      for (std::size_t j = 0; j < stages; ++j) next[i] += a[i][j] * x[j];
+    }
+    coefficients.push_back(sum);
+    x = next;
+  }
+  return stability_limit([&](double y) { return amplification(coefficients, y); });
 }
 
 /// The spectral radius of a real matrix of two rows, by its trace and determinant.

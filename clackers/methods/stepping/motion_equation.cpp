@@ -12,6 +12,15 @@ namespace {
 constexpr int most_iterations = 50;
 constexpr int undamped_iterations = 5;  // enough where the iteration converges quadratically
 
+// Gauss' rule of four points on [0, 1].
+struct Point {
+  double at, weight;
+};
+constexpr Point gauss[] = {{0.06943184420297371239, 0.17392742256872692869},
+                           {0.33000947820757186760, 0.32607257743127307131},
+                           {0.66999052179242813240, 0.32607257743127307131},
+                           {0.93056815579702628761, 0.17392742256872692869}};
+
 }  // namespace
 
 template <int Dof>
@@ -22,10 +31,16 @@ MotionEquation<Dof>::MotionEquation(const model::SmoothSystem<Dof>& system)
       v_(r_),
       magnitude_(r_),
       term_(r_),
+      point_(r_),
+      part_(r_),
+      stage_u_(r_),
+      stage_v_(r_),
       correction_(r_),
       matrix_(Matrix::Zero(system.dof(), system.dof())),
       dp_du_(matrix_),
       dp_dv_(matrix_),
+      by_chord_(matrix_),
+      other_(matrix_),
       by_u_(matrix_),
       by_v_(matrix_),
       tangent_(system.dof()) {
@@ -74,8 +89,33 @@ void MotionEquation<Dof>::add_load(const LoadTime& load, Vector& to) {
 template <int Dof>
 void MotionEquation<Dof>::subtract_nonlinear(const Vector& u, const Vector& v, Vector& r) {
   magnitude_.setZero();
-  s_.nonlinear->add(u, v, magnitude_);
+  if (chord_ == nullptr) {
+    s_.nonlinear->add(u, v, magnitude_);
+  } else {
+    for (const auto& [at, weight] : gauss) {
+      point_ = *chord_ + 2.0 * at * (u - *chord_);
+      part_.setZero();
+      s_.nonlinear->add(point_, v, part_);
+      magnitude_ += weight * part_;
+    }
+  }
   r -= magnitude_;
+}
+
+// dp_du_ and dp_dv_ at (u, v).
+template <int Dof>
+void MotionEquation<Dof>::add_tangent(const Vector& u, const Vector& v) {
+  dp_du_.setZero();
+  dp_dv_.setZero();
+  if (chord_ == nullptr) return s_.nonlinear->add_tangent(u, v, dp_du_, dp_dv_);
+  for (const auto& [at, weight] : gauss) {
+    point_ = *chord_ + 2.0 * at * (u - *chord_);
+    by_chord_.setZero();
+    other_.setZero();
+    s_.nonlinear->add_tangent(point_, v, by_chord_, other_);
+    dp_du_ += 2.0 * at * weight * by_chord_;
+    dp_dv_ += weight * other_;
+  }
 }
 
 // Newton's iteration down to rounding, so that no tolerance can limit an observed order. A correction
@@ -88,9 +128,7 @@ bool MotionEquation<Dof>::solve_nonlinear(const LoadTime& load, const Weights& w
   for (int i = 0; i < most_iterations; ++i) {
     u_ = u0 + w.u * a;
     v_ = v0 + w.v * a;
-    dp_du_.setZero();
-    dp_dv_.setZero();
-    s_.nonlinear->add_tangent(u_, v_, dp_du_, dp_dv_);
+    add_tangent(u_, v_);
     const bool is_solved = balance(load, w, u0, v0, a, shift);
     ++tally_.evaluations;
     if (is_solved) return true;
@@ -141,6 +179,46 @@ bool MotionEquation<Dof>::balance(const LoadTime& load, const Weights& w, const 
   for (Eigen::Index i = 0; i < r_.size(); ++i)
     if (!(std::abs(r_[i]) <= factor * magnitude_[i])) return false;
   return true;
+}
+
+template <int Dof>
+void MotionEquation<Dof>::solve_stages(double t, double h, const StageTable& table,
+                                       const Vector& u0, const Vector& v0, std::span<Vector> a) {
+  const auto n = u0.size();
+  const int count = table.stages;
+  stages_.resize(count * n);
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    bool is_solved = true;
+    for (int i = 0; i < count; ++i) {
+      u_ = u0 + table.time(i) * h * v0;
+      v_ = v0;
+      for (int j = 0; j < count; ++j) {
+        u_ += h * h * table.second(i, j) * a[std::size_t(j)];
+        v_ += h * table.first(i, j) * a[std::size_t(j)];
+      }
+      add_tangent(u_, v_);
+      const Weights own{1.0, h * table.first(i, i), h * h * table.second(i, i)};
+      auto& a_i = a[std::size_t(i)];
+      stage_u_ = u_ - own.u * a_i;
+      stage_v_ = v_ - own.v * a_i;
+      is_solved =
+          balance(t + table.time(i) * h, own, stage_u_, stage_v_, a_i, nullptr) && is_solved;
+      ++tally_.evaluations;
+      stages_.right.segment(i * n, n) = r_;
+      for (int j = 0; j < count; ++j) {
+        auto block = stages_.matrix.block(i * n, j * n, n, n);
+        block = h * table.first(i, j) * (s_.damping + dp_dv_) +
+                h * h * table.second(i, j) * (s_.stiffness + dp_du_);
+        if (i == j) block += s_.mass;
+      }
+    }
+    if (is_solved) return;
+    stages_.solve();
+    for (int i = 0; i < count; ++i) a[std::size_t(i)] += stages_.solution.segment(i * n, n);
+    ++tally_.iterations;
+    ++tally_.factorizations;
+  }
+  fail("newton-failed");
 }
 
 template class MotionEquation<1>;

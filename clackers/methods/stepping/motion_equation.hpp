@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "clackers/base/codes.hpp"
+#include "clackers/methods/stepping/linear_step.hpp"
 #include "clackers/model/run.hpp"
 #include "clackers/model/system.hpp"
 #include "clackers/numerics/spd_solver.hpp"
@@ -98,8 +99,14 @@ class MotionEquation {
   /// Those made until now stay until drop_all().
   void keep() { kept_ = used_; }
   /// Drops those made since keep().
-  void drop_parts() { used_ = kept_; }
-  void drop_all() { used_ = kept_ = 0; }
+  void drop_parts() {
+    used_ = kept_;
+    linear_steps_[1].h = 0.0;
+  }
+  void drop_all() {
+    used_ = kept_ = 0;
+    for (auto& step : linear_steps_) step.h = 0.0;
+  }
 
   /// Solves  M (a_weight a + shift) + C v + K u + p(u, v) = f  for a, with u = u0 + u_weight a
   /// and v = v0 + v_weight a; without `shift` it counts as 0. It fails where Newton's iteration,
@@ -116,6 +123,44 @@ class MotionEquation {
     if (s_.add_load) add_load(load, a);
     factorized(w).solve_in_place(a);
     ++tally_.evaluations;
+  }
+
+  /// The same with the mean of p over the chord from u_start to u_start + 2 (u - u_start) in place
+  /// of p(u, v), by four points of Gauss: exact for polynomials of degree 7.
+  void solve_along_chord(const Vector& u_start, const LoadTime& load, const Weights& w,
+                         const Vector& u0, const Vector& v0, Vector& a) {
+    chord_ = &u_start;
+    solve(load, w, u0, v0, a);
+    chord_ = nullptr;
+  }
+
+  /// Solves all stages of a collocation method at once for their accelerations a_i, where there is a
+  /// nonlinear force; see StageTable.
+  void solve_stages(double t, double h, const StageTable& table, const Vector& u0, const Vector& v0,
+                    std::span<Vector> a);
+
+  /// The map of a linear system over h that build(LinearStep&) fills; made only once until it is
+  /// dropped.
+  template <class Build>
+  const LinearStep& linear_step(double h, const Build& build) {
+    auto& first = linear_steps_[0];
+    if (first.h == h) [[likely]]
+      return first;
+    auto& step = first.h == 0.0 ? first : linear_steps_[1];
+    if (step.h == h) return step;
+    step.h = h;
+    build(step);
+    ++tally_.factorizations;
+    if (&step == &first) {
+      linear_steps_[1] = first;  // allocates
+      linear_steps_[1].h = 0.0;
+    }
+    return step;
+  }
+  /// Moves (u, v) by a linear step from t.
+  void apply(const LinearStep& step, double t, Vector& u, Vector& v) {
+    step.apply(s_.add_load, t, u.data(), v.data());
+    tally_.evaluations += s_.add_load ? step.loads : 1;
   }
 
   /// True after something has failed; the state computed since is meaningless.
@@ -152,6 +197,7 @@ class MotionEquation {
   const Solver& factorize(const Weights& w);
   void add_load(const LoadTime& load, Vector& to);
   void subtract_nonlinear(const Vector& u, const Vector& v, Vector& r);
+  void add_tangent(const Vector& u, const Vector& v);
   bool solve_nonlinear(const LoadTime& load, const Weights& w, const Vector& u0, const Vector& v0,
                        Vector& a, const Vector* shift);
   bool balance(const LoadTime& load, const Weights& w, const Vector& u0, const Vector& v0,
@@ -160,11 +206,15 @@ class MotionEquation {
   const model::SmoothSystem<Dof>& s_;
   Solver mass_;
   Vector r_, u_, v_, magnitude_, term_, correction_;
-  Matrix matrix_, dp_du_, dp_dv_;
+  Vector point_, part_, stage_u_, stage_v_;
+  Matrix matrix_, dp_du_, dp_dv_, by_chord_, other_;
   Matrix by_u_, by_v_;  // -M^-1 K and -M^-1 C: a = by_u u + by_v v
   Eigen::PartialPivLU<Matrix> tangent_;
   std::array<Factors, most_factors> factors_;
   std::size_t used_ = 0, kept_ = 0;
+  std::array<LinearStep, 2> linear_steps_;  // of a step, and of a part of one
+  const Vector* chord_ = nullptr;           // its start, where p is a mean over one
+  StageSolver stages_;
   std::array<Vector, most_scratch> scratch_;
   bool is_free_ = true;
   Tally tally_;

@@ -34,10 +34,12 @@ bool Recorder<Dof>::fail_diverged(double t) {
 
 template <int Dof>
 bool Recorder<Dof>::fail_step(double t, Code failure) {
-  const auto why = failure == Code("newton-failed")
-                       ? "Newton's iteration found no solution of the step"
-                       : "the effective mass matrix of a part of the step is not positive definite";
-  return fail(failure, t, why);
+  if (failure == Code("newton-failed"))
+    return fail(failure, t, "Newton's iteration found no solution of the step");
+  if (failure == Code("step-too-small"))
+    return fail(failure, t, "the tolerance asks for steps that rounding of the time hides");
+  return fail(failure, t,
+              "the effective mass matrix of a part of the step is not positive definite");
 }
 
 template <int Dof>

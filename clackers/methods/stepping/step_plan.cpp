@@ -38,17 +38,44 @@ StepPlan plan_steps(std::string_view who, double start, double end, double h) {
   return plan;
 }
 
+double require_tolerance(std::string_view who, double tolerance) {
+  if (!(tolerance > 0.0 && tolerance < 1.0))
+    refuse(who, "tolerance", tolerance, "0 < tolerance < 1, the relative error of a step");
+  if (!(tolerance >= least_tolerance))
+    refuse(who, "tolerance", tolerance, fmt::format("tolerance >= {:.2g}", least_tolerance),
+           "Rounding of a step is larger than a smaller one.", "tolerance-too-small");
+  return tolerance;
+}
+
+StepPlan plan_adaptive(std::string_view who, double start, double end, double tolerance) {
+  constexpr long long most = std::numeric_limits<long long>::max();
+  return {.start = start,
+          .end = end,
+          .h = std::numeric_limits<double>::quiet_NaN(),
+          .whole = most,
+          .total = most,
+          .tolerance = require_tolerance(who, tolerance)};
+}
+
 StepPlan checked_plan(const Method& method, const model::ImpactProblem<>& problem,
                       const Resolution& resolution) {
-  const auto who = method.facts().name;
-  if (resolution.is_tolerance())
+  const auto facts = method.facts();
+  const auto& who = facts.name;
+  if (resolution.is_tolerance() && !facts.is_adaptive)
     refuse(who, "tolerance", resolution.tolerance, "a step; it is not adaptive", {},
            "wrong-resolution");
-  const double h = resolution.step;
-  require_step(who, h);
+  if (!resolution.is_tolerance() && facts.is_adaptive)
+    refuse(who, "h", resolution.step, "a tolerance; it chooses its steps itself", {},
+           "wrong-resolution");
+  if (facts.is_adaptive)
+    require_tolerance(who, resolution.tolerance);
+  else
+    require_step(who, resolution.step);
   model::validate(problem);
   if (const auto no = method.objection(problem)) throw InputError(no->sentence, no->code);
-  return plan_steps(who, problem.start.t, problem.end, h);
+  if (facts.is_adaptive)
+    return plan_adaptive(who, problem.start.t, problem.end, resolution.tolerance);
+  return plan_steps(who, problem.start.t, problem.end, resolution.step);
 }
 
 }  // namespace clackers::methods

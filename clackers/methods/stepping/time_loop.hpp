@@ -15,6 +15,7 @@ enum class Handled {
   ended,      ///< the run
   changed,    ///< the end of the step; the stepper has been started there
   unchanged,  ///< the step is made again; the stepper is at its beginning
+  shortened,  ///< as changed, and the step ends earlier, at an event: `now` is no state of output
 };
 
 /// The loop over the steps of a run, in blocks. A contact treatment has
@@ -41,7 +42,8 @@ class TimeLoop {
     states_[0] = start;
     if (!out.append(start)) return 0;
     std::size_t length = shortest;
-    for (long long k = 0; k < plan_.total;) {
+    long long k = 0;
+    while (states_[0].t != plan_.end) {
       if (k == plan_.whole) return k + (last_step(treatment, out) ? 1 : 0);
       length = std::min(
           {length, AnyStepper<Dof>::most_steps, static_cast<std::size_t>(plan_.whole - k)});
@@ -81,11 +83,12 @@ class TimeLoop {
         }
       }
       ++k;
-      if (!out.append(now_)) return k;
+      const bool is_output = handled != Handled::shortened || now_.t == plan_.end;
+      if (is_output && !out.append(now_)) return k;
       states_[0] = now_;
       length = shortest;
     }
-    return plan_.total;
+    return k;
   }
 
  private:

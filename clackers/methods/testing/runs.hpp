@@ -18,10 +18,16 @@ struct Result {
   model::Outcome outcome;
 };
 
+/// A step, or for adaptive methods a tolerance whose steps are not longer on problems of this size.
+inline Resolution resolution_of(const Method& method, double h) {
+  return method.facts().is_adaptive ? Resolution::by_tolerance(1e-8) : Resolution(h);
+}
+
 inline Result run(const std::string& specification, const model::ImpactProblem<>& problem,
                   double h) {
   model::TrajectorySink sink(true);
-  const auto outcome = method(specification)->prepare(problem, h)->advance(sink);
+  const auto chosen = method(specification);
+  const auto outcome = chosen->prepare(problem, resolution_of(*chosen, h))->advance(sink);
   return {sink.trajectory(), outcome};
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "clackers/report/format.hpp"
 #include "clackers/report/testing/sample_record.hpp"
 #include "clackers/report/testing/written.hpp"
@@ -41,6 +43,53 @@ TEST(Text, ARowHasErrorOrderCollisionsCostBehaviourAndVerdict) {
   // times, three times it in energy; 20 s / h forces at the smallest step, 2^(7/8) times smaller.
   const auto text = text_of_record(sample_record());
   EXPECT_TRUE(has(text, " 1.2e-7 2.01±0.01   6/6  4.1e-8  3.7e-7 93901 proper     agrees")) << text;
+}
+
+// Twelve methods with two treatments, of which two disagree.
+study::Record record_of_many() {
+  auto record = sample_record();
+  auto& subjects = record.cases[0].subjects;
+  const auto sound = subjects[0];
+  subjects.clear();
+  for (const char* treatment : {"", "+penalty"})
+    for (const char* name : {"explicit-generalized-alpha", "linear-acceleration", "newmark", "rk4",
+                             "chang", "kr-alpha:rho=0.9"}) {
+      subjects.push_back(sound);
+      subjects.back().name = std::string(name) + treatment;
+    }
+  for (const std::size_t i : {8u, 9u}) {
+    subjects[i].assessment.verdict = Verdict::disagrees;
+    subjects[i].assessment.reason = "contact-stiffness";
+  }
+  return record;
+}
+
+TEST(Text, ManyMethodsStandInALineEachBelowTheirTreatment) {
+  const auto lines = lines_of(text_of_record(record_of_many()));
+  const auto place = [&](const std::string& start) {
+    return std::ranges::find_if(lines, [&](const auto& line) { return line.starts_with(start); }) -
+           lines.begin();
+  };
+  EXPECT_EQ(place("newmark  ") - place("penalty, 6 methods"), 1);
+  EXPECT_EQ(place("event-driven, 6 methods") - place("penalty, 6 methods"), 8);
+  EXPECT_EQ(place("rk4  ") - place("newmark  "), 1);
+  EXPECT_TRUE(has(lines.at(std::size_t(place("explicit-generalized-alpha"))), "agrees"));
+  const auto is_against = [](const auto& line) { return line.ends_with(" disagrees"); };
+  EXPECT_EQ(std::ranges::count_if(lines, is_against), 2);
+  EXPECT_TRUE(has(text_of_record(record_of_many()), "newmark+penalty and 1 more with penalty: "));
+  for (const auto& line : lines) EXPECT_LE(display_width(line), 80u) << line;
+  EXPECT_FALSE(has(text_of_record(record_of_many()), "force"));
+  EXPECT_TRUE(has(text_of_record(record_of_many(), {.width = 120}), "force"));
+}
+
+TEST(Text, OnlyVerdictsAskedForAreShownAndAllAreCounted) {
+  const auto text = text_of_record(record_of_many(), {.only = {"disagrees"}});
+  EXPECT_TRUE(has(text, "Only disagrees: 2 of 12 methods.")) << text;
+  EXPECT_TRUE(has(text, "penalty, 2 methods\nnewmark"));
+  EXPECT_FALSE(has(text, "event-driven"));
+  EXPECT_TRUE(has(text, "Of 12 methods: 10 agree, 2 disagree"));
+  const auto none = text_of_record(record_of_many(), {.only = {"undecided", "not claimed"}});
+  EXPECT_TRUE(has(none, "Only undecided or not claimed: 0 of 12 methods.")) << none;
 }
 
 TEST(Text, OfHistoriesTheCauseAndTheAnswerStandBeforeTheNumbers) {

@@ -43,7 +43,7 @@ std::vector<SolverSubject> subjects_of(const ProgramRequest& request) {
 }
 
 std::vector<double> tolerances_of(const ProcessOptions& options) {
-  return options.tolerances.empty() ? tolerances_from("1e-3:1e-10") : options.tolerances;
+  return options.tolerances.empty() ? tolerances_from(default_tolerances) : options.tolerances;
 }
 
 std::vector<double> tolerances_from(std::string_view text) {

@@ -158,8 +158,11 @@ Record verify(const VerifyRequest& request, std::vector<SolverSubject> solvers,
   const auto problems = cases_of(request);
   auto record = empty_record(request, problems, has_plan);
   SolverStudies studies(request, problems, solvers, record, interrupt);
+  // Tolerances may be for the solvers alone.
+  auto of_methods = request;
+  if (!has_adaptive_method(request)) of_methods.tolerances.clear();
   // Progress of either comes in rounds of its own.
-  if (!request.methods.empty()) record = verify(request, progress, interrupt);
+  if (!request.methods.empty()) record = verify(of_methods, progress, interrupt);
   studies.run(progress);
   return record;
 }

@@ -76,9 +76,13 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   const double start = processor_time();
   const auto& method = plan.methods[task.method];
   const auto& motion = *plan.problem.motion;
-  const auto run = method.method->prepare(plan.problem.problem, task.step);
+  const bool by_tolerance = method.subject.resolution == Resolution::tolerance;
+  const auto run = method.method->prepare(
+      plan.problem.problem,
+      by_tolerance ? methods::Resolution::by_tolerance(task.step) : methods::Resolution(task.step));
+  const double step = by_tolerance ? plan.summary.end / double(task.steps) : task.step;
   assess::ErrorSink errors(
-      motion, plan.problem.problem, task.step,
+      motion, plan.problem.problem, step,
       {.impacts_are_reported = method.reports_impacts, .history_bins = task.history_bins});
   model::TrajectorySink stored(method.reports_impacts);
   RunRecorder recorder(errors, task.metrics ? &stored : nullptr);
@@ -87,6 +91,7 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   if (outcome.stopped_by_sink) return {};
   AssessedRun result;
   result.run.score = errors.score(outcome);
+  result.run.score.step = task.step;
   if (task.history_bins > 0) result.run.error_history = curve_of(errors.history(), motion.dof());
   result.seconds = processor_time() - start;
   if (!outcome.finished) return result;

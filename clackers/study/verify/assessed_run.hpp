@@ -12,10 +12,10 @@ namespace clackers::study {
 /// One run of a study.
 struct RunTask {
   std::size_t method = 0;  ///< index of the plan
-  double step = 0.0;       ///< [s]
-  long long steps = 0;
-  int history_bins = 0;  ///< of the error against time, 0 for none
-  bool metrics = false;  ///< measure all of them: the run is stored whole
+  double step = 0.0;       ///< [s]; the tolerance of an adaptive method
+  long long steps = 0;     ///< of an adaptive method those to expect
+  int history_bins = 0;    ///< of the error against time, 0 for none
+  bool metrics = false;    ///< measure all of them: the run is stored whole
 
   /// Work to expect, in states with errors. Only the progress shown depends on it.
   double cost() const;

@@ -45,7 +45,7 @@ MethodStudy::MethodStudy(const CasePlan& plan, std::size_t method)
 std::vector<RunTask> MethodStudy::missing(const RefinementPlan& steps) const {
   std::vector<RunTask> tasks;
   if (!subject_.refusal.empty()) return tasks;
-  const auto levels = levels_of(*plan_, steps);
+  const auto levels = levels_of(*plan_, plan_->methods[method_], steps);
   const auto measured = measured_level(levels);
   for (auto level = levels.size(); level-- > 0;)
     for (auto n = levels[level].counts.size(); n-- > 0;) {
@@ -80,7 +80,7 @@ void MethodStudy::assess(const RefinementPlan& steps) {
   if (!subject_.refusal.empty()) return;
   subject_.complete = true;
   subject_.levels.clear();
-  for (const auto& level : levels_of(*plan_, steps)) {
+  for (const auto& level : levels_of(*plan_, plan_->methods[method_], steps)) {
     const bool is_whole =
         std::ranges::all_of(level.counts, [&](long long count) { return runs_.contains(count); });
     subject_.complete = subject_.complete && is_whole;
@@ -92,11 +92,15 @@ void MethodStudy::assess(const RefinementPlan& steps) {
   if (subject_.levels.empty())
     assessment.reason = assessment.displacement.reason = Code("interrupted").name();
   else
-    assessment =
-        assess::judge(ladder_of(subject_), subject_.claim, {.contact_time = subject_.contact_time});
+    assessment = assess::judge(ladder_of(subject_), subject_.claim,
+                               {.contact_time = subject_.contact_time,
+                                .by_tolerance = subject_.resolution == Resolution::tolerance});
 }
 
-NextPlan MethodStudy::next() const { return next_plan(subject_, steps_, plan_->summary); }
+NextPlan MethodStudy::next() const {
+  if (subject_.resolution == Resolution::tolerance) return {};
+  return next_plan(subject_, steps_, plan_->summary);
+}
 
 void MethodStudy::close(RefinementEnd end, double next_seconds) {
   is_closed_ = true;
@@ -104,7 +108,7 @@ void MethodStudy::close(RefinementEnd end, double next_seconds) {
 }
 
 Subject MethodStudy::finish(std::span<const double> exact) {
-  if (subject_.refusal.empty()) {
+  if (subject_.refusal.empty() && subject_.resolution == Resolution::step) {
     std::vector<assess::ResponseLevel> ends;
     for (const auto& level : subject_.levels) {
       ends.emplace_back();

@@ -28,13 +28,13 @@ class MethodStudy {
   /// Makes `steps` the ladder and assesses it; a level that lacks a run is left out, and the subject
   /// is incomplete.
   void assess(const RefinementPlan& steps);
-  /// next_plan() of the subject.
+  /// next_plan() of the subject; none for tolerances.
   NextPlan next() const;
   /// Ends refinement; `next_seconds` is what did not fit into the budget.
   void close(RefinementEnd end, double next_seconds = 0.0);
   bool is_closed() const { return is_closed_; }
 
-  /// The subject with what the runs say without the reference solution; `exact` are the reference
+  /// The subject with what runs with steps say without the reference solution; `exact` are the reference
   /// displacements at the end over the largest envelopes. The runs are moved from.
   Subject finish(std::span<const double> exact);
 

@@ -137,6 +137,9 @@ Record verify(const VerifyRequest& request, const Progress& progress,
               const std::atomic<bool>* interrupt) {
   const int threads = thread_count(request.jobs);
   require_budget(request.budget);
+  if (!request.tolerances.empty() && !has_adaptive_method(request))
+    refuse("verify", "tolerances", request.tolerances.front(),
+           "those of a method that is adaptive, such as dopri5", {}, "wrong-resolution");
   const auto plans = plans_of(request);
   std::vector<CaseStudies> cases;
   std::vector<Round> rounds;

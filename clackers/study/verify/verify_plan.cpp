@@ -9,6 +9,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/methods/registry.hpp"
+#include "clackers/study/program.hpp"
 
 namespace clackers::study {
 namespace {
@@ -41,21 +42,21 @@ double fast_period(const cases::Case& problem) {
 
 Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
 
-// While nothing collides a method is held to its smooth order, not to what it does at impacts.
-Claim claim_of(const methods::Facts& facts, bool collides) {
-  if (collides || facts.through_impacts.behaviour == Behaviour::exact) return facts.through_impacts;
-  return {Behaviour::proper, facts.smooth_order, {}};
-}
-
 PlannedMethod planned(const std::string& specification, const model::ImpactProblem<>& problem,
                       bool collides) {
   PlannedMethod planned;
   planned.method = methods::method(specification);
   const auto facts = planned.method->facts();
   planned.reports_impacts = facts.reports_impacts;
+  planned.order = facts.smooth_order;
   auto& subject = planned.subject;
   subject.name = short_name(facts.name);
-  subject.claim = claim_of(facts, collides);
+  subject.claim = methods::claim_on(facts, problem, collides);
+  if (facts.is_adaptive) {
+    subject.resolution = Resolution::tolerance;
+    // The estimate falls with the power of the step that the error over a run does.
+    if (subject.claim.order > 0.0) subject.claim.order = 1.0;
+  }
   if (const auto objection = planned.method->objection(problem)) {
     subject.refusal = objection->sentence;
     subject.refusal_code = objection->code.name();
@@ -95,6 +96,8 @@ CasePlan plan_of(const VerifyRequest& request, cases::Case problem) {
   }
   require_some_method(plan.methods, plan.problem.problem);
   levels_of(plan, plan.steps);  // refuses too many steps before any work
+  plan.tolerances = request.tolerances;
+  if (plan.tolerances.empty()) plan.tolerances = tolerances_from(default_tolerances);
   return plan;
 }
 
@@ -137,6 +140,26 @@ CaseSummary summary_of(const cases::Case& problem) {
 std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const RefinementPlan& steps) {
   return assess::step_ladder({steps.coarsest, steps.levels, steps.samples_per_level},
                              plan.summary.end, plan.summary.impact_times);
+}
+
+std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const PlannedMethod& method,
+                                         const RefinementPlan& steps) {
+  if (method.subject.resolution == Resolution::step) return levels_of(plan, steps);
+  std::vector<assess::StepLevel> levels;
+  long long count = 0;
+  for (const double tolerance : plan.tolerances) {
+    const double per_period = 2.5 * std::pow(tolerance, -1.0 / method.order);
+    count =
+        std::max(count + 1, std::llround(per_period * plan.summary.end / plan.summary.fast_period));
+    levels.push_back({tolerance, {count}, {tolerance}});
+  }
+  return levels;
+}
+
+bool has_adaptive_method(const VerifyRequest& request) {
+  return std::ranges::any_of(request.methods, [](const std::string& specification) {
+    return methods::method(specification)->facts().is_adaptive;
+  });
 }
 
 std::vector<cases::Case> cases_of(const VerifyRequest& request) {

@@ -14,6 +14,7 @@ struct PlannedMethod {
   std::shared_ptr<const methods::Method> method;
   Subject subject;  ///< name, claim, contact time and refusal
   bool reports_impacts = true;
+  double order = 0.0;  ///< of smooth motion
   double spring_time = 0.0;  ///< contact time of a linear contact spring [s]; 0: it has none
 };
 
@@ -23,6 +24,7 @@ struct CasePlan {
   CaseSummary summary;
   std::vector<PlannedMethod> methods;
   RefinementPlan steps;
+  std::vector<double> tolerances;  ///< the levels of adaptive methods
 };
 
 /// The plan of a case whose subjects are histories.
@@ -35,6 +37,14 @@ std::string short_name(const std::string& name);
 
 /// The steps of a plan on a case.
 std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const RefinementPlan& steps);
+
+/// The levels of a method: those steps, or the tolerances of the plan, one run each, with the number
+/// of steps to expect.
+std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const PlannedMethod& method,
+                                         const RefinementPlan& steps);
+
+/// Whether some method of a request is adaptive. Throws InputError for a specification.
+bool has_adaptive_method(const VerifyRequest& request);
 
 /// The cases of a request. Throws InputError for one that is named twice, and as cases::make() does.
 std::vector<cases::Case> cases_of(const VerifyRequest& request);

@@ -120,7 +120,7 @@ Behaviour behaviour_of_order(double order, const FitContext& context) {
 }
 
 Code floor_reason(const FitContext& context, bool rough) {
-  if (context.contact_time > 0.0 && !context.by_tolerance) return "contact-stiffness";
+  if (context.contact_time > 0.0) return "contact-stiffness";
   if (context.states_tolerance) return "tolerance-floor";
   if (context.wrong_limit) return "wrong-limit";
   return rough ? Code("noise-floor") : Code("unexplained-floor");
