@@ -79,7 +79,8 @@ int run(Options options, const std::string& line) {
   if (!page.wanted()) return 0;
   std::optional<study::CaseRecord> motion;
   if (is_case(options.name))
-    motion = study::response_record(cases::make(options.name, read_settings(options.settings)));
+    motion = study::response_record(
+        cases::make(options.name, read_settings(options.settings, options.problem)));
   return page.write(report::html(sheets, options.name, study::provenance(line),
                                  motion ? &*motion : nullptr))
              ? 0

@@ -95,21 +95,34 @@ class PiecewiseMotion::Builder {
     m_.flights_.push_back(std::move(next));
   }
 
-  // The gap of contact i, s seconds into the flight: its modes and the steady response, whose
-  // curvature is bounded by frequency^2 times its amplitude.
+  // The gap of contact i, s seconds into the flight. With E^2 = y'^2 + omega^2 y^2, which does not
+  // grow, |y''| <= h E and |y'''| <= (2 sigma h + omega^2) E, h^2 = 4 sigma^2 + omega^2.
   numerics::LocalBound gap_ahead(std::size_t i, double s) const {
-    const std::span<const double> row(rows_[i].data(), std::size_t(rows_[i].size()));
-    auto bound =
-        numerics::linear_form(m_.system_, flight().free, row, -problem_.contacts[i].gap, 1.0, s);
-    bound.reach = std::min(bound.reach, m_.end_ + 1.0);  // a gap that rests has no other
+    numerics::LocalBound bound;
+    bound.value = -problem_.contacts[i].gap;
+    for (Index j = 0; j < rows_[i].size(); ++j) {
+      const auto& mode = m_.system_.modes()[std::size_t(j)];
+      const auto now = numerics::advance(mode, flight().free[std::size_t(j)], s);
+      const double row = rows_[i][j], h = std::hypot(2.0 * mode.sigma, mode.omega);
+      const double size = std::abs(row) * std::hypot(now.rate, mode.omega * now.y);
+      bound.value += row * now.y;
+      bound.slope += row * now.rate;
+      bound.second += row * mode.acceleration(now.y, now.rate);
+      bound.curvature += size * h;
+      bound.third += size * (2.0 * mode.sigma * h + mode.omega_square);
+    }
     for (const auto& force : m_.forces_) {
       std::complex<double> y = 0.0;
       for (Index j = 0; j < rows_[i].size(); ++j) y += rows_[i][j] * force.steady[j];
       const auto now = y * std::polar(1.0, force.frequency * (flight().t + s));
+      const double square = force.frequency * force.frequency;
       bound.value += now.real();
       bound.slope -= force.frequency * now.imag();
-      bound.curvature += force.frequency * force.frequency * std::abs(y);
+      bound.second -= square * now.real();
+      bound.curvature += square * std::abs(y);
+      bound.third += square * force.frequency * std::abs(y);
     }
+    bound.reach = m_.end_ + 1.0;  // a gap that rests has no other
     return bound;
   }
 
@@ -377,7 +390,7 @@ PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, std::str
   require_no_negative_eigenvalue(who, "the damping matrix", damping_,
                                  "The damping would feed energy in.");
   auto system = numerics::ModalSystem::make(mass_, damping_, stiffness_);
-  if (!system)
+  if (!system || !system->rate_shapes().isZero(0.0))
     throw InputError(
         fmt::format(
             "{}: the damping matrix couples the modes of mass and stiffness; allowed: modal "

@@ -147,22 +147,29 @@ void ForcedPair::require_accurate(std::string_view who) const {
   }
 }
 
-// The gap starts at 0 and opens. |g''| <= B for the whole flight, so the steps of first_root pass no
+// The gap starts at 0 and opens. |g''| and |g'''| are bounded for the whole flight, so the steps of first_root pass no
 // zero; the one that it finds must be the impact at T, where g = (V1 - V2)/eta (T - s) to first order.
 std::optional<ForcedPair::Closing> ForcedPair::closing() const {
   const double T = this->T(), speed = velocity(0) - velocity(1), nu = this->nu();
-  double curvature = 0.0, fastest = nu;
+  double curvature = 0.0, third = 0.0, fastest = nu;
   for (const auto& mass : masses_) {
-    const double square = mass.square().nearest();
-    curvature += square * std::hypot(mass.P.nearest(), mass.Q.nearest()) +
-                 nu * nu * std::hypot(mass.p0.nearest(), mass.p1.nearest());
-    fastest = std::max(fastest, std::sqrt(square));
+    const double square = mass.square().nearest(), own = std::sqrt(square);
+    const double free = square * std::hypot(mass.P.nearest(), mass.Q.nearest());
+    const double steady = nu * nu * std::hypot(mass.p0.nearest(), mass.p1.nearest());
+    curvature += free + steady;
+    third += free * own + steady * nu;
+    fastest = std::max(fastest, own);
   }
   const auto bound = [&](double s) {
     const auto one = mass_state(masses_[0], s), two = mass_state(masses_[1], s);
-    return numerics::LocalBound{((one.u - two.u) - (masses_[0].D - masses_[1].D)).nearest(),
-                                (one.v - two.v).nearest(), curvature * (1.0 + 1e-9),
-                                std::numeric_limits<double>::infinity()};
+    numerics::LocalBound gap;
+    gap.value = ((one.u - two.u) - (masses_[0].D - masses_[1].D)).nearest();
+    gap.slope = (one.v - two.v).nearest();
+    gap.second = (one.a - two.a).nearest();
+    gap.curvature = curvature * (1.0 + 1e-9);
+    gap.third = third * (1.0 + 1e-9);
+    gap.reach = T;
+    return gap;
   };
   const double near = 1e-7 * T;
   const auto root = numerics::first_root(bound, 0.0, T - near, 1e-7 / fastest, 1000000);
