@@ -182,6 +182,7 @@ const std::vector<Row>& rows() {
   static const auto all = [] {
     auto list = pair_rows();
     for (auto& row : assembly_rows()) list.push_back(std::move(row));
+    for (auto& row : orbit_rows()) list.push_back(std::move(row));
     return list;
   }();
   return all;

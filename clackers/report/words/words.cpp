@@ -127,7 +127,8 @@ std::string case_text(const study::CaseSummary& problem, std::string_view space)
   std::string parameters;
   for (const auto& p : problem.parameters)
     parameters += fmt::format("{0}{2}{1}={1}{3}{4}{5}", parameters.empty() ? "" : ", ", space,
-                              p.name, exact_number(p.value), p.unit.empty() ? "" : space, p.unit);
+                              p.name, p.text.empty() ? exact_number(p.value) : p.text,
+                              p.unit.empty() ? "" : space, p.unit);
   return parameters.empty() ? problem.name : fmt::format("{} ({})", problem.name, parameters);
 }
 
