@@ -26,6 +26,16 @@ void add_set_option(Command& command, std::vector<std::string>& settings) {
       ->option_text("name=value,...");
 }
 
+void add_problem_option(Command& command, std::string& path) {
+  command
+      .add_option(
+          "--problem", path,
+          "Instead of a case, a problem of your own: M, C, K, contacts, start, loads and end in "
+          "a TOML file, SI units (the case piecewise). Its format: the manual's how-to "
+          "\"Solve a problem of your own\".")
+      ->reads_file("FILE.toml");
+}
+
 void add_report_option(Command& command, std::string& path) {
   command
       .add_option("--report", path,

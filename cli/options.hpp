@@ -19,6 +19,9 @@ void add_common_options(Command& command, CommonOptions& options);
 /// Adds --set, which may stand several times.
 void add_set_option(Command& command, std::vector<std::string>& settings);
 
+/// Adds --problem, which stands for the case piecewise. `path` must outlive the parsing.
+void add_problem_option(Command& command, std::string& path);
+
 /// Adds --report of commands that assess. `path` must outlive the parsing.
 void add_report_option(Command& command, std::string& path);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -66,7 +67,28 @@ double read_duration(std::string_view what, std::string_view text) {
   return duration;
 }
 
-cases::Settings read_settings(const std::vector<std::string>& options) {
+namespace {
+
+// "dense", "./frame.toml"; not nan and inf. Whether the parameter takes a word is its case's to say.
+bool is_word(std::string_view text) {
+  if (text.empty() || text == "nan" || text == "inf") return false;
+  const auto first = static_cast<unsigned char>(text.front());
+  return std::isalpha(first) != 0 || first == '/' || text.starts_with("./") ||
+         text.starts_with("../");
+}
+
+}  // namespace
+
+std::string case_of(const std::string& name, const std::string& problem) {
+  constexpr auto of_files = "piecewise";
+  if (problem.empty()) return name;
+  if (!name.empty() && name != of_files)
+    refuse("clackers", "--problem", problem, fmt::format("the case {}, or none", of_files),
+           fmt::format("The file is a problem of its own; leave {} out.", name), "bad-syntax");
+  return of_files;
+}
+
+cases::Settings read_settings(const std::vector<std::string>& options, const std::string& problem) {
   cases::Settings settings;
   for (std::string_view rest : options) {
     for (bool more = true; more;) {
@@ -83,9 +105,14 @@ cases::Settings read_settings(const std::vector<std::string>& options) {
       if (std::ranges::find(settings, name, &cases::Settings::value_type::first) != settings.end())
         refuse("clackers", "--set", fmt::format("\"{}\"", part), "every name once",
                fmt::format("{} was set before.", name), "bad-syntax");
-      settings.emplace_back(name, read_number(name, part.substr(equals + 1)));
+      const auto value = part.substr(equals + 1);
+      if (is_word(value))
+        settings.emplace_back(name, std::string(value));
+      else
+        settings.emplace_back(name, read_number(name, value));
     }
   }
+  if (!problem.empty()) settings.emplace_back("problem", problem);
   return settings;
 }
 

@@ -21,8 +21,14 @@ long long read_whole(std::string_view what, std::string_view text, long long low
 /// Throws InputError for anything else and for negative or infinite ones.
 double read_duration(std::string_view what, std::string_view text);
 
-/// The values of all --set options, each "name=value,...". Throws InputError for a part that is
+/// The values of all --set options, each "name=value,...", and the file of --problem, where it is
+/// given. A value that begins with a letter, / or . is a word. Throws InputError for a part that is
 /// not name=value and for a name that is set twice.
-cases::Settings read_settings(const std::vector<std::string>& options);
+cases::Settings read_settings(const std::vector<std::string>& options,
+                              const std::string& problem = {});
+
+/// The case of a command line: `name`, or that of files where --problem is given. Throws InputError
+/// where both are and differ.
+std::string case_of(const std::string& name, const std::string& problem);
 
 }  // namespace clackers::cli

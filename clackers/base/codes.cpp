@@ -149,7 +149,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "A contact touches a degree of freedom without stiffness of its own, or, for a nonlinear law, the problem starts without "
      "energy, so there is no default for the penalty contact; give penalty:stiffness=VALUE."},
     {"linear-only", "refusal",
-     "The problem has a nonlinear force and the method's step is one linear equation."},
+     "The problem has a nonlinear force, a load or a free motion that the method, which solves linear equations in closed form or once a step, does not take."},
     {"redundant-contacts", "refusal",
      "The directions of contacts that are closed together depend linearly on each other, so their impulses are not unique; remove one of them."},
     {"integrator-not-taken", "refusal",

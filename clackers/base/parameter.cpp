@@ -11,6 +11,9 @@
 namespace clackers {
 namespace {
 
+// Among the words of a parameter: any other text.
+constexpr std::string_view any_text = "FILE";
+
 std::vector<std::string> names_of(const std::vector<Word>& words) {
   std::vector<std::string> names;
   for (const auto& word : words) names.push_back(word.name);
@@ -25,6 +28,7 @@ void check_kind(std::string_view owner, const Parameter& parameter, const Parame
     return;
   }
   const auto names = names_of(parameter.words);
+  if (std::ranges::find(names, any_text) != names.end()) return;
   if (std::ranges::find(names, value.text()) == names.end())
     refuse_name(fmt::format("{} of {}", parameter.name, owner), value.text(), names,
                 fmt::format("{}", fmt::join(names, ", ")));

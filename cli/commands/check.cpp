@@ -25,7 +25,8 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> files, settings, events, requirements;
-  std::string case_name, columns, steps, tolerances, expect, tolerance, metrics, report, baseline;
+  std::string case_name, columns, steps, tolerances, expect, tolerance, metrics, report, baseline,
+      problem;
 };
 
 // The parts between commas. Throws InputError for an empty one.
@@ -45,8 +46,8 @@ std::vector<std::string> parts_of(std::string_view option, std::string_view text
 study::CheckRequest request_of(const Options& options, const std::string& line) {
   study::CheckRequest request;
   request.files.assign(options.files.begin(), options.files.end());
-  request.case_name = options.case_name;
-  request.settings = read_settings(options.settings);
+  request.case_name = case_of(options.case_name, options.problem);
+  request.settings = read_settings(options.settings, options.problem);
   if (!options.columns.empty()) request.columns = parts_of("--columns", options.columns);
   request.events.assign(options.events.begin(), options.events.end());
   if (!options.steps.empty())
@@ -118,6 +119,7 @@ void add_check(Grammar& root) {
                   "The case (clackers list cases). Default: three-parameter.")
       ->option_text("CASE");
   add_set_option(*app, options->settings);
+  add_problem_option(*app, options->problem);
   app->add_option(
          "--columns", options->columns,
          "Names of the columns where a header lacks or differs, and of a plain .npy array: "

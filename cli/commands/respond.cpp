@@ -27,7 +27,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> settings;
-  std::string name, samples, step, times, digits, sensitivity, highest, report;
+  std::string name, samples, step, times, digits, sensitivity, highest, report, problem;
   bool collisions = false, plot = false, energy = false, spectrum = false;
 
   int ways() const {
@@ -147,17 +147,19 @@ void write(study::RowSource& rows, Results& results, bool quiet) {
 std::string page_of(const cases::Case& which, const Options& options, const std::string& line) {
   const auto motion = study::response_record(which);
   return report::html(
-      study::show_case(options.name, read_settings(options.settings), cases::default_threshold),
+      study::show_case(options.name, read_settings(options.settings, options.problem),
+                       cases::default_threshold),
       options.name, study::provenance(line), &motion, "respond");
 }
 
-int run(const Options& options, const std::string& line) {
+int run(Options options, const std::string& line) {
+  options.name = case_of(options.name, options.problem);
   check_kind(options);
   check(options);
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::numbers);
   check_format(options, results);
-  const auto which = cases::make(options.name, read_settings(options.settings));
+  const auto which = cases::make(options.name, read_settings(options.settings, options.problem));
   const auto rows = options.ways() > 0 ? rows_of(options, which) : nullptr;
   if (options.plot) {
     OutputStream out(1, "standard output", OnInterrupt::stop);
@@ -192,6 +194,7 @@ void add_respond(Grammar& root) {
                      "  clackers respond CASE [--set ...] --spectrum --samples n --highest w\n"});
   app->add_option("CASE", options->name, "The case. All names: clackers list cases.");
   add_set_option(*app, options->settings);
+  add_problem_option(*app, options->problem);
   app->add_option(
          "--samples", options->samples,
          "Equally spaced times from 0 to the end of the case, both included; 2 to 1e9. With "

@@ -24,7 +24,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::vector<std::string> settings;
-  std::string name, threshold, report;
+  std::string name, threshold, report, problem;
 };
 
 bool is_case(const std::string& name) {
@@ -48,7 +48,7 @@ std::vector<study::Sheet> sheets_of(const Options& options) {
     throw InputError(
         "show needs a CASE or METHOD, for example three-parameter. All names: clackers list",
         "bad-syntax");
-  const auto settings = read_settings(options.settings);
+  const auto settings = read_settings(options.settings, options.problem);
   const double threshold = options.threshold.empty()
                                ? cases::default_threshold
                                : read_number("--threshold", options.threshold);
@@ -62,22 +62,25 @@ std::vector<study::Sheet> sheets_of(const Options& options) {
   return study::show_method(options.name);
 }
 
-int run(const Options& options, const std::string& line) {
+int run(Options options, const std::string& line) {
+  options.name = case_of(options.name, options.problem);
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop);
   const auto sheets = sheets_of(options);
   // Only json has a place for it.
   const bool with_problem = results.format() == report::Format::json && is_case(options.name);
-  const auto problem = with_problem
-                           ? study::show_problem(options.name, read_settings(options.settings))
-                           : std::string();
+  const auto problem =
+      with_problem
+          ? study::show_problem(options.name, read_settings(options.settings, options.problem))
+          : std::string();
   report::write(sheets, "clackers/show/1", results.format(), results.stream(), results.style(),
                 problem);
   results.finish();
   if (!page.wanted()) return 0;
   std::optional<study::CaseRecord> motion;
   if (is_case(options.name))
-    motion = study::response_record(cases::make(options.name, read_settings(options.settings)));
+    motion = study::response_record(
+        cases::make(options.name, read_settings(options.settings, options.problem)));
   return page.write(report::html(sheets, options.name, study::provenance(line),
                                  motion ? &*motion : nullptr))
              ? 0
@@ -99,10 +102,12 @@ void add_show(Grammar& root) {
                 "a method: what it claims; period elongation, amplitude decay, spectral radius "
                 "and overshoot of its integrator; its parameters and its card.",
        .usage = "  clackers show CASE|METHOD [--set name=value,...] [--threshold x]\n"
-                "                [--report FILE.html]\n"});
+                "                [--report FILE.html]\n"
+                "  clackers show --problem FILE.toml\n"});
   app->add_option("NAME", options->name, "A case or a method. All names: clackers list.")
       ->option_text("CASE|METHOD");
   add_set_option(*app, options->settings);
+  add_problem_option(*app, options->problem);
   app->add_option("--threshold", options->threshold,
                   "A frequency contributes non-trivially where its amplitude is above this part of "
                   "the spectral peak (T_S and I_OC depend on it); between 0 and 1, dimensionless. "

@@ -36,7 +36,7 @@ constexpr double default_budget = 20.0;  // [s]
 struct Options {
   CommonOptions common;
   std::vector<std::string> methods, cases, settings, requirements, only;
-  std::string levels, coarsest, neighbours, budget, jobs, report, baseline;
+  std::string levels, coarsest, neighbours, budget, jobs, report, baseline, problem;
   bool all = false;
   ProgramOptions programs;
 };
@@ -52,7 +52,10 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
     for (const auto& row : study::list("pairs").rows)
       request.methods.push_back(std::get<std::string>(row.front()));
   request.cases = options.cases;
-  request.settings = read_settings(options.settings);
+  request.settings = read_settings(options.settings, options.problem);
+  if (!options.problem.empty())
+    for (request.cases = {case_of({}, options.problem)}; const auto& name : options.cases)
+      case_of(name, options.problem);
   auto& plan = request.plan;
   if (!options.levels.empty()) plan.levels = whole("--levels", options.levels, 1, 1);
   plan.samples_per_level = whole("--neighbours", options.neighbours, 1, plan.samples_per_level);
@@ -183,6 +186,7 @@ void add_verify(Grammar& root) {
          "own --case, are assessed in turn and compared in a performance profile.")
       ->option_text("CASE");
   add_set_option(*app, options->settings);
+  add_problem_option(*app, options->problem);
   app->add_option("--levels", options->levels,
                   "Number of levels, each with half the step of the one before. "
                   "Default: 8 (5 to 8 where the finest would need more than 2^20 steps).")

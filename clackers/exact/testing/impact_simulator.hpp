@@ -16,12 +16,18 @@ using Real = boost::multiprecision::number<
     boost::multiprecision::mpfr_float_backend<90, boost::multiprecision::allocate_stack>,
     boost::multiprecision::et_off>;
 
-/// The twelve numbers of the model. The masses may not pass: u1 - u2 >= -gap.
+/// The force amplitude cos(frequency t + phase) on one mass.
+struct RawForce {
+  Real amplitude = 0, frequency = 0, phase = 0;
+};
+
+/// The numbers of the model. The masses may not pass: u1 - u2 >= -gap.
 struct RawPair {
   Real m1, m2, k1, k2, c1, c2;  ///< SI; c^2 < 4 m k for each mass
   Real eta;                     ///< restitution, 0 to 1
   Real gap;                     ///< may be negative: masses that press when at rest
   Real u10, u20, v10, v20;      ///< at t = 0, where u1 - u2 >= -gap
+  RawForce force1{}, force2{};
 };
 
 /// Displacement, velocity and acceleration of both masses at t.
@@ -36,18 +42,25 @@ struct RawCollision {
   Real energy_before, energy_after;
 };
 
-/// One mass on its spring and dashpot from a given state: u = e^(-sigma s) (p cos w s + q sin w s).
+/// One mass on its spring and dashpot from a given state: u = e^(-sigma s) (p cos w s + q sin w s)
+/// and the steady response to its force, by undetermined coefficients.
 class FreeMass90 {
  public:
-  FreeMass90(const Real& m, const Real& c, const Real& k)
-      : m_(m), c_(c), k_(k), sigma_(c / (2 * m)) {
+  FreeMass90(const Real& m, const Real& c, const Real& k, const RawForce& force = {})
+      : m_(m), c_(c), k_(k), sigma_(c / (2 * m)), force_(force) {
     const Real square = k / m - sigma_ * sigma_;
     if (!(square > 0)) throw std::domain_error("simulator: c^2 < 4 m k is needed");
     w_ = sqrt(square);
+    // u = x cos(nu t + phase) + y sin(nu t + phase): the coefficients of M a + C v + K u.
+    const Real nu = force.frequency, d = k - m * nu * nu, f = c * nu;
+    if (force.amplitude == 0) return;
+    steady_cos_ = force.amplitude * d / (d * d + f * f);
+    steady_sin_ = force.amplitude * f / (d * d + f * f);
   }
-  void start(const Real& u, const Real& v) {
-    p_ = u;
-    q_ = (v + sigma_ * u) / w_;
+  void start(const Real& t, const Real& u, const Real& v) {
+    t_ = t;
+    p_ = u - steady(t, 0);
+    q_ = (v - steady(t, 1) + sigma_ * p_) / w_;
     amplitude_ = sqrt(p_ * p_ + q_ * q_);
   }
   /// State `s` seconds after start(), into the arrays' entry i.
@@ -59,6 +72,18 @@ class FreeMass90 {
     to.u[i] = x;
     to.v[i] = w_ * y - sigma_ * x;
     to.a[i] = -(c_ * to.v[i] + k_ * to.u[i]) / m_;
+    if (force_.amplitude == 0) return;
+    to.u[i] += steady(t_ + s, 0);
+    to.v[i] += steady(t_ + s, 1);
+    to.a[i] = (force_.amplitude * cos(force_.frequency * (t_ + s) + force_.phase) - c_ * to.v[i] -
+               k_ * to.u[i]) /
+              m_;
+  }
+  bool is_forced() const { return force_.amplitude != 0; }
+  /// Of the steady response: |u''| is at most this.
+  Real steady_curvature() const {
+    return sqrt(steady_cos_ * steady_cos_ + steady_sin_ * steady_sin_) * force_.frequency *
+           force_.frequency;
   }
   const Real& mass() const { return m_; }
   const Real& sigma() const { return sigma_; }
@@ -74,7 +99,17 @@ class FreeMass90 {
   }
 
  private:
+  // The steady response or its rate.
+  Real steady(const Real& t, int derivative) const {
+    if (force_.amplitude == 0) return 0;
+    const Real x = force_.frequency * t + force_.phase;
+    return derivative == 0 ? steady_cos_ * cos(x) + steady_sin_ * sin(x)
+                           : force_.frequency * (steady_sin_ * cos(x) - steady_cos_ * sin(x));
+  }
+
   Real m_, c_, k_, sigma_, w_, p_ = 0, q_ = 0, amplitude_ = 0;
+  RawForce force_;
+  Real t_ = 0, steady_cos_ = 0, steady_sin_ = 0;
 };
 
 /// Goes from impact to impact. The first contact of a flight cannot be missed: with a number `rate`
@@ -85,7 +120,7 @@ class FreeMass90 {
 class ImpactSimulator {
  public:
   explicit ImpactSimulator(const RawPair& p)
-      : masses_{FreeMass90(p.m1, p.c1, p.k1), FreeMass90(p.m2, p.c2, p.k2)},
+      : masses_{FreeMass90(p.m1, p.c1, p.k1, p.force1), FreeMass90(p.m2, p.c2, p.k2, p.force2)},
         eta_(p.eta),
         gap_(p.gap) {
     // Nearly critical masses decay to e^(-1e9) between impacts.
@@ -133,13 +168,15 @@ class ImpactSimulator {
  private:
   void fly_from(const RawState& x) {
     start_ = x;
-    for (std::size_t i = 0; i < 2; ++i) masses_[i].start(x.u[i], x.v[i]);
-    // With a gap G'' has a growing part, so nothing is factored out.
-    shift_ = gap_ == 0 ? std::min(masses_[0].sigma(), masses_[1].sigma()) : Real(0);
+    for (std::size_t i = 0; i < 2; ++i) masses_[i].start(x.t, x.u[i], x.v[i]);
+    // With a gap or a force G'' has a part that does not decay, so nothing is factored out.
+    shift_ = gap_ == 0 && !masses_[0].is_forced() && !masses_[1].is_forced()
+                 ? std::min(masses_[0].sigma(), masses_[1].sigma())
+                 : Real(0);
     bound_ = 0;
     for (const auto& mass : masses_) {
       const Real rate = mass.rate(shift_);
-      bound_ += mass.amplitude() * rate * rate;
+      bound_ += mass.amplitude() * rate * rate + mass.steady_curvature();
     }
   }
   Real gap(const RawState& x) const { return x.u[0] - x.u[1] + gap_; }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
+#include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::study {
 namespace {
@@ -26,10 +27,19 @@ std::vector<Numbers> rows(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-void require_linear(const Problem& problem) {
-  if (problem.system.add_load || problem.system.nonlinear)
+const model::HarmonicLoad* harmonic(const Problem& problem) {
+  return problem.system.add_load.target<model::HarmonicLoad>();
+}
+const model::OneSidedSprings* springs(const Problem& problem) {
+  return dynamic_cast<const model::OneSidedSprings*>(problem.system.nonlinear.get());
+}
+
+void require_numbers(const Problem& problem) {
+  if ((problem.system.add_load && harmonic(problem) == nullptr) ||
+      (problem.system.nonlinear && springs(problem) == nullptr))
     throw InputError(
-        "problem: a load or a nonlinear force cannot be written as numbers; allowed: M, C and K.",
+        "problem: its load or nonlinear force cannot be written as numbers; allowed: M, C and K, "
+        "harmonic loads and one-sided springs.",
         "linear-only");
 }
 
@@ -71,6 +81,8 @@ class Lines {
     return found;
   }
   double number(const std::string& name) { return numbers(name, 1)(0); }
+  /// Whether the next line has this name.
+  bool has(const std::string& name) const { return rest_.starts_with(name + '='); }
   Eigen::Index size(const std::string& name) {
     const double value = number(name);
     // Each number takes a digit and a blank or the end of its line.
@@ -99,17 +111,33 @@ class Lines {
 }  // namespace
 
 std::string problem_json(const Problem& problem) {
-  require_linear(problem);
+  require_numbers(problem);
   std::vector<std::string> contacts;
   for (const auto& contact : problem.contacts)
     contacts.push_back(fmt::format(R"({{"direction": {}, "gap": {}, "restitution": {}}})",
                                    list(numbers(contact.direction)), contact.gap,
                                    contact.restitution));
+  std::string forces;
+  if (const auto* load = harmonic(problem)) {
+    std::vector<std::string> loads;
+    for (const auto& f : load->forces())
+      loads.push_back(fmt::format(R"({{"dof": {}, "amplitude": {}, "frequency": {}, "phase": {}}})",
+                                  f.dof + 1, f.amplitude, f.frequency, f.phase));
+    forces += fmt::format(" \"loads\": [{}],\n", fmt::join(loads, ", "));
+  }
+  if (const auto* one_sided = springs(problem)) {
+    std::vector<std::string> rows;
+    for (std::size_t i = 0; i < one_sided->contacts().size(); ++i)
+      rows.push_back(fmt::format(R"({{"direction": {}, "gap": {}, "stiffness": {}}})",
+                                 list(numbers(one_sided->contacts()[i].direction)),
+                                 one_sided->contacts()[i].gap, one_sided->stiffnesses()[i]));
+    forces += fmt::format(" \"springs\": [{}],\n", fmt::join(rows, ", "));
+  }
   return fmt::format(
-      "{{\"M\": {}, \"C\": {}, \"K\": {},\n \"contacts\": [{}],\n"
+      "{{\"M\": {}, \"C\": {}, \"K\": {},\n \"contacts\": [{}],\n{}"
       " \"start\": {{\"t\": {}, \"u\": {}, \"v\": {}}}, \"end\": {}}}",
       nested(problem.system.mass), nested(problem.system.damping), nested(problem.system.stiffness),
-      fmt::join(contacts, ", "), problem.start.t, list(numbers(problem.start.u)),
+      fmt::join(contacts, ", "), forces, problem.start.t, list(numbers(problem.start.u)),
       list(numbers(problem.start.v)), problem.end);
 }
 
@@ -119,7 +147,7 @@ std::string problem_file_json(std::string_view case_name, const Problem& problem
 }
 
 std::string problem_file_text(const Problem& problem) {
-  require_linear(problem);
+  require_numbers(problem);
   auto text = fmt::format("dof={}\ncontacts={}\nt={}\nend={}\nu={}\nv={}\n", problem.dof(),
                           problem.contacts.size(), problem.start.t, problem.end,
                           fmt::join(numbers(problem.start.u), " "),
@@ -134,6 +162,17 @@ std::string problem_file_text(const Problem& problem) {
         fmt::format("direction{0}={1}\ngap{0}={2}\nrestitution{0}={3}\n", number,
                     fmt::join(numbers(contact.direction), " "), contact.gap, contact.restitution);
   }
+  if (const auto* load = harmonic(problem)) {
+    number = 0;
+    for (const auto& f : load->forces())
+      text += fmt::format("load{}={} {} {} {}\n", ++number, f.dof + 1, f.amplitude, f.frequency,
+                          f.phase);
+  }
+  if (const auto* one_sided = springs(problem))
+    for (std::size_t i = 0; i < one_sided->contacts().size(); ++i)
+      text += fmt::format("spring{}={} {} {}\n", i + 1,
+                          fmt::join(numbers(one_sided->contacts()[i].direction), " "),
+                          one_sided->contacts()[i].gap, one_sided->stiffnesses()[i]);
   return text;
 }
 
@@ -154,6 +193,26 @@ Problem problem_from_text(std::string_view text) {
     contact.gap = lines.number(fmt::format("gap{}", i));
     contact.restitution = lines.number(fmt::format("restitution{}", i));
   }
+  std::vector<model::HarmonicForce> forces;
+  for (std::string name = "load1"; lines.has(name);
+       name = fmt::format("load{}", forces.size() + 1)) {
+    const auto f = lines.numbers(name, 4);
+    if (!(f[0] >= 1.0 && f[0] <= double(dof) && f[0] == std::floor(f[0])))
+      refuse("problem", name, f[0], "a degree of freedom, from 1", {}, "bad-syntax");
+    forces.push_back({int(f[0]) - 1, f[1], f[2], f[3]});
+  }
+  if (!forces.empty()) problem.system.add_load = model::HarmonicLoad(std::move(forces));
+  std::vector<model::Contact<>> rows;
+  std::vector<double> stiffnesses;
+  for (std::string name = "spring1"; lines.has(name);
+       name = fmt::format("spring{}", rows.size() + 1)) {
+    const auto row = lines.numbers(name, dof + 2);
+    rows.push_back({row.head(dof), row[dof], 1.0});
+    stiffnesses.push_back(row[dof + 1]);
+  }
+  if (!rows.empty())
+    problem.system.nonlinear =
+        std::make_shared<model::OneSidedSprings>(std::move(rows), std::move(stiffnesses));
   return problem;
 }
 

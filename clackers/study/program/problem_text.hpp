@@ -15,8 +15,14 @@ namespace clackers::study {
 ///      "start": {"t": 0, "u": [...], "v": [...]}, "end": 20}
 ///
 /// for M a + C v + K u = 0 from `start` to `end`, g = direction . u - gap >= 0 and
-/// dg/dt(+) = -restitution dg/dt(-); SI units. Throws InputError (linear-only) for a problem with a
-/// load or a nonlinear force, which the object has no place for.
+/// dg/dt(+) = -restitution dg/dt(-); SI units. Where the problem has them,
+///
+///      "loads": [{"dof": 1, "amplitude": 2, "frequency": 3, "phase": 0}],
+///      "springs": [{"direction": [1, -1], "gap": 0, "stiffness": 400}],
+///
+/// add the forces amplitude cos(frequency t + phase) on the right, dof from 1, and
+/// stiffness min(direction . u - gap, 0) direction on the left. Throws InputError (linear-only) for
+/// any other load or nonlinear force.
 std::string problem_json(const model::ImpactProblem<>& problem);
 
 /// A file of that object: {"schema": "clackers/problem/1", "case": name, "problem": {...}}.
@@ -35,7 +41,8 @@ std::string problem_file_json(std::string_view case_name, const model::ImpactPro
 ///     gap1=0
 ///     restitution1=1
 ///
-/// with the last three lines for each contact. Throws as problem_json does.
+/// with the last three lines for each contact, then lines load1=dof amplitude frequency phase and
+/// spring1=direction gap stiffness for each load and spring. Throws as problem_json does.
 std::string problem_file_text(const model::ImpactProblem<>& problem);
 
 /// The problem of problem_file_text(). Throws InputError (bad-syntax) for other text.

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::study {
 namespace {
@@ -67,10 +70,37 @@ TEST(ProblemText, RefusesOtherSizes) {
   }
 }
 
-TEST(ProblemText, RefusesALoad) {
+TEST(ProblemText, HarmonicLoadsAndSpringsAreNumbers) {
+  auto problem = two_masses();
+  problem.system.add_load = model::HarmonicLoad({{0, 2.0, 3.0, -0.5}, {1, 1.0, 0.0, 0.0}});
+  problem.system.nonlinear = std::make_shared<model::OneSidedSprings>(
+      std::exchange(problem.contacts, {}), std::vector<double>{400.0, 500.0});
+  const auto json = nlohmann::json::parse(problem_json(problem));
+  EXPECT_EQ(json["loads"], nlohmann::json::parse(R"([
+    {"dof": 1, "amplitude": 2, "frequency": 3, "phase": -0.5},
+    {"dof": 2, "amplitude": 1, "frequency": 0, "phase": 0}])"));
+  EXPECT_EQ(json["springs"], nlohmann::json::parse(R"([
+    {"direction": [1, -1], "gap": -0.25, "stiffness": 400},
+    {"direction": [0, 1], "gap": -1, "stiffness": 500}])"));
+  const auto text = problem_file_text(problem);
+  EXPECT_TRUE(
+      text.ends_with("load1=1 2 3 -0.5\nload2=2 1 0 0\n"
+                     "spring1=1 -1 -0.25 400\nspring2=0 1 -1 500\n"));
+  const auto read = problem_from_text(text);
+  EXPECT_EQ(problem_file_text(read), text);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(2);
+  read.system.add_load(0.7, {force.data(), 2});
+  EXPECT_EQ(force, Eigen::Vector2d(2.0 * std::cos(3.0 * 0.7 - 0.5), 1.0));
+  EXPECT_REFUSED(problem_from_text(text.substr(0, text.find("spring2")) + "spring2=0 1 2\n"),
+                 "bad-syntax", "spring2= and 4 numbers");
+  EXPECT_REFUSED(problem_from_text(text.substr(0, text.find("load1")) + "load1=3 1 1 0\n"),
+                 "bad-syntax", "load1 = 3");
+}
+
+TEST(ProblemText, RefusesOtherLoads) {
   auto problem = two_masses();
   problem.system.add_load = [](double, std::span<double>) {};
-  EXPECT_REFUSED(problem_json(problem), "linear-only", "load");
+  EXPECT_REFUSED(problem_json(problem), "linear-only", "harmonic loads");
   EXPECT_REFUSED(problem_file_text(problem), "linear-only", "load");
 }
 

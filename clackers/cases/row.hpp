@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "clackers/cases/case.hpp"
+
+// The table of cases: one row a case is all that the command line, the manual and the tests know.
+namespace clackers::cases {
+
+/// The value of a parameter that the case has: a number, or by text() a word.
+struct Values {
+  const Settings& settings;
+  const ParameterValue& operator()(std::string_view name) const { return value_of(settings, name); }
+};
+
+/// Fills problem, motion, constants, indicators and periods of a case whose entry and values are
+/// set. Throws InputError for values outside their range.
+using Builder = void (*)(Case& which, const Values& value, double threshold);
+
+struct Row {
+  CaseEntry entry;
+  Builder build;
+};
+
+/// Parameters that mean the same in every case.
+Parameter eta();
+Parameter t_end();
+
+/// Periodic motions with impacts, penalty contacts, and problems of files.
+std::vector<Row> orbit_rows();
+
+}  // namespace clackers::cases

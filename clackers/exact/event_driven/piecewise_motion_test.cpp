@@ -1,0 +1,320 @@
+#include "clackers/exact/event_driven/piecewise_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "clackers/base/testing/refusal.hpp"
+#include "clackers/exact/orbit/cradle.hpp"
+#include "clackers/exact/orbit/forced_pair.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
+#include "clackers/exact/testing/impact_simulator.hpp"
+#include "clackers/exact/testing/test_oracle.hpp"
+
+namespace clackers::exact {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using model::Side;
+using testing_oracle::Box;
+using testing_oracle::RawPair;
+using testing_oracle::Real;
+using testing_oracle::trials;
+
+// The doubles of the problem, as they stand.
+RawPair raw(const model::ImpactProblem<>& problem) {
+  const auto& s = problem.system;
+  RawPair pair{s.mass(0, 0),
+               s.mass(1, 1),
+               s.stiffness(0, 0),
+               s.stiffness(1, 1),
+               s.damping(0, 0),
+               s.damping(1, 1),
+               problem.contacts[0].restitution,
+               -Real(problem.contacts[0].gap),
+               problem.start.u[0],
+               problem.start.u[1],
+               problem.start.v[0],
+               problem.start.v[1]};
+  if (const auto* load = s.add_load.target<model::HarmonicLoad>())
+    for (const auto& f : load->forces())
+      (f.dof == 0 ? pair.force1 : pair.force2) = {f.amplitude, f.frequency, f.phase};
+  return pair;
+}
+
+model::ImpactProblem<> random_pair(Box& box) {
+  model::ImpactProblem<> problem;
+  const auto diagonal = [&](double a, double b) {
+    return MatrixXd(Eigen::Vector2d(a, b).asDiagonal());
+  };
+  const double m1 = box.decades(-1.0, 1.0), m2 = box.decades(-1.0, 1.0);
+  const double w1 = box.uniform(0.5, 2.0), w2 = box.uniform(0.5, 6.0);
+  problem.system.mass = diagonal(m1, m2);
+  problem.system.stiffness = diagonal(m1 * w1 * w1, m2 * w2 * w2);
+  problem.system.damping =
+      diagonal(box.uniform(0.0, 0.3) * m1 * w1, box.uniform(0.0, 0.3) * m2 * w2);
+  problem.contacts = {{Eigen::Vector2d(1.0, -1.0), box.uniform(-0.4, 0.1),
+                       box.one_in(3) ? 1.0 : box.uniform(0.6, 1.0)}};
+  problem.start = {0.0, Eigen::Vector2d(1.0, box.uniform(-0.5, 0.5)),
+                   Eigen::Vector2d(box.uniform(-1.0, 1.0), box.uniform(-1.0, 1.0))};
+  problem.end = 12.0;
+  if (box.one_in(2))
+    problem.system.add_load = model::HarmonicLoad(
+        {{0, box.uniform(-1.0, 1.0), box.uniform(0.3, 3.0), box.uniform(0.0, 6.0)},
+         {1, box.uniform(-1.0, 1.0), box.one_in(3) ? 0.0 : box.uniform(0.3, 3.0), 0.5}});
+  return problem;
+}
+
+// The same motion in coordinates q = S^-1 u, in which everything is coupled.
+model::ImpactProblem<> seen_through(const MatrixXd& s, const model::ImpactProblem<>& problem) {
+  auto seen = problem;
+  const auto through = [&](const MatrixXd& x) {
+    const MatrixXd y = s.transpose() * x * s;
+    return MatrixXd(0.5 * (y + y.transpose()));
+  };
+  seen.system.mass = through(problem.system.mass);
+  seen.system.damping = through(problem.system.damping);
+  seen.system.stiffness = through(problem.system.stiffness);
+  for (auto& contact : seen.contacts) contact.direction = s.transpose() * contact.direction;
+  seen.start.u = s.fullPivLu().solve(problem.start.u);
+  seen.start.v = s.fullPivLu().solve(problem.start.v);
+  return seen;
+}
+
+TEST(PiecewiseMotion, IsTheSimulationWithNinetyDigitsWithinItsBound) {
+  Box box(21);
+  int members = 0, impacts = 0;
+  double widest = 0.0;
+  for (int trial = 0; members < trials(50) && trial < 2000; ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 21, trial " << trial);
+    const auto problem = random_pair(box);
+    const auto text = test::refusal_of([&] { PiecewiseMotion{problem}; });
+    if (text != "accepted") continue;
+    ++members;
+    const PiecewiseMotion motion(problem);
+    testing_oracle::ImpactSimulator simulator(raw(problem));
+    long long k = 0;
+    for (int i = 1; i <= 24; ++i) {
+      const double t = 0.497 * i;
+      while (const auto found = simulator.next(t)) {
+        ASSERT_GE(motion.impact_count(12.0), ++k);
+        const auto hit = motion.impact(k);
+        EXPECT_TRUE(Real(hit.when.lo) <= found->before.t && found->before.t <= Real(hit.when.hi));
+        EXPECT_LT(hit.when.hi - hit.when.lo, 1e-8);
+        EXPECT_NEAR(hit.impulse, double(found->impulse), 1e-9 * hit.impulse);
+        ++impacts;
+      }
+      EXPECT_EQ(motion.impact_count(t), k);
+      const auto x = simulator.at(t);
+      const auto state = motion.at(t, Side::right);
+      const auto bound = motion.error_bound(t), size = motion.envelope(0.0);
+      for (Eigen::Index j = 0; j < 2; ++j) {
+        const auto m = std::size_t(j);
+        EXPECT_LE(abs(x.u[m] - Real(state.u[j])), Real(bound.u[j]));
+        EXPECT_LE(abs(x.v[m] - Real(state.v[j])), Real(bound.v[j]));
+        EXPECT_LE(abs(x.a[m] - Real(state.a[j])), Real(bound.a[j]));
+        widest = std::max(widest, bound.u[j] / size.u[j]);
+      }
+    }
+  }
+  EXPECT_GE(members, trials(50));
+  EXPECT_GT(impacts, 2 * members);
+  // Two-sided: some of these motions amplify errors at each of ten impacts, none by more than 1e4.
+  EXPECT_LT(widest, 1e-8);
+}
+
+TEST(PiecewiseMotion, CoupledCoordinatesShowTheSameMotion) {
+  std::mt19937_64 random(22);
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  auto problem = SynchronizedPair({.X = 3.0, .r = 0.5, .eta = 0.9}).problem();
+  const SynchronizedPair exact({.X = 3.0, .r = 0.5, .eta = 0.9});
+  for (int trial = 0; trial < 10; ++trial) {
+    MatrixXd s(2, 2);
+    for (auto& x : s.reshaped()) x = uniform(random);
+    s.diagonal().array() += 1.5;
+    const PiecewiseMotion motion(seen_through(s, problem));
+    ASSERT_EQ(motion.impact_count(20.0), exact.impact_count(20.0));
+    for (int i = 0; i <= 40; ++i) {
+      const double t = 0.5 * i;
+      const auto bound = motion.error_bound(t);
+      // Rounding S'MS itself moves the system: phases of 60 rad by a few 2^-52.
+      const VectorXd u = s * motion.at(t, Side::right).u, known = exact.at(t, Side::right).u;
+      EXPECT_LT((u - known).cwiseAbs().maxCoeff(), (s.cwiseAbs() * bound.u).maxCoeff() + 1e-12);
+      EXPECT_LT(bound.u.maxCoeff(), 1e-11);
+    }
+  }
+}
+
+TEST(PiecewiseMotion, IsTheClosedFormOfCradleAndOrbit) {
+  const Cradle cradle{CradleParameters{}};
+  // The resting mass touches nothing and the moving one arrives where it rests.
+  const PiecewiseMotion rolled(cradle.problem());
+  const ForcedPair orbit{ForcedPairParameters{}};
+  const PiecewiseMotion forced(orbit.problem());
+  const auto compare = [](const PiecewiseMotion& motion, const Flights& form) {
+    ASSERT_EQ(motion.impact_count(motion.end()), form.impact_count(form.end()));
+    for (double t = 0.1; t < form.end(); t += 0.377) {
+      const auto x = motion.at(t, Side::right), y = form.at(t, Side::right);
+      EXPECT_LT((x.u - y.u).cwiseAbs().maxCoeff(), 1e-12) << t;
+      EXPECT_LT((x.v - y.v).cwiseAbs().maxCoeff(), 1e-12) << t;
+    }
+    for (long long k = 1; k <= form.impact_count(form.end()); ++k)
+      EXPECT_NEAR(motion.impact(k).t, form.impact(k).t, 1e-12);
+  };
+  compare(rolled, cradle);
+  compare(forced, orbit);
+}
+
+// Two equal pairs side by side collide at the same instants.
+TEST(PiecewiseMotion, SimultaneousContactsActAtOnce) {
+  const auto one = SynchronizedPair({.X = 3.0, .r = 2.0}).problem();
+  model::ImpactProblem<> both;
+  const auto twice = [](const MatrixXd& x) {
+    MatrixXd y = MatrixXd::Zero(4, 4);
+    y.topLeftCorner(2, 2) = x;
+    y.bottomRightCorner(2, 2) = x;
+    return y;
+  };
+  both.system.mass = twice(one.system.mass);
+  both.system.damping = twice(one.system.damping);
+  both.system.stiffness = twice(one.system.stiffness);
+  both.contacts = {{Eigen::Vector4d(1, -1, 0, 0), 0.0, 1.0},
+                   {Eigen::Vector4d(0, 0, 1, -1), 0.0, 1.0}};
+  both.start.u = Eigen::Vector4d(one.start.u[0], one.start.u[1], one.start.u[0], one.start.u[1]);
+  both.start.v = Eigen::Vector4d(one.start.v[0], one.start.v[1], one.start.v[0], one.start.v[1]);
+  both.end = 20.0;
+  const SynchronizedPair form({.X = 3.0, .r = 2.0});
+  const PiecewiseMotion motion(both), single(one);
+  ASSERT_EQ(motion.impact_count(20.0), 2 * form.impact_count(20.0));
+  for (long long k = 1; k <= 2 * form.impact_count(20.0); ++k) {
+    const auto hit = motion.impact(k);
+    EXPECT_EQ(hit.contact, (k - 1) % 2);
+    EXPECT_NEAR(hit.t, form.impact((k + 1) / 2).t, 1e-12);
+    EXPECT_NEAR(hit.impulse, form.impact((k + 1) / 2).impulse, 1e-11);
+  }
+  const auto a = motion.error_bound(19.0), b = single.error_bound(19.0);
+  EXPECT_LT(a.u[0], 4.0 * b.u[0]);  // as large as alone, but for the number of modes
+}
+
+// Three masses in a row on soft springs, the outer ones equal, that meet the middle one together.
+model::ImpactProblem<> row_of_three(double restitution) {
+  model::ImpactProblem<> problem;
+  problem.system.mass = problem.system.stiffness = MatrixXd::Identity(3, 3);
+  problem.system.damping = 0.1 * MatrixXd::Identity(3, 3);
+  problem.contacts = {{Eigen::Vector3d(1, -1, 0), 0.0, restitution},
+                      {Eigen::Vector3d(0, 1, -1), 0.0, restitution}};
+  problem.start = {0.0, Eigen::Vector3d(1, 0, -1), Eigen::Vector3d::Zero()};
+  problem.end = 10.0;
+  return problem;
+}
+
+TEST(PiecewiseMotion, CoupledSimultaneousContactsObeyTheLawOfBoth) {
+  const PiecewiseMotion motion(row_of_three(0.7));
+  ASSERT_EQ(motion.impact_count(10.0), 6);
+  for (long long k = 1; k <= 6; ++k) {
+    const auto hit = motion.impact(k);
+    for (const int c : {0, 1})
+      EXPECT_NEAR(hit.after.v[c] - hit.after.v[c + 1],
+                  -0.7 * (hit.before.v[c] - hit.before.v[c + 1]), 1e-14);
+    EXPECT_NEAR(hit.after.v.sum(), hit.before.v.sum(), 1e-14);
+    EXPECT_NEAR(hit.after.v[1], 0.0, 1e-14);
+    EXPECT_LT(hit.energy_after, hit.energy_before);
+  }
+}
+
+TEST(PiecewiseMotion, EnergyFallsByWhatDashpotsAndImpactsTake) {
+  Box box(23);
+  for (int trial = 0; trial < 10; ++trial) {
+    auto problem = random_pair(box);
+    problem.system.add_load = {};
+    problem.system.damping.setZero();
+    if (test::refusal_of([&] { PiecewiseMotion{problem}; }) != "accepted") continue;
+    const PiecewiseMotion motion(problem);
+    double last = -1.0;
+    for (long long k = 1; k <= motion.impact_count(problem.end); ++k) {
+      const auto hit = motion.impact(k);
+      if (last >= 0.0) {
+        EXPECT_NEAR(hit.energy_before, last, 1e-12 * last);
+      }
+      last = hit.energy_after;
+      const double rate = hit.before.v[0] - hit.before.v[1], eta = problem.contacts[0].restitution;
+      const double m1 = problem.system.mass(0, 0), m2 = problem.system.mass(1, 1);
+      EXPECT_NEAR(hit.energy_before - hit.energy_after,
+                  0.5 * m1 * m2 / (m1 + m2) * (1.0 - eta * eta) * rate * rate, 1e-12 * last);
+    }
+  }
+}
+
+TEST(PiecewiseMotion, PlasticImpactAtEquilibriumEndsTheMotion) {
+  const PiecewiseMotion motion(RigidStop({0.05, 0.0, 20.0}).problem());
+  EXPECT_EQ(motion.impact_count(20.0), 1);
+  EXPECT_NEAR(motion.at(15.0, Side::right).u[0], 0.0, 1e-15);
+}
+
+TEST(PiecewiseMotion, MotionsThatItDoesNotHaveAreRefused) {
+  auto problem = SynchronizedPair({.X = 3.0, .r = 0.5}).problem();
+  const auto with = [&](auto change) {
+    auto other = problem;
+    change(other);
+    return other;
+  };
+  using P = model::ImpactProblem<>;
+  const auto refused = [](const P& p) { return PiecewiseMotion{p}; };
+  // Masses pressed together: impacts accumulate, or the contact stays closed.
+  EXPECT_REFUSED(refused(with([](P& p) {
+                   p.contacts[0].gap = 0.3;
+                   p.contacts[0].restitution = 0.5;
+                   p.end = 200.0;
+                 })),
+                 "not-admissible", "piecewise: ");
+  EXPECT_REFUSED(refused(with([](P& p) {
+                   p.contacts[0].gap = 0.3;
+                   p.contacts[0].restitution = 0.0;
+                 })),
+                 "not-admissible", "contact 1 stays closed", "restitutions above 0");
+  EXPECT_REFUSED(refused(with([](P& p) { p.system.stiffness(0, 0) = -1.0; })),
+                 "not-positive-definite", "the stiffness matrix has the eigenvalue -1");
+  EXPECT_REFUSED(refused(with([](P& p) { p.system.damping(0, 0) = -0.1; })),
+                 "not-positive-definite", "the damping matrix has the eigenvalue -0.1",
+                 "energy in");
+  EXPECT_REFUSED(refused(with([](P& p) { p.system.damping << 0.2, -0.1, -0.1, 0.2; })),
+                 "out-of-range", "couples the modes", "a combination of M and K");
+  EXPECT_REFUSED(refused(with([](P& p) {
+                   p.system.damping.setZero();
+                   p.system.add_load =
+                       model::HarmonicLoad({{0, 1.0, std::sqrt(p.system.stiffness(0, 0)), 0.0}});
+                 })),
+                 "out-of-range", "degree of freedom 1", "frequency of an undamped mode");
+  EXPECT_REFUSED(refused(with([](P& p) { p.system.add_load = [](double, std::span<double>) {}; })),
+                 "linear-only", "harmonic loads");
+  EXPECT_REFUSED(refused(with([](P& p) { p.start.t = 1.0; })), "out-of-range", "start = 1");
+  EXPECT_REFUSED(refused(with([](P& p) {
+                   p.contacts.push_back(p.contacts[0]);
+                   p.contacts[1].direction *= 2.0;
+                 })),
+                 "redundant-contacts", "contacts 1 and 2 have the same direction");
+  // A contact whose direction is the sum of two others, all three closed.
+  auto row = row_of_three(1.0);
+  row.contacts.push_back({Eigen::Vector3d(1, 0, -1), 0.0, 1.0});
+  EXPECT_REFUSED(refused(row), "redundant-contacts", "contact 3", "depends linearly");
+  // The other side of a graze: mass 1 comes down to the gap exactly.
+  P graze;
+  graze.system.mass = graze.system.stiffness = MatrixXd::Identity(1, 1);
+  graze.system.damping = MatrixXd::Zero(1, 1);
+  graze.start = {0.0, VectorXd::Ones(1), VectorXd::Zero(1)};
+  graze.end = 5.0;
+  graze.contacts = {{VectorXd::Ones(1), -1.0, 1.0}};
+  EXPECT_REFUSED(refused(graze), "not-admissible", "contact 1");
+  graze.contacts[0].gap = -1.0 - 1e-10;
+  EXPECT_EQ(refused(graze).impact_count(5.0), 0);
+  graze.contacts[0].gap = -1.0 + 1e-10;
+  EXPECT_EQ(refused(graze).impact_count(5.0), 1);
+  EXPECT_REFUSED(refused(problem).at(-1.0, Side::left), "time-outside", "t = -1");
+  EXPECT_REFUSED(refused(problem).impact(99), "beyond-last-impact", "impact 99");
+}
+
+}  // namespace
+}  // namespace clackers::exact

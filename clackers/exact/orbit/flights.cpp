@@ -1,0 +1,113 @@
+#include "clackers/exact/orbit/flights.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/base/error.hpp"
+
+namespace clackers::exact {
+
+using model::Kinematics;
+using model::Side;
+
+void Flights::require_inside(double t) const {
+  if (!(t >= 0.0 && t <= end()))
+    refuse("motion", "t", t, fmt::format("0 <= t <= {} (the end of the motion, in s)", end()), {},
+           "time-outside");
+}
+
+long long Flights::flight_at(double t, Side side) const {
+  require_inside(t);
+  const auto begun = [&](long long k) {
+    const double start = instant(k).nearest();
+    return start < t || (start == t && side == Side::right);
+  };
+  auto k = std::max(0LL, near_flight(t));
+  while (k > 0 && !begun(k)) --k;
+  while (begun(k + 1)) ++k;
+  return k;
+}
+
+Flights::States Flights::at_time(double t, Side side) const {
+  const auto k = flight_at(t, side);
+  return state(k, Bounded(t) - instant(k));
+}
+
+void Flights::sample(std::span<const double> times, Side side, model::SampleBuffers out) const {
+  const auto size = 2 * times.size();
+  if (out.u.size() != size || out.v.size() != size || (!out.a.empty() && out.a.size() != size))
+    throw InputError(
+        fmt::format("motion: buffers for u, v, a hold {}, {}, {} numbers; allowed: {} each, one a "
+                    "time and mass (a may be empty).",
+                    out.u.size(), out.v.size(), out.a.size(), size),
+        "wrong-size");
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto now = at_time(times[i], side);
+    for (std::size_t j = 0; j < 2; ++j) {
+      out.u[2 * i + j] = now[j].u.nearest();
+      out.v[2 * i + j] = now[j].v.nearest();
+      if (!out.a.empty()) out.a[2 * i + j] = now[j].a.nearest();
+    }
+  }
+}
+
+Kinematics Flights::error_bound(double t) const {
+  Kinematics bound{Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)};
+  for (const auto side : {Side::left, Side::right}) {
+    const auto now = at_time(t, side);
+    for (Eigen::Index j = 0; j < 2; ++j) {
+      const auto& mass = now[std::size_t(j)];
+      bound.u[j] = std::max(bound.u[j], mass.u.nearest_error());
+      bound.v[j] = std::max(bound.v[j], mass.v.nearest_error());
+      bound.a[j] = std::max(bound.a[j], mass.a.nearest_error());
+    }
+  }
+  return bound;
+}
+
+long long Flights::impact_count(double t) const {
+  auto k = flight_at(t, Side::right);
+  if (k > 0 && instant(k).value > static_cast<long double>(t)) --k;
+  return k;
+}
+
+model::MotionImpact Flights::impact(long long index) const {
+  const auto count = impact_count(end());
+  if (index < 1 || index > count)
+    throw InputError(
+        fmt::format("motion: impact {} was asked for; allowed: {}.", index,
+                    count == 0 ? std::string("none, since nothing collides up to the end")
+                               : fmt::format("1 to {}, those up to t = {} s", count, end())),
+        "beyond-last-impact");
+  const auto instant_of_impact = instant(index);
+  const auto limit = limits(index);
+  const auto kinematics = [](const States& states) {
+    Kinematics k{Eigen::VectorXd(2), Eigen::VectorXd(2), Eigen::VectorXd(2)};
+    for (Eigen::Index j = 0; j < 2; ++j) {
+      const auto& mass = states[std::size_t(j)];
+      k.u[j] = mass.u.nearest();
+      k.v[j] = mass.v.nearest();
+      k.a[j] = mass.a.nearest();
+    }
+    return k;
+  };
+  const auto energy = [&](const Kinematics& k) {
+    const auto& s = problem_.system;
+    return 0.5 * (k.v.dot(s.mass * k.v) + k.u.dot(s.stiffness * k.u));
+  };
+  model::MotionImpact hit;
+  hit.index = index;
+  hit.t = instant_of_impact.nearest();
+  const double reach = instant_of_impact.nearest_error();
+  hit.when = {hit.t - reach, hit.t + reach};
+  hit.before = kinematics(limit.before);
+  hit.after = kinematics(limit.after);
+  hit.impulse = limit.impulse.nearest();
+  hit.energy_before = energy(hit.before);
+  hit.energy_after = energy(hit.after);
+  return hit;
+}
+
+}  // namespace clackers::exact

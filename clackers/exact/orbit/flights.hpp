@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+
+#include "clackers/model/impact_problem.hpp"
+#include "clackers/model/motion.hpp"
+#include "clackers/numerics/bounded.hpp"
+
+namespace clackers::exact {
+
+/// Two masses, free between impacts, in closed form: flight k lasts from impact k to impact k + 1,
+/// flight 0 from an instant before t = 0. Every formula is evaluated with its running error, from
+/// the binary64 parameters on, so that error_bound() needs no derivation of its own.
+/// Const, safe to share between threads.
+class Flights : public model::Motion {
+ public:
+  int dof() const override { return 2; }
+  double end() const override { return problem_.end; }
+  void sample(std::span<const double> times, model::Side side,
+              model::SampleBuffers out) const override;
+  /// The accumulated error of the evaluation and half a unit of the result; at the double nearest to
+  /// an impact that of the worse side.
+  model::Kinematics error_bound(double t) const override;
+  /// Impacts with t_k <= t.
+  long long impact_count(double t) const override;
+  model::MotionImpact impact(long long index) const override;
+
+  /// What a method is given, each number the nearest double.
+  const model::ImpactProblem<>& problem() const { return problem_; }
+
+ protected:
+  using Bounded = numerics::Bounded;
+  struct MassState {
+    Bounded u, v, a;
+  };
+  using States = std::array<MassState, 2>;
+
+  /// The instant of impact k = 1, 2, ...; of k = 0 the beginning of the first flight.
+  virtual Bounded instant(long long k) const = 0;
+  /// Flight k, s seconds after its beginning.
+  virtual States state(long long k, const Bounded& s) const = 0;
+  /// The flight that holds at t, give or take one.
+  virtual long long near_flight(double t) const = 0;
+  /// Both limits at impact k.
+  struct Limits {
+    States before, after;
+    Bounded impulse;
+  };
+  virtual Limits limits(long long k) const = 0;
+
+  long long flight_at(double t, model::Side side) const;
+  States at_time(double t, model::Side side) const;
+  void require_inside(double t) const;
+
+  model::ImpactProblem<> problem_;
+};
+
+}  // namespace clackers::exact

@@ -1,0 +1,329 @@
+#include "clackers/exact/orbit/forced_pair.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clackers/base/check.hpp"
+#include "clackers/base/error.hpp"
+#include "clackers/exact/pair/parameters.hpp"
+#include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/first_root.hpp"
+
+namespace clackers::exact {
+
+using numerics::Bounded;
+
+namespace {
+
+constexpr double largest_phase = 1e12;
+constexpr int instants = 2048;
+
+void require_whole(std::string_view who, double n) {
+  constexpr auto rule = "a whole number, 1 <= n <= 1e6";
+  if (!(n >= 1.0 && n <= 1e6)) refuse(who, "n", n, rule);
+  if (n != std::floor(n))
+    refuse(who, "n", n, rule, "The motion repeats itself only after whole periods of the force.",
+           "not-whole");
+}
+
+void require_mass(std::string_view who, const char* omega_name, double omega,
+                  const char* sigma_name, double sigma) {
+  require_scale(who, omega_name, omega, 1e-30, 1e30);
+  require_within(who, sigma_name, sigma, 0.0, 1e30);
+}
+
+void require_run(std::string_view who, double T, double n, double omega1, double omega2,
+                 double t_end) {
+  require_scale(who, "T", T, 1e-30, 1e30);
+  require_whole(who, n);
+  require_positive(who, "t_end", t_end);
+  if (std::max({6.3 * n / T, omega1, omega2}) * std::max(t_end, T) > largest_phase)
+    refuse(who, "t_end", t_end, "every phase at most 1e12 rad",
+           "Beyond, phases are not known to the digits of a double.");
+}
+
+// What a user may change first, the smaller change before the larger.
+template <class Parameters>
+struct Change {
+  const char* name;
+  double Parameters::*parameter;
+  double factor, summand;
+};
+template <class Parameters>
+std::vector<Change<Parameters>> changes();
+template <>
+std::vector<Change<ForcedPairParameters>> changes() {
+  using P = ForcedPairParameters;
+  return {{"V1", &P::V1, 2.0, 0.0}, {"V1", &P::V1, 0.5, 0.0}, {"V1", &P::V1, 8.0, 0.0},
+          {"m2", &P::m2, 2.0, 0.0}, {"m2", &P::m2, 0.5, 0.0}, {"m2", &P::m2, 8.0, 0.0},
+          {"n", &P::n, 1.0, 1.0},   {"n", &P::n, 1.0, -1.0},  {"T", &P::T, 0.8, 0.0},
+          {"T", &P::T, 1.25, 0.0},  {"T", &P::T, 0.5, 0.0},   {"T", &P::T, 0.25, 0.0}};
+}
+template <>
+std::vector<Change<BaseExcitedParameters>> changes() {
+  using P = BaseExcitedParameters;
+  return {{"A_g", &P::A_g, -1.0, 0.0}, {"n", &P::n, 1.0, 1.0},  {"n", &P::n, 1.0, -1.0},
+          {"T", &P::T, 0.8, 0.0},      {"T", &P::T, 1.25, 0.0}, {"T", &P::T, 0.5, 0.0},
+          {"T", &P::T, 0.25, 0.0}};
+}
+
+}  // namespace
+
+void ForcedPair::begin(double T, double n, double eta) {
+  T_ = T;
+  n_ = n;
+  eta_ = eta;
+  nu_ = Bounded(2.0) * Bounded::pi() * n / T;
+}
+
+// P, Q and the particular solution, from V and D.
+void ForcedPair::complete(Mass& mass) const {
+  const auto half = mass.w * T_ * 0.5, damped = mass.sigma * T_;
+  const auto sine = sin(half), growth = sinh(damped * 0.5);
+  const auto B = mass.V * (Bounded(1.0) + eta_) /
+                 (Bounded(4.0) * eta_ * mass.w * (growth * growth + sine * sine));
+  mass.P = B * Bounded(2.0) * sine * cos(half);
+  mass.Q = B * (expm1(damped) + Bounded(2.0) * sine * sine);
+  mass.p0 = mass.D - mass.P;
+  mass.p1 = (mass.V - mass.w * mass.Q + mass.sigma * mass.P) / nu_;
+}
+
+void ForcedPair::build(std::string_view who, const ForcedPairParameters& p) {
+  require_scale(who, "m1", p.m1, 1e-30, 1e30);
+  require_scale(who, "m2", p.m2, 1e-30, 1e30);
+  require_mass(who, "omega1", p.omega1, "sigma1", p.sigma1);
+  require_mass(who, "omega2", p.omega2, "sigma2", p.sigma2);
+  if (!(p.eta >= 1e-3 && p.eta <= 1.0))
+    refuse(
+        who, "eta", p.eta, "1e-3 <= eta <= 1",
+        "After a plastic impact the masses would not separate with the speed that the orbit needs.");
+  require_run(who, p.T, p.n, p.omega1, p.omega2, p.t_end);
+  require_within(who, "D1", p.D1, -1e30, 1e30);
+  require_within(who, "D2", p.D2, -1e30, 1e30);
+  require_scale(who, "V1", p.V1, 1e-30, 1e30);
+  begin(p.T, p.n, p.eta);
+  const Bounded V2 = -(Bounded(p.m1) * p.V1 / p.m2);
+  masses_[0] = {p.m1, p.omega1, p.sigma1, p.D1, p.V1, {}, {}, {}, {}};
+  masses_[1] = {p.m2, p.omega2, p.sigma2, p.D2, V2, {}, {}, {}, {}};
+  for (auto& mass : masses_) complete(mass);
+  require_accurate(who);
+}
+
+void ForcedPair::build(std::string_view who, const BaseExcitedParameters& p) {
+  require_scale(who, "m1", p.m1, 1e-30, 1e30);
+  require_mass(who, "omega1", p.omega1, "sigma1", 0.0);
+  require_mass(who, "omega2", p.omega2, "sigma2", 0.0);
+  require_run(who, p.T, p.n, p.omega1, p.omega2, p.t_end);
+  require_scale(who, "|A_g|", std::abs(p.A_g), 1e-30, 1e30);
+  begin(p.T, p.n, 1.0);
+  const auto velocity = [&](double omega) {
+    const auto half = Bounded(omega) * T_ * 0.5;
+    return Bounded(p.A_g) * omega * sin(half) /
+           (cos(half) * (Bounded(omega) + nu_) * (Bounded(omega) - nu_));
+  };
+  const auto V1 = velocity(p.omega1), V2 = velocity(p.omega2);
+  masses_[0] = {p.m1, p.omega1, 0.0, 0.0, V1, {}, {}, {}, {}};
+  masses_[1] = {-(Bounded(p.m1) * V1 / V2), p.omega2, 0.0, 0.0, V2, {}, {}, {}, {}};
+  for (auto& mass : masses_) complete(mass);
+  require_accurate(who);
+}
+
+// Constants lose digits where a mass alone would make whole oscillations between impacts.
+void ForcedPair::require_accurate(std::string_view who) const {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& mass = masses_[i];
+    const auto size = std::abs(mass.P.value) + std::abs(mass.Q.value);
+    for (const auto* x : {&mass.V, &mass.P, &mass.Q, &mass.p0, &mass.p1})
+      if (!(x->error <= 0x1p-53L * std::max(size, std::abs(x->value))))
+        throw InputError(
+            fmt::format("{}: omega{} T = {:.6g} pi; allowed: away from resonance. Mass {} alone "
+                        "makes whole or half oscillations between impacts, and no force of finite "
+                        "amplitude keeps the orbit; change T or omega{} by a few percent.",
+                        who, i + 1, (mass.w * T_ / Bounded::pi()).nearest(), i + 1, i + 1),
+            "not-admissible");
+  }
+}
+
+// The gap starts at 0 and opens. |g''| and |g'''| are bounded for the whole flight, so the steps of first_root pass no
+// zero; the one that it finds must be the impact at T, where g = (V1 - V2)/eta (T - s) to first order.
+std::optional<ForcedPair::Closing> ForcedPair::closing() const {
+  const double T = this->T(), speed = velocity(0) - velocity(1), nu = this->nu();
+  double curvature = 0.0, third = 0.0, fastest = nu;
+  for (const auto& mass : masses_) {
+    const double square = mass.square().nearest(), own = std::sqrt(square);
+    const double free = square * std::hypot(mass.P.nearest(), mass.Q.nearest());
+    const double steady = nu * nu * std::hypot(mass.p0.nearest(), mass.p1.nearest());
+    curvature += free + steady;
+    third += free * own + steady * nu;
+    fastest = std::max(fastest, own);
+  }
+  const auto bound = [&](double s) {
+    const auto one = mass_state(masses_[0], s), two = mass_state(masses_[1], s);
+    numerics::LocalBound gap;
+    gap.value = ((one.u - two.u) - (masses_[0].D - masses_[1].D)).nearest();
+    gap.slope = (one.v - two.v).nearest();
+    gap.second = (one.a - two.a).nearest();
+    gap.curvature = curvature * (1.0 + 1e-9);
+    gap.third = third * (1.0 + 1e-9);
+    gap.reach = T;
+    return gap;
+  };
+  const double near = 1e-7 * T;
+  const auto root = numerics::first_root(bound, 0.0, T - near, 1e-7 / fastest, 1000000);
+  if (speed > 0.0 && root.status == numerics::FirstRoot::Status::none) return std::nullopt;
+  Closing closing{root.status == numerics::FirstRoot::Status::found ? root.s : 0.0, 0.0};
+  for (int i = 1; i < instants; ++i)
+    closing.overlap = std::max(closing.overlap, -bound(T * i / instants).value);
+  return closing;
+}
+
+double ForcedPair::smallest_share() const {
+  const double T = this->T(), speed = velocity(0) - velocity(1);
+  double least = std::min(1.0, 1.0 / eta_);
+  for (int i = 1; i < instants; ++i) {
+    const double s = T * i / instants;
+    const auto g =
+        (mass_state(masses_[0], s).u - mass_state(masses_[1], s).u) - (masses_[0].D - masses_[1].D);
+    least = std::min(least, g.nearest() * T / (speed * s * (T - s)));
+  }
+  return least;
+}
+
+template <class Parameters>
+void ForcedPair::require_open(std::string_view who, const Parameters& p) const {
+  const auto opens = [&](const Parameters& other) {
+    try {
+      ForcedPair orbit;
+      orbit.build(who, other);
+      return orbit.velocity(0) > 0.0 && orbit.velocity(1) < 0.0 && !orbit.closing();
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  if (velocity(0) > 0.0 && velocity(1) < 0.0 && !closing()) return;
+  std::string advice = "Choose another T, n or ratio of masses.";
+  for (const auto& change : changes<Parameters>()) {
+    auto other = p;
+    other.*change.parameter = change.factor * p.*change.parameter + change.summand;
+    if (!opens(other)) continue;
+    advice = fmt::format("With {} = {:.6g} they do not.", change.name, other.*change.parameter);
+    break;
+  }
+  if (!(velocity(0) > 0.0 && velocity(1) < 0.0))
+    throw InputError(
+        fmt::format(
+            "{}: after an impact mass 1 would have {:.6g} m/s and mass 2 {:.6g} m/s; allowed: "
+            "above 0 and below 0. These masses would pass through each other. {}",
+            who, velocity(0), velocity(1), advice),
+        "not-admissible");
+  const auto early = *closing();
+  throw InputError(
+      fmt::format(
+          "{}: the masses meet {:.6g} s after an impact instead of T = {} s, and would overlap "
+          "by {:.3g} m; allowed: a gap that stays open between impacts. {}",
+          who, early.at, T(), early.overlap, advice),
+      "not-admissible");
+}
+
+ForcedPair::ForcedPair(const ForcedPairParameters& p, std::string_view who) {
+  build(who, p);
+  require_open(who, p);
+  make_problem(p.t_end);
+}
+
+ForcedPair::ForcedPair(const BaseExcitedParameters& p, std::string_view who) {
+  build(who, p);
+  require_open(who, p);
+  make_problem(p.t_end);
+}
+
+// F cos phi = m [(w^2 + sigma^2 - nu^2) p0 + 2 sigma nu p1] and -F sin phi the same of (p1, -p0), for
+// phases from an impact on; t = 0 is n half turns later.
+ForcedPair::Force ForcedPair::force(const Mass& mass) const {
+  const auto stiff = mass.square() - nu_ * nu_, damped = Bounded(2.0) * mass.sigma * nu_;
+  const auto cosine = mass.m * (stiff * mass.p0 + damped * mass.p1);
+  const auto sine = mass.m * (stiff * mass.p1 - damped * mass.p0);
+  const bool turned = std::fmod(n_, 2.0) != 0.0;
+  const auto sign = turned ? -1.0L : 1.0L;
+  return {static_cast<double>(std::hypot(cosine.value, sine.value)),
+          static_cast<double>(std::atan2(-sign * sine.value, sign * cosine.value))};
+}
+
+void ForcedPair::make_problem(double t_end) {
+  std::vector<model::HarmonicForce> forces;
+  auto& system = problem_.system;
+  system.mass = system.damping = system.stiffness = Eigen::MatrixXd::Zero(2, 2);
+  for (int i = 0; i < 2; ++i) {
+    const auto& mass = masses_[std::size_t(i)];
+    system.mass(i, i) = mass.m.nearest();
+    system.damping(i, i) = (Bounded(2.0) * mass.m * mass.sigma).nearest();
+    system.stiffness(i, i) = (mass.m * mass.square()).nearest();
+    const auto [amplitude, phase] = force(mass);
+    forces.push_back({i, amplitude, nu(), phase});
+  }
+  system.add_load = model::HarmonicLoad(std::move(forces));
+  problem_.contacts = {{Eigen::Vector2d(1.0, -1.0), (masses_[0].D - masses_[1].D).nearest(), eta_}};
+  problem_.end = t_end;
+  const auto start = at(0.0, model::Side::right);
+  problem_.start = {0.0, start.u, start.v};
+  margin_ = smallest_share();
+  find_size();
+}
+
+Flights::MassState ForcedPair::mass_state(const Mass& mass, const Bounded& s) const {
+  const auto decay = exp(-(mass.sigma * s));
+  const auto phase = mass.w * s, turn = Bounded(2.0) * Bounded::pi() * n_ * (s / T_);
+  const auto c = cos(phase), n = sin(phase), C = cos(turn), N = sin(turn);
+  const auto h = decay * (mass.P * c + mass.Q * n);
+  const auto h1 = decay * mass.w * (mass.Q * c - mass.P * n) - mass.sigma * h;
+  const auto h2 = -(Bounded(2.0) * mass.sigma * h1 + mass.square() * h);
+  const auto p = mass.p0 * C + mass.p1 * N, p1 = nu_ * (mass.p1 * C - mass.p0 * N);
+  return {h + p, h1 + p1, h2 - nu_ * nu_ * p};
+}
+
+Bounded ForcedPair::instant(long long k) const {
+  return (Bounded(static_cast<double>(k)) - 0.5) * T_;
+}
+
+long long ForcedPair::near_flight(double t) const {
+  return static_cast<long long>(std::floor(t / T() + 0.5));
+}
+
+Flights::States ForcedPair::state(long long, const Bounded& s) const {
+  return {mass_state(masses_[0], s), mass_state(masses_[1], s)};
+}
+
+Flights::Limits ForcedPair::limits(long long) const {
+  Limits limit;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& mass = masses_[i];
+    // The force, the displacement and so the spring are the same on either side.
+    const auto after = mass_state(mass, 0.0);
+    const auto V = -(mass.V / eta_);
+    limit.before[i] = {mass.D, V, after.a - Bounded(2.0) * mass.sigma * (V - mass.V)};
+    limit.after[i] = {mass.D, mass.V, after.a};
+  }
+  limit.impulse = masses_[0].m * masses_[0].V * (Bounded(1.0) + Bounded(1.0) / eta_);
+  return limit;
+}
+
+void ForcedPair::find_size() {
+  size_ = {Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)};
+  for (int i = 0; i <= instants; ++i)
+    for (Eigen::Index j = 0; j < 2; ++j) {
+      const auto now = mass_state(masses_[std::size_t(j)], T() * i / instants);
+      size_.u[j] = std::max(size_.u[j], std::abs(now.u.nearest()));
+      size_.v[j] = std::max(size_.v[j], std::abs(now.v.nearest()));
+      size_.a[j] = std::max(size_.a[j], std::abs(now.a.nearest()));
+    }
+}
+
+model::Kinematics ForcedPair::envelope(double t) const {
+  require_inside(t);
+  return size_;
+}
+
+}  // namespace clackers::exact

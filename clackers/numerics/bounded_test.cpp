@@ -1,0 +1,46 @@
+#include "clackers/numerics/bounded.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace clackers::numerics {
+namespace {
+
+// The same formula in binary64 steps as long doubles with a large error: intervals must contain the
+// formula evaluated anywhere inside.
+TEST(Bounded, ErrorsOfOperandsAreCarriedOn) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform(0.2, 3.0), inside(-1.0, 1.0);
+  for (int trial = 0; trial < 500; ++trial) {
+    const long double width = 1e-6L;
+    const Bounded a(uniform(random), width), b(uniform(random), width);
+    const auto formula = [](const auto& x, const auto& y) {
+      using std::cos, std::exp, std::sin, std::sqrt, std::expm1, std::sinh;
+      return sin(x * y) / y - exp(-x) * cos(y) + sqrt(x + y) * expm1(x) * sinh(y);
+    };
+    const auto bounded = formula(a, b);
+    for (int i = 0; i < 4; ++i) {
+      const long double x = a.value + width * inside(random), y = b.value + width * inside(random);
+      EXPECT_LE(std::abs(formula(x, y) - bounded.value), bounded.error);
+    }
+    EXPECT_LT(bounded.error, 2e-3L);  // two-sided: derivatives of the formula are below 500 here
+  }
+}
+
+TEST(Bounded, DivisionByWhatMayBeZeroHasNoBound) {
+  EXPECT_TRUE(std::isinf((Bounded(1.0) / Bounded(1e-9L, 2e-9L)).error));
+  EXPECT_TRUE(std::isinf(sqrt(Bounded(1e-9L, 2e-9L)).error));
+  EXPECT_LT((Bounded(1.0) / Bounded(3.0)).error, 1e-19L);
+}
+
+TEST(Bounded, NearestDoubleHasHalfAUnitAndTheError) {
+  const auto third = Bounded(1.0) / Bounded(3.0);
+  EXPECT_EQ(third.nearest(), 1.0 / 3.0);
+  EXPECT_LE(third.nearest_error(), 0.51 * 0x1p-53);
+  EXPECT_GE(third.nearest_error(), 1.0 / 3.0 * 0x1p-53);
+  EXPECT_FALSE(std::signbit((-Bounded(0.0)).nearest()));
+}
+
+}  // namespace
+}  // namespace clackers::numerics
