@@ -335,6 +335,7 @@ TEST(ShapedMotion, StaysWithinItsEnvelopeAndReachesMostOfIt) {
     }
     EXPECT_GT(u.minCoeff(), 0.7);
     EXPECT_GT(v.minCoeff(), 0.7);
+    EXPECT_GT(a.minCoeff(), 0.7);
   }
 }
 
