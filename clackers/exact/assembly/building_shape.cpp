@@ -39,6 +39,20 @@ double log_peak(double p, double q) {
   return part(p) + part(q);
 }
 
+// max over x of |d/dx cos^p(x) sin^q(x)| times exp(scale), for odd p and even q. The maximum is where
+// z = sin^2(x) solves (p+q)^2 z^2 - (2q(p+q) + p - q) z + q(q-1) = 0, or z = 1 for p = 1.
+double slope_peak(double p, double q, double scale) {
+  const double sum = p + q, half = q * sum + 0.5 * (p - q);
+  const double root = std::sqrt(half * half - sum * sum * q * (q - 1.0));
+  const auto size = [&](double z) {
+    if (!(z > 0.0 && z < 1.0)) return 0.0;
+    return std::exp(scale + 0.5 * ((p - 1.0) * std::log1p(-z) + (q - 1.0) * std::log(z))) *
+           std::abs(q - sum * z);
+  };
+  return std::max({size((half + root) / (sum * sum)), size((half - root) / (sum * sum)),
+                   p == 1.0 ? std::exp(scale) : 0.0});
+}
+
 constexpr std::size_t table_size = static_cast<std::size_t>(most_storeys);
 
 // 1, x^2, x^4, ...
@@ -119,32 +133,48 @@ void BuildingShape::sample_one(const Coefficients& c, const FlightInstant& now, 
   }
 }
 
-model::Kinematics BuildingShape::amplitude() const {
-  const auto size = static_cast<Eigen::Index>(dof_);
-  model::Kinematics peak{Eigen::VectorXd(size), Eigen::VectorXd(size), Eigen::VectorXd(size)};
-  Eigen::Index at = 0;
-  for (const auto& c : parts_) {
-    const int n = c.storeys;
-    // Displacements rise until the last drift alone is left, at x = pi/2.
-    const double u = std::abs(c.u.back());
-    for (int i = 1; i <= n; ++i, ++at) {
-      const double p = 2 * (n - i) + 1, q = 2 * i - 2;
-      const double scale = std::log(std::abs(c.v[static_cast<std::size_t>(i - 1)]));
-      const double v = std::exp(scale + log_peak(p, q));
-      double a = p * std::exp(scale + log_peak(p - 1.0, q + 1.0));
-      if (q > 0.0) a += q * std::exp(scale + log_peak(p + 1.0, q - 1.0));
-      peak.u[at] = u;
-      peak.v[at] = v + sigma_ * u;
-      peak.a[at] = c.frequency * a + sigma_ * (2.0 * v + sigma_ * u);
-    }
-  }
+BuildingShape::Peaks BuildingShape::peaks(const Coefficients& c, int i) {
+  const double p = 2 * (c.storeys - i) + 1, q = 2 * i - 2;
+  const double scale = std::log(std::abs(c.v[static_cast<std::size_t>(i - 1)]));
+  Peaks peak;
+  // Displacements rise until the last drift alone is left, at x = pi/2.
+  peak.u = std::abs(c.u.back());
+  peak.v = std::exp(scale + log_peak(p, q));
+  peak.a = c.frequency * slope_peak(p, q, scale);
+  peak.terms = p * std::exp(scale + log_peak(p - 1.0, q + 1.0));
+  if (q > 0.0) peak.terms += q * std::exp(scale + log_peak(p + 1.0, q - 1.0));
+  peak.terms *= c.frequency;
   return peak;
 }
 
-double BuildingShape::roundings() const {
-  int most = 1;
-  for (const auto& c : parts_) most = std::max(most, c.storeys);
-  return 3.0 * most + 14.0;
+model::Kinematics BuildingShape::amplitude() const {
+  const auto size = static_cast<Eigen::Index>(dof_);
+  model::Kinematics all{Eigen::VectorXd(size), Eigen::VectorXd(size), Eigen::VectorXd(size)};
+  Eigen::Index at = 0;
+  for (const auto& c : parts_)
+    for (int i = 1; i <= c.storeys; ++i, ++at) {
+      const auto peak = peaks(c, i);
+      all.u[at] = peak.u;
+      all.v[at] = peak.v + sigma_ * peak.u;
+      all.a[at] = peak.a + sigma_ * (2.0 * peak.v + sigma_ * peak.u);
+    }
+  return all;
+}
+
+model::Kinematics BuildingShape::error() const {
+  const auto size = static_cast<Eigen::Index>(dof_);
+  model::Kinematics all{Eigen::VectorXd(size), Eigen::VectorXd(size), Eigen::VectorXd(size)};
+  Eigen::Index at = 0;
+  for (const auto& c : parts_) {
+    const double units = (3.0 * c.storeys + 14.0) * 0x1p-53;
+    for (int i = 1; i <= c.storeys; ++i, ++at) {
+      const auto peak = peaks(c, i);
+      all.u[at] = units * peak.u;
+      all.v[at] = units * (peak.v + sigma_ * peak.u);
+      all.a[at] = units * (peak.terms + sigma_ * (2.0 * peak.v + sigma_ * peak.u));
+    }
+  }
+  return all;
 }
 
 }  // namespace clackers::exact

@@ -44,8 +44,8 @@ class BuildingShape : public FlightShape {
   model::Kinematics amplitude() const override;
   /// The square of a cosine or sine is rounded once, its power j then at most 2j - 1 times; a product
   /// of powers, a coefficient and a sum of at most n drifts follow. Errors of cosine and sine near
-  /// their zeros, 2^-63, add less than one.
-  double roundings() const override;
+  /// their zeros, 2^-63, add less than one. An acceleration is the difference of two such products.
+  model::Kinematics error() const override;
 
  private:
   struct Coefficients {
@@ -54,6 +54,12 @@ class BuildingShape : public FlightShape {
     bool reverses = false;     // sin(multiple pi/2) < 0
     std::vector<double> v, u;  // W and D
   };
+  struct Peaks {
+    double u = 0.0, v = 0.0, a = 0.0;
+    double terms = 0.0;  // largest sum of the sizes of the two terms of a
+  };
+  // Of storey i = 1, 2, ... without decay, for E = 1.
+  static Peaks peaks(const Coefficients& c, int i);
   void sample_one(const Coefficients& c, const FlightInstant& now, double* u, double* v,
                   double* a) const;
 

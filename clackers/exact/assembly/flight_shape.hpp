@@ -24,10 +24,10 @@ class FlightShape {
   virtual std::size_t dof() const = 0;
   /// Writes row-major (instant, mass); `out.a` may be empty.
   virtual void sample(std::span<const FlightInstant> instants, model::SampleBuffers out) const = 0;
-  /// Largest |u|, |v|, |a| of each mass over a flight with E = 1, or a little more.
+  /// Largest |u|, |v|, |a| of each mass over a flight with E = 1 without decay, or a little more.
   virtual model::Kinematics amplitude() const = 0;
-  /// Bound on the error of sample() in units of 2^-53 of E amplitude(), as long as that is normal.
-  virtual double roundings() const = 0;
+  /// Bound on the errors of sample() over E, as long as E is normal.
+  virtual model::Kinematics error() const = 0;
 };
 
 }  // namespace clackers::exact

@@ -91,8 +91,11 @@ model::Kinematics ModalShape::amplitude() const {
   return sum;
 }
 
-double ModalShape::roundings() const {
-  return std::numbers::sqrt2 * (static_cast<double>(columns_.size()) + 3.0) + 0.1;
+model::Kinematics ModalShape::error() const {
+  const double units = std::numbers::sqrt2 * (static_cast<double>(columns_.size()) + 3.0) + 0.1;
+  auto bound = amplitude();
+  for (auto* x : {&bound.u, &bound.v, &bound.a}) *x *= units * 0x1p-53;
+  return bound;
 }
 
 }  // namespace clackers::exact

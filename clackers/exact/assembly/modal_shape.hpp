@@ -30,7 +30,7 @@ class ModalShape : public FlightShape {
   /// Each of m terms carries the roundings of its factor, of its amplitude (two) and of their product; m - 1
   /// sums are rounded. A factor itself, in double-double, is within 2^-60 of its amplitude. Two
   /// terms of one frequency are at most sqrt(2) times their amplitude.
-  double roundings() const override;
+  model::Kinematics error() const override;
 
  private:
   std::vector<ModalColumn> columns_;

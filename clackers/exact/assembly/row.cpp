@@ -56,6 +56,7 @@ double row_limit(const RowParameters& p) {
 
 std::unique_ptr<const ShapedMotion> make_row(const RowParameters& p, std::string_view who) {
   require_whole(who, "masses", p.masses, 2.0, most_masses);
+  require_problem_fits(who, "masses", p.masses, p.masses, p.masses - 1.0);
   require_whole(who, "fast", p.fast, 0.0, p.masses, "It is the number of a mass, or 0 for none.");
   require_odd(who, p.X, "At most one mass is faster, and none slower.");
   require_scale(who, "m1", p.m1);

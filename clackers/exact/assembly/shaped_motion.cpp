@@ -72,14 +72,17 @@ Kinematics ShapedMotion::envelope(double t) const {
 }
 
 Kinematics ShapedMotion::error_bound(double t) const {
-  const double relative = (shape_->roundings() + 3.0) * 0x1p-53;
-  const double spacing = (shape_->roundings() + 3.0) * std::numeric_limits<double>::denorm_min();
-  const auto size = shape_->amplitude();
-  auto bound = envelope(t);
-  bound.u = (bound.u * relative).array() + spacing * (1.0 + size.u.array());
-  bound.v = (bound.v * relative).array() + spacing * (1.0 + size.u.array() + size.v.array());
-  bound.a = (bound.a * relative).array() + spacing * (1.0 + size.u.array() + size.a.array());
-  return bound;
+  constexpr double own = 3.0 * 0x1p-53;
+  // Up to three columns, each with a factor, a product and a sum.
+  constexpr double spacing = 8.0 * std::numeric_limits<double>::denorm_min();
+  const auto [significand, exponent] = instant_at(t, Side::left).decay;
+  const double e = numerics::scale(significand.hi, exponent);
+  const auto size = shape_->amplitude(), error = shape_->error();
+  const auto bound = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& its_error) {
+    return Eigen::VectorXd((e * (its_error + own * x)).array() +
+                           spacing * (1.0 + size.u.array() + x.array()));
+  };
+  return {bound(size.u, error.u), bound(size.v, error.v), bound(size.a, error.a)};
 }
 
 long long ShapedMotion::impact_count(double t) const {

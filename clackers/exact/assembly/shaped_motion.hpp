@@ -41,8 +41,8 @@ class ShapedMotion : public model::Motion {
               model::SampleBuffers out) const override;
   /// The largest value over a flight, times E at t; 0 at rest.
   model::Kinematics envelope(double t) const override;
-  /// FlightShape::roundings() units of 2^-53 of the envelope; 2^-60 of it for phase and E, two for the
-  /// rounding of the envelope itself; and, where E is subnormal, what its spacing amounts to.
+  /// E times FlightShape::error(); three units of 2^-53 of the envelope for phase, E and the rounding
+  /// of the envelope itself; and, where E is subnormal, some spacings of such numbers.
   model::Kinematics error_bound(double t) const override;
   long long impact_count(double t) const override;
   model::MotionImpact impact(long long index) const override;

@@ -284,7 +284,8 @@ Derived derive(std::string_view who, const Parameters& parameters) {
 FlightConstants derive_flight(std::string_view who, double omega, double sigma, double eta,
                               double end) {
   require_scale(who, "Omega", omega);
-  if (sigma != 0.0) require_scale(who, "sigma", sigma);
+  if (sigma != 0.0 && !(sigma >= smallest_scale && sigma <= largest_scale))
+    refuse(who, "sigma", sigma, "0 or 1e-60 <= sigma <= 1e+60");
   require_restitution(who, eta);
   RealMotion motion;
   motion.omega = omega;
