@@ -117,7 +117,7 @@ class MassSimulator {
     start_ = t;
     const RealVector p = to_modes_ * u, q = to_modes_ * v;
     for (Eigen::Index i = 0; i < p.size(); ++i)
-      modes_[static_cast<std::size_t>(i)].start(p[i], q[i]);
+      modes_[static_cast<std::size_t>(i)].start(0, p[i], q[i]);
     // |G''| of e^(sigma s) times each gap.
     bounds_ = sizes_ = RealVector::Zero(rows_.rows());
     for (Eigen::Index j = 0; j < rows_.rows(); ++j)

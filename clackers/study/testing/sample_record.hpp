@@ -57,7 +57,7 @@ inline Record sample_record() {
   method.tolerance = 1e-3;
   method.contact_time = 0.0157;
   method.refusal = "cannot";
-  method.refusal_code = "simultaneous-contacts";
+  method.refusal_code = "redundant-contacts";
   method.complete = false;
   const std::vector<MetricResult> metrics = {{"u-max", "m", 0.1 + 0.7, {tiny, huge}, "", true},
                                              {"v-max", "m/s", -0.0, {}, "no velocities", false}};
@@ -82,8 +82,8 @@ inline Record sample_record() {
   file.notes = {{"rows-beyond-end", {7.0, 20.0}, ""}, {"columns-not-used", {}, "energy"}};
   file.history = {{0.25}, {{1.0}, {0.5}}};
   method.levels = {{0.05,
-                    {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}},
-                     {silent, {}, {}, {}, "Segmentation fault"}}},
+                    {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}, {{0.5}, {{0.25}, {0.5}}}},
+                     {silent, {}, {}, {}, {}, "Segmentation fault"}}},
                    {0.025, {{run, file, {}, {}}}}};
   method.refinement = {2, 1, 16, RefinementEnd::budget, 12.5};
   method.assessment = {fit,
@@ -125,6 +125,8 @@ inline Record sample_record() {
                  20.0,
                  0.699,
                  {1.5727, 4.7181},
+                 {0, 1},
+                 {{{0, 1.0}, {1, 0.5}}, {{0, -1}}, {{0, 1, 0.25}}},
                  2};
   one.plan = {0.04, 6, 5};
   one.response = {{0.0, 1.0}, {{1.0, 0.5}, {-0.3, 0.2}}};
