@@ -57,7 +57,7 @@ inline Record sample_record() {
   method.tolerance = 1e-3;
   method.contact_time = 0.0157;
   method.refusal = "cannot";
-  method.refusal_code = "simultaneous-contacts";
+  method.refusal_code = "redundant-contacts";
   method.complete = false;
   const std::vector<MetricResult> metrics = {{"u-max", "m", 0.1 + 0.7, {tiny, huge}, "", true},
                                              {"v-max", "m/s", -0.0, {}, "no velocities", false}};
