@@ -81,9 +81,6 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "An adaptive method asked for steps that rounding of the time hides; the tolerance cannot be met there."},
     {"too-many-impacts", "failure",
      "More impacts happened inside one step than the treatment allows; impacts accumulate."},
-    {"simultaneous-contacts", "refusal",
-     "Two contacts close together; "
-     "the treatment handles one at a time and has no complementarity solver."},
     // Verdicts: what was found against what is claimed.
     {"agrees", "verdict",
      "What was measured is what the method claims."},

@@ -25,7 +25,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "more-neighbours", "errors-cancel", "error-grows-again", "no-fixed-order", "wrong-limit",
     "improper-convergence", "differences-turn", "run-failed", "energy-growth", "error-growth",
     "diverged", "newton-failed", "complementarity-failed", "step-too-small", "too-many-impacts",
-    "simultaneous-contacts", "agrees", "disagrees", "not-claimed", "not-a-number", "not-finite",
+    "agrees", "disagrees", "not-claimed", "not-a-number", "not-finite",
     "out-of-range", "wrong-size", "null-pointer", "wrong-struct-size", "not-positive-definite",
     "not-symmetric", "starts-in-contact", "not-odd", "not-admissible", "not-exact-data",
     "unknown-name", "bad-syntax", "step-not-positive", "too-many-steps", "too-many-rows",

@@ -76,9 +76,9 @@ TEST(Changes, VerdictBehaviourAndClaimAreGiven) {
   EXPECT_EQ(text_of_all(change),
             "verdict refused, before agrees. behaviour not run, before proper.");
   before = now;
-  now.reason = "simultaneous-contacts";
+  now.reason = "redundant-contacts";
   change.finding = {before, now};
-  EXPECT_EQ(text_of_all(change), "refused as [simultaneous-contacts], before [linear-only].");
+  EXPECT_EQ(text_of_all(change), "refused as [redundant-contacts], before [linear-only].");
   now = {};
   now.claim = before.claim;
   change.finding = {before, now};
