@@ -176,13 +176,15 @@ class PiecewiseMotion::Builder {
     if (!std::isfinite(gap)) return;
     const auto size = m_.sizes(flight(), s);
     const double error = gap_error(i, m_.covariance_after(flight(), s), size, flight().t + s, 0.0);
-    if (gap > error) return;
+    if (gap <= error) refuse_graze(i, flight().t + s, gap, error);
+  }
+  [[noreturn]] void refuse_graze(std::size_t i, double t, double gap, double error) const {
     throw InputError(
         fmt::format(
             "{}: contact {} comes within {:.3g} m near t = {:.9g} s without a certain impact, "
             "and the error there is {:.3g} m; allowed: motions whose impacts are certain. "
             "Change the gap by more, or end the run earlier.",
-            m_.who_, i + 1, gap, flight().t + s, error),
+            m_.who_, i + 1, gap, t, error),
         "not-admissible");
   }
 
@@ -209,7 +211,10 @@ class PiecewiseMotion::Builder {
       const double rate = rows_[i].dot(before);
       const double error = gap_error(i, covariance, size, t, rate);
       if (!(gap(i, state) <= error) || !(rate <= no_rate(i, before))) continue;
-      time_errors[i] = (rate < 0.0 ? error / -rate : 0.0) + 4.0 * epsilon * t;
+      // It would go beyond by rate^2 / (2 curvature) at least: more than the error, or nothing is certain.
+      const double depth = rate * rate / (2.0 * gap_ahead(i, s).curvature);
+      if (!(rate < 0.0 && depth > error)) refuse_graze(i, t, std::abs(gap(i, state)), error);
+      time_errors[i] = error / -rate + 4.0 * epsilon * t;
       closed.push_back(i);
     }
     if (closed.empty())
@@ -318,9 +323,7 @@ class PiecewiseMotion::Builder {
         jump[2 * j] = b(c, j) * p;
         jump[2 * j + 1] = b(c, j) * (pressed[c] - 2.0 * sigma * p);
       }
-      // A contact that was closed without speed takes part from the same instant on.
-      if (rate < -no_rate(active[std::size_t(c)], before))
-        for (Index k = 0; k < n; ++k) saltation.col(2 * k) += jump * (b(c, k) / rate);
+      for (Index k = 0; k < n; ++k) saltation.col(2 * k) += jump * (b(c, k) / rate);
       time_error += jump.cwiseAbs();
     }
   }

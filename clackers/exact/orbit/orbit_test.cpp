@@ -374,7 +374,7 @@ TEST(BaseExcitedPair, IsRefusedWithASentence) {
   EXPECT_REFUSED(ForcedPair{p}, "not-whole", "n = 1.5", "whole periods");
   p = {};
   p.A_g = 0.0;
-  EXPECT_REFUSED(ForcedPair{p}, "out-of-range", "|A_g| = 0");
+  EXPECT_REFUSED(ForcedPair{p}, "out-of-range", "A_g = 0");
 }
 
 TEST(ForcedPair, ParametersOutsideTheirRangesAreRefused) {
