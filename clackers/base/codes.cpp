@@ -139,16 +139,17 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"not-whole", "refusal",
      "A whole number was asked for and one with a fraction was given."},
     {"penalty-needs-elastic", "refusal",
-     "A linear penalty spring gives back what it takes, so it can only stand for restitution 1."},
+     "An elastic contact law gives back what it takes, so it can only stand for restitution 1; "
+     "penalty:law=kelvin-voigt and others have a restitution."},
     {"law-needs-restitution", "refusal",
      "The contact law has no coefficients for this restitution; choose another law or another restitution."},
     {"needs-inelastic", "refusal",
      "The contact treatment has no law of restitution: masses stay together after the contact, as with restitution 0."},
     {"no-default-stiffness", "refusal",
-     "A contact touches a degree of freedom without stiffness of its own, so there is no default for the penalty spring; "
-     "give penalty:stiffness=VALUE."},
+     "A contact touches a degree of freedom without stiffness of its own, or, for a nonlinear law, the problem starts without "
+     "energy, so there is no default for the penalty contact; give penalty:stiffness=VALUE."},
     {"linear-only", "refusal",
-     "The problem has a nonlinear force and the method's step is one linear equation."},
+     "The problem has a nonlinear force, a load or a free motion that the method, which solves linear equations in closed form or once a step, does not take."},
     {"redundant-contacts", "refusal",
      "The directions of contacts that are closed together depend linearly on each other, so their impulses are not unique; remove one of them."},
     {"integrator-not-taken", "refusal",

@@ -14,8 +14,6 @@ namespace {
 
 using exact::ShapedMotion;
 
-double value(const Case& which, std::string_view name) { return value_of(which.values, name); }
-
 // What every synchronized motion has, after its own constants.
 void add_common_constants(Case& which, const ShapedMotion& motion, double sigma, double eta) {
   const auto& c = motion.flight();
@@ -37,13 +35,10 @@ void add_periods(Case& which, double omega, int count, double step = 2.0) {
     which.damped_periods.push_back(2.0 * std::numbers::pi / (omega * (1.0 + step * i)));
 }
 
-}  // namespace
-
-void build_buildings(Case& which) {
-  const exact::BuildingsParameters p{
-      value(which, "left"), value(which, "right"), value(which, "X"),     value(which, "r"),
-      value(which, "m1"),   value(which, "Omega"), value(which, "sigma"), value(which, "V"),
-      value(which, "eta"),  value(which, "t_end")};
+void build_buildings(Case& which, const Values& value, double) {
+  const exact::BuildingsParameters p{value("left"), value("right"), value("X"),     value("r"),
+                                     value("m1"),   value("Omega"), value("sigma"), value("V"),
+                                     value("eta"),  value("t_end")};
   const std::shared_ptr motion = exact::make_buildings(p, which.entry->name);
   which.problem = exact::buildings_problem(p, *motion);
   const auto left = static_cast<int>(p.left), right = static_cast<int>(p.right);
@@ -66,10 +61,10 @@ void build_buildings(Case& which) {
   which.motion = motion;
 }
 
-void build_row(Case& which) {
-  const exact::RowParameters p{value(which, "masses"), value(which, "fast"), value(which, "X"),
-                               value(which, "speed"),  value(which, "m1"),   value(which, "Omega"),
-                               value(which, "sigma"),  value(which, "eta"),  value(which, "t_end")};
+void build_row(Case& which, const Values& value, double) {
+  const exact::RowParameters p{value("masses"), value("fast"), value("X"),
+                               value("speed"),  value("m1"),   value("Omega"),
+                               value("sigma"),  value("eta"),  value("t_end")};
   const std::shared_ptr motion = exact::make_row(p, which.entry->name);
   which.problem = exact::row_problem(p, *motion);
   const auto row = exact::row_masses(p);
@@ -90,9 +85,9 @@ void build_row(Case& which) {
   which.motion = motion;
 }
 
-void build_alternating(Case& which) {
-  const exact::AlternatingParameters p{value(which, "rh"), value(which, "r"), value(which, "Omega"),
-                                       value(which, "sigma"), value(which, "t_end")};
+void build_alternating(Case& which, const Values& value, double) {
+  const exact::AlternatingParameters p{value("rh"), value("r"), value("Omega"), value("sigma"),
+                                       value("t_end")};
   const std::shared_ptr motion = exact::make_alternating(p, which.entry->name);
   which.problem = exact::alternating_problem(p, *motion);
   const double limit = exact::alternating_limit(p.rh), middle = 2.0 * p.rh;
@@ -110,17 +105,18 @@ void build_alternating(Case& which) {
   which.motion = motion;
 }
 
-void build_assembly(Case& which, double X) {
-  const auto coupling = value_of(which.values, "coupling").text();
-  const exact::AssemblyParameters p{value(which, "pairs"),
+void build_assembly(Case& which, const Values& value, double) {
+  const double X = ratio(which, value("N"));
+  const auto coupling = value("coupling").text();
+  const exact::AssemblyParameters p{value("pairs"),
                                     coupling == "chain"   ? exact::Coupling::chain
                                     : coupling == "block" ? exact::Coupling::block
                                                           : exact::Coupling::dense,
-                                    value(which, "seed"),
+                                    value("seed"),
                                     X,
-                                    value(which, "xi1"),
-                                    value(which, "eta"),
-                                    value(which, "t_end")};
+                                    value("xi1"),
+                                    value("eta"),
+                                    value("t_end")};
   exact::require_assembly_fits(which.entry->name, p.pairs);
   const std::shared_ptr motion = exact::make_assembly(p, which.entry->name);
   which.problem = exact::assembly_problem(p, *motion, which.entry->name);
@@ -131,6 +127,87 @@ void build_assembly(Case& which, double X) {
   for (double pair = 0.0; pair < p.pairs; ++pair) add_periods(which, omega, 2, X - 1.0);
   add_common_constants(which, *motion, p.xi1, p.eta);
   which.motion = motion;
+}
+
+Parameter omega(const char* meaning) {
+  return {"Omega", 1.0, "rad/s", "1e-60 <= Omega <= 1e+60", meaning};
+}
+Parameter sigma() {
+  return {"sigma", 0.05, "1/s", "0 or 1e-60 <= sigma <= 1e+60", "common rate of decay"};
+}
+
+}  // namespace
+
+std::vector<Row> assembly_rows() {
+  return {
+      {{"buildings",
+        "Two shear buildings whose roofs pound, from the first impulse on.",
+        "beyond the paper: assemblies in the manual",
+        {{"left", 3.0, "", "a whole number, 1 <= left <= 500", "storeys of the left building"},
+         {"right", 2.0, "", "a whole number, 1 <= right <= 500", "storeys of the right building"},
+         {"X", 1.0, "", "an odd whole number from 1 to 1e+09",
+          "frequencies of the right building over those of the left one"},
+         {"r", 1.0, "", "0 < r < r*, and 1e-60 <= r <= 1e+60; any for X = 1",
+          "mass of the left roof over that of the right one"},
+         scale("m1", 1.0, "kg", "1e-60 <= m1 <= 1e+60", "mass of the left roof"),
+         omega("lowest damped frequency of the left building"),
+         sigma(),
+         scale("V", 1.0, "m/s", "1e-60 <= V <= 1e+60",
+               "speed of the left roof after the first impulse, at t = 0"),
+         eta(),
+         t_end()}},
+       build_buildings},
+      {{"row",
+        "Masses in a row, all contacts at once, one of them fast.",
+        "beyond the paper: assemblies in the manual",
+        {{"masses", 5.0, "", "a whole number, 2 or more, as many as fit into 1 GB",
+          "how many there are"},
+         {"fast", 3.0, "", "a whole number, 0 <= fast <= masses",
+          "number of the fast mass, from above; 0 for none"},
+         {"X", 3.0, "", "an odd whole number from 1 to 1e+09",
+          "its frequency over that of the others; without effect for fast = 0"},
+         {"speed", 0.5, "", "0 < speed < 1, or r*(X) for the first and the last mass",
+          "of the fast mass after an impact, over that of its slow neighbours, which is 1 m/s"},
+         scale("m1", 1.0, "kg", "1e-60 <= m1 <= 1e+60",
+               "mass of those that move up after an impact"),
+         omega("damped frequency of the slow masses"),
+         sigma(),
+         eta(),
+         t_end()}},
+       build_row},
+      {{"alternating",
+        "Three masses, elastic: the middle one meets its neighbours in turn.",
+        "beyond the paper: assemblies in the manual",
+        {{"rh", 2.0, "", "an even whole number, 2 <= rh <= 500000000",
+          "half-periods of the middle mass between two impacts"},
+         {"r", 1.0, "", "1e-60 <= r < r*(2 rh)", "mass of an outer mass over the middle one"},
+         {"Omega", 1.0, "rad/s", "1e-60 <= Omega <= 5e+59",
+          "damped frequency of the outer masses; 2 rh times it is that of the middle one"},
+         sigma(),
+         t_end()}},
+       build_alternating},
+      {{"assembly",
+        "Pairs seen through an invertible matrix: coupled masses, simultaneous contacts.",
+        "beyond the paper: assemblies in the manual",
+        {{"pairs", 4.0, "", "a whole number, 1 or more, as many as fit into 1 GB",
+          "number of pairs; twice as many masses"},
+         {"coupling",
+          "chain",
+          "",
+          "chain, block or dense",
+          "which entries of the matrix are not zero",
+          {},
+          {{"chain", "each coordinate with the one before it: tridiagonal"},
+           {"block", "two pairs with each other"},
+           {"dense", "all with all"}}},
+         {"seed", 1.0, "", "a whole number, 0 <= seed <= 2^53",
+          "makes masses, amplitudes and the matrix"},
+         whole_N(),
+         xi1(),
+         eta(),
+         t_end()}},
+       build_assembly},
+  };
 }
 
 }  // namespace clackers::cases

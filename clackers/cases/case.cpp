@@ -21,6 +21,29 @@ namespace clackers::cases {
 Parameter eta() { return {"eta", 1.0, "", "0 <= eta <= 1", "restitution; 1 is elastic"}; }
 Parameter t_end() { return {"t_end", 20.0, "s", "0 < t_end < infinity", "end of the run"}; }
 
+double ratio(const Case& which, double N) {
+  constexpr double largest_N = 249'999'999;
+  const auto rule = fmt::format("a whole number, 0 <= N <= {:.0f}", largest_N);
+  if (!(N >= 0.0 && N <= largest_N))
+    refuse(which.entry->name, "N", N, rule,
+           N < 0.0 ? "Mass 2 is X = 4N + 1 times as fast as mass 1." : "");
+  if (N != std::floor(N))
+    refuse(which.entry->name, "N", N, rule,
+           "Only with X = 4N + 1 odd both masses pass equilibrium together at every collision.",
+           "not-whole");
+  return 4.0 * N + 1.0;
+}
+
+Parameter xi1() { return {"xi1", 0.05, "", "0 or 1e-60 <= xi1 < 1", "damping ratio of mass 1"}; }
+Parameter whole_N() {
+  return {"N", 2.0, "", "a whole number, 0 <= N <= 249999999",
+          "mass 2 is X = 4N + 1 times as fast as mass 1, Eq. (9)"};
+}
+Parameter scale(const char* name, double default_value, const char* unit, const char* allowed,
+                const char* meaning) {
+  return {name, default_value, unit, allowed, meaning};
+}
+
 namespace {
 
 void use(Case& which, std::shared_ptr<const exact::ClosedForm> motion) {
@@ -47,38 +70,6 @@ void use_pair(Case& which, std::shared_ptr<const Pair> pair, double threshold) {
 void synchronize(Case& which, const exact::PairParameters& parameters, double threshold) {
   use_pair(which, std::make_shared<const exact::SynchronizedPair>(parameters, which.entry->name),
            threshold);
-}
-
-// X = 4N + 1 of Eq. (9), up to the largest ratio that the reference solution takes.
-double ratio(const Case& which, double N) {
-  constexpr double largest_N = 249'999'999;
-  const auto rule = fmt::format("a whole number, 0 <= N <= {:.0f}", largest_N);
-  if (!(N >= 0.0 && N <= largest_N))
-    refuse(which.entry->name, "N", N, rule,
-           N < 0.0 ? "Mass 2 is X = 4N + 1 times as fast as mass 1." : "");
-  if (N != std::floor(N))
-    refuse(which.entry->name, "N", N, rule,
-           "Only with X = 4N + 1 odd both masses pass equilibrium together at every collision.",
-           "not-whole");
-  return 4.0 * N + 1.0;
-}
-
-// A parameter of the same name means the same in every case.
-Parameter xi1() { return {"xi1", 0.05, "", "0 or 1e-60 <= xi1 < 1", "damping ratio of mass 1"}; }
-Parameter whole_N() {
-  return {"N", 2.0, "", "a whole number, 0 <= N <= 249999999",
-          "mass 2 is X = 4N + 1 times as fast as mass 1, Eq. (9)"};
-}
-Parameter scale(const char* name, double default_value, const char* unit, const char* allowed,
-                const char* meaning) {
-  return {name, default_value, unit, allowed, meaning};
-}
-
-Parameter omega(const char* meaning) {
-  return {"Omega", 1.0, "rad/s", "1e-60 <= Omega <= 1e+60", meaning};
-}
-Parameter sigma() {
-  return {"sigma", 0.05, "1/s", "0 or 1e-60 <= sigma <= 1e+60", "common rate of decay"};
 }
 
 std::vector<Row> pair_rows() {
@@ -184,81 +175,13 @@ std::vector<Row> pair_rows() {
                   std::make_shared<const exact::ExactDataPair>(parameters, which.entry->name),
                   threshold);
        }},
-      {{"buildings",
-        "Two shear buildings whose roofs pound, from the first impulse on.",
-        "beyond the paper: assemblies in the manual",
-        {{"left", 3.0, "", "a whole number, 1 <= left <= 500", "storeys of the left building"},
-         {"right", 2.0, "", "a whole number, 1 <= right <= 500", "storeys of the right building"},
-         {"X", 1.0, "", "an odd whole number from 1 to 1e+09",
-          "frequencies of the right building over those of the left one"},
-         {"r", 1.0, "", "0 < r < r*, and 1e-60 <= r <= 1e+60; any for X = 1",
-          "mass of the left roof over that of the right one"},
-         scale("m1", 1.0, "kg", "1e-60 <= m1 <= 1e+60", "mass of the left roof"),
-         omega("lowest damped frequency of the left building"),
-         sigma(),
-         scale("V", 1.0, "m/s", "1e-60 <= V <= 1e+60",
-               "speed of the left roof after the first impulse, at t = 0"),
-         eta(),
-         t_end()}},
-       [](Case& which, const Values&, double) { build_buildings(which); }},
-      {{"row",
-        "Masses in a row, all contacts at once, one of them fast.",
-        "beyond the paper: assemblies in the manual",
-        {{"masses", 5.0, "", "a whole number, 2 or more, as many as fit into 1 GB",
-          "how many there are"},
-         {"fast", 3.0, "", "a whole number, 0 <= fast <= masses",
-          "number of the fast mass, from above; 0 for none"},
-         {"X", 3.0, "", "an odd whole number from 1 to 1e+09",
-          "its frequency over that of the others; without effect for fast = 0"},
-         {"speed", 0.5, "", "0 < speed < 1, or r*(X) for the first and the last mass",
-          "of the fast mass after an impact, over that of its slow neighbours, which is 1 m/s"},
-         scale("m1", 1.0, "kg", "1e-60 <= m1 <= 1e+60",
-               "mass of those that move up after an impact"),
-         omega("damped frequency of the slow masses"),
-         sigma(),
-         eta(),
-         t_end()}},
-       [](Case& which, const Values&, double) { build_row(which); }},
-      {{"alternating",
-        "Three masses, elastic: the middle one meets its neighbours in turn.",
-        "beyond the paper: assemblies in the manual",
-        {{"rh", 2.0, "", "an even whole number, 2 <= rh <= 500000000",
-          "half-periods of the middle mass between two impacts"},
-         {"r", 1.0, "", "1e-60 <= r < r*(2 rh)", "mass of an outer mass over the middle one"},
-         {"Omega", 1.0, "rad/s", "1e-60 <= Omega <= 5e+59",
-          "damped frequency of the outer masses; 2 rh times it is that of the middle one"},
-         sigma(),
-         t_end()}},
-       [](Case& which, const Values&, double) { build_alternating(which); }},
-      {{"assembly",
-        "Pairs seen through an invertible matrix: coupled masses, simultaneous contacts.",
-        "beyond the paper: assemblies in the manual",
-        {{"pairs", 4.0, "", "a whole number, 1 or more, as many as fit into 1 GB",
-          "number of pairs; twice as many masses"},
-         {"coupling",
-          "chain",
-          "",
-          "chain, block or dense",
-          "which entries of the matrix are not zero",
-          {},
-          {{"chain", "each coordinate with the one before it: tridiagonal"},
-           {"block", "two pairs with each other"},
-           {"dense", "all with all"}}},
-         {"seed", 1.0, "", "a whole number, 0 <= seed <= 2^53",
-          "makes masses, amplitudes and the matrix"},
-         whole_N(),
-         xi1(),
-         eta(),
-         t_end()}},
-       [](Case& which, const Values& value, double) {
-         build_assembly(which, ratio(which, value("N")));
-       }},
   };
 }
 
 const std::vector<Row>& rows() {
   static const auto all = [] {
     auto list = pair_rows();
+    for (auto& row : assembly_rows()) list.push_back(std::move(row));
     for (auto& row : orbit_rows()) list.push_back(std::move(row));
     return list;
   }();

@@ -349,7 +349,8 @@ TEST(Cases, RefuseAnNThatIsNoCount) {
 
 TEST(Cases, RefuseEveryParameterOutsideItsRangeNamingTheCase) {
   for (const auto& entry : entries())
-    for (const auto& parameter : entry.parameters)
+    for (const auto& parameter : entry.parameters) {
+      if (!parameter.words.empty()) continue;
       for (const double bad : {-1.0, double(NAN), double(INFINITY), -double(INFINITY)}) {
         const auto text = refusal(entry.name, {{parameter.name, bad}});
         const auto start = entry.name + ": " + parameter.name + " = ";
@@ -360,6 +361,7 @@ TEST(Cases, RefuseEveryParameterOutsideItsRangeNamingTheCase) {
                                             : "[out-of-range]";
         EXPECT_NE(text.find(code), std::string::npos) << text;
       }
+    }
 }
 
 TEST(Cases, RefuseWhatLiesJustOutside) {

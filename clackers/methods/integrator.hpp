@@ -17,8 +17,8 @@ class Integrator {
   virtual ~Integrator() = default;
   /// Claims nothing through impacts.
   virtual Facts facts() const = 0;
-  /// The system must outlive the stepper. Throws InputError unless 0 < h < infinity, and for a
-  /// system that the integrator cannot step with h.
+  /// The system must outlive the stepper. Throws InputError unless 0 < h < infinity, or the plan has
+  /// a tolerance where it is adaptive, and for a system that it cannot step with h.
   virtual StepperPointer<1> stepper(const model::SmoothSystem<1>& system,
                                     const StepPlan& plan) const = 0;
   virtual StepperPointer<2> stepper(const model::SmoothSystem<2>& system,

@@ -35,7 +35,7 @@ inline constexpr double most_steps = 1e9;
 class Run {
  public:
   virtual ~Run() = default;
-  /// The whole run from the problem's start to its end, states on start + n h. May be repeated.
+  /// The whole run, states on start + n h, or where an adaptive method steps. May be repeated.
   virtual Outcome advance(Sink& sink) = 0;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "clackers/numerics/sine_cosine.hpp"
+
 namespace clackers::numerics {
 namespace {
 
@@ -96,49 +98,90 @@ double ModalForm::derivative_bound(const ModalSystem& system, std::span<const Mo
   return sum;
 }
 
-FormAhead::FormAhead(const ModalSystem& system, const ModalForm& form,
-                     std::span<const ModalState> start, double sign,
-                     std::vector<double>& amplitudes)
-    : system_(system), form_(form), start_(start), sign_(sign) {
-  amplitudes.resize(form.parts_.size());
-  double sum = form.growth_ > 0.0 ? infinity : 0.0;
-  for (std::size_t i = form.parts_.size(); i-- > 0;) {
-    amplitudes[i] = sum;
-    const auto& part = form.parts_[i];
-    sum += part.bound[0] * size(system.modes()[part.mode], start[part.mode]);
+void FormAhead::begin(const ModalSystem& system, const ModalForm& form,
+                      std::span<const ModalState> start, double sign) {
+  offset_ = sign * form.offset_;
+  sign_ = sign;
+  growth_ = form.growth_;
+  parts_.resize(form.parts_.size());
+  double faster = growth_ > 0.0 ? infinity : 0.0, radian = 0.0;
+  for (std::size_t i = parts_.size(); i-- > 0;) {
+    const auto& from = form.parts_[i];
+    const Mode& mode = system.modes()[from.mode];
+    const ModalState& now = start[from.mode];
+    Part& to = parts_[i];
+    to.oscillates = mode.oscillates();
+    to.sigma = mode.sigma;
+    to.w = mode.w;
+    to.curvature = from.bound[2];
+    to.third = from.bound[3];
+    to.faster = faster;
+    to.radian_of_next = radian;
+    if (to.oscillates) {
+      // y = e^(-sigma s) (p cos w s + q sin w s)
+      const double p = now.y, q = (now.rate + mode.sigma * now.y) / mode.w;
+      const double p_rate = mode.w * q - mode.sigma * p, q_rate = -mode.w * p - mode.sigma * q;
+      for (int k = 0; k < 4; ++k) {
+        to.cosine[k] = sign * (from.y[k] * p + from.rate[k] * p_rate);
+        to.sine[k] = sign * (from.y[k] * q + from.rate[k] * q_rate);
+      }
+      // With y = R cos x: z^2 = R^2 (omega^2 + sigma^2 cos 2x + sigma w sin 2x).
+      to.size =
+          std::sqrt((p * p + q * q) * (mode.omega_square + std::abs(mode.sigma) * mode.omega));
+    } else {
+      to.size = numerics::size(mode, now);
+      to.mode = &mode;
+      to.start = now;
+      to.form = &from;
+    }
+    faster += from.bound[0] * to.size;
+    radian = 1.0 / from.omega;
   }
-  amplitudes_ = amplitudes;
 }
 
 LocalBound FormAhead::operator()(double s) const {
   LocalBound ahead;
-  ahead.value = sign_ * form_.offset_;
-  const auto& parts = form_.parts_;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto& part = parts[i];
-    const Mode& mode = system_.modes()[part.mode];
-    const auto now = advance(mode, start_[part.mode], s);
-    const double z = size(mode, now);
-    ahead.value += sign_ * (part.y[0] * now.y + part.rate[0] * now.rate);
-    ahead.slope += sign_ * (part.y[1] * now.y + part.rate[1] * now.rate);
-    ahead.second += sign_ * (part.y[2] * now.y + part.rate[2] * now.rate);
-    ahead.curvature += part.bound[2] * z;
-    ahead.third += part.bound[3] * z;
-    if (i + 1 == parts.size()) break;
-    // The next mode, resolved, is good for two radians of it or so.
-    const double above = ahead.value - amplitudes_[i];
-    if (above > 0.0 &&
-        first_zero(above, ahead.slope, -ahead.curvature) * parts[i + 1].omega > 1.0) {
+  ahead.value = offset_;
+  double sigma = 0.0, decay = 1.0;
+  for (const Part& part : parts_) {
+    double z = 0.0;
+    if (part.oscillates) {
+      if (part.sigma != sigma) {
+        sigma = part.sigma;
+        decay = std::exp(-sigma * s);
+      }
+      const auto [sine, cosine] = sine_cosine(part.w * s);
+      const double c = decay * cosine, n = decay * sine;
+      ahead.value += part.cosine[0] * c + part.sine[0] * n;
+      ahead.slope += part.cosine[1] * c + part.sine[1] * n;
+      ahead.second += part.cosine[2] * c + part.sine[2] * n;
+      ahead.third += part.cosine[3] * c + part.sine[3] * n;
+      z = decay * part.size;
+    } else {
+      const auto now = advance(*part.mode, part.start, s);
+      const auto& form = *part.form;
+      ahead.value += sign_ * (form.y[0] * now.y + form.rate[0] * now.rate);
+      ahead.slope += sign_ * (form.y[1] * now.y + form.rate[1] * now.rate);
+      ahead.second += sign_ * (form.y[2] * now.y + form.rate[2] * now.rate);
+      ahead.third += sign_ * (form.y[3] * now.y + form.rate[3] * now.rate);
+      z = size(*part.mode, now);
+    }
+    ahead.curvature += part.curvature * z;
+    ahead.third_bound += part.third * z;
+    // The next mode, resolved, is good for two radians of it or so: is the sum of these above the
+    // amplitudes of the others for one?
+    const double above = ahead.value - part.faster, x = part.radian_of_next;
+    if (x > 0.0 && above > 0.0 && above + x * (ahead.slope - 0.5 * x * ahead.curvature) > 0.0) {
       ahead.value = above;
       ahead.whole = false;
       break;
     }
   }
-  if (form_.growth_ > 0.0) {
-    ahead.reach = 0.5 / form_.growth_;
+  if (growth_ > 0.0) {
+    ahead.reach = 0.5 / growth_;
     constexpr double growth = 1.6488;  // more than e^(1/2)
     ahead.curvature *= growth;
-    ahead.third *= growth;
+    ahead.third_bound *= growth;
   }
   return ahead;
 }

@@ -49,19 +49,35 @@ class ModalForm {
 /// amplitudes of the others, their bounds say how far it stays so, whatever the fast ones do.
 class FormAhead {
  public:
-  /// Takes `amplitudes` for its use.
+  FormAhead() = default;
+  /// `system` and `form` must outlive it, or the next begin().
   FormAhead(const ModalSystem& system, const ModalForm& form, std::span<const ModalState> start,
-            double sign, std::vector<double>& amplitudes);
+            double sign) {
+    begin(system, form, start, sign);
+  }
+  /// Another flight. Allocates only for more modes than ever before.
+  void begin(const ModalSystem& system, const ModalForm& form, std::span<const ModalState> start,
+             double sign);
 
   /// What is known of it ahead of s.
   LocalBound operator()(double s) const;
 
  private:
-  const ModalSystem& system_;
-  const ModalForm& form_;
-  std::span<const ModalState> start_;
-  double sign_;
-  std::span<const double> amplitudes_;  // of all parts after this one
+  // A mode of the flight. Where it oscillates its part of the k-th derivative is
+  // e^(-sigma s) (cosine[k] cos w s + sine[k] sin w s), |z| <= size e^(-sigma s).
+  struct Part {
+    bool oscillates;
+    double sigma, w, size;
+    double cosine[4], sine[4];
+    double curvature, third;  // bounds over z
+    double faster;            // amplitudes of all parts after this one
+    double radian_of_next;    // 1/omega of the next part
+    const Mode* mode;         // of one that does not oscillate, with its state and its form
+    ModalState start;
+    const ModalForm::Part* form;
+  };
+  std::vector<Part> parts_;
+  double offset_ = 0.0, sign_ = 1.0, growth_ = 0.0;
 };
 
 }  // namespace clackers::numerics

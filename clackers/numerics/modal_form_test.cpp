@@ -89,8 +89,7 @@ struct Search {
 };
 
 Search search(const Flight& flight, const ModalForm& form, double until) {
-  std::vector<double> amplitudes;
-  const FormAhead ahead(flight.system, form, flight.start, 1.0, amplitudes);
+  const FormAhead ahead(flight.system, form, flight.start, 1.0);
   Search made;
   made.root = first_root(
       [&](double s) {

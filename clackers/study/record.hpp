@@ -32,6 +32,7 @@ struct Quantity {
   double value = 0.0;
   std::string unit;  ///< "rad/s", empty when dimensionless
   std::string meaning;
+  std::string text{};  ///< of a parameter that is a word: "chain"; the value is NaN then
 };
 
 /// What was run, where and by what: enough to run it again.
@@ -48,8 +49,8 @@ struct CaseSummary {
   double end = 0.0;                  ///< [s]
   double fast_period = 0.0;          ///< shortest damped period of the free masses [s]
   std::vector<double> impact_times;  ///< at most the first 1000 [s]
-  std::vector<int> impact_contacts;  ///< the contact of each, from 0; not in files
-  Schematic drawing;                 ///< not in files
+  std::vector<int> impact_contacts;  ///< the contact of each, from 0
+  Schematic drawing;
   long long impact_count = 0;
 };
 
@@ -136,7 +137,7 @@ struct Run {
   std::optional<HistoryFile> file;    ///< of a history
   std::vector<MetricResult> metrics;  ///< empty where none were measured
   Curve error_history;    ///< |error in u| / envelope against time; empty where none was kept
-  Curve motion{};         ///< displacements of a method's run that is shown [m]; not in files
+  Curve motion{};         ///< displacements of the method's run that is shown [m]
   std::string printed{};  ///< last lines that a program printed whose run failed
 };
 

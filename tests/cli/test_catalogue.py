@@ -24,9 +24,17 @@ class List(CommandTest):
         self.assertTrue(title.endswith("Default panel: " + ", ".join(PANEL)), title)
 
     def test_methods_are_integrators_contacts_and_what_stands_alone(self):
-        joined = self.names("integrators") + self.names("contacts")
+        contacts = [name for name in self.names("contacts") if ":" not in name]
+        joined = self.names("integrators") + contacts
         self.assertEqual(self.names("methods")[:len(joined)], joined)
         self.assertIn("moreau-jean", self.names("methods")[len(joined):])
+
+    def test_contacts_have_a_row_for_every_compliant_law(self):
+        laws = [name for name in self.names("contacts") if name.startswith("penalty:law=")]
+        self.assertGreaterEqual(len(laws), 7)
+        for law in laws:
+            self.assertIn("newmark+" + law, self.names("pairs"))
+            self.assertIn(law.split("=")[1], self.good("show", law))
 
     def test_shows_every_kind_in_every_format_at_80_columns(self):
         for kind in KINDS:

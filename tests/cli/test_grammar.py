@@ -23,7 +23,7 @@ class Help(CommandTest):
 
     def test_describes_every_option_of_the_grammar(self):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
-        own = {"list": [], "explain": [], "show": ["--set", "--threshold"],
+        own = {"list": [], "explain": [], "show": ["--set", "--threshold", "--report"],
                "check": ["--case", "--set", "--columns", "--events", "--steps", "--expect",
                          "--tolerance", "--tolerances", "--metrics", "--report", "--require", "--baseline"],
                "paper": [],

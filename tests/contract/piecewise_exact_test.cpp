@@ -34,13 +34,18 @@ TEST_P(PiecewiseExactBeside, TheClosedFormCollidesAtTheSameTimes) {
     EXPECT_NEAR(impacts[std::size_t(k - 1)].t, t, 1e-13 * t) << "collision " << k;
   }
   const auto scale = which.motion->envelope(0.0);
+  // The fastest phase is rounded once or twice, and so is its frequency.
+  const auto& system = which.problem.system;
+  const double fastest =
+      std::sqrt((system.stiffness.diagonal().array() / system.mass.diagonal().array()).maxCoeff());
+  const double allowed = 1e-14 + 4.0 * 0x1p-52 * fastest * which.problem.end;
   for (std::size_t i = 0; i < path.t.size(); ++i) {
     const auto known =
         which.motion->at(std::min(path.t[i], which.motion->end()), model::Side::right);
     for (int j = 0; j < path.dof; ++j) {
       const auto row = i * std::size_t(path.dof) + std::size_t(j);
-      EXPECT_NEAR(path.u[row], known.u[j], 2e-13 * scale.u[j]) << path.t[i];
-      EXPECT_NEAR(path.v[row], known.v[j], 2e-13 * scale.v[j]) << path.t[i];
+      EXPECT_NEAR(path.u[row], known.u[j], allowed * scale.u[j]) << path.t[i];
+      EXPECT_NEAR(path.v[row], known.v[j], allowed * scale.v[j]) << path.t[i];
     }
   }
 }

@@ -92,10 +92,14 @@ double Comparison::rounding_floor() const {
 }
 
 double Comparison::collision_period() const {
-  if (collision_period_ == 0.0)
-    collision_period_ = reference_.impact_count(reference_.end()) < 2
-                            ? reference_.end()
-                            : reference_.impact(2).t - reference_.impact(1).t;
+  if (collision_period_ != 0.0) return collision_period_;
+  collision_period_ = reference_.end();
+  const auto count = reference_.impact_count(reference_.end());
+  for (long long k = 2; k <= count; ++k)
+    if (const double period = reference_.impact(k).t - reference_.impact(1).t; period > 0.0) {
+      collision_period_ = period;
+      break;
+    }
   return collision_period_;
 }
 
@@ -108,10 +112,11 @@ std::string Comparison::objection_to_sparse_rows() const {
 }
 
 void Comparison::collect_impacts() {
-  // Two true impacts must never count as one: the two steps within which reports are joined are at
-  // most an eighth of the mean time between true impacts, half of what a match may be off.
-  const auto spacing =
-      reference_.end() / double(std::max(1LL, reference_.impact_count(reference_.end())));
+  // Two true impacts of a contact must never count as one: the two steps within which reports are
+  // joined are at most an eighth of the mean time between them, half of what a match may be off.
+  const auto contacts = std::max<std::size_t>(problem_.contacts.size(), 1);
+  const auto spacing = reference_.end() * double(contacts) /
+                       double(std::max(1LL, reference_.impact_count(reference_.end())));
   const double step = std::min(step_, spacing / 16.0);
   if (!given_.impacts) {
     source_ = ImpactSource::found_in_history;
@@ -124,14 +129,16 @@ void Comparison::collect_impacts() {
   }
   auto reports = *given_.impacts;
   std::ranges::stable_sort(reports, {}, &model::Impact::t);
+  std::vector<std::optional<std::size_t>> last(contacts);  // impact of each contact
   for (auto& report : reports) {
     forget_what_is_not_finite(report);
-    if (!impacts_.empty() && impacts_.back().contact == report.contact &&
-        report.t - impact_ends_.back() < one_collision * step) {
-      impacts_.back().v_after = std::move(report.v_after);
-      impacts_.back().impulse += report.impulse;
-      impact_ends_.back() = report.t;
+    auto& same = last[std::size_t(report.contact)];
+    if (same && report.t - impact_ends_[*same] < one_collision * step) {
+      impacts_[*same].v_after = std::move(report.v_after);
+      impacts_[*same].impulse += report.impulse;
+      impact_ends_[*same] = report.t;
     } else {
+      same = impacts_.size();
       impact_ends_.push_back(report.t);
       impacts_.push_back(std::move(report));
     }

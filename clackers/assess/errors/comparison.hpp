@@ -48,8 +48,8 @@ class Comparison {
   bool has_accelerations() const { return !given_.a.empty(); }
   /// Median of the given history's differences between times, without zeros [s].
   double step() const { return step_; }
-  /// The time T that distances in time are divided by [s]: between the first two true impacts, or
-  /// the whole motion where it has fewer.
+  /// The time T that distances in time are divided by [s]: between the first two instants of true
+  /// impacts, or the whole motion where it has fewer.
   double collision_period() const;
   /// The result of make(*this), computed at the first call and kept: what several metrics share.
   template <class Result>

@@ -104,6 +104,34 @@ TEST(Comparison, JoinsReportsOfAdjacentSteps) {
   EXPECT_EQ(comparison.matches().size(), 1u);
 }
 
+TEST(Comparison, JoinsReportsOfAContactAmongThoseOfOthers) {
+  const ToyMotion reference(9.0);
+  auto problem = toy_problem(9.0);
+  problem.contacts.push_back({Eigen::Vector2d(1.0, 0.0), 0.0, 1.0});
+  const auto history = with_reports(reference, {{1.55, 0, {}, {}, {}, 1.0},
+                                                {1.55, 1, {}, {}, {}, 2.0},
+                                                {1.60, 1, {}, {}, {}, 3.0},
+                                                {1.60, 0, {}, {}, {}, 4.0}});
+  const Comparison comparison(history, reference, problem);
+  ASSERT_EQ(comparison.impacts().size(), 2u);
+  for (const int contact : {0, 1}) {
+    EXPECT_EQ(comparison.impacts()[std::size_t(contact)].contact, contact);
+    EXPECT_EQ(comparison.impacts()[std::size_t(contact)].impulse, 5.0);
+    EXPECT_EQ(comparison.impact_ends()[std::size_t(contact)], 1.60);
+  }
+}
+
+TEST(Comparison, TheCollisionPeriodIsBetweenInstantsNotBetweenContacts) {
+  const auto period = [](std::vector<double> impacts) {
+    const ToyMotion reference(20.0, std::move(impacts));
+    const auto problem = toy_problem();
+    const auto history = history_of(reference, {0.0, 1.0, 2.0});
+    return Comparison(history, reference, problem).collision_period();
+  };
+  EXPECT_EQ(period({2.0, 2.0, 5.0, 9.0}), 3.0);
+  EXPECT_EQ(period({2.0, 2.0}), 20.0);
+}
+
 // Output every 1.5 s does not show the steps of the method: 4.5 and 4.9 stay two.
 TEST(Comparison, DoesNotJoinReportsBecauseRowsAreFew) {
   const ToyMotion reference(20.0);

@@ -60,8 +60,9 @@ void commensurate(const Question& question, bool impacts_at_steps, std::vector<D
     one.confidence = on.size() >= 2 ? 0.95 : 0.8;
   }
   one.evidence = {{"share", share}, {"step", on.back()->step}};
-  if (known >= 2)
-    one.evidence.push_back({"time", question.motion.impact(2).t - question.motion.impact(1).t});
+  // Contacts may close together.
+  const double apart = known >= 2 ? question.motion.impact(2).t - question.motion.impact(1).t : 0.0;
+  if (apart > 0.0) one.evidence.push_back({"time", apart});
   found.push_back(std::move(one));
 }
 

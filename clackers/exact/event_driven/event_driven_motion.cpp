@@ -126,10 +126,10 @@ class EventDrivenMotion::Builder {
   }
 
   FirstRoot crossing(const Row& row, double sign, double span) {
-    const numerics::FormAhead form(system(), row.forms[which()], modal_state(), sign, amplitudes_);
+    ahead_.begin(system(), row.forms[which()], modal_state(), sign);
     const double shortest =
         1e-6 / std::max({system().fastest(), 1e-3 / span, std::numeric_limits<double>::min()});
-    return numerics::first_root(form, 0.0, span, shortest, most_root_steps);
+    return numerics::first_root(ahead_, 0.0, span, shortest, most_root_steps);
   }
 
   std::optional<Hit> next_contact() {
@@ -196,7 +196,7 @@ class EventDrivenMotion::Builder {
   std::vector<Row> contacts_;
   double t_ = 0.0;
   VectorXd u_, v_;
-  std::vector<double> amplitudes_;
+  numerics::FormAhead ahead_;
   double speed_ = 0.0;  // before the last crossing
   bool undecided_ = false;
 };

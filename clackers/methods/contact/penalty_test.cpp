@@ -249,8 +249,8 @@ TEST(Penalty, AContactThatIsPressedStaysClosedAndCarriesTheLoad) {
   }
 }
 
-TEST(Penalty, EveryLawEndsARunThatIsNoMultipleOfTheStepInsideAContact) {
-  // The last, shorter step closes the contact: it must have its force.
+TEST(Penalty, TheLastShorterStepHasItsContactForce) {
+  // The run is no multiple of the step, and its last one closes the contact.
   auto p = mass_on_stop(1.0, 0.0, 0.0, 0.0, -1.0, 1.0, 0.0105);
   p.start.u[0] = 0.0101;
   const auto path = run("newmark+penalty:stiffness=1e8", p, 0.001).trajectory;

@@ -199,10 +199,10 @@ class PiecewiseExact::Loop {
       const auto& form = motion_->forms[i];
       const double from = phases_[i] == Phase::departing ? departure(form) : 0.0;
       if (from >= until) continue;
-      const numerics::FormAhead ahead(motion_->modes, form, states_, 1.0, amplitudes_);
+      ahead_.begin(motion_->modes, form, states_, 1.0);
       const auto counted = [&](double s) {
         ++evaluations_;
-        return ahead(s);
+        return ahead_(s);
       };
       const auto root = numerics::first_root(counted, from, until, shortest_step / fastest,
                                              std::numeric_limits<int>::max());
@@ -379,7 +379,7 @@ class PiecewiseExact::Loop {
   ConstrainedMotions motions_;
   const ConstrainedMotion* motion_ = nullptr;  // of this flight
   std::vector<numerics::ModalState> states_;   // at its beginning
-  std::vector<double> amplitudes_;
+  numerics::FormAhead ahead_;
   numerics::DoubleDouble time_;  // of its beginning
   State now_, output_;
   Vector v_before_, force_, u_size_, v_size_;

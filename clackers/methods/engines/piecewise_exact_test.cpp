@@ -1,5 +1,6 @@
 #include "clackers/methods/engines/piecewise_exact.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "clackers/base/testing/refusal.hpp"
@@ -32,7 +33,7 @@ TEST(PiecewiseExact, RattlesAsTheClosedFormAtEveryStep) {
         const auto& impact = (*path.impacts)[i];
         const double t = mass.impact_time(mass.count(1.0) + int(i) + 1);
         EXPECT_NEAR(impact.t, t, 1e-14 * t);
-        EXPECT_EQ(impact.v_after[0], -mass.eta * impact.v_before[0]);
+        EXPECT_NEAR(impact.v_after[0], -mass.eta * impact.v_before[0], 1e-15);
         EXPECT_NEAR(impact.impulse, 2.0 * (impact.v_after[0] - impact.v_before[0]), 1e-15);
       }
     }
@@ -88,7 +89,7 @@ TEST(PiecewiseExact, AgreesWithSmallStepsOfRk4ForCoupledModesAndSeveralContacts)
   for (const double eta : {1.0, 0.6, 0.0}) {
     const auto problem = chain(eta);
     const auto exact = run("piecewise-exact", problem, 0.05),
-               small = run("rk4+event-driven", problem, 1e-3);
+               small = run("rk4+event-driven", problem, 2.5e-4);
     ASSERT_TRUE(exact.outcome.finished && small.outcome.finished) << small.outcome.detail;
     ASSERT_EQ(exact.trajectory.impacts->size(), small.trajectory.impacts->size()) << eta;
     EXPECT_GE(exact.trajectory.impacts->size(), 5u);
@@ -250,9 +251,9 @@ TEST(PiecewiseExact, CollapsesThreeFreeMassesIntoOne) {
 TEST(PiecewiseExact, CountsItsWork) {
   const auto work = run("piecewise-exact", RattlingMass{}.problem(21.0), 0.5).outcome.work;
   EXPECT_EQ(work.steps, 40);
-  EXPECT_EQ(work.event_searches, 6);
+  EXPECT_EQ(work.event_searches, 7);
   EXPECT_GT(work.force_evaluations, 40);
-  EXPECT_LT(work.force_evaluations, 40 + 7 * 20);
+  EXPECT_LT(work.force_evaluations, 40 + 8 * 15);
 }
 
 TEST(PiecewiseExact, RefusesWhatItCannotTake) {

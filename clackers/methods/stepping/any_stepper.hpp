@@ -26,14 +26,14 @@ class AnyStepper {
   /// Starts at `from`, or starts again after a jump in velocity: what the integrator remembers of
   /// the steps before no longer holds.
   virtual void restart(const State& from) = 0;
-  /// Fills states[i], i >= 1, from states[0], the state at step `first` of the plan. Times are
-  /// counted, never summed. Returns the number of steps: all of them, or up to the one that failed.
+  /// Fills states[i], i >= 1, from states[0], the state at step `first` of the plan; times are counted,
+  /// or an adaptive one's own. Returns the number of steps: up to one that failed or ends the plan.
   virtual std::size_t advance(long long first, std::span<State> states) = 0;
   /// Goes back into the block that advance() has just filled, to states[steps]: the next step or
   /// partial step is from there. The work is that of one step more, since its end has been seen.
   virtual void rewind(long long first, std::span<const State> states, std::size_t steps) = 0;
-  /// The state s after `from`, 0 < s <= h; `from` is the state before the next step. Valid until the
-  /// next call. For locating impacts.
+  /// The state s after `from`, 0 < s <= h, `from` the state before the next step; of an adaptive one
+  /// in the step that rewind() went back before. Valid until the next call. For locating impacts.
   virtual const State& partial(const State& from, double s) = 0;
 
   /// True after a step whose equations could not be solved; its state is meaningless.

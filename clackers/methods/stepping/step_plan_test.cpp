@@ -54,5 +54,18 @@ TEST(StepPlan, RefusesWhatCannotRun) {
   EXPECT_NO_THROW(plan_steps("who", 1e9, 1e9 + 1, 1e-2));
 }
 
+TEST(StepPlan, OfAToleranceHasNoStep) {
+  const auto plan = plan_adaptive("dopri5", 1.0, 20.0, 1e-6);
+  EXPECT_TRUE(plan.is_adaptive());
+  EXPECT_FALSE(plan_steps("who", 0.0, 1.0, 0.1).is_adaptive());
+  EXPECT_EQ(plan.end, 20.0);
+  EXPECT_EQ(plan.tolerance, 1e-6);
+  EXPECT_REFUSED(plan_adaptive("dopri5", 0, 1, 1e-14), "tolerance-too-small",
+                 "dopri5: tolerance = 1e-14; allowed: tolerance >= 2.2e-14.");
+  EXPECT_NO_THROW(plan_adaptive("dopri5", 0, 1, least_tolerance));
+  for (const double tolerance : {0.0, -1.0, 1.0})
+    EXPECT_REFUSED(plan_adaptive("dopri5", 0, 1, tolerance), "out-of-range");
+}
+
 }  // namespace
 }  // namespace clackers::methods

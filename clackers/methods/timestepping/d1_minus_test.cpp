@@ -65,5 +65,15 @@ TEST(D1Minus, AClosedContactIsKeptByForces) {
   EXPECT_NEAR(path.v.back(), 4.5, 0.01);
 }
 
+// A load that lifts the mass at the start of the step and pulls it back at its end.
+TEST(D1Minus, AContactThatOpensInTheStepHasNoForceAtItsEnd) {
+  auto p = mass_on_stop(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1);
+  p.system.add_load = [](double t, std::span<double> f) { f[0] += 1.0 - 110.0 * t; };
+  const auto path = run("d1-minus", p, 0.1).trajectory;
+  EXPECT_NEAR(path.u.back(), 0.005, 1e-15);
+  EXPECT_NEAR(path.v.back(), 0.05 * (1.0 - 10.0), 1e-15);
+  EXPECT_TRUE(path.impacts->empty());
+}
+
 }  // namespace
 }  // namespace clackers::methods

@@ -27,7 +27,7 @@ TEST(NonsmoothGeneralizedAlpha, StepsByItsFormula) {
         return (std::sin(t) - c * v - k * u - p_uv) / m;
       };
       const auto name = "nonsmooth-generalized-alpha:rho=" + std::to_string(rho);
-      const auto path = run(name, p, h).trajectory;
+      const auto [path, outcome] = run(name, p, h);
       double a0 = smooth(1.0, path.u[0], path.v[0]), s0 = a0;
       std::size_t impacts = 0;
       for (std::size_t n = 0; n + 1 < path.t.size(); ++n) {
@@ -48,6 +48,9 @@ TEST(NonsmoothGeneralizedAlpha, StepsByItsFormula) {
         s0 = s1;
       }
       EXPECT_EQ(impacts, path.impacts->size());
+      if (!is_nonlinear) {  // the response is that of the step: nothing is iterated
+        EXPECT_EQ(outcome.work.force_evaluations, 1 + 80 + static_cast<long long>(impacts));
+      }
       EXPECT_GE(impacts, 3u);
     }
 }

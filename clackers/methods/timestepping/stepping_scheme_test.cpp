@@ -204,6 +204,10 @@ TEST_P(Scheme, AMotionThatGrowsWithoutBoundDiverges) {
   if (method(name)->objection(p)) p.contacts.front().restitution = 0.0;
   const auto outcome = run(name, p, 0.01).outcome;
   EXPECT_EQ(outcome.reason, Code("diverged")) << outcome.detail;
+  // Also where it would close the contact.
+  p.system.damping(0, 0) = 0.0;
+  p.system.add_load = [](double t, std::span<double> f) { f[0] -= t > 2.0 ? INFINITY : 0.0; };
+  EXPECT_EQ(run(name, p, 0.01).outcome.reason, Code("diverged"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Names, Scheme,

@@ -91,8 +91,8 @@ std::string quantities_html(const std::string& caption,
   std::vector<std::vector<std::string>> rows;
   for (const auto& quantity : quantities)
     rows.push_back({fmt::format("<code>{}</code>", escape(quantity.name)),
-                    html_number(quantity.value, 10), escape(quantity.unit),
-                    escape(quantity.meaning)});
+                    quantity.text.empty() ? html_number(quantity.value, 10) : escape(quantity.text),
+                    escape(quantity.unit), escape(quantity.meaning)});
   const HtmlColumn columns[] = {{"Name", {}}, {"Value", {}, true}, {"Unit", {}}, {"Meaning", {}}};
   return html_table(caption, caption, columns, rows);
 }

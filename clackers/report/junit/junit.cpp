@@ -174,7 +174,10 @@ void add_suite(pugi::xml_node& suites, const study::Record& record,
   properties.add("machine", from.machine);
   properties.add("processor", from.processor);
   for (const auto& parameter : problem.problem.parameters)
-    properties.add(parameter.name, parameter.value);
+    if (parameter.text.empty())
+      properties.add(parameter.name, parameter.value);
+    else
+      properties.add(parameter.name, parameter.text);
   if (const auto plan = plan_text(problem); !plan.empty()) properties.add("plan", plan);
   for (const auto& subject : problem.subjects) {
     auto test = suite.append_child("testcase");

@@ -127,7 +127,8 @@ std::string case_text(const study::CaseSummary& problem, std::string_view space)
   std::string parameters;
   for (const auto& p : problem.parameters)
     parameters += fmt::format("{0}{2}{1}={1}{3}{4}{5}", parameters.empty() ? "" : ", ", space,
-                              p.name, exact_number(p.value), p.unit.empty() ? "" : space, p.unit);
+                              p.name, p.text.empty() ? exact_number(p.value) : p.text,
+                              p.unit.empty() ? "" : space, p.unit);
   return parameters.empty() ? problem.name : fmt::format("{} ({})", problem.name, parameters);
 }
 
@@ -144,10 +145,22 @@ std::string plan_text(const study::CaseRecord& problem) {
   const auto per_period = [&](double step) {
     return short_number(problem.problem.fast_period / step, 4);
   };
-  return fmt::format("{} of {}, h = {} s to {} s, {} to {} steps per fast period",
-                     counted(plan.levels, "level"), counted(plan.samples_per_level, "step"),
-                     short_number(plan.coarsest, 3), short_number(finest, 3),
-                     per_period(plan.coarsest), per_period(finest));
+  const auto steps = fmt::format(
+      "{} of {}, h = {} s to {} s, {} to {} steps per fast period", counted(plan.levels, "level"),
+      counted(plan.samples_per_level, "step"), short_number(plan.coarsest, 3),
+      short_number(finest, 3), per_period(plan.coarsest), per_period(finest));
+  const auto is_adaptive = [](const study::Subject& subject) {
+    return subject.kind == study::SubjectKind::method && !subject.levels.empty() &&
+           subject.resolution == study::Resolution::tolerance;
+  };
+  const auto adaptive = std::ranges::find_if(problem.subjects, is_adaptive);
+  if (adaptive == problem.subjects.end()) return steps;
+  const auto tolerances = fmt::format(
+      "{}, tolerance {} to {}", counted(static_cast<long long>(adaptive->levels.size()), "level"),
+      short_number(adaptive->levels.front().step, 3),
+      short_number(adaptive->levels.back().step, 3));
+  const bool are_all = std::ranges::all_of(problem.subjects, is_adaptive);
+  return are_all ? tolerances : fmt::format("{}; adaptive: {}", steps, tolerances);
 }
 
 VerdictLine verdict_line(const study::Record& record) {

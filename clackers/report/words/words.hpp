@@ -33,8 +33,8 @@ std::string claim_text(const Claim& claim);
 std::string case_text(const study::CaseSummary& problem, std::string_view space = " ");
 /// "20 s with 6 collisions; fast period 1.258 s".
 std::string length_text(const study::CaseSummary& problem);
-/// "8 levels of 8 steps, h = 0.05 s to 0.00039 s, 13 to 1625 steps per fast period"; empty for
-/// histories.
+/// "8 levels of 8 steps, h = 0.05 s to 0.00039 s, 13 to 1625 steps per fast period", of adaptive
+/// methods "8 levels, tolerance 0.001 to 1e-10"; empty for histories.
 std::string plan_text(const study::CaseRecord& problem);
 
 /// What was measured of a subject, what decided the verdict, and how it compares with the claim.

@@ -29,7 +29,9 @@ Sheet parameter_sheet(const cases::Case& which) {
       {}};
   for (std::size_t i = 0; i < which.values.size(); ++i) {
     const auto& p = which.entry->parameters[i];
-    sheet.rows.push_back({p.name, which.values[i].second, p.unit, p.allowed, p.meaning});
+    const auto& value = which.values[i].second;
+    const Cell cell = value.is_word() ? Cell(value.text()) : Cell(double(value));
+    sheet.rows.push_back({p.name, cell, p.unit, p.allowed, p.meaning});
   }
   return sheet;
 }

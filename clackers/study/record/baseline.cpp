@@ -16,7 +16,8 @@ namespace {
 std::string case_options(const CaseSummary& problem) {
   std::string values;
   for (const auto& p : problem.parameters)
-    values += fmt::format("{}{}={}", values.empty() ? "" : ",", p.name, p.value);
+    values += fmt::format("{}{}={}", values.empty() ? "" : ",", p.name,
+                          p.text.empty() ? fmt::format("{}", p.value) : p.text);
   return fmt::format("--case {}{}{}", problem.name, values.empty() ? "" : " --set ", values);
 }
 
@@ -35,7 +36,9 @@ std::string plan_options(const RefinementPlan& plan) {
 }
 
 // Numbers are compared bit by bit: a record reads back to the same doubles.
-bool same(const Quantity& a, const Quantity& b) { return a.name == b.name && a.value == b.value; }
+bool same(const Quantity& a, const Quantity& b) {
+  return a.name == b.name && a.text == b.text && (a.value == b.value || !a.text.empty());
+}
 
 void require_same_case(const CaseSummary& problem, const RefinementPlan& plan,
                        const CaseRecord& baseline) {

@@ -22,6 +22,7 @@ void fields(Archive& archive, Like<Quantity> auto& x) {
   archive("value", x.value);
   archive("unit", x.unit);
   archive("meaning", x.meaning);
+  archive.added("text", x.text);
 }
 
 template <class Archive>
@@ -35,6 +36,32 @@ void fields(Archive& archive, Like<Provenance> auto& x) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Like<Schematic::Block> auto& x) {
+  archive("column", x.column);
+  archive("height", x.height);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Schematic::Spring> auto& x) {
+  archive("one", x.one);
+  archive("other", x.other);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Schematic::Touch> auto& x) {
+  archive("left", x.left);
+  archive("right", x.right);
+  archive("gap", x.gap);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Schematic> auto& x) {
+  archive("blocks", x.blocks);
+  archive("springs", x.springs);
+  archive("contacts", x.contacts);
+}
+
+template <class Archive>
 void fields(Archive& archive, Like<CaseSummary> auto& x) {
   archive("name", x.name);
   archive("summary", x.summary);
@@ -45,6 +72,8 @@ void fields(Archive& archive, Like<CaseSummary> auto& x) {
   archive("fast_period", x.fast_period);
   archive("impact_times", x.impact_times);
   archive("impact_count", x.impact_count);
+  archive.added("impact_contacts", x.impact_contacts);
+  archive.added("drawing", x.drawing);
 }
 
 template <class Archive>
@@ -162,6 +191,7 @@ void fields(Archive& archive, Like<Run> auto& x) {
   archive("metrics", x.metrics);
   archive("error_history", x.error_history);
   archive.added("printed", x.printed);
+  archive.added("motion", x.motion);
 }
 
 template <class Archive>

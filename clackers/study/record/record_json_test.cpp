@@ -63,12 +63,13 @@ std::size_t fields_of() {
 template <class T>
 class RecordFields : public testing::Test {};
 using Structs =
-    testing::Types<Quantity, Provenance, CaseSummary, RefinementPlan, Refinement, Curve,
-                   PrintedColumn, Note, HistoryFile, MetricResult, model::Work, assess::ImpactScore,
-                   assess::RunScore, Level, Claim, assess::LadderFit, assess::Evidence,
-                   assess::Assessment, assess::SelfConvergence, assess::SelfAgainstReference,
-                   assess::Richardson, SelfResult, Subject, assess::ProfileStep,
-                   assess::MethodProfile, Profile, CaseRecord, Record>;
+    testing::Types<Quantity, Schematic, Schematic::Block, Schematic::Spring, Schematic::Touch,
+                   Provenance, CaseSummary, RefinementPlan, Refinement, Curve, PrintedColumn, Note,
+                   HistoryFile, MetricResult, model::Work, assess::ImpactScore, assess::RunScore,
+                   Level, Claim, assess::LadderFit, assess::Evidence, assess::Assessment,
+                   assess::SelfConvergence, assess::SelfAgainstReference, assess::Richardson,
+                   SelfResult, Subject, assess::ProfileStep, assess::MethodProfile, Profile,
+                   CaseRecord, Record>;
 TYPED_TEST_SUITE(RecordFields, Structs);
 
 TYPED_TEST(RecordFields, HoldEveryMember) {

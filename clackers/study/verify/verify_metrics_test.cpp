@@ -39,6 +39,16 @@ TEST(Verify, MeasuresMetricsOfTheFinestLevelThatCanBeStored) {
   EXPECT_EQ(verify(request).cases[0].subjects[0].shown_run(), nullptr);
 }
 
+TEST(Verify, SplitsTheErrorOfALinearContactSpringAlone) {
+  const auto record = verify(small({"newmark+penalty", "newmark+penalty:law=hertz"}));
+  const auto split = [&](std::size_t i) {
+    const auto& metrics = record.cases[0].subjects[i].shown_run()->metrics;
+    return *std::ranges::find(metrics, "u-penalty-model-max-relative", &MetricResult::name);
+  };
+  EXPECT_GT(split(0).value, 0.0);
+  EXPECT_EQ(split(1).reason, "No contact spring of the run is known.");
+}
+
 TEST(Verify, MeasuresNoMetricsOfARunThatFailed) {
   auto request = small({"central-difference"});
   request.plan = {4.0, 1, 1};  // twice its stability limit

@@ -115,8 +115,13 @@ CaseSummary summary_of(const cases::Case& problem) {
   summary.equations = problem.entry->equations;
   for (std::size_t i = 0; i < problem.values.size(); ++i) {
     const auto& parameter = problem.entry->parameters[i];
-    summary.parameters.push_back(
-        {parameter.name, problem.values[i].second, parameter.unit, parameter.meaning});
+    const auto& value = problem.values[i].second;
+    auto& added = summary.parameters.emplace_back(
+        Quantity{parameter.name, NAN, parameter.unit, parameter.meaning});
+    if (value.is_word())
+      added.text = value.text();
+    else
+      added.value = value;
   }
   for (const auto& c : problem.constants) summary.constants.push_back(quantity(c));
   for (const auto& c : problem.indicators) summary.constants.push_back(quantity(c));

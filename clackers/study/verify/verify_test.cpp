@@ -48,6 +48,42 @@ std::string refusal(const VerifyRequest& request) {
   return "accepted";
 }
 
+TEST(Verify, AssessesAdaptiveMethodsOverTolerances) {
+  auto request = small({"dopri5", "rk4"});
+  const auto record = verify(request);
+  const auto& adaptive = subjects(record).at(0);
+  EXPECT_EQ(adaptive.resolution, Resolution::tolerance);
+  ASSERT_EQ(adaptive.levels.size(), 8u);
+  for (std::size_t i = 0; i < adaptive.levels.size(); ++i) {
+    const auto& level = adaptive.levels[i];
+    EXPECT_NEAR(level.step * std::pow(10.0, 3.0 + double(i)), 1.0, 1e-12);
+    ASSERT_EQ(level.runs.size(), 1u);
+    EXPECT_EQ(level.runs[0].score.step, level.step);
+    EXPECT_EQ(level.runs[0].score.impacts->matched, level.runs[0].score.impacts->expected);
+  }
+  EXPECT_EQ(adaptive.assessment.displacement.behaviour, Behaviour::proper);
+  EXPECT_NEAR(adaptive.assessment.displacement.order, 1.0, 0.15);
+  EXPECT_EQ(adaptive.claim.order, 1.0);
+  EXPECT_EQ(adaptive.assessment.verdict, Verdict::agrees);
+  EXPECT_FALSE(adaptive.refinement);
+  EXPECT_EQ(subjects(record).at(1).resolution, Resolution::step);
+
+  request.tolerances = {1e-4, 1e-6};
+  EXPECT_EQ(subjects(verify(request)).at(0).levels.size(), 2u);
+  request.methods = {"rk4"};
+  EXPECT_EQ(
+      refusal(request),
+      "verify: tolerances = 0.0001; allowed: those of a method that is adaptive, such as dopri5. "
+      "[wrong-resolution]");
+}
+
+TEST(Verify, AnExactFlowClaimsToBeExactWithoutLoad) {
+  const auto record = verify(small({"exponential"}));
+  const auto& subject = subjects(record).at(0);
+  EXPECT_EQ(subject.claim.behaviour, Behaviour::exact);
+  EXPECT_EQ(subject.assessment.verdict, Verdict::agrees);
+}
+
 TEST(Verify, AssessesMethodsOverTheLevels) {
   const auto record = verify(small({"rk4", "newmark"}));
   EXPECT_FALSE(record.interrupted);

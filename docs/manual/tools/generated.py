@@ -74,6 +74,8 @@ def method_page(command, row, record):
     for sheet in sheets:
         if sheet["schema"] == "clackers/parameters/1" and sheet["title"].endswith(" " + name):
             out.append("## Parameters\n\n" + sheet_table(sheet))
+        if sheet["schema"] == "clackers/words/1" and sheet["title"].endswith(" of " + name):
+            out.append(f"## Words for `{sheet['columns'][0]['name']}`\n\n" + sheet_table(sheet))
         if sheet["schema"] == "clackers/facts/1":
             out.append(f"## Claims of `{sheet['title']}`\n\n" + sheet_table(sheet))
     curves = [sheet for sheet in sheets if sheet["schema"].split("/")[1] in FIGURES]
