@@ -107,9 +107,11 @@ class PiecewiseMotion::Builder {
       const double size = std::abs(row) * std::hypot(now.rate, mode.omega * now.y);
       bound.value += row * now.y;
       bound.slope += row * now.rate;
-      bound.second += row * mode.acceleration(now.y, now.rate);
+      const double a = mode.acceleration(now.y, now.rate);
+      bound.second += row * a;
+      bound.third += row * (-2.0 * mode.sigma * a - mode.omega_square * now.rate);
       bound.curvature += size * h;
-      bound.third += size * (2.0 * mode.sigma * h + mode.omega_square);
+      bound.third_bound += size * (2.0 * mode.sigma * h + mode.omega_square);
     }
     for (const auto& force : m_.forces_) {
       std::complex<double> y = 0.0;
@@ -120,7 +122,8 @@ class PiecewiseMotion::Builder {
       bound.slope -= force.frequency * now.imag();
       bound.second -= square * now.real();
       bound.curvature += square * std::abs(y);
-      bound.third += square * force.frequency * std::abs(y);
+      bound.third += square * force.frequency * now.imag();
+      bound.third_bound += square * force.frequency * std::abs(y);
     }
     bound.reach = m_.end_ + 1.0;  // a gap that rests has no other
     return bound;

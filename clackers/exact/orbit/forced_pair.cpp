@@ -168,8 +168,9 @@ std::optional<ForcedPair::Closing> ForcedPair::closing() const {
     gap.slope = (one.v - two.v).nearest();
     gap.second = (one.a - two.a).nearest();
     gap.curvature = curvature * (1.0 + 1e-9);
-    gap.third = third * (1.0 + 1e-9);
+    gap.third_bound = third * (1.0 + 1e-9);
     gap.reach = T;
+    gap.whole = false;  // only whether there is a root is asked
     return gap;
   };
   const double near = 1e-7 * T;

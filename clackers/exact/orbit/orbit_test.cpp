@@ -40,8 +40,8 @@ void expect_state(const model::Motion& motion, const RawState& reference, double
         << "v" << i + 1 << " " << t;
     EXPECT_LE(abs(reference.a[i] - Real(state.a[m])), Real(bound.a[m]) + noise)
         << "a" << i + 1 << " " << t;
-    // Two-sided: a unit of the result, and 2^-59 of the phase, hide no error of the formulas.
-    EXPECT_LE(bound.u[m], (0x1p-52 + 0x1p-59 * fastest * (t + 1.0 / fastest)) * size.u[m]);
+    // Two-sided: units of the result and of the constants, and the phase, hide no error of formulas.
+    EXPECT_LE(bound.u[m], (0x1p-47 + 0x1p-58 * fastest * (t + 1.0 / fastest)) * size.u[m]);
   }
 }
 
