@@ -8,7 +8,8 @@ from command import PANEL, CommandTest, rows
 
 KINDS = ("cases", "integrators", "contacts", "methods", "pairs", "metrics")
 CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "three-parameter",
-         "synchronized-pair", "exact-data-pair")
+         "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly", "cradle",
+         "forced-pair", "base-excited-pair", "penalized-pair", "piecewise")
 
 
 class List(CommandTest):
@@ -65,7 +66,7 @@ class Show(CommandTest):
                 self.assertLessEqual(len(line), 80, line)
             whole = self.json_of("show", name)
             self.assertEqual(whole["schema"], "clackers/show/1")
-            self.assertIn("xi1", json.dumps(whole))
+            self.assertIn("t_end", json.dumps(whole))
 
     def test_honours_set_in_one_list_and_repeated(self):
         together = self.good("show", "three-parameter", "--set", "N=3,xi1=0.1")

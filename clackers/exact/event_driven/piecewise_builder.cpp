@@ -107,9 +107,11 @@ class PiecewiseMotion::Builder {
       const double size = std::abs(row) * std::hypot(now.rate, mode.omega * now.y);
       bound.value += row * now.y;
       bound.slope += row * now.rate;
-      bound.second += row * mode.acceleration(now.y, now.rate);
+      const double a = mode.acceleration(now.y, now.rate);
+      bound.second += row * a;
+      bound.third += row * (-2.0 * mode.sigma * a - mode.omega_square * now.rate);
       bound.curvature += size * h;
-      bound.third += size * (2.0 * mode.sigma * h + mode.omega_square);
+      bound.third_bound += size * (2.0 * mode.sigma * h + mode.omega_square);
     }
     for (const auto& force : m_.forces_) {
       std::complex<double> y = 0.0;
@@ -120,7 +122,8 @@ class PiecewiseMotion::Builder {
       bound.slope -= force.frequency * now.imag();
       bound.second -= square * now.real();
       bound.curvature += square * std::abs(y);
-      bound.third += square * force.frequency * std::abs(y);
+      bound.third += square * force.frequency * now.imag();
+      bound.third_bound += square * force.frequency * std::abs(y);
     }
     bound.reach = m_.end_ + 1.0;  // a gap that rests has no other
     return bound;
@@ -176,13 +179,15 @@ class PiecewiseMotion::Builder {
     if (!std::isfinite(gap)) return;
     const auto size = m_.sizes(flight(), s);
     const double error = gap_error(i, m_.covariance_after(flight(), s), size, flight().t + s, 0.0);
-    if (gap > error) return;
+    if (gap <= error) refuse_graze(i, flight().t + s, gap, error);
+  }
+  [[noreturn]] void refuse_graze(std::size_t i, double t, double gap, double error) const {
     throw InputError(
         fmt::format(
             "{}: contact {} comes within {:.3g} m near t = {:.9g} s without a certain impact, "
             "and the error there is {:.3g} m; allowed: motions whose impacts are certain. "
             "Change the gap by more, or end the run earlier.",
-            m_.who_, i + 1, gap, flight().t + s, error),
+            m_.who_, i + 1, gap, t, error),
         "not-admissible");
   }
 
@@ -209,7 +214,10 @@ class PiecewiseMotion::Builder {
       const double rate = rows_[i].dot(before);
       const double error = gap_error(i, covariance, size, t, rate);
       if (!(gap(i, state) <= error) || !(rate <= no_rate(i, before))) continue;
-      time_errors[i] = (rate < 0.0 ? error / -rate : 0.0) + 4.0 * epsilon * t;
+      // It would go beyond by rate^2 / (2 curvature) at least: more than the error, or nothing is certain.
+      const double depth = rate * rate / (2.0 * gap_ahead(i, s).curvature);
+      if (!(rate < 0.0 && depth > error)) refuse_graze(i, t, std::abs(gap(i, state)), error);
+      time_errors[i] = error / -rate + 4.0 * epsilon * t;
       closed.push_back(i);
     }
     if (closed.empty())
@@ -318,9 +326,7 @@ class PiecewiseMotion::Builder {
         jump[2 * j] = b(c, j) * p;
         jump[2 * j + 1] = b(c, j) * (pressed[c] - 2.0 * sigma * p);
       }
-      // A contact that was closed without speed takes part from the same instant on.
-      if (rate < -no_rate(active[std::size_t(c)], before))
-        for (Index k = 0; k < n; ++k) saltation.col(2 * k) += jump * (b(c, k) / rate);
+      for (Index k = 0; k < n; ++k) saltation.col(2 * k) += jump * (b(c, k) / rate);
       time_error += jump.cwiseAbs();
     }
   }

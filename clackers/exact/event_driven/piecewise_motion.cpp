@@ -219,12 +219,12 @@ Kinematics PiecewiseMotion::envelope(double t) const {
   Flight now{t, {}, {}};
   for (std::size_t j = 0; j < flight.free.size(); ++j)
     now.free.push_back(numerics::advance(system_.modes()[j], flight.free[j], t - flight.t));
-  auto size = sizes(now, std::numeric_limits<double>::infinity());
+  auto size = sizes(now, 0.0);
   VectorXd a(dof());
   for (Index j = 0; j < dof(); ++j) {
     const auto& mode = system_.modes()[std::size_t(j)];
     // Of a mode without stiffness the present displacement.
-    if (!(mode.omega > 0.0)) size.y[j] = std::abs(now.free[std::size_t(j)].y);
+    if (mode.omega > 0.0) size.y[j] = size.rate[j] / mode.omega;
     a[j] = mode.omega > 0.0 ? mode.omega * size.rate[j] : 2.0 * std::abs(mode.sigma) * size.rate[j];
   }
   for (const auto& force : forces_) {

@@ -213,6 +213,10 @@ model::ImpactProblem<> row_of_three(double restitution) {
 
 TEST(PiecewiseMotion, CoupledSimultaneousContactsObeyTheLawOfBoth) {
   const PiecewiseMotion motion(row_of_three(0.7));
+  // Modes that start without speed have the amplitude of their displacement.
+  EXPECT_NEAR(motion.envelope(0.0).u[0], 1.0, 1e-14);
+  EXPECT_NEAR(motion.envelope(0.0).u[1], 0.0, 1e-14);
+  EXPECT_NEAR(motion.envelope(0.0).v[2], 1.0, 1e-14);
   ASSERT_EQ(motion.impact_count(10.0), 6);
   for (long long k = 1; k <= 6; ++k) {
     const auto hit = motion.impact(k);

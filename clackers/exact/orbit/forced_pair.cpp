@@ -117,7 +117,8 @@ void ForcedPair::build(std::string_view who, const BaseExcitedParameters& p) {
   require_mass(who, "omega1", p.omega1, "sigma1", 0.0);
   require_mass(who, "omega2", p.omega2, "sigma2", 0.0);
   require_run(who, p.T, p.n, p.omega1, p.omega2, p.t_end);
-  require_scale(who, "|A_g|", std::abs(p.A_g), 1e-30, 1e30);
+  if (!(std::abs(p.A_g) >= 1e-30 && std::abs(p.A_g) <= 1e30))
+    refuse(who, "A_g", p.A_g, "1e-30 <= |A_g| <= 1e+30");
   begin(p.T, p.n, 1.0);
   const auto velocity = [&](double omega) {
     const auto half = Bounded(omega) * T_ * 0.5;
@@ -167,8 +168,9 @@ std::optional<ForcedPair::Closing> ForcedPair::closing() const {
     gap.slope = (one.v - two.v).nearest();
     gap.second = (one.a - two.a).nearest();
     gap.curvature = curvature * (1.0 + 1e-9);
-    gap.third = third * (1.0 + 1e-9);
+    gap.third_bound = third * (1.0 + 1e-9);
     gap.reach = T;
+    gap.whole = false;  // only whether there is a root is asked
     return gap;
   };
   const double near = 1e-7 * T;

@@ -40,8 +40,8 @@ void expect_state(const model::Motion& motion, const RawState& reference, double
         << "v" << i + 1 << " " << t;
     EXPECT_LE(abs(reference.a[i] - Real(state.a[m])), Real(bound.a[m]) + noise)
         << "a" << i + 1 << " " << t;
-    // Two-sided: a unit of the result, and 2^-60 of the phase, hide no error of the formulas.
-    EXPECT_LE(bound.u[m], (0x1p-52 + 0x1p-60 * fastest * (t + 1.0 / fastest)) * size.u[m]);
+    // Two-sided: units of the result and of the constants, and the phase, hide no error of formulas.
+    EXPECT_LE(bound.u[m], (0x1p-47 + 0x1p-58 * fastest * (t + 1.0 / fastest)) * size.u[m]);
   }
 }
 
@@ -201,7 +201,7 @@ ForcedPairParameters random_orbit(Box& box) {
 TEST(ForcedPair, IsTheSimulationWithNinetyDigits) {
   Box box(15);
   int members = 0, stable = 0;
-  for (int trial = 0; members < trials(40) && trial < 4000; ++trial) {
+  for (int trial = 0; members < trials(15) && trial < 4000; ++trial) {
     auto p = random_orbit(box);
     if (trial == 0) p = {};
     SCOPED_TRACE(testing::Message() << "seed 15, trial " << trial);
@@ -215,7 +215,7 @@ TEST(ForcedPair, IsTheSimulationWithNinetyDigits) {
     if (std::abs(orbit.floquet_multipliers()[0]) < 1.0) ++stable;
     expect_simulated(orbit, raw(p), 3);
   }
-  EXPECT_GE(members, trials(40));
+  EXPECT_GE(members, trials(15));
   EXPECT_GT(stable, 0);
   EXPECT_LT(stable, members);
 }
@@ -233,7 +233,7 @@ TEST(ForcedPair, IsRefusedWhereTheGapClosesEarly) {
   ASSERT_TRUE(opens(0.5));
   ASSERT_FALSE(opens(10.0));
   double open = 0.5, closed = 10.0;
-  for (int i = 0; i < 44; ++i)
+  for (int i = 0; i < 30; ++i)
     (opens(0.5 * (open + closed)) ? open : closed) = 0.5 * (open + closed);
   const auto first_impact = [&](double m2) {
     auto pair = p;
@@ -322,7 +322,7 @@ TEST(ForcedPair, WorkOfTheForcesIsWhatImpactsAndDashpotsTake) {
 TEST(BaseExcitedPair, IsTheSimulationWithNinetyDigits) {
   Box box(17);
   int members = 0;
-  for (int trial = 0; members < trials(20) && trial < 4000; ++trial) {
+  for (int trial = 0; members < trials(10) && trial < 4000; ++trial) {
     BaseExcitedParameters p{box.decades(-1.0, 1.0),
                             box.uniform(0.3, 3.0),
                             box.uniform(0.3, 3.0),
@@ -361,7 +361,7 @@ TEST(BaseExcitedPair, IsTheSimulationWithNinetyDigits) {
     pair.force1.phase = pair.force2.phase = -nu * T / 2;
     expect_simulated(ForcedPair(p), pair, 3);
   }
-  EXPECT_GE(members, trials(20));
+  EXPECT_GE(members, trials(10));
 }
 
 TEST(BaseExcitedPair, IsRefusedWithASentence) {
@@ -374,7 +374,7 @@ TEST(BaseExcitedPair, IsRefusedWithASentence) {
   EXPECT_REFUSED(ForcedPair{p}, "not-whole", "n = 1.5", "whole periods");
   p = {};
   p.A_g = 0.0;
-  EXPECT_REFUSED(ForcedPair{p}, "out-of-range", "|A_g| = 0");
+  EXPECT_REFUSED(ForcedPair{p}, "out-of-range", "A_g = 0");
 }
 
 TEST(ForcedPair, ParametersOutsideTheirRangesAreRefused) {

@@ -1,0 +1,88 @@
+"""--problem: the problems of files, and cases whose problems have loads and springs."""
+import csv
+import io
+import math
+import os
+import tempfile
+import unittest
+
+from command import CommandTest
+
+PAIR = """M = [[1, 0], [0, 2]]
+K = [[4, 0], [0, 2]]
+end = 10
+[start]
+u = [0.5, 0]
+[[contacts]]
+direction = [1, -1]
+gap = -0.1
+restitution = 0.5
+"""
+
+
+class Problem(CommandTest):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.file = os.path.join(folder.name, "pair.toml")
+        self.write(PAIR)
+
+    def write(self, text):
+        with open(self.file, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def test_stands_for_a_case_in_every_command(self):
+        problem = self.json_of("show", "--problem", self.file)["problem"]
+        self.assertEqual(problem["M"], [[1, 0], [0, 2]])
+        self.assertEqual(problem["contacts"],
+                         [{"direction": [1, -1], "gap": -0.1, "restitution": 0.5}])
+        self.assertEqual(problem["end"], 10)
+        text = self.good("respond", "--problem", self.file, "--samples", "201", "--format", "csv")
+        first = next(csv.DictReader(io.StringIO(text)))
+        self.assertEqual((float(first["u1"]), float(first["u2"])), (0.5, 0.0))
+        history = self.file + ".csv"
+        with open(history, "w", encoding="utf-8") as file:
+            file.write(text)
+        record = self.json_of("verify", "rk4", "--problem", self.file, "--levels", "5")
+        self.assertIn("piecewise", str(record))
+        self.assertIn("proper", str(record))
+
+    def test_a_bad_file_is_refused_with_its_line(self):
+        for old, new, code, says in (
+                ("end = 10", "ned = 10", "unknown-name", ':3: unknown key "ned". Did you mean "end"?'),
+                ("[[4, 0], [0, 2]]", "[[4, 1], [0, 2]]", "not-symmetric", ":2: K(1,2) = 1"),
+                ("u = [0.5, 0]", "u = [0.5]", "wrong-size", ":5: u has 1 numbers"),
+                ("M = [[1, 0], [0, 2]]", "M = [[1, 0], [0, -2]]", "not-positive-definite", "mass matrix"),
+                ("direction = [1, -1]", "direction = [1, -1", "bad-syntax", "pair.toml:")):
+            self.write(PAIR.replace(old, new))
+            self.refused("show", "--problem", self.file, code=code, says=says)
+
+    def test_another_case_beside_it_is_refused(self):
+        self.refused("show", "stop", "--problem", self.file, code="bad-syntax", says="leave stop out")
+        self.refused("verify", "rk4", "--case", "stop", "--problem", self.file, code="bad-syntax",
+                     says="leave stop out")
+
+    def test_loads_and_springs_are_part_of_the_problem(self):
+        problem = self.json_of("show", "forced-pair")["problem"]
+        t, start = problem["start"]["t"], problem["start"]
+        self.assertEqual(len(problem["loads"]), 2)
+        load = problem["loads"][0]
+        self.assertEqual(load["dof"], 1)
+        force = load["amplitude"] * math.cos(load["frequency"] * t + load["phase"])
+        row = next(csv.DictReader(io.StringIO(
+            self.good("respond", "forced-pair", "--samples", "2", "--format", "csv"))))
+        rest = (problem["M"][0][0] * float(row["a1"]) + problem["C"][0][0] * start["v"][0]
+                + problem["K"][0][0] * start["u"][0] - force)
+        self.assertLess(abs(rest), 1e-14)
+        problem = self.json_of("show", "penalized-pair")["problem"]
+        self.assertEqual(problem["contacts"], [])
+        self.assertEqual(problem["springs"], [{"direction": [1, -1], "gap": 0, "stiffness": 400}])
+
+    def test_inadmissible_orbits_are_refused_with_what_to_change(self):
+        self.refused("show", "base-excited-pair", "--set", "A_g=1", code="not-admissible",
+                     says="With A_g = -1 they do not.")
+        self.refused("show", "forced-pair", "--set", "n=1.5", code="not-whole", says="n = 1.5")
+
+
+if __name__ == "__main__":
+    unittest.main()
