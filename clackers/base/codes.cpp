@@ -155,8 +155,6 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "An adaptive method takes a tolerance, every other method a step."},
     {"tolerance-too-small", "refusal",
      "The tolerance is below what rounding allows."},
-    {"impacts-too-close", "failure",
-     "Impacts follow each other before a multistep method has made the steps that it starts with."},
     {"beyond-last-impact", "refusal",
      "Collisions end before the index that was asked for."},
     {"no-closed-form", "refusal",

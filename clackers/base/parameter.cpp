@@ -23,7 +23,7 @@ std::vector<std::string> names_of(const std::vector<Word>& words) {
 void check_kind(std::string_view owner, const Parameter& parameter, const ParameterValue& value) {
   if (parameter.words.empty()) {
     if (value.is_word())
-      refuse(owner, parameter.name, value.text(), parameter.allowed, "It is a number.",
+      refuse(owner, parameter.name, value.text(), parameter.allowed, "A number is needed.",
              "not-a-number");
     return;
   }

@@ -62,7 +62,7 @@ TEST(Settings, OfAParameterWithWordsAreOneOfThem) {
 
 TEST(Settings, OfAParameterWithoutWordsAreNumbers) {
   EXPECT_REFUSED(complete("newmark", two, {{"beta", "hertz"}}), "not-a-number",
-                 "newmark: beta = hertz; allowed: 0 <= beta <= 1/2. It is a number.");
+                 "newmark: beta = hertz; allowed: 0 <= beta <= 1/2. A number is needed.");
 }
 
 TEST(Settings, GivenTwiceAreRefused) {

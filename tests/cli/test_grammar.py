@@ -23,13 +23,13 @@ class Help(CommandTest):
 
     def test_describes_every_option_of_the_grammar(self):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
-        own = {"list": [], "explain": [], "show": ["--set", "--threshold", "--report"],
-               "check": ["--case", "--set", "--columns", "--events", "--steps", "--expect",
+        own = {"list": [], "explain": [], "show": ["--problem", "--set", "--threshold", "--report"],
+               "check": ["--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
                          "--tolerance", "--tolerances", "--metrics", "--report", "--require", "--baseline"],
                "paper": [],
-               "respond": ["--set", "--samples", "--step", "--times", "--collisions", "--plot",
+               "respond": ["--problem", "--report", "--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
-               "verify": ["--all", "--case", "--set", "--levels", "--coarsest", "--neighbours",
+               "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--neighbours",
                           "--budget", "--exec", "--plugin", "--name", "--expect", "--tolerances", "--timeout",
                           "--work", "--fresh", "--jobs", "--require", "--baseline", "--only",
                           "--report"]}

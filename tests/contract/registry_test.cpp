@@ -159,9 +159,9 @@ TEST_P(EveryMethod, DoesNotDependOnTheNumbersOfTheContacts) {
     problem.end = 3.5;
     if (chosen->objection(problem)) continue;
     model::TrajectorySink one(true), other(true);
-    EXPECT_TRUE(chosen->prepare(problem, 0.005)->advance(one).finished);
+    EXPECT_TRUE(chosen->prepare(problem, resolution_of(*chosen, 0.005))->advance(one).finished);
     std::swap(problem.contacts[0], problem.contacts[1]);
-    EXPECT_TRUE(chosen->prepare(problem, 0.005)->advance(other).finished);
+    EXPECT_TRUE(chosen->prepare(problem, resolution_of(*chosen, 0.005))->advance(other).finished);
     const auto &u = one.trajectory().u, &numbered = other.trajectory().u;
     ASSERT_EQ(u.size(), numbered.size());
     for (std::size_t i = 0; i < u.size(); ++i)

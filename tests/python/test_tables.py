@@ -72,7 +72,7 @@ class Catalogue(unittest.TestCase):
             case = clackers.case(name)
             self.assertEqual(case.name, name)
             self.assertTrue(case.summary.endswith("."))
-            self.assertIn("Eq.", case.equations)
+            self.assertTrue(case.equations)
             self.assertIsInstance(case.constants, dict)
 
     def test_codes_are_those_of_the_command(self):

@@ -151,7 +151,7 @@ try {
   await page.keyboard.press("Home");
   check("a key goes back to the beginning", await clock() === "0.000 s" && await spark() === 0);
   await page.keyboard.press("Space");
-  await page.waitForFunction(() => parseFloat(document.querySelector("[data-player] svg > text").textContent) > 0.2);
+  for (let tries = 0; tries < 100 && !(parseFloat(await clock()) > 0.2); ++tries) await page.waitForTimeout(50);
   await page.keyboard.press("Space");
   const held = await clock();
   await page.waitForTimeout(100);
