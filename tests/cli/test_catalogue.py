@@ -89,7 +89,7 @@ class Show(CommandTest):
         for name in ("three-parameter", "newmark", "moreau-jean", "penalty"):
             self.good("show", name, "--quiet", "--report", self.path("page.html"))
             page = self.text_of("page.html")
-            self.assertIn(f"<h1>{name}</h1>", page)
+            self.assertRegex(page, f"<h1>{name}")
             self.assertIn("clackers show " + name, page)
 
     def test_takes_fractions(self):

@@ -272,7 +272,7 @@ try {
   // With the keyboard alone: Tab reaches all that can be pressed, in the order of the page.
   await page.evaluate(() => { document.activeElement.blur(); scrollTo(0, 0); });
   const pressable = await page.evaluate(() => {
-    const all = [...document.querySelectorAll("a[href], button, summary, [tabindex='0']")]
+    const all = [...document.querySelectorAll("a[href], button, input, select, summary, [tabindex='0']")]
       .filter((element) => element.checkVisibility());
     all.forEach((element, i) => { element.dataset.order = i; });
     all[0].focus();

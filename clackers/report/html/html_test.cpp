@@ -57,7 +57,7 @@ TEST(Html, FiguresAreCountedWithoutGaps) {
     const auto figures = occurrences(page, "<figure ");
     for (std::size_t i = 1; i <= figures; ++i)
       EXPECT_EQ(occurrences(page, "\">Figure " + std::to_string(i) + ". "), 1u) << i;
-    EXPECT_EQ(block(page, "specifications").size(), occurrences(page, "data-plot=\""));
+    EXPECT_EQ(block(page, "specifications").size(), occurrences(page, "class=\"plot\" data-plot="));
   }
   for (auto& subject : record.cases[0].subjects)
     for (auto& level : subject.levels)

@@ -44,7 +44,10 @@ HybridArc HybridArc::of_history(const Comparison& comparison) {
   const auto ends = comparison.impact_ends();
   for (std::size_t k = 0; k < comparison.impacts().size(); ++k) {
     const auto& impact = comparison.impacts()[k];
-    arc.impacts_.push_back({impact.t, ends[k], impact.u, impact.v_before, impact.v_after});
+    // An impact of several steps may end behind the beginning of another contact's.
+    const double passed = k > 0 ? arc.impacts_.back().to : impact.t;
+    arc.impacts_.push_back({std::max(impact.t, passed), std::max(ends[k], passed), impact.u,
+                            impact.v_before, impact.v_after});
   }
   return arc;
 }

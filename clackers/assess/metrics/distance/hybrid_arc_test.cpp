@@ -106,6 +106,29 @@ TEST_F(HybridCloseness, RowsInsideAnImpactOfTwoStepsBelongToNoFlight) {
   EXPECT_NEAR(measure(history).value, h / pi, 1e-4);
 }
 
+TEST_F(HybridCloseness, AnImpactDuringOneOfAnotherContactFollowsIt) {
+  problem_.contacts.push_back(problem_.contacts[0]);
+  const double h = 0.01;
+  auto history = toy_history({.end = 3.0, .h = h});
+  auto later = history.impacts->at(0), other = later;
+  later.t += h;
+  other.t += 0.5 * h;
+  other.contact = 1;
+  history.impacts->push_back(other);
+  history.impacts->push_back(later);
+  const Comparison comparison(history, reference_, problem_);
+  auto arc = HybridArc::of_history(comparison);
+  ASSERT_EQ(arc.flights(), 3u);
+  double t = 0.0;
+  for (std::size_t flight = 0; flight < 3; ++flight) {
+    const auto line = arc.next();
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      EXPECT_GE(line.point(i)[0], t) << flight << ", " << i;
+      t = line.point(i)[0];
+    }
+  }
+}
+
 TEST_F(HybridCloseness, TellsWhenTheNumbersOfImpactsDiffer) {
   auto history = toy_history({.end = 6.0});
   history.impacts->pop_back();
