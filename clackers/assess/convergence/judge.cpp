@@ -118,7 +118,9 @@ Verdict compare_floor(const LadderFit& fit, const Claim& claim) {
   const bool has_floor =
       fit.behaviour == Behaviour::stagnating ||
       (fit.floor_step > 0.0 && fit.reason == claim.reason && !claim.reason.empty());
-  if (!has_floor) return Verdict::disagrees;
+  // Errors that fall for certain have no floor.
+  if (!has_floor)
+    return shows_a_line(fit) && fit.order <= fit.spread ? Verdict::undecided : Verdict::disagrees;
   return claim.reason.empty() || fit.reason == claim.reason ? Verdict::agrees : Verdict::disagrees;
 }
 

@@ -140,6 +140,27 @@ TEST(Judge, AnEnvelopeThatMayBeAnythingIsUndecided) {
   }
 }
 
+// Errors that a compliant contact left of two buildings, coarse steps first: a floor of two octaves
+// behind errors larger than the motion, whose envelope has the order 0.8 +- 3.
+TEST(Judge, OnlyErrorsThatFallForCertainContradictAFloor) {
+  const double errors[8][8] = {{6.71, 9.65, 8.44, 0.616, 26.5, 10.2, 6.96, 1.12},
+                               {7.85, 1.16, 1.11, 6.92, 18.7, 2.86, 1.11, 1.04},
+                               {15.9, 0.654, 0.68, 0.862, 5.29, 1.25, 0.595, 0.677},
+                               {0.962, 2.1, 0.455, 0.461, 0.28, 0.113, 0.0707, 0.0719},
+                               {0.102, 0.118, 0.108, 0.198, 0.0989, 0.0477, 0.0631, 0.0766},
+                               {0.0857, 0.0455, 0.0519, 0.0449, 0.0515, 0.0444, 0.0443, 0.0441},
+                               {0.044, 0.0439, 0.0438, 0.0437, 0.0436, 0.0436, 0.0435, 0.0435},
+                               {0.0435, 0.0434, 0.0434, 0.0434, 0.0434, 0.0434, 0.0433, 0.0433}};
+  auto made = scores(power(1.0), {.levels = 8});
+  for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t j = 0; j < 8; ++j) made[i].runs[j].u_error = errors[i][j];
+  const auto found = judge(made, floor_claim);
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::irregular);
+  EXPECT_GT(found.displacement.spread, found.displacement.order);
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+  EXPECT_EQ(judge(uncertain(1.0), floor_claim).verdict, Verdict::disagrees);
+}
+
 TEST(Judge, ImpactTimesHaveNoSizeOfTheMotion) {
   auto late = scores(power(2.0));
   every_run(late, 0, [](RunScore& run) { run.impacts->worst_time_error = 1.5; });

@@ -28,9 +28,8 @@ Factors factors_of(const ModalColumn& column, const DoubleDouble& w, double sigm
   const auto slope = (is_cosine ? -sine : cosine) * w;
   const auto velocity = slope - p * sigma;
   const auto acceleration = p * (DoubleDouble{sigma, 0.0} * sigma - w * w) - slope * (2.0 * sigma);
-  const auto rounded = [&](const DoubleDouble& x) {
-    return numerics::scale((signed_e * x).hi, exponent) +
-           0.0;  // never -0, which is printed as such
+  const auto rounded = [&, binary = exponent](const DoubleDouble& x) {
+    return numerics::scale((signed_e * x).hi, binary) + 0.0;  // never -0, which is printed as such
   };
   return {rounded(p), rounded(velocity), rounded(acceleration)};
 }

@@ -309,7 +309,7 @@ TEST(ShapedMotion, ObeysNewtonsLawMomentumAndEnergyAtImpacts) {
           rounding * size;
       for (Eigen::Index i = 0; i < moved.size(); ++i)
         EXPECT_NEAR(moved[i], change[i], allowed[i]) << "mass " << i + 1;
-      const auto energy = [&](const model::Kinematics& x) {
+      const auto energy = [&M = M, &K = K](const model::Kinematics& x) {
         return 0.5 * (x.v.dot(M * x.v) + x.u.dot(K * x.u));
       };
       EXPECT_NEAR(energy(one.before), one.energy_before, 1e-13 * one.energy_before);
@@ -372,7 +372,7 @@ TEST(ShapedMotion, SamplesManyTimesAsOneByOne) {
     for (std::size_t i = 0; i < times.size(); ++i) {
       const auto x = motion->at(times[i], Side::right);
       const auto row = [&](const std::vector<double>& all) {
-        return Eigen::Map<const Eigen::VectorXd>(&all[i * n], problem.dof());
+        return Eigen::Map<const Eigen::VectorXd>(&all[i * n], static_cast<Eigen::Index>(n));
       };
       EXPECT_EQ(row(u), x.u);
       EXPECT_EQ(row(v), x.v);
