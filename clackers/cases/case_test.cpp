@@ -353,8 +353,8 @@ TEST(Cases, RefuseEveryParameterOutsideItsRangeNamingTheCase) {
       if (!parameter.words.empty()) continue;
       for (const double bad : {-1.0, double(NAN), double(INFINITY), -double(INFINITY)}) {
         // Displacements and accelerations have both signs.
-        const bool is_signed = parameter.allowed.starts_with('-') ||
-                               parameter.allowed.find('|') != std::string::npos;
+        const bool is_signed =
+            parameter.allowed.starts_with('-') || parameter.allowed.find('|') != std::string::npos;
         if (bad == -1.0 && is_signed) continue;
         const auto text = refusal(entry.name, {{parameter.name, bad}});
         const auto start = entry.name + ": " + parameter.name + " = ";

@@ -76,7 +76,8 @@ int run(const Options& options, const std::string& line) {
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
   const auto record = run_check(options, request);
-  const RecordOutput output(record, baseline, options.common, {.all_metrics = options.metrics == "all"});
+  const RecordOutput output(record, baseline, options.common,
+                            {.all_metrics = options.metrics == "all"});
   const bool written = !page.wanted() || page.write(output.html());
   try {
     output.write(results);

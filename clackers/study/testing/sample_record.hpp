@@ -81,10 +81,11 @@ inline Record sample_record() {
   file.contact_time = 0.016;
   file.notes = {{"rows-beyond-end", {7.0, 20.0}, ""}, {"columns-not-used", {}, "energy"}};
   file.history = {{0.25}, {{1.0}, {0.5}}};
-  method.levels = {{0.05,
-                    {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}, {{0.5}, {{0.25}, {0.5}}}},
-                     {silent, {}, {}, {}, {}, "Segmentation fault"}}},
-                   {0.025, {{run, file, {}, {}}}}};
+  method.levels = {
+      {0.05,
+       {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}, {{0.5}, {{0.25}, {0.5}}}},
+        {silent, {}, {}, {}, {}, "Segmentation fault"}}},
+      {0.025, {{run, file, {}, {}}}}};
   method.refinement = {2, 1, 16, RefinementEnd::budget, 12.5};
   method.assessment = {fit,
                        second,

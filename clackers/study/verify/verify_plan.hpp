@@ -14,7 +14,7 @@ struct PlannedMethod {
   std::shared_ptr<const methods::Method> method;
   Subject subject;  ///< name, claim, contact time and refusal
   bool reports_impacts = true;
-  double order = 0.0;  ///< of smooth motion
+  double order = 0.0;        ///< of smooth motion
   double spring_time = 0.0;  ///< contact time of a linear contact spring [s]; 0: it has none
 };
 
