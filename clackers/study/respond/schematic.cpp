@@ -8,15 +8,16 @@ namespace {
 
 using Eigen::Index;
 
-// What is below this share of the diagonal is no spring.
-constexpr double rounding_share = 1e-12;
+// What is below this share of the diagonal is no spring between masses, or not one to the ground: a
+// building whose stiffness has the part sigma^2 M of its decay stands on its lowest storey.
+constexpr double rounding_share = 1e-12, least_ground_share = 0.05;
 
 bool is_coupled(const Eigen::MatrixXd& k, Index i, Index j) {
   return std::abs(k(i, j)) > rounding_share * std::sqrt(std::abs(k(i, i) * k(j, j)));
 }
 
 bool is_grounded(const Eigen::MatrixXd& k, Index i) {
-  return std::abs(k.row(i).sum()) > 1e-9 * std::abs(k(i, i));
+  return std::abs(k.row(i).sum()) > least_ground_share * std::abs(k(i, i));
 }
 
 std::vector<Schematic::Spring> springs_of(const Eigen::MatrixXd& k) {
