@@ -71,7 +71,8 @@ std::optional<ConstrainedMotion> ConstrainedMotions::make(
     // orthogonal complement of L^-1 B^T.
     const MatrixXd weighted = mass.matrixL().solve(b.transpose());
     const MatrixXd q = Eigen::HouseholderQR<MatrixXd>(weighted).householderQ();
-    const MatrixXd basis = mass.matrixU().solve(q.rightCols(n - active));
+    MatrixXd basis(n, n - active);
+    if (active < n) basis = mass.matrixU().solve(q.rightCols(n - active));
     const MatrixXd inverse = basis.transpose() * mass_;
     const MatrixXd stiffness = basis.transpose() * stiffness_ * basis;
     auto modes = numerics::ModalSystem::make(MatrixXd::Identity(n - active, n - active),
