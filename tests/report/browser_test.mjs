@@ -111,6 +111,8 @@ try {
   await page.waitForTimeout(100);
   check("the reset button shows everything again", Math.abs(await span() / whole - 1) < 1e-9);
 
+  await page.locator('[data-plot="convergence"]').evaluate((frame) => frame.scrollIntoView({ block: "center" }));
+  await page.waitForTimeout(100);
   const box = await page.locator('[data-plot="convergence"] svg').boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   await page.keyboard.down("Control");
