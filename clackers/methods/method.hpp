@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -41,8 +42,11 @@ inline Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem,
   const Claim claim =
       is_of_impacts ? facts.through_impacts : Claim{Behaviour::proper, facts.smooth_order, {}};
   const bool is_exact = facts.is_exact_without_load && !problem.system.add_load;
-  return is_exact && claim.behaviour == Behaviour::proper ? Claim{Behaviour::exact, 0.0, {}}
-                                                          : claim;
+  if (is_exact && claim.behaviour == Behaviour::proper) return {Behaviour::exact, 0.0, {}};
+  const auto& nonlinear = problem.system.nonlinear;
+  if (claim.order > 0.0 && nonlinear && nonlinear->has_kinks())
+    return {Behaviour::irregular, std::min(2.0, facts.smooth_order), {}};
+  return claim;
 }
 
 /// Why a method cannot take a problem.

@@ -27,7 +27,7 @@ class Parser {
   explicit Parser(std::string_view text) : text_(text) {}
 
   MethodSpecification specification() const {
-    const auto terms = split_terms();
+    const auto terms = terms_of(text_);
     if (terms.size() > 2) refuse("it joins more than two names");
     MethodSpecification result{term(terms[0]), {}};
     if (terms.size() == 2) result.contact = term(terms[1]);
@@ -41,19 +41,6 @@ class Parser {
                     "example newmark:beta=0.25+penalty:stiffness=1e6.",
                     text_, why),
         code);
-  }
-
-  // The sign of an exponent (1e+6) stands before a digit, a separator before a letter.
-  std::vector<std::string_view> split_terms() const {
-    std::vector<std::string_view> terms;
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i + 1 < text_.size(); ++i)
-      if (text_[i] == '+' && is_letter(text_[i + 1])) {
-        terms.push_back(text_.substr(begin, i - begin));
-        begin = i + 1;
-      }
-    terms.push_back(text_.substr(begin));
-    return terms;
   }
 
   Term term(std::string_view text) const {
@@ -98,6 +85,19 @@ class Parser {
 };
 
 }  // namespace
+
+// The sign of an exponent (1e+6) stands before a digit, a separator before a letter.
+std::vector<std::string_view> terms_of(std::string_view text) {
+  std::vector<std::string_view> terms;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i)
+    if (text[i] == '+' && is_letter(text[i + 1])) {
+      terms.push_back(text.substr(begin, i - begin));
+      begin = i + 1;
+    }
+  terms.push_back(text.substr(begin));
+  return terms;
+}
 
 MethodSpecification parse_specification(std::string_view text) {
   return Parser(text).specification();

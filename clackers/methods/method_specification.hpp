@@ -26,6 +26,9 @@ struct MethodSpecification {
 /// number nor a word: a small letter, then small letters, digits and hyphens.
 MethodSpecification parse_specification(std::string_view text);
 
+/// The texts that a "+" before a letter separates: "newmark:beta=0" and "penalty:law=hertz".
+std::vector<std::string_view> terms_of(std::string_view text);
+
 /// The reverse for one name: the parameters that differ from their default, those that are NaN left
 /// out.
 std::string specification(std::string_view name, std::span<const Parameter> parameters,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -11,8 +12,8 @@
 namespace clackers::methods {
 
 /// A parameter that is a member of the value type T: a number, or a name out of `words`, which then
-/// say what is allowed. The default is that of T{}, or NaN with the words for it. A type lists its
-/// fields in `T::fields()`.
+/// say what is allowed. The default is that of T{}, or NaN with the words for it. A type with
+/// parameters lists them in `T::fields()` and checks them in `validate()`.
 template <class T>
 struct Field {
   std::string_view name, allowed, meaning;
@@ -39,10 +40,18 @@ struct Field {
 };
 
 template <class T>
+std::span<const Field<T>> fields_of() {
+  if constexpr (requires { T::fields(); })
+    return T::fields();
+  else
+    return {};
+}
+
+template <class T>
 std::vector<Parameter> parameters_of() {
   std::vector<Parameter> all;
   static const T standard{};
-  for (const Field<T>& field : T::fields())
+  for (const Field<T>& field : fields_of<T>())
     all.push_back({std::string(field.name), field.get(standard), "", field.allowed_text(),
                    std::string(field.meaning), std::string(field.default_words), field.words});
   return all;
@@ -54,8 +63,8 @@ template <class T>
 T configured(const Settings& given) {
   T x{};
   const auto values = complete(T::name, parameters_of<T>(), given);
-  for (const Field<T>& field : T::fields()) field.set(x, value_of(values, field.name));
-  x.validate();
+  for (const Field<T>& field : fields_of<T>()) field.set(x, value_of(values, field.name));
+  if constexpr (requires { x.validate(); }) x.validate();
   return x;
 }
 
@@ -64,7 +73,7 @@ T configured(const Settings& given) {
 template <class T>
 std::string specification(const T& x) {
   Settings values;
-  for (const Field<T>& field : T::fields()) values.emplace_back(field.name, field.get(x));
+  for (const Field<T>& field : fields_of<T>()) values.emplace_back(field.name, field.get(x));
   return specification(T::name, parameters_of<T>(), values);
 }
 

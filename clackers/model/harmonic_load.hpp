@@ -55,6 +55,8 @@ class OneSidedSprings final : public NonlinearForce<any_dof> {
         dp_du += stiffnesses_[j] * contacts_[j].direction * contacts_[j].direction.transpose();
   }
 
+  bool has_kinks() const override { return true; }
+
   const std::vector<Contact<>>& contacts() const { return contacts_; }
   const std::vector<double>& stiffnesses() const { return stiffnesses_; }
 

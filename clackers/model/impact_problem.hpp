@@ -20,6 +20,15 @@ struct Contact {
   double gap_rate(const Vector<Dof>& v) const { return direction.dot(v); }
 };
 
+/// The contact that keeps u_i - u_j >= 0, of `dof` displacements.
+inline Contact<> contact_between(Eigen::Index dof, Eigen::Index i, Eigen::Index j,
+                                 double restitution = 1.0) {
+  Contact<> contact{Eigen::VectorXd::Zero(dof), 0.0, restitution};
+  contact.direction[i] = 1.0;
+  contact.direction[j] = -1.0;
+  return contact;
+}
+
 /// All that a method sees of a task: a structure, where it may collide, how it starts, and when
 /// the run ends [s].
 template <int Dof = any_dof>

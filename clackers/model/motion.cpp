@@ -1,6 +1,27 @@
 #include "clackers/model/motion.hpp"
 
+#include <fmt/format.h>
+
+#include "clackers/base/error.hpp"
+
 namespace clackers::model {
+
+void require_buffers(std::string_view who, const SampleBuffers& out, std::size_t times,
+                     std::size_t masses) {
+  const auto size = times * masses;
+  if (out.u.size() != size || out.v.size() != size || (!out.a.empty() && out.a.size() != size))
+    throw InputError(
+        fmt::format("{}: buffers for u, v, a hold {}, {}, {} numbers; allowed: {} each, one a time "
+                    "and mass (a may be empty).",
+                    who, out.u.size(), out.v.size(), out.a.size(), size),
+        "wrong-size");
+}
+
+void require_inside(std::string_view who, double t, double end) {
+  if (!(t >= 0.0 && t <= end))
+    refuse(who, "t", t, fmt::format("0 <= t <= {} (the end of the motion, in s)", end), {},
+           "time-outside");
+}
 
 Kinematics Motion::peak() const {
   constexpr int parts = 1024;

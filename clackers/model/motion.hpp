@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <string_view>
 
 namespace clackers::model {
 
@@ -19,6 +20,13 @@ struct Kinematics {
 struct SampleBuffers {
   std::span<double> u, v, a;
 };
+
+/// Throws InputError (wrong-size), `who` first, unless the buffers hold u and v, and a or nothing, of
+/// as many masses at as many times.
+void require_buffers(std::string_view who, const SampleBuffers& out, std::size_t times,
+                     std::size_t masses);
+/// Throws InputError (time-outside), `who` first, unless 0 <= t <= end [s].
+void require_inside(std::string_view who, double t, double end);
 
 /// The interval [lo, hi] in seconds that certainly holds the true instant.
 struct TimeEnclosure {

@@ -36,6 +36,8 @@ class NonlinearForce {
   /// dp_du += dp/du [N/m], dp_dv += dp/dv [N s/m].
   virtual void add_tangent(const Vector<Dof>& u, const Vector<Dof>& v, Matrix<Dof>& dp_du,
                            Matrix<Dof>& dp_dv) const = 0;
+  /// True where derivatives of p jump, so that a step across a jump has an error of second order.
+  virtual bool has_kinks() const { return false; }
 };
 
 /// M a + C v + K u + p(u, v) = f(t): how the structure moves while nothing collides.

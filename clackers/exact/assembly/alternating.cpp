@@ -73,13 +73,7 @@ model::ImpactProblem<> alternating_problem(const AlternatingParameters& p,
   problem.system.mass = masses.asDiagonal();
   problem.system.damping = (2.0 * p.sigma * masses).asDiagonal();
   problem.system.stiffness = masses.cwiseProduct(ratios).asDiagonal();
-  for (const Eigen::Index i : {0, 1}) {
-    model::Contact<> contact;
-    contact.direction = Eigen::VectorXd::Zero(3);
-    contact.direction[i] = 1.0;
-    contact.direction[i + 1] = -1.0;
-    problem.contacts.push_back(std::move(contact));
-  }
+  problem.contacts = {model::contact_between(3, 0, 1), model::contact_between(3, 1, 2)};
   const auto start = motion.at(0.0, model::Side::right);
   problem.start = {0.0, start.u, start.v};
   problem.end = p.t_end;

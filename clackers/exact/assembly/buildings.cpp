@@ -136,12 +136,7 @@ model::ImpactProblem<> buildings_problem(const BuildingsParameters& p,
       if (i > 0) system.stiffness(at, at - 1) = system.stiffness(at - 1, at) = -above;
     }
   }
-  model::Contact<> contact;
-  contact.direction = Eigen::VectorXd::Zero(n);
-  contact.direction[0] = 1.0;
-  contact.direction[static_cast<Eigen::Index>(p.left)] = -1.0;
-  contact.restitution = p.eta;
-  problem.contacts = {contact};
+  problem.contacts = {model::contact_between(n, 0, static_cast<Eigen::Index>(p.left), p.eta)};
   const auto start = motion.at(0.0, model::Side::right);
   problem.start = {0.0, start.u, start.v};
   problem.end = p.t_end;

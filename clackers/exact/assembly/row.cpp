@@ -100,13 +100,7 @@ model::ImpactProblem<> row_problem(const RowParameters& p, const model::Motion& 
     system.mass(i, i) = mass;
     system.damping(i, i) = 2.0 * p.sigma * mass;
     system.stiffness(i, i) = mass * (own * own + p.sigma * p.sigma);
-    if (i + 1 == n) break;
-    model::Contact<> contact;
-    contact.direction = Eigen::VectorXd::Zero(n);
-    contact.direction[i] = 1.0;
-    contact.direction[i + 1] = -1.0;
-    contact.restitution = p.eta;
-    problem.contacts.push_back(std::move(contact));
+    if (i + 1 < n) problem.contacts.push_back(model::contact_between(n, i, i + 1, p.eta));
   }
   const auto start = motion.at(0.0, model::Side::right);
   problem.start = {0.0, start.u, start.v};

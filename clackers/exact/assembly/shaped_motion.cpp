@@ -33,7 +33,7 @@ FlightInstant ShapedMotion::instant(double flight, const DoubleDouble& theta_ove
 }
 
 FlightInstant ShapedMotion::instant_at(double t, Side side) const {
-  require_inside(c_, t);
+  model::require_inside("motion", t, c_.end);
   const auto [flight, theta_over_pi] = phase_at(c_, t, side);
   return instant(flight, theta_over_pi, c_.decay * t);
 }
@@ -41,7 +41,7 @@ FlightInstant ShapedMotion::instant_at(double t, Side side) const {
 void ShapedMotion::sample(std::span<const double> times, Side side,
                           model::SampleBuffers out) const {
   const auto n = shape_->dof();
-  require_buffers(out, times.size(), n);
+  model::require_buffers("motion", out, times.size(), n);
   std::array<FlightInstant, 16> block;
   for (std::size_t first = 0; first < times.size(); first += block.size()) {
     const auto count = std::min(block.size(), times.size() - first);
@@ -86,7 +86,7 @@ Kinematics ShapedMotion::error_bound(double t) const {
 }
 
 long long ShapedMotion::impact_count(double t) const {
-  require_inside(c_, t);
+  model::require_inside("motion", t, c_.end);
   const auto instants = static_cast<long long>(natural_phase(c_, t).flight);
   return contacts_at_once() * (c_.eta == 0.0 ? std::min(instants, 1LL) : instants);
 }

@@ -60,9 +60,7 @@ VectorXd PiecewiseMotion::acceleration(const Modal& state, double t) const {
 }
 
 std::size_t PiecewiseMotion::flight_at(double t, Side side) const {
-  if (!(t >= 0.0 && t <= end_))
-    refuse(who_, "t", t, fmt::format("0 <= t <= {} (the end of the motion, in s)", end_), {},
-           "time-outside");
+  model::require_inside(who_, t, end_);
   const auto after = side == Side::right ? std::ranges::upper_bound(flights_, t, {}, &Flight::t)
                                          : std::ranges::lower_bound(flights_, t, {}, &Flight::t);
   return after == flights_.begin() ? 0 : std::size_t(after - flights_.begin()) - 1;
@@ -70,13 +68,8 @@ std::size_t PiecewiseMotion::flight_at(double t, Side side) const {
 
 void PiecewiseMotion::sample(std::span<const double> times, Side side,
                              model::SampleBuffers out) const {
-  const auto n = std::size_t(dof()), size = times.size() * n;
-  if (out.u.size() != size || out.v.size() != size || (!out.a.empty() && out.a.size() != size))
-    throw InputError(
-        fmt::format("{}: buffers for u, v, a hold {}, {}, {} numbers; allowed: {} each, one a time "
-                    "and mass (a may be empty).",
-                    who_, out.u.size(), out.v.size(), out.a.size(), size),
-        "wrong-size");
+  const auto n = std::size_t(dof());
+  model::require_buffers(who_, out, times.size(), n);
   VectorXd y(dof()), rate(dof());
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto now = total(flights_[flight_at(times[i], side)], times[i]);

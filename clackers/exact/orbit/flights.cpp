@@ -12,14 +12,8 @@ namespace clackers::exact {
 using model::Kinematics;
 using model::Side;
 
-void Flights::require_inside(double t) const {
-  if (!(t >= 0.0 && t <= end()))
-    refuse("motion", "t", t, fmt::format("0 <= t <= {} (the end of the motion, in s)", end()), {},
-           "time-outside");
-}
-
 long long Flights::flight_at(double t, Side side) const {
-  require_inside(t);
+  model::require_inside("motion", t, end());
   const auto begun = [&](long long k) {
     const double start = instant(k).nearest();
     return start < t || (start == t && side == Side::right);
@@ -36,13 +30,7 @@ Flights::States Flights::at_time(double t, Side side) const {
 }
 
 void Flights::sample(std::span<const double> times, Side side, model::SampleBuffers out) const {
-  const auto size = 2 * times.size();
-  if (out.u.size() != size || out.v.size() != size || (!out.a.empty() && out.a.size() != size))
-    throw InputError(
-        fmt::format("motion: buffers for u, v, a hold {}, {}, {} numbers; allowed: {} each, one a "
-                    "time and mass (a may be empty).",
-                    out.u.size(), out.v.size(), out.a.size(), size),
-        "wrong-size");
+  model::require_buffers("motion", out, times.size(), 2);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto now = at_time(times[i], side);
     for (std::size_t j = 0; j < 2; ++j) {

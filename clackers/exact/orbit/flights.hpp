@@ -50,7 +50,6 @@ class Flights : public model::Motion {
 
   long long flight_at(double t, model::Side side) const;
   States at_time(double t, model::Side side) const;
-  void require_inside(double t) const;
 
   model::ImpactProblem<> problem_;
 };

@@ -324,7 +324,7 @@ void ForcedPair::find_size() {
 }
 
 model::Kinematics ForcedPair::envelope(double t) const {
-  require_inside(t);
+  model::require_inside("motion", t, end());
   return size_;
 }
 

@@ -42,13 +42,13 @@ const ClosedForm* as_closed_form(const model::Motion& motion) {
 }
 
 Phase ClosedForm::phase(double t, Side side) const {
-  require_inside(c_, t);
+  model::require_inside("motion", t, c_.end);
   return phase_at(c_, t, side);
 }
 
 void ClosedForm::sample(std::span<const double> times, Side side, model::SampleBuffers out) const {
   const auto masses = c_.masses.size();
-  require_buffers(out, times.size(), masses);
+  model::require_buffers("motion", out, times.size(), masses);
   const auto one = [&](std::size_t i) {
     const auto at = i * masses;
     sample_one(times[i], side, &out.u[at], &out.v[at], out.a.empty() ? nullptr : &out.a[at]);
@@ -70,7 +70,7 @@ void ClosedForm::sample(std::span<const double> times, Side side, model::SampleB
 }
 
 void ClosedForm::sample_one(double t, Side side, double* u, double* v, double* a) const {
-  require_inside(c_, t);
+  model::require_inside("motion", t, c_.end);
   const auto [k, theta_over_pi] = c_.collides ? phase_at(c_, t, side) : natural_phase(c_, t);
   const bool rests = c_.eta == 0.0 && k > 0.0;
   const double flight = c_.collides ? k : 0.0;
@@ -87,7 +87,7 @@ void ClosedForm::sample_one(double t, Side side, double* u, double* v, double* a
 }
 
 Kinematics ClosedForm::envelope(double t) const {
-  require_inside(c_, t);
+  model::require_inside("motion", t, c_.end);
   const double flight = phase_at(c_, t, Side::left).flight;
   auto result = make_kinematics(dof());
   if (c_.eta == 0.0 && flight > 0.0) return result;
@@ -110,7 +110,7 @@ Kinematics ClosedForm::error_bound(double t) const {
 }
 
 long long ClosedForm::impact_count(double t) const {
-  require_inside(c_, t);
+  model::require_inside("motion", t, c_.end);
   if (!c_.collides) return 0;
   const auto count = static_cast<long long>(natural_phase(c_, t).flight);
   return c_.eta == 0.0 ? std::min(count, 1LL) : count;

@@ -62,22 +62,6 @@ numerics::Scaled power(const DoubleDouble& halvings) {
   return numerics::exp2(halvings);
 }
 
-void require_inside(const FlightConstants& c, double t) {
-  if (!(t >= 0.0 && t <= c.end))
-    refuse("motion", "t", t, fmt::format("0 <= t <= {} (the end of the motion, in s)", c.end), {},
-           "time-outside");
-}
-
-void require_buffers(const model::SampleBuffers& out, std::size_t times, std::size_t masses) {
-  const auto size = times * masses;
-  if (out.u.size() != size || out.v.size() != size || (!out.a.empty() && out.a.size() != size))
-    throw InputError(
-        fmt::format("motion: buffers for u, v, a hold {}, {}, {} numbers; allowed: {} each, one a "
-                    "time and mass (a may be empty).",
-                    out.u.size(), out.v.size(), out.a.size(), size),
-        "wrong-size");
-}
-
 void refuse_impact(const FlightConstants& c, long long index, long long count) {
   throw InputError(
       fmt::format("motion: impact {} was asked for; allowed: {}.", index,

@@ -27,13 +27,6 @@ numerics::Neighbour collision_instant(const FlightConstants& c, double k);
 /// 0 than to the smallest subnormal.
 numerics::Scaled power(const numerics::DoubleDouble& halvings);
 
-/// Throws InputError (time-outside) unless 0 <= t <= end.
-void require_inside(const FlightConstants& c, double t);
-
-/// Throws InputError (wrong-size) unless `out` holds u and v, and a or nothing, of as many masses at
-/// as many times.
-void require_buffers(const model::SampleBuffers& out, std::size_t times, std::size_t masses);
-
 /// Throws InputError (beyond-last-impact).
 [[noreturn]] void refuse_impact(const FlightConstants& c, long long index, long long count);
 

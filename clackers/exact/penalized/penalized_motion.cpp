@@ -163,27 +163,16 @@ std::optional<double> PenalizedMotion::phase_end(const Phase& phase) const {
   return std::nullopt;
 }
 
-void PenalizedMotion::require_inside(double t) const {
-  if (!(t >= 0.0 && t <= end_))
-    refuse(who, "t", t, fmt::format("0 <= t <= {} (the end of the motion, in s)", end_), {},
-           "time-outside");
-}
-
 std::size_t PenalizedMotion::phase_at(double t) const {
-  require_inside(t);
+  model::require_inside(who, t, end_);
   const auto after = std::ranges::upper_bound(phases_, t, {}, &Phase::t);
   return after == phases_.begin() ? 0 : static_cast<std::size_t>(after - phases_.begin()) - 1;
 }
 
 void PenalizedMotion::sample(std::span<const double> times, model::Side,
                              model::SampleBuffers out) const {
-  const auto n = static_cast<std::size_t>(dof()), size = times.size() * n;
-  if (out.u.size() != size || out.v.size() != size || (!out.a.empty() && out.a.size() != size))
-    throw InputError(
-        fmt::format("{}: buffers for u, v, a hold {}, {}, {} numbers; allowed: {} each, one a time "
-                    "and mass (a may be empty).",
-                    who, out.u.size(), out.v.size(), out.a.size(), size),
-        "wrong-size");
+  const auto n = static_cast<std::size_t>(dof());
+  model::require_buffers(who, out, times.size(), n);
   VectorXd y, rate;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Phase& phase = phases_[phase_at(times[i])];

@@ -74,7 +74,6 @@ class PenalizedMotion : public model::Motion {
   std::optional<double> phase_end(const Phase& phase) const;
   Eigen::MatrixXd flow(const Phase& phase, double s) const;
   Eigen::MatrixXd error_after(const Phase& phase, double s) const;
-  void require_inside(double t) const;
   std::size_t phase_at(double t) const;
   void require_index(long long index) const;
 

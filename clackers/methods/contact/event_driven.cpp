@@ -12,11 +12,6 @@
 
 namespace clackers::methods {
 
-const std::vector<Field<EventDriven>>& EventDriven::fields() {
-  static const std::vector<Field<EventDriven>> none;
-  return none;
-}
-
 /// A run with located impacts. While nothing is near a contact and no contact is active, a step is
 /// the integrator's own and a few comparisons; all else is off that path.
 template <int Dof>

@@ -43,11 +43,9 @@ struct EventDriven {
   static constexpr std::string_view name = "event-driven";
   static constexpr std::string_view summary =
       "impacts located inside the step, the rest of the step completed after them";
-  static const std::vector<Field<EventDriven>>& fields();
 
   static constexpr int most_events = 1000;  ///< in one step; a message and the card repeat it
 
-  void validate() const {}
   Claim claim(const Facts& integrator) const {
     return {Behaviour::proper, integrator.smooth_order, {}};
   }

@@ -9,11 +9,6 @@
 
 namespace clackers::methods {
 
-const std::vector<Field<Reversal>>& Reversal::fields() {
-  static const std::vector<Field<Reversal>> none;
-  return none;
-}
-
 Claim Reversal::claim(const Facts&) const { return {Behaviour::irregular, 1.0, {}}; }
 
 std::optional<Objection> Reversal::objection_to(const Facts& method) const {

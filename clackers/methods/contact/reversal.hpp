@@ -33,9 +33,7 @@ struct Reversal {
   static constexpr std::string_view name = "reversal";
   static constexpr std::string_view summary =
       "velocities reversed at the end of the step in which a contact is penetrated";
-  static const std::vector<Field<Reversal>>& fields();
 
-  void validate() const {}
   Claim claim(const Facts& integrator) const;
   /// To adaptive ones.
   std::optional<Objection> objection_to(const Facts& method) const;

@@ -25,11 +25,6 @@ constexpr const char* no_modes =
 
 }  // namespace
 
-const std::vector<Field<PiecewiseExact>>& PiecewiseExact::fields() {
-  static const std::vector<Field<PiecewiseExact>> none;
-  return none;
-}
-
 Facts PiecewiseExact::facts() const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return {.name = specification(*this),

@@ -40,11 +40,9 @@ struct PiecewiseExact {
   static constexpr std::string_view name = "piecewise-exact";
   static constexpr std::string_view summary =
       "closed-form modal motion between impacts, the first contact proven";
-  static const std::vector<Field<PiecewiseExact>>& fields();
 
   static constexpr int most_idle_events = 1000;  ///< without time passing; a message repeats it
 
-  void validate() const {}
   Facts facts() const;
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const;
 

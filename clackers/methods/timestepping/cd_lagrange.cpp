@@ -5,11 +5,6 @@
 
 namespace clackers::methods {
 
-const std::vector<Field<CdLagrange>>& CdLagrange::fields() {
-  static const std::vector<Field<CdLagrange>> none;
-  return none;
-}
-
 Facts CdLagrange::facts() const {
   return {.name = std::string(name),
           .smooth_order = 2.0,

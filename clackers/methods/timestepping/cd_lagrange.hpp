@@ -32,9 +32,7 @@ struct CdLagrange {
   static constexpr std::string_view name = "cd-lagrange";
   static constexpr std::string_view summary =
       "central differences with impulses between velocities at half steps";
-  static const std::vector<Field<CdLagrange>>& fields();
 
-  void validate() const {}
   Facts facts() const;
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const;
 

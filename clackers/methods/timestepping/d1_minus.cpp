@@ -10,11 +10,6 @@
 
 namespace clackers::methods {
 
-const std::vector<Field<D1Minus>>& D1Minus::fields() {
-  static const std::vector<Field<D1Minus>> none;
-  return none;
-}
-
 Facts D1Minus::facts() const {
   return {.name = std::string(name),
           .smooth_order = 2.0,

@@ -33,9 +33,7 @@ struct D1Minus {
   static constexpr std::string_view name = "d1-minus";
   static constexpr std::string_view summary =
       "half-explicit time-discontinuous Galerkin scheme, impulses at the end of the step";
-  static const std::vector<Field<D1Minus>>& fields();
 
-  void validate() const {}
   Facts facts() const;
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const;
 

@@ -7,11 +7,6 @@
 
 namespace clackers::methods {
 
-const std::vector<Field<ForwardIncrementLagrange>>& ForwardIncrementLagrange::fields() {
-  static const std::vector<Field<ForwardIncrementLagrange>> none;
-  return none;
-}
-
 Facts ForwardIncrementLagrange::facts() const {
   return {.name = std::string(name),
           .smooth_order = 2.0,

@@ -35,9 +35,7 @@ struct ForwardIncrementLagrange {
   static constexpr std::string_view name = "forward-increment-lagrange";
   static constexpr std::string_view summary =
       "central differences with multipliers that close the gap in the next step; for eta = 0";
-  static const std::vector<Field<ForwardIncrementLagrange>>& fields();
 
-  void validate() const {}
   Facts facts() const;
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const;
 

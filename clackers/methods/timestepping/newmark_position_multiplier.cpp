@@ -7,11 +7,6 @@
 
 namespace clackers::methods {
 
-const std::vector<Field<NewmarkPositionMultiplier>>& NewmarkPositionMultiplier::fields() {
-  static const std::vector<Field<NewmarkPositionMultiplier>> none;
-  return none;
-}
-
 Facts NewmarkPositionMultiplier::facts() const { return position_newmark_facts(std::string(name)); }
 
 std::optional<Objection> NewmarkPositionMultiplier::objection(

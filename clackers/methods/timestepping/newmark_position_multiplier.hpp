@@ -32,9 +32,7 @@ struct NewmarkPositionMultiplier {
   static constexpr std::string_view name = "newmark-position-multiplier";
   static constexpr std::string_view summary =
       "average acceleration with multipliers for the gap; gains energy: a warning";
-  static const std::vector<Field<NewmarkPositionMultiplier>>& fields();
 
-  void validate() const {}
   Facts facts() const;
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const;
 

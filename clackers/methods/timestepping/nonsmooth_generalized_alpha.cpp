@@ -67,6 +67,7 @@ class NonsmoothGeneralizedAlpha::Loop final : public SteppingScheme<Dof> {
   // in terms of impulses where damping couples no modes.
   void prepare(double h) override {
     this->respond(who_, h, weights(h));
+    if (contacts_.size() == 0) return;
     const auto& s = equation_.system();
     auto& velocity = response_.velocity;
     velocity = (inertia() * s.mass + (beta_ - 0.5 * gamma_) * h * h * s.stiffness) *

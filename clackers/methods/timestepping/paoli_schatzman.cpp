@@ -9,11 +9,6 @@
 
 namespace clackers::methods {
 
-const std::vector<Field<PaoliSchatzman>>& PaoliSchatzman::fields() {
-  static const std::vector<Field<PaoliSchatzman>> none;
-  return none;
-}
-
 Facts PaoliSchatzman::facts() const {
   return {.name = std::string(name),
           .smooth_order = 2.0,

@@ -32,9 +32,7 @@ struct PaoliSchatzman {
   static constexpr std::string_view name = "paoli-schatzman";
   static constexpr std::string_view summary =
       "central differences with restitution between displacements two steps apart";
-  static const std::vector<Field<PaoliSchatzman>>& fields();
 
-  void validate() const {}
   Facts facts() const;
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const;
 

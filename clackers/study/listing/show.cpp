@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "clackers/methods/method_specification.hpp"
@@ -133,33 +132,17 @@ void add_entry(std::vector<Sheet>& sheets, const methods::Entry& entry) {
                     {{entry.card}}});
 }
 
-// The registered names of which a specification is made: "newmark:beta=0+penalty" has two.
-std::vector<std::string> parts(std::string_view full_name) {
-  std::vector<std::string> names;
-  for (const auto& entry : methods::entries()) {
-    std::size_t at = 0;
-    while ((at = full_name.find(entry.name, at)) != std::string_view::npos) {
-      const auto next = at + entry.name.size();
-      const bool starts = at == 0 || full_name[at - 1] == '+';
-      const bool ends =
-          next == full_name.size() || full_name[next] == ':' || full_name[next] == '+';
-      if (starts && ends) {
-        names.push_back(entry.name);
-        break;
-      }
-      at = next;
-    }
-  }
-  return names;
+std::string_view name_of(std::string_view term) { return term.substr(0, term.find(':')); }
+
+const methods::Entry& entry_of(std::string_view term) {
+  return *std::ranges::find(methods::entries(), name_of(term), &methods::Entry::name);
 }
 
-// The integrator of a method; none of a method that brings its own integration.
-std::shared_ptr<const methods::Integrator> integrator_of(const std::string& method) {
-  const auto first = method.substr(0, method.find('+'));
-  for (const auto& entry : methods::entries())
-    if (entry.kind == "integrator" && entry.name == first.substr(0, first.find(':')))
-      return methods::integrator(first);
-  return nullptr;
+// False for a method that brings its own integration, and for what is no method.
+bool is_integrator(std::string_view term) {
+  return std::ranges::any_of(methods::entries(), [&](const methods::Entry& entry) {
+    return entry.kind == "integrator" && entry.name == name_of(term);
+  });
 }
 
 }  // namespace
@@ -193,26 +176,18 @@ std::vector<Sheet> show_method(std::string_view specification) {
     }
   const auto facts = methods::method(specification)->facts();
   sheets.push_back(claim_sheet(facts));
-  if (const auto integrator = integrator_of(facts.name); integrator && !facts.is_adaptive)
-    for (auto& sheet : amplification_sheets(*integrator)) sheets.push_back(std::move(sheet));
-  for (const auto& name : parts(facts.name)) {
-    const auto entries = methods::entries();
-    add_entry(sheets, *std::ranges::find(entries, name, &methods::Entry::name));
-  }
+  const auto terms = methods::terms_of(facts.name);
+  if (is_integrator(terms[0]) && !facts.is_adaptive)
+    for (auto& sheet : amplification_sheets(*methods::integrator(terms[0])))
+      sheets.push_back(std::move(sheet));
+  for (const auto term : terms) add_entry(sheets, entry_of(term));
   return sheets;
 }
 
 std::string treatment_of(std::string_view specification) {
-  const auto name = specification.substr(0, specification.find_first_of(":+"));
-  const auto is_integrator = [&](const methods::Entry& entry) {
-    return entry.kind == "integrator" && entry.name == name;
-  };
-  if (std::ranges::none_of(methods::entries(), is_integrator)) return {};
-  // A "+" before a digit belongs to a number.
-  for (std::size_t i = name.size(); i + 1 < specification.size(); ++i)
-    if (specification[i] == '+' && std::isalpha(static_cast<unsigned char>(specification[i + 1])))
-      return std::string(specification.substr(i + 1));
-  return "event-driven";
+  const auto terms = methods::terms_of(specification);
+  if (!is_integrator(terms[0])) return {};
+  return std::string(terms.size() > 1 ? terms[1] : "event-driven");
 }
 
 }  // namespace clackers::study

@@ -9,7 +9,6 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/methods/registry.hpp"
-#include "clackers/model/harmonic_load.hpp"
 #include "clackers/study/program.hpp"
 
 namespace clackers::study {
@@ -53,10 +52,6 @@ PlannedMethod planned(const std::string& specification, const model::ImpactProbl
   auto& subject = planned.subject;
   subject.name = short_name(facts.name);
   subject.claim = methods::claim_on(facts, problem, collides);
-  // The force of a one-sided spring has kinks within steps, each an error of second order there.
-  if (subject.claim.order > 0.0 &&
-      dynamic_cast<const model::OneSidedSprings*>(problem.system.nonlinear.get()) != nullptr)
-    subject.claim = {Behaviour::irregular, std::min(2.0, facts.smooth_order), {}};
   if (facts.is_adaptive) {
     subject.resolution = Resolution::tolerance;
     // The estimate falls with the power of the step that the error over a run does.
