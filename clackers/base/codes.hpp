@@ -21,7 +21,7 @@ struct CodeEntry {
 inline constexpr auto code_names = std::to_array<std::string_view>({
     "exact", "proper", "reduced", "irregular", "stagnating", "divergent", "undecided",
     "contact-stiffness", "tolerance-floor", "unexplained-floor", "too-few-levels",
-    "contact-not-resolved", "no-convergence-yet", "larger-than-motion", "one-sample-a-level",
+    "contact-not-resolved", "no-convergence-yet", "larger-than-motion", "simultaneous-impacts", "one-sample-a-level",
     "more-neighbours", "errors-cancel", "error-grows-again", "no-fixed-order", "wrong-limit",
     "improper-convergence", "differences-turn", "run-failed", "energy-growth", "error-growth",
     "diverged", "newton-failed", "complementarity-failed", "step-too-small", "too-many-impacts",
@@ -44,7 +44,8 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "numerical-damping", "period-error", "unstable-coarse-steps", "ends-early", "output-resampled",
     "cannot-write", "cannot-read", "no-renderer", "render-failed", "program-failed",
     "program-timeout", "program-output", "not-a-plugin", "plugin-failed", "callable-failed",
-    "callable-output", "foreign-folder", "out-of-memory", "internal-error", "interrupted",
+    "callable-output", "foreign-folder", "too-many-runs", "not-a-campaign", "other-campaign",
+    "other-version", "database-busy", "shard-missing", "no-mpi", "scheduler-failed", "out-of-memory", "internal-error", "interrupted",
 });
 // clang-format on
 
