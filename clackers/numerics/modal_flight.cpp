@@ -135,14 +135,8 @@ std::optional<ModalSystem> ModalSystem::make(const MatrixXd& mass, const MatrixX
     made.fastest_ = std::max({made.fastest_, mode.omega, 2.0 * std::abs(mode.sigma)});
   made.inverse_ = basis.transpose() * mass;
   if (!made.rate_shapes_.isZero(0.0)) {
-    VectorXd square(n), decay(n);
-    for (Index j = 0; j < n; ++j) {
-      square[j] = made.modes_[std::size_t(j)].omega_square;
-      decay[j] = made.modes_[std::size_t(j)].sigma;
-    }
     MatrixXd whole(2 * n, 2 * n);
-    whole << made.shapes_, made.rate_shapes_, -made.rate_shapes_ * square.asDiagonal(),
-        made.shapes_ - 2.0 * made.rate_shapes_ * decay.asDiagonal();
+    whole << made.derivative(0), made.derivative(1);
     MatrixXd both = MatrixXd::Zero(2 * n, 2 * n);
     both.topLeftCorner(n, n) = both.bottomRightCorner(n, n) = made.inverse_;
     made.whole_inverse_ = whole.partialPivLu().solve(both);
@@ -153,6 +147,28 @@ std::optional<ModalSystem> ModalSystem::make(const MatrixXd& mass, const MatrixX
   made.shapes_ = basis * made.shapes_;
   made.rate_shapes_ = basis * made.rate_shapes_;
   return made;
+}
+
+MatrixXd ModalSystem::derivative(int order) const {
+  const auto m = std::ssize(modes_);
+  MatrixXd rows(dof(), 2 * m);
+  rows << shapes_, rate_shapes_;
+  for (; order > 0; --order)
+    for (Index j = 0; j < m; ++j) {
+      const auto& mode = modes_[std::size_t(j)];
+      const VectorXd of_rate = rows.col(m + j);
+      rows.col(m + j) = rows.col(j) - 2.0 * mode.sigma * of_rate;
+      rows.col(j) = -mode.omega_square * of_rate;
+    }
+  return rows;
+}
+
+MatrixXd ModalSystem::inverse() const {
+  if (whole_inverse_.size() > 0) return whole_inverse_;
+  const Index n = dof(), m = std::ssize(modes_);
+  MatrixXd both = MatrixXd::Zero(2 * m, 2 * n);
+  both.topLeftCorner(m, n) = both.bottomRightCorner(m, n) = inverse_;
+  return both;
 }
 
 // The modes of a block that damping couples; their shapes in the coordinates of the block.

@@ -62,6 +62,11 @@ class ModalSystem {
   const Eigen::MatrixXd& rate_shapes() const { return rate_shapes_; }
   double fastest() const { return fastest_; }  ///< largest omega, or rate of decay [1/s]
 
+  /// The derivative of u of this order is this matrix times (y_1, y_2, ..., y_1', y_2', ...).
+  Eigen::MatrixXd derivative(int order) const;
+  /// (y_1, y_2, ..., y_1', y_2', ...) are this matrix times (u, v).
+  Eigen::MatrixXd inverse() const;
+
   /// Modal states of the displacement u and the velocity v.
   void to_modes(std::span<const double> u, std::span<const double> v,
                 std::span<ModalState> modes) const;

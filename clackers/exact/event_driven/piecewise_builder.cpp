@@ -1,14 +1,15 @@
 // A piecewise motion goes from impact to impact.
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 #include "clackers/base/error.hpp"
 #include "clackers/exact/event_driven/piecewise_motion.hpp"
+#include "clackers/numerics/first_root.hpp"
 #include "clackers/numerics/lcp.hpp"
 
 namespace clackers::exact {
@@ -27,17 +28,6 @@ constexpr double most_bytes = 2e9;
 /// Speeds below this share of their sizes are those of masses that stay together.
 constexpr double rounding_share = 1e-12;
 
-// Symmetric; a product such as S' K S leaves 1e-12 of the largest eigenvalue.
-void require_no_negative_eigenvalue(std::string_view who, const char* name, const MatrixXd& x,
-                                    const char* reason) {
-  const VectorXd values =
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(x, Eigen::EigenvaluesOnly).eigenvalues();
-  if (!(values.minCoeff() >= -1e-12 * values.cwiseAbs().maxCoeff()))
-    throw InputError(fmt::format("{}: {} has the eigenvalue {:.6g}; allowed: none below 0. {}", who,
-                                 name, values.minCoeff(), reason),
-                     "not-positive-definite");
-}
-
 }  // namespace
 
 class PiecewiseMotion::Builder {
@@ -46,38 +36,35 @@ class PiecewiseMotion::Builder {
       : problem_(problem), m_(motion), lcp_(problem.contacts.size()) {}
 
   void build() {
-    for (const auto& contact : problem_.contacts)
-      rows_.push_back(m_.system_.shapes().transpose() * contact.direction);
-    const auto n = std::size_t(m_.dof());
-    Modal state(n);
-    const auto& start = problem_.start;
-    m_.system_.to_modes({start.u.data(), n}, {start.v.data(), n}, state);
-    begin(0.0, state, MatrixXd::Zero(2 * m_.dof(), 2 * m_.dof()));
+    for (const auto& contact : problem_.contacts) {
+      Row row{MatrixXd(2 * m_.dof(), 4), modes().impulse(contact.direction)};
+      for (int order = 0; order < 4; ++order)
+        row.by_state.col(order) = modes().derivative(order).transpose() * contact.direction;
+      rows_.push_back(std::move(row));
+    }
+    begin(0.0, modes().state(problem_.start.u, problem_.start.v),
+          MatrixXd::Zero(2 * m_.dof(), 2 * m_.dof()));
     // The start itself is given; what the change to modes rounds is that of a flight of no length.
     m_.flights_.back().covariance = m_.covariance_after(m_.flights_.back(), 0.0);
     while (const auto t = next_contact()) collide(*t);
   }
 
  private:
+  // Of a contact: its gap and three derivatives by z, and the change of z by a unit impulse.
+  struct Row {
+    MatrixXd by_state;  // a column each
+    VectorXd impulse;
+    auto gap() const { return by_state.col(0); }
+    auto rate() const { return by_state.col(1); }
+  };
+
   const Flight& flight() const { return m_.flights_.back(); }
-  double amplitude(std::size_t i, const Sizes& size) const {
-    return std::abs(problem_.contacts[i].gap) + rows_[i].cwiseAbs().dot(size.y);
-  }
-  static VectorXd displacement(const Modal& state) {
-    VectorXd y(Index(state.size()));
-    for (std::size_t j = 0; j < state.size(); ++j) y[Index(j)] = state[j].y;
-    return y;
-  }
-  static VectorXd velocity(const Modal& state) {
-    VectorXd rate(Index(state.size()));
-    for (std::size_t j = 0; j < state.size(); ++j) rate[Index(j)] = state[j].rate;
-    return rate;
-  }
-  double gap(std::size_t i, const Modal& state) const {
-    return rows_[i].dot(displacement(state)) - problem_.contacts[i].gap;
+  const ForcedModes& modes() const { return m_.modes_; }
+  double gap(std::size_t i, const VectorXd& z) const {
+    return rows_[i].gap().dot(z) - problem_.contacts[i].gap;
   }
 
-  void begin(double t, const Modal& state, MatrixXd covariance) {
+  void begin(double t, const VectorXd& z, MatrixXd covariance) {
     const double bytes = 8.0 * double(covariance.size()) * double(m_.flights_.size() + 1);
     if (m_.flights_.size() >= most_flights || bytes > most_bytes)
       throw InputError(
@@ -86,55 +73,43 @@ class PiecewiseMotion::Builder {
               "impacts and 2 GB. Impacts may accumulate there; end the run earlier.",
               m_.who_, m_.flights_.size(), t, bytes * 1e-9),
           "out-of-memory");
-    Flight next{t, state, std::move(covariance)};
-    const auto steady = m_.steady(t);
-    for (std::size_t j = 0; j < state.size(); ++j) {
-      next.free[j].y -= steady[j].y;
-      next.free[j].rate -= steady[j].rate;
-    }
-    m_.flights_.push_back(std::move(next));
+    m_.flights_.push_back({t, z - modes().steady(t), std::move(covariance)});
   }
 
-  // The gap of contact i, s seconds into the flight. With E^2 = y'^2 + omega^2 y^2, which does not
-  // grow, |y''| <= h E and |y'''| <= (2 sigma h + omega^2) E, h^2 = 4 sigma^2 + omega^2.
+  // The gap of contact i, s seconds into the flight; the energy of no mode grows.
   numerics::LocalBound gap_ahead(std::size_t i, double s) const {
+    const auto now = modes().advanced(flight().free, s);
+    const auto size = modes().sizes(now, m_.end_);
+    const Eigen::Vector4d of_modes = rows_[i].by_state.transpose() * now;
     numerics::LocalBound bound;
-    bound.value = -problem_.contacts[i].gap;
-    for (Index j = 0; j < rows_[i].size(); ++j) {
-      const auto& mode = m_.system_.modes()[std::size_t(j)];
-      const auto now = numerics::advance(mode, flight().free[std::size_t(j)], s);
-      const double row = rows_[i][j], h = std::hypot(2.0 * mode.sigma, mode.omega);
-      const double size = std::abs(row) * std::hypot(now.rate, mode.omega * now.y);
-      bound.value += row * now.y;
-      bound.slope += row * now.rate;
-      const double a = mode.acceleration(now.y, now.rate);
-      bound.second += row * a;
-      bound.third += row * (-2.0 * mode.sigma * a - mode.omega_square * now.rate);
-      bound.curvature += size * h;
-      bound.third_bound += size * (2.0 * mode.sigma * h + mode.omega_square);
-    }
-    for (const auto& force : m_.forces_) {
-      std::complex<double> y = 0.0;
-      for (Index j = 0; j < rows_[i].size(); ++j) y += rows_[i][j] * force.steady[j];
-      const auto now = y * std::polar(1.0, force.frequency * (flight().t + s));
+    bound.value = of_modes[0] - problem_.contacts[i].gap;
+    bound.slope = of_modes[1];
+    bound.second = of_modes[2];
+    bound.third = of_modes[3];
+    bound.curvature = modes().bound(rows_[i].by_state.col(2), size);
+    bound.third_bound = modes().bound(rows_[i].by_state.col(3), size);
+    for (const auto& force : modes().forces()) {
+      const std::complex<double> y = rows_[i].gap().cast<std::complex<double>>().dot(force.steady);
+      const auto turned = y * std::polar(1.0, force.frequency * (flight().t + s));
       const double square = force.frequency * force.frequency;
-      bound.value += now.real();
-      bound.slope -= force.frequency * now.imag();
-      bound.second -= square * now.real();
+      bound.value += turned.real();
+      bound.slope -= force.frequency * turned.imag();
+      bound.second -= square * turned.real();
       bound.curvature += square * std::abs(y);
-      bound.third += square * force.frequency * now.imag();
+      bound.third += square * force.frequency * turned.imag();
       bound.third_bound += square * force.frequency * std::abs(y);
     }
     bound.reach = m_.end_ + 1.0;  // a gap that rests has no other
     return bound;
   }
 
-  double gap_error(std::size_t i, const MatrixXd& covariance, const Sizes& size, double t,
-                   double rate) const {
-    VectorXd row = VectorXd::Zero(2 * m_.dof());
-    for (Index j = 0; j < m_.dof(); ++j) row[2 * j] = rows_[i][j];
-    return m_.factor(m_.flights_.size() - 1) * std::sqrt(row.dot(covariance * row)) +
-           epsilon * (double(m_.dof() + 4) * amplitude(i, size) + 4.0 * t * std::abs(rate));
+  double gap_error(std::size_t i, const MatrixXd& covariance, const ForcedModes::Sizes& size,
+                   double t, double rate) const {
+    const double amplitude =
+        std::abs(problem_.contacts[i].gap) + modes().bound(rows_[i].gap(), size);
+    return m_.factor(m_.flights_.size() - 1) *
+               std::sqrt(rows_[i].gap().dot(covariance * rows_[i].gap())) +
+           epsilon * (double(m_.dof() + 4) * amplitude + 4.0 * t * std::abs(rate));
   }
 
   std::optional<double> next_contact() {
@@ -154,7 +129,7 @@ class PiecewiseMotion::Builder {
         return now;
       };
       returned_ = false;
-      const double fastest = std::max({m_.system_.fastest(), highest_force(), 1e-3 / span});
+      const double fastest = std::max({modes().system().fastest(), highest_force(), 1e-3 / span});
       const double until = first ? std::min(span, *first * (1.0 + 4.0 * epsilon)) : span;
       const auto root = numerics::first_root(watched, 0.0, until, 1e-7 / fastest, most_root_steps);
       if (root.status == FirstRoot::Status::undecided)
@@ -171,13 +146,13 @@ class PiecewiseMotion::Builder {
   }
   double highest_force() const {
     double most = 0.0;
-    for (const auto& force : m_.forces_) most = std::max(most, force.frequency);
+    for (const auto& force : modes().forces()) most = std::max(most, force.frequency);
     return most;
   }
 
   void require_no_graze(std::size_t i, double s, double gap) const {
     if (!std::isfinite(gap)) return;
-    const auto size = m_.sizes(flight(), s);
+    const auto size = modes().sizes(flight().free, s);
     const double error = gap_error(i, m_.covariance_after(flight(), s), size, flight().t + s, 0.0);
     if (gap <= error) refuse_graze(i, flight().t + s, gap, error);
   }
@@ -203,20 +178,19 @@ class PiecewiseMotion::Builder {
   // Newton's law for the contacts that are closed at the end of the flight, s seconds long.
   void collide(double s) {
     const double t = flight().t + s;
-    const auto size = m_.sizes(flight(), s);
+    const auto size = modes().sizes(flight().free, s);
     MatrixXd covariance = m_.covariance_after(flight(), s);
-    auto state = m_.total(flight(), t);
-    const VectorXd before = velocity(state);
-    const VectorXd a_before = m_.acceleration(state, t);
+    VectorXd z = m_.total(flight(), t);
+    const VectorXd v_before = modes().derivative(1) * z, a_before = modes().acceleration(z, t);
     std::vector<std::size_t> closed;
     std::vector<double> time_errors(rows_.size());
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const double rate = rows_[i].dot(before);
+      const double rate = rows_[i].rate().dot(z);
       const double error = gap_error(i, covariance, size, t, rate);
-      if (!(gap(i, state) <= error) || !(rate <= no_rate(i, before))) continue;
+      if (!(gap(i, z) <= error) || !(rate <= no_rate(i, v_before))) continue;
       // It would go beyond by rate^2 / (2 curvature) at least: more than the error, or nothing is certain.
       const double depth = rate * rate / (2.0 * gap_ahead(i, s).curvature);
-      if (!(rate < 0.0 && depth > error)) refuse_graze(i, t, std::abs(gap(i, state)), error);
+      if (!(rate < 0.0 && depth > error)) refuse_graze(i, t, std::abs(gap(i, z)), error);
       time_errors[i] = error / -rate + 4.0 * epsilon * t;
       closed.push_back(i);
     }
@@ -226,31 +200,29 @@ class PiecewiseMotion::Builder {
                       "allowed: impacts. Change its gap, or end the run earlier.",
                       m_.who_, t),
           "not-admissible");
-    const auto impulses = solve(closed, before, t);
+    const auto impulses = solve(closed, z, t);
 
     const auto n = m_.dof();
     MatrixXd saltation = MatrixXd::Identity(2 * n, 2 * n);
     VectorXd time_error = VectorXd::Zero(2 * n);
-    VectorXd after = before;
-    for (const auto i : closed) after += rows_[i] * impulses[Index(i)];
-    add_saltation(closed, impulses, before, a_before, saltation, time_error);
+    add_saltation(closed, impulses, z, a_before, saltation, time_error);
     time_error *= 4.0 * epsilon * std::max(t, s);
     covariance = saltation * covariance * saltation.transpose();
     covariance.diagonal() += time_error.cwiseAbs2();
 
     for (const auto i : closed)
       m_.hits_.push_back({t, time_errors[i], impulses[Index(i)], int(i), m_.flights_.size() - 1});
-    for (Index j = 0; j < n; ++j) state[std::size_t(j)].rate = after[j];
-    begin(t, state, std::move(covariance));
-    if (at_rest(after, before, state)) {
-      for (auto& mode : m_.flights_.back().free) mode = {};
+    for (const auto i : closed) z += rows_[i].impulse * impulses[Index(i)];
+    begin(t, z, std::move(covariance));
+    const VectorXd v_after = modes().derivative(1) * z, a_after = modes().acceleration(z, t);
+    if (at_rest(v_after, v_before, z)) {
+      m_.flights_.back().free.setZero();
       rests_ = true;
       return;
     }
-    const VectorXd a_after = m_.acceleration(state, t);
     for (const auto i : closed)
-      if (rows_[i].dot(after) <= no_rate(i, before) &&
-          rows_[i].dot(a_after) <= no_rate(i, a_before) + no_rate(i, a_after))
+      if (rows_[i].rate().dot(z) <= no_rate(i, v_before) &&
+          problem_.contacts[i].direction.dot(a_after) <= no_rate(i, a_before) + no_rate(i, a_after))
         refuse_rest(i, t);
     // Flights shorter than the rounding of time cannot be told apart.
     if (s <= 64.0 * epsilon * t)
@@ -262,23 +234,24 @@ class PiecewiseMotion::Builder {
 
   // A gap rate that is rounding of velocities of this size.
   double no_rate(std::size_t i, const VectorXd& velocities) const {
-    return rounding_share * rows_[i].norm() * velocities.norm();
+    return rounding_share * problem_.contacts[i].direction.norm() * velocities.norm();
   }
 
   // Nothing but rounding of the speed before the impact is left: a plastic impact at equilibrium.
-  bool at_rest(const VectorXd& after, const VectorXd& before, const Modal& state) const {
+  bool at_rest(const VectorXd& after, const VectorXd& before, const VectorXd& z) const {
     const double small = rounding_share * before.cwiseAbs().maxCoeff();
-    return m_.forces_.empty() && after.cwiseAbs().maxCoeff() <= small &&
-           displacement(state).cwiseAbs().maxCoeff() * m_.system_.fastest() <= small;
+    const VectorXd u = modes().derivative(0) * z;
+    return modes().forces().empty() && after.cwiseAbs().maxCoeff() <= small &&
+           u.cwiseAbs().maxCoeff() * modes().system().fastest() <= small;
   }
 
-  VectorXd solve(const std::vector<std::size_t>& closed, const VectorXd& before, double t) {
+  VectorXd solve(const std::vector<std::size_t>& closed, const VectorXd& z, double t) {
     const auto count = Index(rows_.size());
     MatrixXd w = MatrixXd::Zero(count, count);
     VectorXd q = VectorXd::Zero(count), impulses = VectorXd::Zero(count);
     for (const auto i : closed) {
-      q[Index(i)] = (1.0 + problem_.contacts[i].restitution) * rows_[i].dot(before);
-      for (const auto j : closed) w(Index(i), Index(j)) = rows_[i].dot(rows_[j]);
+      q[Index(i)] = (1.0 + problem_.contacts[i].restitution) * rows_[i].rate().dot(z);
+      for (const auto j : closed) w(Index(i), Index(j)) = delassus(i, j);
     }
     numerics::PrincipalCholesky factors(closed.size());
     const auto independent = factors.compute(w, closed);
@@ -301,109 +274,49 @@ class PiecewiseMotion::Builder {
   // n_c . dx, comes that over its gap rate earlier, and g_c is its part of f+ - R f-. Of contacts
   // that close together this holds while they stay together, or do not act on each other.
   void add_saltation(const std::vector<std::size_t>& closed, const VectorXd& impulses,
-                     const VectorXd& before, const VectorXd& a_before, MatrixXd& saltation,
+                     const VectorXd& z, const VectorXd& a_before, MatrixXd& saltation,
                      VectorXd& time_error) const {
-    const auto n = m_.dof();
     std::vector<std::size_t> active;
     for (const auto i : closed)
       if (impulses[Index(i)] > 0.0) active.push_back(i);
     const auto count = Index(active.size());
-    MatrixXd b(count, n), law(count, count);
-    for (Index c = 0; c < count; ++c) b.row(c) = rows_[active[std::size_t(c)]].transpose();
-    law = (b * b.transpose()).inverse();
+    MatrixXd law(count, count), rates(count, z.size());
+    VectorXd pressed(count);
+    for (Index c = 0; c < count; ++c) {
+      const auto i = active[std::size_t(c)];
+      for (Index d = 0; d < count; ++d) law(c, d) = delassus(i, active[std::size_t(d)]);
+      rates.row(c) = rows_[i].rate().transpose();
+      pressed[c] = problem_.contacts[i].direction.dot(a_before);
+    }
+    law = law.inverse().eval();
     for (Index c = 0; c < count; ++c)
       law.col(c) *= 1.0 + problem_.contacts[active[std::size_t(c)]].restitution;
-    const MatrixXd impulse_of = law * b;  // -impulse for unit velocities
-    const VectorXd pressed = impulse_of * a_before;
-    for (Index j = 0; j < n; ++j)
-      for (Index k = 0; k < n; ++k)
-        saltation(2 * j + 1, 2 * k + 1) -= b.col(j).dot(impulse_of.col(k));
+    rates = law * rates;  // -impulses by z
+    pressed = law * pressed;
     for (Index c = 0; c < count; ++c) {
-      const double p = impulses[Index(active[std::size_t(c)])], rate = b.row(c).dot(before);
-      VectorXd jump(2 * n);
-      for (Index j = 0; j < n; ++j) {
-        const double sigma = m_.system_.modes()[std::size_t(j)].sigma;
-        jump[2 * j] = b(c, j) * p;
-        jump[2 * j + 1] = b(c, j) * (pressed[c] - 2.0 * sigma * p);
-      }
-      for (Index k = 0; k < n; ++k) saltation.col(2 * k) += jump * (b(c, k) / rate);
+      const auto& row = rows_[active[std::size_t(c)]];
+      saltation -= row.impulse * rates.row(c);
+      const VectorXd jump = impulses[Index(active[std::size_t(c)])] * modes().rate(row.impulse) +
+                            pressed[c] * row.impulse;
+      saltation += jump * (row.gap().transpose() / row.rate().dot(z));
       time_error += jump.cwiseAbs();
     }
+  }
+
+  double delassus(std::size_t i, std::size_t j) const {
+    return rows_[i].rate().dot(rows_[j].impulse);
   }
 
   const model::ImpactProblem<>& problem_;
   PiecewiseMotion& m_;
   numerics::LcpSolver lcp_;
-  std::vector<VectorXd> rows_;  // of the contacts, in modes
+  std::vector<Row> rows_;
   bool returned_ = false, rests_ = false;
 };
 
-void PiecewiseMotion::add_forces(std::string_view who, const model::HarmonicLoad& load) {
-  for (const auto& f : load.forces()) {
-    Force force;
-    force.frequency = f.frequency;
-    const std::complex<double> phase = std::polar(f.amplitude, f.phase);
-    force.modal = system_.shapes().row(f.dof).transpose().cast<std::complex<double>>() * phase;
-    force.steady.resize(dof());
-    for (Index j = 0; j < dof(); ++j) {
-      const auto& mode = system_.modes()[std::size_t(j)];
-      const std::complex<double> dynamic((mode.omega - f.frequency) * (mode.omega + f.frequency),
-                                         2.0 * mode.sigma * f.frequency);
-      const double size = mode.omega_square + f.frequency * f.frequency;
-      if (std::abs(force.modal[j]) > 0.0 && !(std::abs(dynamic) > 1e-8 * size))
-        throw InputError(
-            fmt::format(
-                "{}: the load on degree of freedom {} has {:.6g} rad/s, the frequency of an "
-                "undamped mode; allowed: 1e-8 of it away. The response would grow without a "
-                "bound; change the frequency, or add damping.",
-                who, f.dof + 1, f.frequency),
-            "out-of-range");
-      force.steady[j] = std::abs(force.modal[j]) > 0.0 ? force.modal[j] / dynamic : 0.0;
-    }
-    forces_.push_back(std::move(force));
-  }
-}
-
-// What the mode shapes leave of M, C and K beside a diagonal, and the rounding of that.
-void PiecewiseMotion::find_residuals() {
-  const auto& shapes = system_.shapes();
-  const auto residual = [&](const MatrixXd& x, const auto& diagonal) {
-    MatrixXd rest = shapes.transpose() * x * shapes;
-    for (Index j = 0; j < dof(); ++j) rest(j, j) -= diagonal(system_.modes()[std::size_t(j)]);
-    const MatrixXd size = shapes.cwiseAbs().transpose() * x.cwiseAbs() * shapes.cwiseAbs();
-    return MatrixXd(rest.cwiseAbs() + 2.0 * double(dof()) * epsilon * size);
-  };
-  using numerics::Mode;
-  mass_residual_ = residual(mass_, [](const Mode&) { return 1.0; });
-  damping_residual_ = residual(damping_, [](const Mode& mode) { return 2.0 * mode.sigma; });
-  stiffness_residual_ = residual(stiffness_, [](const Mode& mode) { return mode.omega_square; });
-}
-
 PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, std::string_view who)
-    : who_(who),
-      mass_(problem.system.mass),
-      stiffness_(problem.system.stiffness),
-      damping_(problem.system.damping),
-      end_(problem.end) {
-  validate(problem);
+    : who_(who), end_(problem.end), modes_(problem, who) {
   if (problem.start.t != 0.0) refuse(who, "start", problem.start.t, "t = 0");
-  const auto* load = problem.system.add_load.target<model::HarmonicLoad>();
-  if (problem.system.nonlinear || (problem.system.add_load && load == nullptr))
-    refuse(who, "system", "with a nonlinear force or any load", "linear, with harmonic loads", {},
-           "linear-only");
-  require_no_negative_eigenvalue(who, "the stiffness matrix", stiffness_,
-                                 "The structure would not return to its rest.");
-  require_no_negative_eigenvalue(who, "the damping matrix", damping_,
-                                 "The damping would feed energy in.");
-  auto system = numerics::ModalSystem::make(mass_, damping_, stiffness_);
-  if (!system || !system->rate_shapes().isZero(0.0))
-    throw InputError(
-        fmt::format(
-            "{}: the damping matrix couples the modes of mass and stiffness; allowed: modal "
-            "damping, as a combination of M and K, or matrices that are all diagonal.",
-            who),
-        "out-of-range");
-  system_ = std::move(*system);
   const auto& contacts = problem.contacts;
   for (std::size_t i = 0; i < contacts.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -415,8 +328,6 @@ PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, std::str
                         who, j + 1, i + 1),
             "redundant-contacts");
     }
-  if (load != nullptr) add_forces(who, *load);
-  find_residuals();
   Builder(problem, *this).build();
 }
 

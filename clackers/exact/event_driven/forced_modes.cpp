@@ -1,0 +1,238 @@
+#include "clackers/exact/event_driven/forced_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "clackers/base/error.hpp"
+#include "clackers/model/harmonic_load.hpp"
+
+namespace clackers::exact {
+
+using Eigen::Index;
+using Matrix = ForcedModes::Matrix;
+using Vector = ForcedModes::Vector;
+using Complex = std::complex<double>;
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// Symmetric; a product such as S' K S leaves 1e-12 of the largest eigenvalue.
+void require_no_negative_eigenvalue(std::string_view who, const char* name, const Matrix& x,
+                                    const char* reason) {
+  const Vector values =
+      Eigen::SelfAdjointEigenSolver<Matrix>(x, Eigen::EigenvaluesOnly).eigenvalues();
+  if (!(values.minCoeff() >= -1e-12 * values.cwiseAbs().maxCoeff()))
+    throw InputError(fmt::format("{}: {} has the eigenvalue {:.6g}; allowed: none below 0. {}", who,
+                                 name, values.minCoeff(), reason),
+                     "not-positive-definite");
+}
+
+}  // namespace
+
+ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view who)
+    : mass_(problem.system.mass),
+      damping_(problem.system.damping),
+      stiffness_(problem.system.stiffness) {
+  validate(problem);
+  const auto& add_load = problem.system.add_load;
+  if (problem.system.nonlinear || (add_load && !add_load.target<model::HarmonicLoad>()))
+    refuse(who, "system", "with a nonlinear force or any load", "linear, with harmonic loads", {},
+           "linear-only");
+  require_no_negative_eigenvalue(who, "the stiffness matrix", stiffness_,
+                                 "The structure would not return to its rest.");
+  require_no_negative_eigenvalue(who, "the damping matrix", damping_,
+                                 "The damping would feed energy in.");
+  auto system = numerics::ModalSystem::make(mass_, damping_, stiffness_);
+  if (!system)
+    throw InputError(fmt::format("{}: two modes that the damping couples have the same eigenvalue and "
+                                 "the same shape, or nearly so; allowed: motions that are sums of "
+                                 "modes. Change a number of the damping matrix a little.",
+                                 who),
+                     "out-of-range");
+  system_ = std::move(*system);
+  for (int order = 0; order <= 3; ++order) derivatives_.push_back(system_.derivative(order));
+  inverse_ = system_.inverse();
+  push_ = inverse_.rightCols(dof()) * mass_.llt().solve(Matrix::Identity(dof(), dof()));
+  add_forces(problem, who);
+  find_residuals();
+}
+
+// z' = A z + g e^(i w t) mode by mode.
+void ForcedModes::add_forces(const model::ImpactProblem<>& problem, std::string_view who) {
+  const auto* load = problem.system.add_load.target<model::HarmonicLoad>();
+  if (load == nullptr) return;
+  const Index n = dof();
+  const Matrix inverse_mass = mass_.llt().solve(Matrix::Identity(n, n));
+  for (const auto& f : load->forces()) {
+    Force force;
+    force.frequency = f.frequency;
+    const Complex phase = std::polar(f.amplitude, f.phase), turn(0.0, f.frequency);
+    force.push = inverse_mass.col(f.dof).cast<Complex>() * phase;
+    const Eigen::VectorXcd g = push_.col(f.dof).cast<Complex>() * phase;
+    force.steady = Eigen::VectorXcd::Zero(2 * n);
+    for (Index j = 0; j < n; ++j) {
+      const auto& mode = system_.modes()[std::size_t(j)];
+      const Complex dynamic((mode.omega - f.frequency) * (mode.omega + f.frequency),
+                            2.0 * mode.sigma * f.frequency);
+      const Complex load_of_mode = g[n + j] + (2.0 * mode.sigma + turn) * g[j];
+      if (load_of_mode == 0.0 && g[j] == 0.0) continue;
+      const double size = mode.omega_square + f.frequency * f.frequency;
+      if (!(std::abs(dynamic) > 1e-8 * size))
+        throw InputError(
+            fmt::format(
+                "{}: the load on degree of freedom {} has {:.6g} rad/s, the frequency of an "
+                "undamped mode; allowed: 1e-8 of it away. The response would grow without a "
+                "bound; change the frequency, or add damping.",
+                who, f.dof + 1, f.frequency),
+            "out-of-range");
+      force.steady[j] = load_of_mode / dynamic;
+      force.steady[n + j] = turn * force.steady[j] - g[j];
+    }
+    Eigen::VectorXcd left(2 * n);
+    left << derivatives_[0] * g, derivatives_[1] * g - force.push;
+    force.defect_per_time = (inverse_.cast<Complex>() * left).cwiseAbs();
+    forces_.push_back(std::move(force));
+  }
+}
+
+// What the modes leave of the equations of the structure and of their own inverse, and the rounding of
+// that.
+void ForcedModes::find_residuals() {
+  const Index n = dof();
+  const double rounding = 2.0 * double(n) * epsilon;
+  Matrix whole(2 * n, 2 * n);
+  whole << derivatives_[0], derivatives_[1];
+  basis_residual_ = (inverse_ * whole - Matrix::Identity(2 * n, 2 * n)).cwiseAbs() +
+                    rounding * inverse_.cwiseAbs() * whole.cwiseAbs();
+  const Matrix left =
+      mass_ * derivatives_[2] + damping_ * derivatives_[1] + stiffness_ * derivatives_[0];
+  const Matrix size = mass_.cwiseAbs() * derivatives_[2].cwiseAbs() +
+                      damping_.cwiseAbs() * derivatives_[1].cwiseAbs() +
+                      stiffness_.cwiseAbs() * derivatives_[0].cwiseAbs();
+  force_residual_ = (push_ * left).cwiseAbs() + rounding * push_.cwiseAbs() * size;
+}
+
+Vector ForcedModes::state(const Vector& u, const Vector& v) const {
+  return inverse_.leftCols(dof()) * u + inverse_.rightCols(dof()) * v;
+}
+
+Vector ForcedModes::impulse(const Vector& direction) const { return push_ * direction; }
+
+Vector ForcedModes::steady(double t) const {
+  Vector z = Vector::Zero(2 * dof());
+  for (const auto& force : forces_)
+    z += (force.steady * std::polar(1.0, force.frequency * t)).real();
+  return z;
+}
+
+Vector ForcedModes::advanced(const Vector& z, double s) const {
+  const Index n = dof();
+  Vector later(2 * n);
+  for (Index j = 0; j < n; ++j) {
+    const auto now = numerics::advance(system_.modes()[std::size_t(j)], {z[j], z[n + j]}, s);
+    later[j] = now.y;
+    later[n + j] = now.rate;
+  }
+  return later;
+}
+
+Vector ForcedModes::rate(const Vector& z) const {
+  const Index n = dof();
+  Vector rate(2 * n);
+  for (Index j = 0; j < n; ++j) {
+    rate[j] = z[n + j];
+    rate[n + j] = system_.modes()[std::size_t(j)].acceleration(z[j], z[n + j]);
+  }
+  return rate;
+}
+
+Vector ForcedModes::acceleration(const Vector& z, double t) const {
+  Vector a = derivatives_[2] * z;
+  for (const auto& force : forces_)
+    a += (force.push * std::polar(1.0, force.frequency * t)).real();
+  return a;
+}
+
+// The energy of a mode, rate^2 + omega^2 y^2, does not grow.
+ForcedModes::Sizes ForcedModes::sizes(const Vector& z, double s) const {
+  const Index n = dof();
+  Sizes size{Vector(n), Vector(n)};
+  for (Index j = 0; j < n; ++j) {
+    const double omega = system_.modes()[std::size_t(j)].omega;
+    size.rate[j] = std::hypot(z[n + j], omega * z[j]);
+    size.y[j] = std::abs(z[j]) + s * std::abs(z[n + j]);
+    if (omega > 0.0) size.y[j] = std::min(size.y[j], size.rate[j] / omega);
+  }
+  return size;
+}
+
+double ForcedModes::bound(const Eigen::Ref<const Vector>& row, const Sizes& sizes) const {
+  const Index n = dof();
+  double sum = 0.0;
+  for (Index j = 0; j < n; ++j) {
+    const double omega = system_.modes()[std::size_t(j)].omega;
+    const double apart = std::abs(row[j]) * sizes.y[j] + std::abs(row[n + j]) * sizes.rate[j];
+    const double together =
+        omega > 0.0 ? std::hypot(row[j] / omega, row[n + j]) * sizes.rate[j] : apart;
+    sum += std::min(apart, together);
+  }
+  return sum;
+}
+
+// The sums and products of a flight and of a change to modes and back; the modes' own frequencies,
+// whose relative error of 4 epsilon turns a mode by omega s as much; the phase of the forces; and the
+// residuals.
+Vector ForcedModes::local_errors(const Vector& z, double t, double s) const {
+  const Index n = dof();
+  const auto size = sizes(z, s);
+  Vector whole(2 * n), error = Vector::Zero(2 * n), growth = Vector::Zero(2 * n);
+  whole << size.y, size.rate;
+  for (const auto& force : forces_) {
+    const Vector response = force.steady.cwiseAbs();
+    whole += response;
+    error += epsilon * (16.0 + 2.0 * force.frequency * (t + s)) * response;
+    growth += force.defect_per_time;
+  }
+  growth += force_residual_ * whole;
+  const Vector shift = basis_residual_ * whole;
+  for (Index j = 0; j < n; ++j) {
+    const auto& mode = system_.modes()[std::size_t(j)];
+    const double turned = s * std::hypot(mode.omega, 2.0 * mode.sigma);
+    const double relative = epsilon * (4.0 * double(n + 2) + 4.0 * turned);
+    error[j] += relative * size.y[j];
+    error[n + j] += relative * size.rate[j];
+    // Errors that come anywhere in the flight are carried to its end.
+    const double y = shift[j] + s * growth[j], rate = shift[n + j] + s * growth[n + j];
+    const double energy = std::hypot(rate, mode.omega * y);
+    error[n + j] += energy;
+    error[j] += std::min(y + s * energy,
+                         mode.omega > 0.0 ? energy / mode.omega : std::numeric_limits<double>::max());
+  }
+  return error;
+}
+
+// T covariance T', where T has four diagonal blocks.
+Matrix ForcedModes::carried(const Matrix& covariance, double s) const {
+  const Index n = dof();
+  Vector unit = Vector::Zero(2 * n);
+  unit.head(n).setOnes();
+  const Vector one = advanced(unit, s), two = advanced(Vector::Ones(2 * n) - unit, s);
+  const auto mapped = [&](const Matrix& x) {
+    Matrix y(2 * n, 2 * n);
+    y.topRows(n) = one.head(n).asDiagonal() * x.topRows(n);
+    y.topRows(n) += two.head(n).asDiagonal() * x.bottomRows(n);
+    y.bottomRows(n) = one.tail(n).asDiagonal() * x.topRows(n);
+    y.bottomRows(n) += two.tail(n).asDiagonal() * x.bottomRows(n);
+    return y;
+  };
+  return mapped(mapped(covariance).transpose());
+}
+
+}  // namespace clackers::exact
