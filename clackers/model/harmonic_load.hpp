@@ -65,4 +65,9 @@ class OneSidedSprings final : public NonlinearForce<any_dof> {
   std::vector<double> stiffnesses_;
 };
 
+/// The one-sided springs of a problem; nullptr where it has none.
+inline const OneSidedSprings* one_sided_springs(const ImpactProblem<>& problem) {
+  return dynamic_cast<const OneSidedSprings*>(problem.system.nonlinear.get());
+}
+
 }  // namespace clackers::model

@@ -30,6 +30,7 @@ set(page
   ${report_dir}/page/page.js
   ${report_dir}/page/figures.js
   ${report_dir}/page/player.js
+  ${report_dir}/page/scene.js
   ${report_dir}/page/response.vl.json
   ${report_dir}/page/history_rows.vl.json
   ${report_dir}/page/convergence.vl.json

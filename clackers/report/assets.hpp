@@ -7,7 +7,7 @@ namespace clackers::report::assets {
 
 extern const std::string_view page_html;  ///< with {{slots}}
 extern const std::string_view page_css;
-extern const std::string_view page_js, figures_js, player_js, theme_js;
+extern const std::string_view page_js, figures_js, player_js, scene_js, theme_js;
 /// Parts of page_html, also with {{slots}}.
 extern const std::string_view section_html, table_html, figure_html, player_html, subject_html,
     self_html;

@@ -51,11 +51,12 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
                                  "The damping would feed energy in.");
   auto system = numerics::ModalSystem::make(mass_, damping_, stiffness_);
   if (!system)
-    throw InputError(fmt::format("{}: two modes that the damping couples have the same eigenvalue and "
-                                 "the same shape, or nearly so; allowed: motions that are sums of "
-                                 "modes. Change a number of the damping matrix a little.",
-                                 who),
-                     "out-of-range");
+    throw InputError(
+        fmt::format("{}: two modes that the damping couples have the same eigenvalue and "
+                    "the same shape, or nearly so; allowed: motions that are sums of "
+                    "modes. Change a number of the damping matrix a little.",
+                    who),
+        "out-of-range");
   system_ = std::move(*system);
   for (int order = 0; order <= 3; ++order) derivatives_.push_back(system_.derivative(order));
   inverse_ = system_.inverse();
@@ -155,8 +156,7 @@ Vector ForcedModes::rate(const Vector& z) const {
 
 Vector ForcedModes::acceleration(const Vector& z, double t) const {
   Vector a = derivatives_[2] * z;
-  for (const auto& force : forces_)
-    a += (force.push * std::polar(1.0, force.frequency * t)).real();
+  for (const auto& force : forces_) a += (force.push * std::polar(1.0, force.frequency * t)).real();
   return a;
 }
 
@@ -212,8 +212,8 @@ Vector ForcedModes::local_errors(const Vector& z, double t, double s) const {
     const double y = shift[j] + s * growth[j], rate = shift[n + j] + s * growth[n + j];
     const double energy = std::hypot(rate, mode.omega * y);
     error[n + j] += energy;
-    error[j] += std::min(y + s * energy,
-                         mode.omega > 0.0 ? energy / mode.omega : std::numeric_limits<double>::max());
+    error[j] += std::min(y + s * energy, mode.omega > 0.0 ? energy / mode.omega
+                                                          : std::numeric_limits<double>::max());
   }
   return error;
 }

@@ -71,8 +71,8 @@ class ForcedModes {
   Matrix mass_, damping_, stiffness_;
   numerics::ModalSystem system_;
   std::vector<Matrix> derivatives_;
-  Matrix inverse_, push_;                     // z by (u, v), and by accelerations: M a to z'
-  Matrix basis_residual_, force_residual_;    // of z: its own error, and the rate of it
+  Matrix inverse_, push_;                   // z by (u, v), and by impulses
+  Matrix basis_residual_, force_residual_;  // of z: its own error, and the rate of it
   std::vector<Force> forces_;
 };
 

@@ -37,6 +37,7 @@ std::string page_html(const Page& page, const study::Provenance& from) {
                                   {"vega_embed", std::string(assets::vega_embed_min_js)},
                                   {"figures_script", std::string(assets::figures_js)},
                                   {"page_script", std::string(assets::page_js)},
+                                  {"scene_script", std::string(assets::scene_js)},
                                   {"player_script", std::string(assets::player_js)}});
 }
 

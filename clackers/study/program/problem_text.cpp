@@ -30,13 +30,9 @@ std::vector<Numbers> rows(const Eigen::MatrixXd& matrix) {
 const model::HarmonicLoad* harmonic(const Problem& problem) {
   return problem.system.add_load.target<model::HarmonicLoad>();
 }
-const model::OneSidedSprings* springs(const Problem& problem) {
-  return dynamic_cast<const model::OneSidedSprings*>(problem.system.nonlinear.get());
-}
-
 void require_numbers(const Problem& problem) {
   if ((problem.system.add_load && harmonic(problem) == nullptr) ||
-      (problem.system.nonlinear && springs(problem) == nullptr))
+      (problem.system.nonlinear && model::one_sided_springs(problem) == nullptr))
     throw InputError(
         "problem: its load or nonlinear force cannot be written as numbers; allowed: M, C and K, "
         "harmonic loads and one-sided springs.",
@@ -125,7 +121,7 @@ std::string problem_json(const Problem& problem) {
                                   f.dof + 1, f.amplitude, f.frequency, f.phase));
     forces += fmt::format(" \"loads\": [{}],\n", fmt::join(loads, ", "));
   }
-  if (const auto* one_sided = springs(problem)) {
+  if (const auto* one_sided = model::one_sided_springs(problem)) {
     std::vector<std::string> rows;
     for (std::size_t i = 0; i < one_sided->contacts().size(); ++i)
       rows.push_back(fmt::format(R"({{"direction": {}, "gap": {}, "stiffness": {}}})",
@@ -168,7 +164,7 @@ std::string problem_file_text(const Problem& problem) {
       text += fmt::format("load{}={} {} {} {}\n", ++number, f.dof + 1, f.amplitude, f.frequency,
                           f.phase);
   }
-  if (const auto* one_sided = springs(problem))
+  if (const auto* one_sided = model::one_sided_springs(problem))
     for (std::size_t i = 0; i < one_sided->contacts().size(); ++i)
       text += fmt::format("spring{}={} {} {}\n", i + 1,
                           fmt::join(numbers(one_sided->contacts()[i].direction), " "),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/model/harmonic_load.hpp"
+
 namespace clackers::study {
 namespace {
 
@@ -121,7 +123,9 @@ Schematic schematic(const model::ImpactProblem<>& problem) {
   if (problem.dof() > most_blocks) return drawing;
   const auto& k = problem.system.stiffness;
   drawing.springs = springs_of(k);
-  for (const auto& contact : problem.contacts) drawing.contacts.push_back(touch_of(contact));
+  const auto* springs = model::one_sided_springs(problem);
+  for (const auto& contact : springs == nullptr ? problem.contacts : springs->contacts())
+    drawing.contacts.push_back(touch_of(contact));
   drawing.blocks.resize(std::size_t(problem.dof()));
   const auto structures = structures_of(k);
   int column = 0;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "clackers/model/harmonic_load.hpp"
+
 namespace clackers::study {
 namespace {
 
@@ -41,6 +43,16 @@ TEST(Schematic, StoreysStandAboveEachOtherAndRoofsSideBySide) {
   EXPECT_EQ(drawing.contacts[0].left, 0);
   EXPECT_EQ(drawing.contacts[0].right, 2);
   EXPECT_EQ(drawing.contacts[0].gap, 0.5);
+}
+
+TEST(Schematic, OneSidedSpringsAreDrawnAsTheContactsTheyStandFor) {
+  auto problem = problem_of(MatrixXd::Identity(2, 2));
+  problem.system.nonlinear = std::make_shared<model::OneSidedSprings>(
+      std::vector{model::contact_between(2, 0, 1)}, std::vector{5.0});
+  const auto drawing = schematic(problem);
+  ASSERT_EQ(drawing.contacts.size(), 1u);
+  EXPECT_EQ(drawing.contacts[0].right, 0);
+  EXPECT_EQ(drawing.blocks[0].column, 1);
 }
 
 TEST(Schematic, WhatAContactKeepsAboveStandsAtTheRight) {

@@ -48,8 +48,9 @@ def main():
     texts["explanation/decisions/index.md"] = decisions_index(pages)
     for page, text in texts.items():
         (out / page).parent.mkdir(parents=True, exist_ok=True)
-        (out / page).write_text(text)
-    generated.draw_figures(program, out)
+        (out / page).write_text(generated.with_drawings(page, text))
+    generated.draw_figures(program, generated.names(program, "integrators"), out / "reference" / "methods")
+    generated.draw_figures(program, generated.names(program, "cases"), out / "_static")
     rewriter.copy_pictures(out)
     modules.draw(ROOT / "layers.txt", ROOT / "clackers", out / "_static" / "modules.svg")
 

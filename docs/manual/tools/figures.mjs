@@ -1,5 +1,6 @@
 // Draws the figures of report pages as SVG, light and without a browser:
-// node figures.mjs FOLDER PAGE.html ... writes FOLDER/PAGE-FIGURE.svg.
+// node figures.mjs FOLDER PAGE.html ... writes FOLDER/PAGE-FIGURE.svg; of a page with a motion
+// FOLDER/PAGE-system.svg alone.
 import { createRequire } from "node:module";
 import { readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
@@ -8,17 +9,46 @@ const require = createRequire(new URL("../../../tools/web/package.json", import.
 const vega = require("vega");
 const lite = require("vega-lite");
 
+// As much of a document as a drawing needs.
+class Element {
+  constructor(tag) { Object.assign(this, { tag, attributes: {}, children: [], textContent: "" }); }
+  setAttribute(key, value) { this.attributes[key] = value; }
+  append(child) { this.children.push(child); }
+  toString() {
+    const attributes = Object.entries(this.attributes).map(([key, value]) => ` ${key}="${value}"`).join("");
+    return `<${this.tag}${attributes}>${this.textContent}${this.children.join("")}</${this.tag}>`;
+  }
+}
+const document = { createElementNS: (_, tag) => new Element(tag) };
+const sceneScript = readFileSync(new URL("../../../clackers/report/page/scene.js", import.meta.url), "utf8");
+const { drawScene, stageWidth, stageHeight } =
+  new Function("document", `${sceneScript}; return { drawScene, stageWidth, stageHeight };`)(document);
+
+// The system where its motion starts.
+function system(scene) {
+  const svg = new Element("svg");
+  for (const [key, value] of Object.entries({ xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${stageWidth} ${stageHeight}`,
+    width: 0.6 * stageWidth, height: 0.6 * stageHeight, "font-family": "sans-serif", "font-size": 13 })) svg.setAttribute(key, value);
+  const { x, scale, place } = drawScene(svg, scene);
+  place(scene.u.map((u, i) => x[i] + scale * u[0]));
+  return String(svg);
+}
+
 const [folder, ...pages] = process.argv.slice(2);
 for (const page of pages) {
   const html = readFileSync(page, "utf8");
   const read = (id) => JSON.parse(html.match(new RegExp(`<script type="application/json" id="${id}">(.*?)</script>`, "s"))[1]);
   const colors = Object.fromEntries([...html.matchAll(/(--[\w-]+): light-dark\((#\w+),/g)].map((found) => found.slice(1)));
   const data = read("data");
+  const light = (text) => text.replace(/var\((--[\w-]+)\)/g, (all, variable) => colors[variable]);
+  if (data.motion) {
+    writeFileSync(join(folder, `${basename(page, ".html")}-system.svg`), light(system(data.motion)));
+    continue;
+  }
   for (const [name, specification] of Object.entries(read("specifications"))) {
     const drawn = { ...specification, datasets: data, width: 560, height: 220, background: "white",
       config: { legend: { orient: "bottom" }, axis: { gridColor: "var(--grid)" } } };
-    const light = JSON.parse(JSON.stringify(drawn).replace(/var\((--[\w-]+)\)/g, (all, variable) => colors[variable]));
-    const view = new vega.View(vega.parse(lite.compile(light).spec), { renderer: "none" });
+    const view = new vega.View(vega.parse(lite.compile(JSON.parse(light(JSON.stringify(drawn)))).spec), { renderer: "none" });
     writeFileSync(join(folder, `${basename(page, ".html")}-${name}.svg`), await view.toSVG());
   }
 }

@@ -1,4 +1,5 @@
 """Reference pages that the command generates: cases, methods, metrics, codes, columns and the commands."""
+import os
 import pathlib
 import re
 import subprocess
@@ -99,15 +100,28 @@ def methods(command):
     return texts
 
 
-def draw_figures(command, out):
-    """The figures of the integrators beside their pages."""
-    with tempfile.TemporaryDirectory() as folder:
-        pages = []
-        for row in command.json("list", "integrators")["rows"]:
-            pages.append(f"{folder}/{row[0]}.html")
-            command.text("show", row[0], "--report", pages[-1], "--quiet")
-        subprocess.run(["node", pathlib.Path(__file__).with_name("figures.mjs"), out / "reference" / "methods", *pages],
-                       check=True)
+# In a page: here stands the drawing of a case.
+DRAWING = re.compile(r"<!-- drawing: ([\w-]+) -->")
+
+
+def with_drawings(page, text):
+    """The text of a page with drawings of systems where it asks for them."""
+    up = os.path.relpath(".", pathlib.PurePath(page).parent)
+    return DRAWING.sub(lambda found: f"![The masses, springs and contacts of the case {found[1]} at its start]"
+                                     f"({up}/_static/{found[1]}-system.svg)", text)
+
+
+def names(command, kind):
+    return [row[0] for row in command.json("list", kind)["rows"]]
+
+
+def draw_figures(command, names, folder):
+    """The figures of `show NAME --report` of methods or cases, in a folder."""
+    with tempfile.TemporaryDirectory() as reports:
+        pages = [f"{reports}/{name}.html" for name in names]
+        for name, page in zip(names, pages):
+            command.text("show", name, "--report", page, "--quiet")
+        subprocess.run(["node", pathlib.Path(__file__).with_name("figures.mjs"), folder, *pages], check=True)
 
 
 def cases(command):
@@ -116,7 +130,7 @@ def cases(command):
     for name, equations, _, summary in command.json("list", "cases")["rows"]:
         parameters = next(sheet for sheet in command.json("show", name)["sheets"]
                           if "parameter" in [column["name"] for column in sheet["columns"]])
-        out.append(f"## {name}\n\n{cell(summary)} {cell(equations)}.\n\n" + sheet_table(parameters))
+        out.append(f"## {name}\n\n<!-- drawing: {name} -->\n\n{cell(summary)} {cell(equations)}.\n\n" + sheet_table(parameters))
     return {"reference/cases.md": "\n".join(out)}
 
 

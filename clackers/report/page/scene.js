@@ -1,0 +1,74 @@
+"use strict";
+// A system of masses as a drawing: blocks on columns, springs and stops, in one scale that lets the widest motion
+// fit. The manual's figures are drawn by it too.
+
+const stageWidth = 1000, stageHeight = 300, groundLevel = 262, roofLevel = 46, blockHeight = 30;
+
+function svgElement(parent, tag, attributes, text) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  if (text !== undefined) element.textContent = text;
+  parent.append(element);
+  return element;
+}
+
+// Where blocks rest and how large they are. Faces that may touch are their gap apart; other
+// neighbours have room for both motions.
+function layout(scene) {
+  const slots = 1 + Math.max(...scene.blocks.map((block) => block.column));
+  const inColumn = (column) => scene.blocks.flatMap((block, i) => (block.column === column ? [i] : []));
+  const reach = Math.max(...scene.u.flat().map(Math.abs), Number.MIN_VALUE);
+  const gaps = Array.from({ length: slots - 1 }, (_, column) => {
+    const between = scene.contacts.filter(({ left, right }) => left >= 0 && right >= 0 &&
+      scene.blocks[left].column === column && scene.blocks[right].column === column + 1);
+    return between.length > 0 ? Math.max(0, ...between.map((contact) => contact.gap)) : 2.2 * reach;
+  });
+  const metres = gaps.reduce((sum, gap) => sum + gap, 0) + 2.4 * reach;
+  const width = Math.min(90, (0.55 * stageWidth) / slots);
+  const scale = Math.min((stageWidth - slots * width) / metres, (2.5 * width) / reach);
+  const x = [];
+  let at = (stageWidth - slots * width - (metres - 2.4 * reach) * scale) / 2;
+  for (let column = 0; column < slots; ++column) {
+    for (const i of inColumn(column)) x[i] = at + width / 2;
+    at += width + (gaps[column] || 0) * scale;
+  }
+  const y = scene.blocks.map((block) => groundLevel - block.height * (groundLevel - roofLevel));
+  return { x, y, width, scale };
+}
+
+// Draws the system; `place(at)` moves the blocks to these places and the springs with them.
+function drawScene(svg, scene) {
+  const { x, y, width, scale } = layout(scene);
+  svgElement(svg, "path", { d: `M0,${groundLevel}H${stageWidth}`, stroke: "var(--faint)", "stroke-width": 2 });
+  const springs = scene.springs.map(({ one, other }) => ({
+    one, other, path: svgElement(svg, "path", { stroke: "var(--muted)", "stroke-width": 2, fill: "none" })
+  }));
+  for (const { left, right, gap } of scene.contacts)
+    if ((left < 0) !== (right < 0)) {  // a stop
+      const mass = Math.max(left, right), side = left < 0 ? -1 : 1;
+      const face = x[mass] + side * (width / 2 + gap * scale);
+      svgElement(svg, "path", {
+        d: `M${face},${y[mass] - blockHeight / 2}V${groundLevel}`, stroke: "var(--ink)", "stroke-width": 4
+      });
+    }
+  const blocks = scene.blocks.map((_, i) => {
+    const group = svgElement(svg, "g", { "data-block": i + 1 });
+    svgElement(group, "rect", {
+      x: -width / 2, y: -blockHeight / 2, width, height: blockHeight, rx: 3, fill: `var(--m${(i % 8) + 1})`, stroke: "var(--paper)"
+    });
+    if (width > 16)
+      svgElement(group, "text", { "text-anchor": "middle", dy: "0.35em", fill: "var(--paper)" }, String(i + 1));
+    return group;
+  });
+  function place(at) {
+    blocks.forEach((block, i) => block.setAttribute("transform", `translate(${at[i].toFixed(2)},${y[i]})`));
+    for (const { one, other, path } of springs) {
+      const foot = other < 0 ? [x[one], groundLevel] : [at[other], y[other]];
+      const isLevel = other >= 0 && y[one] === y[other], half = 0.42 * width;
+      path.setAttribute("d", isLevel
+        ? `M${at[one]},${y[one]}L${foot[0]},${foot[1]}`
+        : [-half, half].map((side) => `M${at[one] + side},${y[one]}L${foot[0] + side},${foot[1]}`).join(""));
+    }
+  }
+  return { x, y, width, scale, place };
+}
