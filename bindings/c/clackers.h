@@ -91,6 +91,15 @@ CLACKERS_API clackers_status clackers_case_create(const char* name,
                                                   const clackers_setting* settings, size_t count,
                                                   clackers_motion** motion);
 
+/** One parameter of a named case that is a word, "coupling" = "dense". This structure never changes. */
+typedef struct clackers_word {
+  const char* name;
+  const char* text; /**< also the name of a file: "problem" = "frame.toml" of the case piecewise */
+} clackers_word;
+/** The same with parameters that are words; `words` may be null when `word_count` is 0. */
+CLACKERS_API clackers_status clackers_case_create_with_words(
+    const char* name, const clackers_setting* settings, size_t count, const clackers_word* words,
+    size_t word_count, clackers_motion** motion);
 /** Ends a motion; every pointer obtained from it becomes invalid. Null is allowed. */
 CLACKERS_API void clackers_motion_destroy(clackers_motion* motion);
 

@@ -25,15 +25,23 @@ void create(std::string_view name, const cases::Settings& settings, clackers_mot
   *motion = new clackers_motion{cases::make(name, settings)};
 }
 
-cases::Settings read_settings(const clackers_setting* settings, std::size_t count) {
-  constexpr auto who = "clackers_case_create";
+void read_settings(const char* who, const clackers_setting* settings, std::size_t count,
+                   cases::Settings& values) {
   if (count > 0) require_pointer(who, "settings", settings);
-  cases::Settings values;
   for (std::size_t i = 0; i < count; ++i) {
     require_pointer(who, fmt::format("settings[{}].name", i), settings[i].name);
     values.emplace_back(settings[i].name, settings[i].value);
   }
-  return values;
+}
+
+void read_words(const char* who, const clackers_word* words, std::size_t count,
+                cases::Settings& values) {
+  if (count > 0) require_pointer(who, "words", words);
+  for (std::size_t i = 0; i < count; ++i) {
+    require_pointer(who, fmt::format("words[{}].name", i), words[i].name);
+    require_pointer(who, fmt::format("words[{}].text", i), words[i].text);
+    values.emplace_back(words[i].name, words[i].text);
+  }
 }
 
 }  // namespace
@@ -71,11 +79,20 @@ clackers_status clackers_pair_create(const clackers_pair* pair, clackers_motion*
 
 clackers_status clackers_case_create(const char* name, const clackers_setting* settings,
                                      size_t count, clackers_motion** motion) {
+  return clackers_case_create_with_words(name, settings, count, nullptr, 0, motion);
+}
+
+clackers_status clackers_case_create_with_words(const char* name, const clackers_setting* settings,
+                                                size_t count, const clackers_word* words,
+                                                size_t word_count, clackers_motion** motion) {
   return guarded([&] {
     constexpr auto who = "clackers_case_create";
     require_pointer(who, "name", name);
     require_pointer(who, "motion", motion);
-    create(name, read_settings(settings, count), motion);
+    cases::Settings values;
+    read_settings(who, settings, count, values);
+    read_words(who, words, word_count, values);
+    create(name, values, motion);
   });
 }
 

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "bindings/c/scoped_motion.hpp"
 
@@ -67,6 +69,36 @@ TEST(CCreate, ANamedCaseTakesSettings) {
   EXPECT_EQ(constant(motion, "X"), 13.0);
   EXPECT_EQ(constant(motion, "t_end"), 40.0);
   EXPECT_EQ(constant(motion, "xi1"), 0.05);
+}
+
+TEST(CCreate, ANamedCaseTakesWords) {
+  const clackers_setting pairs{"pairs", 3.0};
+  const clackers_word dense{"coupling", "dense"}, wrong{"coupling", "dens"},
+      empty{"coupling", nullptr};
+  clackers_motion* made = nullptr;
+  ASSERT_EQ(clackers_case_create_with_words("assembly", &pairs, 1, &dense, 1, &made), CLACKERS_OK)
+      << clackers_last_error();
+  const ScopedMotion motion(made);
+  std::int32_t dof = 0;
+  EXPECT_EQ(clackers_motion_dof(motion.get(), &dof), CLACKERS_OK);
+  EXPECT_EQ(dof, 6);
+  // The masses of a chain that starts the same way are coupled otherwise.
+  const auto chain = make_case("assembly", {{"pairs", 3.0}});
+  const auto bound_at = [](const ScopedMotion& of) {
+    std::vector<double> u(6), v(6);
+    const clackers_buffers out{sizeof out, 6, u.data(), v.data(), nullptr};
+    EXPECT_EQ(clackers_motion_envelope(of.get(), 0.0, &out), CLACKERS_OK);
+    return u;
+  };
+  EXPECT_NE(bound_at(motion), bound_at(chain));
+  EXPECT_EQ(clackers_case_create_with_words("assembly", nullptr, 0, &wrong, 1, &made),
+            CLACKERS_REFUSED);
+  EXPECT_NE(std::string(clackers_last_error()).find("Did you mean \"dense\"?"), std::string::npos);
+  EXPECT_EQ(clackers_case_create_with_words("assembly", nullptr, 0, &empty, 1, &made),
+            CLACKERS_REFUSED);
+  EXPECT_STREQ(clackers_last_error_code(), "null-pointer");
+  EXPECT_EQ(clackers_case_create_with_words("assembly", nullptr, 0, nullptr, 1, &made),
+            CLACKERS_REFUSED);
 }
 
 TEST(CCreate, CasesAreListedUntilNull) {

@@ -91,6 +91,18 @@ long long read_whole(std::string_view who, std::string_view name, py::handle val
   return whole;
 }
 
+Settings read_settings(std::string_view who, const py::dict& parameters) {
+  Settings settings;
+  for (const auto& [key, value] : parameters) {
+    const auto name = key.cast<std::string>();
+    if (py::isinstance<py::str>(value))
+      settings.emplace_back(name, read_text(who, name, value));
+    else
+      settings.emplace_back(name, read_number(who, name, value));
+  }
+  return settings;
+}
+
 std::string read_text(std::string_view who, std::string_view name, py::handle value) {
   if (!py::isinstance<py::str>(value)) refuse(who, name, given(value), "a text", {}, "not-text");
   return value.cast<std::string>();

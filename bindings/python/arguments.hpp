@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "clackers/base/parameter.hpp"
+
 /// What callers of Python give, read or refused in our words; and arrays to give back.
 namespace clackers::python {
 
@@ -21,6 +23,10 @@ double read_number(std::string_view who, std::string_view name, py::handle value
 long long read_whole(std::string_view who, std::string_view name, py::handle value);
 /// A text. Throws InputError (not-text).
 std::string read_text(std::string_view who, std::string_view name, py::handle value);
+
+/// The parameters of a case: numbers, or the words of those that have words. Throws InputError
+/// (not-a-number) for anything else.
+Settings read_settings(std::string_view who, const py::dict& parameters);
 
 /// Real numbers as contiguous doubles: `value` itself where it is such an array, else a copy of any
 /// array-like of integers or floating-point numbers (a list, another dtype, not contiguous).

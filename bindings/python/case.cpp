@@ -17,14 +17,9 @@ using cases::Case;
 std::shared_ptr<Case> make(py::handle name, const py::dict& parameters, py::handle threshold) {
   const auto text =
       name.is_none() ? std::string(cases::default_case()) : read_text("case", "name", name);
-  Settings settings;
-  for (const auto& [key, value] : parameters) {
-    const auto parameter = key.cast<std::string>();
-    settings.emplace_back(parameter, read_number(text, parameter, value));
-  }
   const double share =
       threshold.is_none() ? cases::default_threshold : read_number(text, "threshold", threshold);
-  return std::make_shared<Case>(cases::make(text, settings, share));
+  return std::make_shared<Case>(cases::make(text, read_settings(text, parameters), share));
 }
 
 py::dict values(const std::vector<cases::Constant>& constants) {
@@ -35,7 +30,8 @@ py::dict values(const std::vector<cases::Constant>& constants) {
 
 py::dict parameters(const Case& which) {
   py::dict all;
-  for (const auto& [name, value] : which.values) all[py::str(name)] = double(value);
+  for (const auto& [name, value] : which.values)
+    all[py::str(name)] = value.is_word() ? py::object(py::str(value.text())) : py::float_(value);
   return all;
 }
 

@@ -28,15 +28,6 @@ using CaseChoice = std::pair<std::string, py::dict>;
 // (name, run, steps, tolerances) of a callable.
 using Callable = std::tuple<std::string, py::object, std::vector<double>, std::vector<double>>;
 
-Settings settings_from(const CaseChoice& chosen) {
-  Settings settings;
-  for (const auto& [key, value] : chosen.second) {
-    const auto parameter = key.cast<std::string>();
-    settings.emplace_back(parameter, read_number("case", parameter, value));
-  }
-  return settings;
-}
-
 // Runs a study in the caller's thread: (record, exception of Python that ended it), either None. A
 // study that leaves no record when it is interrupted throws Error (interrupted).
 py::tuple result_of(CallerThread& caller, const py::object& progress,
@@ -61,7 +52,7 @@ py::tuple verify(const std::vector<std::string>& methods, const std::vector<Call
   request.methods = methods;
   for (const auto& one : chosen) {
     request.cases.push_back(one.first.empty() ? std::string(cases::default_case()) : one.first);
-    request.case_settings.push_back(settings_from(one));
+    request.case_settings.push_back(read_settings("case", one.second));
   }
   request.plan.levels = levels;
   request.plan.coarsest = coarsest;
@@ -96,7 +87,7 @@ py::tuple check(const py::list& histories, const py::list& events, const CaseCho
   for (const auto history : histories) request.files.push_back(source_of(history));
   for (const auto list : events) request.events.push_back(source_of(list));
   request.case_name = chosen.first;
-  request.settings = settings_from(chosen);
+  request.settings = read_settings("case", chosen.second);
   request.steps = steps;
   request.tolerances = tolerances;
   request.columns = columns;

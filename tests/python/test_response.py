@@ -30,6 +30,19 @@ class Response(unittest.TestCase):
         # An argument of cos near 20 carries a rounding of 20 x 1.1e-16 in this formula, and there are two.
         np.testing.assert_allclose(case.response(t).u[:, 0], expected, rtol=0, atol=5e-15)
 
+    def test_parameters_may_be_words(self):
+        dense = clackers.case("assembly", pairs=2, coupling="dense")
+        self.assertEqual((dense.dof, dense.parameters["coupling"]), (4, "dense"))
+        self.assertIn("coupling=dense", repr(dense))
+        chain = clackers.case("assembly", pairs=2)
+        self.assertFalse(np.array_equal(dense.problem.M, chain.problem.M))
+        record = clackers.verify("piecewise-exact", case=dense, levels=4, neighbours=1)
+        self.assertIn("coupling", str(record))
+        with self.assertRaisesRegex(clackers.InputError, 'Did you mean "dense"'):
+            clackers.case("assembly", coupling="dens")
+        with self.assertRaisesRegex(clackers.InputError, "N"):
+            clackers.case("three-parameter", N="2")
+
     def test_shape_is_time_and_mass(self):
         case = clackers.case("three-parameter")
         for values in case.response([0.0, 1.0, 2.0]):

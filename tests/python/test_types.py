@@ -31,7 +31,7 @@ class Types(unittest.TestCase):
         program = self.folder / "wrong.py"
         program.write_text(textwrap.dedent("""
             import clackers
-            case = clackers.case("stop", eta="0.5")
+            case = clackers.case("stop", eta=[0.5])
             case.response([0.0], side="middle")
             case.impacts(first="1")
             case.name = "other"

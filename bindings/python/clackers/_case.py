@@ -103,8 +103,8 @@ class Case:
         return self._core.equations
 
     @property
-    def parameters(self) -> dict[str, float]:
-        """All parameters with the values in use."""
+    def parameters(self) -> dict[str, float | str]:
+        """All parameters with the values in use: numbers, or words such as ``coupling="dense"``."""
         return self._core.parameters
 
     @property
@@ -267,7 +267,7 @@ class Case:
         return "".join(table._repr_html_() for table in self.tables().values())
 
     def __repr__(self) -> str:
-        given = ", ".join(f"{name}={value:g}" for name, value in self.parameters.items())
+        given = ", ".join(f"{name}={value if isinstance(value, str) else format(value, 'g')}" for name, value in self.parameters.items())
         return f"<clackers.Case {self.name} ({given}): dof {self.dof}, end {self.end:g} s>"
 
 
@@ -292,7 +292,7 @@ def admissibility(X: float, r: float) -> Admissibility:
     return Admissibility(*_core.admissibility(X, r))
 
 
-def case(name: str | None = None, /, *, threshold: float | None = None, **parameters: float) -> Case:
+def case(name: str | None = None, /, *, threshold: float | None = None, **parameters: float | str) -> Case:
     """A case of ``clackers.catalogue("cases")`` with its parameters.
 
     Without a name the default case; parameters that are not given keep their default. ``threshold`` in (0, 1) is
@@ -303,5 +303,7 @@ def case(name: str | None = None, /, *, threshold: float | None = None, **parame
     >>> import clackers
     >>> clackers.case("synchronized-pair", X=9, r=3, eta=0.8)
     <clackers.Case synchronized-pair (m1=1, k1=1, xi1=0.05, A=1, X=9, r=3, eta=0.8, t_end=20): dof 2, end 20 s>
+    >>> clackers.case("assembly", pairs=2, coupling="dense").dof
+    4
     """
     return Case(_core.Case(name, parameters, threshold), threshold)

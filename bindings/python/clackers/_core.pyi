@@ -35,7 +35,7 @@ class Problem:
     def impact(self, y: npt.ArrayLike, contact: int | None) -> Array: ...
 
 class Case:
-    def __init__(self, name: str | None, parameters: dict[str, float], threshold: float | None) -> None: ...
+    def __init__(self, name: str | None, parameters: dict[str, float | str], threshold: float | None) -> None: ...
     @property
     def name(self) -> str: ...
     @property
@@ -43,7 +43,7 @@ class Case:
     @property
     def equations(self) -> str: ...
     @property
-    def parameters(self) -> dict[str, float]: ...
+    def parameters(self) -> dict[str, float | str]: ...
     @property
     def constants(self) -> dict[str, float]: ...
     @property
@@ -113,7 +113,7 @@ class Record:
 def verify(
     methods: Sequence[str],
     callables: Sequence[tuple[str, Runs, Sequence[float], Sequence[float]]],
-    cases: Sequence[tuple[str, dict[str, float]]],
+    cases: Sequence[tuple[str, dict[str, float | str]]],
     expect: str | None,
     levels: int | None,
     coarsest: float | None,
@@ -126,7 +126,7 @@ def verify(
 def check(
     histories: Sequence[Source],
     events: Sequence[Source],
-    case: tuple[str, dict[str, float]],
+    case: tuple[str, dict[str, float | str]],
     steps: Sequence[float],
     tolerances: Sequence[float],
     columns: Sequence[str],

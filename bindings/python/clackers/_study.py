@@ -39,7 +39,7 @@ def verify(
     budget: float | None = None,
     jobs: int | None = None,
     progress: Progress = None,
-    **parameters: float,
+    **parameters: float | str,
 ) -> Record:
     """Assesses methods and callables over a range of steps on a case whose exact motion is known.
 
@@ -144,7 +144,7 @@ def check(
     columns: Sequence[str] | None = None,
     name: str | Sequence[str] | None = None,
     progress: Progress = None,
-    **parameters: float,
+    **parameters: float | str,
 ) -> Record:
     """Assesses time histories of any program against the exact motion of a case.
 
@@ -184,7 +184,7 @@ def check(
         _core.refuse("check", "step", "steps beside a mapping", "steps as keys, or step and tolerances", "", "bad-syntax")
     titles = _titles(name, len(given))
     events = _one_each("collisions", collisions, len(given))
-    dof = 0 if all(map(_is_path, given)) else (case if isinstance(case, Case) else make_case(case, **parameters)).dof
+    dof = 0 if all(map(_is_path, given)) else (case if isinstance(case, Case) else make_case(case, threshold=None, **parameters)).dof
     sources: list[Source] = []
     reported: list[Source | None] = []
     for history, title, event in zip(given, titles, events):
@@ -237,7 +237,7 @@ def _record(core: _core.Record | None, stop: BaseException | None) -> Record:
 # Cases.
 
 
-def _cases(who: str, case: CaseChoice | None, parameters: Mapping[str, float]) -> list[tuple[str, dict[str, float]]]:
+def _cases(who: str, case: CaseChoice | None, parameters: Mapping[str, float | str]) -> list[tuple[str, dict[str, float | str]]]:
     """Name and parameters of each case; an empty name is the default case."""
     if case is None:
         return [("", dict(parameters))]
@@ -245,7 +245,7 @@ def _cases(who: str, case: CaseChoice | None, parameters: Mapping[str, float]) -
         case = [case]
     if not isinstance(case, (list, tuple)) or not case:
         _core.refuse(who, "case", _core.description(case), "a name, a clackers.Case, or a list of these", "", "not-text")
-    chosen: list[tuple[str, dict[str, float]]] = []
+    chosen: list[tuple[str, dict[str, float | str]]] = []
     for each in case:
         if isinstance(each, Case):
             if parameters:
@@ -355,7 +355,7 @@ def _one_each(option: str, value: object, count: int) -> list[object]:
 # The line that does it again.
 
 
-def _line(command: str, positional: Iterable[str], parameters: Mapping[str, float], **options: object) -> str:
+def _line(command: str, positional: Iterable[str], parameters: Mapping[str, float | str], **options: object) -> str:
     given = [f"{name}={_shown(value)}" for name, value in options.items() if value is not None]
     given += [f"{name}={value!r}" for name, value in parameters.items()]
     return f"clackers.{command}({', '.join([*positional, *given])})"
