@@ -16,20 +16,10 @@ namespace clackers::certified {
 
 #ifdef CLACKERS_HAS_ARB
 
-namespace {
-
-// The free parameters are 0 or within 1e-60 and 1e60, so each brings less than 2^253 into a
-// denominator; the square of the energy has the most of them, less than 20. A restitution reaches
-// 2^-1074, and eta^(2 k) is squared there.
-constexpr double factor_bits = 16384.0, restitution_bits = 4400.0;
-
-}  // namespace
-
 struct Digits::State {
-  State(const model::Motion& motion, int n) : inputs(motion), enclosure(inputs), digits(n) {}
+  State(const model::Motion& motion, int n) : enclosure(enclosure_of(motion)), digits(n) {}
 
-  Inputs inputs;
-  Enclosure enclosure;
+  std::unique_ptr<Enclosure> enclosure;
   int digits;
 
   // Enough for most values at the first attempt: log2(10) bits a digit.
@@ -81,17 +71,16 @@ std::string Digits::time(double t) const {
 Digits::KinematicTexts Digits::at(double t, model::Side side) {
   // At t = 0 the values are roots of fractions; after it they are transcendental (Lindemann), or 0.
   std::optional<Fraction> fraction;
-  if (t == 0.0) fraction = Fraction{factor_bits};
+  if (t == 0.0) fraction = Fraction{state_->enclosure->fraction_bits(0)};
   return state_->certain(
-      [&](long bits) { return state_->enclosure.at(t, side, bits); },
+      [&](long bits) { return state_->enclosure->at(t, side, bits); },
       [&](const KinematicBalls& now, auto text) { return texts_of(now, text, fraction); });
 }
 
 Digits::ImpactTexts Digits::impact(long long k) {
   // exp(-sigma t_k) is a power of e^pi, transcendental (Gelfond), unless sigma is 0. So is t_k.
   std::optional<Fraction> fraction;
-  if (state_->inputs.damping == 0.0)
-    fraction = Fraction{factor_bits + restitution_bits * double(k)};
+  if (state_->enclosure->is_undamped()) fraction = Fraction{state_->enclosure->fraction_bits(k)};
   const auto write = [&](const ImpactBalls& hit, auto text) {
     return ImpactTexts{text(hit.t, {}),
                        texts_of(hit.before, text, fraction),
@@ -100,7 +89,7 @@ Digits::ImpactTexts Digits::impact(long long k) {
                        text(hit.energy_before, fraction),
                        text(hit.energy_after, fraction)};
   };
-  return state_->certain([&](long bits) { return state_->enclosure.impact(k, bits); }, write);
+  return state_->certain([&](long bits) { return state_->enclosure->impact(k, bits); }, write);
 }
 
 #else

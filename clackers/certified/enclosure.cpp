@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/certified/shaped_enclosure.hpp"
+
 namespace clackers::certified {
 namespace {
 
@@ -35,10 +37,18 @@ auto refined(long bits, Evaluate evaluate, IsDone is_done) {
 
 }  // namespace
 
-Enclosure::Enclosure(const Inputs& inputs) : in_(inputs) {}
+PairEnclosure::PairEnclosure(const Inputs& inputs)
+    : Enclosure({inputs.collides, inputs.eta}), in_(inputs) {}
+
+// The free parameters are 0 or within 1e-60 and 1e60, so each brings less than 2^253 into a
+// denominator; the square of the energy has the most of them, less than 20. A restitution reaches
+// 2^-1074, and eta^(2 k) is squared there.
+double PairEnclosure::fraction_bits(long long flights) const {
+  return 16384.0 + 4400.0 * double(flights);
+}
 
 // The constants with the working bits of now.
-const Enclosure::Constants& Enclosure::constants() {
+const PairEnclosure::Constants& PairEnclosure::constants() {
   if (c_.bits == WorkingBits::now()) return c_;
   c_.bits = WorkingBits::now();
   const Ball odd = in_.odd, r = in_.r, A = in_.amplitude;
@@ -70,7 +80,7 @@ const Enclosure::Constants& Enclosure::constants() {
 }
 
 Ball Enclosure::instant_now(long long k) {
-  return Ball(double(k) - 0.5) * pi() / constants().omega;
+  return (Ball(double(k - 1)) + timing_.first_collision) * pi() / omega();
 }
 
 Ball Enclosure::instant(long long k, long bits) {
@@ -78,10 +88,10 @@ Ball Enclosure::instant(long long k, long bits) {
       bits, [&] { return instant_now(k); }, [&](const Ball& t) { return is_certain(t, bits); });
 }
 
-// floor(Omega t / pi + 1/2). It is never on the edge: t_k is transcendental, Omega being algebraic.
+// The k with t_k <= t < t_(k+1). It is never on the edge: t_k is transcendental, Omega being algebraic.
 long long Enclosure::natural_flight(double t) {
   const auto floor_of_turns = [&] {
-    const Ball turns = constants().omega * t / pi() + 0.5;
+    const Ball turns = omega() * t / pi() + (1.0 - timing_.first_collision);
     Ball whole;
     arb_floor(whole.get(), turns.get(), WorkingBits::now());
     return whole;
@@ -92,9 +102,9 @@ long long Enclosure::natural_flight(double t) {
 }
 
 long long Enclosure::impact_count(double t) {
-  if (!in_.collides) return 0;
-  const auto count = natural_flight(t);
-  return in_.eta == 0.0 ? std::min(count, 1LL) : count;
+  if (!timing_.collides) return 0;
+  const auto instants = natural_flight(t);
+  return timing_.at_once * (timing_.eta == 0.0 ? std::min(instants, 1LL) : instants);
 }
 
 double Enclosure::nearest_double_to_instant(long long k) {
@@ -115,7 +125,7 @@ double Enclosure::nearest_double_to_instant(long long k) {
 }
 
 long long Enclosure::flight(double t, model::Side side) {
-  if (!in_.collides) return 0;
+  if (!timing_.collides) return 0;
   const auto k = natural_flight(t);
   for (const auto hit : {k, k + 1})
     if (hit >= 1 && nearest_double_to_instant(hit) == t)
@@ -123,12 +133,11 @@ long long Enclosure::flight(double t, model::Side side) {
   return k;
 }
 
-// eta^k exp(-sigma t)
 Ball Enclosure::decay_now(long long k, const Ball& t) {
-  return power(Ball(in_.eta), static_cast<unsigned long>(k)) * exp(-(constants().sigma * t));
+  return power(Ball(timing_.eta), static_cast<unsigned long>(k)) * exp(-(sigma() * t));
 }
 
-KinematicBalls Enclosure::at_now(long long k, double t) {
+KinematicBalls PairEnclosure::at_now(long long k, double t) {
   const auto& c = constants();
   KinematicBalls now;
   // Each collision reverses the sign of the motion: the sgn of Eq. (22).
@@ -150,7 +159,7 @@ KinematicBalls Enclosure::at(double t, model::Side side, long bits) {
       [&](const KinematicBalls& now) { return is_certain(now, bits); });
 }
 
-ImpactBalls Enclosure::impact_now(long long k) {
+ImpactBalls PairEnclosure::impact_now(long long k) {
   const auto& c = constants();
   ImpactBalls hit;
   hit.t = instant_now(k);
@@ -179,6 +188,12 @@ ImpactBalls Enclosure::impact(long long k, long bits) {
           if (!is_certain(*value, bits)) return false;
         return is_certain(hit.before, bits) && is_certain(hit.after, bits);
       });
+}
+
+std::unique_ptr<Enclosure> enclosure_of(const model::Motion& motion) {
+  if (const auto* shaped = dynamic_cast<const exact::ShapedMotion*>(&motion))
+    return std::make_unique<ShapedEnclosure>(*shaped);
+  return std::make_unique<PairEnclosure>(Inputs(motion));
 }
 
 }  // namespace clackers::certified

@@ -33,7 +33,7 @@ bool is_within(const Ball& ball, double value, double bound) {
 double own_bound(double value) { return std::ldexp(std::abs(value) * 0.52, -52) + 5e-324; }
 
 void expect_enclosed(const exact::ClosedForm& motion, double t, Side side) {
-  Enclosure enclosure{Inputs(motion)};
+  PairEnclosure enclosure{Inputs(motion)};
   const auto reference = enclosure.at(t, side, bits);
   const auto now = motion.at(t, side);
   const auto bound = motion.error_bound(t);
@@ -50,7 +50,7 @@ void expect_enclosed(const exact::ClosedForm& motion, double t, Side side) {
 }
 
 void expect_impact_enclosed(const exact::ClosedForm& motion, long long k) {
-  Enclosure enclosure{Inputs(motion)};
+  PairEnclosure enclosure{Inputs(motion)};
   const auto reference = enclosure.impact(k, bits);
   const auto hit = motion.impact(k);
   EXPECT_TRUE(Ball(hit.when.lo) < reference.t && reference.t < Ball(hit.when.hi));
@@ -116,22 +116,22 @@ TEST(Enclosure, HoldsTheDoubleResultsOfExactDataAndSingleMasses) {
 }
 
 TEST(Enclosure, ValuesThatAreZeroAreExactlyZero) {
-  Enclosure undamped(Inputs(exact::PairParameters{.xi1 = 0.0}));
+  PairEnclosure undamped(Inputs(exact::PairParameters{.xi1 = 0.0}));
   const auto start = undamped.at(0.0, Side::right, bits);
   EXPECT_TRUE(start.v[0].is_zero() && start.v[1].is_zero());
   EXPECT_TRUE(undamped.impact(1, bits).before.a[1].is_zero());
-  Enclosure plastic(Inputs(exact::PairParameters{.eta = 0.0}));
+  PairEnclosure plastic(Inputs(exact::PairParameters{.eta = 0.0}));
   const auto rest = plastic.at(10.0, Side::right, bits);
   for (const auto* part : {&rest.u, &rest.v, &rest.a})
     for (const auto& value : *part) EXPECT_TRUE(value.is_zero());
   EXPECT_TRUE(plastic.impact(1, bits).energy_after.is_zero());
   // Omega = sigma: sigma^2 - Omega^2 is 0 to every bit.
-  Enclosure balanced(Inputs(exact::ExactDataParameters{.Omega = 0.75, .sigma = 0.75}));
+  PairEnclosure balanced(Inputs(exact::ExactDataParameters{.Omega = 0.75, .sigma = 0.75}));
   EXPECT_TRUE(balanced.at(0.0, Side::right, bits).a[0].is_zero());
 }
 
 TEST(Enclosure, BallsOfMorePrecisionLieWithinThoseOfLess) {
-  Enclosure enclosure(Inputs(exact::PairParameters{.X = 21.0, .eta = 0.7}));
+  PairEnclosure enclosure(Inputs(exact::PairParameters{.X = 21.0, .eta = 0.7}));
   for (const double t : {0.3, 7.0, 1e4}) {
     const auto rough = enclosure.at(t, Side::right, 20), fine = enclosure.at(t, Side::right, 4000);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -146,7 +146,7 @@ TEST(Enclosure, BallsOfMorePrecisionLieWithinThoseOfLess) {
 }
 
 TEST(Enclosure, InstantsAreOddMultiplesOfTheFirst) {
-  Enclosure enclosure(Inputs(exact::PairParameters{.k1 = 2.0, .xi1 = 0.3}));
+  PairEnclosure enclosure(Inputs(exact::PairParameters{.k1 = 2.0, .xi1 = 0.3}));
   const WorkingBits scope(300);
   for (const long long k : {2LL, 3LL, 1000001LL}) {
     const Ball rest =
@@ -175,7 +175,7 @@ TEST(Enclosure, VelocityAndAccelerationAreTheDerivatives) {
                                   .eta = box.uniform(0.5, 1.0),
                                   .t_end = 1e8};
     const SynchronizedPair motion(p);
-    Enclosure enclosure{Inputs(p)};
+    PairEnclosure enclosure{Inputs(p)};
     // The middle of a flight, so that both neighbours belong to it.
     const double t = motion.constants().period * std::floor(box.uniform(0.0, 20.0)) +
                      0.0625 * motion.constants().period;

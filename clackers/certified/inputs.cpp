@@ -38,7 +38,7 @@ Inputs::Inputs(const model::Motion& motion) {
   if (known == nullptr)
     throw InputError(
         "digits: this motion is known to double precision only; allowed: the cases of one mass and "
-        "of the synchronized pair.",
+        "of the synchronized pair, and buildings, row, alternating and assembly.",
         "no-enclosure");
   *this =
       std::visit([](const auto& parameters) { return Inputs(parameters); }, known->parameters());

@@ -6,7 +6,7 @@ import unittest
 from command import CommandTest, run
 
 CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "three-parameter",
-         "synchronized-pair", "exact-data-pair")
+         "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly")
 TEXTS = ("t", "side")
 
 
@@ -25,7 +25,7 @@ class Digits(CommandTest):
                 for p, l in zip(plain, long):
                     self.assertEqual(list(p), list(l))
                     for name in p:
-                        if p[name] in ("", "-", "+") or name == "k":
+                        if p[name] in ("", "-", "+") or name in ("k", "contact"):
                             self.assertEqual(p[name], l[name])
                             continue
                         # Half a unit of the envelope, which is below 82 for the default cases.

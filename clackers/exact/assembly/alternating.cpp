@@ -59,7 +59,7 @@ std::unique_ptr<const ShapedMotion> make_alternating(const AlternatingParameters
   const double speed = p.Omega;  // of an outer mass at an impact
   ImpactPattern pattern{{{{1, 2.0 * speed}}, {{0, 2.0 * speed}}},
                         0.5 * ((2.0 + p.r) * speed * speed + 2.0 * p.sigma * p.sigma)};
-  return std::make_unique<const ShapedMotion>(std::move(flight), std::move(shape),
+  return std::make_unique<const ShapedMotion>(p, std::move(flight), std::move(shape),
                                               std::move(pattern), who);
 }
 

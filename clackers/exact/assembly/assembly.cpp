@@ -114,7 +114,7 @@ std::unique_ptr<const ShapedMotion> make_assembly(const AssemblyParameters& p,
     pattern.energy += 0.5 * (r * m2) * speed * speed * (1.0 + r);
   }
   auto shape = std::make_unique<ModalShape>(std::move(columns), omega, p.xi1);
-  return std::make_unique<const ShapedMotion>(std::move(flight), std::move(shape),
+  return std::make_unique<const ShapedMotion>(p, std::move(flight), std::move(shape),
                                               std::move(pattern), who);
 }
 

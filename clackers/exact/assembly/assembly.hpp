@@ -10,27 +10,6 @@
 
 namespace clackers::exact {
 
-/// Which entries of S are not zero.
-enum class Coupling {
-  chain,  ///< each coordinate with the one before it: tridiagonal matrices
-  block,  ///< two pairs with each other
-  dense,  ///< all
-};
-
-/// Synchronized pairs with k1 = m1 (omega1 = 1 rad/s), X = 4N + 1 and one damping ratio, seen through a
-/// matrix: x = S u, where x_(2j), x_(2j+1) are the slow and the fast mass of pair j, counted from 0, and
-/// u the displacements of the assembly. S is lower triangular with ones on its diagonal. Masses,
-/// mass ratios, amplitudes and S are short binary fractions made from the seed alone.
-struct AssemblyParameters {
-  double pairs = 4.0;  ///< a whole number from 1 to 1e9
-  Coupling coupling = Coupling::chain;
-  double seed = 1.0;    ///< a whole number from 0 to 2^53
-  double X = 9.0;       ///< 4N + 1
-  double xi1 = 0.05;    ///< 0 or 1e-60 <= xi1 < 1
-  double eta = 1.0;     ///< restitution of all contacts, 0 to 1
-  double t_end = 20.0;  ///< [s]
-};
-
 /// The numbers behind an assembly.
 class AssemblyData {
  public:

@@ -114,7 +114,7 @@ std::unique_ptr<const ShapedMotion> make_buildings(const BuildingsParameters& p,
       p.Omega, p.sigma);
   const double momentum = p.m1 * p.V;
   ImpactPattern pattern{{{{0, (1.0 + p.eta) * momentum}}}, 0.5 * momentum * p.V * (1.0 + p.r)};
-  return std::make_unique<const ShapedMotion>(std::move(flight), std::move(shape),
+  return std::make_unique<const ShapedMotion>(p, std::move(flight), std::move(shape),
                                               std::move(pattern), who);
 }
 

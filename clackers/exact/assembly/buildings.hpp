@@ -8,22 +8,6 @@
 
 namespace clackers::exact {
 
-/// Two shear buildings (building_shape.hpp) whose roofs touch at rest. Displacements are positive
-/// away from the right building; the masses are those of the left building, roof first, then
-/// those of the right one. At t = 0 the roofs part with opposite momenta.
-struct BuildingsParameters {
-  double left = 3.0;    ///< storeys, a whole number from 1 to most_storeys
-  double right = 2.0;   ///< the same
-  double X = 1.0;       ///< frequencies of the right building over those of the left one: odd
-  double r = 1.0;       ///< left over right roof mass, below buildings_limit(); 1e-60 to 1e60
-  double m1 = 1.0;      ///< left roof mass [kg], 1e-60 to 1e60
-  double Omega = 1.0;   ///< lowest damped frequency of the left building [rad/s], 1e-60 to 1e60
-  double sigma = 0.05;  ///< common rate of decay [1/s], 0 or 1e-60 to 1e60
-  double V = 1.0;       ///< speed of the left roof at t = 0 [m/s], 1e-60 to 1e60
-  double eta = 1.0;     ///< restitution, 0 to 1
-  double t_end = 20.0;  ///< [s]
-};
-
 /// The limit r* of r: the least value over the angles theta in (0, pi) where I_R(X theta) < 0 of
 /// -X I_L(theta) / I_R(X theta), with I_n(x) the integral of cos^(2n-1) from 0 to x. Infinite for
 /// X = 1.

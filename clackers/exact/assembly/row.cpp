@@ -84,7 +84,7 @@ std::unique_ptr<const ShapedMotion> make_row(const RowParameters& p, std::string
   if (p.fast != 0.0) columns.push_back(std::move(fast));
   auto shape = std::make_unique<ModalShape>(std::move(columns),
                                             numerics::DoubleDouble{p.Omega, 0.0}, p.sigma);
-  return std::make_unique<const ShapedMotion>(std::move(flight), std::move(shape),
+  return std::make_unique<const ShapedMotion>(p, std::move(flight), std::move(shape),
                                               std::move(pattern), who);
 }
 

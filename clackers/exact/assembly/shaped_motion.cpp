@@ -16,9 +16,13 @@ using model::Kinematics;
 using model::Side;
 using numerics::DoubleDouble;
 
-ShapedMotion::ShapedMotion(FlightConstants constants, std::unique_ptr<const FlightShape> shape,
-                           ImpactPattern pattern, std::string_view who)
-    : c_(std::move(constants)), shape_(std::move(shape)), pattern_(std::move(pattern)) {
+ShapedMotion::ShapedMotion(const ShapedParameters& parameters, FlightConstants constants,
+                           std::unique_ptr<const FlightShape> shape, ImpactPattern pattern,
+                           std::string_view who)
+    : parameters_(parameters),
+      c_(std::move(constants)),
+      shape_(std::move(shape)),
+      pattern_(std::move(pattern)) {
   const double impacts = natural_phase(c_, c_.end).flight * double(contacts_at_once());
   if (!(impacts <= 0x1p62))
     refuse(who, "t_end", c_.end, "at most 2^62 impacts",

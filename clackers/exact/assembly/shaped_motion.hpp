@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "clackers/exact/assembly/flight_shape.hpp"
+#include "clackers/exact/assembly/parameters.hpp"
 #include "clackers/exact/pair/sampling.hpp"
 
 namespace clackers::exact {
@@ -32,8 +33,9 @@ struct ImpactPattern {
 class ShapedMotion : public model::Motion {
  public:
   /// Throws InputError (out-of-range) for more than 2^62 impacts.
-  ShapedMotion(FlightConstants constants, std::unique_ptr<const FlightShape> shape,
-               ImpactPattern pattern, std::string_view who);
+  ShapedMotion(const ShapedParameters& parameters, FlightConstants constants,
+               std::unique_ptr<const FlightShape> shape, ImpactPattern pattern,
+               std::string_view who);
 
   int dof() const override { return static_cast<int>(shape_->dof()); }
   double end() const override { return c_.end; }
@@ -47,6 +49,7 @@ class ShapedMotion : public model::Motion {
   long long impact_count(double t) const override;
   model::MotionImpact impact(long long index) const override;
 
+  const ShapedParameters& parameters() const { return parameters_; }
   const FlightConstants& flight() const { return c_; }
   const ImpactPattern& pattern() const { return pattern_; }
 
@@ -59,6 +62,7 @@ class ShapedMotion : public model::Motion {
     return static_cast<long long>(pattern_.contacts.front().size());
   }
 
+  ShapedParameters parameters_;
   FlightConstants c_;
   std::unique_ptr<const FlightShape> shape_;
   ImpactPattern pattern_;
