@@ -114,8 +114,8 @@ Store Store::open(const std::string& path) {
   connection.database = Sqlite(path, OpenMode::read);
   const auto& database = connection.database;
   require_campaign(database);
-  connection.specification = Specification::from_toml(value_of(database, "specification"),
-                                                      value_of(database, "file"));
+  connection.specification =
+      Specification::from_toml(value_of(database, "specification"), value_of(database, "file"));
   connection.shard = value_of(database, "shard");
   connection.tables = tables_of(connection.specification);
   return Store(std::move(made));
