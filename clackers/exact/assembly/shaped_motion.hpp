@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "clackers/exact/assembly/flight_shape.hpp"
-#include "clackers/exact/assembly/parameters.hpp"
+#include "clackers/exact/assembly/shaped_parameters.hpp"
 #include "clackers/exact/pair/sampling.hpp"
 
 namespace clackers::exact {
