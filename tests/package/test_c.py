@@ -71,7 +71,8 @@ class CLibrary(unittest.TestCase):
     def test_exported_functions_are_those_of_the_header_with_their_version(self):
         exported = re.findall(r" T (\S+)$", installed.run("nm", "-D", "--defined-only", tree.lib / "libclackers.so"), re.MULTILINE)
         self.assertGreater(len(exported), 15)
-        self.assertEqual(sorted(exported), [name + "@@CLACKERS_0.1" for name in declared()])
+        later = {"clackers_case_create_with_words": "0.2"}
+        self.assertEqual(sorted(exported), [f"{name}@@CLACKERS_{later.get(name, '0.1')}" for name in declared()])
 
     def test_only_functions_are_exported(self):
         kinds = set(re.findall(r" (\w) \S+$", installed.run("nm", "-D", "--defined-only", tree.lib / "libclackers.so"), re.MULTILINE))
