@@ -2,14 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace clackers::methods {
-namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 template <int Dof>
 ImpactResolution<Dof>::ImpactResolution(ContactSet<Dof>& contacts, const StepPlan& plan,
@@ -74,8 +68,6 @@ void ImpactResolution<Dof>::estimate(const State& now, AnyStepper<Dof>& stepper)
     u = u.cwiseMax(state.u.cwiseAbs());
     v = v.cwiseMax(state.v.cwiseAbs());
   }
-  d_ += epsilon * u;
-  w_ += epsilon * v;
   if (plan_.is_adaptive()) {
     d_.array() += plan_.tolerance * u.maxCoeff();
     w_.array() += plan_.tolerance * v.maxCoeff();

@@ -20,7 +20,7 @@ namespace clackers::methods {
 /// which the one becomes the other, |u_k| over |v_k| or the length of the flight. The errors of a step
 /// are the differences from two half steps, over eight steps, the largest from three states of the last
 /// flight: at one phase alone the leading error may vanish. Of an adaptive integrator they are its
-/// tolerance. Rounding of a step is added.
+/// tolerance.
 ///
 /// The time tends to 0 with the errors of the integrator: impacts that are apart stay so for small steps.
 template <int Dof>

@@ -65,6 +65,11 @@ TEST(ImpactResolution, SimultaneousImpactsKeepTheToleranceOfAdaptiveIntegrators)
     EXPECT_LT(worst_error(name, 0.1), 1e-6) << name;
 }
 
+// Rounding is all that closes the contacts apart.
+TEST(ImpactResolution, SimultaneousImpactsAreExactWhereFlightsAre) {
+  for (const double h : {0.1, 0.01, 0.0007}) EXPECT_LT(worst_error("exponential", h), 1e-10) << h;
+}
+
 // Free flight is exact to rounding, so that 1e-9 s tell a sequence of impacts from one.
 TEST(ImpactResolution, ImpactsThatARunCanTellApartStayApart) {
   model::ImpactProblem<> p;
@@ -97,6 +102,14 @@ TEST(ImpactResolution, SmallStepsTellApartWhatLargeStepsCannot) {
   };
   EXPECT_EQ(apart(0.1), 0.0);
   EXPECT_NEAR(apart(1e-3), 0.75e-3, 1e-5);
+}
+
+// Its errors add up to 0.6 s, ten times that is a whole flight.
+TEST(ImpactResolution, ImpactsThatAreAStepApartStayApart) {
+  auto p = Row().problem(4.0);
+  p.contacts[1].gap = -0.6;
+  const auto path = run("bdf1", p, 0.1).trajectory;
+  EXPECT_GT(path.impacts->at(1).t - path.impacts->at(0).t, 0.1);
 }
 
 // Two contacts of one direction: their impulses would not be unique.
