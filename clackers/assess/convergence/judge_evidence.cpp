@@ -43,7 +43,8 @@ std::optional<Evidence> miscounted(const Ladder& ladder, const LadderFit& fit, c
       all_alike = all_alike && run.impacts->missed == first->impacts->missed &&
                   run.impacts->extra == first->impacts->extra;
     }
-  if (first == nullptr) return {};
+  // Another outcome of simultaneous impacts has other impacts after it.
+  if (first == nullptr || fit.reason == Code("simultaneous-impacts").name()) return {};
   const bool open = fit.behaviour == Behaviour::undecided;
   if (open && (!all_alike || fit.reason == Code("contact-not-resolved").name())) return {};
   return miscount(*first);
@@ -125,6 +126,9 @@ std::vector<Evidence> of_the_fit(const LadderFit& fit, const Ladder& ladder, con
   if (fit.lucky_share >= notable_luck) note(Code("commensurate-steps").name(), {fit.lucky_share});
   if (fit.cancel_step > 0.0) note(Code("errors-cancel").name(), {fit.cancel_step});
   if (fit.stable_step > 0.0) note(Code("unstable-coarse-steps").name(), {fit.stable_step});
+  if (fit.reason == Code("simultaneous-impacts").name() && facts.shared)
+    note(fit.reason, {facts.shared->instant.t, double(facts.shared->instant.contacts),
+                      facts.shared->error_before, facts.shared->error_after});
   const bool unresolved = fit.reason == Code("contact-not-resolved").name();
   if (facts.contact_time > 0.0 && !facts.by_tolerance &&
       (unresolved || fit.behaviour == Behaviour::stagnating))

@@ -334,5 +334,55 @@ TEST(Judge, ADivergentClaimMayBeMade) {
   EXPECT_EQ(found.verdict, Verdict::agrees);
 }
 
+// Impacts of one instant, taken one by one: exact until then, another motion after it.
+const SharedImpacts jump{{1.5, 4}, 1e-9, 0.8};
+double as_large(double h) { return 1.3 + 0.2 * std::sin(1.0 / h); }
+
+TEST(Judge, ErrorsThatComeFromSimultaneousImpactsDiverge) {
+  const auto found = judge(scores(as_large), fourth, {.shared = jump});
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::divergent);
+  EXPECT_EQ(found.reason, "simultaneous-impacts");
+  EXPECT_EQ(found.verdict, Verdict::disagrees);
+  ASSERT_EQ(found.evidence.size(), 1u);
+  EXPECT_EQ(found.evidence[0].numbers, (std::vector<double>{1.5, 4.0, 1e-9, 0.8}));
+  const Claim any_floor{Behaviour::stagnating, 0.0, ""}, diverges{Behaviour::divergent, 0.0, ""};
+  for (const auto& claim : {any_floor, diverges})
+    EXPECT_EQ(judge(scores(as_large), claim, {.shared = jump}).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(as_large), floor_claim, {.shared = jump}).verdict, Verdict::disagrees);
+}
+
+TEST(Judge, OtherImpactsAfterSimultaneousOnesAreNoMiscount) {
+  auto ladder = scores(as_large);
+  every_run(ladder, 0, [](RunScore& run) { run.impacts->extra = 5; });
+  const Claim any_floor{Behaviour::stagnating, 0.0, ""};
+  EXPECT_EQ(judge(ladder, any_floor, {.shared = jump}).verdict, Verdict::agrees);
+}
+
+TEST(Judge, StepsThatAreTooLargeStayUndecidedWithSimultaneousImpacts) {
+  const auto behaviour = [](const Ladder& ladder, std::optional<SharedImpacts> shared) {
+    return judge(ladder, fourth, {.shared = shared}).displacement.behaviour;
+  };
+  EXPECT_EQ(behaviour(scores(as_large), {}), Behaviour::undecided);
+  // The error is there before the impacts already, or is small after them.
+  EXPECT_EQ(behaviour(scores(as_large), SharedImpacts{{1.5, 4}, 0.03, 0.8}), Behaviour::undecided);
+  EXPECT_EQ(behaviour(scores(as_large), SharedImpacts{{1.5, 4}, 1e-9, 0.01}), Behaviour::undecided);
+  // The errors fall at last, or there are too few levels.
+  const auto falls = [](double h) { return std::min(1.3, 700.0 * h); };
+  EXPECT_EQ(behaviour(scores(falls), jump), Behaviour::undecided);
+  EXPECT_EQ(behaviour(scores(as_large, {.levels = 3}), jump), Behaviour::undecided);
+}
+
+TEST(Judge, WhatConvergesStaysWhatItIsWithSimultaneousImpacts) {
+  EXPECT_EQ(judge(scores(power(4.0)), fourth, {.shared = jump}).verdict, Verdict::agrees);
+}
+
+TEST(Judge, AFloorThatComesFromSimultaneousImpactsHasThemAsItsReason) {
+  const auto floor = [](double) { return 0.3; };
+  const auto found = judge(scores(floor), fourth, {.shared = jump});
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::stagnating);
+  EXPECT_EQ(found.reason, "simultaneous-impacts");
+  EXPECT_EQ(judge(scores(floor), fourth).reason, "unexplained-floor");
+}
+
 }  // namespace
 }  // namespace clackers::assess

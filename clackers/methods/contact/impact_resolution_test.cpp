@@ -50,8 +50,8 @@ double worst_error(const std::string& name, double h) {
 // Of a leading error in u at the impact, in v at other phases alone, of multistep methods that start
 // with another one, and with damping.
 TEST(ImpactResolution, SimultaneousImpactsKeepTheOrder) {
-  for (const std::string name :
-       {"newmark", "wilson-theta", "dissipative-newmark", "houbolt", "bdf4", "rk4", "velocity-verlet"}) {
+  for (const std::string name : {"newmark", "wilson-theta", "dissipative-newmark", "houbolt",
+                                 "bdf4", "rk4", "velocity-verlet"}) {
     const double order = method(name)->facts().smooth_order;
     const auto fit = checks::asymptotic_order(
         [&](double h) { return worst_error(name, 8.5 / std::round(8.5 / h)); }, 1.0 / 16,

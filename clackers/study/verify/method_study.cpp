@@ -22,6 +22,13 @@ std::size_t measured_level(const std::vector<assess::StepLevel>& levels) {
   return levels.size();
 }
 
+std::optional<assess::SharedImpacts> shared_impacts(const CasePlan& plan, const Subject& subject) {
+  const auto* run = subject.shown_run();
+  if (!plan.shared || run == nullptr) return {};
+  return assess::at_shared_instant(*plan.shared, plan.problem.problem.start.t, run->error_history.t,
+                                   run->error_history.y);
+}
+
 // Without a claim through impacts a user expects the order of smooth motion.
 std::optional<SelfResult> self_convergence(const PlannedMethod& planned, const Subject& subject,
                                            std::vector<assess::ResponseLevel> ends,
@@ -94,6 +101,7 @@ void MethodStudy::assess(const RefinementPlan& steps) {
   else
     assessment = assess::judge(ladder_of(subject_), subject_.claim,
                                {.contact_time = subject_.contact_time,
+                                .shared = shared_impacts(*plan_, subject_),
                                 .by_tolerance = subject_.resolution == Resolution::tolerance});
 }
 

@@ -43,7 +43,7 @@ double fast_period(const cases::Case& problem) {
 Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
 
 PlannedMethod planned(const std::string& specification, const model::ImpactProblem<>& problem,
-                      bool collides) {
+                      bool collides, bool shares_impacts) {
   PlannedMethod planned;
   planned.method = methods::method(specification);
   const auto facts = planned.method->facts();
@@ -51,7 +51,7 @@ PlannedMethod planned(const std::string& specification, const model::ImpactProbl
   planned.order = facts.smooth_order;
   auto& subject = planned.subject;
   subject.name = short_name(facts.name);
-  subject.claim = methods::claim_on(facts, problem, collides);
+  subject.claim = methods::claim_on(facts, problem, collides, shares_impacts);
   if (facts.is_adaptive) {
     subject.resolution = Resolution::tolerance;
     // The estimate falls with the power of the step that the error over a run does.
@@ -81,11 +81,13 @@ CasePlan plan_of(const VerifyRequest& request, cases::Case problem) {
   CasePlan plan;
   plan.problem = std::move(problem);
   plan.summary = summary_of(plan.problem);
+  plan.shared = assess::first_shared_instant(*plan.problem.motion, plan.problem.problem);
   plan.steps = plan_for(request.plan, plan.summary);
   require_steps(plan.steps, plan.summary.end);
   for (const auto& specification :
        request.methods.empty() ? methods::default_panel() : request.methods) {
-    auto method = planned(specification, plan.problem.problem, plan.summary.impact_count > 0);
+    auto method = planned(specification, plan.problem.problem, plan.summary.impact_count > 0,
+                          plan.shared.has_value());
     const auto same = [&](const PlannedMethod& one) {
       return one.subject.name == method.subject.name;
     };
