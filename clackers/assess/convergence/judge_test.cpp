@@ -384,5 +384,22 @@ TEST(Judge, AFloorThatComesFromSimultaneousImpactsHasThemAsItsReason) {
   EXPECT_EQ(judge(scores(floor), fourth).reason, "unexplained-floor");
 }
 
+// A gentle impact that comes too late to be matched is missed and extra.
+TEST(Judge, AnEnvelopeMayMiscountAtAFewSteps) {
+  const auto verdict = [](std::size_t wrong, const Claim& claim) {
+    Scatter scatter(8.0, 3);
+    auto ladder = scores([&](double h) { return h / scatter(); });
+    for (std::size_t i = ladder.size() - 2; i < ladder.size(); ++i)
+      for (std::size_t k = 0; k < wrong; ++k)
+        ladder[i].runs[k].impacts = ImpactScore{6, 6, 5, 1, 1};
+    return judge(ladder, claim).verdict;
+  };
+  EXPECT_EQ(verdict(4, rough), Verdict::agrees);
+  EXPECT_EQ(verdict(5, rough), Verdict::disagrees);
+  auto line = scores(power(2.0));
+  line.back().runs.back().impacts = ImpactScore{6, 6, 5, 1, 1};
+  EXPECT_EQ(judge(line, second).verdict, Verdict::disagrees);
+}
+
 }  // namespace
 }  // namespace clackers::assess
