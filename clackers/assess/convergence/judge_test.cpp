@@ -401,5 +401,21 @@ TEST(Judge, AnEnvelopeMayMiscountAtAFewSteps) {
   EXPECT_EQ(judge(line, second).verdict, Verdict::disagrees);
 }
 
+// Backward Euler with a contact spring: the errors come from those of a motion that has died away, and
+// end at 0.043 three levels later.
+TEST(Judge, AClaimedFloorIsOpenWhileErrorsFallByNoOrder) {
+  const std::vector<double> bend{0.806, 0.807, 0.808, 0.808, 0.735, 0.626,
+                                 0.516, 0.386, 0.255, 0.156, 0.0937};
+  const auto error = [&](double h) {
+    const double level = std::log2(0.1 / h);
+    const auto i = std::min(std::size_t(level + 1e-9), bend.size() - 2);
+    return bend[i] * std::pow(bend[i + 1] / bend[i], level - double(i));
+  };
+  const auto found = judge(scores(error, {.levels = 11, .coarsest = 0.1}), floor_claim);
+  EXPECT_LT(found.displacement.order, 0.75);
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+  EXPECT_EQ(judge(scores(power(1.0)), floor_claim).verdict, Verdict::disagrees);
+}
+
 }  // namespace
 }  // namespace clackers::assess
