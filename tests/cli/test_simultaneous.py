@@ -7,6 +7,9 @@ import unittest
 
 from command import CommandTest, run
 
+PAGE = os.path.join(os.path.dirname(__file__),
+                    "../../docs/manual/explanation/derivations/assemblies.md")
+
 
 def rk4(problem, u, v, h):
     """One step of masses on springs of their own."""
@@ -90,6 +93,18 @@ class Simultaneous(CommandTest):
         subject = json.loads(done.stdout)["cases"][0]["subjects"][0]
         self.assertEqual(subject["assessment"]["reason"], "simultaneous-impacts")
         self.assertEqual(done.returncode, 1)
+
+    def test_the_table_of_the_manual_shows_what_treatments_do(self):
+        with open(PAGE) as file:
+            lines = [[cell.strip(" `") for cell in line.strip("|\n ").split("|")]
+                     for line in file if line.startswith("| `")]
+        self.assertGreater(len(lines), 5)
+        for column, case in enumerate(("row", "assembly"), 2):
+            done = run("verify", *(line[0] for line in lines), "--case", case, "--budget", "0.1",
+                       "--format", "json")
+            found = [(subject["name"], subject["assessment"]["displacement"]["behaviour"])
+                     for subject in json.loads(done.stdout)["cases"][0]["subjects"]]
+            self.assertEqual(found, [(line[0], line[column]) for line in lines])
 
     def test_located_impacts_keep_the_order_and_springs_diverge_as_claimed(self):
         done = run("verify", "rk4", "moreau-jean", "tsit5+penalty", "--case", "row",
