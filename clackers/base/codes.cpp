@@ -20,7 +20,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"stagnating", "behaviour",
      "The error stops shrinking above the rounding floor. The reason is given beside it."},
     {"divergent", "behaviour",
-     "The error grows when the step is refined, or the energy of the run leaves [1/2, 2] of the true one."},
+     "The error grows when the step is refined, or the energy of the run leaves [1/2, 2] of the true one, or simultaneous impacts end in another motion."},
     {"undecided", "behaviour",
      "The runs do not carry a judgement; what to change is said beside it."},
     {"contact-stiffness", "reason",

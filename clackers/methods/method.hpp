@@ -37,10 +37,14 @@ struct Facts {
 };
 
 /// What a method claims on a problem: through impacts or, where nothing collides, in smooth motion.
-inline Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool collides) {
+/// `shares_impacts`: contacts that share masses close together. Compliant contacts share such an impact
+/// by their stiffnesses, whatever these are: they claim a floor, but not that stiffness lowers it.
+inline Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool collides,
+                      bool shares_impacts = false) {
   const bool is_of_impacts = collides || facts.through_impacts.behaviour == Behaviour::exact;
   const Claim claim =
       is_of_impacts ? facts.through_impacts : Claim{Behaviour::proper, facts.smooth_order, {}};
+  if (shares_impacts && claim.behaviour == Behaviour::stagnating) return {claim.behaviour, 0.0, {}};
   const bool is_exact = facts.is_exact_without_load && !problem.system.add_load;
   if (is_exact && claim.behaviour == Behaviour::proper) return {Behaviour::exact, 0.0, {}};
   const auto& nonlinear = problem.system.nonlinear;

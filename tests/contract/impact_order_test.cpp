@@ -218,6 +218,22 @@ TEST_P(ImpactOrder, IsTheClaimedOne) {
   }
 }
 
+// On `row` four contacts that share masses close at each instant, and the errors of a method close them
+// apart.
+TEST_P(ImpactOrder, IsTheClaimedOneWhereImpactsAreSimultaneous) {
+  if (facts.through_impacts.behaviour != Behaviour::proper || facts.is_exact_without_load)
+    GTEST_SKIP() << "claims no order";
+  const auto which = cases::make("row");
+  if (chosen->objection(which.problem)) GTEST_SKIP() << "does not take it";
+  if (facts.is_adaptive) {
+    EXPECT_NEAR(adaptive_order(*chosen, which).in_tolerance, 1.0, 0.15);
+    return;
+  }
+  const double order = facts.through_impacts.order;
+  const double coarsest = order > 2.5 ? 0.04 : order > 1.5 ? 0.02 : 0.002;
+  EXPECT_NEAR(observed_order(*chosen, which, coarsest), order, 0.1 * order);
+}
+
 std::string test_name(const testing::TestParamInfo<std::string>& which) {
   std::string name = which.param;
   std::ranges::replace_if(

@@ -48,6 +48,7 @@ struct LadderFit {
 ///     errors-cancel           step at which the error passes zero [s]
 ///     unstable-coarse-steps   largest step below those that failed [s]
 ///     steps-per-contact       contact time over the finest step, contact time [s]
+///     simultaneous-impacts    instant [s], contacts, error before it and after it
 ///     more-neighbours         order of the envelope, its spread
 ///     velocity-order-lower    order of the velocities, of the displacements
 ///     error-over-tolerance    mean, least and largest error over tolerance, along the line

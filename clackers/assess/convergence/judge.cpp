@@ -55,6 +55,15 @@ bool errors_fall(const LadderFit& fit) {
   return n >= 2 && fit.errors[n - 1] < least_fall * fit.errors[n - 2];
 }
 
+// Whether the errors of the finest levels are as large as the motion and do not fall.
+bool stays_large(const LadderFit& fit) {
+  constexpr std::ptrdiff_t levels = 4;
+  constexpr double large = 0.5, least_fall = 0.5;
+  if (std::ssize(fit.errors) < levels) return false;
+  const auto [least, most] = std::minmax_element(fit.errors.end() - levels, fit.errors.end());
+  return *least >= large && fit.errors.back() >= least_fall * *most;
+}
+
 // Whether printed digits are what stops the fit. It knows them as the rounding of its levels: it
 // calls `exact` what lies below them throughout, and finds too few levels where they begin early.
 bool stopped_by_printing(const LadderFit& fit, const RunScore& finest, const HistoryFacts& facts) {
@@ -71,6 +80,12 @@ bool shows_a_line(const LadderFit& fit) {
          fit.behaviour == Behaviour::irregular;
 }
 
+bool is_unexplained_floor(const LadderFit& fit) {
+  return fit.behaviour == Behaviour::stagnating &&
+         (fit.reason == Code("unexplained-floor").name() ||
+          fit.reason == Code("noise-floor").name());
+}
+
 // The fit with the behaviour that the rules of judge.hpp give, first hit wins.
 LadderFit behaviour_of(LadderFit fit, const Ladder& ladder, const Claim& claim,
                        const Facts& facts) {
@@ -84,6 +99,11 @@ LadderFit behaviour_of(LadderFit fit, const Ladder& ladder, const Claim& claim,
   if (open && !facts.wrong_limit && !errors_fall(fit) && energy_is(ladder, too_much)) {
     fit.behaviour = Behaviour::divergent;
     fit.reason = Code("energy-growth").name();
+  } else if (open && facts.shared && comes_from_shared_impacts(*facts.shared) &&
+             (is_unexplained_floor(fit) ||
+              (fit.behaviour == Behaviour::undecided && stays_large(fit)))) {
+    if (fit.behaviour == Behaviour::undecided) fit.behaviour = Behaviour::divergent;
+    fit.reason = Code("simultaneous-impacts").name();
   } else if (fit.behaviour == Behaviour::undecided && open && errors_fall(fit) &&
              energy_is(ladder, too_little)) {
     fit.reason = Code("numerical-damping").name();
@@ -118,9 +138,15 @@ Verdict compare_floor(const LadderFit& fit, const Claim& claim) {
   const bool has_floor =
       fit.behaviour == Behaviour::stagnating ||
       (fit.floor_step > 0.0 && fit.reason == claim.reason && !claim.reason.empty());
-  // Errors that fall for certain have no floor.
+  // As large as the motion, and of no stiffness.
+  if (fit.reason == Code("simultaneous-impacts").name() && claim.reason.empty())
+    return Verdict::agrees;
+  // Errors that fall for certain have no floor; of no order that a method has, they bend towards one
+  // or still come from their coarse range.
   if (!has_floor)
-    return shows_a_line(fit) && fit.order <= fit.spread ? Verdict::undecided : Verdict::disagrees;
+    return shows_a_line(fit) && (fit.order <= fit.spread || fit.order < lowest_real_order)
+               ? Verdict::undecided
+               : Verdict::disagrees;
   return claim.reason.empty() || fit.reason == claim.reason ? Verdict::agrees : Verdict::disagrees;
 }
 

@@ -4,6 +4,7 @@
 
 #include "clackers/assess/convergence/assessment.hpp"
 #include "clackers/assess/errors/score.hpp"
+#include "clackers/assess/impacts/shared_impacts.hpp"
 #include "clackers/base/judgement.hpp"
 
 namespace clackers::assess {
@@ -52,6 +53,8 @@ struct Facts {
   /// to another limit than the true motion.
   bool wrong_limit = false;
   bool noise = false;  ///< a floor of the runs is noise, as their rows show
+  /// Where contacts that share masses close together, if they do, and what the error does there.
+  std::optional<SharedImpacts> shared{};
   /// The ladder is one of tolerances of an adaptive solver: `step` of a run is its tolerance.
   bool by_tolerance = false;
 };
@@ -63,6 +66,12 @@ struct Facts {
 ///     divergent [energy-growth]     no line, errors that do not fall, and most runs of both finest
 ///                                   levels end with more than twice the true energy and with
 ///                                   more than it had at the start
+///     divergent [simultaneous-impacts]
+///                                   undecided, the errors of the four finest levels are as large as
+///                                   the motion and do not fall, and they come from impacts of one
+///                                   instant (comes_from_shared_impacts)
+///     stagnating [simultaneous-impacts]
+///                                   at an unexplained or a rough floor that comes from them
 ///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with
 ///                                   less than half of it
 ///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
@@ -75,11 +84,12 @@ struct Facts {
 /// exact motion met a claim of some order (nothing above rounding to measure it on), where printed
 /// digits hide the order, and where the spread of an envelope's order covers a claim beyond the
 /// tolerance; `agrees` where the behaviour is the claimed one with an order within the tolerance
-/// above, or the claimed reason of a floor (a floor without a claimed reason agrees with any);
+/// above, or the claimed reason of a floor (a floor without a claimed reason agrees with any, also
+/// with one as large as the motion where impacts are simultaneous);
 /// otherwise `disagrees`. A claim is two-sided: better than claimed is another behaviour and
 /// disagrees as well. Collisions missed or extra on the two finest levels disagree whatever the
 /// errors say, unless the claim is a floor and their number is right: then they came too late to be
-/// matched. A claim to converge disagrees where the files converge to another limit.
+/// matched; where an envelope is claimed and found, only if most runs of both levels miscount. A claim to converge disagrees where the files converge to another limit.
 ///
 /// A tolerance has a verdict of its own, `undecided` where printing makes more than the difference
 /// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of

@@ -26,24 +26,32 @@ Evidence miscount(const RunScore& run) {
 
 // The first run of the two finest levels that did not find the collisions it should. Where the errors
 // decide nothing, steps may be too long to find them: then only if every run of both levels misses as
-// many and has as many too many, as no refinement will mend.
+// many and has as many too many, as no refinement will mend. Where errors scatter as claimed, gentle
+// impacts are off by more than their match may be at some steps: then only if most runs miscount.
 std::optional<Evidence> miscounted(const Ladder& ladder, const LadderFit& fit, const Claim& claim) {
   const bool late_is_allowed = claim.behaviour == Behaviour::stagnating;
   const RunScore* first = nullptr;
   bool all_alike = true;
+  int miscounting = 0, finished = 0;
   for (auto level = ladder.end() - std::min<std::ptrdiff_t>(2, std::ssize(ladder));
        level != ladder.end(); ++level)
     for (const auto& run : level->runs) {
       if (!run.finished) continue;
+      ++finished;
       if (!miscounts(run) || (late_is_allowed && run.impacts->found == run.impacts->expected)) {
         all_alike = false;
         continue;
       }
+      ++miscounting;
       if (first == nullptr) first = &run;
       all_alike = all_alike && run.impacts->missed == first->impacts->missed &&
                   run.impacts->extra == first->impacts->extra;
     }
-  if (first == nullptr) return {};
+  // Another outcome of simultaneous impacts has other impacts after it.
+  if (first == nullptr || fit.reason == Code("simultaneous-impacts").name()) return {};
+  const bool scatters =
+      fit.behaviour == Behaviour::irregular && claim.behaviour == Behaviour::irregular;
+  if (scatters && 2 * miscounting <= finished) return {};
   const bool open = fit.behaviour == Behaviour::undecided;
   if (open && (!all_alike || fit.reason == Code("contact-not-resolved").name())) return {};
   return miscount(*first);
@@ -125,6 +133,9 @@ std::vector<Evidence> of_the_fit(const LadderFit& fit, const Ladder& ladder, con
   if (fit.lucky_share >= notable_luck) note(Code("commensurate-steps").name(), {fit.lucky_share});
   if (fit.cancel_step > 0.0) note(Code("errors-cancel").name(), {fit.cancel_step});
   if (fit.stable_step > 0.0) note(Code("unstable-coarse-steps").name(), {fit.stable_step});
+  if (fit.reason == Code("simultaneous-impacts").name() && facts.shared)
+    note(fit.reason, {facts.shared->instant.t, double(facts.shared->instant.contacts),
+                      facts.shared->error_before, facts.shared->error_after});
   const bool unresolved = fit.reason == Code("contact-not-resolved").name();
   if (facts.contact_time > 0.0 && !facts.by_tolerance &&
       (unresolved || fit.behaviour == Behaviour::stagnating))

@@ -334,5 +334,88 @@ TEST(Judge, ADivergentClaimMayBeMade) {
   EXPECT_EQ(found.verdict, Verdict::agrees);
 }
 
+// Impacts of one instant, taken one by one: exact until then, another motion after it.
+const SharedImpacts jump{{1.5, 4}, 1e-9, 0.8};
+double as_large(double h) { return 1.3 + 0.2 * std::sin(1.0 / h); }
+
+TEST(Judge, ErrorsThatComeFromSimultaneousImpactsDiverge) {
+  const auto found = judge(scores(as_large), fourth, {.shared = jump});
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::divergent);
+  EXPECT_EQ(found.reason, "simultaneous-impacts");
+  EXPECT_EQ(found.verdict, Verdict::disagrees);
+  ASSERT_EQ(found.evidence.size(), 1u);
+  EXPECT_EQ(found.evidence[0].numbers, (std::vector<double>{1.5, 4.0, 1e-9, 0.8}));
+  const Claim any_floor{Behaviour::stagnating, 0.0, ""}, diverges{Behaviour::divergent, 0.0, ""};
+  for (const auto& claim : {any_floor, diverges})
+    EXPECT_EQ(judge(scores(as_large), claim, {.shared = jump}).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(as_large), floor_claim, {.shared = jump}).verdict, Verdict::disagrees);
+}
+
+TEST(Judge, OtherImpactsAfterSimultaneousOnesAreNoMiscount) {
+  auto ladder = scores(as_large);
+  every_run(ladder, 0, [](RunScore& run) { run.impacts->extra = 5; });
+  const Claim any_floor{Behaviour::stagnating, 0.0, ""};
+  EXPECT_EQ(judge(ladder, any_floor, {.shared = jump}).verdict, Verdict::agrees);
+}
+
+TEST(Judge, StepsThatAreTooLargeStayUndecidedWithSimultaneousImpacts) {
+  const auto behaviour = [](const Ladder& ladder, std::optional<SharedImpacts> shared) {
+    return judge(ladder, fourth, {.shared = shared}).displacement.behaviour;
+  };
+  EXPECT_EQ(behaviour(scores(as_large), {}), Behaviour::undecided);
+  // The error is there before the impacts already, or is small after them.
+  EXPECT_EQ(behaviour(scores(as_large), SharedImpacts{{1.5, 4}, 0.03, 0.8}), Behaviour::undecided);
+  EXPECT_EQ(behaviour(scores(as_large), SharedImpacts{{1.5, 4}, 1e-9, 0.01}), Behaviour::undecided);
+  // The errors fall at last, or there are too few levels.
+  const auto falls = [](double h) { return std::min(1.3, 700.0 * h); };
+  EXPECT_EQ(behaviour(scores(falls), jump), Behaviour::undecided);
+  EXPECT_EQ(behaviour(scores(as_large, {.levels = 3}), jump), Behaviour::undecided);
+}
+
+TEST(Judge, WhatConvergesStaysWhatItIsWithSimultaneousImpacts) {
+  EXPECT_EQ(judge(scores(power(4.0)), fourth, {.shared = jump}).verdict, Verdict::agrees);
+}
+
+TEST(Judge, AFloorThatComesFromSimultaneousImpactsHasThemAsItsReason) {
+  const auto floor = [](double) { return 0.3; };
+  const auto found = judge(scores(floor), fourth, {.shared = jump});
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::stagnating);
+  EXPECT_EQ(found.reason, "simultaneous-impacts");
+  EXPECT_EQ(judge(scores(floor), fourth).reason, "unexplained-floor");
+}
+
+// A gentle impact that comes too late to be matched is missed and extra.
+TEST(Judge, AnEnvelopeMayMiscountAtAFewSteps) {
+  const auto verdict = [](std::size_t wrong, const Claim& claim) {
+    Scatter scatter(8.0, 3);
+    auto ladder = scores([&](double h) { return h / scatter(); });
+    for (std::size_t i = ladder.size() - 2; i < ladder.size(); ++i)
+      for (std::size_t k = 0; k < wrong; ++k)
+        ladder[i].runs[k].impacts = ImpactScore{6, 6, 5, 1, 1};
+    return judge(ladder, claim).verdict;
+  };
+  EXPECT_EQ(verdict(4, rough), Verdict::agrees);
+  EXPECT_EQ(verdict(5, rough), Verdict::disagrees);
+  auto line = scores(power(2.0));
+  line.back().runs.back().impacts = ImpactScore{6, 6, 5, 1, 1};
+  EXPECT_EQ(judge(line, second).verdict, Verdict::disagrees);
+}
+
+// Backward Euler with a contact spring: the errors come from those of a motion that has died away, and
+// end at 0.043 three levels later.
+TEST(Judge, AClaimedFloorIsOpenWhileErrorsFallByNoOrder) {
+  const std::vector<double> bend{0.806, 0.807, 0.808, 0.808, 0.735, 0.626,
+                                 0.516, 0.386, 0.255, 0.156, 0.0937};
+  const auto error = [&](double h) {
+    const double level = std::log2(0.1 / h);
+    const auto i = std::min(std::size_t(level + 1e-9), bend.size() - 2);
+    return bend[i] * std::pow(bend[i + 1] / bend[i], level - double(i));
+  };
+  const auto found = judge(scores(error, {.levels = 11, .coarsest = 0.1}), floor_claim);
+  EXPECT_LT(found.displacement.order, 0.75);
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+  EXPECT_EQ(judge(scores(power(1.0)), floor_claim).verdict, Verdict::disagrees);
+}
+
 }  // namespace
 }  // namespace clackers::assess

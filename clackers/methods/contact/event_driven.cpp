@@ -7,6 +7,7 @@
 
 #include "clackers/methods/contact/constrained_system.hpp"
 #include "clackers/methods/contact/crossing.hpp"
+#include "clackers/methods/contact/impact_resolution.hpp"
 #include "clackers/methods/rows.hpp"
 #include "clackers/methods/stepping/time_loop.hpp"
 
@@ -26,6 +27,7 @@ class EventDriven::Loop {
         time_loop_(plan, problem_.dof()),
         contacts_(problem_),
         constrained_(problem_.system, contacts_),
+        resolution_(contacts_, plan, problem_.start),
         free_stepper_(integrator.stepper(problem_.system, plan)),
         constrained_stepper_(integrator.stepper(constrained_.system(), plan)),
         h_(plan.is_adaptive() ? plan.end - plan.start : plan.h),
@@ -64,6 +66,7 @@ class EventDriven::Loop {
 
   // True where nothing can have happened between the two ends of a step.
   bool is_quiet(const State& before, const State& now) {
+    resolution_.pass(before);
     const double length = now.t - before.t;
     const bool is_free = !constrained_.is_any_active();
     for (std::size_t i = 0; i < contacts_.size(); ++i)
@@ -94,6 +97,7 @@ class EventDriven::Loop {
         return ended(out.fail("too-many-impacts", from_.t, "more than 1000 impacts in one step"));
       if (!apply(*event, now, out)) return Handled::ended;
       is_changed = true;
+      resolution_.begin_flight(from_);
       if (is_adaptive_) {
         if (is_suppressed_[event->contact]) continue;  // where the step began
         now = from_;
@@ -138,6 +142,7 @@ class EventDriven::Loop {
     std::erase_if(closed_, [&](std::size_t i) { return !is_resting(i, from_.v); });
     if (!decide(from_, out)) return false;
     stepper().restart(from_);
+    resolution_.begin(from_);
     return true;
   }
 
@@ -232,6 +237,7 @@ class EventDriven::Loop {
     find_closed();
     if (!std::ranges::binary_search(closed_, first))
       closed_.insert(std::ranges::lower_bound(closed_, first), first);
+    resolution_.add_to(closed_, first, from_, stepper());
     // Contacts that separate take no part.
     std::erase_if(closed_, [&](std::size_t i) {
       return contacts_.gap_rate(i, from_.v) > 0.0 && !is_resting(i, from_.v);
@@ -300,6 +306,7 @@ class EventDriven::Loop {
   TimeLoop<Dof> time_loop_;
   ContactSet<Dof> contacts_;
   ConstrainedSystem<Dof> constrained_;
+  ImpactResolution<Dof> resolution_;
   std::unique_ptr<AnyStepper<Dof>> free_stepper_, constrained_stepper_;
   double h_;
   std::vector<bool> is_suppressed_, is_struck_;  // in this step

@@ -191,6 +191,10 @@ std::string evidence_sentence(const study::Subject& subject, const assess::Evide
   if (code == "ends-early")
     return fmt::format("The history ends at {} s of {} s, with {} of {} collisions.", text(0),
                        text(1), text(2, 15), text(3, 15));
+  if (code == "simultaneous-impacts")
+    return fmt::format(
+        "At t = {} s, where {} contacts close at once, the error in u goes from {} to {}.", text(0),
+        text(1), scientific(number(2)), scientific(number(3)));
   if (code == "sparse-rows") return "The rows are too far apart to find the collisions in them.";
   return meaning_of(code);
 }

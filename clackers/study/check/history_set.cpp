@@ -59,6 +59,16 @@ assess::Facts facts_of(const HistoryFile* file, const Subject& subject,
   return facts;
 }
 
+std::optional<assess::SharedImpacts> shared_impacts(const Subject& subject,
+                                                    const cases::Case& problem) {
+  const auto* run = subject.shown_run();
+  if (run == nullptr) return {};
+  const auto instant = assess::first_shared_instant(*problem.motion, problem.problem);
+  if (!instant) return {};
+  return assess::at_shared_instant(*instant, problem.problem.start.t, run->error_history.t,
+                                   run->error_history.y);
+}
+
 bool is_about_name(const Note& note) {
   return note.code == "step-in-name-ignored" || note.code == "rows-closer-than-step";
 }
@@ -151,6 +161,7 @@ Subject HistorySet::assess(SubjectKind kind, std::string name, const Claim& clai
   auto facts = facts_of(file, subject, problem_);
   const auto limit = diagnose::limit_of(histories, problem_.problem, *problem_.motion);
   facts.wrong_limit = limit.wrong;
+  facts.shared = shared_impacts(subject, problem_);
   const auto diagnosed = [&] {
     subject.assessment = assess::judge(ladder, claim, facts);
     return diagnose::diagnose({.problem = problem_.problem,

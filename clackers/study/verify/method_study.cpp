@@ -22,6 +22,13 @@ std::size_t measured_level(const std::vector<assess::StepLevel>& levels) {
   return levels.size();
 }
 
+std::optional<assess::SharedImpacts> shared_impacts(const CasePlan& plan, const Subject& subject) {
+  const auto* run = subject.shown_run();
+  if (!plan.shared || run == nullptr) return {};
+  return assess::at_shared_instant(*plan.shared, plan.problem.problem.start.t, run->error_history.t,
+                                   run->error_history.y);
+}
+
 // Without a claim through impacts a user expects the order of smooth motion.
 std::optional<SelfResult> self_convergence(const PlannedMethod& planned, const Subject& subject,
                                            std::vector<assess::ResponseLevel> ends,
@@ -53,8 +60,10 @@ std::vector<RunTask> MethodStudy::missing(const RefinementPlan& steps) const {
       if (runs_.contains(count)) continue;
       const bool shown = level == measured && n == 0;
       const auto& extras = plan_->extras;
-      tasks.push_back({method_, levels[level].steps[n], count,
-                       shown && extras.record ? history_bins : 0, shown && extras.metrics});
+      // Impacts of one instant are judged by the errors around it.
+      const bool has_history = shown && (extras.record || plan_->shared);
+      tasks.push_back({method_, levels[level].steps[n], count, has_history ? history_bins : 0,
+                       shown && extras.metrics});
     }
   return tasks;
 }
@@ -96,6 +105,7 @@ void MethodStudy::assess(const RefinementPlan& steps) {
   else
     assessment = assess::judge(ladder_of(subject_), subject_.claim,
                                {.contact_time = subject_.contact_time,
+                                .shared = shared_impacts(*plan_, subject_),
                                 .by_tolerance = subject_.resolution == Resolution::tolerance});
 }
 

@@ -75,6 +75,7 @@ CasePlan plan_without_methods(const RefinementRequest& steps, std::vector<double
   CasePlan plan;
   plan.problem = std::move(problem);
   plan.summary = summary_of(plan.problem);
+  plan.shared = assess::first_shared_instant(*plan.problem.motion, plan.problem.problem);
   plan.steps = plan_for(steps, plan.summary);
   require_steps(plan.steps, plan.summary.end);
   levels_of(plan, plan.steps);  // refuses too many steps before any work
@@ -93,7 +94,7 @@ PlannedMethod planned_method(const std::string& specification, const CasePlan& p
   planned.order = facts.smooth_order;
   auto& subject = planned.subject;
   subject.name = short_name(facts.name);
-  subject.claim = methods::claim_on(facts, problem, collides);
+  subject.claim = methods::claim_on(facts, problem, collides, plan.shared.has_value());
   if (facts.is_adaptive) {
     subject.resolution = Resolution::tolerance;
     // The estimate falls with the power of the step that the error over a run does.

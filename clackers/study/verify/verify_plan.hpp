@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "clackers/assess/convergence/step_ladder.hpp"
+#include "clackers/assess/impacts/shared_impacts.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/study/verify.hpp"
 
@@ -29,6 +30,7 @@ struct Extras {
 struct CasePlan {
   cases::Case problem;
   CaseSummary summary;
+  std::optional<assess::SharedInstant> shared;  ///< the first of the reference
   std::vector<PlannedMethod> methods;
   RefinementPlan steps;
   std::vector<double> tolerances;  ///< the levels of adaptive methods

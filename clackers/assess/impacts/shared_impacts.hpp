@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "clackers/model/impact_problem.hpp"
+#include "clackers/model/motion.hpp"
+
+namespace clackers::assess {
+
+/// An instant at which contacts that share masses close together: an impulse at one changes the gap
+/// rate of another.
+struct SharedInstant {
+  double t = 0.0;    ///< [s]
+  int contacts = 0;  ///< how many close
+};
+
+/// The first one of the reference, where it is among its first 1000 impacts. Impacts are of one
+/// instant where their enclosures overlap.
+std::optional<SharedInstant> first_shared_instant(const model::Motion& reference,
+                                                  const model::ImpactProblem<>& problem);
+
+/// What the error does at such an instant, in the finest run that is known in time.
+struct SharedImpacts {
+  SharedInstant instant;
+  double error_before = 0.0;  ///< largest until then, of u over its scale
+  double error_after = 0.0;   ///< largest in as much time after it
+};
+
+/// From the largest errors of each mass in equal intervals with the middles `times`, one row a mass.
+/// Nothing where no interval ends before the instant, or none begins after it.
+std::optional<SharedImpacts> at_shared_instant(const SharedInstant& instant, double start,
+                                               std::span<const double> times,
+                                               std::span<const std::vector<double>> errors);
+
+/// Whether the error comes from the impacts of that instant. A phase error of steps that are too large
+/// grows with time, twofold over these times, and by a few of the factors by which impacts magnify it.
+bool comes_from_shared_impacts(const SharedImpacts& found);
+
+}  // namespace clackers::assess
