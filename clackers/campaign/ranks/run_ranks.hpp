@@ -1,0 +1,35 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "clackers/campaign/ranks/server.hpp"
+#include "clackers/campaign/ranks/transport.hpp"
+#include "clackers/campaign/run.hpp"
+
+// A campaign on the ranks of one launcher. Rank 0 writes into the database, each other rank into its
+// shard, rank_path(). No rank waits for another but for an answer of rank 0.
+namespace clackers::campaign {
+
+/// Brings what the ranks of an earlier run left, which was ended before rank 0 had merged their
+/// shards, into the database, and removes those shards; returns how many tasks were new. Throws
+/// InputError (database-busy) where a rank still writes, and as Store::merge().
+long long merge_rank_shards(Store& store);
+
+/// What all ranks did.
+struct RanksSummary : RunSummary {
+  std::vector<Departure> failures;  ///< of other ranks than 0; their tasks are left for the next start
+};
+
+/// The work of rank 0: computes, too, on options.jobs threads, answers the other ranks meanwhile, and
+/// merges their shards into the store at the end. Throws what run_campaign() throws, after the other
+/// ranks have left; their shards then stay.
+RanksSummary run_first_rank(Transport& transport, const Specification& specification, Store& store,
+                            const RunOptions& options, const std::atomic<bool>& interrupt);
+
+/// The work of a rank other than 0. Its failure is for rank 0 to report.
+void run_other_rank(Transport& transport, const RunOptions& options,
+                    const std::atomic<bool>& interrupt);
+
+}  // namespace clackers::campaign
