@@ -25,7 +25,9 @@ std::vector<TaskBlock> unfinished_tasks(const TaskSet& finished, long long tasks
 }
 
 Dispatcher::Dispatcher(std::vector<TaskBlock> unfinished, const BlockPlan& plan)
-    : unfinished_(std::move(unfinished)), plan_(plan), ranks_(static_cast<std::size_t>(plan.ranks)) {
+    : unfinished_(std::move(unfinished)),
+      plan_(plan),
+      ranks_(static_cast<std::size_t>(plan.ranks)) {
   std::erase_if(unfinished_, [](const auto& block) { return block.size() == 0; });
   for (const auto& block : unfinished_) left_ += block.size();
 }
@@ -50,7 +52,8 @@ long long Dispatcher::length_for(const Rank& rank, double now) const {
   const auto longest = rank.tasks * largest_growth;
   const auto scaled =
       static_cast<double>(rank.tasks) * plan_.block_seconds / std::max(now - rank.since, 1e-9);
-  const auto timed = scaled < static_cast<double>(longest) ? static_cast<long long>(scaled) : longest;
+  const auto timed =
+      scaled < static_cast<double>(longest) ? static_cast<long long>(scaled) : longest;
   return std::max<long long>(1, std::min(timed, share));
 }
 

@@ -14,7 +14,7 @@ std::vector<TaskBlock> unfinished_tasks(const TaskSet& finished, long long tasks
 /// How long the blocks of a Dispatcher are.
 struct BlockPlan {
   int ranks = 1;               ///< that share the tasks, >= 1
-  long long grain = 1;     ///< tasks of one system, which are best kept together, >= 1
+  long long grain = 1;         ///< tasks of one system, which are best kept together, >= 1
   double block_seconds = 0.1;  ///< what a block should take a rank [s], > 0
 };
 
@@ -47,7 +47,7 @@ class Dispatcher {
  private:
   struct Rank {
     long long tasks = 0;  ///< of its last block
-    double since = 0.0;       ///< when it got that block [s]
+    double since = 0.0;   ///< when it got that block [s]
   };
 
   long long length_for(const Rank& rank, double now) const;

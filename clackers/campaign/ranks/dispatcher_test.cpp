@@ -43,6 +43,7 @@ TEST(Dispatcher, EveryTaskIsGivenOnceInAscendingOrder) {
       EXPECT_EQ(std::ranges::adjacent_find(given), given.end());
       EXPECT_EQ(std::ranges::count_if(given, [](auto t) { return t >= 5 && t < 8; }), 0);
       EXPECT_EQ(dispatcher.left(), 0);
+      for (int rank = 0; rank < ranks; ++rank) EXPECT_FALSE(dispatcher.take(rank, 1e3));
       EXPECT_EQ(dispatcher.finished(), 997);
     }
 }

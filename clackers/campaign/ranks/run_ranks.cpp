@@ -110,10 +110,10 @@ RanksSummary run_first_rank(Transport& transport, const Specification& specifica
   own_options.progress = {};
   OwnTasks tasks(dispatcher);
   OwnRun own([&] { return run_campaign(specification, store, tasks, own_options, &interrupt); });
-  const auto departures = serve(transport, dispatcher, announcement(specification, store), interrupt,
-                                [&] {
-                                  if (options.progress) options.progress(dispatcher.finished());
-                                });
+  const auto departures =
+      serve(transport, dispatcher, announcement(specification, store), interrupt, [&] {
+        if (options.progress) options.progress(dispatcher.finished());
+      });
   RanksSummary sum;
   add(sum, own.result());
   for (const auto& departure : departures) {

@@ -19,7 +19,8 @@ long long merge_rank_shards(Store& store);
 
 /// What all ranks did.
 struct RanksSummary : RunSummary {
-  std::vector<Departure> failures;  ///< of other ranks than 0; their tasks are left for the next start
+  std::vector<Departure>
+      failures;  ///< of other ranks than 0; their tasks are left for the next start
 };
 
 /// The work of rank 0: computes, too, on options.jobs threads, answers the other ranks meanwhile, and
