@@ -6,7 +6,7 @@
 
 #include "clackers/campaign/ranks/client.hpp"
 #include "clackers/campaign/ranks/server.hpp"
-#include "cli/ranks/mpi_transport.hpp"
+#include "cli/cluster/mpi_transport.hpp"
 
 namespace {
 

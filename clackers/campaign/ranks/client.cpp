@@ -26,9 +26,10 @@ std::optional<TaskBlock> Client::next() {
   return std::nullopt;
 }
 
-void Client::leave(const RunSummary& summary, const std::string& failure) {
+void Client::leave(const RunSummary& summary, const std::string& failure, const std::string& code) {
   const std::lock_guard lock(mutex_);
-  transport_.send(0, {Kind::farewell, {summary.tasks, summary.runs, summary.interrupted}, failure});
+  const auto text = failure.empty() ? failure : failure + '\0' + code;
+  transport_.send(0, {Kind::farewell, {summary.tasks, summary.runs, summary.interrupted}, text});
 }
 
 }  // namespace clackers::campaign

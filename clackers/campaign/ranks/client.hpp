@@ -20,8 +20,9 @@ class Client : public TaskSource {
   std::optional<TaskBlock> next() override;
   /// Zero: rank 0 alone knows.
   long long remaining() const override { return 0; }
-  /// The last message of a rank: what it did, and its failure, if there was one.
-  void leave(const RunSummary& summary, const std::string& failure = {});
+  /// The last message of a rank: what it did, and its failure with its code, if there was one.
+  void leave(const RunSummary& summary, const std::string& failure = {},
+             const std::string& code = {});
 
  private:
   Message ask(Message::Kind kind);

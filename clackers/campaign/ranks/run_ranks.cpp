@@ -43,10 +43,9 @@ RunSummary compute(Client& client, const std::string& text, int rank, const RunO
   return run_campaign(campaign.specification, shard, client, options, &interrupt);
 }
 
-std::string failure_text(const std::exception& error) {
+std::string code_of(const std::exception& error) {
   const auto* ours = dynamic_cast<const Error*>(&error);
-  const std::string_view code = ours ? ours->code().name() : "internal-error";
-  return std::string(error.what()) + " [" + std::string(code) + "]";
+  return std::string(ours ? ours->code().name() : "internal-error");
 }
 
 // Rank 0's own share, on a thread beside the one that answers.
@@ -129,13 +128,14 @@ void run_other_rank(Transport& transport, const RunOptions& options,
   Client client(transport);
   const auto text = client.greet();
   RunSummary summary;
-  std::string failure;
+  std::string failure, code;
   try {
     if (text) summary = compute(client, *text, transport.rank(), options, interrupt);
   } catch (const std::exception& error) {
-    failure = failure_text(error);
+    failure = error.what();
+    code = code_of(error);
   }
-  client.leave(summary, failure);
+  client.leave(summary, failure, code);
 }
 
 }  // namespace clackers::campaign

@@ -17,8 +17,13 @@ Message answer(const Transport::Envelope& envelope, Dispatcher& dispatcher,
 }
 
 Departure departure_of(const Transport::Envelope& envelope) {
-  const auto& [kind, numbers, text] = envelope.message;
-  return {envelope.from, {numbers[0], numbers[1], numbers[2] != 0}, text};
+  const auto& numbers = envelope.message.numbers;
+  const auto& text = envelope.message.text;
+  const auto end = text.find('\0');
+  return {envelope.from,
+          {numbers[0], numbers[1], numbers[2] != 0},
+          text.substr(0, end),
+          end == std::string::npos ? "" : text.substr(end + 1)};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace clackers::campaign {
 struct Departure {
   int rank = 0;
   RunSummary summary;
-  std::string failure;  ///< empty: none
+  std::string failure, code;  ///< a sentence and its code; empty: none
 };
 
 /// Answers of rank 0 until all other ranks have left, which it returns in their order of leaving.

@@ -61,7 +61,7 @@ TEST(Serve, AFailedRankLeavesTheOthersAtWork) {
     RunSummary summary;
     if (transport.rank() == 2) {
       client.next();
-      client.leave(summary, "disk full");
+      client.leave(summary, "disk full", "cannot-write");
       return;
     }
     while (client.next()) ++summary.runs;
@@ -77,6 +77,7 @@ TEST(Serve, AFailedRankLeavesTheOthersAtWork) {
       ++failed;
       EXPECT_EQ(departure.rank, 2);
       EXPECT_EQ(departure.failure, "disk full");
+      EXPECT_EQ(departure.code, "cannot-write");
     }
   EXPECT_EQ(failed, 1);
 }

@@ -11,7 +11,8 @@ struct Message {
   enum class Kind {
     greeting,  ///< to rank 0: a rank is there and asks for the campaign
     request,   ///< to rank 0: a rank has finished its last block and asks for another
-    farewell,  ///< to rank 0: a rank has finished; numbers: tasks, runs, whether interrupted; text: a failure
+    farewell,  ///< to rank 0: a rank has finished; numbers: tasks, runs, whether interrupted;
+               ///< text: a failure and its code, separated by a zero, or nothing
     campaign,  ///< text: what a rank must know to begin
     block,     ///< numbers: first and last of a block of tasks
     stop       ///< no more blocks

@@ -1,4 +1,4 @@
-#include "cli/ranks/mpi_transport.hpp"
+#include "cli/cluster/mpi_transport.hpp"
 
 #include <fmt/format.h>
 
