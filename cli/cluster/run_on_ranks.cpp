@@ -18,7 +18,7 @@ struct Opened {
 Opened open_first(campaign::Transport& transport, const FirstRank& first) try {
   auto specification = first.specification();
   auto store = campaign::Store::create_or_open(first.database, specification);
-  campaign::merge_rank_shards(store);
+  campaign::adopt_ranks(store);
   return {std::move(specification), std::move(store)};
 } catch (...) {
   campaign::dismiss(transport);

@@ -86,19 +86,6 @@ void add(RanksSummary& sum, const RunSummary& part) {
 
 }  // namespace
 
-long long merge_rank_shards(Store& store) {
-  long long tasks = 0;
-  for (const auto& path : shard_files(store.path())) {
-    if (!path.starts_with(store.path() + ".rank-")) continue;
-    // Opened for writing first: it refuses a shard in use, and completes one that was ended while it
-    // was made.
-    { Store::create_or_open(path, store.specification()); }
-    tasks += store.merge(path);
-    remove_database(path);
-  }
-  return tasks;
-}
-
 RanksSummary run_first_rank(Transport& transport, const Specification& specification, Store& store,
                             const RunOptions& options, const std::atomic<bool>& interrupt) {
   Dispatcher dispatcher(unfinished_tasks(store.finished(), specification.tasks()),
@@ -111,7 +98,7 @@ RanksSummary run_first_rank(Transport& transport, const Specification& specifica
   OwnRun own([&] { return run_campaign(specification, store, tasks, own_options, &interrupt); });
   const auto departures =
       serve(transport, dispatcher, announcement(specification, store), interrupt, [&] {
-        if (options.progress) options.progress(dispatcher.finished());
+        if (options.progress) options.progress({dispatcher.finished()});
       });
   RanksSummary sum;
   add(sum, own.result());
@@ -119,7 +106,7 @@ RanksSummary run_first_rank(Transport& transport, const Specification& specifica
     add(sum, departure.summary);
     if (!departure.failure.empty()) sum.failures.push_back(departure);
   }
-  merge_rank_shards(store);
+  adopt_ranks(store);
   return sum;
 }
 

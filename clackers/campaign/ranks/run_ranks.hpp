@@ -12,11 +12,6 @@
 // shard, rank_path(). No rank waits for another but for an answer of rank 0.
 namespace clackers::campaign {
 
-/// Brings what the ranks of an earlier run left, which was ended before rank 0 had merged their
-/// shards, into the database, and removes those shards; returns how many tasks were new. Throws
-/// InputError (database-busy) where a rank still writes, and as Store::merge().
-long long merge_rank_shards(Store& store);
-
 /// What all ranks did.
 struct RanksSummary : RunSummary {
   std::vector<Departure>
@@ -24,7 +19,8 @@ struct RanksSummary : RunSummary {
 };
 
 /// The work of rank 0: computes, too, on options.jobs threads, answers the other ranks meanwhile, and
-/// merges their shards into the store at the end. Throws what run_campaign() throws, after the other
+/// merges their shards into the store at the end. options.progress gets the tasks of blocks that any
+/// rank has finished, and no runs. Throws what run_campaign() throws, after the other
 /// ranks have left; their shards then stay.
 RanksSummary run_first_rank(Transport& transport, const Specification& specification, Store& store,
                             const RunOptions& options, const std::atomic<bool>& interrupt);
