@@ -25,20 +25,25 @@ Opened open_first(campaign::Transport& transport, const FirstRank& first) try {
   throw;
 }
 
-int report_failures(const campaign::RanksSummary& summary) {
+void report_failures(const campaign::RanksSummary& summary) {
   for (const auto& departure : summary.failures)
     report_error(fmt::format("rank {}: {}", departure.rank, departure.failure), departure.code);
-  return summary.failures.empty() ? 0 : 4;
 }
 
-int run_first(campaign::Transport& transport, const FirstRank& first,
-              const campaign::RunOptions& options) {
+// The store is closed at the end.
+campaign::RanksSummary run_first(campaign::Transport& transport, const FirstRank& first,
+                                 const campaign::RunOptions& options) {
   auto opened = open_first(transport, first);
-  const auto summary = campaign::run_first_rank(transport, opened.specification, opened.store,
-                                                options, interrupt_flag());
-  if (first.report) first.report(summary);
-  if (summary.interrupted) throw Interrupted();
-  return report_failures(summary);
+  return campaign::run_first_rank(transport, opened.specification, opened.store, options,
+                                  interrupt_flag(), first.progress);
+}
+
+int first_rank(campaign::Transport& transport, const FirstRank& first,
+               const campaign::RunOptions& options) {
+  const auto summary = run_first(transport, first, options);
+  const int exit_code = first.report(summary);
+  report_failures(summary);
+  return summary.failures.empty() ? exit_code : 4;
 }
 
 }  // namespace
@@ -49,7 +54,7 @@ int run_on_ranks(const campaign::Launch& launch, const FirstRank& first,
   int exit_code = 0;
   try {
     if (mpi->rank() == 0)
-      exit_code = run_first(*mpi, first, options);
+      exit_code = first_rank(*mpi, first, options);
     else
       campaign::run_other_rank(*mpi, options, interrupt_flag());
   } catch (...) {

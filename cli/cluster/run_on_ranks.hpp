@@ -8,12 +8,12 @@
 
 namespace clackers::cli {
 
-/// The part of a campaign's run that rank 0 alone does before the work begins: reads the specification,
-/// opens the database, reports. Other ranks never call it.
+/// What rank 0 alone does.
 struct FirstRank {
   std::function<campaign::Specification()> specification;
   std::string database;
-  std::function<void(const campaign::RanksSummary&)> report;
+  campaign::RanksProgress progress;
+  std::function<int(const campaign::RunSummary&)> report;  ///< returns the exit code
 };
 
 /// Runs a campaign on the ranks of a launcher; every rank calls it with the same arguments. Returns the

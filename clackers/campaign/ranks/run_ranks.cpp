@@ -87,18 +87,18 @@ void add(RanksSummary& sum, const RunSummary& part) {
 }  // namespace
 
 RanksSummary run_first_rank(Transport& transport, const Specification& specification, Store& store,
-                            const RunOptions& options, const std::atomic<bool>& interrupt) {
+                            const RunOptions& options, const std::atomic<bool>& interrupt,
+                            const RanksProgress& progress) {
   Dispatcher dispatcher(unfinished_tasks(store.finished(), specification.tasks()),
                         {.ranks = transport.size(),
                          .grain = static_cast<long long>(specification.methods().size()),
                          .block_seconds = block_seconds(transport.size())});
-  auto own_options = options;
-  own_options.progress = {};
+  const auto all = dispatcher.left();
   OwnTasks tasks(dispatcher);
-  OwnRun own([&] { return run_campaign(specification, store, tasks, own_options, &interrupt); });
+  OwnRun own([&] { return run_campaign(specification, store, tasks, options, &interrupt); });
   const auto departures =
       serve(transport, dispatcher, announcement(specification, store), interrupt, [&] {
-        if (options.progress) options.progress({dispatcher.finished()});
+        if (progress) progress(dispatcher.finished(), all);
       });
   RanksSummary sum;
   add(sum, own.result());

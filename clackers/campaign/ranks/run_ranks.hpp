@@ -1,7 +1,7 @@
 #pragma once
 
 #include <atomic>
-#include <string>
+#include <functional>
 #include <vector>
 
 #include "clackers/campaign/ranks/server.hpp"
@@ -18,12 +18,15 @@ struct RanksSummary : RunSummary {
       failures;  ///< of other ranks than 0; their tasks are left for the next start
 };
 
+/// Called with the tasks of blocks that any rank has finished, and with all that this run has to do.
+using RanksProgress = std::function<void(long long done, long long all)>;
+
 /// The work of rank 0: computes, too, on options.jobs threads, answers the other ranks meanwhile, and
-/// merges their shards into the store at the end. options.progress gets the tasks of blocks that any
-/// rank has finished, and no runs. Throws what run_campaign() throws, after the other
+/// merges their shards into the store at the end. Throws what run_campaign() throws, after the other
 /// ranks have left; their shards then stay.
 RanksSummary run_first_rank(Transport& transport, const Specification& specification, Store& store,
-                            const RunOptions& options, const std::atomic<bool>& interrupt);
+                            const RunOptions& options, const std::atomic<bool>& interrupt,
+                            const RanksProgress& progress = {});
 
 /// The work of a rank other than 0. Its failure is for rank 0 to report.
 void run_other_rank(Transport& transport, const RunOptions& options,

@@ -1,5 +1,3 @@
-#include "cli/cluster/submit.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "clackers/base/text.hpp"
 #include "clackers/study/program/process.hpp"
 #include "cli/cluster/batch_script.hpp"
+#include "cli/commands/campaign_actions.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/help/text.hpp"
 #include "cli/interrupt.hpp"
@@ -35,7 +34,7 @@ void require_option(const std::string& option) {
                    "bad-syntax");
 }
 
-BatchJob job_of(const SubmitOptions& options) {
+BatchJob job_of(const CampaignOptions& options) {
   if (!options.slurm)
     throw InputError(
         "submit writes a job array for Slurm: give --slurm. Under another scheduler let each "
@@ -48,8 +47,8 @@ BatchJob job_of(const SubmitOptions& options) {
   BatchJob job;
   job.program = std::filesystem::read_symlink("/proc/self/exe").string();
   job.folder = std::filesystem::current_path().string();
-  job.specification = absolute(options.specification);
-  job.database = absolute(options.database);
+  job.specification = absolute(options.files.front());
+  job.database = absolute(database_of(options));
   job.shards = read_whole("--shards", options.shards, 1, most_shards);
   if (!options.jobs.empty()) job.jobs = read_whole("--jobs", options.jobs, 1, most_shards);
   job.is_large = options.yes;
@@ -80,7 +79,7 @@ std::string reason_of(const study::ProcessResult& result) {
   return printed.empty() ? fmt::format("exit status {}", result.status) : printed;
 }
 
-// "clackers" or "17;cluster" among the lines of sbatch --parsable, the last of which has the number.
+// The number in "17" or "17;cluster", the last such line of sbatch --parsable.
 std::string number_in(const std::string& printed) {
   std::string number, line;
   for (const char c : printed + "\n") {
@@ -111,22 +110,25 @@ std::string submit(const std::vector<std::string>& words, const std::string& fol
 
 }  // namespace
 
-void submit_campaign(const SubmitOptions& options) {
+int submit_campaign(const CampaignOptions& options, const std::string&) {
   const auto job = job_of(options);
+  // What the elements would refuse is refused now.
+  checked_specification(options);
   const auto array = job.database + ".sbatch", merge = job.database + ".merge.sbatch";
   write_file(array, array_script(job));
   write_file(merge, merge_script(job));
-  const auto tell = [&](const std::string& sentence) {
-    if (!options.quiet) note(sentence);
+  const auto say = [&](const std::string& sentence) {
+    if (!options.common.quiet) note(sentence);
   };
-  tell(fmt::format("Wrote {} and {}", array, merge));
-  if (options.dry_run) return;
+  say(fmt::format("Wrote {} and {}", array, merge));
+  if (options.dry_run) return 0;
   const auto first = submit({"sbatch", "--parsable", array}, job.folder);
-  tell(fmt::format("Submitted job {}: {} shards", first, job.shards));
+  say(fmt::format("Submitted job {}: {} shards", first, job.shards));
   const auto second = submit(
       {"sbatch", "--parsable", "--dependency=afterok:" + first, "--kill-on-invalid-dep=yes", merge},
       job.folder);
-  tell(fmt::format("Submitted job {}: merges them into {} after that", second, job.database));
+  say(fmt::format("Submitted job {}: merges them into {} after that", second, job.database));
+  return 0;
 }
 
 }  // namespace clackers::cli
