@@ -34,6 +34,7 @@ case = "three-parameter"
 set = { N = [0, 1, 2, 3], xi1 = { from = 0.01, to = 0.2, points = %d } }
 """
 KINDS = ("process", "rank", "node")
+LAUNCH = 0.4  # seconds until the ranks of mpirun begin
 
 
 class Broken(Exception):
@@ -58,6 +59,7 @@ class Campaign:
 
     def __init__(self, program, folder, points):
         self.program, self.folder = program, folder
+        self.tasks = 3 * 4 * points
         self.specification = os.path.join(folder, "spec.toml")
         self.database = os.path.join(folder, "runs.db")
         with open(self.specification, "w", encoding="utf-8") as file:
@@ -68,7 +70,7 @@ class Campaign:
 
     def files(self):
         return [path for path in [self.database, *glob.glob(self.database + ".rank-*")]
-                if not path.endswith(("-wal", "-shm", "-journal"))]
+                if not path.endswith(("-wal", "-shm", "-journal", ".lock"))]
 
     def rows(self):
         """The finished tasks with the times that they took, from the database and all shards. A file
@@ -143,15 +145,16 @@ def require_kept(before, after, kind):
 
 
 def disturb(campaign, chance, duration, most_kills):
-    """Runs a campaign to its end; the number of kills by kind."""
-    kills = dict.fromkeys(KINDS, 0)
+    """Runs a campaign to its end; the number of kills by kind, and of those amid the tasks."""
+    kills = dict.fromkeys((*KINDS, "amid"), 0)
     finished = {}
     while True:
         kind = chance.choice(KINDS)
         run = Run(campaign, kind, chance)
-        may_kill = sum(kills.values()) < most_kills
-        # From the first instant to somewhat later than a whole run.
-        if run.wait(chance.uniform(0.0, 1.1) * duration if may_kill else 600):
+        may_kill = sum(kills[each] for each in KINDS) < most_kills
+        # From the first instant to the end of most runs.
+        latest = duration + (0.0 if kind == "process" else LAUNCH)
+        if run.wait(chance.uniform(0.0, latest) if may_kill else 600):
             run.check_end()
             require_kept(finished, campaign.rows(), kind)
             return kills
@@ -159,14 +162,15 @@ def disturb(campaign, chance, duration, most_kills):
         kills[kind] += 1
         now = campaign.rows()
         require_kept(finished, now, kind)
+        kills["amid"] += 0 < len(now) < campaign.tasks
         finished = now
 
 
 def undisturbed(program, folder, points):
-    """(rows, seconds) of a run that nobody disturbs, with one thread."""
+    """(rows, seconds) of a run that nobody disturbs."""
     campaign = Campaign(program, folder, points)
     start = time.monotonic()
-    subprocess.run(campaign.command("--jobs", "1"), check=True)
+    subprocess.run(campaign.command("--jobs", "2"), stdout=subprocess.DEVNULL, check=True)
     return campaign.exported(), time.monotonic() - start
 
 
@@ -180,13 +184,13 @@ def fresh_folder():
 
 
 def check(program, kills, seed, points, report=lambda line: None):
-    """The number of kills by kind; throws Broken."""
+    """The number of kills by kind, and of those with some, not all, tasks stored; throws Broken."""
     chance = random.Random(seed)
     with fresh_folder() as folder:
         expected, duration = undisturbed(program, folder, points)
-    report(f"undisturbed, one thread: {duration:.1f} s, {expected[0].count(chr(10)) - 1} tasks, seed {seed}")
-    totals, campaigns = dict.fromkeys(KINDS, 0), 0
-    while (left := kills - sum(totals.values())) > 0:
+    report(f"undisturbed: {duration:.1f} s, {expected[0].count(chr(10)) - 1} tasks, seed {seed}")
+    totals, campaigns = dict.fromkeys((*KINDS, "amid"), 0), 0
+    while (left := kills - sum(totals[kind] for kind in KINDS)) > 0:
         with fresh_folder() as folder:
             campaign = Campaign(program, folder, points)
             for kind, count in disturb(campaign, chance, duration, left).items():
@@ -196,7 +200,7 @@ def check(program, kills, seed, points, report=lambda line: None):
             if leftovers := glob.glob(campaign.database + ".rank-*"):
                 raise Broken(f"left behind: {leftovers}")
         campaigns += 1
-        report(f"{campaigns} campaigns complete and equal after {sum(totals.values())} kills: {totals}")
+        report(f"{campaigns} campaigns complete and equal after kills: {totals}")
     return totals
 
 
@@ -205,7 +209,7 @@ def main():
     arguments.add_argument("--command", required=True, help="a built clackers")
     arguments.add_argument("--kills", type=int, default=200)
     arguments.add_argument("--seed", type=int, default=random.randrange(1 << 32))
-    arguments.add_argument("--points", type=int, default=60, help="systems of each of four kinds")
+    arguments.add_argument("--points", type=int, default=240, help="systems of each of four kinds")
     options = arguments.parse_args()
     try:
         check(os.path.abspath(options.command), options.kills, options.seed, options.points, print)
