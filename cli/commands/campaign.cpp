@@ -93,17 +93,15 @@ void add_campaign(Grammar& root) {
       root.add_subcommand("campaign", "ACTION FILE ...", "assess methods on thousands of systems");
   set_help(
       *app,
-      {.examples =
-           "  clackers campaign plan spec.toml\n"
-           "  clackers campaign run spec.toml --database runs.db\n"
-           "  clackers campaign status runs.db\n"
-           "  clackers campaign export runs.db --format csv --out runs.csv\n"
-           "  clackers campaign query runs.db \"SELECT method, verdict, count(*) FROM subjects "
-           "GROUP BY 1, 2\"\n"
-           "  clackers campaign run spec.toml --database runs.db --shard 3/16\n"
-           "  clackers campaign merge runs.db\n"
-           "  mpirun -n 64 clackers campaign run spec.toml --database runs.db\n"
-           "  clackers campaign submit spec.toml --slurm --shards 16 --sbatch time=02:00:00\n",
+      {.examples = "  clackers campaign plan spec.toml\n"
+                   "  clackers campaign run spec.toml --database runs.db\n"
+                   "  clackers campaign status runs.db\n"
+                   "  clackers campaign export runs.db --format csv --out runs.csv\n"
+                   "  clackers campaign query runs.db \"SELECT method, verdict FROM subjects\"\n"
+                   "  clackers campaign run spec.toml --database runs.db --shard 3/16\n"
+                   "  clackers campaign merge runs.db\n"
+                   "  mpirun -n 64 clackers campaign run spec.toml\n"
+                   "  clackers campaign submit spec.toml --slurm --shards 16\n",
        .about =
            "Runs every method of a specification on every system: cases with listed values, ranges or "
            "samples of their parameters. The results are rows of one SQLite database. A campaign "
@@ -117,10 +115,10 @@ void add_campaign(Grammar& root) {
            "  case = \"three-parameter\"\n"
            "  set = { N = [0, 1, 2], xi1 = { from = 0.0, to = 0.2, points = 4 } }",
        .usage = "  clackers campaign plan SPEC.toml\n"
-                "  clackers campaign run SPEC.toml [--database FILE] [--shard i/n] [--jobs n] "
-                "[--yes]\n"
-                "  clackers campaign submit SPEC.toml --slurm --shards n [--database FILE] [--jobs "
-                "n] [--sbatch name=value]... [--dry-run] [--yes]\n"
+                "  clackers campaign run SPEC.toml [--database FILE] [--shard i/n]\n"
+                "           [--jobs n] [--yes]\n"
+                "  clackers campaign submit SPEC.toml --slurm --shards n [--jobs n]\n"
+                "           [--database FILE] [--sbatch name=value] [--dry-run] [--yes]\n"
                 "  clackers campaign status DATABASE\n"
                 "  clackers campaign merge DATABASE [FILE ...]\n"
                 "  clackers campaign export DATABASE [--table runs|subjects] [--times]\n"
@@ -133,10 +131,9 @@ void add_campaign(Grammar& root) {
          "order. query: a statement in SQL that reads.")
       ->option_text("plan|run|submit|status|merge|export|query");
   app->add_option(
-         "FILE", options->files,
-         "The specification (plan, run, submit), or the database; then shards (merge) or a "
-         "statement (query).")
-      ->option_text("FILE");
+      "FILE", options->files,
+      "The specification (plan, run, submit), or the database; then shards (merge) or a "
+      "statement (query).");
   app->add_option("--database", options->database,
                   "The database of run; made where there is none. Default: the specification's "
                   "name with the ending .db.")

@@ -4,7 +4,7 @@ import unittest
 
 from command import CommandTest, run
 
-COMMANDS = ("list", "show", "respond", "verify", "check", "paper", "explain")
+COMMANDS = ("list", "show", "respond", "verify", "check", "campaign", "paper", "explain")
 
 
 class Help(CommandTest):
@@ -27,6 +27,7 @@ class Help(CommandTest):
                "check": ["--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
                          "--tolerance", "--tolerances", "--metrics", "--report", "--require", "--baseline"],
                "paper": [],
+               "campaign": ["--database", "--shard", "--jobs", "--yes", "--table", "--times"],
                "respond": ["--problem", "--report", "--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--neighbours",
