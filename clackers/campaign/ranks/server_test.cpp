@@ -17,7 +17,7 @@ constexpr long long tasks = 1000;
 
 // Runs `work` in a thread for each rank but 0.
 template <class Work>
-std::vector<std::thread> other_ranks(testing::LocalRanks& ranks, Work work) {
+std::vector<std::thread> other_ranks(test::LocalRanks& ranks, Work work) {
   std::vector<std::thread> threads;
   for (int rank = 1; rank < size; ++rank)
     threads.emplace_back([&ranks, work, rank] { work(ranks[rank]); });
@@ -29,7 +29,7 @@ void join(std::vector<std::thread>& threads) {
 }
 
 TEST(Serve, EachTaskIsComputedOnce) {
-  testing::LocalRanks ranks(size);
+  test::LocalRanks ranks(size);
   std::vector<std::atomic<int>> counts(tasks);
   auto threads = other_ranks(ranks, [&counts](Transport& transport) {
     Client client(transport);
@@ -54,7 +54,7 @@ TEST(Serve, EachTaskIsComputedOnce) {
 }
 
 TEST(Serve, AFailedRankLeavesTheOthersAtWork) {
-  testing::LocalRanks ranks(size);
+  test::LocalRanks ranks(size);
   auto threads = other_ranks(ranks, [](Transport& transport) {
     Client client(transport);
     client.greet();
@@ -83,7 +83,7 @@ TEST(Serve, AFailedRankLeavesTheOthersAtWork) {
 }
 
 TEST(Serve, InterruptedGivesNoMoreBlocks) {
-  testing::LocalRanks ranks(size);
+  test::LocalRanks ranks(size);
   std::atomic<bool> interrupt = false;
   auto threads = other_ranks(ranks, [&interrupt](Transport& transport) {
     Client client(transport);
@@ -100,7 +100,7 @@ TEST(Serve, InterruptedGivesNoMoreBlocks) {
 }
 
 TEST(Dismiss, EveryRankIsToldToStop) {
-  testing::LocalRanks ranks(size);
+  test::LocalRanks ranks(size);
   auto threads = other_ranks(ranks, [](Transport& transport) {
     Client client(transport);
     EXPECT_FALSE(client.greet());

@@ -9,7 +9,7 @@
 
 #include "clackers/campaign/ranks/transport.hpp"
 
-namespace clackers::campaign::testing {
+namespace clackers::campaign::test {
 
 /// Ranks in one process, a transport each: messages go through queues.
 class LocalRanks {
@@ -51,4 +51,4 @@ class LocalRanks {
   std::vector<std::unique_ptr<Rank>> ranks_;
 };
 
-}  // namespace clackers::campaign::testing
+}  // namespace clackers::campaign::test
