@@ -116,17 +116,23 @@ class CampaignTest(ClusterTest):
 
     @staticmethod
     def select(database, statement):
-        """The rows of a database and of the ranks beside it; none before they have tables."""
+        """The rows of a database and of the ranks beside it; none before they have tables,
+        and none of shards that are being written."""
         rows = []
         for path in [database, *glob.glob(database + ".rank-*")]:
             if not path.endswith(("-wal", "-shm", ".lock")) and os.path.exists(path):
-                with contextlib.closing(sqlite3.connect(path)) as connection:
+                with contextlib.closing(sqlite3.connect(path, timeout=0)) as connection:
                     with contextlib.suppress(sqlite3.OperationalError):
                         rows += connection.execute(statement).fetchall()
         return rows
 
     def finished(self, database):
         return len(set(self.select(database, "SELECT task FROM subjects")))
+
+    @staticmethod
+    def has_stored(shard):
+        """Whether tasks were stored in a shard that is being written: its log is longer than the schema."""
+        return os.path.exists(shard + "-wal") and os.path.getsize(shard + "-wal") > 200_000
 
     def timings(self, database):
         """The processor time of each finished task, other than that of any other run."""

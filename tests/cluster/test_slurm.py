@@ -42,7 +42,7 @@ class InSlurm(CampaignTest):
         with open(script, "w", encoding="utf-8") as file:
             file.write(self.text_of("runs.db.sbatch").replace(self.specification, self.longer))
         job = self.slurm.run("sbatch", "--parsable", "--array=1", script).stdout.strip()
-        self.wait_for(lambda: self.finished(shard) > 0)
+        self.wait_for(lambda: self.has_stored(shard))
         stop(f"{job}_1")
         self.assertEqual(self.slurm.wait(job), [state], self.logs())
         before = self.timings(shard)
