@@ -25,12 +25,20 @@ const std::vector<ActionRow>& actions() {
   static const std::vector<ActionRow> rows{
       {"plan", plan_campaign, 1, {}},
       {"run", run_campaign, 1, {"--database", "--shard", "--jobs", "--yes"}},
+      {"submit",
+       submit_campaign,
+       1,
+       {"--database", "--jobs", "--yes", "--slurm", "--shards", "--sbatch", "--dry-run"}},
       {"status", show_status, 1, {}},
       {"merge", merge_shards, any, {}},
       {"export", export_rows, 1, {"--table", "--times"}},
       {"query", query_database, 2, {}},
   };
   return rows;
+}
+
+bool takes_specification(const ActionRow& action) {
+  return action.name == "plan" || action.name == "run" || action.name == "submit";
 }
 
 void require_used(const ActionRow& action, const CampaignOptions& options) {
@@ -44,6 +52,10 @@ void require_used(const ActionRow& action, const CampaignOptions& options) {
   require("--shard", !options.shard.empty());
   require("--jobs", !options.jobs.empty());
   require("--yes", options.yes);
+  require("--slurm", options.slurm);
+  require("--shards", !options.shards.empty());
+  require("--sbatch", !options.sbatch.empty());
+  require("--dry-run", options.dry_run);
   require("--table", !options.table.empty());
   require("--times", options.times);
 }
@@ -60,9 +72,8 @@ int run(const CampaignOptions& options, const std::string& line) {
   if (action == actions().end()) refuse_name("action of campaign", options.action, names, words);
   if (options.files.empty())
     throw InputError(
-        fmt::format(
-            "campaign {} needs a file: clackers campaign {} {}", action->name, action->name,
-            action == actions().begin() || action->name == "run" ? "SPEC.toml" : "DATABASE"),
+        fmt::format("campaign {} needs a file: clackers campaign {} {}", action->name, action->name,
+                    takes_specification(*action) ? "SPEC.toml" : "DATABASE"),
         "bad-syntax");
   if (options.files.size() > action->most_files)
     throw InputError(
@@ -88,12 +99,15 @@ void add_campaign(Grammar& root) {
                    "  clackers campaign export runs.db --format csv --out runs.csv\n"
                    "  clackers campaign query runs.db \"SELECT method, verdict FROM subjects\"\n"
                    "  clackers campaign run spec.toml --database runs.db --shard 3/16\n"
-                   "  clackers campaign merge runs.db\n",
+                   "  clackers campaign merge runs.db\n"
+                   "  mpirun -n 64 clackers campaign run spec.toml\n"
+                   "  clackers campaign submit spec.toml --slurm --shards 16\n",
        .about =
            "Runs every method of a specification on every system: cases with listed values, ranges or "
            "samples of their parameters. The results are rows of one SQLite database. A campaign "
            "that was interrupted goes on when it is run again; rows do not depend on the number of "
-           "threads, on their order or on interruptions. A specification reads:\n\n"
+           "threads, on their order or on interruptions. Under mpirun and srun the processes share "
+           "the tasks. A specification reads:\n\n"
            "  methods = [\"newmark\", \"rk4\", \"moreau-jean\"]  # or \"panel\", \"all\"\n"
            "  [ladder]\n"
            "  levels = 5\n"
@@ -103,6 +117,8 @@ void add_campaign(Grammar& root) {
        .usage = "  clackers campaign plan SPEC.toml\n"
                 "  clackers campaign run SPEC.toml [--database FILE] [--shard i/n]\n"
                 "           [--jobs n] [--yes]\n"
+                "  clackers campaign submit SPEC.toml --slurm --shards n [--jobs n]\n"
+                "           [--database FILE] [--sbatch name=value] [--dry-run] [--yes]\n"
                 "  clackers campaign status DATABASE\n"
                 "  clackers campaign merge DATABASE [FILE ...]\n"
                 "  clackers campaign export DATABASE [--table runs|subjects] [--times]\n"
@@ -110,13 +126,14 @@ void add_campaign(Grammar& root) {
   app->add_option(
          "ACTION", options->action,
          "plan: systems, tasks, runs, and estimates of time and disk. run: run what is not "
-         "finished yet. status: how far a database is, and its verdicts. merge: add the "
+         "finished yet. submit: run it as a job array of a cluster, and merge. status: how far a database is, and its verdicts. merge: add the "
          "tasks of shards, without FILEs those beside the database. export: all rows in "
          "order. query: a statement in SQL that reads.")
-      ->option_text("plan|run|status|merge|export|query");
-  app->add_option("FILE", options->files,
-                  "The specification (plan, run), or the database; then shards (merge) or a "
-                  "statement (query).");
+      ->option_text("plan|run|submit|status|merge|export|query");
+  app->add_option(
+      "FILE", options->files,
+      "The specification (plan, run, submit), or the database; then shards (merge) or a "
+      "statement (query).");
   app->add_option("--database", options->database,
                   "The database of run; made where there is none. Default: the specification's "
                   "name with the ending .db.")
@@ -125,8 +142,21 @@ void add_campaign(Grammar& root) {
                   "Run the i-th of n parts, into DATABASE.shard-i-of-n; for job arrays. merge adds "
                   "the parts to the database.")
       ->option_text("i/n");
-  app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
+  app->add_option(
+         "--jobs", options->jobs,
+         "Threads. Default: one a processor; under mpirun and in an element of a job array one.")
+      ->option_text("n");
   app->add_flag("--yes", options->yes, "Start a campaign of more than 1e7 runs.");
+  app->add_flag(
+      "--slurm", options->slurm,
+      "submit: write DATABASE.sbatch, a job array of shards, and DATABASE.merge.sbatch, which "
+      "merges them, and give both to sbatch.");
+  app->add_option("--shards", options->shards, "submit: elements of the job array.")
+      ->option_text("n");
+  app->add_option("--sbatch", options->sbatch,
+                  "submit: an option of sbatch without dashes (may be repeated).")
+      ->option_text("name=value");
+  app->add_flag("--dry-run", options->dry_run, "submit: write the scripts alone.");
   app->add_option("--table", options->table,
                   "What is exported: runs, a row each run with the columns of its subject, or "
                   "subjects, a row each system and method. Default: runs.")

@@ -16,6 +16,9 @@ struct CampaignOptions {
   std::vector<std::string> files;  ///< the first is the specification or the database
   std::string database, shard, jobs, table;
   bool yes = false, times = false;
+  std::string shards;               ///< of submit
+  std::vector<std::string> sbatch;  ///< of submit
+  bool slurm = false, dry_run = false;
 };
 
 /// Each returns the exit code; `line` is the whole command line.
@@ -23,6 +26,7 @@ using CampaignAction = int (*)(const CampaignOptions& options, const std::string
 
 int plan_campaign(const CampaignOptions& options, const std::string& line);
 int run_campaign(const CampaignOptions& options, const std::string& line);
+int submit_campaign(const CampaignOptions& options, const std::string& line);
 int show_status(const CampaignOptions& options, const std::string& line);
 int merge_shards(const CampaignOptions& options, const std::string& line);
 int export_rows(const CampaignOptions& options, const std::string& line);
@@ -30,6 +34,9 @@ int query_database(const CampaignOptions& options, const std::string& line);
 
 /// The database of a specification: --database, or its file with the ending .db; of a shard its own.
 std::string database_of(const CampaignOptions& options, const campaign::Shard& shard = {});
+
+/// The specification that is given. Throws InputError (too-many-runs) for a large one without --yes.
+campaign::Specification checked_specification(const CampaignOptions& options);
 
 /// Prints how far a database is: tasks, verdicts, and the command that goes on.
 void print_status(const CampaignOptions& options, const std::string& database);

@@ -7,6 +7,7 @@
 #include "clackers/campaign/run.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/work_queue.hpp"
+#include "cli/cluster/run_on_ranks.hpp"
 #include "cli/commands/campaign_actions.hpp"
 #include "cli/commands/plugin_run.hpp"
 #include "cli/files/results.hpp"
@@ -43,12 +44,46 @@ campaign::RunSummary run_tasks(const CampaignOptions& options, const campaign::S
   return campaign::run_campaign(specification, store, source, how, &interrupt_flag());
 }
 
+int report_end(const CampaignOptions& options, const std::string& database,
+               const campaign::RunSummary& summary) {
+  print_status(options, database);
+  if (!summary.interrupted) return 0;
+  report_error("interrupted; what was finished is stored. The same command goes on.",
+               "interrupted");
+  return 130;
+}
+
+// One of several processes that mpirun or srun started.
+int run_ranks(const CampaignOptions& options, const campaign::Launch& launch,
+              const std::string& database) {
+  campaign::RunOptions how;
+  how.jobs = options.jobs.empty() ? 1 : jobs_of(options);
+  how.plugin_host = plugin_host_words();
+  FirstRank first;
+  first.database = database;
+  ProgressLine line("campaign", options.common.quiet);
+  first.specification = [&] { return checked_specification(options); };
+  first.progress = [&](long long done, long long all) {
+    line.report(all > 0 ? double(done) / double(all) : 1.0, done, "tasks");
+  };
+  first.report = [&](const campaign::RunSummary& summary) {
+    return report_end(options, database, summary);
+  };
+  return run_on_ranks(launch, first, how);
+}
+
 }  // namespace
 
 std::string database_of(const CampaignOptions& options, const campaign::Shard& shard) {
   auto path = options.database;
   if (path.empty()) path = std::filesystem::path(options.files.front()).replace_extension(".db");
   return campaign::shard_path(path, shard);
+}
+
+campaign::Specification checked_specification(const CampaignOptions& options) {
+  auto specification = campaign::Specification::read(options.files.front());
+  if (!options.yes) campaign::require_few_runs(specification, plugin_host_words());
+  return specification;
 }
 
 int plan_campaign(const CampaignOptions& options, const std::string&) {
@@ -65,20 +100,18 @@ int plan_campaign(const CampaignOptions& options, const std::string&) {
 int run_campaign(const CampaignOptions& options, const std::string&) {
   const auto shard =
       options.shard.empty() ? campaign::Shard{} : campaign::shard_from(options.shard);
-  const auto specification = campaign::Specification::read(options.files.front());
-  if (!options.yes) campaign::require_few_runs(specification, plugin_host_words());
   const auto database = database_of(options, shard);
+  const auto launch = campaign::launch_of_process();
+  // A shard is the work of one process, whatever started it.
+  if (shard.is_all() && launch.ranks > 1) return run_ranks(options, launch, database);
+  const auto specification = checked_specification(options);
   campaign::RunSummary summary;
   {
     auto store = campaign::Store::create_or_open(database, specification, options.shard);
     if (shard.is_all()) campaign::adopt_ranks(store);
     summary = run_tasks(options, shard, store);
   }
-  print_status(options, database);
-  if (!summary.interrupted) return 0;
-  report_error("interrupted; what was finished is stored. The same command goes on.",
-               "interrupted");
-  return 130;
+  return report_end(options, database, summary);
 }
 
 }  // namespace clackers::cli
