@@ -1,0 +1,36 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "clackers/campaign/specification.hpp"
+#include "clackers/campaign/store.hpp"
+#include "clackers/campaign/task_source.hpp"
+
+namespace clackers::campaign {
+
+struct RunOptions {
+  int jobs = 0;  ///< worker threads; 0: one a processor
+  /// The words that call study::host_plugin(), for plug-ins.
+  std::vector<std::string> plugin_host{};
+  /// Called by one thread now and then with the tasks stored so far by this call.
+  std::function<void(long long tasks)> progress{};
+};
+
+/// What a call of run_campaign() did.
+struct RunSummary {
+  long long tasks = 0, runs = 0;  ///< that were stored
+  bool interrupted = false;
+};
+
+/// Runs the tasks of a source on worker threads and stores their rows, many tasks a transaction, from
+/// this thread. When `interrupt` becomes true what is finished is stored and the summary says so.
+/// Rows do not depend on jobs, order or interruptions. Throws what a worker or the store throws, after
+/// storing what was finished, if the store takes it.
+RunSummary run_campaign(const Specification& specification, Store& store, TaskSource& source,
+                        const RunOptions& options = {},
+                        const std::atomic<bool>* interrupt = nullptr);
+
+}  // namespace clackers::campaign

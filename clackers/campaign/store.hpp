@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "clackers/campaign/specification.hpp"
+#include "clackers/campaign/task_source.hpp"
+#include "clackers/campaign/tasks.hpp"
+#include "clackers/study/sheet.hpp"
+
+// The database of a campaign: one SQLite file, documented in docs/manual/reference/campaign-database.md.
+namespace clackers::campaign {
+
+/// PRAGMA user_version of the file; PRAGMA application_id says that it is a campaign ("clkr").
+inline constexpr int schema_version = 1;
+inline constexpr int application_id = 0x636c6b72;
+
+/// The tables that are written as sheets.
+enum class TableName { subjects, runs };
+
+/// A database open for writing (one writer at a time, any number of readers) or for reading. Not
+/// thread-safe. A task is finished when its row stands in `subjects`.
+class Store {
+ public:
+  /// Opens the database of this campaign for writing; makes it where there is no file. `shard` is kept
+  /// in a new one: "3/16", empty for a whole campaign. Throws InputError: not-a-campaign, other-version,
+  /// other-campaign, database-busy; FileError: cannot-read, cannot-write.
+  static Store create_or_open(const std::string& path, const Specification& specification,
+                              const std::string& shard = {});
+  /// Opens an existing database for reading. Throws as above; cannot-read where there is none.
+  static Store open(const std::string& path);
+
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+  ~Store();
+
+  const std::string& path() const;
+  const Specification& specification() const;
+  const std::string& shard() const;
+  TaskSet finished() const;
+
+  /// Adds the rows of tasks in one transaction; a task that is finished already stays as it is. Throws
+  /// FileError (cannot-write), and the database is as before.
+  void write(std::span<const TaskRows> tasks);
+  /// Adds the finished tasks of another database of the same campaign, which nobody may be writing;
+  /// returns how many were new. A transaction for each call.
+  long long merge(const std::string& path);
+
+  /// The rows of a table in the order of (task, run); `runs` with the columns of its subject before its
+  /// own. With times, a column `seconds` behind. The store must outlive the rows.
+  std::unique_ptr<study::RowSource> rows(TableName table, bool with_times = false) const;
+  /// The rows of a statement in SQL that only reads; `kinds` of columns are any. Throws InputError
+  /// (bad-syntax) with what SQLite says.
+  std::unique_ptr<study::RowSource> query(const std::string& sql) const;
+
+ private:
+  struct Connection;
+  explicit Store(std::unique_ptr<Connection> connection);
+
+  std::unique_ptr<Connection> connection_;
+};
+
+/// The shard files beside a database: "PATH.shard-3-of-16" and "PATH.rank-5", sorted.
+std::vector<std::string> shard_files(const std::string& path);
+std::string shard_path(const std::string& path, const Shard& shard);
+/// The file of a rank: "PATH.rank-5".
+std::string rank_path(const std::string& path, long long rank);
+/// Removes a database that is closed, with the files that SQLite keeps beside it.
+void remove_database(const std::string& path);
+
+}  // namespace clackers::campaign
