@@ -31,6 +31,12 @@ SurveySystem system_of(const study::Sheet& sheet, const std::vector<study::Cell>
   return system;
 }
 
+// The same of two parts whose columns stand in different orders.
+std::string key_of(SurveySystem system) {
+  std::ranges::sort(system.settings, {}, &std::pair<std::string, study::Cell>::first);
+  return system.name + ' ' + system.settings_text();
+}
+
 template <class Item>
 std::size_t place_of(std::vector<Item>& list, std::map<std::string, std::size_t>& known,
                      const std::string& key, Item item) {
@@ -118,8 +124,7 @@ Survey survey_of(std::span<const AtlasPart> parts) {
       const auto system = system_of(sheet, row, cells);
       const auto name = cells.text(row, "method");
       SurveySubject subject;
-      subject.system =
-          place_of(survey.systems, systems, system.name + ' ' + system.settings_text(), system);
+      subject.system = place_of(survey.systems, systems, key_of(system), system);
       subject.method = place_of(survey.methods, methods, fmt::format("{} {}", p, name),
                                 SurveyMethod{name, study::treatment_of(name), p});
       subject.part = p;

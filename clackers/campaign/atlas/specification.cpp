@@ -1,0 +1,60 @@
+#include "clackers/campaign/atlas.hpp"
+
+namespace clackers::campaign {
+
+std::string_view atlas_specification() {
+  return R"(# The atlas: every method of `clackers list pairs` on pairs over a grid of their parameters, and
+# on the systems beyond the pair.
+methods = ["all"]
+
+[ladder]
+levels = 6
+neighbours = 3
+
+# The paper's class by its three parameters: how much faster mass 2 is (4 N + 1), damping.
+[[cases]]
+case = "three-parameter"
+set = { N = [0, 1, 2, 4], xi1 = [0.0, 0.05, 0.2] }
+
+# Impacts that take energy; masses of different size.
+[[cases]]
+case = "synchronized-pair"
+set = { eta = [0.5, 0.8], r = [1.0, 3.0], X = [5.0, 9.0] }
+
+[[cases]]
+case = "stop"
+set = { eta = [0.5, 1.0] }
+
+[[cases]]
+case = "buildings"
+set = { left = [1, 3], eta = [0.6, 1.0] }
+
+[[cases]]
+case = "row"
+set = { masses = [3] }
+
+[[cases]]
+case = "alternating"
+
+[[cases]]
+case = "cradle"
+
+[[cases]]
+case = "assembly"
+set = { coupling = ["chain", "random"] }
+
+[[cases]]
+case = "forced-pair"
+
+[[cases]]
+case = "base-excited-pair"
+
+[[cases]]
+case = "penalized-pair"
+
+[[cases]]
+case = "piecewise"
+)";
+}
+
+}  // namespace clackers::campaign
