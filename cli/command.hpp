@@ -76,6 +76,7 @@ void add_show(Grammar& root);
 void add_respond(Grammar& root);
 void add_verify(Grammar& root);
 void add_check(Grammar& root);
+void add_campaign(Grammar& root);
 void add_paper(Grammar& root);
 void add_explain(Grammar& root);
 

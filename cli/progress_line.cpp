@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -36,6 +37,16 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::report(double share) {
+  show(share, [](double) { return std::string(); });
+}
+
+void ProgressLine::report(double share, long long done, std::string_view unit) {
+  show(share, [&](double elapsed) {
+    return fmt::format(" {} {}, {:.0f}/s,", done, unit, double(done) / std::max(elapsed, 0.1));
+  });
+}
+
+void ProgressLine::show(double share, const std::function<std::string(double)>& detail) {
   if (!visible_) return;
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
@@ -44,7 +55,8 @@ void ProgressLine::report(double share) {
   if (share < share_) start_ = now;  // a new round of work
   share_ = share;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  auto line = fmt::format("{} {:3.0f} %, {} elapsed", what_, 100.0 * share, duration_text(elapsed));
+  auto line = fmt::format("{} {:3.0f} %,{} {} elapsed", what_, 100.0 * share, detail(elapsed),
+                          duration_text(elapsed));
   // Before a twentieth is done the rest cannot be estimated.
   if (share >= 0.05)
     line += fmt::format(", about {} left", duration_text(elapsed * (1.0 - share) / share));

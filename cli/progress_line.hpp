@@ -4,6 +4,7 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 namespace clackers::cli {
 
@@ -20,6 +21,8 @@ class ProgressLine {
   /// The share of the work that is done, in [0, 1]; from any thread. A smaller one than before
   /// begins a new round, with its own time.
   void report(double share);
+  /// The same with what was done so far and its rate: "12,000 runs, 850/s".
+  void report(double share, long long done, std::string_view unit);
   /// report() for functions that take a callback; valid as long as this object.
   std::function<void(double)> callback() {
     return [this](double share) { report(share); };
@@ -27,6 +30,8 @@ class ProgressLine {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  void show(double share, const std::function<std::string(double elapsed)>& detail);
 
   std::string what_;
   bool visible_;

@@ -11,18 +11,18 @@
 
 namespace clackers::campaign {
 
-struct RunOptions {
-  int jobs = 0;  ///< worker threads; 0: one a processor
-  /// The words that call study::host_plugin(), for plug-ins.
-  std::vector<std::string> plugin_host{};
-  /// Called by one thread now and then with the tasks stored so far by this call.
-  std::function<void(long long tasks)> progress{};
-};
-
 /// What a call of run_campaign() did.
 struct RunSummary {
   long long tasks = 0, runs = 0;  ///< that were stored
   bool interrupted = false;
+};
+
+struct RunOptions {
+  int jobs = 0;  ///< worker threads; 0: one a processor
+  /// The words that call study::host_plugin(), for plug-ins.
+  std::vector<std::string> plugin_host{};
+  /// Called by the calling thread now and then with what was stored so far.
+  std::function<void(const RunSummary&)> progress{};
 };
 
 /// Runs the tasks of a source on worker threads and stores their rows, many tasks a transaction, from

@@ -82,6 +82,7 @@ class Specification {
   /// The same of a file. Throws FileError (cannot-read) too.
   static Specification read(const std::string& path);
 
+  const std::string& name() const { return name_; }  ///< of the file
   const std::string& text() const { return text_; }  ///< verbatim
   const std::vector<MethodEntry>& methods() const { return methods_; }
   const Ladder& ladder() const { return ladder_; }
@@ -101,7 +102,7 @@ class Specification {
  private:
   friend class SpecificationReader;
 
-  std::string text_;
+  std::string name_, text_;
   std::vector<MethodEntry> methods_;
   Ladder ladder_;
   std::vector<std::string> metrics_;

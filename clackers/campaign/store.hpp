@@ -51,6 +51,8 @@ class Store {
   /// The rows of a table in the order of (task, run); `runs` with the columns of its subject before its
   /// own. With times, a column `seconds` behind. The store must outlive the rows.
   std::unique_ptr<study::RowSource> rows(TableName table, bool with_times = false) const;
+  /// The columns of numbers alone, what is empty NaN: NumPy's format takes these.
+  std::unique_ptr<study::RowSource> numbers(TableName table, bool with_times = false) const;
   /// The rows of a statement in SQL that only reads; `kinds` of columns are any. Throws InputError
   /// (bad-syntax) with what SQLite says.
   std::unique_ptr<study::RowSource> query(const std::string& sql) const;
@@ -64,6 +66,9 @@ class Store {
 
 /// The shard files beside a database: "PATH.shard-3-of-16" and "PATH.rank-5", sorted.
 std::vector<std::string> shard_files(const std::string& path);
+/// Merges the files of ranks beside a database, left by ranks that were lost, and removes them; returns
+/// how many tasks were new.
+long long adopt_ranks(Store& store);
 std::string shard_path(const std::string& path, const Shard& shard);
 /// The file of a rank: "PATH.rank-5".
 std::string rank_path(const std::string& path, long long rank);

@@ -44,6 +44,8 @@ Tables tables_of(const Specification& specification);
 std::vector<std::optional<study::SolverSubject>> solvers_of(
     const Specification& specification, const std::vector<std::string>& plugin_host);
 
+class PreparedSystem;
+
 /// Runs tasks one after another; keeps the last system prepared. For one thread.
 class TaskRunner {
  public:
@@ -59,11 +61,9 @@ class TaskRunner {
   std::optional<TaskRows> run(long long task, const std::atomic<bool>* interrupt = nullptr);
 
  private:
-  class Prepared;
-
   const Specification& specification_;
   const std::vector<std::optional<study::SolverSubject>>& solvers_;
-  std::unique_ptr<Prepared> prepared_;
+  std::unique_ptr<PreparedSystem> prepared_;
 };
 
 }  // namespace clackers::campaign

@@ -1,20 +1,15 @@
 #include "clackers/cases/problem_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <vector>
-#define TOML_HEADER_ONLY 1
-#include <toml++/toml.h>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
+#include "clackers/cases/toml_reader.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::cases {
@@ -50,56 +45,10 @@ using Eigen::VectorXd;
 
 constexpr std::size_t most_masses = 1000;
 
-// Refuses in the words of a place in the file.
-class Reader {
+// Reads vectors and matrices as well.
+class Reader : public TomlReader {
  public:
-  explicit Reader(const std::string& name) : name_(name) {}
-
-  std::string place(const toml::node& node) const {
-    const auto line = node.source().begin.line;
-    return line > 0 ? fmt::format("{}:{}", name_, line) : name_;
-  }
-  [[noreturn]] void fail(const toml::node& node, const std::string& sentence, Code code) const {
-    throw InputError(fmt::format("{}: {}", place(node), sentence), code);
-  }
-
-  // Every key of the table is one of these.
-  void require_known(const toml::table& table, const std::vector<std::string>& keys,
-                     std::string_view where) const {
-    for (const auto& [key, value] : table) {
-      if (std::ranges::find(keys, key.str()) != keys.end()) continue;
-      const auto near = nearest(key.str(), keys);
-      fail(value,
-           fmt::format("unknown key \"{}\"{}.{} Known: {}.", std::string(key.str()), where,
-                       near.empty() ? "" : fmt::format(" Did you mean \"{}\"?", near),
-                       fmt::join(keys, ", ")),
-           "unknown-name");
-    }
-  }
-  const toml::node& need(const toml::table& table, const char* key, const char* meaning) const {
-    const auto* node = table.get(key);
-    if (node == nullptr)
-      throw InputError(fmt::format("{}: {} is missing; allowed: {}.", place(table), key, meaning),
-                       "no-column");
-    return *node;
-  }
-
-  double number(const toml::node& node, const std::string& what) const {
-    const auto value = node.value<double>();
-    if (!node.is_number() || !value)
-      fail(node, fmt::format("{} is no number; allowed: a number without quotes.", what),
-           "not-a-number");
-    if (!std::isfinite(*value))
-      fail(node, fmt::format("{} = {}; allowed: a finite number.", what, *value), "not-finite");
-    return *value;
-  }
-  double number(const toml::table& table, const char* key, double standard) const {
-    const auto* node = table.get(key);
-    return node == nullptr ? standard : number(*node, key);
-  }
-  double number(const toml::table& table, const char* key, const char* meaning) const {
-    return number(need(table, key, meaning), key);
-  }
+  using TomlReader::TomlReader;
 
   VectorXd vector(const toml::node& node, const std::string& what, Index size) const {
     const auto* list = node.as_array();
@@ -146,22 +95,10 @@ class Reader {
                           what, i + 1, j + 1, x(i, j), x(j, i)),
               "not-symmetric");
   }
-
-  const std::string& name_;
 };
 
-const toml::array* tables(const Reader& reader, const toml::table& root, const char* key) {
-  const auto* node = root.get(key);
-  if (node == nullptr) return nullptr;
-  const auto* list = node->as_array();
-  if (list == nullptr || !list->is_homogeneous(toml::node_type::table))
-    reader.fail(*node, fmt::format("{0} is no list of tables; allowed: [[{0}]] above each.", key),
-                "bad-syntax");
-  return list;
-}
-
 void add_contacts(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
-  const auto* list = tables(reader, root, "contacts");
+  const auto* list = reader.tables(root, "contacts");
   if (list == nullptr) return;
   for (const auto& node : *list) {
     const auto& table = *node.as_table();
@@ -183,7 +120,7 @@ void add_contacts(const Reader& reader, const toml::table& root, model::ImpactPr
 }
 
 void add_loads(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
-  const auto* list = tables(reader, root, "loads");
+  const auto* list = reader.tables(root, "loads");
   if (list == nullptr) return;
   std::vector<model::HarmonicForce> forces;
   for (const auto& node : *list) {
@@ -235,14 +172,7 @@ void require_plausible(const std::string& name, const model::ImpactProblem<>& pr
 }  // namespace
 
 model::ImpactProblem<> problem_from_toml(std::string_view text, const std::string& name) {
-  toml::table root;
-  try {
-    root = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: {}.", name, error.source().begin.line,
-                                 std::string(error.description())),
-                     "bad-syntax");
-  }
+  const auto root = toml_from(text, name);
   const Reader reader(name);
   reader.require_known(root, {"M", "C", "K", "end", "start", "contacts", "loads"}, "");
   model::ImpactProblem<> problem;
@@ -279,15 +209,9 @@ model::ImpactProblem<> problem_from_toml(std::string_view text, const std::strin
 }
 
 model::ImpactProblem<> read_problem(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
-    throw FileError(
-        fmt::format("{}: the file cannot be read, or is empty. A problem is a TOML file; its "
-                    "format: clackers show piecewise",
-                    path),
-        "cannot-read");
-  return problem_from_toml(text.str(), path);
+  const auto text =
+      text_of_file(path, "A problem is a TOML file; its format: clackers show piecewise");
+  return problem_from_toml(text, path);
 }
 
 }  // namespace clackers::cases

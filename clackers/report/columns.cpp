@@ -196,6 +196,9 @@ const Column all[] = {
 };
 // clang-format on
 
+// The first column that differs between the runs of a subject.
+constexpr std::string_view first_of_run = "file";
+
 std::vector<const Column*> named(std::initializer_list<std::string_view> names) {
   std::vector<const Column*> out;
   for (const auto wanted : names) out.push_back(&column(wanted));
@@ -255,6 +258,8 @@ const Column& column(std::string_view wanted) {
   if (found == std::end(all)) throw std::logic_error("no column " + std::string(wanted));
   return *found;
 }
+
+bool is_of_subject(const Column& asked) { return &asked < &column(first_of_run); }
 
 Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind,
                     const std::vector<std::string>& only) {

@@ -56,6 +56,9 @@ std::span<const Column> columns();
 /// One by its name. Throws std::logic_error for a name that no column has.
 const Column& column(std::string_view name);
 
+/// Whether all runs of a subject have the same value; these columns stand before the others.
+bool is_of_subject(const Column& column);
+
 /// A table for people.
 struct Table {
   /// Above the rows of a group.

@@ -18,7 +18,6 @@
 #include "cli/files/results.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
-#include "cli/progress_line.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
@@ -134,16 +133,6 @@ std::string picture(const cases::Case& which, const report::Style& style) {
   return report::plot(study::response_curve(which, 8 * style.width), impact_times, style);
 }
 
-void write(study::RowSource& rows, Results& results, bool quiet) {
-  // Rows on a terminal show the progress themselves.
-  ProgressLine line("respond", quiet || results.is_terminal());
-  rows.progress = [&](double share) {
-    if (interrupt_flag()) throw Interrupted();
-    line.report(share);
-  };
-  report::write(rows, results.format(), results.stream(), results.style());
-}
-
 std::string page_of(const cases::Case& which, const Options& options, const std::string& line) {
   const auto motion = study::response_record(which);
   return report::html(
@@ -167,7 +156,7 @@ int run(Options options, const std::string& line) {
     out.finish();
   }
   if (rows) {
-    write(*rows, results, options.common.quiet);
+    write_rows(*rows, results, "respond", options.common.quiet);
     results.finish();
   }
   return !page.wanted() || page.write(page_of(which, options, line)) ? 0 : 4;

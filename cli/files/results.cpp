@@ -8,7 +8,9 @@
 #include <string_view>
 
 #include "clackers/base/error.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
+#include "cli/progress_line.hpp"
 
 namespace clackers::cli {
 namespace {
@@ -45,6 +47,16 @@ void Results::finish() {
   if (!file_) return standard_->finish();
   file_->commit();
   if (!quiet_) note(fmt::format("Wrote {}", file_->path()));
+}
+
+void write_rows(study::RowSource& rows, Results& results, const std::string& command, bool quiet) {
+  // Rows on a terminal show the progress themselves.
+  ProgressLine line(command, quiet || results.is_terminal());
+  rows.progress = [&](double share) {
+    if (interrupt_flag()) throw Interrupted();
+    line.report(share);
+  };
+  report::write(rows, results.format(), results.stream(), results.style());
 }
 
 report::Style standard_style(bool no_color) {

@@ -36,6 +36,9 @@ class Results {
   report::Style style_;
 };
 
+/// Writes rows, with a progress line where they do not go to a terminal. Throws Interrupted.
+void write_rows(study::RowSource& rows, Results& results, const std::string& command, bool quiet);
+
 /// The look of standard output: colours on a terminal unless --no-color, NO_COLOR or TERM=dumb;
 /// the terminal's width, or 80 columns.
 report::Style standard_style(bool no_color);

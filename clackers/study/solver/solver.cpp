@@ -11,7 +11,7 @@
 #include "clackers/study/respond.hpp"
 #include "clackers/study/solver/solver_study.hpp"
 #include "clackers/study/verify/verify_plan.hpp"
-#include "clackers/study/verify/work_queue.hpp"
+#include "clackers/study/work_queue.hpp"
 
 namespace clackers::study {
 namespace {

@@ -102,7 +102,12 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
                                facts_of(plan.summary, method.spring_time), {}, interrupt);
     if (!metrics) return {};
     result.run.metrics = std::move(*metrics);
-    if (motion.dof() <= most_blocks) result.run.motion = motion_of(stored.trajectory());
+    if (plan.extras.record && motion.dof() <= most_blocks)
+      result.run.motion = motion_of(stored.trajectory());
+  }
+  if (!plan.extras.times) {
+    result.run.score.seconds = result.seconds;
+    return result;
   }
   WatchedSink timed(nullptr, share, timed_state, interrupt);
   const auto seconds = time_of(*run, timed);

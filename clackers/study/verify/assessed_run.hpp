@@ -30,7 +30,8 @@ struct AssessedRun {
 };
 
 /// Runs a method once with its errors measured and, if it finished, again without for its processor
-/// time (short runs several times, for a time that the clock resolves). Nothing when interrupted.
+/// time (short runs several times, for a time that the clock resolves), unless the plan's extras leave
+/// that out: the time is then that of the run with its errors. Nothing when interrupted.
 std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task, TaskShare& share,
                                       const std::atomic<bool>* interrupt);
 

@@ -52,7 +52,9 @@ std::vector<RunTask> MethodStudy::missing(const RefinementPlan& steps) const {
       const auto count = levels[level].counts[n];
       if (runs_.contains(count)) continue;
       const bool shown = level == measured && n == 0;
-      tasks.push_back({method_, levels[level].steps[n], count, shown ? history_bins : 0, shown});
+      const auto& extras = plan_->extras;
+      tasks.push_back({method_, levels[level].steps[n], count,
+                       shown && extras.record ? history_bins : 0, shown && extras.metrics});
     }
   return tasks;
 }
@@ -108,7 +110,7 @@ void MethodStudy::close(RefinementEnd end, double next_seconds) {
 }
 
 Subject MethodStudy::finish(std::span<const double> exact) {
-  if (subject_.refusal.empty() && subject_.resolution == Resolution::step) {
+  if (plan_->extras.record && subject_.refusal.empty() && subject_.resolution == Resolution::step) {
     std::vector<assess::ResponseLevel> ends;
     for (const auto& level : subject_.levels) {
       ends.emplace_back();

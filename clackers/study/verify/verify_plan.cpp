@@ -42,8 +42,50 @@ double fast_period(const cases::Case& problem) {
 
 Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
 
-PlannedMethod planned(const std::string& specification, const model::ImpactProblem<>& problem,
-                      bool collides) {
+// One refusal beside other methods is a row of the record; nothing but refusals is refused input.
+void require_some_method(const std::vector<PlannedMethod>& all,
+                         const model::ImpactProblem<>& problem) {
+  const auto takes = [](const PlannedMethod& one) { return one.subject.refusal.empty(); };
+  if (std::ranges::any_of(all, takes)) return;
+  const auto objection = all.front().method->objection(problem);
+  throw InputError(objection->sentence, objection->code);
+}
+
+CasePlan plan_of(const VerifyRequest& request, cases::Case problem) {
+  auto plan = plan_without_methods(request.plan, request.tolerances, std::move(problem));
+  for (const auto& specification :
+       request.methods.empty() ? methods::default_panel() : request.methods) {
+    auto method = planned_method(specification, plan);
+    const auto same = [&](const PlannedMethod& one) {
+      return one.subject.name == method.subject.name;
+    };
+    if (std::ranges::any_of(plan.methods, same))
+      refuse("verify", "method", specification, "each method once",
+             fmt::format("{} was named before.", method.subject.name), "bad-syntax");
+    plan.methods.push_back(std::move(method));
+  }
+  require_some_method(plan.methods, plan.problem.problem);
+  return plan;
+}
+
+}  // namespace
+
+CasePlan plan_without_methods(const RefinementRequest& steps, std::vector<double> tolerances,
+                              cases::Case problem) {
+  CasePlan plan;
+  plan.problem = std::move(problem);
+  plan.summary = summary_of(plan.problem);
+  plan.steps = plan_for(steps, plan.summary);
+  require_steps(plan.steps, plan.summary.end);
+  levels_of(plan, plan.steps);  // refuses too many steps before any work
+  plan.tolerances =
+      tolerances.empty() ? tolerances_from(default_tolerances) : std::move(tolerances);
+  return plan;
+}
+
+PlannedMethod planned_method(const std::string& specification, const CasePlan& plan) {
+  const auto& problem = plan.problem.problem;
+  const bool collides = plan.summary.impact_count > 0;
   PlannedMethod planned;
   planned.method = methods::method(specification);
   const auto facts = planned.method->facts();
@@ -67,41 +109,6 @@ PlannedMethod planned(const std::string& specification, const model::ImpactProbl
   }
   return planned;
 }
-
-// One refusal beside other methods is a row of the record; nothing but refusals is refused input.
-void require_some_method(const std::vector<PlannedMethod>& all,
-                         const model::ImpactProblem<>& problem) {
-  const auto takes = [](const PlannedMethod& one) { return one.subject.refusal.empty(); };
-  if (std::ranges::any_of(all, takes)) return;
-  const auto objection = all.front().method->objection(problem);
-  throw InputError(objection->sentence, objection->code);
-}
-
-CasePlan plan_of(const VerifyRequest& request, cases::Case problem) {
-  CasePlan plan;
-  plan.problem = std::move(problem);
-  plan.summary = summary_of(plan.problem);
-  plan.steps = plan_for(request.plan, plan.summary);
-  require_steps(plan.steps, plan.summary.end);
-  for (const auto& specification :
-       request.methods.empty() ? methods::default_panel() : request.methods) {
-    auto method = planned(specification, plan.problem.problem, plan.summary.impact_count > 0);
-    const auto same = [&](const PlannedMethod& one) {
-      return one.subject.name == method.subject.name;
-    };
-    if (std::ranges::any_of(plan.methods, same))
-      refuse("verify", "method", specification, "each method once",
-             fmt::format("{} was named before.", method.subject.name), "bad-syntax");
-    plan.methods.push_back(std::move(method));
-  }
-  require_some_method(plan.methods, plan.problem.problem);
-  levels_of(plan, plan.steps);  // refuses too many steps before any work
-  plan.tolerances = request.tolerances;
-  if (plan.tolerances.empty()) plan.tolerances = tolerances_from(default_tolerances);
-  return plan;
-}
-
-}  // namespace
 
 std::string short_name(const std::string& name) {
   constexpr std::string_view understood = "+event-driven";

@@ -18,6 +18,13 @@ struct PlannedMethod {
   double spring_time = 0.0;  ///< contact time of a linear contact spring [s]; 0: it has none
 };
 
+/// What is made of runs beside their errors.
+struct Extras {
+  bool record = true;   ///< what only a record shows: error histories, motions, self-convergence
+  bool metrics = true;  ///< of one run of each method
+  bool times = true;    ///< each run made again for its processor time
+};
+
 /// One case of a request, ready to run.
 struct CasePlan {
   cases::Case problem;
@@ -25,6 +32,7 @@ struct CasePlan {
   std::vector<PlannedMethod> methods;
   RefinementPlan steps;
   std::vector<double> tolerances;  ///< the levels of adaptive methods
+  Extras extras{};
 };
 
 /// The plan of a case whose subjects are histories.
@@ -48,6 +56,13 @@ bool has_adaptive_method(const VerifyRequest& request);
 
 /// The cases of a request. Throws InputError for one that is named twice, and as cases::make() does.
 std::vector<cases::Case> cases_of(const VerifyRequest& request);
+
+/// The plan of a case without methods. Throws InputError for steps that verify() refuses.
+CasePlan plan_without_methods(const RefinementRequest& steps, std::vector<double> tolerances,
+                              cases::Case problem);
+/// A method on the case of a plan; one that objects has its refusal. Throws InputError for the
+/// specification.
+PlannedMethod planned_method(const std::string& specification, const CasePlan& plan);
 
 /// Throws InputError for what verify() refuses.
 std::vector<CasePlan> plans_of(const VerifyRequest& request);

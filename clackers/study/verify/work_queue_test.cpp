@@ -1,4 +1,4 @@
-#include "clackers/study/verify/work_queue.hpp"
+#include "clackers/study/work_queue.hpp"
 
 #include <gtest/gtest.h>
 

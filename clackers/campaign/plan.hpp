@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "clackers/campaign/specification.hpp"
+#include "clackers/study/sheet.hpp"
+
+namespace clackers::campaign {
+
+/// What a campaign takes. Runs, time and disk are estimates: of each case one system stands for all.
+struct Plan {
+  long long systems = 0, tasks = 0;
+  double runs = 0.0;
+  double seconds = 0.0;  ///< processor time [s]; 0 unless timed
+  double bytes = 0.0;    ///< of the database
+};
+
+/// Of each case the first admissible one of a few systems is prepared. With `timed` the shortest run of
+/// each method is made on it, for some seconds at most. Throws as solvers_of() does.
+Plan plan_of(const Specification& specification, const std::vector<std::string>& plugin_host,
+             bool timed);
+
+/// A quantity a row: what `clackers campaign plan` prints.
+study::Sheet plan_sheet(const Plan& plan);
+
+/// Runs beyond this are not started unasked.
+inline constexpr double most_runs_unasked = 1e7;
+
+/// Throws InputError (too-many-runs) with the estimate for a campaign of more runs.
+void require_few_runs(const Specification& specification,
+                      const std::vector<std::string>& plugin_host);
+
+}  // namespace clackers::campaign

@@ -1,0 +1,331 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/assess/metrics/metric.hpp"
+#include "clackers/base/suggest.hpp"
+#include "clackers/campaign/specification.hpp"
+#include "clackers/campaign/specification/sampling.hpp"
+#include "clackers/cases/toml_reader.hpp"
+#include "clackers/methods/registry.hpp"
+#include "clackers/study/cause_metrics.hpp"
+#include "clackers/study/check.hpp"
+#include "clackers/study/program.hpp"
+
+namespace clackers::campaign {
+namespace {
+
+constexpr double most_tasks = 1e18;
+
+std::vector<std::string> metric_names() {
+  std::vector<std::string> names;
+  for (const auto& metric : assess::metrics()) names.emplace_back(metric.name);
+  for (const auto& metric : study::cause_metrics()) names.emplace_back(metric.name);
+  return names;
+}
+
+}  // namespace
+
+// Fills a specification from its parsed text.
+class SpecificationReader : public TomlReader {
+ public:
+  SpecificationReader(const std::string& name, Specification& out) : TomlReader(name), out_(out) {}
+
+  void read(const toml::table& root) {
+    require_known(root, {"methods", "ladder", "metrics", "times", "cases"}, "");
+    for (const auto& node :
+         list(need(root, "methods", "a list of methods, [\"panel\"]"), "methods"))
+      add_methods(node);
+    if (const auto* node = root.get("ladder")) read_ladder(*node);
+    if (const auto* node = root.get("metrics")) read_metrics(*node);
+    if (const auto* node = root.get("times")) out_.times_runs_ = flag(*node, "times");
+    need(root, "cases", "[[cases]] above each case");
+    for (const auto& node : *tables(root, "cases")) add_case(*node.as_table());
+    if (out_.cases_.empty()) fail(root, "cases is empty; allowed: one or more [[cases]].", empty);
+  }
+
+ private:
+  static constexpr Code empty = "bad-syntax";
+
+  const toml::array& list(const toml::node& node, const std::string& what) const {
+    const auto* found = node.as_array();
+    if (found == nullptr || found->empty())
+      fail(node,
+           fmt::format("{} is no list of one or more values; allowed: [ ] around them.", what),
+           "bad-syntax");
+    return *found;
+  }
+  const toml::table& table(const toml::node& node, const std::string& what,
+                           const char* allowed) const {
+    const auto* found = node.as_table();
+    if (found == nullptr)
+      fail(node, fmt::format("{} is no table; allowed: {}.", what, allowed), "bad-syntax");
+    return *found;
+  }
+  std::string word(const toml::node& node, const std::string& what) const {
+    const auto found = node.value_exact<std::string>();
+    if (!found || found->empty())
+      fail(node, fmt::format("{} is no text; allowed: a word in quotes.", what), "bad-syntax");
+    return *found;
+  }
+  bool flag(const toml::node& node, const std::string& what) const {
+    const auto found = node.value_exact<bool>();
+    if (!found)
+      fail(node, fmt::format("{} is no flag; allowed: true or false.", what), "bad-syntax");
+    return *found;
+  }
+  long long whole(const toml::node& node, const std::string& what, double lowest,
+                  double highest) const {
+    const double value = number(node, what);
+    if (!(value >= lowest && value <= highest && value == std::floor(value)))
+      fail(node,
+           fmt::format("{} = {}; allowed: a whole number, {} to {}.", what, value, lowest, highest),
+           "out-of-range");
+    return static_cast<long long>(value);
+  }
+  // Errors of other readers get the place in front.
+  template <class Work>
+  auto at(const toml::node& node, const Work& work) const {
+    try {
+      return work();
+    } catch (const InputError& error) {
+      fail(node, error.what(), error.code());
+    }
+  }
+
+  void add_methods(const toml::node& node) {
+    if (node.is_table()) return add_solver(node, *node.as_table());
+    const auto text = word(node, "a method");
+    if (text == "all" || text == "panel") {
+      for (const auto& one : text == "all" ? methods::pairs() : methods::default_panel())
+        add_method(node, {MethodEntry::Kind::catalogue, one, {}, {}});
+    } else {
+      at(node, [&] { return methods::method(text); });
+      add_method(node, {MethodEntry::Kind::catalogue, text, {}, {}});
+    }
+  }
+  void add_method(const toml::node& node, MethodEntry entry) {
+    const auto same = [&](const MethodEntry& one) {
+      return one.text == entry.text && one.name == entry.name;
+    };
+    if (std::ranges::any_of(out_.methods_, same))
+      fail(node, fmt::format("method = {}; allowed: each method once.", entry.text), "bad-syntax");
+    out_.methods_.push_back(std::move(entry));
+  }
+  void add_solver(const toml::node& node, const toml::table& values) {
+    require_known(values, {"exec", "plugin", "name", "expect"}, " of a method");
+    const auto* exec = values.get("exec");
+    const auto* plugin = values.get("plugin");
+    if ((exec == nullptr) == (plugin == nullptr))
+      fail(node, "a table among methods has either exec or plugin; allowed: one of the two.",
+           "bad-syntax");
+    MethodEntry entry;
+    entry.kind = exec != nullptr ? MethodEntry::Kind::command : MethodEntry::Kind::plugin;
+    entry.text = exec != nullptr ? word(*exec, "exec") : word(*plugin, "plugin");
+    if (const auto* name = values.get("name")) entry.name = word(*name, "name");
+    if (const auto* expect = values.get("expect")) {
+      entry.expect = word(*expect, "expect");
+      at(*expect, [&] { return study::claim_from(entry.expect); });
+    }
+    add_method(node, std::move(entry));
+  }
+
+  void read_ladder(const toml::node& node) {
+    const auto& values = table(node, "ladder", "[ladder] with levels and more below it");
+    require_known(values, {"levels", "neighbours", "coarsest", "tolerances"}, " of ladder");
+    auto& ladder = out_.ladder_;
+    if (const auto* found = values.get("levels"))
+      ladder.levels = static_cast<int>(whole(*found, "levels", 1, 64));
+    if (const auto* found = values.get("neighbours"))
+      ladder.neighbours = static_cast<int>(whole(*found, "neighbours", 1, 64));
+    if (const auto* found = values.get("coarsest")) {
+      ladder.coarsest = number(*found, "coarsest");
+      if (!(*ladder.coarsest > 0.0))
+        fail(*found, fmt::format("coarsest = {}; allowed: above 0 s.", *ladder.coarsest),
+             "step-not-positive");
+    }
+    if (const auto* found = values.get("tolerances"))
+      ladder.tolerances = at(*found, [&] { return tolerances(*found); });
+  }
+  std::vector<double> tolerances(const toml::node& node) const {
+    if (!node.is_array()) return study::tolerances_from(word(node, "tolerances"));
+    std::string text;
+    for (const auto& one : list(node, "tolerances"))
+      text += fmt::format("{}{}", text.empty() ? "" : ",", number(one, "a tolerance"));
+    return study::tolerances_from(text);
+  }
+
+  void read_metrics(const toml::node& node) {
+    const auto known = metric_names();
+    if (node.is_boolean()) {
+      if (flag(node, "metrics")) out_.metrics_ = known;
+      return;
+    }
+    for (const auto& one : list(node, "metrics")) {
+      const auto name = word(one, "a metric");
+      if (std::ranges::find(known, name) == known.end())
+        at(one, [&] { refuse_name("metric", name, known, "clackers list metrics"); });
+      out_.metrics_.push_back(name);
+    }
+  }
+
+  void add_case(const toml::table& values) {
+    require_known(values, {"case", "set", "sample"}, " of a case");
+    const auto& name = need(values, "case", "the name of a case (clackers list cases)");
+    CaseSystems added;
+    added.name = word(name, "case");
+    const auto& entry = at(name, [&] { return &cases::entry(added.name); })->parameters;
+    if (const auto* sample = values.get("sample")) added.sample = sample_of(*sample);
+    if (const auto* set = values.get("set"))
+      for (const auto& [key, node] : table(*set, "set", "{ NAME = value, ... }"))
+        added.axes.push_back(axis_of(added, entry, std::string(key.str()), node));
+    in_file_order(added, values);
+    count(added, values);
+    out_.cases_.push_back(std::move(added));
+  }
+  // Tables of toml++ are sorted by name; the file's order is that of lines and columns.
+  static void in_file_order(CaseSystems& systems, const toml::table& values) {
+    const auto* set = values.get("set");
+    if (set == nullptr) return;
+    const auto place = [&](const Axis& axis) {
+      const auto begin = set->as_table()->get(axis.name)->source().begin;
+      return std::pair(begin.line, begin.column);
+    };
+    std::ranges::sort(systems.axes, {}, place);
+  }
+
+  Sample sample_of(const toml::node& node) const {
+    const auto& values = table(node, "sample", "{ kind = \"sobol\", points = 100, seed = 1 }");
+    require_known(values, {"kind", "points", "seed"}, " of a sample");
+    static const std::vector<std::string> kinds{"grid", "latin-hypercube", "sobol"};
+    const auto& kind = need(values, "kind", "grid, latin-hypercube or sobol");
+    const auto name = word(kind, "kind");
+    const auto found = std::ranges::find(kinds, name);
+    if (found == kinds.end())
+      at(kind, [&] {
+        refuse_name("kind of sample", name, kinds, fmt::format("{}", fmt::join(kinds, ", ")));
+      });
+    Sample sample;
+    sample.kind = static_cast<SampleKind>(found - kinds.begin());
+    sample.points =
+        whole(need(values, "points", "the number of points"), "points", 1, 9007199254740992.0);
+    if (const auto* seed = values.get("seed"))
+      sample.seed = whole(*seed, "seed", 0, 9007199254740992.0);
+    return sample;
+  }
+
+  Axis axis_of(const CaseSystems& systems, const std::vector<Parameter>& known,
+               const std::string& name, const toml::node& node) const {
+    std::vector<std::string> names;
+    for (const auto& parameter : known) names.push_back(parameter.name);
+    if (std::ranges::find(names, name) == names.end())
+      at(node, [&] {
+        refuse_name("parameter of " + systems.name, name, names, "clackers show " + systems.name);
+      });
+    Axis axis;
+    axis.name = name;
+    if (const auto* range = node.as_table()) {
+      read_range(systems, axis, *range);
+    } else if (node.is_array()) {
+      for (const auto& one : list(node, name)) axis.listed.push_back(value(one, name));
+    } else {
+      axis.listed = {value(node, name)};
+    }
+    return axis;
+  }
+  ParameterValue value(const toml::node& node, const std::string& name) const {
+    if (node.is_string()) return word(node, name);
+    return number(node, name);
+  }
+  void read_range(const CaseSystems& systems, Axis& axis, const toml::table& values) const {
+    const auto& name = axis.name;
+    require_known(values, {"from", "to", "points", "scale"}, " of a range");
+    axis.from = number(values, "from", "where the range begins");
+    axis.to = number(values, "to", "where the range ends");
+    if (const auto* scale = values.get("scale")) {
+      const auto text = word(*scale, "scale");
+      if (text != "log" && text != "linear")
+        fail(*scale, fmt::format("scale = {}; allowed: linear or log.", text), "unknown-name");
+      axis.is_log = text == "log";
+    }
+    if (axis.is_log && !(axis.from > 0.0 && axis.to > 0.0))
+      fail(values,
+           fmt::format("{} from {} to {}; allowed: above 0 on a log scale.", name, axis.from,
+                       axis.to),
+           "out-of-range");
+    const bool is_grid = systems.sample.kind == SampleKind::grid;
+    const auto* points = values.get("points");
+    if (!is_grid && points != nullptr)
+      fail(*points,
+           fmt::format(
+               "{} has points of its own; allowed: those of sample, of all ranges together.", name),
+           "bad-syntax");
+    if (!is_grid) return;
+    if (points == nullptr && systems.sample.points == 0)
+      fail(
+          values,
+          fmt::format(
+              "the range of {} has no points; allowed: {{ from = {}, to = {}, points = 5 }}, or a sample "
+              "beside set.",
+              name, axis.from, axis.to),
+          "no-column");
+    axis.points =
+        points == nullptr ? systems.sample.points : whole(*points, "points", 1, 9007199254740992.0);
+    if (axis.points == 1 && axis.from != axis.to)
+      fail(
+          values,
+          fmt::format(
+              "the range of {} has 1 point and two ends; allowed: 2 points or more, or one number.",
+              name),
+          "out-of-range");
+  }
+
+  // Counted in doubles first: the product may not fit.
+  void count(const CaseSystems& added, const toml::table& values) {
+    double product = 1.0;
+    std::size_t dimensions = 0;
+    const bool is_grid = added.sample.kind == SampleKind::grid;
+    for (const auto& axis : added.axes) {
+      if (axis.is_range() && !is_grid)
+        ++dimensions;
+      else
+        product *= double(axis.size());
+    }
+    if (!is_grid && dimensions == 0)
+      fail(values,
+           fmt::format(
+               "{} has a sample and no range; allowed: a range {{ from = 0, to = 1 }} in set.",
+               added.name),
+           "bad-syntax");
+    if (dimensions > most_dimensions)
+      fail(values,
+           fmt::format("{} ranges are sampled; allowed: up to {}.", dimensions, most_dimensions),
+           "out-of-range");
+    if (dimensions > 0) product *= double(added.sample.points);
+    const double tasks = (double(out_.systems_) + product) * double(out_.methods_.size());
+    if (!(tasks <= most_tasks))
+      fail(values, fmt::format("{:.3g} tasks with this case; allowed: up to 1e18.", tasks),
+           "too-many-runs");
+    out_.systems_ += added.size();
+  }
+
+  Specification& out_;
+};
+
+Specification Specification::from_toml(std::string_view text, const std::string& name) {
+  Specification specification;
+  specification.name_ = name;
+  specification.text_ = text;
+  SpecificationReader(name, specification).read(toml_from(text, name));
+  return specification;
+}
+
+Specification Specification::read(const std::string& path) {
+  return from_toml(
+      text_of_file(path, "A campaign's specification is a TOML file: clackers campaign --help"),
+      path);
+}
+
+}  // namespace clackers::campaign

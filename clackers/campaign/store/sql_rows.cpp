@@ -1,0 +1,94 @@
+#include "clackers/campaign/store/sql_rows.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace clackers::campaign {
+namespace {
+
+using study::Cell;
+
+class SqlRows : public study::RowSource {
+ public:
+  SqlRows(std::string schema, std::string title, std::vector<study::Column> columns,
+          Statement statement)
+      : schema_(std::move(schema)),
+        title_(std::move(title)),
+        columns_(std::move(columns)),
+        statement_(std::move(statement)) {}
+
+  std::string schema() const override { return schema_; }
+  std::string title() const override { return title_; }
+  const std::vector<study::Column>& columns() const override { return columns_; }
+  bool next(std::vector<Cell>& row) override {
+    if (!statement_.step()) return false;
+    row.clear();
+    for (int i = 0; i < statement_.columns(); ++i) row.push_back(statement_.cell(i));
+    if (++made_ % 1000 == 0) report(0, 1);
+    return true;
+  }
+
+ private:
+  std::string schema_, title_;
+  std::vector<study::Column> columns_;
+  Statement statement_;
+  long long made_ = 0;
+};
+
+double number(const Cell& cell) {
+  if (const auto* real = std::get_if<double>(&cell)) return *real;
+  if (const auto* whole = std::get_if<long long>(&cell)) return double(*whole);
+  return std::nan("");
+}
+
+class SqlNumbers : public study::NumberRows {
+ public:
+  SqlNumbers(std::string schema, std::string title, const std::vector<study::Column>& columns,
+             Statement statement, long long count)
+      : schema_(std::move(schema)),
+        title_(std::move(title)),
+        statement_(std::move(statement)),
+        count_(count) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (columns[i].kind != study::ColumnKind::any) {
+        columns_.push_back(columns[i]);
+        places_.push_back(int(i));
+      }
+  }
+
+  std::string schema() const override { return schema_; }
+  std::string title() const override { return title_; }
+  const std::vector<study::Column>& columns() const override { return columns_; }
+  long long count() const override { return count_; }
+  bool next_block(std::vector<double>& values) override {
+    constexpr int block = 1024;
+    values.clear();
+    for (int row = 0; row < block && made_ < count_ && statement_.step(); ++row, ++made_)
+      for (const int place : places_) values.push_back(number(statement_.cell(place)));
+    if (!values.empty()) report(made_, count_);
+    return !values.empty();
+  }
+
+ private:
+  std::string schema_, title_;
+  std::vector<study::Column> columns_;
+  std::vector<int> places_;
+  Statement statement_;
+  long long count_, made_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<study::RowSource> sql_rows(const std::string& schema, const std::string& title,
+                                           std::vector<study::Column> columns,
+                                           Statement statement) {
+  return std::make_unique<SqlRows>(schema, title, std::move(columns), std::move(statement));
+}
+
+std::unique_ptr<study::RowSource> sql_numbers(const std::string& schema, const std::string& title,
+                                              const std::vector<study::Column>& columns,
+                                              Statement statement, long long count) {
+  return std::make_unique<SqlNumbers>(schema, title, columns, std::move(statement), count);
+}
+
+}  // namespace clackers::campaign

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "clackers/study/sheet.hpp"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+// The only file that calls SQLite.
+namespace clackers::campaign {
+
+enum class OpenMode { read, write };
+
+/// A prepared statement. The database must outlive it.
+class Statement {
+ public:
+  Statement(sqlite3* database, sqlite3_stmt* statement, const std::string& path)
+      : database_(database), statement_(statement), path_(&path) {}
+
+  /// The parameters from 1; text must live until the next step.
+  void bind(int parameter, const study::Cell& cell);
+  /// True while there is a row.
+  bool step();
+  /// Runs it to the end and makes it ready for other parameters.
+  void run();
+
+  int columns() const;
+  std::string column_name(int column) const;
+  study::Cell cell(int column) const;
+  long long whole(int column) const;
+  std::string text(int column) const;
+  bool only_reads() const;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+
+  sqlite3* database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  const std::string* path_;
+};
+
+/// An open SQLite file. Whatever fails throws: a full disk or one that cannot be written FileError
+/// (cannot-write), one that cannot be read FileError (cannot-read), a file that is no database or a
+/// damaged one InputError (not-a-campaign), a locked one InputError (database-busy), a statement that
+/// SQLite does not understand InputError (bad-syntax).
+class Sqlite {
+ public:
+  /// `write` makes the file where there is none.
+  Sqlite(const std::string& path, OpenMode mode);
+
+  const std::string& path() const { return *path_; }
+  /// Throws InputError (bad-syntax), also for more than one statement.
+  Statement prepare(std::string_view sql) const;
+  /// Several statements, separated by semicolons, none with rows.
+  void execute(const std::string& sql) const;
+  /// The number in the first column of the first row.
+  long long whole(std::string_view sql) const;
+  /// Rows changed by the last statement.
+  long long changes() const;
+  /// From here on statements neither write nor open other files.
+  void only_read() const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+
+  std::unique_ptr<std::string> path_;  // statements point to it
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+/// A name as SQL writes it: "set_N", "metric:u-maximum".
+std::string quoted(std::string_view name);
+
+}  // namespace clackers::campaign

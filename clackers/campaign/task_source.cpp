@@ -1,0 +1,99 @@
+#include "clackers/campaign/task_source.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <utility>
+
+#include "clackers/base/error.hpp"
+
+namespace clackers::campaign {
+namespace {
+
+constexpr long long most_shards = 1000000;
+
+// The whole number that is all of `text`; 0 for anything else.
+long long whole(std::string_view text) {
+  long long value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : 0;
+}
+
+}  // namespace
+
+TaskSet::TaskSet(std::vector<TaskBlock> blocks) {
+  std::ranges::sort(blocks, {}, &TaskBlock::first);
+  for (const auto& block : blocks) {
+    if (block.size() <= 0) continue;
+    if (blocks_.empty() || block.first > blocks_.back().last)
+      blocks_.push_back(block);
+    else
+      blocks_.back().last = std::max(blocks_.back().last, block.last);
+  }
+}
+
+void TaskSet::append(long long task) {
+  if (blocks_.empty() || task > blocks_.back().last)
+    blocks_.push_back({task, task + 1});
+  else
+    blocks_.back().last = std::max(blocks_.back().last, task + 1);
+}
+
+bool TaskSet::contains(long long task) const {
+  const auto after = std::ranges::upper_bound(blocks_, task, {}, &TaskBlock::first);
+  return after != blocks_.begin() && task < std::prev(after)->last;
+}
+
+long long TaskSet::size() const {
+  long long count = 0;
+  for (const auto& block : blocks_) count += block.size();
+  return count;
+}
+
+Shard shard_from(std::string_view text) {
+  const auto slash = text.find('/');
+  const Shard shard{whole(text.substr(0, slash)),
+                    slash == text.npos ? 0 : whole(text.substr(slash + 1))};
+  if (!(shard.index >= 1 && shard.index <= shard.count && shard.count <= most_shards))
+    refuse("campaign", "shard", text, "i/n with 1 <= i <= n <= 1e6",
+           "3/16 is the third of sixteen parts.");
+  return shard;
+}
+
+LocalTasks::LocalTasks(long long tasks, TaskSet finished, long long block, Shard shard)
+    : tasks_(tasks), block_(std::max(1LL, block)), finished_(std::move(finished)), shard_(shard) {
+  at_ = (shard_.index - 1) * block_;
+  const auto left = tasks_ - finished_.size();
+  remaining_ = shard_.is_all() ? left : (left + shard_.count - 1) / shard_.count;
+}
+
+std::optional<TaskBlock> LocalTasks::next() {
+  const std::lock_guard lock(guard_);
+  const auto finished = finished_.blocks();
+  while (at_ < tasks_) {
+    while (interval_ < finished.size() && finished[interval_].last <= at_) ++interval_;
+    const auto number = at_ / block_;
+    const auto mine = number - number % shard_.count + shard_.index - 1;
+    if (number != mine) {
+      at_ = (mine > number ? mine : mine + shard_.count) * block_;
+      continue;
+    }
+    const bool has_finished = interval_ < finished.size();
+    if (has_finished && finished[interval_].first <= at_) {
+      at_ = finished[interval_].last;
+      continue;
+    }
+    auto last = std::min(tasks_, (number + 1) * block_);
+    if (has_finished) last = std::min(last, finished[interval_].first);
+    return TaskBlock{std::exchange(at_, last), last};
+  }
+  return {};
+}
+
+long long block_size(const Specification& specification, long long workers) {
+  constexpr long long blocks_a_worker = 8;
+  const auto methods = static_cast<long long>(specification.methods().size());
+  return specification.systems() >= blocks_a_worker * workers ? methods : 1;
+}
+
+}  // namespace clackers::campaign

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+
+#include "clackers/base/error.hpp"
+#include "clackers/campaign/specification.hpp"
+#include "clackers/study/solver.hpp"
+#include "clackers/study/system_study.hpp"
+
+namespace clackers::campaign {
+
+/// A system ready to run, or why it is none.
+class PreparedSystem {
+ public:
+  /// The specification must outlive it.
+  PreparedSystem(const Specification& specification, System system);
+
+  const System& system() const { return system_; }
+  bool is_admissible() const { return study_.has_value(); }
+
+  /// A record with one subject, valid until the next call; nullptr when interrupted. `solver` is there
+  /// for a method that is none of the catalogue.
+  const study::CaseRecord* assess(const MethodEntry& method,
+                                  const std::optional<study::SolverSubject>& solver,
+                                  const std::atomic<bool>* interrupt);
+  study::CostEstimate estimate(const MethodEntry& method,
+                               const std::optional<study::SolverSubject>& solver, bool timed);
+
+ private:
+  const study::CaseRecord* refused(std::string name, const InputError& why);
+
+  const Specification& specification_;
+  System system_;
+  std::optional<study::SystemStudy> study_;
+  std::optional<InputError> refusal_;
+  study::CaseRecord record_;  // of what was refused
+};
+
+}  // namespace clackers::campaign

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clackers/base/error.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/study/record.hpp"
+#include "clackers/study/refinement.hpp"
+#include "clackers/study/solver.hpp"
+
+namespace clackers::study {
+
+/// How methods are assessed on a system.
+struct SystemRequest {
+  RefinementRequest plan{};
+  std::vector<double> tolerances{};  ///< the levels of adaptive methods; empty: default_tolerances
+  bool metrics = false;              ///< of one run of each method
+  bool times = false;  ///< each run made again for its processor time; else that of run and errors
+};
+
+/// What a method costs on a system.
+struct CostEstimate {
+  std::size_t runs = 0;
+  double seconds = 0.0;  ///< processor time of all runs, from that of the first [s]
+};
+
+/// One system, prepared once, whose methods are assessed one after another on one thread, without
+/// refinement, and without what only a record shows: curves, self-convergence, profiles. Numbers are
+/// those of verify().
+class SystemStudy {
+ public:
+  /// Throws InputError for steps that verify() refuses.
+  SystemStudy(const SystemRequest& request, cases::Case problem);
+  ~SystemStudy();
+  SystemStudy(const SystemStudy&) = delete;
+  SystemStudy& operator=(const SystemStudy&) = delete;
+
+  /// The case with the method as its only subject, valid until the next call; nullptr when
+  /// interrupted. A method that objects has its refusal. Throws InputError as verify() does.
+  const CaseRecord* assess(const std::string& method, const std::atomic<bool>* interrupt = nullptr);
+  /// The same of a solver over another ladder, since its runs cost more.
+  const CaseRecord* assess(const SolverSubject& solver, const RefinementRequest& ladder,
+                           const std::atomic<bool>* interrupt = nullptr);
+  /// What assess() would do; `seconds` only where `timed`: one run is made then, the shortest.
+  CostEstimate estimate(const std::string& method, bool timed);
+  CostEstimate estimate(const SolverSubject& solver, const RefinementRequest& ladder, bool timed);
+
+ private:
+  struct Plan;
+
+  std::unique_ptr<Plan> plan_;
+  CaseRecord record_;
+};
+
+/// The record of a system that was refused as a whole: the names alone, and why.
+CaseRecord refused_record(std::string_view case_name, std::string subject_name,
+                          const InputError& why);
+
+/// The name that a method of the catalogue has in every output.
+std::string subject_name(const std::string& method);
+
+}  // namespace clackers::study

@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "clackers/base/error.hpp"
+#include "clackers/base/suggest.hpp"
+#include "cli/command.hpp"
+#include "cli/commands/campaign_actions.hpp"
+
+namespace clackers::cli {
+namespace {
+
+struct ActionRow {
+  std::string name;
+  CampaignAction act;
+  std::size_t most_files;
+  std::vector<std::string> options;  // beside --format, --out, --quiet, --no-color
+};
+
+// A new action is a row here, its name in the help below, and its function.
+const std::vector<ActionRow>& actions() {
+  constexpr std::size_t any = 1000000;
+  static const std::vector<ActionRow> rows{
+      {"plan", plan_campaign, 1, {}},
+      {"run", run_campaign, 1, {"--database", "--shard", "--jobs", "--yes"}},
+      {"status", show_status, 1, {}},
+      {"merge", merge_shards, any, {}},
+      {"export", export_rows, 1, {"--table", "--times"}},
+      {"query", query_database, 2, {}},
+  };
+  return rows;
+}
+
+void require_used(const ActionRow& action, const CampaignOptions& options) {
+  const auto require = [&](const char* name, bool is_given) {
+    if (!is_given || std::ranges::find(action.options, name) != action.options.end()) return;
+    throw InputError(
+        fmt::format("campaign {} takes no {}. See: clackers campaign --help", action.name, name),
+        "bad-syntax");
+  };
+  require("--database", !options.database.empty());
+  require("--shard", !options.shard.empty());
+  require("--jobs", !options.jobs.empty());
+  require("--yes", options.yes);
+  require("--table", !options.table.empty());
+  require("--times", options.times);
+}
+
+int run(const CampaignOptions& options, const std::string& line) {
+  std::vector<std::string> names;
+  for (const auto& action : actions()) names.push_back(action.name);
+  const auto words = fmt::format("{}", fmt::join(names, ", "));
+  if (options.action.empty())
+    throw InputError(
+        fmt::format("campaign needs an action: {}. See: clackers campaign --help", words),
+        "bad-syntax");
+  const auto action = std::ranges::find(actions(), options.action, &ActionRow::name);
+  if (action == actions().end()) refuse_name("action of campaign", options.action, names, words);
+  if (options.files.empty())
+    throw InputError(
+        fmt::format(
+            "campaign {} needs a file: clackers campaign {} {}", action->name, action->name,
+            action == actions().begin() || action->name == "run" ? "SPEC.toml" : "DATABASE"),
+        "bad-syntax");
+  if (options.files.size() > action->most_files)
+    throw InputError(
+        fmt::format("campaign {}: one argument too many: \"{}\". See: clackers campaign "
+                    "--help",
+                    action->name, options.files.back()),
+        "bad-syntax");
+  require_used(*action, options);
+  return action->act(options, line);
+}
+
+}  // namespace
+
+void add_campaign(Grammar& root) {
+  const auto options = std::make_shared<CampaignOptions>();
+  auto* app =
+      root.add_subcommand("campaign", "ACTION FILE ...", "assess methods on thousands of systems");
+  set_help(
+      *app,
+      {.examples =
+           "  clackers campaign plan spec.toml\n"
+           "  clackers campaign run spec.toml --database runs.db\n"
+           "  clackers campaign status runs.db\n"
+           "  clackers campaign export runs.db --format csv --out runs.csv\n"
+           "  clackers campaign query runs.db \"SELECT method, verdict, count(*) FROM subjects "
+           "GROUP BY 1, 2\"\n"
+           "  clackers campaign run spec.toml --database runs.db --shard 3/16\n"
+           "  clackers campaign merge runs.db\n",
+       .about =
+           "Runs every method of a specification on every system: cases with listed values, ranges or "
+           "samples of their parameters. The results are rows of one SQLite database. A campaign "
+           "that was interrupted goes on when it is run again; rows do not depend on the number of "
+           "threads, on their order or on interruptions. A specification reads:\n\n"
+           "  methods = [\"newmark\", \"rk4\", \"moreau-jean\"]  # or \"panel\", \"all\"\n"
+           "  [ladder]\n"
+           "  levels = 5\n"
+           "  [[cases]]\n"
+           "  case = \"three-parameter\"\n"
+           "  set = { N = [0, 1, 2], xi1 = { from = 0.0, to = 0.2, points = 4 } }",
+       .usage = "  clackers campaign plan SPEC.toml\n"
+                "  clackers campaign run SPEC.toml [--database FILE] [--shard i/n] [--jobs n] "
+                "[--yes]\n"
+                "  clackers campaign status DATABASE\n"
+                "  clackers campaign merge DATABASE [FILE ...]\n"
+                "  clackers campaign export DATABASE [--table runs|subjects] [--times]\n"
+                "  clackers campaign query DATABASE \"SELECT ...\"\n"});
+  app->add_option(
+         "ACTION", options->action,
+         "plan: systems, tasks, runs, and estimates of time and disk. run: run what is not "
+         "finished yet. status: how far a database is, and its verdicts. merge: add the "
+         "tasks of shards, without FILEs those beside the database. export: all rows in "
+         "order. query: a statement in SQL that reads.")
+      ->option_text("plan|run|status|merge|export|query");
+  app->add_option("FILE", options->files,
+                  "The specification (plan, run), or the database; then shards (merge) or a "
+                  "statement (query).")
+      ->option_text("FILE");
+  app->add_option("--database", options->database,
+                  "The database of run; made where there is none. Default: the specification's "
+                  "name with the ending .db.")
+      ->option_text("FILE");
+  app->add_option("--shard", options->shard,
+                  "Run the i-th of n parts, into DATABASE.shard-i-of-n; for job arrays. merge adds "
+                  "the parts to the database.")
+      ->option_text("i/n");
+  app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
+  app->add_flag("--yes", options->yes, "Start a campaign of more than 1e7 runs.");
+  app->add_option("--table", options->table,
+                  "What is exported: runs, a row each run with the columns of its subject, or "
+                  "subjects, a row each system and method. Default: runs.")
+      ->option_text("runs|subjects");
+  app->add_flag("--times", options->times,
+                "Export the processor times as well, which differ from machine to machine.");
+  add_common_options(*app, options->common);
+  app->get_option("--format")
+      ->description(
+          "table (for people), csv or json (numbers read back to the same double), or, of export, npy "
+          "(NumPy, columns of numbers alone). Default: table.")
+      ->option_text("table|csv|json|npy");
+  app->run = [options](const std::string& line) { return run(*options, line); };
+}
+
+}  // namespace clackers::cli

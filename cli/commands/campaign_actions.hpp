@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "clackers/campaign/specification.hpp"
+#include "clackers/campaign/task_source.hpp"
+#include "cli/options.hpp"
+
+// What `clackers campaign` does with its files, an action each.
+namespace clackers::cli {
+
+struct CampaignOptions {
+  CommonOptions common;
+  std::string action;
+  std::vector<std::string> files;  ///< the first is the specification or the database
+  std::string database, shard, jobs, table;
+  bool yes = false, times = false;
+};
+
+/// Each returns the exit code; `line` is the whole command line.
+using CampaignAction = int (*)(const CampaignOptions& options, const std::string& line);
+
+int plan_campaign(const CampaignOptions& options, const std::string& line);
+int run_campaign(const CampaignOptions& options, const std::string& line);
+int show_status(const CampaignOptions& options, const std::string& line);
+int merge_shards(const CampaignOptions& options, const std::string& line);
+int export_rows(const CampaignOptions& options, const std::string& line);
+int query_database(const CampaignOptions& options, const std::string& line);
+
+/// The database of a specification: --database, or its file with the ending .db; of a shard its own.
+std::string database_of(const CampaignOptions& options, const campaign::Shard& shard = {});
+
+/// Prints how far a database is: tasks, verdicts, and the command that goes on.
+void print_status(const CampaignOptions& options, const std::string& database);
+
+}  // namespace clackers::cli

@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <variant>
+
+#include "clackers/base/error.hpp"
+#include "clackers/base/suggest.hpp"
+#include "clackers/campaign/store.hpp"
+#include "clackers/report/write.hpp"
+#include "cli/commands/campaign_actions.hpp"
+#include "cli/files/results.hpp"
+#include "cli/help/text.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/messages.hpp"
+
+namespace clackers::cli {
+namespace {
+
+using study::Cell;
+
+std::vector<std::vector<Cell>> all_rows(const campaign::Store& store, const std::string& sql) {
+  std::vector<std::vector<Cell>> rows;
+  const auto source = store.query(sql);
+  for (std::vector<Cell> row; source->next(row);) rows.push_back(row);
+  return rows;
+}
+
+std::string next_command(const campaign::Store& store, bool is_whole) {
+  const auto& database = store.path();
+  if (is_whole)
+    return shell_line(std::vector<std::string>{"clackers", "campaign", "export", database,
+                                               "--format", "csv", "--out", "runs.csv"});
+  if (!store.shard().empty())
+    return shell_line(std::vector<std::string>{"clackers", "campaign", "merge",
+                                               database.substr(0, database.rfind(".shard-"))});
+  if (!campaign::shard_files(database).empty())
+    return shell_line(std::vector<std::string>{"clackers", "campaign", "merge", database});
+  return shell_line(std::vector<std::string>{"clackers", "campaign", "run",
+                                             store.specification().name(), "--database", database});
+}
+
+study::Sheet status_sheet(const campaign::Store& store) {
+  study::Sheet sheet{
+      "clackers/campaign-status/1", "", {{"quantity", "", ""}, {"value", "", ""}}, {}};
+  const auto tasks = store.specification().tasks();
+  long long finished = 0;
+  std::map<std::string, Cell> verdicts;
+  for (const auto& row :
+       all_rows(store, "SELECT verdict, count(*) FROM subjects GROUP BY verdict")) {
+    verdicts[std::get<std::string>(row[0])] = row[1];
+    finished += std::get<long long>(row[1]);
+  }
+  sheet.rows.push_back({"tasks", tasks});
+  sheet.rows.push_back({"finished", finished});
+  sheet.rows.push_back({"runs", all_rows(store, "SELECT count(*) FROM runs").front().front()});
+  for (const auto* verdict : {"agrees", "disagrees", "not claimed", "undecided", "refused"})
+    sheet.rows.push_back({verdict, verdicts.contains(verdict) ? verdicts[verdict] : Cell(0LL)});
+  if (!store.shard().empty()) sheet.rows.push_back({"shard", store.shard()});
+  const auto shards = campaign::shard_files(store.path()).size();
+  if (shards > 0) sheet.rows.push_back({"shard files", static_cast<long long>(shards)});
+  sheet.rows.push_back({"next", next_command(store, finished == tasks)});
+  return sheet;
+}
+
+// Parts of a campaign that are neither among the files nor finished in the database.
+void require_all_shards(const campaign::Store& into, const std::vector<std::string>& files) {
+  if (into.finished().size() == into.specification().tasks()) return;
+  std::vector<bool> found;
+  std::string example;
+  for (const auto& file : files) {
+    const auto name = campaign::Store::open(file).shard();
+    if (name.empty()) continue;
+    const auto shard = campaign::shard_from(name);
+    found.resize(std::max(found.size(), static_cast<std::size_t>(shard.count)));
+    found[static_cast<std::size_t>(shard.index - 1)] = true;
+  }
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (!found[i]) missing.push_back(fmt::format("{}/{}", i + 1, found.size()));
+  if (missing.empty()) return;
+  throw InputError(
+      fmt::format(
+          "{}: {} of {} shards missing: {}. Name their files, or run them: clackers campaign "
+          "run {} --shard {}",
+          into.path(), missing.size(), found.size(), fmt::join(missing, ", "),
+          into.specification().name(), missing.front()),
+      "shard-missing");
+}
+
+campaign::TableName table_from(const std::string& text) {
+  if (text.empty() || text == "runs") return campaign::TableName::runs;
+  if (text == "subjects") return campaign::TableName::subjects;
+  refuse_name("table", text, std::vector<std::string>{"runs", "subjects"}, "runs, subjects");
+}
+
+}  // namespace
+
+void print_status(const CampaignOptions& options, const std::string& database) {
+  const auto store = campaign::Store::open(database);
+  Results results(options.common, OnInterrupt::finish);
+  const auto sheet = status_sheet(store);
+  study::SheetRows rows(sheet);
+  report::write(rows, results.format(), results.stream(), results.style());
+  results.finish();
+}
+
+int show_status(const CampaignOptions& options, const std::string&) {
+  print_status(options, options.files.front());
+  return 0;
+}
+
+int merge_shards(const CampaignOptions& options, const std::string&) {
+  const auto& database = options.files.front();
+  std::vector<std::string> shards(options.files.begin() + 1, options.files.end());
+  if (shards.empty()) shards = campaign::shard_files(database);
+  if (shards.empty())
+    throw FileError(fmt::format("{}: there are no shards beside it. Name their files: clackers "
+                                "campaign merge {} FILE ...",
+                                database, database),
+                    "cannot-read");
+  {
+    const auto specification = campaign::Store::open(shards.front()).specification();
+    auto store = campaign::Store::create_or_open(database, specification);
+    require_all_shards(store, shards);
+    for (const auto& shard : shards) {
+      const auto added = store.merge(shard);
+      if (!options.common.quiet) note(fmt::format("{}: {} tasks added", shard, added));
+    }
+  }
+  print_status(options, database);
+  return 0;
+}
+
+int export_rows(const CampaignOptions& options, const std::string&) {
+  const auto table = table_from(options.table);
+  const auto store = campaign::Store::open(options.files.front());
+  Results results(options.common, OnInterrupt::stop, report::Content::numbers);
+  if (results.format() == report::Format::npy && results.is_terminal())
+    throw InputError(
+        "campaign export --format npy is bytes that a terminal cannot show. Add --out FILE.",
+        "bad-syntax");
+  const auto rows = results.format() == report::Format::npy ? store.numbers(table, options.times)
+                                                            : store.rows(table, options.times);
+  write_rows(*rows, results, "export", options.common.quiet);
+  results.finish();
+  return 0;
+}
+
+int query_database(const CampaignOptions& options, const std::string&) {
+  if (options.files.size() != 2)
+    throw InputError(
+        "campaign query needs a database and a statement in quotes: clackers campaign query "
+        "runs.db \"SELECT method, verdict, count(*) FROM subjects GROUP BY 1, 2\"",
+        "bad-syntax");
+  const auto store = campaign::Store::open(options.files.front());
+  Results results(options.common, OnInterrupt::stop);
+  const auto rows = store.query(options.files[1]);
+  write_rows(*rows, results, "query", options.common.quiet);
+  results.finish();
+  return 0;
+}
+
+}  // namespace clackers::cli

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "clackers/campaign/plan.hpp"
+#include "clackers/campaign/run.hpp"
+#include "clackers/report/write.hpp"
+#include "clackers/study/work_queue.hpp"
+#include "cli/commands/campaign_actions.hpp"
+#include "cli/commands/plugin_run.hpp"
+#include "cli/files/results.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/messages.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/values.hpp"
+
+namespace clackers::cli {
+namespace {
+
+constexpr int most_jobs = 1024;
+
+int jobs_of(const CampaignOptions& options) {
+  if (options.jobs.empty()) return 0;
+  return static_cast<int>(read_whole("--jobs", options.jobs, 1, most_jobs));
+}
+
+campaign::RunSummary run_tasks(const CampaignOptions& options, const campaign::Shard& shard,
+                               campaign::Store& store) {
+  const auto& specification = store.specification();
+  campaign::RunOptions how;
+  how.jobs = jobs_of(options);
+  how.plugin_host = plugin_host_words();
+  // The blocks of a shard depend on the number of shards alone.
+  const auto block = campaign::block_size(
+      specification, shard.is_all() ? study::thread_count(how.jobs) : shard.count);
+  campaign::LocalTasks source(specification.tasks(), store.finished(), block, shard);
+  ProgressLine line("campaign", options.common.quiet);
+  const auto all = source.remaining();
+  how.progress = [&](const campaign::RunSummary& done) {
+    line.report(all > 0 ? double(done.tasks) / double(all) : 1.0, done.runs, "runs");
+  };
+  return campaign::run_campaign(specification, store, source, how, &interrupt_flag());
+}
+
+}  // namespace
+
+std::string database_of(const CampaignOptions& options, const campaign::Shard& shard) {
+  auto path = options.database;
+  if (path.empty()) path = std::filesystem::path(options.files.front()).replace_extension(".db");
+  return campaign::shard_path(path, shard);
+}
+
+int plan_campaign(const CampaignOptions& options, const std::string&) {
+  const auto specification = campaign::Specification::read(options.files.front());
+  Results results(options.common, OnInterrupt::stop);
+  const auto sheet =
+      campaign::plan_sheet(campaign::plan_of(specification, plugin_host_words(), true));
+  study::SheetRows rows(sheet);
+  report::write(rows, results.format(), results.stream(), results.style());
+  results.finish();
+  return 0;
+}
+
+int run_campaign(const CampaignOptions& options, const std::string&) {
+  const auto shard =
+      options.shard.empty() ? campaign::Shard{} : campaign::shard_from(options.shard);
+  const auto specification = campaign::Specification::read(options.files.front());
+  if (!options.yes) campaign::require_few_runs(specification, plugin_host_words());
+  const auto database = database_of(options, shard);
+  campaign::RunSummary summary;
+  {
+    auto store = campaign::Store::create_or_open(database, specification, options.shard);
+    if (shard.is_all()) campaign::adopt_ranks(store);
+    summary = run_tasks(options, shard, store);
+  }
+  print_status(options, database);
+  if (!summary.interrupted) return 0;
+  report_error("interrupted; what was finished is stored. The same command goes on.",
+               "interrupted");
+  return 130;
+}
+
+}  // namespace clackers::cli
