@@ -2,14 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "clackers/campaign/run.hpp"
+#include "clackers/report/write.hpp"
 #include "clackers/study/provenance.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/atlas_folder.hpp"
 #include "cli/commands/campaign_actions.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/files/results.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/values.hpp"
@@ -20,10 +22,10 @@ namespace {
 constexpr auto default_folder = "clackers-atlas";
 
 struct Options {
-  std::string out, jobs, specification;
+  CommonOptions common;  ///< its `out` is the folder, or the file of --submit
+  std::string jobs, specification;
   std::string submit, command, library, expect, author;
   std::vector<std::string> merge;
-  bool quiet = false;
 };
 
 [[noreturn]] void refuse_usage(const std::string& sentence) {
@@ -34,7 +36,7 @@ void require_fitting(const Options& options) {
   const bool submits = !options.submit.empty();
   if (submits && !options.merge.empty())
     refuse_usage("--merge: --submit writes a file, --merge takes files in; give one of the two.");
-  if (submits && options.out.empty())
+  if (submits && options.common.out.empty())
     refuse_usage("--submit writes a file: give it with --out FILE.json.");
   if (!options.command.empty() && !options.library.empty())
     refuse_usage("--plugin: a method is a command or a plug-in; leave --exec or --plugin out.");
@@ -71,44 +73,59 @@ int submit(const Options& options, const std::string& line) {
   const auto specification = campaign::Specification::from_toml(
       campaign::with_methods(specification_text(options), {&entry, 1}),
       specification_name(options));
-  OutputFile file(options.out, OnInterrupt::stop);
+  OutputFile file(options.common.out, OnInterrupt::stop);
   const TemporaryFolder folder;
   auto store = campaign::Store::create_or_open(folder.path() + "/runs.db", specification);
-  const auto done = run_tasks(store, {}, jobs_from(options.jobs), options.quiet);
+  const auto done = run_tasks(store, {}, jobs_from(options.jobs), options.common.quiet);
   if (done.interrupted) throw Interrupted();
   const auto results = campaign::results_of(
       store, options.author.empty() ? options.submit : options.author, study::provenance(line));
   file.stream() << campaign::results_text(results);
   file.commit();
-  if (!options.quiet)
+  if (!options.common.quiet)
     note(fmt::format(
         "Wrote {}: {} tasks. Who has an atlas takes them in with: clackers atlas --merge "
         "{}",
-        options.out, results.subjects.rows.size(), options.out));
+        options.common.out, results.subjects.rows.size(), options.common.out));
   return 0;
+}
+
+// How many methods got which verdict, a row a case.
+void print_verdicts(const campaign::Store& store, Results& results) {
+  const auto rows = store.query(
+      "SELECT \"case\", count(DISTINCT system) AS systems, sum(verdict = 'agrees') AS agrees, "
+      "sum(verdict = 'disagrees') AS disagrees, sum(verdict = 'not claimed') AS not_claimed, "
+      "sum(verdict = 'undecided') AS undecided, sum(verdict = 'refused') AS refused FROM subjects "
+      "GROUP BY \"case\" ORDER BY min(task)");
+  report::write(*rows, results.format(), results.stream(), results.style());
+  results.finish();
 }
 
 int run(const Options& options, const std::string& line) {
   require_fitting(options);
   if (!options.submit.empty()) return submit(options, line);
+  auto common = options.common;
+  common.out.clear();  // the counts go to standard output
+  Results results(common, OnInterrupt::finish);
   const auto jobs = jobs_from(options.jobs);
   const auto specification =
       campaign::Specification::from_toml(specification_text(options), specification_name(options));
-  const AtlasFolder folder(options.out.empty() ? default_folder : options.out);
+  const AtlasFolder folder(options.common.out.empty() ? default_folder : options.common.out);
   folder.begin(specification);
   for (const auto& file : options.merge) folder.take_in(file);
 
   auto store = campaign::Store::create_or_open(folder.database(), specification);
-  const auto done = run_tasks(store, {}, jobs, options.quiet);
+  const auto done = run_tasks(store, {}, jobs, options.common.quiet);
   if (store.finished().size() > 0)
     folder.write_page(
         campaign::campaign_page(store, folder.results(), "atlas", study::provenance(line)));
+  print_verdicts(store, results);
   if (done.interrupted) {
     report_error("interrupted; what was finished is stored. The same command goes on.",
                  "interrupted");
     return 130;
   }
-  if (!options.quiet) note(fmt::format("Wrote {}", folder.page()));
+  if (!options.common.quiet) note(fmt::format("Wrote {}", folder.page()));
   return 0;
 }
 
@@ -124,9 +141,8 @@ void add_atlas(Grammar& root) {
            "  clackers atlas\n"
            "  clackers atlas --out atlas --jobs 2\n"
            "  clackers atlas --submit newmark:beta=0.3+penalty --out newmark.json\n"
-           "  clackers atlas --submit ours --exec './solver {case} {h} {out}' --expect proper:2 "
-           "--author 'A. Author' --out ours.json\n"
-           "  clackers atlas --merge ours.json\n",
+           "  clackers atlas --submit ours --exec './solver {case} {h} {out}' --out our.json\n"
+           "  clackers atlas --merge our.json\n",
        .about =
            "Runs the campaign that ships with clackers: every method on pairs over a grid of their "
            "parameters and on the systems beyond the pair. FOLDER receives index.html, a page that "
@@ -139,10 +155,6 @@ void add_atlas(Grammar& root) {
                 "  clackers atlas --submit METHOD [--author NAME] --out FILE.json\n"
                 "  clackers atlas --submit NAME --exec COMMAND|--plugin FILE.so\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--author NAME] --out FILE.json\n"});
-  app->add_option("--out", options->out,
-                  "The folder of the atlas; one of another command is refused. Default: "
-                  "clackers-atlas. With --submit the file.")
-      ->option_text("FOLDER|FILE.json");
   app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
   app->add_option("--specification", options->specification,
                   "Systems, methods and ladder as `clackers campaign` takes them, instead of those "
@@ -171,8 +183,13 @@ void add_atlas(Grammar& root) {
                   "Take in the results of a file that --submit wrote; they stand in the page with "
                   "their author. May be repeated. A file of the same name is replaced.")
       ->reads_file("FILE.json");
-  app->add_flag("--quiet", options->quiet,
-                "No progress and no notes on standard error; refusals still appear.");
+  add_common_options(*app, options->common);
+  app->get_option("--out")
+      ->description(
+          "The folder of the atlas; one of another command is refused. Default: "
+          "clackers-atlas. With --submit the file.")
+      ->option_text("FOLDER|FILE.json");
+  app->get_option("--out")->kind = ValueKind::text;
   app->run = [options](const std::string& line) { return run(*options, line); };
 }
 

@@ -4,7 +4,7 @@ import unittest
 
 from command import CommandTest, run
 
-COMMANDS = ("list", "show", "respond", "verify", "check", "paper", "explain")
+COMMANDS = ("list", "show", "respond", "verify", "check", "atlas", "paper", "explain")
 
 
 class Help(CommandTest):
@@ -27,6 +27,8 @@ class Help(CommandTest):
                "check": ["--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
                          "--tolerance", "--tolerances", "--metrics", "--report", "--require", "--baseline"],
                "paper": [],
+               "atlas": ["--jobs", "--specification", "--submit", "--exec", "--plugin", "--expect", "--author",
+                         "--merge"],
                "respond": ["--problem", "--report", "--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--neighbours",

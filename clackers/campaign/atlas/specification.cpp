@@ -8,13 +8,13 @@ std::string_view atlas_specification() {
 methods = ["all"]
 
 [ladder]
-levels = 6
-neighbours = 3
+levels = 8
+neighbours = 4
 
 # The paper's class by its three parameters: how much faster mass 2 is (4 N + 1), damping.
 [[cases]]
 case = "three-parameter"
-set = { N = [0, 1, 2, 4], xi1 = [0.0, 0.05, 0.2] }
+set = { N = [0, 1, 2, 4], xi1 = [0.0, 0.05, 0.1, 0.2] }
 
 # Impacts that take energy; masses of different size.
 [[cases]]
@@ -41,7 +41,7 @@ case = "cradle"
 
 [[cases]]
 case = "assembly"
-set = { coupling = ["chain", "random"] }
+set = { coupling = ["chain", "block"] }
 
 [[cases]]
 case = "forced-pair"
