@@ -26,7 +26,8 @@ async function matrix(page) {
   check("what does not agree with its claim has a corner", (await cell(page, 3, 0).getAttribute("class")).includes("wrong-claim"));
   check("a cell says in words what it shows", /^newmark on three-parameter .*: proper, agrees, order 2\.01/.test(
     await cell(page, 0, 0).getAttribute("aria-label")), await cell(page, 0, 0).getAttribute("aria-label"));
-  check("no figure is drawn unasked", await page.locator("svg.marks").count() === 0);
+  check("no figure of a cell, a method or a system is drawn unasked", await page.evaluate(() =>
+    Object.keys(embedded).every((name) => name === "profile")));
 }
 
 async function filters(page) {
@@ -118,7 +119,8 @@ async function panels(page) {
   check("a refused method says why", (await panel.innerText()).includes("[penalty-needs-elastic]"));
   await cell(page, 8, 4).click();
   await drawn(page, "ladder");
-  check("results of others say whose they are", (await panel.innerText()).includes("Results of A. Author, 2025-11-21"));
+  check("results of others say whose they are", (await panel.innerText()).includes("Results of A. <b>Author</b>, 2025-11-21"));
+  check("whatever their file holds is text", await page.locator("main b").count() === 0);
 
   await page.locator('tbody th[data-m="0"]').click();
   await drawn(page, "map");

@@ -16,7 +16,7 @@ int main(int count, char** arguments) {
   other.runs.rows.resize(8);
   study::SheetRows first(own.runs), second(other.runs);
   const std::array parts{report::sample_part(own, first),
-                         report::sample_part(other, second, "A. Author")};
+                         report::sample_part(other, second, "A. <b>Author</b>")};
   std::ofstream file(arguments[1], std::ios::binary);
   file << report::atlas_page(parts, report::sample_atlas_text());
   file.close();

@@ -17,9 +17,11 @@ for (const cell of atlas.cells) byPlace[cell[0]][cell[1]] = cell;
 
 const behaviours = ["exact", "proper", "reduced", "irregular", "stagnating", "divergent", "undecided", "refused"];
 const verdicts = ["agrees", "not claimed", "undecided", "disagrees", "interrupted", "refused"];
+// Files of others may hold any word.
+const among = (list, word) => (list.includes(word) ? word : "undecided");
+const verdictOf = (cell) => among(verdicts, value(cell, "verdict"));
 // A refused method has no behaviour.
-const behaviourOf = (cell) => value(cell, "behaviour") || (value(cell, "verdict") === "refused" ? "refused" : "undecided");
-const verdictOf = (cell) => value(cell, "verdict");
+const behaviourOf = (cell) => (verdictOf(cell) === "refused" ? "refused" : among(behaviours, value(cell, "behaviour")));
 const slug = (word) => word.replaceAll(" ", "-");
 
 const treatmentName = (treatment) => treatment || "methods that stand alone";
