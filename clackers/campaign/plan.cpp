@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
+#include <optional>
+#include <vector>
 
 #include "clackers/base/error.hpp"
 #include "clackers/campaign/tasks.hpp"
@@ -15,22 +16,39 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Systems of a case that are tried before it counts as refused.
-constexpr long long most_tries = 10;
+// Systems of a case that stand for all of them.
+constexpr long long most_samples = 8;
 constexpr auto most_timing = std::chrono::seconds(10);
 // Of rows in the database, without metrics: measured on 100,000 runs of pairs and assemblies.
 constexpr double bytes_a_run = 170.0, bytes_a_task = 450.0, bytes_a_metric = 9.0;
 
-// The first system of a case that is admissible, of a few evenly spaced ones; the last tried where none
-// is.
-std::unique_ptr<PreparedSystem> typical_system(const Specification& specification, long long first,
-                                               long long count) {
-  std::unique_ptr<PreparedSystem> prepared;
-  const auto tries = std::min(count, most_tries);
-  for (long long i = 0; i < tries && !(prepared && prepared->is_admissible()); ++i)
-    prepared = std::make_unique<PreparedSystem>(specification,
-                                                specification.system(first + count / tries * i));
-  return prepared;
+// What the methods cost on the systems [first, first + count), from a few evenly spaced ones; each
+// method is timed on the first system that takes it, until `until`.
+struct CaseCost {
+  double runs = 0.0, timed_runs = 0.0, seconds = 0.0;
+};
+
+CaseCost cost_of(const Specification& specification,
+                 const std::vector<std::optional<study::SolverSubject>>& solvers, long long first,
+                 long long count, Clock::time_point until) {
+  const auto samples = std::min(count, most_samples);
+  std::vector<double> runs(solvers.size()), seconds_a_run(solvers.size());
+  for (long long i = 0; i < samples; ++i) {
+    PreparedSystem system(specification, specification.system(first + count / samples * i));
+    for (std::size_t m = 0; m < solvers.size(); ++m) {
+      const bool timed = seconds_a_run[m] == 0.0 && Clock::now() < until;
+      const auto cost = system.estimate(specification.methods()[m], solvers[m], timed);
+      runs[m] += double(cost.runs) * double(count) / double(samples);
+      if (cost.seconds > 0.0) seconds_a_run[m] = cost.seconds / double(cost.runs);
+    }
+  }
+  CaseCost sum;
+  for (std::size_t m = 0; m < solvers.size(); ++m) {
+    sum.runs += runs[m];
+    if (seconds_a_run[m] > 0.0) sum.timed_runs += runs[m];
+    sum.seconds += runs[m] * seconds_a_run[m];
+  }
+  return sum;
 }
 
 }  // namespace
@@ -38,24 +56,18 @@ std::unique_ptr<PreparedSystem> typical_system(const Specification& specificatio
 Plan plan_of(const Specification& specification, const std::vector<std::string>& plugin_host,
              bool timed) {
   const auto solvers = solvers_of(specification, plugin_host);
-  const auto start = Clock::now();
+  const auto until = Clock::now() + (timed ? most_timing : std::chrono::seconds(0));
   Plan plan;
   plan.systems = specification.systems();
   plan.tasks = specification.tasks();
   double timed_runs = 0.0;
   long long first = 0;
   for (const auto& systems : specification.cases()) {
-    const auto prepared = typical_system(specification, first, systems.size());
+    const auto cost = cost_of(specification, solvers, first, systems.size(), until);
     first += systems.size();
-    for (std::size_t m = 0; m < solvers.size(); ++m) {
-      const bool has_time = timed && Clock::now() - start < most_timing;
-      const auto cost = prepared->estimate(specification.methods()[m], solvers[m], has_time);
-      const double runs = double(cost.runs) * double(systems.size());
-      plan.runs += runs;
-      if (!has_time) continue;
-      timed_runs += runs;
-      plan.seconds += cost.seconds * double(systems.size());
-    }
+    plan.runs += cost.runs;
+    timed_runs += cost.timed_runs;
+    plan.seconds += cost.seconds;
   }
   if (timed_runs > 0.0) plan.seconds *= plan.runs / timed_runs;
   plan.bytes = bytes_a_task * double(plan.tasks) +

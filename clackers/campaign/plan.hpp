@@ -8,7 +8,7 @@
 
 namespace clackers::campaign {
 
-/// What a campaign takes. Runs, time and disk are estimates: of each case one system stands for all.
+/// What a campaign takes. Runs, time and disk are estimates: of each case a few systems stand for all.
 struct Plan {
   long long systems = 0, tasks = 0;
   double runs = 0.0;
@@ -16,8 +16,8 @@ struct Plan {
   double bytes = 0.0;    ///< of the database
 };
 
-/// Of each case the first admissible one of a few systems is prepared. With `timed` the shortest run of
-/// each method is made on it, for some seconds at most. Throws as solvers_of() does.
+/// Of each case up to eight systems are prepared. With `timed` the shortest run of each method is made
+/// on one of them, for ten seconds at most. Throws as solvers_of() does.
 Plan plan_of(const Specification& specification, const std::vector<std::string>& plugin_host,
              bool timed);
 

@@ -16,7 +16,7 @@ struct MethodEntry {
   enum class Kind { catalogue, command, plugin };
   Kind kind = Kind::catalogue;
   std::string text;    ///< the specification, the command line, or the path of the library
-  std::string name;    ///< of a command or plug-in in the results; may be empty
+  std::string name;    ///< in the results; of a command or plug-in it may be empty
   std::string expect;  ///< "proper:2"; of a command or plug-in, may be empty
 };
 

@@ -83,16 +83,14 @@ void add_campaign(Grammar& root) {
       root.add_subcommand("campaign", "ACTION FILE ...", "assess methods on thousands of systems");
   set_help(
       *app,
-      {.examples =
-           "  clackers campaign plan spec.toml\n"
-           "  clackers campaign run spec.toml --database runs.db\n"
-           "  clackers campaign status runs.db\n"
-           "  clackers campaign export runs.db --format csv --out runs.csv\n"
-           "  clackers campaign query runs.db \"SELECT method, verdict, count(*) FROM subjects "
-           "GROUP BY 1, 2\"\n"
-           "  clackers campaign run spec.toml --database runs.db --shard 3/16\n"
-           "  clackers campaign merge runs.db\n"
-           "  clackers campaign report runs.db --out page.html\n",
+      {.examples = "  clackers campaign plan spec.toml\n"
+                   "  clackers campaign run spec.toml --database runs.db\n"
+                   "  clackers campaign status runs.db\n"
+                   "  clackers campaign export runs.db --format csv --out runs.csv\n"
+                   "  clackers campaign query runs.db \"SELECT method, verdict FROM subjects\"\n"
+                   "  clackers campaign run spec.toml --database runs.db --shard 3/16\n"
+                   "  clackers campaign merge runs.db\n"
+                   "  clackers campaign report runs.db --out page.html\n",
        .about =
            "Runs every method of a specification on every system: cases with listed values, ranges or "
            "samples of their parameters. The results are rows of one SQLite database. A campaign "
@@ -105,8 +103,8 @@ void add_campaign(Grammar& root) {
            "  case = \"three-parameter\"\n"
            "  set = { N = [0, 1, 2], xi1 = { from = 0.0, to = 0.2, points = 4 } }",
        .usage = "  clackers campaign plan SPEC.toml\n"
-                "  clackers campaign run SPEC.toml [--database FILE] [--shard i/n] [--jobs n] "
-                "[--yes]\n"
+                "  clackers campaign run SPEC.toml [--database FILE] [--shard i/n]\n"
+                "           [--jobs n] [--yes]\n"
                 "  clackers campaign status DATABASE\n"
                 "  clackers campaign merge DATABASE [FILE ...]\n"
                 "  clackers campaign export DATABASE [--table runs|subjects] [--times]\n"
@@ -122,8 +120,7 @@ void add_campaign(Grammar& root) {
       ->option_text("plan|run|status|merge|export|query|report");
   app->add_option("FILE", options->files,
                   "The specification (plan, run), or the database; then shards (merge) or a "
-                  "statement (query).")
-      ->option_text("FILE");
+                  "statement (query).");
   app->add_option("--database", options->database,
                   "The database of run; made where there is none. Default: the specification's "
                   "name with the ending .db.")

@@ -89,6 +89,20 @@ std::size_t join_at_equals(std::vector<std::string>& words) {
   return before_last;
 }
 
+// The positional argument that the last word is of.
+const Option& argument_at(const Command& command, const std::vector<std::string>& words) {
+  std::size_t at = 0;
+  bool is_value = false;
+  for (std::size_t i = 1; i + 1 < words.size(); ++i) {
+    const auto option = std::ranges::find(command.options, words[i], &Option::name);
+    const bool is_option = words[i].starts_with('-');
+    if (!is_option && !is_value && !command.arguments[at].repeats()) ++at;
+    if (at == command.arguments.size()) return command.arguments.back();
+    is_value = option != command.options.end() && !option->is_flag();
+  }
+  return command.arguments[at];
+}
+
 void add_all(const Grammar& grammar, const std::vector<std::string>& words, Candidates& to) {
   const auto command = std::ranges::find(grammar.commands, words.front(), &Command::name);
   if (words.size() == 1 || command == grammar.commands.end()) {
@@ -103,7 +117,7 @@ void add_all(const Grammar& grammar, const std::vector<std::string>& words, Cand
   if (to.prefix().starts_with('-'))
     for (const auto& option : command->options) to.add(option.name, option.explanation);
   else if (!command->arguments.empty())
-    add_values(command->arguments.front(), words, to);
+    add_values(argument_at(*command, words), words, to);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ import unittest
 
 from command import CommandTest, run
 
-COMMANDS = ("list", "show", "respond", "verify", "check", "atlas", "paper", "explain")
+COMMANDS = ("list", "show", "respond", "verify", "check", "campaign", "atlas", "paper", "explain")
 
 
 class Help(CommandTest):
@@ -27,6 +27,7 @@ class Help(CommandTest):
                "check": ["--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
                          "--tolerance", "--tolerances", "--metrics", "--report", "--require", "--baseline"],
                "paper": [],
+               "campaign": ["--database", "--shard", "--jobs", "--yes", "--table", "--times"],
                "atlas": ["--jobs", "--specification", "--submit", "--exec", "--plugin", "--expect", "--author",
                          "--merge"],
                "respond": ["--problem", "--report", "--set", "--samples", "--step", "--times", "--collisions", "--plot",

@@ -44,7 +44,7 @@ ELSEWHERE = {
     r"find_package\(.*": "package.test_cpp",
     r"target_link_libraries\(.*": "package.test_cpp",
 }
-TO_READ = {"text", "json", "csv", "yaml", "math", "xml", "latex", "toml"}
+TO_READ = {"text", "json", "csv", "yaml", "math", "xml", "latex", "toml", "sql"}
 NAME = re.compile(r"(?://|#|/\*) ([\w.-]+\.(?:c|cpp|py|sh))\b")
 # Precedes a fragment of C++.
 PREAMBLE = """#include "clackers/cases/case.hpp"

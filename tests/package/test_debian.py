@@ -75,7 +75,8 @@ class Packages(unittest.TestCase):
     def test_development_package_depends_on_its_library_and_on_what_modules_include(self):
         depends = field("libclackers-dev", "Depends")
         self.assertIn(f"libclackers0 (= {field('libclackers0', 'Version')})", depends)
-        for name in ["libeigen3-dev", "libfmt-dev", "nlohmann-json3-dev", "libboost-dev", "libhwy-dev"]:
+        for name in ["libeigen3-dev", "libfmt-dev", "nlohmann-json3-dev", "libboost-dev", "libhwy-dev",
+                     "libsqlite3-dev", "libtomlplusplus-dev"]:
             self.assertIn(name, depends)
 
     def test_library_package_has_shlibs(self):

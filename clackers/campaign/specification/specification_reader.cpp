@@ -13,6 +13,7 @@
 #include "clackers/study/cause_metrics.hpp"
 #include "clackers/study/check.hpp"
 #include "clackers/study/program.hpp"
+#include "clackers/study/system_study.hpp"
 
 namespace clackers::campaign {
 namespace {
@@ -91,7 +92,10 @@ class SpecificationReader : public TomlReader {
     try {
       return work();
     } catch (const InputError& error) {
-      fail(node, error.what(), error.code());
+      std::string_view sentence = error.what();
+      if (constexpr std::string_view who = "clackers: "; sentence.starts_with(who))
+        sentence.remove_prefix(who.size());
+      fail(node, std::string(sentence), error.code());
     }
   }
 
@@ -100,15 +104,16 @@ class SpecificationReader : public TomlReader {
     const auto text = word(node, "a method");
     if (text == "all" || text == "panel") {
       for (const auto& one : text == "all" ? methods::pairs() : methods::default_panel())
-        add_method(node, {MethodEntry::Kind::catalogue, one, {}, {}});
+        add_method(node, {MethodEntry::Kind::catalogue, one, study::subject_name(one), {}});
     } else {
-      at(node, [&] { return methods::method(text); });
-      add_method(node, {MethodEntry::Kind::catalogue, text, {}, {}});
+      const auto name = at(node, [&] { return study::subject_name(text); });
+      add_method(node, {MethodEntry::Kind::catalogue, text, name, {}});
     }
   }
   void add_method(const toml::node& node, MethodEntry entry) {
+    // A program without a name has that of its file.
     const auto same = [&](const MethodEntry& one) {
-      return one.text == entry.text && one.name == entry.name;
+      return entry.name.empty() ? one.text == entry.text : one.name == entry.name;
     };
     if (std::ranges::any_of(out_.methods_, same))
       fail(node, fmt::format("method = {}; allowed: each method once.", entry.text), "bad-syntax");

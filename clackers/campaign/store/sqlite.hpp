@@ -50,6 +50,7 @@ class Statement {
 /// SQLite does not understand InputError (bad-syntax).
 class Sqlite {
  public:
+  Sqlite() = default;  ///< of nothing
   /// `write` makes the file where there is none.
   Sqlite(const std::string& path, OpenMode mode);
 

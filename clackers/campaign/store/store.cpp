@@ -57,6 +57,17 @@ void require_file(const std::string& path) {
 
 // The members are closed in the reverse order: the lock last.
 struct Store::Connection {
+  // After the last writer the database is one file, unless somebody reads it.
+  ~Connection() {
+    if (!inserts) return;
+    inserts.reset();
+    try {
+      database.execute("PRAGMA busy_timeout = 0; PRAGMA journal_mode = DELETE;");
+    } catch (const Error&) {
+      // The next writer does it.
+    }
+  }
+
   std::unique_ptr<WriterLock> lock;
   Sqlite database;
   Specification specification;
@@ -73,10 +84,13 @@ Store::~Store() = default;
 Store Store::create_or_open(const std::string& path, const Specification& specification,
                             const std::string& shard) {
   auto lock = std::make_unique<WriterLock>(path);
-  auto made =
-      std::make_unique<Connection>(Connection{std::move(lock), Sqlite(path, OpenMode::write),
-                                              specification, shard, tables_of(specification)});
+  auto made = std::make_unique<Connection>();
   auto& connection = *made;
+  connection.lock = std::move(lock);
+  connection.database = Sqlite(path, OpenMode::write);
+  connection.specification = specification;
+  connection.shard = shard;
+  connection.tables = tables_of(specification);
   const auto& database = connection.database;
   const bool is_new = is_blank(database);
   if (!is_new) {
@@ -95,15 +109,16 @@ Store Store::create_or_open(const std::string& path, const Specification& specif
 
 Store Store::open(const std::string& path) {
   require_file(path);
-  Sqlite database(path, OpenMode::read);
+  auto made = std::make_unique<Connection>();
+  auto& connection = *made;
+  connection.database = Sqlite(path, OpenMode::read);
+  const auto& database = connection.database;
   require_campaign(database);
-  auto specification =
+  connection.specification =
       Specification::from_toml(value_of(database, "specification"), value_of(database, "file"));
-  auto shard = value_of(database, "shard");
-  auto tables = tables_of(specification);
-  return Store(std::make_unique<Connection>(Connection{nullptr, std::move(database),
-                                                       std::move(specification), std::move(shard),
-                                                       std::move(tables)}));
+  connection.shard = value_of(database, "shard");
+  connection.tables = tables_of(connection.specification);
+  return Store(std::move(made));
 }
 
 const std::string& Store::path() const { return connection_->database.path(); }

@@ -35,13 +35,13 @@ PreparedSystem::PreparedSystem(const Specification& specification, System system
 const study::CaseRecord* PreparedSystem::assess(const MethodEntry& method,
                                                 const std::optional<study::SolverSubject>& solver,
                                                 const std::atomic<bool>* interrupt) {
-  const auto name = [&] { return solver ? solver->name : study::subject_name(method.text); };
-  if (!study_) return refused(name(), *refusal_);
+  const auto& name = solver ? solver->name : method.name;
+  if (!study_) return refused(name, *refusal_);
   try {
     return solver ? study_->assess(*solver, ladder_of(specification_.ladder(), true), interrupt)
                   : study_->assess(method.text, interrupt);
   } catch (const InputError& error) {
-    return refused(name(), error);
+    return refused(name, error);
   }
 }
 

@@ -1,0 +1,176 @@
+#include "clackers/campaign/store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "clackers/base/testing/refusal.hpp"
+#include "clackers/campaign/store/sqlite.hpp"
+#include "clackers/campaign/testing/database_fixture.hpp"
+
+namespace clackers::campaign {
+namespace {
+
+using test::small;
+
+class StoreTest : public test::DatabaseTest {
+ protected:
+  // A task with made-up rows.
+  static TaskRows rows_of(long long task, std::size_t runs = 2) {
+    const auto tables = tables_of(small());
+    TaskRows rows;
+    rows.task = task;
+    for (std::size_t i = 1; i < tables.subjects.size(); ++i)
+      rows.subject.emplace_back(double(task) + double(i) / 16.0);
+    for (std::size_t run = 0; run < runs; ++run) {
+      rows.runs.emplace_back(tables.runs.size() - 2, study::Cell(double(run)));
+      rows.seconds.push_back(0.25);
+    }
+    return rows;
+  }
+  static void fill(const std::string& file, std::initializer_list<long long> tasks) {
+    auto store = Store::create_or_open(file, small());
+    for (const auto task : tasks) store.write(std::vector{rows_of(task)});
+  }
+};
+
+TEST_F(StoreTest, KeepsTasksOnceAndKnowsThemAgain) {
+  fill(path("a.db"), {2, 0, 1, 2, 7});
+  const auto store = Store::open(path("a.db"));
+  EXPECT_EQ(store.finished().size(), 4);
+  EXPECT_TRUE(store.finished().contains(7));
+  EXPECT_EQ(read(*store.rows(TableName::subjects)).size(), 4u);
+  EXPECT_EQ(read(*store.rows(TableName::runs)).size(), 8u);
+  EXPECT_EQ(store.specification().text(), small().text());
+}
+
+TEST_F(StoreTest, RowsComeInOrderAndTimesOnRequest) {
+  fill(path("a.db"), {3, 1});
+  const auto store = Store::open(path("a.db"));
+  const auto plain = store.rows(TableName::runs), timed = store.rows(TableName::runs, true);
+  EXPECT_EQ(timed->columns().size(), plain->columns().size() + 1);
+  EXPECT_EQ(timed->columns().back().name, "seconds");
+  const auto rows = read(*timed);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(rows[i][0], study::Cell(i < 2 ? 1LL : 3LL));
+    EXPECT_EQ(rows[i][1], study::Cell(i % 2 == 0 ? 1LL : 2LL));
+    EXPECT_EQ(rows[i].back(), study::Cell(0.25));
+  }
+  EXPECT_EQ(read(*store.rows(TableName::subjects, true))[0].back(), study::Cell(0.5));
+}
+
+TEST_F(StoreTest, NumbersLeaveTextOut) {
+  fill(path("a.db"), {0});
+  const auto store = Store::open(path("a.db"));
+  const auto source = store.numbers(TableName::runs);
+  auto* const numbers = source->numbers();
+  ASSERT_NE(numbers, nullptr);
+  EXPECT_EQ(numbers->count(), 2);
+  for (const auto& column : source->columns()) EXPECT_NE(column.name, "method");
+  std::vector<double> values;
+  ASSERT_TRUE(numbers->next_block(values));
+  EXPECT_EQ(values.size(), 2 * source->columns().size());
+  EXPECT_FALSE(numbers->next_block(values));
+}
+
+TEST_F(StoreTest, DatabaseIsOneFileAfterItsWriter) {
+  fill(path("a.db"), {0});
+  Store::open(path("a.db")).finished();
+  int files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path(""))) ++files;
+  EXPECT_EQ(files, 1);
+}
+
+TEST_F(StoreTest, SecondWriterIsRefusedWhileTheFirstLives) {
+  {
+    const auto first = Store::create_or_open(path("a.db"), small());
+    EXPECT_REFUSED(Store::create_or_open(path("a.db"), small()), "database-busy", "a.db",
+                   "another process");
+    EXPECT_NO_THROW(Store::open(path("a.db")));  // readers are welcome
+    auto other = Store::create_or_open(path("b.db"), small());
+    EXPECT_REFUSED(other.merge(path("a.db")), "database-busy");
+  }
+  EXPECT_NO_THROW(Store::create_or_open(path("a.db"), small()));
+}
+
+TEST_F(StoreTest, RefusesWhatIsNoDatabaseOfThisCampaign) {
+  const auto open = [&](const std::string& name) {
+    return Store::create_or_open(path(name), small());
+  };
+  std::ofstream(path("text.db")) << "methods = [\"rk4\"] and some more text, as long as a header\n";
+  EXPECT_REFUSED(open("text.db"), "not-a-campaign", "text.db");
+  EXPECT_REFUSED(Store::open(path("text.db")), "not-a-campaign");
+
+  Sqlite(path("other.db"), OpenMode::write).execute("CREATE TABLE t (x)");
+  EXPECT_REFUSED(open("other.db"), "not-a-campaign", "none of a campaign");
+
+  fill(path("new.db"), {0});
+  Sqlite(path("new.db"), OpenMode::write).execute("PRAGMA user_version = 2");
+  EXPECT_REFUSED(open("new.db"), "other-version", "version 2", "allowed: 1");
+  EXPECT_REFUSED(Store::open(path("new.db")), "other-version");
+
+  fill(path("old.db"), {0});
+  Sqlite(path("old.db"), OpenMode::write)
+      .execute("UPDATE campaign SET value = '0.0.1' WHERE key = 'version'");
+  EXPECT_REFUSED(open("old.db"), "other-version", "clackers 0.0.1");
+  EXPECT_NO_THROW(Store::open(path("old.db")));
+
+  fill(path("a.db"), {0});
+  const auto another = Specification::from_toml(small().text() + "# more\n", "spec.toml");
+  EXPECT_REFUSED(Store::create_or_open(path("a.db"), another), "other-campaign", "a.db");
+  auto store = Store::create_or_open(path("b.db"), another);
+  EXPECT_REFUSED(store.merge(path("a.db")), "other-campaign");
+  EXPECT_REFUSED(store.merge(path("none.db")), "cannot-read", "none.db");
+
+  EXPECT_REFUSED(Store::open(path("none.db")), "cannot-read", "campaign run");
+  EXPECT_REFUSED(Store::create_or_open(path("no/folder.db"), small()), "cannot-write");
+}
+
+TEST_F(StoreTest, HalfWrittenDatabaseIsRefused) {
+  fill(path("a.db"), {0, 1, 2});
+  std::filesystem::resize_file(path("a.db"), std::filesystem::file_size(path("a.db")) / 2);
+  EXPECT_REFUSED(Store::create_or_open(path("a.db"), small()), "not-a-campaign", "damaged");
+}
+
+TEST_F(StoreTest, FileWithoutTablesIsANewDatabase) {
+  std::ofstream(path("empty.db")).close();
+  Sqlite(path("wal.db"), OpenMode::write).whole("PRAGMA journal_mode = WAL");
+  for (const auto* name : {"empty.db", "wal.db"}) {
+    fill(path(name), {5});
+    EXPECT_EQ(Store::open(path(name)).finished().size(), 1);
+  }
+  std::ofstream(path("shard.db")).close();
+  EXPECT_EQ(Store::create_or_open(path("empty.db"), small()).merge(path("shard.db")), 0);
+}
+
+TEST_F(StoreTest, QueriesOnlyRead) {
+  fill(path("a.db"), {0, 1});
+  const auto store = Store::open(path("a.db"));
+  EXPECT_EQ(read(*store.query("SELECT count(*) FROM runs;"))[0][0], study::Cell(4LL));
+  EXPECT_EQ(store.query("SELECT task AS number FROM runs")->columns()[0].name, "number");
+  EXPECT_REFUSED(store.query("DELETE FROM runs"), "bad-syntax", "SELECT");
+  EXPECT_REFUSED(store.query("SELEC 1"), "bad-syntax", "syntax error");
+  EXPECT_REFUSED(store.query("SELECT 1; SELECT 2"), "bad-syntax", "one statement");
+  EXPECT_REFUSED(store.query(""), "bad-syntax", "one statement");
+  EXPECT_REFUSED(read(*store.query("ATTACH '" + path("x.db") + "' AS x")), "bad-syntax",
+                 "attached");
+  EXPECT_FALSE(std::filesystem::exists(path("x.db")));
+}
+
+TEST_F(StoreTest, RanksLeftBehindAreAdopted) {
+  fill(path("a.db"), {0});
+  fill(rank_path(path("a.db"), 0), {1, 2});
+  fill(rank_path(path("a.db"), 12), {2, 3});
+  fill(shard_path(path("a.db"), {1, 2}), {4});
+  EXPECT_EQ(shard_files(path("a.db")).size(), 3u);
+  {
+    auto store = Store::create_or_open(path("a.db"), small());
+    EXPECT_EQ(adopt_ranks(store), 3);
+  }
+  EXPECT_EQ(Store::open(path("a.db")).finished().size(), 4);
+  EXPECT_EQ(shard_files(path("a.db")), std::vector<std::string>{shard_path(path("a.db"), {1, 2})});
+}
+
+}  // namespace
+}  // namespace clackers::campaign
