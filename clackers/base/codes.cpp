@@ -128,7 +128,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"too-many-steps", "refusal",
      "The run would need more than 1e9 steps and could not end."},
     {"too-many-rows", "refusal",
-     "A response of more than 1e9 rows was asked for; use a larger step or fewer samples."},
+     "A response of more than 1e9 rows was asked for; use a larger step or fewer samples. Or the page of a campaign with more than 20000 methods times systems; use fewer values."},
     {"not-a-record", "refusal",
      "The text is no json of a verify run: "
      "broken, of another schema, or with a missing or unknown field. The message says where."},

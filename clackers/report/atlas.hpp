@@ -32,10 +32,15 @@ struct AtlasText {
   study::Provenance from;     ///< who writes the page; its command writes it again
 };
 
+/// More cells than this, methods times systems, are more than a reader or a browser takes in.
+inline constexpr long long most_cells = 20000;
+/// Throws InputError (too-many-rows) for more.
+void require_few_cells(long long cells);
+
 /// One self-contained page that opens without a network: the matrix, and for each cell its
 /// convergence, for each method maps over the parameters, for each system the Pareto front, and
 /// performance profiles. Figures are drawn when they are asked for. Throws InputError for parts without
-/// a subject, and for a part that names a method on a system twice.
+/// a subject, for more than most_cells, and for a part that names a method on a system twice.
 std::string atlas_page(std::span<const AtlasPart> parts, const AtlasText& text);
 
 }  // namespace clackers::report

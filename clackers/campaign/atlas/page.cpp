@@ -39,6 +39,7 @@ report::AtlasPart part_of(const AtlasResults& results, study::RowSource& runs) {
 std::string campaign_page(const Store& store, std::span<const AtlasResults> others,
                           const std::string& command, const study::Provenance& from) {
   const auto& specification = store.specification();
+  report::require_few_cells(store.finished().size());  // before they are read
   const auto subjects = sheet_of(*store.rows(TableName::subjects));
   const auto runs = store.rows(TableName::runs);
   std::vector<report::AtlasPart> parts{{&subjects,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "clackers/base/error.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/atlas/survey_data.hpp"
 #include "clackers/report/html/figure_specifications.hpp"
@@ -83,7 +84,20 @@ std::string again_section(std::span<const AtlasPart> parts, const AtlasText& tex
 
 }  // namespace
 
+void require_few_cells(long long cells) {
+  if (cells > most_cells)
+    throw InputError(
+        fmt::format("atlas: {} methods times systems are finished; allowed: {} in a page. Run a "
+                    "specification with fewer values, or read the rows: clackers campaign export, "
+                    "clackers campaign query",
+                    cells, most_cells),
+        "too-many-rows");
+}
+
 std::string atlas_page(std::span<const AtlasPart> parts, const AtlasText& text) {
+  long long cells = 0;
+  for (const auto& part : parts) cells += std::ssize(part.subjects->rows);
+  require_few_cells(cells);
   const auto survey = survey_of(parts);
   Page page;
   page.command = text.command;

@@ -103,6 +103,13 @@ TEST(Atlas, RefusesNothingAndTheSameCellTwice) {
   EXPECT_REFUSED(page_of(atlas), "not-a-campaign", {"clackers campaign run"});
 }
 
+TEST(Atlas, RefusesMoreCellsThanAReaderTakesIn) {
+  EXPECT_NO_THROW(require_few_cells(most_cells));
+  auto atlas = sample_atlas(1, 1);
+  atlas.subjects.rows.resize(std::size_t(most_cells) + 1, atlas.subjects.rows.front());
+  EXPECT_REFUSED(page_of(atlas), "too-many-rows", "allowed: 20000", "clackers campaign query");
+}
+
 TEST(Survey, ReadsClaimsBack) {
   for (const auto& claim :
        {Claim{}, Claim{Behaviour::proper, 2.0, ""}, Claim{Behaviour::irregular, 1.5, ""},
