@@ -16,10 +16,10 @@ neighbours = 4
 case = "three-parameter"
 set = { N = [0, 1, 2, 4], xi1 = [0.0, 0.05, 0.1, 0.2] }
 
-# Impacts that take energy; masses of different size.
+# The same class with impacts that take energy; X = 4 N + 1.
 [[cases]]
 case = "synchronized-pair"
-set = { eta = [0.5, 0.8], r = [1.0, 3.0], X = [5.0, 9.0] }
+set = { X = [5, 9], xi1 = [0.0, 0.1], eta = [0.5, 0.9] }
 
 [[cases]]
 case = "stop"
