@@ -112,7 +112,7 @@ int run(const Options& options, const std::string& line) {
       campaign::Specification::from_toml(specification_text(options), specification_name(options));
   const AtlasFolder folder(options.common.out.empty() ? default_folder : options.common.out);
   folder.begin(specification);
-  for (const auto& file : options.merge) folder.take_in(file);
+  folder.take_in(options.merge);
 
   auto store = campaign::Store::create_or_open(folder.database(), specification);
   const auto done = run_tasks(store, {}, jobs, options.common.quiet);

@@ -79,11 +79,15 @@ void AtlasFolder::begin(const campaign::Specification& specification) const {
   write_file(own, specification.text());
 }
 
-void AtlasFolder::take_in(const std::string& file) const {
-  const auto text = text_of(file);
-  campaign::results_from(text, file);
-  make_folder(others());
-  write_file(others() + "/" + fs::path(file).stem().string() + ".json", text);
+void AtlasFolder::take_in(const std::vector<std::string>& files) const {
+  std::vector<std::string> texts;
+  for (const auto& file : files) {
+    texts.push_back(text_of(file));
+    campaign::results_from(texts.back(), file);
+  }
+  if (!files.empty()) make_folder(others());
+  for (std::size_t i = 0; i < files.size(); ++i)
+    write_file(others() + "/" + fs::path(files[i]).stem().string() + ".json", texts[i]);
 }
 
 std::vector<campaign::AtlasResults> AtlasFolder::results() const {

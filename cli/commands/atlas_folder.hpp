@@ -31,9 +31,9 @@ class AtlasFolder {
   /// Makes the folder and writes the specification. Throws InputError for a folder that holds other
   /// things (foreign-folder) and for an atlas of another specification (other-campaign); FileError.
   void begin(const campaign::Specification& specification) const;
-  /// Copies a file of results into the folder, after reading it. Throws FileError for one that cannot
-  /// be read, and as campaign::results_from().
-  void take_in(const std::string& file) const;
+  /// Copies files of results into the folder, after reading all of them. Throws FileError for one that
+  /// cannot be read, and as campaign::results_from().
+  void take_in(const std::vector<std::string>& files) const;
   /// All files that were taken in, by name.
   std::vector<campaign::AtlasResults> results() const;
   void write_page(const std::string& html) const;

@@ -109,6 +109,8 @@ TEST(AtlasResults, AreRefusedWithWhatIsWrong) {
                  "row 1 has 2 values for 3 columns");
   EXPECT_REFUSED(results_from(with("[0,1,1e-300]", "[0,1,[2]]"), "a.json"), "bad-syntax",
                  "damaged");
+  EXPECT_REFUSED(results_from(with("[1,null,\"stop\"", "[1,1.0,\"stop\""), "a.json"), "bad-syntax",
+                 "the same system and method");
   EXPECT_REFUSED(results_from(with("\"options\"", "\"opinions\""), "a.json"), "bad-syntax",
                  "options");
 }

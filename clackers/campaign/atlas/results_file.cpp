@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "clackers/base/error.hpp"
 #include "clackers/campaign/atlas.hpp"
@@ -58,6 +59,23 @@ study::Sheet sheet_from(const Json& json, std::initializer_list<const char*> nee
   return sheet;
 }
 
+// A cell of the matrix has one row.
+void require_different(const study::Sheet& subjects) {
+  std::set<std::string> seen;
+  for (const auto& row : subjects.rows) {
+    Json key = Json::array();
+    for (std::size_t c = 0; c < row.size(); ++c)
+      if (const auto& name = subjects.columns[c].name;
+          name == "case" || name == "method" || name.starts_with("set_"))
+        key.push_back(cell_json(row[c]));
+    const auto text = key.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (!seen.insert(text).second)
+      throw InputError(
+          fmt::format("two rows of subjects are of the same system and method: {}", text),
+          "bad-syntax");
+  }
+}
+
 Json provenance_json(const study::Provenance& from) {
   return {{"command", from.command}, {"version", from.version},     {"compiler", from.compiler},
           {"machine", from.machine}, {"processor", from.processor}, {"date", from.date}};
@@ -95,6 +113,7 @@ AtlasResults results_from(const Json& json) {
     results.calls[name] = call.get<std::string>();
   results.specification = json.at("specification").get<std::string>();
   results.subjects = sheet_from(json.at("subjects"), {"task", "case", "method", "verdict"});
+  require_different(results.subjects);
   results.runs = sheet_from(json.at("runs"), {"task", "level", "u_error"});
   return results;
 }
