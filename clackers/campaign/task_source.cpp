@@ -60,11 +60,18 @@ Shard shard_from(std::string_view text) {
   return shard;
 }
 
+long long tasks_of_shard(long long tasks, long long block, const Shard& shard) {
+  const auto blocks = (tasks + block - 1) / block;
+  const auto mine = (blocks - shard.index + shard.count) / shard.count;
+  const bool has_last = blocks > 0 && (blocks - 1) % shard.count == shard.index - 1;
+  return mine * block - (has_last ? blocks * block - tasks : 0);
+}
+
 LocalTasks::LocalTasks(long long tasks, TaskSet finished, long long block, Shard shard)
     : tasks_(tasks), block_(std::max(1LL, block)), finished_(std::move(finished)), shard_(shard) {
   at_ = (shard_.index - 1) * block_;
-  const auto left = tasks_ - finished_.size();
-  remaining_ = shard_.is_all() ? left : (left + shard_.count - 1) / shard_.count;
+  // A shard's database holds tasks of its own alone.
+  remaining_ = tasks_of_shard(tasks_, block_, shard_) - finished_.size();
 }
 
 std::optional<TaskBlock> LocalTasks::next() {

@@ -37,13 +37,16 @@ struct Shard {
 /// Reads "3/16". Throws InputError for anything else, and unless 1 <= index <= count <= 1e6.
 Shard shard_from(std::string_view text);
 
+/// How many of `tasks` in blocks of `block` are of a shard.
+long long tasks_of_shard(long long tasks, long long block, const Shard& shard);
+
 /// Deals tasks out to the workers of one process.
 class TaskSource {
  public:
   virtual ~TaskSource() = default;
   /// The next block, none of its tasks finished; nothing after the last. From any thread.
   virtual std::optional<TaskBlock> next() = 0;
-  /// How many tasks there are to run here, for progress; may be an estimate.
+  /// How many tasks there were to run here, for progress; may be an estimate.
   virtual long long remaining() const = 0;
 };
 

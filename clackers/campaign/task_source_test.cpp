@@ -48,6 +48,10 @@ TEST(LocalTasks, ShardsHaveEachUnfinishedTaskOnce) {
       else
         expected.push_back(task);
     for (long long i = 1; i <= shards; ++i) {
+      LocalTasks whole(tasks, {}, block, {i, shards});
+      const auto all = static_cast<long long>(tasks_of(whole).size());
+      EXPECT_EQ(tasks_of_shard(tasks, block, {i, shards}), all);
+      EXPECT_EQ(whole.remaining(), all);
       LocalTasks source(tasks, finished, block, {i, shards});
       for (const auto task : tasks_of(source)) {
         EXPECT_EQ(task / block % shards, i - 1);

@@ -81,6 +81,45 @@ double TomlReader::number(const toml::table& table, const char* key, const char*
   return number(need(table, key, meaning), key);
 }
 
+long long TomlReader::whole(const toml::node& node, const std::string& what, double lowest,
+                            double highest) const {
+  const double value = number(node, what);
+  if (!(value >= lowest && value <= highest && value == std::floor(value)))
+    fail(node,
+         fmt::format("{} = {}; allowed: a whole number, {} to {}.", what, value, lowest, highest),
+         "out-of-range");
+  return static_cast<long long>(value);
+}
+
+std::string TomlReader::word(const toml::node& node, const std::string& what) const {
+  const auto found = node.value_exact<std::string>();
+  if (!found || found->empty())
+    fail(node, fmt::format("{} is no text; allowed: a word in quotes.", what), "bad-syntax");
+  return *found;
+}
+
+bool TomlReader::flag(const toml::node& node, const std::string& what) const {
+  const auto found = node.value_exact<bool>();
+  if (!found) fail(node, fmt::format("{} is no flag; allowed: true or false.", what), "bad-syntax");
+  return *found;
+}
+
+const toml::array& TomlReader::list(const toml::node& node, const std::string& what) const {
+  const auto* found = node.as_array();
+  if (found == nullptr || found->empty())
+    fail(node, fmt::format("{} is no list of one or more values; allowed: [ ] around them.", what),
+         "bad-syntax");
+  return *found;
+}
+
+const toml::table& TomlReader::table(const toml::node& node, const std::string& what,
+                                     const char* allowed) const {
+  const auto* found = node.as_table();
+  if (found == nullptr)
+    fail(node, fmt::format("{} is no table; allowed: {}.", what, allowed), "bad-syntax");
+  return *found;
+}
+
 const toml::array* TomlReader::tables(const toml::table& root, const char* key) const {
   const auto* node = root.get(key);
   if (node == nullptr) return nullptr;

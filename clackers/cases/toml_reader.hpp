@@ -38,8 +38,32 @@ class TomlReader {
   double number(const toml::table& table, const char* key, double standard) const;
   double number(const toml::table& table, const char* key, const char* meaning) const;
 
+  /// One of lowest ... highest.
+  long long whole(const toml::node& node, const std::string& what, double lowest,
+                  double highest) const;
+  /// Not empty.
+  std::string word(const toml::node& node, const std::string& what) const;
+  bool flag(const toml::node& node, const std::string& what) const;
+  /// Of one value or more.
+  const toml::array& list(const toml::node& node, const std::string& what) const;
+  const toml::table& table(const toml::node& node, const std::string& what,
+                           const char* allowed) const;
+
   /// The tables of [[key]]; nullptr where there are none.
   const toml::array* tables(const toml::table& root, const char* key) const;
+
+  /// What `work` returns; an InputError of it gets the place of the node.
+  template <class Work>
+  auto at(const toml::node& node, const Work& work) const {
+    try {
+      return work();
+    } catch (const InputError& error) {
+      std::string_view sentence = error.what();
+      if (constexpr std::string_view who = "clackers: "; sentence.starts_with(who))
+        sentence.remove_prefix(who.size());
+      fail(node, std::string(sentence), error.code());
+    }
+  }
 
  private:
   const std::string& name_;

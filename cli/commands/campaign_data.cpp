@@ -27,24 +27,38 @@ std::vector<std::vector<Cell>> all_rows(const campaign::Store& store, const std:
   return rows;
 }
 
+// All tasks, or those of its shard.
+long long tasks_of(const campaign::Store& store) {
+  const auto& specification = store.specification();
+  if (store.shard().empty()) return specification.tasks();
+  const auto shard = campaign::shard_from(store.shard());
+  return campaign::tasks_of_shard(specification.tasks(),
+                                  campaign::block_size(specification, shard.count), shard);
+}
+
 std::string next_command(const campaign::Store& store, bool is_whole) {
   const auto& database = store.path();
+  const auto whole = database.substr(0, database.rfind(".shard-"));
+  std::vector<std::string> run{"clackers",   "campaign", "run", store.specification().name(),
+                               "--database", whole};
+  if (!store.shard().empty()) {
+    if (is_whole)
+      return shell_line(std::vector<std::string>{"clackers", "campaign", "merge", whole});
+    run.insert(run.end(), {"--shard", store.shard()});
+    return shell_line(run);
+  }
   if (is_whole)
     return shell_line(std::vector<std::string>{"clackers", "campaign", "export", database,
                                                "--format", "csv", "--out", "runs.csv"});
-  if (!store.shard().empty())
-    return shell_line(std::vector<std::string>{"clackers", "campaign", "merge",
-                                               database.substr(0, database.rfind(".shard-"))});
   if (!campaign::shard_files(database).empty())
     return shell_line(std::vector<std::string>{"clackers", "campaign", "merge", database});
-  return shell_line(std::vector<std::string>{"clackers", "campaign", "run",
-                                             store.specification().name(), "--database", database});
+  return shell_line(run);
 }
 
 study::Sheet status_sheet(const campaign::Store& store) {
   study::Sheet sheet{
       "clackers/campaign-status/1", "", {{"quantity", "", ""}, {"value", "", ""}}, {}};
-  const auto tasks = store.specification().tasks();
+  const auto tasks = tasks_of(store);
   long long finished = 0;
   std::map<std::string, Cell> verdicts;
   for (const auto& row :

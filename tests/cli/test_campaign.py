@@ -95,7 +95,15 @@ class Use(Campaign):
         parts = self.path("parts.db")
         for i in (3, 1, 2):
             self.good("campaign", "run", self.spec, "--database", parts, "--shard", f"{i}/3")
-        self.assertIn("parts.db.shard-2-of-3", self.files())
+        part = parts + ".shard-2-of-3"
+        status = self.status(part)
+        self.assertEqual((status["tasks"], status["finished"], status["shard"]), ("6", "6", "2/3"))
+        self.assertEqual(status["next"], f"clackers campaign merge {parts}")
+        with sqlite3.connect(part) as database:
+            database.execute("DELETE FROM subjects WHERE task = (SELECT max(task) FROM subjects)")
+        self.assertEqual(self.status(part)["next"],
+                         f"clackers campaign run {self.spec} --database {parts} --shard 2/3")
+        self.good("campaign", "run", self.spec, "--database", parts, "--shard", "2/3")
         done = run("campaign", "merge", parts)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("shard-1-of-3: 6 tasks added", done.stderr)
@@ -144,6 +152,13 @@ class Use(Campaign):
         table = self.rows_of("campaign", "query", self.database,
                              "SELECT method, count(*) AS tasks FROM subjects GROUP BY method ORDER BY method")
         self.assertEqual(table, [{"method": m, "tasks": "6"} for m in ("newmark", "newmark+penalty", "rk4")])
+
+    def test_example_runs(self):
+        spec = os.path.join(os.path.dirname(__file__), "../../examples/campaigns/pairs.toml")
+        self.good("campaign", "run", os.path.abspath(spec), "--database", self.database)
+        verdicts = self.status()
+        self.assertEqual(verdicts["tasks"], verdicts["finished"])
+        self.assertGreater(int(verdicts["agrees"]), int(verdicts["tasks"]) // 2)
 
     def test_programs_are_methods(self):
         solver = os.path.join(os.path.dirname(__file__), "../../examples/solvers/midpoint.py")

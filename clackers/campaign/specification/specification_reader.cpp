@@ -44,61 +44,9 @@ class SpecificationReader : public TomlReader {
     if (const auto* node = root.get("times")) out_.times_runs_ = flag(*node, "times");
     need(root, "cases", "[[cases]] above each case");
     for (const auto& node : *tables(root, "cases")) add_case(*node.as_table());
-    if (out_.cases_.empty()) fail(root, "cases is empty; allowed: one or more [[cases]].", empty);
   }
 
  private:
-  static constexpr Code empty = "bad-syntax";
-
-  const toml::array& list(const toml::node& node, const std::string& what) const {
-    const auto* found = node.as_array();
-    if (found == nullptr || found->empty())
-      fail(node,
-           fmt::format("{} is no list of one or more values; allowed: [ ] around them.", what),
-           "bad-syntax");
-    return *found;
-  }
-  const toml::table& table(const toml::node& node, const std::string& what,
-                           const char* allowed) const {
-    const auto* found = node.as_table();
-    if (found == nullptr)
-      fail(node, fmt::format("{} is no table; allowed: {}.", what, allowed), "bad-syntax");
-    return *found;
-  }
-  std::string word(const toml::node& node, const std::string& what) const {
-    const auto found = node.value_exact<std::string>();
-    if (!found || found->empty())
-      fail(node, fmt::format("{} is no text; allowed: a word in quotes.", what), "bad-syntax");
-    return *found;
-  }
-  bool flag(const toml::node& node, const std::string& what) const {
-    const auto found = node.value_exact<bool>();
-    if (!found)
-      fail(node, fmt::format("{} is no flag; allowed: true or false.", what), "bad-syntax");
-    return *found;
-  }
-  long long whole(const toml::node& node, const std::string& what, double lowest,
-                  double highest) const {
-    const double value = number(node, what);
-    if (!(value >= lowest && value <= highest && value == std::floor(value)))
-      fail(node,
-           fmt::format("{} = {}; allowed: a whole number, {} to {}.", what, value, lowest, highest),
-           "out-of-range");
-    return static_cast<long long>(value);
-  }
-  // Errors of other readers get the place in front.
-  template <class Work>
-  auto at(const toml::node& node, const Work& work) const {
-    try {
-      return work();
-    } catch (const InputError& error) {
-      std::string_view sentence = error.what();
-      if (constexpr std::string_view who = "clackers: "; sentence.starts_with(who))
-        sentence.remove_prefix(who.size());
-      fail(node, std::string(sentence), error.code());
-    }
-  }
-
   void add_methods(const toml::node& node) {
     if (node.is_table()) return add_solver(node, *node.as_table());
     const auto text = word(node, "a method");
