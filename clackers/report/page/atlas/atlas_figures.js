@@ -41,9 +41,9 @@ function prepareLadder(cell) {
     const logs = data.ladder_envelope.map((row) => Math.log(row.u_error) - claim.order * Math.log(row.step)).sort((a, b) => a - b);
     const constant = Math.exp(logs[Math.floor(logs.length / 2)]);
     const steps = runs.map((row) => row.step), ends = [Math.min(...steps), Math.max(...steps)];
-    const lowest = Math.min(...runs.map((row) => row.u_error)) / 3;
-    const from = Math.max(ends[0], (lowest / constant) ** (1 / claim.order));
-    data.ladder_claim = [from, ends[1]].map((step, i) =>
+    const errors = runs.map((row) => row.u_error), stepAt = (error) => (error / constant) ** (1 / claim.order);
+    const from = Math.max(ends[0], stepAt(Math.min(...errors) / 3)), to = Math.min(ends[1], stepAt(Math.max(...errors) * 3));
+    data.ladder_claim = [from, to].map((step, i) =>
       ({ step, u_error: constant * step ** claim.order, label: i === 0 ? `claimed order ${claim.order}` : "" }));
   }
   const ladder = atlas.ladders[value(cell, "ladder")];
