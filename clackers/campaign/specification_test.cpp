@@ -107,6 +107,8 @@ TEST(Specification, RefusesInTheWordsOfALine) {
   EXPECT_REFUSED(
       read(with_case("set = { xi1 = { from = 0, to = 1, points = 3, scale = \"log\" } }")),
       "out-of-range", "above 0");
+  EXPECT_REFUSED(read(with_case("set = { N = [1, \"two\"] }")), "not-a-number", "spec.toml:4",
+                 "two");
   EXPECT_REFUSED(read(with_case("set = { N = [] }")), "bad-syntax", "one or more");
   EXPECT_REFUSED(read(with_case("sample = { kind = \"sobl\", points = 8 }")), "unknown-name",
                  "\"sobol\"");

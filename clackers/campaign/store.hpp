@@ -26,7 +26,8 @@ class Store {
  public:
   /// Opens the database of this campaign for writing; makes it where there is no file. `shard` is kept
   /// in a new one: "3/16", empty for a whole campaign. Throws InputError: not-a-campaign, other-version,
-  /// other-campaign, database-busy; FileError: cannot-read, cannot-write.
+  /// other-campaign, database-busy; FileError: cannot-read, cannot-write. The file of a shard or rank is
+  /// not read by others meanwhile: it works without shared memory, as on a network file system.
   static Store create_or_open(const std::string& path, const Specification& specification,
                               const std::string& shard = {});
   /// Opens an existing database for reading. Throws as above; cannot-read where there is none.
@@ -66,6 +67,8 @@ class Store {
 
 /// The shard files beside a database: "PATH.shard-3-of-16" and "PATH.rank-5", sorted.
 std::vector<std::string> shard_files(const std::string& path);
+/// Whether a path is that of such a file.
+bool is_shard_file(const std::string& path);
 /// Merges the files of ranks beside a database, left by ranks that were lost, and removes them; returns
 /// how many tasks were new.
 long long adopt_ranks(Store& store);

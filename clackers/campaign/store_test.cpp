@@ -82,6 +82,21 @@ TEST_F(StoreTest, DatabaseIsOneFileAfterItsWriter) {
   EXPECT_EQ(files, 1);
 }
 
+TEST_F(StoreTest, ShardsAreWrittenWithoutSharedMemory) {
+  for (const auto& part : {shard_path(path("a.db"), {1, 2}), rank_path(path("a.db"), 7)}) {
+    auto store = Store::create_or_open(part, small());
+    store.write(std::vector{rows_of(1)});
+    EXPECT_TRUE(std::filesystem::exists(part + "-wal"));
+    EXPECT_FALSE(std::filesystem::exists(part + "-shm"));
+  }
+  fill(path("a.db"), {0});
+  auto store = Store::create_or_open(path("a.db"), small());
+  for (const auto& part : shard_files(path("a.db"))) store.merge(part);
+  EXPECT_EQ(store.finished().size(), 2);
+  for (const auto* name : {"runs.db", "a.rank-x", "rank-3", "a.shard-1-of-", "a.db.rank-3.db"})
+    EXPECT_FALSE(is_shard_file(path(name))) << name;
+}
+
 TEST_F(StoreTest, SecondWriterIsRefusedWhileTheFirstLives) {
   {
     const auto first = Store::create_or_open(path("a.db"), small());

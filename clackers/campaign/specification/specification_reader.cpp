@@ -186,6 +186,9 @@ class SpecificationReader : public TomlReader {
     } else {
       axis.listed = {value(node, name)};
     }
+    // Words and numbers in each other's place.
+    for (const auto& one : axis.listed)
+      at(node, [&] { complete(systems.name, known, {{name, one}}); });
     return axis;
   }
   ParameterValue value(const toml::node& node, const std::string& name) const {

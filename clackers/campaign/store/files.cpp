@@ -38,6 +38,12 @@ std::vector<std::string> shard_files(const std::string& path) {
   return found;
 }
 
+bool is_shard_file(const std::string& path) {
+  const auto name = fs::path(path).filename().string();
+  const auto at = std::max(name.rfind(".shard-") + 1, name.rfind(".rank-") + 1);
+  return at > 0 && is_shard_name(std::string_view(name).substr(at));
+}
+
 long long adopt_ranks(Store& store) {
   long long added = 0;
   for (const auto& file : shard_files(store.path())) {

@@ -98,6 +98,7 @@ Store Store::create_or_open(const std::string& path, const Specification& specif
     require_same(database, specification);
     connection.shard = value_of(database, "shard");
   }
+  if (is_shard_file(path)) database.execute("PRAGMA locking_mode = EXCLUSIVE");
   database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
   if (is_new) database.execute(schema_of(specification, shard));
   connection.inserts.emplace(
