@@ -156,7 +156,7 @@ Grammar clackers_grammar() {
   grammar.program.add_flag("--help", unused_flag, "This help.");
   grammar.program.add_flag("--version", unused_flag, "The version.");
   for (const auto add : {add_list, add_show, add_respond, add_verify, add_check, add_campaign,
-                         add_paper, add_explain})
+                         add_atlas, add_paper, add_explain})
     add(grammar);
   for (auto& command : grammar.commands) command.add_flag("--help", unused_flag, "This help.");
   return grammar;

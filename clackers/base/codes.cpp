@@ -128,7 +128,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"too-many-steps", "refusal",
      "The run would need more than 1e9 steps and could not end."},
     {"too-many-rows", "refusal",
-     "A response of more than 1e9 rows was asked for; use a larger step or fewer samples."},
+     "A response of more than 1e9 rows was asked for; use a larger step or fewer samples. Or the page of a campaign with more than 20000 methods times systems; use fewer values."},
     {"not-a-record", "refusal",
      "The text is no json of a verify run: "
      "broken, of another schema, or with a missing or unknown field. The message says where."},
@@ -306,7 +306,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"too-many-runs", "refusal",
      "The campaign has more runs than are started unasked. Use fewer values, points, methods or levels, or give --yes."},
     {"not-a-campaign", "refusal",
-     "The file is no database of a campaign, or a damaged or half written one. Give another name, or move it away."},
+     "The file is no database of a campaign and no results for an atlas, or a damaged or half written one, or nothing in it is finished. Give another name, or move it away."},
     {"other-campaign", "refusal",
      "The database holds runs of another specification. Give another --database, or the specification that it was made with."},
     {"other-version", "refusal",

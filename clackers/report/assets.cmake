@@ -27,6 +27,7 @@ set(page
   ${report_dir}/page/notebook.html
   ${report_dir}/page/notebook.json
   ${report_dir}/page/theme.js
+  ${report_dir}/page/tools.js
   ${report_dir}/page/page.js
   ${report_dir}/page/figures.js
   ${report_dir}/page/player.js
@@ -37,7 +38,16 @@ set(page
   ${report_dir}/page/history.vl.json
   ${report_dir}/page/work.vl.json
   ${report_dir}/page/curves.vl.json
-  ${report_dir}/page/profile.vl.json)
+  ${report_dir}/page/profile.vl.json
+  ${report_dir}/page/atlas/atlas.html
+  ${report_dir}/page/atlas/atlas.css
+  ${report_dir}/page/atlas/atlas.js
+  ${report_dir}/page/atlas/atlas_matrix.js
+  ${report_dir}/page/atlas/atlas_panel.js
+  ${report_dir}/page/atlas/atlas_figures.js
+  ${report_dir}/page/atlas/atlas_ladder.vl.json
+  ${report_dir}/page/atlas/atlas_map.vl.json
+  ${report_dir}/page/atlas/atlas_work.vl.json)
 
 set(CLACKERS_REPORT_ASSETS ${PROJECT_BINARY_DIR}/clackers_report_assets.cpp)
 add_custom_command(

@@ -33,6 +33,7 @@ const std::vector<ActionRow>& actions() {
       {"merge", merge_shards, any, {}},
       {"export", export_rows, 1, {"--table", "--times"}},
       {"query", query_database, 2, {}},
+      {"report", report_campaign, 1, {}},
   };
   return rows;
 }
@@ -101,7 +102,8 @@ void add_campaign(Grammar& root) {
                    "  clackers campaign run spec.toml --database runs.db --shard 3/16\n"
                    "  clackers campaign merge runs.db\n"
                    "  mpirun -n 64 clackers campaign run spec.toml\n"
-                   "  clackers campaign submit spec.toml --slurm --shards 16\n",
+                   "  clackers campaign submit spec.toml --slurm --shards 16\n"
+                   "  clackers campaign report runs.db --out page.html\n",
        .about =
            "Runs every method of a specification on every system: cases with listed values, ranges or "
            "samples of their parameters. The results are rows of one SQLite database. A campaign "
@@ -122,14 +124,16 @@ void add_campaign(Grammar& root) {
                 "  clackers campaign status DATABASE\n"
                 "  clackers campaign merge DATABASE [FILE ...]\n"
                 "  clackers campaign export DATABASE [--table runs|subjects] [--times]\n"
-                "  clackers campaign query DATABASE \"SELECT ...\"\n"});
+                "  clackers campaign query DATABASE \"SELECT ...\"\n"
+                "  clackers campaign report DATABASE --out FILE.html\n"});
   app->add_option(
          "ACTION", options->action,
          "plan: systems, tasks, runs, and estimates of time and disk. run: run what is not "
          "finished yet. submit: run it as a job array of a cluster, and merge. status: how far a database is, and its verdicts. merge: add the "
          "tasks of shards, without FILEs those beside the database. export: all rows in "
-         "order. query: a statement in SQL that reads.")
-      ->option_text("plan|run|submit|status|merge|export|query");
+         "order. query: a statement in SQL that reads. report: a page with a matrix of verdicts and "
+         "its figures, which opens without a network.")
+      ->option_text("plan|run|submit|status|merge|export|query|report");
   app->add_option(
       "FILE", options->files,
       "The specification (plan, run, submit), or the database; then shards (merge) or a "

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "clackers/campaign/run.hpp"
 #include "clackers/campaign/specification.hpp"
 #include "clackers/campaign/task_source.hpp"
 #include "cli/options.hpp"
@@ -31,6 +32,14 @@ int show_status(const CampaignOptions& options, const std::string& line);
 int merge_shards(const CampaignOptions& options, const std::string& line);
 int export_rows(const CampaignOptions& options, const std::string& line);
 int query_database(const CampaignOptions& options, const std::string& line);
+int report_campaign(const CampaignOptions& options, const std::string& line);
+
+/// The number of --jobs, 0 where it is not given. Throws InputError.
+int jobs_from(const std::string& text);
+
+/// Runs the unfinished tasks of a store, or of a shard of it, with a progress line.
+campaign::RunSummary run_tasks(campaign::Store& store, const campaign::Shard& shard, int jobs,
+                               bool quiet);
 
 /// The database of a specification: --database, or its file with the ending .db; of a shard its own.
 std::string database_of(const CampaignOptions& options, const campaign::Shard& shard = {});

@@ -21,28 +21,32 @@ namespace {
 
 constexpr int most_jobs = 1024;
 
-int jobs_of(const CampaignOptions& options) {
-  if (options.jobs.empty()) return 0;
-  return static_cast<int>(read_whole("--jobs", options.jobs, 1, most_jobs));
+}  // namespace
+
+int jobs_from(const std::string& text) {
+  if (text.empty()) return 0;
+  return static_cast<int>(read_whole("--jobs", text, 1, most_jobs));
 }
 
-campaign::RunSummary run_tasks(const CampaignOptions& options, const campaign::Shard& shard,
-                               campaign::Store& store) {
+campaign::RunSummary run_tasks(campaign::Store& store, const campaign::Shard& shard, int jobs,
+                               bool quiet) {
   const auto& specification = store.specification();
   campaign::RunOptions how;
-  how.jobs = jobs_of(options);
+  how.jobs = jobs;
   how.plugin_host = plugin_host_words();
   // The blocks of a shard depend on the number of shards alone.
   const auto block = campaign::block_size(
       specification, shard.is_all() ? study::thread_count(how.jobs) : shard.count);
   campaign::LocalTasks source(specification.tasks(), store.finished(), block, shard);
-  ProgressLine line("campaign", options.common.quiet);
+  ProgressLine line("campaign", quiet);
   const auto all = source.remaining();
   how.progress = [&](const campaign::RunSummary& done) {
     line.report(all > 0 ? double(done.tasks) / double(all) : 1.0, done.runs, "runs");
   };
   return campaign::run_campaign(specification, store, source, how, &interrupt_flag());
 }
+
+namespace {
 
 int report_end(const CampaignOptions& options, const std::string& database,
                const campaign::RunSummary& summary) {
@@ -57,7 +61,7 @@ int report_end(const CampaignOptions& options, const std::string& database,
 int run_ranks(const CampaignOptions& options, const campaign::Launch& launch,
               const std::string& database) {
   campaign::RunOptions how;
-  how.jobs = options.jobs.empty() ? 1 : jobs_of(options);
+  how.jobs = options.jobs.empty() ? 1 : jobs_from(options.jobs);
   how.plugin_host = plugin_host_words();
   FirstRank first;
   first.database = database;
@@ -109,7 +113,7 @@ int run_campaign(const CampaignOptions& options, const std::string&) {
   {
     auto store = campaign::Store::create_or_open(database, specification, options.shard);
     if (shard.is_all()) campaign::adopt_ranks(store);
-    summary = run_tasks(options, shard, store);
+    summary = run_tasks(store, shard, jobs_from(options.jobs), options.common.quiet);
   }
   return report_end(options, database, summary);
 }

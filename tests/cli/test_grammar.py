@@ -4,7 +4,7 @@ import unittest
 
 from command import CommandTest, run
 
-COMMANDS = ("list", "show", "respond", "verify", "check", "campaign", "paper", "explain")
+COMMANDS = ("list", "show", "respond", "verify", "check", "campaign", "atlas", "paper", "explain")
 
 
 class Help(CommandTest):
@@ -29,6 +29,8 @@ class Help(CommandTest):
                "paper": [],
                "campaign": ["--database", "--shard", "--jobs", "--yes", "--slurm", "--shards", "--sbatch", "--dry-run",
                             "--table", "--times"],
+               "atlas": ["--jobs", "--specification", "--submit", "--exec", "--plugin", "--expect", "--author",
+                         "--merge"],
                "respond": ["--problem", "--report", "--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--neighbours",

@@ -38,6 +38,7 @@ ELSEWHERE = {
     r"scripts/package && apt install .*": "package.test_debian",
     r"python3 -m venv --system-site-packages venv && .*": "package.test_wheel",
     r"clackers paper .*": "cli.test_paper",
+    r"clackers atlas\b.*": "cli.test_atlas",
     r"clackers verify --exec '\./solver .*": "cli.test_exec",
     r"(cc -O2 -shared|gdb --args clackers --plugin-run|clackers verify --plugin) .*": "cli.test_plugin",
     r"find_package\(.*": "package.test_cpp",

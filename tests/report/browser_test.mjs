@@ -1,63 +1,13 @@
 // Opens the html report in headless Chromium as a reader would: node browser_test.mjs FILE.html
 // Every sentence below is a check; the program fails if one of them is false.
-import { createRequire } from "node:module";
-import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import { pathToFileURL } from "node:url";
-
-const require = createRequire(new URL("../../tools/web/package.json", import.meta.url));
-const { chromium } = require("playwright-core");
-const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
-
-const file = resolve(process.argv[2]);
-const address = pathToFileURL(file).href;
-const failures = [];
-function check(sentence, holds, found = "") {
-  console.log(`${holds ? "ok  " : "FAIL"} ${sentence}${holds || found === "" ? "" : `: ${found}`}`);
-  if (!holds) failures.push(sentence);
-}
+import { readFileSync, statSync } from "node:fs";
+import { check, file, open as openPage, run, violations } from "./browser.mjs";
 
 const figures = ["response", "convergence", "history", "work", "profile"];
-const profile = mkdtempSync(join(tmpdir(), "clackers-browser-"));
-const context = await chromium.launchPersistentContext(profile, {
-  executablePath: process.env.CHROMIUM || "/usr/bin/chromium",
-  headless: true,
-  acceptDownloads: true,
-  viewport: { width: 1280, height: 900 },
-  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync"]
-});
-
-async function open(options = {}) {
-  const page = await context.newPage();
-  page.said = [];
-  page.requests = [];
-  page.on("console", (message) => {
-    if (["error", "warning"].includes(message.type())) page.said.push(message.text());
-  });
-  page.on("pageerror", (error) => page.said.push(String(error)));
-  page.on("request", (request) => {
-    if (request.url() !== address && !/^(data|blob):/.test(request.url())) page.requests.push(request.url());
-  });
-  await page.emulateMedia({ colorScheme: options.dark ? "dark" : "light" });
-  if (options.width) await page.setViewportSize({ width: options.width, height: 800 });
-  await page.goto(address);
-  await page.waitForFunction(() => ["drawn", "failed"].includes(document.documentElement.dataset.figures), null,
-    { timeout: 60000 });
-  return page;
-}
+const open = (options) => openPage(() => ["drawn", "failed"].includes(document.documentElement.dataset.figures), options);
 
 // How many marks of a kind a figure has drawn.
 const marks = (page, name, selector) => page.locator(`[data-plot="${name}"] svg ${selector}`).count();
-
-async function violations(page) {
-  await page.evaluate(axe);
-  // The drawings are hidden from readers of the page by their frames; thousands of marks take axe minutes.
-  const result = await page.evaluate(() => window.axe.run({ exclude: [[".plot svg"]] }, { resultTypes: ["violations"] }));
-  return result.violations.filter((found) => ["serious", "critical"].includes(found.impact))
-    .map((found) => `${found.id} (${found.nodes.length}): ${found.nodes[0].html.slice(0, 160)} ${found.nodes[0].failureSummary}`);
-}
 
 async function download(page, name, label) {
   const [saved] = await Promise.all([
@@ -67,7 +17,7 @@ async function download(page, name, label) {
   return readFileSync(await saved.path());
 }
 
-try {
+await run(async () => {
   const bytes = statSync(file).size;
   check("the page is smaller than 2 MB", bytes < 2e6, `${bytes} bytes`);
 
@@ -319,13 +269,4 @@ try {
   check("axe finds nothing serious at 400 pixels", found.length === 0, found.join("\n     "));
   check("the narrow page says nothing on the console", narrow.said.length === 0, narrow.said.join("; "));
   await narrow.close();
-} catch (error) {
-  check("the test reached its end", false, error.stack || String(error));
-} finally {
-  await context.close();
-  rmSync(profile, { recursive: true, force: true });
-}
-if (failures.length > 0) {
-  console.error(`${failures.length} of the checks failed`);
-  process.exit(1);
-}
+});

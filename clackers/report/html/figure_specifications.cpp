@@ -87,14 +87,6 @@ Json method_scales(const std::vector<std::string>& methods) {
           {"y_power", power_label("y")}};
 }
 
-Json specification_of(std::string_view text, const std::vector<std::string>& methods,
-                      Json values = Json::object()) {
-  auto specification = Json::parse(text);
-  values.update(method_scales(methods));
-  substitute(specification, values);
-  return specification;
-}
-
 // What a figure of work needs beside its methods. `before` stands before each counter's title.
 Json counter_values(const std::vector<ShownCounter>& counters, const std::string& before) {
   Json titles = Json::object();
@@ -121,6 +113,13 @@ Json mass_scales(const study::CaseRecord& problem) {
 }
 
 }  // namespace
+
+Json specification_of(std::string_view text, const std::vector<std::string>& methods, Json values) {
+  auto specification = Json::parse(text);
+  values.update(method_scales(methods));
+  substitute(specification, values);
+  return specification;
+}
 
 Json figure_specifications(const study::CaseRecord& problem) {
   std::vector<std::string> names;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +14,12 @@ namespace clackers::report {
 /// something to show "convergence", "history", "work" and "profile". usermeta.counters are the titles
 /// of a figure's counters. Each names its data sets; colours are variables of page.css.
 nlohmann::ordered_json figure_specifications(const study::CaseRecord& problem);
+
+/// An embedded specification with its "$placeholders" replaced: those of the methods, which a figure
+/// tells apart by colour, marker and dash, those of axes, and `values`.
+nlohmann::ordered_json specification_of(
+    std::string_view text, const std::vector<std::string>& methods,
+    nlohmann::ordered_json values = nlohmann::ordered_json::object());
 
 /// That of profiles over several cases, which name the methods.
 nlohmann::ordered_json profile_specification(const std::vector<study::Profile>& profiles);

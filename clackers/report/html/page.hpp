@@ -2,8 +2,10 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "clackers/report/assets.hpp"
 #include "clackers/study/record.hpp"
 
 namespace clackers::report {
@@ -21,6 +23,8 @@ struct Page {
   std::string heading, lead, overall;
   std::vector<PageSection> sections;  ///< the first is what a reader of screens may skip to
   nlohmann::ordered_json data, specifications;  ///< of the figures, by name
+  std::string style{};                          ///< beside page.css
+  std::vector<std::string_view> scripts{assets::page_js, assets::scene_js, assets::player_js};
 };
 
 /// One self-contained page that opens without a network: style, libraries and figures inside. Its

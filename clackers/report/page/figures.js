@@ -93,6 +93,7 @@ function zoom(name, factor) {
   return view.runAsync();
 }
 
+// The name of the signal; null for a figure that has no zoom.
 function zoomSignal(name, axis) {
   const find = (part) => {
     if (part.encoding && part.encoding[axis] && part.encoding[axis].field) return part.encoding[axis].field;
@@ -102,7 +103,9 @@ function zoomSignal(name, axis) {
     }
     return null;
   };
-  return `zoom_${find(specifications[name])}`;
+  const layers = specifications[name].layer || [];
+  const zooms = layers.some((layer) => (layer.params || []).some((parameter) => parameter.name === "zoom"));
+  return zooms ? `zoom_${find(specifications[name])}` : null;
 }
 
 function resetZoom(name) {
@@ -113,11 +116,13 @@ function resetZoom(name) {
 
 // The light colours, whatever is on the screen.
 function lightColors() {
-  for (const sheet of document.styleSheets)
-    for (const rule of sheet.cssRules)
-      if (rule.selectorText === ":root") 
-        return (variable) => rule.style.getPropertyValue(variable).trim().replace(/^light-dark\((.*),.*\)$/, "$1");
-  throw new Error("the style sheet has no :root");
+  const rules = [...document.styleSheets].flatMap((sheet) => [...sheet.cssRules])
+    .filter((rule) => rule.selectorText === ":root");
+  return (variable) => {
+    const rule = rules.find((one) => one.style.getPropertyValue(variable) !== "");
+    if (rule === undefined) throw new Error(`the style sheet has no ${variable}`);
+    return rule.style.getPropertyValue(variable).trim().replace(/^light-dark\((.*),.*\)$/, "$1");
+  };
 }
 
 function withLightColors(text) {
@@ -154,7 +159,7 @@ async function asSvg(name) {
   });
   const view = drawing.view;
   // The picture shows the stretch that is on the screen.
-  for (const axis of ["x", "y"]) {
+  for (const axis of zoomSignal(name, "x") === null ? [] : ["x", "y"]) {
     const domain = embedded[name].signal(zoomSignal(name, axis));
     if (domain) view.signal(zoomSignal(name, axis), domain);
   }

@@ -1,40 +1,5 @@
 "use strict";
-// What the reader can press: themes, legends, the tools below figures, copying.
-
-function button(text, label, action) {
-  const element = document.createElement("button");
-  element.type = "button";
-  element.textContent = text;
-  element.setAttribute("aria-label", label);
-  element.title = label;
-  element.addEventListener("click", action);
-  return element;
-}
-
-function save(content, type, file) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], { type }));
-  link.download = file;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-}
-
-// Tools of one figure.
-for (const tools of document.querySelectorAll("[data-tools]")) {
-  const name = tools.dataset.tools, rows = tools.dataset.rows, what = title(name);
-  const gap = document.createElement("span");
-  gap.className = "gap";
-  tools.append(
-    button("+", `Zoom in: ${what}`, () => zoom(name, 1.5)),
-    button("−", `Zoom out: ${what}`, () => zoom(name, 1 / 1.5)),
-    button("Reset", `Show all of: ${what}`, () => resetZoom(name)),
-    gap,
-    button("SVG", `Save as SVG: ${what}`, async () => save(await asSvg(name), "image/svg+xml", `clackers-${name}.svg`)),
-    button("PNG", `Save as PNG: ${what}`, async () => save(await asPng(name), "image/png", `clackers-${name}.png`)),
-    button("CSV", `Save the data as CSV: ${what}`, () => save(asCsv(data[rows]), "text/csv", `clackers-${rows}.csv`)),
-    button("Vega-Lite", `Save the Vega-Lite specification with its data: ${what}`,
-      () => save(JSON.stringify(standalone(name)), "application/json", `clackers-${name}.vl.json`)));
-}
+// What the reader of a record can press: legends, and what a figure shows.
 
 // Legends: a pressed button is shown. One legend may steer several figures.
 for (const legend of document.querySelectorAll("[data-legend]")) {
@@ -99,34 +64,6 @@ for (const choice of document.querySelectorAll("[data-counter]"))
       other.setAttribute("aria-pressed", String(other === choice));
     embedded[choice.dataset.of].signal("counter", choice.dataset.counter);
     resetZoom(choice.dataset.of);
-  });
-
-// Theme: as the system has it, light, dark.
-const themes = ["auto", "light", "dark"];
-const themeButton = document.getElementById("theme");
-function showTheme() {
-  const theme = document.documentElement.dataset.theme || "auto";
-  themeButton.textContent = `Theme: ${theme}`;
-}
-themeButton.addEventListener("click", () => {
-  const root = document.documentElement;
-  root.dataset.theme = themes[(themes.indexOf(root.dataset.theme || "auto") + 1) % themes.length];
-  try { localStorage.setItem("clackers-theme", root.dataset.theme); } catch (e) { /* not allowed: forgotten on reload */ }
-  showTheme();
-});
-showTheme();
-
-for (const copy of document.querySelectorAll("[data-copy]"))
-  copy.addEventListener("click", async () => {
-    const text = document.getElementById(copy.dataset.copy).textContent;
-    try {
-      await navigator.clipboard.writeText(text);
-      copy.textContent = "Copied";
-    } catch (e) {
-      getSelection().selectAllChildren(document.getElementById(copy.dataset.copy));
-      copy.textContent = "Selected";
-    }
-    setTimeout(() => { copy.textContent = "Copy"; }, 1500);
   });
 
 document.documentElement.dataset.figures = "drawing";

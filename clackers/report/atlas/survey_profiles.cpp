@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "clackers/assess/cost/profile_tasks.hpp"
+#include "clackers/report/atlas/survey_data.hpp"
+#include "clackers/report/columns.hpp"
+#include "clackers/study/profile.hpp"
+
+namespace clackers::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+assess::CostTable cost_table(const Survey& survey, assess::Counter counter) {
+  assess::CostTable table;
+  for (const auto& method : survey.methods) table.methods.push_back(method.name);
+  table.costs.resize(table.methods.size());
+  std::vector<std::vector<assess::Ladder>> ladders(
+      survey.systems.size(), std::vector<assess::Ladder>(survey.methods.size()));
+  for (const auto& subject : survey.subjects)
+    ladders[subject.system][subject.method] = subject.ladder;
+  for (std::size_t s = 0; s < ladders.size(); ++s)
+    assess::add_tasks(table, survey.systems[s].name, ladders[s], counter);
+  return table;
+}
+
+Json line_json(const assess::MethodProfile& line, double tasks) {
+  Json ratios = Json::array(), solved = Json::array();
+  for (const auto& step : line.steps) {
+    const Json ratio = std::stod(fmt::format("{:.2e}", step.ratio));  // finer than any screen
+    const auto count = std::lround(step.share * tasks);
+    if (!ratios.empty() && ratios.back() == ratio) {
+      solved.back() = count;
+      continue;
+    }
+    ratios.push_back(ratio);
+    solved.push_back(count);
+  }
+  return {ratios, solved};
+}
+
+}  // namespace
+
+Json survey_profiles(const Survey& survey) {
+  Json profiles = Json::array();
+  for (const auto counter : {assess::Counter::force_evaluations, assess::Counter::steps}) {
+    const auto table = cost_table(survey, counter);
+    if (!assess::has_ratios(table)) continue;
+    const auto field = study::field_of(counter);
+    Json lines = Json::array();
+    for (const auto& line : assess::performance_profile(table))
+      lines.push_back(line_json(line, double(table.tasks.size())));
+    profiles.push_back({{"counter", field},
+                        {"title", column(field).heading},
+                        {"tasks", table.tasks.size()},
+                        {"lines", lines}});
+  }
+  return profiles;
+}
+
+}  // namespace clackers::report

@@ -1,0 +1,196 @@
+#include "clackers/campaign/atlas.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "clackers/campaign/run.hpp"
+#include "clackers/report/write.hpp"
+#include "clackers/study/provenance.hpp"
+#include "cli/command.hpp"
+#include "cli/commands/atlas_folder.hpp"
+#include "cli/commands/campaign_actions.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/files/results.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/messages.hpp"
+#include "cli/values.hpp"
+
+namespace clackers::cli {
+namespace {
+
+constexpr auto default_folder = "clackers-atlas";
+
+struct Options {
+  CommonOptions common;  ///< its `out` is the folder, or the file of --submit
+  std::string jobs, specification;
+  std::string submit, command, library, expect, author;
+  std::vector<std::string> merge;
+};
+
+[[noreturn]] void refuse_usage(const std::string& sentence) {
+  throw InputError("atlas " + sentence, "bad-syntax");
+}
+
+void require_fitting(const Options& options) {
+  const bool submits = !options.submit.empty();
+  if (submits && !options.merge.empty())
+    refuse_usage("--merge: --submit writes a file, --merge takes files in; give one of the two.");
+  if (submits && options.common.out.empty())
+    refuse_usage("--submit writes a file: give it with --out FILE.json.");
+  if (!options.command.empty() && !options.library.empty())
+    refuse_usage("--plugin: a method is a command or a plug-in; leave --exec or --plugin out.");
+  const bool is_program = !options.command.empty() || !options.library.empty();
+  if (!options.expect.empty() && !is_program)
+    refuse_usage(
+        "--expect: this is for programs and plug-ins; add --exec 'COMMAND' or --plugin "
+        "FILE.so.");
+  if ((is_program || !options.author.empty()) && !submits)
+    refuse_usage("--exec, --plugin and --author go with --submit NAME --out FILE.json.");
+}
+
+std::string specification_text(const Options& options) {
+  return options.specification.empty()
+             ? std::string(campaign::atlas_specification())
+             : campaign::Specification::read(options.specification).text();
+}
+
+std::string specification_name(const Options& options) {
+  return options.specification.empty() ? "atlas.toml" : options.specification;
+}
+
+campaign::MethodEntry submitted(const Options& options) {
+  using Kind = campaign::MethodEntry::Kind;
+  if (!options.command.empty())
+    return {Kind::command, options.command, options.submit, options.expect};
+  if (!options.library.empty())
+    return {Kind::plugin, options.library, options.submit, options.expect};
+  return {Kind::catalogue, options.submit, {}, {}};
+}
+
+int submit(const Options& options, const std::string& line) {
+  const auto entry = submitted(options);
+  const auto specification = campaign::Specification::from_toml(
+      campaign::with_methods(specification_text(options), {&entry, 1}),
+      specification_name(options));
+  OutputFile file(options.common.out, OnInterrupt::stop);
+  const TemporaryFolder folder;
+  auto store = campaign::Store::create_or_open(folder.path() + "/runs.db", specification);
+  const auto done = run_tasks(store, {}, jobs_from(options.jobs), options.common.quiet);
+  if (done.interrupted) throw Interrupted();
+  const auto results = campaign::results_of(
+      store, options.author.empty() ? options.submit : options.author, study::provenance(line));
+  file.stream() << campaign::results_text(results);
+  file.commit();
+  if (!options.common.quiet)
+    note(fmt::format(
+        "Wrote {}: {} tasks. Who has an atlas takes them in with: clackers atlas --merge "
+        "{}",
+        options.common.out, results.subjects.rows.size(), options.common.out));
+  return 0;
+}
+
+// How many methods got which verdict, a row a case.
+void print_verdicts(const campaign::Store& store, Results& results) {
+  const auto rows = store.query(
+      "SELECT \"case\", count(DISTINCT system) AS systems, sum(verdict = 'agrees') AS agrees, "
+      "sum(verdict = 'disagrees') AS disagrees, sum(verdict = 'not claimed') AS not_claimed, "
+      "sum(verdict = 'undecided') AS undecided, sum(verdict = 'refused') AS refused FROM subjects "
+      "GROUP BY \"case\" ORDER BY min(task)");
+  report::write(*rows, results.format(), results.stream(), results.style());
+  results.finish();
+}
+
+int run(const Options& options, const std::string& line) {
+  require_fitting(options);
+  if (!options.submit.empty()) return submit(options, line);
+  auto common = options.common;
+  common.out.clear();  // the counts go to standard output
+  Results results(common, OnInterrupt::finish);
+  const auto jobs = jobs_from(options.jobs);
+  const auto specification =
+      campaign::Specification::from_toml(specification_text(options), specification_name(options));
+  const AtlasFolder folder(options.common.out.empty() ? default_folder : options.common.out);
+  folder.begin(specification);
+  folder.take_in(options.merge);
+
+  auto store = campaign::Store::create_or_open(folder.database(), specification);
+  const auto done = run_tasks(store, {}, jobs, options.common.quiet);
+  if (store.finished().size() > 0)
+    folder.write_page(
+        campaign::campaign_page(store, folder.results(), "atlas", study::provenance(line)));
+  print_verdicts(store, results);
+  if (done.interrupted) {
+    report_error("interrupted; what was finished is stored. The same command goes on.",
+                 "interrupted");
+    return 130;
+  }
+  if (!options.common.quiet) note(fmt::format("Wrote {}", folder.page()));
+  return 0;
+}
+
+}  // namespace
+
+void add_atlas(Grammar& root) {
+  const auto options = std::make_shared<Options>();
+  auto* app =
+      root.add_subcommand("atlas", "[--out FOLDER]", "every method on many systems, as a map");
+  set_help(
+      *app,
+      {.examples =
+           "  clackers atlas\n"
+           "  clackers atlas --out atlas --jobs 2\n"
+           "  clackers atlas --submit newmark:beta=0.3+penalty --out newmark.json\n"
+           "  clackers atlas --submit ours --exec './solver {case} {h} {out}' --out our.json\n"
+           "  clackers atlas --merge our.json\n",
+       .about =
+           "Runs the campaign that ships with clackers: every method on pairs over a grid of their "
+           "parameters and on the systems beyond the pair. FOLDER receives index.html, a page that "
+           "opens without a network: a matrix of verdicts, convergence plots, maps of order and error, "
+           "Pareto fronts and performance profiles; atlas.db, the database of the campaign; atlas.toml, "
+           "its specification; and results/, files of others that were taken in. An atlas that was "
+           "interrupted goes on when the same command is given again.",
+       .usage = "  clackers atlas [--out FOLDER] [--jobs n] [--specification FILE.toml]\n"
+                "           [--merge FILE.json ...]\n"
+                "  clackers atlas --submit METHOD [--author NAME] --out FILE.json\n"
+                "  clackers atlas --submit NAME --exec COMMAND|--plugin FILE.so\n"
+                "           [--expect BEHAVIOUR[:ORDER]] [--author NAME] --out FILE.json\n"});
+  app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
+  app->add_option("--specification", options->specification,
+                  "Systems, methods and ladder as `clackers campaign` takes them, instead of those "
+                  "that ship.")
+      ->reads_file("FILE.toml");
+  app->add_option(
+         "--submit", options->submit,
+         "Run this method alone on all systems, and write the results with their provenance "
+         "as a file that other atlases take in. With --exec or --plugin it is the name "
+         "of your program.")
+      ->option_text("METHOD");
+  app->add_option("--exec", options->command,
+                  "Your program, a line for the shell, as `clackers verify --exec` takes it.")
+      ->option_text("COMMAND");
+  app->add_option("--plugin", options->library,
+                  "Your solver in a shared library, as `clackers verify --plugin` takes it.")
+      ->reads_file("FILE.so");
+  app->add_option("--expect", options->expect,
+                  "What your program should show: proper:2, reduced:1, irregular:1, exact, "
+                  "stagnating or divergent. Default: nothing is claimed.")
+      ->option_text("BEHAVIOUR[:ORDER]");
+  app->add_option("--author", options->author,
+                  "Whose results they are; the page shows it. Default: METHOD.")
+      ->option_text("NAME");
+  app->add_option("--merge", options->merge,
+                  "Take in the results of a file that --submit wrote; they stand in the page with "
+                  "their author. May be repeated. A file of the same name is replaced.")
+      ->reads_file("FILE.json");
+  add_common_options(*app, options->common);
+  app->get_option("--out")
+      ->description(
+          "The folder of the atlas; one of another command is refused. Default: "
+          "clackers-atlas. With --submit the file.")
+      ->option_text("FOLDER|FILE.json");
+  app->get_option("--out")->kind = ValueKind::text;
+  app->run = [options](const std::string& line) { return run(*options, line); };
+}
+
+}  // namespace clackers::cli

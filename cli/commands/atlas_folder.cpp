@@ -1,0 +1,106 @@
+#include "cli/commands/atlas_folder.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "clackers/base/error.hpp"
+#include "cli/files/output_file.hpp"
+
+namespace clackers::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  if (!file || text.str().empty())
+    throw FileError(fmt::format("{}: this file cannot be read, or is empty. Give one that clackers "
+                                "atlas --submit wrote.",
+                                path),
+                    "cannot-read");
+  return text.str();
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  OutputFile file(path, OnInterrupt::finish);
+  file.stream() << text;
+  file.commit();
+}
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error)
+    throw FileError(fmt::format("{}: the folder cannot be made: {}", path, error.message()),
+                    "cannot-write");
+}
+
+std::string temporary_folder() {
+  auto path = (fs::temp_directory_path() / "clackers-atlas-XXXXXX").string();
+  if (mkdtemp(path.data()) == nullptr)
+    throw FileError(fmt::format("{}: the folder cannot be made: {}", path, std::strerror(errno)),
+                    "cannot-write");
+  return path;
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() : removed_(temporary_folder()) {}
+
+TemporaryFolder::~TemporaryFolder() { remove_path(path().c_str()); }
+
+void AtlasFolder::begin(const campaign::Specification& specification) const {
+  make_folder(path_);
+  const auto own = this->specification();
+  if (!fs::exists(own) && !fs::is_empty(path_))
+    throw InputError(
+        fmt::format("{}: this folder holds other files, and no atlas.toml. Give a new or "
+                    "an empty one with --out FOLDER.",
+                    path_),
+        "foreign-folder");
+  if (fs::exists(own)) {
+    if (text_of(own) == specification.text()) return;
+    throw InputError(
+        fmt::format("{}: the atlas of this folder has another specification. Give another "
+                    "folder with --out FOLDER, or go on with that one: clackers atlas "
+                    "--specification {} --out {}",
+                    path_, own, path_),
+        "other-campaign");
+  }
+  write_file(own, specification.text());
+}
+
+void AtlasFolder::take_in(const std::vector<std::string>& files) const {
+  std::vector<std::string> texts;
+  for (const auto& file : files) {
+    texts.push_back(text_of(file));
+    campaign::results_from(texts.back(), file);
+  }
+  if (!files.empty()) make_folder(others());
+  for (std::size_t i = 0; i < files.size(); ++i)
+    write_file(others() + "/" + fs::path(files[i]).stem().string() + ".json", texts[i]);
+}
+
+std::vector<campaign::AtlasResults> AtlasFolder::results() const {
+  std::vector<std::string> files;
+  if (fs::is_directory(others()))
+    for (const auto& entry : fs::directory_iterator(others()))
+      if (entry.path().extension() == ".json") files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  std::vector<campaign::AtlasResults> all;
+  for (const auto& file : files) all.push_back(campaign::results_from(text_of(file), file));
+  return all;
+}
+
+void AtlasFolder::write_page(const std::string& html) const { write_file(page(), html); }
+
+}  // namespace clackers::cli
