@@ -35,6 +35,7 @@ set = { N = [0, 1, 2, 3], xi1 = { from = 0.01, to = 0.2, points = %d } }
 """
 KINDS = ("process", "rank", "node")
 GRACE = 10.0  # seconds that mpirun has to end the others when one rank is lost
+LONGEST = 60.0  # seconds of a run; one that hangs is killed as well
 LAUNCH = 0.4  # seconds until the ranks of mpirun begin
 
 
@@ -153,7 +154,7 @@ def disturb(campaign, chance, duration, most_kills):
         may_kill = sum(kills[each] for each in KINDS) < most_kills
         # From the first instant to the end of most runs.
         latest = duration + (0.0 if kind == "process" else LAUNCH)
-        if run.wait(chance.uniform(0.0, latest) if may_kill else 600):
+        if run.wait(chance.uniform(0.0, latest) if may_kill else LONGEST):
             run.check_end()
             require_kept(finished, campaign.rows(), kind)
             return kills

@@ -2,6 +2,7 @@
 import contextlib
 import os
 import signal
+import time
 import unittest
 
 from cluster import PROGRAM, CampaignTest
@@ -43,6 +44,7 @@ class InSlurm(CampaignTest):
             file.write(self.text_of("runs.db.sbatch").replace(self.specification, self.longer))
         job = self.slurm.run("sbatch", "--parsable", "--array=1", script).stdout.strip()
         self.wait_for(lambda: self.has_stored(shard))
+        time.sleep(0.7)  # that transaction ends, and half a second later the next
         stop(f"{job}_1")
         self.assertEqual(self.slurm.wait(job), [state], self.logs())
         before = self.timings(shard)
