@@ -14,7 +14,9 @@ Specification specification(const std::string& text) {
   return Specification::from_toml(text, "spec.toml");
 }
 
-constexpr auto small = R"(methods = ["newmark"]
+constexpr auto small = R"(# Ä
+methods = ["newmark", # Ö "ü" ]
+  { exec = "ä {h}" }]  # é
 metrics = ["u-max"]
 [ladder]
 levels = 3
@@ -57,6 +59,7 @@ TEST(WithMethods, KeepsSystemsAndLadder) {
   EXPECT_EQ(after.methods()[1].text, "./a 'b' {h}");
   EXPECT_EQ(after.methods()[1].name, "ours");
   EXPECT_EQ(after.methods()[1].expect, "proper:2");
+  EXPECT_NE(after.text().find(" ]  # \xC3\xA9\nmetrics"), std::string::npos) << after.text();
   EXPECT_EQ(after.systems(), before.systems());
   EXPECT_EQ(after.ladder().levels, before.ladder().levels);
   EXPECT_EQ(after.metrics(), before.metrics());
