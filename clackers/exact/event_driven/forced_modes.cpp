@@ -60,17 +60,18 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
   system_ = std::move(*system);
   for (int order = 0; order <= 3; ++order) derivatives_.push_back(system_.derivative(order));
   inverse_ = system_.inverse();
-  push_ = inverse_.rightCols(dof()) * mass_.llt().solve(Matrix::Identity(dof(), dof()));
-  add_forces(problem, who);
+  const Matrix inverse_mass = mass_.llt().solve(Matrix::Identity(dof(), dof()));
+  push_ = inverse_.rightCols(dof()) * inverse_mass;
+  add_forces(problem, inverse_mass, who);
   find_residuals();
 }
 
 // z' = A z + g e^(i w t) mode by mode.
-void ForcedModes::add_forces(const model::ImpactProblem<>& problem, std::string_view who) {
+void ForcedModes::add_forces(const model::ImpactProblem<>& problem, const Matrix& inverse_mass,
+                             std::string_view who) {
   const auto* load = problem.system.add_load.target<model::HarmonicLoad>();
   if (load == nullptr) return;
   const Index n = dof();
-  const Matrix inverse_mass = mass_.llt().solve(Matrix::Identity(n, n));
   for (const auto& f : load->forces()) {
     Force force;
     force.frequency = f.frequency;

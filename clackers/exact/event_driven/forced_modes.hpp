@@ -65,7 +65,8 @@ class ForcedModes {
   Matrix carried(const Matrix& covariance, double s) const;
 
  private:
-  void add_forces(const model::ImpactProblem<>& problem, std::string_view who);
+  void add_forces(const model::ImpactProblem<>& problem, const Matrix& inverse_mass,
+                  std::string_view who);
   void find_residuals();
 
   Matrix mass_, damping_, stiffness_;

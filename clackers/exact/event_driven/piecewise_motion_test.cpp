@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -86,46 +87,66 @@ model::ImpactProblem<> seen_through(const MatrixXd& s, const model::ImpactProble
   return seen;
 }
 
+Real time_of(const testing_oracle::RawCollision& impact) { return impact.before.t; }
+Real time_of(const testing_oracle::TaylorSimulator::Impact& impact) { return impact.t; }
+int contact_of(const testing_oracle::RawCollision&) { return 0; }
+int contact_of(const testing_oracle::TaylorSimulator::Impact& impact) { return impact.contact; }
+
+Real entry(const std::array<Real, 2>& values, Eigen::Index j) { return values[std::size_t(j)]; }
+Real entry(const testing_oracle::RealVector& values, Eigen::Index j) { return values[j]; }
+
+// What a motion showed beside its simulation.
+struct Followed {
+  int impacts = 0;
+  double widest = 0.0;  // bound on u over its envelope
+};
+
+// Impacts and states at every `spacing` seconds are those of the simulation within their bounds.
+template <class Simulator>
+void expect_simulated(const PiecewiseMotion& motion, Simulator simulator, double spacing,
+                      Followed& seen) {
+  long long k = 0;
+  for (int i = 1; spacing * i <= motion.end(); ++i) {
+    const double t = spacing * i;
+    while (const auto found = simulator.next(t)) {
+      ASSERT_GE(motion.impact_count(motion.end()), ++k);
+      const auto hit = motion.impact(k);
+      EXPECT_EQ(hit.contact, contact_of(*found));
+      EXPECT_TRUE(Real(hit.when.lo) <= time_of(*found) && time_of(*found) <= Real(hit.when.hi));
+      EXPECT_LT(hit.when.hi - hit.when.lo, 1e-8);
+      EXPECT_NEAR(hit.impulse, double(found->impulse), 1e-9 * hit.impulse);
+      ++seen.impacts;
+    }
+    EXPECT_EQ(motion.impact_count(t), k);
+    const auto x = simulator.at(t);
+    const auto state = motion.at(t, Side::right);
+    const auto bound = motion.error_bound(t), size = motion.envelope(0.0);
+    for (Eigen::Index j = 0; j < state.u.size(); ++j) {
+      EXPECT_LE(abs(Real(entry(x.u, j) - Real(state.u[j]))), Real(bound.u[j]));
+      EXPECT_LE(abs(Real(entry(x.v, j) - Real(state.v[j]))), Real(bound.v[j]));
+      EXPECT_LE(abs(Real(entry(x.a, j) - Real(state.a[j]))), Real(bound.a[j]));
+      seen.widest = std::max(seen.widest, bound.u[j] / size.u[j]);
+    }
+  }
+}
+
 TEST(PiecewiseMotion, IsTheSimulationWithNinetyDigitsWithinItsBound) {
   Box box(21);
-  int members = 0, impacts = 0;
-  double widest = 0.0;
+  int members = 0;
+  Followed seen;
   for (int trial = 0; members < trials(50) && trial < 2000; ++trial) {
     SCOPED_TRACE(testing::Message() << "seed 21, trial " << trial);
     const auto problem = random_pair(box);
     const auto text = test::refusal_of([&] { PiecewiseMotion{problem}; });
     if (text != "accepted") continue;
     ++members;
-    const PiecewiseMotion motion(problem);
-    testing_oracle::ImpactSimulator simulator(raw(problem));
-    long long k = 0;
-    for (int i = 1; i <= 24; ++i) {
-      const double t = 0.497 * i;
-      while (const auto found = simulator.next(t)) {
-        ASSERT_GE(motion.impact_count(12.0), ++k);
-        const auto hit = motion.impact(k);
-        EXPECT_TRUE(Real(hit.when.lo) <= found->before.t && found->before.t <= Real(hit.when.hi));
-        EXPECT_LT(hit.when.hi - hit.when.lo, 1e-8);
-        EXPECT_NEAR(hit.impulse, double(found->impulse), 1e-9 * hit.impulse);
-        ++impacts;
-      }
-      EXPECT_EQ(motion.impact_count(t), k);
-      const auto x = simulator.at(t);
-      const auto state = motion.at(t, Side::right);
-      const auto bound = motion.error_bound(t), size = motion.envelope(0.0);
-      for (Eigen::Index j = 0; j < 2; ++j) {
-        const auto m = std::size_t(j);
-        EXPECT_LE(abs(x.u[m] - Real(state.u[j])), Real(bound.u[j]));
-        EXPECT_LE(abs(x.v[m] - Real(state.v[j])), Real(bound.v[j]));
-        EXPECT_LE(abs(x.a[m] - Real(state.a[j])), Real(bound.a[j]));
-        widest = std::max(widest, bound.u[j] / size.u[j]);
-      }
-    }
+    expect_simulated(PiecewiseMotion(problem), testing_oracle::ImpactSimulator(raw(problem)), 0.497,
+                     seen);
   }
   EXPECT_GE(members, trials(50));
-  EXPECT_GT(impacts, 2 * members);
+  EXPECT_GT(seen.impacts, 2 * members);
   // Two-sided: some of these motions amplify errors at each of ten impacts, none by more than 1e4.
-  EXPECT_LT(widest, 1e-8);
+  EXPECT_LT(seen.widest, 1e-8);
 }
 
 // Two or three masses with dashpots that couple all modes, some overdamped, some with forces.
@@ -157,8 +178,8 @@ model::ImpactProblem<> random_dashpots(Box& box) {
 
 TEST(PiecewiseMotion, DashpotsThatCoupleModesMoveAsTheTaylorSeriesSays) {
   Box box(24);
-  int members = 0, impacts = 0, forced = 0;
-  double widest = 0.0;
+  int members = 0, forced = 0;
+  Followed seen;
   for (int trial = 0; members < trials(50) && trial < 2000; ++trial) {
     SCOPED_TRACE(testing::Message() << "seed 24, trial " << trial);
     const auto problem = random_dashpots(box);
@@ -166,36 +187,13 @@ TEST(PiecewiseMotion, DashpotsThatCoupleModesMoveAsTheTaylorSeriesSays) {
     if (text != "accepted") continue;
     ++members;
     forced += problem.system.add_load ? 1 : 0;
-    const PiecewiseMotion motion(problem);
-    testing_oracle::TaylorSimulator simulator(problem);
-    long long k = 0;
-    for (int i = 1; i <= 10; ++i) {
-      const double t = 0.797 * i;
-      while (const auto found = simulator.next(t)) {
-        ASSERT_GE(motion.impact_count(problem.end), ++k);
-        const auto hit = motion.impact(k);
-        EXPECT_EQ(hit.contact, found->contact);
-        EXPECT_TRUE(Real(hit.when.lo) <= found->t && found->t <= Real(hit.when.hi));
-        EXPECT_LT(hit.when.hi - hit.when.lo, 1e-8);
-        EXPECT_NEAR(hit.impulse, double(found->impulse), 1e-9 * hit.impulse);
-        ++impacts;
-      }
-      EXPECT_EQ(motion.impact_count(t), k);
-      const auto x = simulator.at(t);
-      const auto state = motion.at(t, Side::right);
-      const auto bound = motion.error_bound(t), size = motion.envelope(0.0);
-      for (Eigen::Index j = 0; j < state.u.size(); ++j) {
-        EXPECT_LE(abs(Real(x.u[j] - Real(state.u[j]))), Real(bound.u[j]));
-        EXPECT_LE(abs(Real(x.v[j] - Real(state.v[j]))), Real(bound.v[j]));
-        EXPECT_LE(abs(Real(x.a[j] - Real(state.a[j]))), Real(bound.a[j]));
-        widest = std::max(widest, bound.u[j] / size.u.maxCoeff());
-      }
-    }
+    expect_simulated(PiecewiseMotion(problem), testing_oracle::TaylorSimulator(problem), 0.797,
+                     seen);
   }
   EXPECT_GE(members, trials(50));
-  EXPECT_GT(impacts, 2 * members);
+  EXPECT_GT(seen.impacts, 2 * members);
   EXPECT_GT(forced, members / 4);
-  EXPECT_LT(widest, 1e-8);
+  EXPECT_LT(seen.widest, 1e-8);
 }
 
 TEST(PiecewiseMotion, CoupledCoordinatesShowTheSameMotion) {
