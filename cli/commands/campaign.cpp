@@ -129,7 +129,8 @@ void add_campaign(Grammar& root) {
   app->add_option(
          "ACTION", options->action,
          "plan: systems, tasks, runs, and estimates of time and disk. run: run what is not "
-         "finished yet. submit: run it as a job array of a cluster, and merge. status: how far a database is, and its verdicts. merge: add the "
+         "finished yet. submit: run it as a job array of a cluster, and merge. status: how far a "
+         "database is, and its verdicts. merge: add the "
          "tasks of shards, without FILEs those beside the database. export: all rows in "
          "order. query: a statement in SQL that reads. report: a page with a matrix of verdicts and "
          "its figures, which opens without a network.")
