@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "benchmarks/measure.hpp"
-#include "clackers/exchange/history.hpp"
+#include "clackers/input/history.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/study/check.hpp"
 

@@ -18,7 +18,7 @@
 
 #include "benchmarks/measure.hpp"
 #include "benchmarks/naive_pair.hpp"
-#include "clackers/assess/errors/error_sink.hpp"
+#include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/numerics/testing/forced_target.hpp"

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <utility>
 
-#include "clackers/study/program/process.hpp"
+#include "clackers/solvers/process.hpp"
 
 namespace clackers::cli {
 namespace {

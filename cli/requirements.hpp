@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/study/require.hpp"
+#include "clackers/record/require.hpp"
 #include "cli/command.hpp"
 
 namespace clackers::cli {

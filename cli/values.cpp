@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exchange/text/number.hpp"
+#include "clackers/input/text/number.hpp"
 
 namespace clackers::cli {
 namespace {

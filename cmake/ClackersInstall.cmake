@@ -33,7 +33,7 @@ endif()
 # For C. Its targets stand in a file of their own: they need neither C++ nor the libraries below it.
 install(TARGETS clackers_c EXPORT clackers-c
   LIBRARY COMPONENT library NAMELINK_COMPONENT development)
-install(FILES bindings/c/clackers.h clackers/study/plugin/clackers_solver.h TYPE INCLUDE COMPONENT development)
+install(FILES bindings/c/clackers.h clackers/solvers/plugin/clackers_solver.h TYPE INCLUDE COMPONENT development)
 install(EXPORT clackers-c NAMESPACE clackers:: DESTINATION ${package_dir} COMPONENT development
   FILE clackers-c-targets.cmake)
 

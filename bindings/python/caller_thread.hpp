@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "clackers/study/progress.hpp"
+#include "clackers/base/jobs/progress.hpp"
 
 namespace clackers::python {
 

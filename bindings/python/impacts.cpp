@@ -10,7 +10,7 @@
 #include "bindings/python/rows.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
-#include "clackers/study/respond.hpp"
+#include "clackers/tables/respond.hpp"
 
 namespace clackers::python {
 namespace {

@@ -5,7 +5,7 @@
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
 #include "bindings/python/rows.hpp"
-#include "clackers/study/respond.hpp"
+#include "clackers/tables/respond.hpp"
 
 namespace clackers::python {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "clackers/study/sheet.hpp"
+#include "clackers/record/sheet.hpp"
 
 namespace clackers::python {
 

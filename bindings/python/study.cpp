@@ -15,7 +15,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/study/check.hpp"
-#include "clackers/study/program.hpp"
+#include "clackers/solvers/program.hpp"
 #include "clackers/study/solver.hpp"
 #include "clackers/study/verify.hpp"
 

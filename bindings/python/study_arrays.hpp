@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "clackers/exchange/source.hpp"
+#include "clackers/input/source.hpp"
 
 namespace clackers::python {
 

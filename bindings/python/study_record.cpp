@@ -13,7 +13,7 @@
 #include "clackers/report/html/notebook.hpp"
 #include "clackers/report/words/words.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/study/record_json.hpp"
+#include "clackers/record/record_json.hpp"
 #include "clackers/study/solver.hpp"
 
 namespace clackers::python {

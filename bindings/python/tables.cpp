@@ -13,7 +13,7 @@
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/study/listing.hpp"
+#include "clackers/tables/listing.hpp"
 
 namespace clackers::python {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "clackers/campaign/specification.hpp"
-#include "clackers/study/sheet.hpp"
+#include "clackers/record/sheet.hpp"
 
 namespace clackers::campaign {
 

@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "clackers/study/work_queue.hpp"
+#include "clackers/base/jobs/work_queue.hpp"
 
 namespace clackers::campaign {
 namespace {

@@ -8,7 +8,7 @@
 #include "clackers/campaign/specification.hpp"
 #include "clackers/campaign/task_source.hpp"
 #include "clackers/campaign/tasks.hpp"
-#include "clackers/study/sheet.hpp"
+#include "clackers/record/sheet.hpp"
 
 // The database of a campaign: one SQLite file, documented in docs/manual/reference/campaign-database.md.
 namespace clackers::campaign {

@@ -6,7 +6,7 @@
 #include "clackers/campaign/tasks/prepared_system.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/study/check.hpp"
-#include "clackers/study/plugin.hpp"
+#include "clackers/solvers/plugin.hpp"
 
 namespace clackers::campaign {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clackers/campaign/specification.hpp"
-#include "clackers/study/sheet.hpp"
+#include "clackers/record/sheet.hpp"
 #include "clackers/study/solver.hpp"
 
 // The unit of work: one system with one method over its ladder.

@@ -6,7 +6,7 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/cases/problem_file.hpp"
+#include "clackers/model/problem_file.hpp"
 #include "clackers/cases/row.hpp"
 #include "clackers/exact/event_driven/piecewise_motion.hpp"
 #include "clackers/exact/orbit/cradle.hpp"

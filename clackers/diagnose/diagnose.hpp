@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/assess/convergence/assessment.hpp"
+#include "clackers/judge/convergence/assessment.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/diagnose/limit.hpp"
 #include "clackers/diagnose/observation.hpp"

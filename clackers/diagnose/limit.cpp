@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/measure/errors/comparison.hpp"
 #include "clackers/diagnose/ladder/error_curve.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/numerics/line_fit.hpp"

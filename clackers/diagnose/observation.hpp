@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/measure/errors/comparison.hpp"
 #include "clackers/model/trajectory.hpp"
 
 namespace clackers::diagnose {

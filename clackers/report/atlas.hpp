@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "clackers/study/provenance.hpp"
-#include "clackers/study/sheet.hpp"
+#include "clackers/record/provenance.hpp"
+#include "clackers/record/sheet.hpp"
 
 // The page of a campaign: a matrix of verdicts, methods by rows and systems by columns.
 namespace clackers::report {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "clackers/report/groups.hpp"
-#include "clackers/study/record.hpp"
-#include "clackers/study/sheet.hpp"
+#include "clackers/record/record.hpp"
+#include "clackers/record/sheet.hpp"
 
 // The one table of columns. Every output takes its names, units, meanings and values from here.
 namespace clackers::report {

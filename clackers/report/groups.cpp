@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "clackers/study/listing.hpp"
+#include "clackers/tables/listing.hpp"
 
 namespace clackers::report {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clackers/report/words/words.hpp"
-#include "clackers/study/record.hpp"
+#include "clackers/record/record.hpp"
 
 // In which order outputs for people show what was assessed on a case.
 namespace clackers::report {

@@ -16,7 +16,7 @@
 #include "clackers/report/rows/rows.hpp"
 #include "clackers/report/text/plot.hpp"
 #include "clackers/report/text/text.hpp"
-#include "clackers/study/record_json.hpp"
+#include "clackers/record/record_json.hpp"
 
 namespace clackers::report {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "clackers/study/baseline.hpp"
-#include "clackers/study/record.hpp"
-#include "clackers/study/sheet.hpp"
+#include "clackers/record/record.hpp"
+#include "clackers/record/sheet.hpp"
 
 namespace clackers::report {
 

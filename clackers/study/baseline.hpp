@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/study/record.hpp"
+#include "clackers/record/record.hpp"
 
 namespace clackers::study {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "clackers/cases/case.hpp"
-#include "clackers/exchange/source.hpp"
-#include "clackers/study/progress.hpp"
-#include "clackers/study/record.hpp"
+#include "clackers/input/source.hpp"
+#include "clackers/base/jobs/progress.hpp"
+#include "clackers/record/record.hpp"
 
 namespace clackers::study {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "clackers/study/record.hpp"
+#include "clackers/record/record.hpp"
 
 // Which steps a study takes: chosen by the case where nothing is asked for, and refined further
 // while the assessment of a subject is open.

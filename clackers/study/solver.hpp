@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "clackers/exchange/source.hpp"
-#include "clackers/study/progress.hpp"
-#include "clackers/study/record.hpp"
+#include "clackers/input/source.hpp"
+#include "clackers/base/jobs/progress.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/study/verify.hpp"
 
 // Solvers of others under test: a program, a callable or a plug-in. Each makes a history for each

@@ -8,7 +8,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
-#include "clackers/study/record.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/study/refinement.hpp"
 #include "clackers/study/solver.hpp"
 

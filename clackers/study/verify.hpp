@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "clackers/cases/case.hpp"
-#include "clackers/study/progress.hpp"
-#include "clackers/study/record.hpp"
+#include "clackers/base/jobs/progress.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/study/refinement.hpp"
 
 namespace clackers::study {

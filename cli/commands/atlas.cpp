@@ -6,7 +6,7 @@
 
 #include "clackers/campaign/run.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/study/provenance.hpp"
+#include "clackers/record/provenance.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/atlas_folder.hpp"
 #include "cli/commands/campaign_actions.hpp"

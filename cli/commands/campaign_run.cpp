@@ -6,7 +6,7 @@
 #include "clackers/campaign/plan.hpp"
 #include "clackers/campaign/run.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/study/work_queue.hpp"
+#include "clackers/base/jobs/work_queue.hpp"
 #include "cli/cluster/run_on_ranks.hpp"
 #include "cli/commands/campaign_actions.hpp"
 #include "cli/commands/plugin_run.hpp"

@@ -6,7 +6,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/text.hpp"
-#include "clackers/study/program/process.hpp"
+#include "clackers/solvers/process.hpp"
 #include "cli/cluster/batch_script.hpp"
 #include "cli/commands/campaign_actions.hpp"
 #include "cli/files/output_file.hpp"

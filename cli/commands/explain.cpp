@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "clackers/report/write.hpp"
-#include "clackers/study/listing.hpp"
+#include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/files/results.hpp"
 #include "cli/options.hpp"

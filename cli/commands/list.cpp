@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "clackers/base/suggest.hpp"
-#include "clackers/paper/table.hpp"
+#include "paper/table.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/study/listing.hpp"
+#include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/files/results.hpp"
 #include "cli/options.hpp"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/paper/catalogue.hpp"
-#include "clackers/paper/reproduce.hpp"
-#include "clackers/paper/table.hpp"
+#include "paper/catalogue.hpp"
+#include "paper/reproduce.hpp"
+#include "paper/table.hpp"
 #include "clackers/report/write.hpp"
 #include "cli/command.hpp"
 #include "cli/files/output_folder.hpp"

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "clackers/base/error.hpp"
-#include "clackers/study/plugin.hpp"
+#include "clackers/solvers/plugin.hpp"
 
 namespace clackers::cli {
 

@@ -1,4 +1,4 @@
-#include "clackers/study/respond.hpp"
+#include "clackers/tables/respond.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -9,9 +9,9 @@
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/study/digit_rows.hpp"
-#include "clackers/study/listing.hpp"
-#include "clackers/study/provenance.hpp"
+#include "clackers/tables/respond/digit_rows.hpp"
+#include "clackers/tables/listing.hpp"
+#include "clackers/record/provenance.hpp"
 #include "cli/command.hpp"
 #include "cli/files/input_files.hpp"
 #include "cli/files/report_page.hpp"

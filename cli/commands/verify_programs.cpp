@@ -8,7 +8,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/report/words/words.hpp"
 #include "clackers/study/check.hpp"
-#include "clackers/study/plugin.hpp"
+#include "clackers/solvers/plugin.hpp"
 #include "cli/commands/plugin_run.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/study/program.hpp"
+#include "clackers/solvers/program.hpp"
 #include "cli/command.hpp"
 
 namespace clackers::cli {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exchange/text/input_file.hpp"
-#include "clackers/exchange/text/separation.hpp"
-#include "clackers/exchange/text/text_lines.hpp"
-#include "clackers/study/record_json.hpp"
+#include "clackers/input/text/input_file.hpp"
+#include "clackers/input/text/separation.hpp"
+#include "clackers/input/text/text_lines.hpp"
+#include "clackers/record/record_json.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/values.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/study/record.hpp"
+#include "clackers/record/record.hpp"
 
 namespace clackers::cli {
 

@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "clackers/cases/case.hpp"
-#include "clackers/paper/table.hpp"
-#include "clackers/study/listing.hpp"
+#include "paper/table.hpp"
+#include "clackers/tables/listing.hpp"
 
 namespace clackers::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "clackers/assess/errors/error_sink.hpp"
+#include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/methods/contact/compliant_law.hpp"
 #include "clackers/methods/registry.hpp"

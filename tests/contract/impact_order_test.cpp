@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "clackers/assess/errors/error_sink.hpp"
+#include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/numerics/line_fit.hpp"

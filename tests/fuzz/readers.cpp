@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "clackers/cases/case.hpp"
-#include "clackers/exchange/events.hpp"
-#include "clackers/exchange/history.hpp"
+#include "clackers/input/events.hpp"
+#include "clackers/input/history.hpp"
 #include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
 #include "cli/files/input_files.hpp"

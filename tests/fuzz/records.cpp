@@ -8,7 +8,7 @@
 #include "clackers/report/write.hpp"
 #include "clackers/study/baseline.hpp"
 #include "clackers/study/check.hpp"
-#include "clackers/study/record_json.hpp"
+#include "clackers/record/record_json.hpp"
 #include "cli/values.hpp"
 #include "target.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/study/program/command_template.hpp"
+#include "clackers/solvers/command_template.hpp"
 
 namespace clackers::campaign {
 namespace {

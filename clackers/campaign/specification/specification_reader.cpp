@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/metrics/metric.hpp"
+#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/campaign/specification.hpp"
 #include "clackers/campaign/specification/sampling.hpp"
-#include "clackers/cases/toml_reader.hpp"
+#include "clackers/base/toml_reader.hpp"
 #include "clackers/methods/registry.hpp"
-#include "clackers/study/cause_metrics.hpp"
+#include "clackers/record/cause_metrics.hpp"
 #include "clackers/study/check.hpp"
-#include "clackers/study/program.hpp"
+#include "clackers/solvers/program.hpp"
 #include "clackers/study/system_study.hpp"
 
 namespace clackers::campaign {

@@ -7,7 +7,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/campaign/store.hpp"
-#include "clackers/study/provenance.hpp"
+#include "clackers/record/provenance.hpp"
 
 namespace clackers::campaign {
 namespace {

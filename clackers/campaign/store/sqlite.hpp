@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "clackers/study/sheet.hpp"
+#include "clackers/record/sheet.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "clackers/assess/errors/mechanics.hpp"
-#include "clackers/assess/errors/vectors.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/measure/errors/vectors.hpp"
 
 namespace clackers::diagnose {
 namespace {

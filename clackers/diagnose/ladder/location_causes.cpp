@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "clackers/assess/errors/vectors.hpp"
+#include "clackers/measure/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/errors/vectors.hpp"
+#include "clackers/measure/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
 
 namespace clackers::diagnose {

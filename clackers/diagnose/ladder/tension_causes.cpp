@@ -2,8 +2,8 @@
 #include <cmath>
 #include <optional>
 
-#include "clackers/assess/errors/mechanics.hpp"
-#include "clackers/assess/errors/vectors.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/measure/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
 

@@ -8,8 +8,8 @@
 #include <memory>
 #include <random>
 
-#include "clackers/assess/errors/mechanics.hpp"
-#include "clackers/assess/errors/vectors.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/measure/errors/vectors.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/trajectory.hpp"
 

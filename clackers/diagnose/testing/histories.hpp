@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "clackers/assess/convergence/judge.hpp"
-#include "clackers/assess/errors/velocity_error.hpp"
+#include "clackers/judge/convergence/judge.hpp"
+#include "clackers/measure/errors/velocity_error.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/diagnose.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/study/listing.hpp"
+#include "clackers/tables/listing.hpp"
 
 namespace clackers::report {
 namespace {

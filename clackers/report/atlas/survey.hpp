@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "clackers/assess/errors/score.hpp"
+#include "clackers/measure/errors/score.hpp"
 #include "clackers/base/judgement.hpp"
 #include "clackers/report/atlas.hpp"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clackers/report/format.hpp"
-#include "clackers/study/program/command_template.hpp"
+#include "clackers/solvers/command_template.hpp"
 
 namespace clackers::report {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "clackers/assess/cost/profile_tasks.hpp"
+#include "clackers/judge/cost/profile_tasks.hpp"
 #include "clackers/report/atlas/survey_data.hpp"
 #include "clackers/report/columns.hpp"
-#include "clackers/study/profile.hpp"
+#include "clackers/record/profile.hpp"
 
 namespace clackers::report {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "clackers/assess/cost/work_precision.hpp"
+#include "clackers/judge/cost/work_precision.hpp"
 #include "clackers/report/columns.hpp"
 
 namespace clackers::report {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/study/record.hpp"
+#include "clackers/record/record.hpp"
 
 namespace clackers::report {
 

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "clackers/assess/cost/work_precision.hpp"
+#include "clackers/judge/cost/work_precision.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/html/counters.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/study/reduced_curve.hpp"
+#include "clackers/record/reduced_curve.hpp"
 
 namespace clackers::report {
 namespace {

@@ -8,11 +8,11 @@
 #include <regex>
 #include <set>
 
-#include "clackers/assess/cost/work_precision.hpp"
+#include "clackers/judge/cost/work_precision.hpp"
 #include "clackers/report/html/figure_specifications.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/testing/sample_record.hpp"
-#include "clackers/study/reduced_curve.hpp"
+#include "clackers/record/reduced_curve.hpp"
 
 namespace clackers::report {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/study/record.hpp"
-#include "clackers/study/sheet.hpp"
+#include "clackers/record/record.hpp"
+#include "clackers/record/sheet.hpp"
 
 namespace clackers::report {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "clackers/study/record.hpp"
+#include "clackers/record/record.hpp"
 
 // What stands above the sections of a record.
 namespace clackers::report {

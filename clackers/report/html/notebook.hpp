@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/study/record.hpp"
+#include "clackers/record/record.hpp"
 
 // A record in a notebook, whose page may be light or dark: colours of middle lightness, no scripts.
 namespace clackers::report {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "clackers/report/assets.hpp"
-#include "clackers/study/record.hpp"
+#include "clackers/record/record.hpp"
 
 namespace clackers::report {
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/metrics/metric.hpp"
+#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/base/codes.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/markup.hpp"
-#include "clackers/study/cause_metrics.hpp"
+#include "clackers/record/cause_metrics.hpp"
 
 namespace clackers::report {
 namespace {

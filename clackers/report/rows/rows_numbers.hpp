@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/study/sheet.hpp"
+#include "clackers/record/sheet.hpp"
 
 namespace clackers::report {
 

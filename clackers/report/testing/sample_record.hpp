@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "clackers/study/notes.hpp"
-#include "clackers/study/record.hpp"
+#include "clackers/record/notes.hpp"
+#include "clackers/record/record.hpp"
 
 // Made-up numbers in the shape of real records, for tests of what shows records.
 namespace clackers::report {

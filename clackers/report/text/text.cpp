@@ -9,8 +9,8 @@
 #include <functional>
 #include <ostream>
 
-#include "clackers/assess/cost/performance_profile.hpp"
-#include "clackers/assess/metrics/metric.hpp"
+#include "clackers/judge/cost/performance_profile.hpp"
+#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"

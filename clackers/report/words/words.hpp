@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "clackers/study/baseline.hpp"
-#include "clackers/study/record.hpp"
-#include "clackers/study/require.hpp"
+#include "clackers/record/record.hpp"
+#include "clackers/record/require.hpp"
 
 // Every sentence of a report, made of the codes and numbers of a record.
 namespace clackers::report {

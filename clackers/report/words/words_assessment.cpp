@@ -6,7 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include "clackers/assess/convergence/ladder_fit.hpp"
+#include "clackers/judge/convergence/ladder_fit.hpp"
 #include "clackers/base/codes.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/words/words.hpp"

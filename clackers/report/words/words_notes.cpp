@@ -5,7 +5,7 @@
 
 #include "clackers/report/format.hpp"
 #include "clackers/report/words/words.hpp"
-#include "clackers/study/notes.hpp"
+#include "clackers/record/notes.hpp"
 
 namespace clackers::report {
 namespace {

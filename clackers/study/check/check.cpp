@@ -9,9 +9,9 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/study/check/history_set.hpp"
-#include "clackers/study/provenance.hpp"
-#include "clackers/study/reduced_curve.hpp"
-#include "clackers/study/respond.hpp"
+#include "clackers/record/provenance.hpp"
+#include "clackers/record/reduced_curve.hpp"
+#include "clackers/tables/respond.hpp"
 #include "clackers/study/verify/verify_plan.hpp"
 
 namespace clackers::study {

@@ -5,7 +5,7 @@
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/study/check.hpp"
-#include "clackers/study/record_json.hpp"
+#include "clackers/record/record_json.hpp"
 #include "clackers/study/testing/check_fixture.hpp"
 
 namespace clackers::study {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <functional>
 
-#include "clackers/assess/convergence/judge.hpp"
-#include "clackers/assess/convergence/step_levels.hpp"
+#include "clackers/judge/convergence/judge.hpp"
+#include "clackers/judge/convergence/step_levels.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/diagnose/diagnose.hpp"
 #include "clackers/diagnose/limit.hpp"
-#include "clackers/study/notes.hpp"
+#include "clackers/record/notes.hpp"
 
 namespace clackers::study {
 namespace {

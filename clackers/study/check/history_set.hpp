@@ -9,8 +9,8 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/study/check/history/history_run.hpp"
 #include "clackers/study/check/named_resolution.hpp"
-#include "clackers/study/progress.hpp"
-#include "clackers/study/record.hpp"
+#include "clackers/base/jobs/progress.hpp"
+#include "clackers/record/record.hpp"
 
 namespace clackers::study {
 

@@ -6,12 +6,12 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/study/provenance.hpp"
-#include "clackers/study/reduced_curve.hpp"
-#include "clackers/study/respond.hpp"
+#include "clackers/record/provenance.hpp"
+#include "clackers/record/reduced_curve.hpp"
+#include "clackers/tables/respond.hpp"
 #include "clackers/study/solver/solver_study.hpp"
 #include "clackers/study/verify/verify_plan.hpp"
-#include "clackers/study/work_queue.hpp"
+#include "clackers/base/jobs/work_queue.hpp"
 
 namespace clackers::study {
 namespace {

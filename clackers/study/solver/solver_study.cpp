@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "clackers/assess/convergence/step_ladder.hpp"
+#include "clackers/judge/convergence/step_ladder.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/study/program/work_folder.hpp"
+#include "clackers/solvers/work_folder.hpp"
 
 namespace clackers::study {
 namespace {

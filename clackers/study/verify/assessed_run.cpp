@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "clackers/assess/errors/comparison.hpp"
-#include "clackers/assess/errors/error_sink.hpp"
+#include "clackers/measure/errors/comparison.hpp"
+#include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/model/trajectory.hpp"
-#include "clackers/study/cause_metrics.hpp"
-#include "clackers/study/reduced_curve.hpp"
+#include "clackers/record/cause_metrics.hpp"
+#include "clackers/record/reduced_curve.hpp"
 #include "clackers/study/verify/run_sinks.hpp"
 
 namespace clackers::study {

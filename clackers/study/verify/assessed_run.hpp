@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "clackers/study/progress.hpp"
+#include "clackers/base/jobs/progress.hpp"
 #include "clackers/study/verify/verify_plan.hpp"
 
 namespace clackers::study {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "clackers/assess/metrics/metric.hpp"
-#include "clackers/study/cause_metrics.hpp"
+#include "clackers/measure/metrics/metric.hpp"
+#include "clackers/record/cause_metrics.hpp"
 #include "clackers/study/testing/toy_motion.hpp"
 
 namespace clackers::study {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "clackers/assess/convergence/judge.hpp"
+#include "clackers/judge/convergence/judge.hpp"
 #include "clackers/base/codes.hpp"
 
 namespace clackers::study {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string>
 
-#include "clackers/assess/convergence/fit/error_ladder.hpp"
-#include "clackers/assess/convergence/judge.hpp"
-#include "clackers/assess/convergence/ladder_fit.hpp"
-#include "clackers/assess/convergence/step_ladder.hpp"
+#include "clackers/judge/convergence/fit/error_ladder.hpp"
+#include "clackers/judge/convergence/judge.hpp"
+#include "clackers/judge/convergence/ladder_fit.hpp"
+#include "clackers/judge/convergence/step_ladder.hpp"
 
 namespace clackers::study {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "clackers/model/sink.hpp"
-#include "clackers/study/progress.hpp"
+#include "clackers/base/jobs/progress.hpp"
 
 namespace clackers::study {
 

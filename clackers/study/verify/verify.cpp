@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "clackers/base/error.hpp"
-#include "clackers/study/provenance.hpp"
-#include "clackers/study/respond.hpp"
+#include "clackers/record/provenance.hpp"
+#include "clackers/tables/respond.hpp"
 #include "clackers/study/verify/method_study.hpp"
 #include "clackers/study/verify/verify_plan.hpp"
-#include "clackers/study/work_queue.hpp"
+#include "clackers/base/jobs/work_queue.hpp"
 
 namespace clackers::study {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "clackers/assess/metrics/metric.hpp"
-#include "clackers/study/cause_metrics.hpp"
+#include "clackers/measure/metrics/metric.hpp"
+#include "clackers/record/cause_metrics.hpp"
 #include "clackers/study/verify.hpp"
 
 // What a study measures beside its levels: metrics, and what the runs say without the reference.

@@ -9,7 +9,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/methods/registry.hpp"
-#include "clackers/study/program.hpp"
+#include "clackers/solvers/program.hpp"
 
 namespace clackers::study {
 namespace {

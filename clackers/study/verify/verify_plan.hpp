@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "clackers/assess/convergence/step_ladder.hpp"
-#include "clackers/assess/impacts/shared_impacts.hpp"
+#include "clackers/judge/convergence/step_ladder.hpp"
+#include "clackers/measure/impacts/shared_impacts.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/study/verify.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/methods/registry.hpp"
-#include "clackers/study/record_json.hpp"
+#include "clackers/record/record_json.hpp"
 
 namespace clackers::study {
 namespace {

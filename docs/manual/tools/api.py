@@ -13,7 +13,7 @@ MODULES = {
     "methods": ("Methods", "Time integrators and contact treatments, and the interface of a new method.",
                 ["method", "registry"]),
 }
-C_HEADERS = ["bindings/c/clackers.h", "clackers/study/plugin/clackers_solver.h"]
+C_HEADERS = ["bindings/c/clackers.h", "clackers/solvers/plugin/clackers_solver.h"]
 
 
 def header(module, stem):

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/assess/errors/comparison.hpp"
+#include "clackers/measure/errors/comparison.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/study/cause_metrics.hpp"
+#include "clackers/record/cause_metrics.hpp"
 #include "clackers/study/check/history/history_score.hpp"
-#include "clackers/study/notes.hpp"
-#include "clackers/study/reduced_curve.hpp"
+#include "clackers/record/notes.hpp"
+#include "clackers/record/reduced_curve.hpp"
 
 namespace clackers::study {
 namespace {

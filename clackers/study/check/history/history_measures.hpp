@@ -5,7 +5,7 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/study/check/history/history_run.hpp"
 #include "clackers/study/check/history/prepared_history.hpp"
-#include "clackers/study/progress.hpp"
+#include "clackers/base/jobs/progress.hpp"
 
 namespace clackers::study {
 

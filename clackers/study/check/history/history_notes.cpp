@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/assess/convergence/fit/error_ladder.hpp"
+#include "clackers/judge/convergence/fit/error_ladder.hpp"
 #include "clackers/study/check/history/history_run.hpp"
-#include "clackers/study/notes.hpp"
+#include "clackers/record/notes.hpp"
 
 namespace clackers::study {
 namespace {

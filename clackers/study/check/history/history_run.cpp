@@ -1,7 +1,7 @@
 #include "clackers/study/check/history/history_run.hpp"
 
 #include "clackers/base/error.hpp"
-#include "clackers/exchange/history.hpp"
+#include "clackers/input/history.hpp"
 #include "clackers/study/check/history/history_measures.hpp"
 #include "clackers/study/check/history/missing_numbers.hpp"
 #include "clackers/study/check/history/prepared_history.hpp"

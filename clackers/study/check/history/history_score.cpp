@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/assess/errors/mechanics.hpp"
-#include "clackers/assess/errors/velocity_error.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/measure/errors/velocity_error.hpp"
 
 namespace clackers::study {
 namespace {

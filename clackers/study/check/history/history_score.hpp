@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "clackers/assess/errors/comparison.hpp"
-#include "clackers/assess/errors/score.hpp"
+#include "clackers/measure/errors/comparison.hpp"
+#include "clackers/measure/errors/score.hpp"
 
 namespace clackers::study {
 

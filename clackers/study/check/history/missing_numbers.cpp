@@ -4,8 +4,8 @@
 #include <cmath>
 #include <span>
 
-#include "clackers/exchange/events.hpp"
-#include "clackers/study/notes.hpp"
+#include "clackers/input/events.hpp"
+#include "clackers/record/notes.hpp"
 
 namespace clackers::study {
 namespace {

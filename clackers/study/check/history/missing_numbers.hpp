@@ -3,7 +3,7 @@
 #include <atomic>
 
 #include "clackers/cases/case.hpp"
-#include "clackers/exchange/source.hpp"
+#include "clackers/input/source.hpp"
 #include "clackers/study/check/history/prepared_history.hpp"
 
 namespace clackers::study {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/assess/convergence/judge.hpp"
+#include "clackers/judge/convergence/judge.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/study/check/initial_state.hpp"
 #include "clackers/study/check/refused_start.hpp"
-#include "clackers/study/notes.hpp"
+#include "clackers/record/notes.hpp"
 
 namespace clackers::study {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/diagnose.hpp"
-#include "clackers/exchange/history.hpp"
+#include "clackers/input/history.hpp"
 #include "clackers/study/check/history/history_run.hpp"
-#include "clackers/study/record.hpp"
+#include "clackers/record/record.hpp"
 
 namespace clackers::study {
 

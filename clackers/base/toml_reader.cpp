@@ -1,0 +1,133 @@
+#include "clackers/base/toml_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "clackers/base/suggest.hpp"
+
+namespace clackers {
+
+toml::table toml_from(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: {}.", name, error.source().begin.line,
+                                 std::string(error.description())),
+                     "bad-syntax");
+  }
+}
+
+std::string text_of_file(const std::string& path, std::string_view hint) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf()))
+    throw FileError(fmt::format("{}: the file cannot be read, or is empty. {}", path, hint),
+                    "cannot-read");
+  return text.str();
+}
+
+std::string TomlReader::place(const toml::node& node) const {
+  const auto line = node.source().begin.line;
+  return line > 0 ? fmt::format("{}:{}", name_, line) : name_;
+}
+
+void TomlReader::fail(const toml::node& node, const std::string& sentence, Code code) const {
+  throw InputError(fmt::format("{}: {}", place(node), sentence), code);
+}
+
+void TomlReader::require_known(const toml::table& table, const std::vector<std::string>& keys,
+                               std::string_view where) const {
+  for (const auto& [key, value] : table) {
+    if (std::ranges::find(keys, key.str()) != keys.end()) continue;
+    const auto near = nearest(key.str(), keys);
+    fail(value,
+         fmt::format("unknown key \"{}\"{}.{} Known: {}.", std::string(key.str()), where,
+                     near.empty() ? "" : fmt::format(" Did you mean \"{}\"?", near),
+                     fmt::join(keys, ", ")),
+         "unknown-name");
+  }
+}
+
+const toml::node& TomlReader::need(const toml::table& table, const char* key,
+                                   const char* meaning) const {
+  const auto* node = table.get(key);
+  if (node == nullptr)
+    throw InputError(fmt::format("{}: {} is missing; allowed: {}.", place(table), key, meaning),
+                     "no-column");
+  return *node;
+}
+
+double TomlReader::number(const toml::node& node, const std::string& what) const {
+  const auto value = node.value<double>();
+  if (!node.is_number() || !value)
+    fail(node, fmt::format("{} is no number; allowed: a number without quotes.", what),
+         "not-a-number");
+  if (!std::isfinite(*value))
+    fail(node, fmt::format("{} = {}; allowed: a finite number.", what, *value), "not-finite");
+  return *value;
+}
+
+double TomlReader::number(const toml::table& table, const char* key, double standard) const {
+  const auto* node = table.get(key);
+  return node == nullptr ? standard : number(*node, key);
+}
+
+double TomlReader::number(const toml::table& table, const char* key, const char* meaning) const {
+  return number(need(table, key, meaning), key);
+}
+
+long long TomlReader::whole(const toml::node& node, const std::string& what, double lowest,
+                            double highest) const {
+  const double value = number(node, what);
+  if (!(value >= lowest && value <= highest && value == std::floor(value)))
+    fail(node,
+         fmt::format("{} = {}; allowed: a whole number, {} to {}.", what, value, lowest, highest),
+         "out-of-range");
+  return static_cast<long long>(value);
+}
+
+std::string TomlReader::word(const toml::node& node, const std::string& what) const {
+  const auto found = node.value_exact<std::string>();
+  if (!found || found->empty())
+    fail(node, fmt::format("{} is no text; allowed: a word in quotes.", what), "bad-syntax");
+  return *found;
+}
+
+bool TomlReader::flag(const toml::node& node, const std::string& what) const {
+  const auto found = node.value_exact<bool>();
+  if (!found) fail(node, fmt::format("{} is no flag; allowed: true or false.", what), "bad-syntax");
+  return *found;
+}
+
+const toml::array& TomlReader::list(const toml::node& node, const std::string& what) const {
+  const auto* found = node.as_array();
+  if (found == nullptr || found->empty())
+    fail(node, fmt::format("{} is no list of one or more values; allowed: [ ] around them.", what),
+         "bad-syntax");
+  return *found;
+}
+
+const toml::table& TomlReader::table(const toml::node& node, const std::string& what,
+                                     const char* allowed) const {
+  const auto* found = node.as_table();
+  if (found == nullptr)
+    fail(node, fmt::format("{} is no table; allowed: {}.", what, allowed), "bad-syntax");
+  return *found;
+}
+
+const toml::array* TomlReader::tables(const toml::table& root, const char* key) const {
+  const auto* node = root.get(key);
+  if (node == nullptr) return nullptr;
+  const auto* list = node->as_array();
+  if (list == nullptr || !list->is_homogeneous(toml::node_type::table))
+    fail(*node, fmt::format("{0} is no list of tables; allowed: [[{0}]] above each.", key),
+         "bad-syntax");
+  return list;
+}
+
+}  // namespace clackers

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "clackers/input/source.hpp"
+#include "clackers/model/trajectory.hpp"
+
+namespace clackers::exchange {
+
+/// Something a reader should know of a source. A code and its numbers, as study/notes.hpp lists them.
+struct ReadNote {
+  std::string code;
+  std::vector<double> numbers{};
+  std::string text{};
+};
+
+/// What is known of a source before it is read.
+struct HistoryOptions {
+  int dof = 1;                         ///< masses; columns of others are left out
+  std::vector<std::string> columns{};  ///< names that replace or stand for a header; "_" skips one
+  /// Of a file without a time column [s]: row n = 0, 1, ... is at n step. 0: there must be one.
+  double step = 0.0;
+  /// The first NaN or infinite number ends the history, if two times stand above it.
+  bool until_not_finite = false;
+  const std::atomic<bool>* interrupt = nullptr;  ///< ends the reading with Error (interrupted)
+  /// Called now and then with the share that is read, in [0, 1]; never for a file of unknown size.
+  std::function<void(double share)> progress{};
+};
+
+/// How the numbers of one column are printed, or would be with as few digits as they need.
+struct ColumnPrint {
+  std::string name;
+  int digits = 0;          ///< the most significant digits of any of its numbers
+  bool single = false;     ///< more than nine digits, yet all are single-precision numbers
+  double half_unit = 0.0;  ///< largest rounding error by printing, in the column's unit; 0: none
+};
+
+/// A time history as it stands in its source.
+struct History {
+  /// Masses without a column u: their u is 0 and means nothing. v and a are empty unless there is a
+  /// column for every mass. Impacts are not reported.
+  model::Trajectory motion;
+  std::vector<bool> has_u;           ///< one entry a mass
+  bool has_time = true;              ///< false: times are n step
+  std::vector<std::string> names;    ///< of all columns in their order, "_" for a skipped one
+  std::vector<ColumnPrint> columns;  ///< those that were used, time first if there is one
+  /// Rounding error of the times by printing [s]; 0 when they are equally spaced to the last digit,
+  /// since such times were hardly rounded.
+  double time_half_unit = 0.0;
+  double spacing = 0.0;    ///< median time between rows [s]
+  std::string not_finite;  ///< where the first such number stands, a sentence; empty for none
+  std::vector<ReadNote> notes;
+};
+
+/// Reads a history from a text file, a NumPy file (.npy, known by its first bytes) or columns in
+/// memory: columns t (or time), u1, v1, a1, u2, ... (u, v, a alone for one mass), in any order and
+/// case, others left out. Two rows of one time are the left and right limits of a jump, as a column
+/// side may say: "-" or -1, "+" or 1.
+///
+/// Of text: fields separated by commas, semicolons, tabs or blanks; names from a header, from a
+/// comment above the rows, or from the options; comments behind # or %. Of a NumPy file: fields of a
+/// structured array, or the columns of a plain one with names from the options.
+///
+/// Throws InputError with source, row and column for what is no number, not finite or has a decimal
+/// comma, rows of another length, times that descend or stand more than twice, missing columns (t
+/// unless options.step is given, and one u), fewer than two different times, and what is no NumPy
+/// file of numbers (not-an-array); FileError when a file cannot be read.
+History read_history(const Source& source, const HistoryOptions& options);
+
+}  // namespace clackers::exchange

@@ -1,0 +1,38 @@
+#include "clackers/input/table.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "clackers/base/error.hpp"
+#include "clackers/input/numbers/number_table.hpp"
+#include "clackers/input/text/input_file.hpp"
+#include "clackers/input/text/separation.hpp"
+#include "clackers/input/text/text_table.hpp"
+
+namespace clackers::exchange {
+
+void Table::refuse_not_finite(std::size_t column, std::string_view shown) const {
+  refuse(place(), names_[column], shown, "a finite number that a double can hold",
+         "The run that wrote it may have left the range of finite numbers.", "not-finite");
+}
+
+std::unique_ptr<Table> open_table(const Source& source, const std::vector<std::string>& names,
+                                  TableKind kind, const std::atomic<bool>* interrupt) {
+  if (const auto* columns = std::get_if<NumberColumns>(&source))
+    return std::make_unique<NumberTable>(*columns, names, kind, interrupt);
+  InputFile file(std::get<std::string>(source), interrupt);
+  if (file.first_bytes(npy_magic.size()) == npy_magic)
+    return std::make_unique<NumberTable>(NpyFile(std::move(file)), names, kind, interrupt);
+  return std::make_unique<TextTable>(std::move(file), names, kind);
+}
+
+std::string plain_name(std::string_view text) {
+  const auto bracket = text.find_first_of("[(");
+  if (bracket != std::string_view::npos && bracket > 0) text = text.substr(0, bracket);
+  std::string name(trimmed(text));
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name;
+}
+
+}  // namespace clackers::exchange

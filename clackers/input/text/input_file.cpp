@@ -1,0 +1,107 @@
+#include "clackers/input/text/input_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "clackers/base/error.hpp"
+#include "clackers/input/source.hpp"
+
+namespace clackers::exchange {
+namespace {
+
+[[noreturn]] void fail_to_read(const std::string& name, int error) {
+  throw FileError(fmt::format("cannot read {}: {}. Name a file that exists and may be read, or - "
+                              "for standard input.",
+                              name, std::generic_category().message(error)),
+                  "cannot-read");
+}
+
+// Repeats a system call that a signal interrupted, unless the signal asked to stop.
+template <class Call>
+auto call_again(const std::atomic<bool>* interrupt, const Call& call) {
+  while (true) {
+    if (interrupt != nullptr && *interrupt) throw Error("interrupted", "interrupted");
+    const auto result = call();
+    if (result >= 0 || errno != EINTR) return result;
+  }
+}
+
+}  // namespace
+
+InputFile::InputFile(const std::string& path, const std::atomic<bool>* interrupt)
+    : name_(name_of(path)), interrupt_(interrupt) {
+  descriptor_ = call_again(interrupt_, [&] {
+    // A copy of standard input, so that closing it at the end is right in both cases.
+    return path == "-" ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3)
+                       : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
+  });
+  if (descriptor_ < 0) fail_to_read(name_, errno);
+  struct stat facts {};
+  if (::fstat(descriptor_, &facts) != 0 || S_ISDIR(facts.st_mode)) {
+    const int error = S_ISDIR(facts.st_mode) ? EISDIR : errno;
+    ::close(descriptor_);
+    fail_to_read(name_, error);
+  }
+  if (!S_ISREG(facts.st_mode)) return;
+  start_ = ::lseek(descriptor_, 0, SEEK_CUR);
+  size_ = std::max(0LL, static_cast<long long>(facts.st_size) - start_);
+}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : name_(std::move(other.name_)),
+      interrupt_(other.interrupt_),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_),
+      start_(other.start_),
+      first_(std::move(other.first_)) {}
+
+InputFile::~InputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::string_view InputFile::first_bytes(std::size_t count) {
+  std::string bytes(count, '\0');
+  bytes.resize(read_all(bytes.data(), count));
+  first_ = std::move(bytes);
+  return first_;
+}
+
+std::size_t InputFile::read(char* bytes, std::size_t capacity) {
+  if (!first_.empty()) {
+    const auto taken = first_.copy(bytes, capacity);
+    first_.erase(0, taken);
+    return taken;
+  }
+  const auto count = call_again(interrupt_, [&] { return ::read(descriptor_, bytes, capacity); });
+  if (count < 0) fail_to_read(name_, errno);
+  return static_cast<std::size_t>(count);
+}
+
+std::size_t InputFile::read_all(char* bytes, std::size_t count) {
+  std::size_t have = 0;
+  for (std::size_t last = 1; last > 0 && have < count; have += last)
+    last = read(bytes + have, count - have);
+  return have;
+}
+
+std::size_t InputFile::read_all_at(std::size_t place, char* bytes, std::size_t count) {
+  std::size_t have = 0;
+  while (have < count) {
+    const auto from = start_ + static_cast<long long>(place + have);
+    const auto last = call_again(
+        interrupt_, [&] { return ::pread(descriptor_, bytes + have, count - have, from); });
+    if (last < 0) fail_to_read(name_, errno);
+    if (last == 0) break;
+    have += static_cast<std::size_t>(last);
+  }
+  return have;
+}
+
+}  // namespace clackers::exchange

@@ -1,0 +1,97 @@
+#include "clackers/input/text/number.hpp"
+
+#include <gtest/gtest.h>
+
+#include "clackers/input/text/printed_digits.hpp"
+
+namespace clackers::exchange {
+namespace {
+
+Number number(std::string_view text) {
+  Number out;
+  EXPECT_EQ(read(text, out), NumberError::none) << text;
+  return out;
+}
+
+NumberError error_of(std::string_view text) {
+  Number out;
+  return read(text, out);
+}
+
+TEST(Number, IsReadAsPrograms) {
+  EXPECT_EQ(number("1.5").value, 1.5);
+  EXPECT_EQ(number("+1.5e-3").value, 1.5e-3);
+  EXPECT_EQ(number("-.5").value, -0.5);
+  EXPECT_EQ(number("7.").value, 7.0);
+  EXPECT_EQ(number("-1.25D-03").value, -1.25e-3);
+  EXPECT_EQ(number("1.d2").value, 100.0);
+}
+
+TEST(Number, CountsItsSignificantDigits) {
+  EXPECT_EQ(number("0.00123").digits, 3);
+  EXPECT_EQ(number("-1.230").digits, 4);
+  EXPECT_EQ(number("1.2345E-10").digits, 5);
+  EXPECT_EQ(number("6.02d23").digits, 3);
+  EXPECT_EQ(number("100").digits, 3);
+  EXPECT_EQ(number("0.000").digits, 0);
+  EXPECT_EQ(number("0.10000000000000001").digits, 17);
+}
+
+TEST(Number, SaysWhatIsWrongWithOtherText) {
+  EXPECT_EQ(error_of("abc"), NumberError::no_number);
+  EXPECT_EQ(error_of(""), NumberError::no_number);
+  EXPECT_EQ(error_of("1.5x"), NumberError::no_number);
+  EXPECT_EQ(error_of("+-1"), NumberError::no_number);
+  EXPECT_EQ(error_of("d2"), NumberError::no_number);
+  EXPECT_EQ(error_of("1d"), NumberError::no_number);
+  EXPECT_EQ(error_of("nan"), NumberError::not_finite);
+  EXPECT_EQ(error_of("-Inf"), NumberError::not_finite);
+  EXPECT_EQ(error_of("1e999"), NumberError::not_finite);
+  EXPECT_EQ(error_of("0,05"), NumberError::decimal_comma);
+  EXPECT_EQ(error_of("u,v"), NumberError::no_number);
+}
+
+TEST(Number, LooksNumericThoughItIsNotFinite) {
+  EXPECT_TRUE(looks_numeric("nan"));
+  EXPECT_TRUE(looks_numeric("0,5"));
+  EXPECT_FALSE(looks_numeric("time"));
+  EXPECT_FALSE(looks_numeric("-"));
+}
+
+PrintedDigits column(std::initializer_list<std::string_view> texts) {
+  PrintedDigits digits;
+  for (const auto text : texts) digits.take(number(text));
+  return digits;
+}
+
+TEST(PrintedDigits, OfGeneralFormatAreThoseOfTheLongestNumber) {
+  // %g drops the zeros of 0.5 and 1.
+  const auto digits = column({"1", "0.5", "0.123457", "-0.00123457"});
+  EXPECT_EQ(digits.digits(), 6);
+  // The last of six digits of a number between 1 and 10 is 1e-5.
+  EXPECT_DOUBLE_EQ(digits.half_unit(), 0.5e-5);
+}
+
+TEST(PrintedDigits, OfFixedDecimalsHaveTheUnitOfTheLastDecimal) {
+  const auto digits = column({"0.0012", "-12.3456", "1.0000"});
+  EXPECT_EQ(digits.digits(), 6);
+  EXPECT_DOUBLE_EQ(digits.half_unit(), 0.5e-4);
+}
+
+TEST(PrintedDigits, HideNothingOfAWholeDoubleOrOfZeros) {
+  EXPECT_EQ(column({"0.12345678901234567"}).half_unit(), 0.0);
+  EXPECT_GT(column({"0.1234567890123456"}).half_unit(), 0.0);
+  EXPECT_EQ(column({"0", "0.000"}).half_unit(), 0.0);
+}
+
+TEST(PrintedDigits, KnowSinglePrecisionByItsNumbers) {
+  const auto floats = column({"0.10000000149011612", "0.5", "3.1415927410125732"});
+  EXPECT_TRUE(floats.single_precision());
+  EXPECT_DOUBLE_EQ(floats.half_unit(), 3.1415927410125732 * 0x1p-24);
+  EXPECT_FALSE(column({"0.10000000149011612", "0.1"}).single_precision());
+  // Few digits say nothing of precision: all of these are floats.
+  EXPECT_FALSE(column({"0.5", "0.25"}).single_precision());
+}
+
+}  // namespace
+}  // namespace clackers::exchange

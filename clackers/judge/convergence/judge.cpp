@@ -1,0 +1,247 @@
+#include "clackers/judge/convergence/judge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "clackers/judge/convergence/fit/error_ladder.hpp"
+#include "clackers/judge/convergence/judge_evidence.hpp"
+#include "clackers/judge/convergence/ladder_fit.hpp"
+#include "clackers/base/codes.hpp"
+
+namespace clackers::assess {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+template <class Measure>
+LadderFit fit(const Ladder& ladder, const FitContext& context, const Measure& measure) {
+  std::vector<ErrorLevel> errors;
+  for (const auto& level : ladder) {
+    errors.emplace_back();
+    for (const auto& run : level.runs) {
+      ErrorPoint point = measure(run);
+      point.step = run.step;
+      if (!run.finished) point.error = unknown;
+      errors.back().push_back(point);
+    }
+  }
+  return fit_ladder(errors, context);
+}
+
+ErrorPoint impact_time_error(const RunScore& run) {
+  if (!run.impacts || run.impacts->matched == 0) return {.error = unknown};
+  return {.error = run.impacts->worst_time_error, .floor = run.impacts->rounding_floor};
+}
+
+// Whether the energy at the end is wrong, as asked, in most runs of both finest levels.
+template <class Wrong>
+bool energy_is(const Ladder& ladder, Wrong wrong) {
+  if (ladder.size() < 2) return false;
+  return std::all_of(ladder.end() - 2, ladder.end(), [&](const Level& level) {
+    const auto run_is = [&](const RunScore& run) { return run.finished && wrong(run); };
+    return 2 * std::ranges::count_if(level.runs, run_is) > std::ssize(level.runs);
+  });
+}
+
+// Whether the largest error of the finest level is smaller than that of the level before it by more
+// than a floor would let it.
+bool errors_fall(const LadderFit& fit) {
+  constexpr double least_fall = 0.95;
+  const auto n = fit.errors.size();
+  return n >= 2 && fit.errors[n - 1] < least_fall * fit.errors[n - 2];
+}
+
+// Whether the errors of the finest levels are as large as the motion and do not fall.
+bool stays_large(const LadderFit& fit) {
+  constexpr std::ptrdiff_t levels = 4;
+  constexpr double large = 0.5, least_fall = 0.5;
+  if (std::ssize(fit.errors) < levels) return false;
+  const auto [least, most] = std::minmax_element(fit.errors.end() - levels, fit.errors.end());
+  return *least >= large && fit.errors.back() >= least_fall * *most;
+}
+
+// Whether printed digits are what stops the fit. It knows them as the rounding of its levels: it
+// calls `exact` what lies below them throughout, and finds too few levels where they begin early.
+bool stopped_by_printing(const LadderFit& fit, const RunScore& finest, const HistoryFacts& facts) {
+  const double arithmetic = 1e-15 * double(facts.rows);
+  const bool printed =
+      facts.printed_floor > arithmetic && finest.u_error <= rounding_slack * facts.printed_floor;
+  return printed &&
+         (fit.behaviour == Behaviour::exact || fit.behaviour == Behaviour::stagnating ||
+          fit.reason == Code("too-few-levels").name() || fit.reason == Code("noise-floor").name());
+}
+
+bool shows_a_line(const LadderFit& fit) {
+  return fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::reduced ||
+         fit.behaviour == Behaviour::irregular;
+}
+
+bool is_unexplained_floor(const LadderFit& fit) {
+  return fit.behaviour == Behaviour::stagnating &&
+         (fit.reason == Code("unexplained-floor").name() ||
+          fit.reason == Code("noise-floor").name());
+}
+
+// The fit with the behaviour that the rules of judge.hpp give, first hit wins.
+LadderFit behaviour_of(LadderFit fit, const Ladder& ladder, const Claim& claim,
+                       const Facts& facts) {
+  const bool open = !shows_a_line(fit) && fit.behaviour != Behaviour::exact &&
+                    fit.reason != Code("contact-not-resolved").name();
+  // Less than all of the initial energy too much: a motion that should have decayed, and has not grown.
+  const auto too_much = [](const RunScore& run) {
+    return run.energy_ratio > largest_energy_ratio && !(run.energy_error < 1.0);
+  };
+  const auto too_little = [](const RunScore& run) { return run.energy_ratio < least_energy_ratio; };
+  if (open && !facts.wrong_limit && !errors_fall(fit) && energy_is(ladder, too_much)) {
+    fit.behaviour = Behaviour::divergent;
+    fit.reason = Code("energy-growth").name();
+  } else if (open && facts.shared && comes_from_shared_impacts(*facts.shared) &&
+             (is_unexplained_floor(fit) ||
+              (fit.behaviour == Behaviour::undecided && stays_large(fit)))) {
+    if (fit.behaviour == Behaviour::undecided) fit.behaviour = Behaviour::divergent;
+    fit.reason = Code("simultaneous-impacts").name();
+  } else if (fit.behaviour == Behaviour::undecided && open && errors_fall(fit) &&
+             energy_is(ladder, too_little)) {
+    fit.reason = Code("numerical-damping").name();
+  } else if (facts.finest && stopped_by_printing(fit, finest_run(ladder), *facts.finest)) {
+    if (!fit.has_line) {
+      fit.behaviour = Behaviour::stagnating;
+      fit.floor = finest_run(ladder).u_error;
+    } else if (fit.behaviour == Behaviour::stagnating) {
+      fit.behaviour = fit.order >= (1.0 - order_tolerance) * claim.order ? Behaviour::proper
+                                                                         : Behaviour::reduced;
+    }
+    fit.reason = Code("printed-digits").name();
+  }
+  if (claim.behaviour == Behaviour::reduced && fit.behaviour == Behaviour::proper &&
+      std::abs(fit.order - claim.order) <= order_tolerance * claim.order)
+    fit.behaviour = Behaviour::reduced;
+  return fit;
+}
+
+// Of a line or an envelope whose order is off by more than allowed, and of one that is not.
+Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
+  const double off = std::abs(fit.order - claimed);
+  // An envelope contradicts where its whole interval lies outside what is allowed.
+  const double reach = fit.on_envelope ? fit.spread + tolerance * claimed : fit.spread;
+  if (off > tolerance * claimed) return off > reach ? Verdict::disagrees : Verdict::undecided;
+  const bool few = fit.last_level - fit.first_level + 1 < enough_octaves;
+  const double most = few ? envelope_spread : wide_envelope_spread;
+  return fit.on_envelope && fit.spread > most * claimed ? Verdict::undecided : Verdict::agrees;
+}
+
+Verdict compare_floor(const LadderFit& fit, const Claim& claim) {
+  const bool has_floor =
+      fit.behaviour == Behaviour::stagnating ||
+      (fit.floor_step > 0.0 && fit.reason == claim.reason && !claim.reason.empty());
+  // As large as the motion, and of no stiffness.
+  if (fit.reason == Code("simultaneous-impacts").name() && claim.reason.empty())
+    return Verdict::agrees;
+  // Errors that fall for certain have no floor; of no order that a method has, they bend towards one
+  // or still come from their coarse range.
+  if (!has_floor)
+    return shows_a_line(fit) && (fit.order <= fit.spread || fit.order < lowest_real_order)
+               ? Verdict::undecided
+               : Verdict::disagrees;
+  return claim.reason.empty() || fit.reason == claim.reason ? Verdict::agrees : Verdict::disagrees;
+}
+
+Verdict compare(const LadderFit& fit, const Claim& claim, const Facts& facts) {
+  if (claim.behaviour == Behaviour::undecided) return Verdict::not_claimed;
+  if (fit.behaviour == Behaviour::undecided) return Verdict::undecided;
+  if (claim.behaviour == Behaviour::stagnating && fit.behaviour != Behaviour::exact)
+    return compare_floor(fit, claim);
+  if (fit.reason == Code("printed-digits").name() && !fit.has_line) return Verdict::undecided;
+  if (fit.behaviour == Behaviour::exact)
+    return claim.behaviour == Behaviour::exact ? Verdict::agrees : Verdict::undecided;
+  const bool line = fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::reduced;
+  const bool line_claimed =
+      claim.behaviour == Behaviour::proper || claim.behaviour == Behaviour::reduced;
+  if (claim.behaviour == Behaviour::irregular && (line || fit.behaviour == Behaviour::irregular))
+    return compare_order(fit, claim.order, envelope_order_tolerance);
+  if (line && line_claimed) {
+    const double tolerance = facts.by_tolerance ? tolerance_proportional : order_tolerance;
+    const auto found = compare_order(fit, claim.order, tolerance);
+    // Reduced claims less than proper; both are told by the order alone.
+    return found == Verdict::agrees && fit.behaviour != claim.behaviour && !facts.by_tolerance
+               ? Verdict::disagrees
+               : found;
+  }
+  return fit.behaviour == claim.behaviour ? Verdict::agrees : Verdict::disagrees;
+}
+
+Mismatch mismatch_of(const LadderFit& fit, const Claim& claim, const Facts& facts) {
+  if (compare(fit, claim, facts) != Verdict::disagrees) return Mismatch::evidence;
+  const bool order_claimed = claim.order > 0.0;
+  const bool alike = fit.behaviour == claim.behaviour ||
+                     (fit.behaviour == Behaviour::reduced && claim.behaviour == Behaviour::proper);
+  if (claim.behaviour == Behaviour::stagnating && fit.behaviour == Behaviour::stagnating)
+    return Mismatch::floor_reason;
+  if (!alike || !order_claimed) return Mismatch::behaviour;
+  return fit.order < claim.order ? Mismatch::lower_order : Mismatch::higher_order;
+}
+
+int severity(Verdict verdict) {
+  constexpr std::array order{Verdict::not_claimed, Verdict::agrees, Verdict::undecided,
+                             Verdict::disagrees};
+  return int(std::ranges::find(order, verdict) - order.begin());
+}
+
+// Verdict and its reason: of the behaviour, overruled by what is more severe.
+void decide(Assessment& found, const Claim& claim, const Ladder& ladder, const Facts& facts) {
+  const auto& fit = found.displacement;
+  found.verdict = compare(fit, claim, facts);
+  // One history without a claim was not fitted for its order.
+  const bool one_history = facts.finest && claim.behaviour == Behaviour::undecided &&
+                           ladder.size() == 1 && ladder.front().runs.size() == 1;
+  if (!one_history) found.reason = fit.reason;
+  if (found.verdict == Verdict::undecided && fit.on_envelope)
+    found.reason = Code("more-neighbours").name();
+  for (const auto& evidence : found.evidence) {
+    if (evidence.code == "sparse-rows") found.reason = Code("sparse-rows").name();
+    if (severity(evidence.verdict) <= severity(found.verdict)) continue;
+    found.verdict = evidence.verdict;
+    if (evidence.code == "tolerance-not-resolved")
+      found.reason = Code("printed-digits").name();
+    else if (evidence.code == "ends-early" || evidence.code == "wrong-limit")
+      found.reason = evidence.code;
+    else if (evidence.code != "collisions-miscounted")
+      found.reason.clear();
+  }
+  if (found.verdict == Verdict::disagrees) found.mismatch = mismatch_of(fit, claim, facts);
+}
+
+}  // namespace
+
+Assessment judge(const Ladder& ladder, const Claim& claim, const Facts& facts) {
+  Assessment found;
+  FitContext context{.claimed_order = claim.order,
+                     .order_tolerance = claim.behaviour == Behaviour::irregular
+                                            ? envelope_order_tolerance
+                                            : order_tolerance,
+                     .contact_time = facts.contact_time,
+                     .states_tolerance = claim.reason == "tolerance-floor",
+                     .by_tolerance = facts.by_tolerance,
+                     .wrong_limit = facts.wrong_limit,
+                     .noise = facts.noise};
+  const auto measured = fit(ladder, context, [](const RunScore& run) {
+    return ErrorPoint{.error = run.u_error, .floor = run.rounding_floor};
+  });
+  found.velocity = fit(ladder, context, [](const RunScore& run) {
+    return ErrorPoint{.error = run.v_error, .floor = run.rounding_floor};
+  });
+  context.saturation = std::numeric_limits<double>::infinity();
+  found.impact_time = fit(ladder, context, impact_time_error);
+
+  found.displacement = behaviour_of(measured, ladder, claim, facts);
+  found.evidence =
+      evidence_of(found, compare(found.displacement, claim, facts), ladder, claim, facts);
+  decide(found, claim, ladder, facts);
+  return found;
+}
+
+}  // namespace clackers::assess

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <optional>
+
+#include "clackers/judge/convergence/assessment.hpp"
+#include "clackers/measure/errors/score.hpp"
+#include "clackers/measure/impacts/shared_impacts.hpp"
+#include "clackers/base/judgement.hpp"
+
+namespace clackers::assess {
+
+/// Largest distance of a measured order from the claimed one, relative: of a line, and of an upper
+/// envelope. The logarithm of the largest of eight errors that scatter evenly (in logarithms) by a
+/// factor 30 has the standard deviation 0.099 ln 30 = 0.34; over eight levels of ratio 2 that gives
+/// a slope one of 0.34 / (6.5 ln 2) = 0.075, and 0.25 is three of them.
+inline constexpr double order_tolerance = 0.1;
+inline constexpr double envelope_order_tolerance = 0.25;
+
+/// A run that ends with less or more than these shares of the true energy has not followed the
+/// motion, whatever its error relative to an envelope: beyond a factor 2 amplitudes are off by 0.29
+/// of themselves at least.
+inline constexpr double least_energy_ratio = 0.5, largest_energy_ratio = 2.0;
+
+/// An envelope whose order is uncertain by more than this share of the claim decides nothing.
+inline constexpr double envelope_spread = 0.5;
+/// Over this many octaves a wider interval still tells an order from its neighbours.
+inline constexpr int enough_octaves = 5;
+inline constexpr double wide_envelope_spread = 0.75;
+
+/// A first row after the start holds the error of some steps; beyond this share of the envelope it
+/// is of another motion.
+inline constexpr double far_start = 0.1;
+
+/// What is known of a history beside its score.
+struct HistoryFacts {
+  long long rows = 0;
+  double printed_floor = 0.0;           ///< part of u_error that printing alone may make
+  double first = 0.0;                   ///< time of the first row [s]
+  double start_error = 0.0;             ///< of the first row, relative to the envelopes
+  bool rows_resolve_collisions = true;  ///< false: rows too far apart to find collisions in them
+  double last = 0.0;                    ///< time of the last row [s]
+  double end = 0.0;                     ///< of the case [s]; 0: not known, so no row is missing
+  long long expected_to_last = 0;       ///< collisions of the reference until `last`
+  long long expected = 0;               ///< collisions of the reference until `end`
+};
+
+/// What is known of a method or of histories beside their errors.
+struct Facts {
+  double contact_time = 0.0;             ///< of a compliant contact [s], 0 for a rigid one
+  std::optional<double> tolerance{};     ///< largest allowed u_error of the finest run
+  std::optional<HistoryFacts> finest{};  ///< of the finest history; nothing for a method
+  /// The differences between the histories shrink regularly where their errors do not: they converge
+  /// to another limit than the true motion.
+  bool wrong_limit = false;
+  bool noise = false;  ///< a floor of the runs is noise, as their rows show
+  /// Where contacts that share masses close together, if they do, and what the error does there.
+  std::optional<SharedImpacts> shared{};
+  /// The ladder is one of tolerances of an adaptive solver: `step` of a run is its tolerance.
+  bool by_tolerance = false;
+};
+
+/// Assesses a method by its ladder, coarsest level first, against its claim through impacts
+/// (`undecided` claims nothing). Behaviour and verdict go by the displacement error; velocity and
+/// impact times are fitted beside it. The rules for the behaviour, first hit wins:
+///
+///     divergent [energy-growth]     no line, errors that do not fall, and most runs of both finest
+///                                   levels end with more than twice the true energy and with
+///                                   more than it had at the start
+///     divergent [simultaneous-impacts]
+///                                   undecided, the errors of the four finest levels are as large as
+///                                   the motion and do not fall, and they come from impacts of one
+///                                   instant (comes_from_shared_impacts)
+///     stagnating [simultaneous-impacts]
+///                                   at an unexplained or a rough floor that comes from them
+///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with
+///                                   less than half of it
+///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
+///                                   printing makes, and the fit is exact, a floor or has too few
+///                                   levels
+///     reduced                       a straight line of the very order that is claimed as reduced
+///     what fit_ladder found         otherwise
+///
+/// Verdict on the claim: `not claimed` without a claim; `undecided` where the behaviour is, where an
+/// exact motion met a claim of some order (nothing above rounding to measure it on), where printed
+/// digits hide the order, and where the spread of an envelope's order covers a claim beyond the
+/// tolerance; `agrees` where the behaviour is the claimed one with an order within the tolerance
+/// above, or the claimed reason of a floor (a floor without a claimed reason agrees with any, also
+/// with one as large as the motion where impacts are simultaneous);
+/// otherwise `disagrees`. A claim is two-sided: better than claimed is another behaviour and
+/// disagrees as well. Collisions missed or extra on the two finest levels disagree whatever the
+/// errors say, unless the claim is a floor and their number is right: then they came too late to be
+/// matched; where an envelope is claimed and found, only if most runs of both levels miscount. A claim to converge disagrees where the files converge to another limit.
+///
+/// A tolerance has a verdict of its own, `undecided` where printing makes more than the difference
+/// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of
+/// another motion: it starts far from the reference, misses a collision or has one too many. Of
+/// several verdicts counts the first of disagrees, undecided, agrees, not claimed.
+Assessment judge(const Ladder& ladder, const Claim& claim, const Facts& facts = {});
+
+}  // namespace clackers::assess

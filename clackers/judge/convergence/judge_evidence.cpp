@@ -1,0 +1,184 @@
+#include "clackers/judge/convergence/judge_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "clackers/base/codes.hpp"
+
+namespace clackers::assess {
+namespace {
+
+// At least this share of the runs lies at the rounding floor by luck, where it is worth a word.
+constexpr double notable_luck = 1.0 / 16.0;
+
+bool miscounts(const RunScore& run) {
+  return run.finished && run.impacts && run.impacts->missed + run.impacts->extra > 0;
+}
+
+Evidence miscount(const RunScore& run) {
+  const auto& found = *run.impacts;
+  return {"collisions-miscounted",
+          Verdict::disagrees,
+          {run.step, double(found.matched), double(found.expected), double(found.extra)}};
+}
+
+// The first run of the two finest levels that did not find the collisions it should. Where the errors
+// decide nothing, steps may be too long to find them: then only if every run of both levels misses as
+// many and has as many too many, as no refinement will mend. Where errors scatter as claimed, gentle
+// impacts are off by more than their match may be at some steps: then only if most runs miscount.
+std::optional<Evidence> miscounted(const Ladder& ladder, const LadderFit& fit, const Claim& claim) {
+  const bool late_is_allowed = claim.behaviour == Behaviour::stagnating;
+  const RunScore* first = nullptr;
+  bool all_alike = true;
+  int miscounting = 0, finished = 0;
+  for (auto level = ladder.end() - std::min<std::ptrdiff_t>(2, std::ssize(ladder));
+       level != ladder.end(); ++level)
+    for (const auto& run : level->runs) {
+      if (!run.finished) continue;
+      ++finished;
+      if (!miscounts(run) || (late_is_allowed && run.impacts->found == run.impacts->expected)) {
+        all_alike = false;
+        continue;
+      }
+      ++miscounting;
+      if (first == nullptr) first = &run;
+      all_alike = all_alike && run.impacts->missed == first->impacts->missed &&
+                  run.impacts->extra == first->impacts->extra;
+    }
+  // Another outcome of simultaneous impacts has other impacts after it.
+  if (first == nullptr || fit.reason == Code("simultaneous-impacts").name()) return {};
+  const bool scatters =
+      fit.behaviour == Behaviour::irregular && claim.behaviour == Behaviour::irregular;
+  if (scatters && 2 * miscounting <= finished) return {};
+  const bool open = fit.behaviour == Behaviour::undecided;
+  if (open && (!all_alike || fit.reason == Code("contact-not-resolved").name())) return {};
+  return miscount(*first);
+}
+
+Evidence tolerance_evidence(const RunScore& finest, double limit, double printed_floor) {
+  const double error = finest.u_error;
+  Evidence found{{}, Verdict::not_claimed, {error, limit, printed_floor}};
+  if (!(std::abs(error - limit) > printed_floor)) {
+    found.code = "tolerance-not-resolved";
+    found.verdict = Verdict::undecided;
+  } else {
+    found.code = error <= limit ? "within-tolerance" : "beyond-tolerance";
+    found.verdict = error <= limit ? Verdict::agrees : Verdict::disagrees;
+  }
+  return found;
+}
+
+// Why the history is of another motion than the case's.
+std::optional<Evidence> other_motion(const RunScore& finest, const HistoryFacts& facts) {
+  if (facts.first > 0.0 && facts.start_error > far_start)
+    return Evidence{"other-start", Verdict::disagrees, {facts.start_error}};
+  if (!facts.rows_resolve_collisions || !miscounts(finest)) return {};
+  const auto& found = *finest.impacts;
+  return Evidence{"other-collisions",
+                  Verdict::disagrees,
+                  {double(found.matched), double(found.expected), double(found.extra)}};
+}
+
+std::optional<Evidence> ends_early(const HistoryFacts& facts) {
+  if (!(facts.end > 0.0)) return {};
+  const bool before_impacts = facts.expected > 0 && facts.expected_to_last == 0;
+  if (facts.last >= early_end * facts.end && !before_impacts) return {};
+  return Evidence{"ends-early",
+                  Verdict::undecided,
+                  {facts.last, facts.end, double(facts.expected_to_last), double(facts.expected)}};
+}
+
+std::optional<Evidence> velocity_order(const Assessment& fits) {
+  const auto &u = fits.displacement, &v = fits.velocity;
+  if (!u.has_line || !v.has_line) return {};
+  const double lower = u.order - v.order;
+  if (!(lower > lower_velocity_order && lower > u.spread + v.spread)) return {};
+  return Evidence{"velocity-order-lower", Verdict::not_claimed, {v.order, u.order}};
+}
+
+std::optional<Evidence> error_over_tolerance(const Ladder& ladder, const LadderFit& fit) {
+  if (!fit.has_line) return {};
+  double sum = 0.0, least = std::numeric_limits<double>::infinity(), most = 0.0;
+  int runs = 0;
+  for (const auto& level : ladder)
+    for (const auto& run : level.runs) {
+      if (!run.finished || !(run.u_error > 0.0) || run.step > fit.largest_step ||
+          run.step < fit.smallest_step)
+        continue;
+      const double factor = run.u_error / run.step;
+      sum += std::log(factor);
+      least = std::min(least, factor);
+      most = std::max(most, factor);
+      ++runs;
+    }
+  if (runs == 0) return {};
+  return Evidence{
+      "error-over-tolerance", Verdict::not_claimed, {std::exp(sum / runs), least, most}};
+}
+
+bool claims_convergence(const Claim& claim) {
+  return claim.behaviour == Behaviour::exact || claim.behaviour == Behaviour::proper ||
+         claim.behaviour == Behaviour::reduced || claim.behaviour == Behaviour::irregular;
+}
+
+// What the fit itself noticed.
+std::vector<Evidence> of_the_fit(const LadderFit& fit, const Ladder& ladder, const Claim& claim,
+                                 const Facts& facts) {
+  std::vector<Evidence> all;
+  const auto note = [&](std::string_view code, std::vector<double> numbers) {
+    all.push_back({std::string(code), Verdict::not_claimed, std::move(numbers)});
+  };
+  if (fit.lucky_share >= notable_luck) note(Code("commensurate-steps").name(), {fit.lucky_share});
+  if (fit.cancel_step > 0.0) note(Code("errors-cancel").name(), {fit.cancel_step});
+  if (fit.stable_step > 0.0) note(Code("unstable-coarse-steps").name(), {fit.stable_step});
+  if (fit.reason == Code("simultaneous-impacts").name() && facts.shared)
+    note(fit.reason, {facts.shared->instant.t, double(facts.shared->instant.contacts),
+                      facts.shared->error_before, facts.shared->error_after});
+  const bool unresolved = fit.reason == Code("contact-not-resolved").name();
+  if (facts.contact_time > 0.0 && !facts.by_tolerance &&
+      (unresolved || fit.behaviour == Behaviour::stagnating))
+    note("steps-per-contact", {facts.contact_time / finest_run(ladder).step, facts.contact_time});
+  const double order = claim.behaviour == Behaviour::irregular ? claim.order : fit.order;
+  if (fit.on_envelope && fit.spread > envelope_order_tolerance * order)
+    note(Code("more-neighbours").name(), {fit.order, fit.spread});
+  return all;
+}
+
+}  // namespace
+
+const RunScore& finest_run(const Ladder& ladder) { return ladder.back().runs.back(); }
+
+std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
+                                  const Ladder& ladder, const Claim& claim, const Facts& facts) {
+  std::vector<Evidence> all;
+  if (ladder.empty() || ladder.back().runs.empty()) return all;
+  const auto add = [&](std::optional<Evidence> found) {
+    if (found) all.push_back(std::move(*found));
+  };
+  const auto& fit = fits.displacement;
+  const auto& finest = finest_run(ladder);
+  const double printed = facts.finest ? facts.finest->printed_floor : 0.0;
+  const bool claimed = claim.behaviour != Behaviour::undecided;
+  if (fit.reason == Code("printed-digits").name())
+    all.push_back({fit.reason, of_behaviour, {finest.u_error, printed}});
+  if (claimed) add(miscounted(ladder, fit, claim));
+  // Whatever the order, it is that of another motion.
+  const Evidence wrong_limit{std::string(Code("wrong-limit").name()), Verdict::disagrees, {}};
+  if (facts.wrong_limit && claims_convergence(claim)) all.push_back(wrong_limit);
+  if (facts.tolerance) add(tolerance_evidence(finest, *facts.tolerance, printed));
+  for (auto& found : of_the_fit(fit, ladder, claim, facts)) all.push_back(std::move(found));
+  add(velocity_order(fits));
+  if (facts.by_tolerance) add(error_over_tolerance(ladder, fit));
+  if (!facts.finest) return all;
+  add(ends_early(*facts.finest));
+  if (claimed) return all;  // an expected divergence may lead to another motion
+  if (!facts.tolerance && finest.impacts && !facts.finest->rows_resolve_collisions)
+    all.push_back({"sparse-rows", Verdict::not_claimed, {}});
+  add(other_motion(finest, *facts.finest));
+  if (facts.wrong_limit) all.push_back(wrong_limit);
+  return all;
+}
+
+}  // namespace clackers::assess

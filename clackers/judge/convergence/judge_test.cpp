@@ -1,0 +1,421 @@
+#include "clackers/judge/convergence/judge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "clackers/judge/testing/synthetic_ladder.hpp"
+
+namespace clackers::assess {
+namespace {
+
+using namespace synthetic;
+
+// Scores whose displacement error is `error(h)`, with velocity and impact times in proportion and
+// all six collisions found.
+Ladder scores(const std::function<double(double)>& error, const Shape& shape = {}) {
+  Ladder made;
+  for (const auto& level : ladder(error, shape)) {
+    made.push_back({level.front().step, {}});
+    for (const auto& point : level) {
+      RunScore run;
+      run.step = point.step;
+      run.finished = true;
+      run.u_error = point.error;
+      run.v_error = 2.0 * point.error;
+      run.rounding_floor = point.floor;
+      run.impacts = ImpactScore{.expected = 6, .found = 6, .matched = 6};
+      run.impacts->worst_time_error = 3.0 * point.error;
+      made.back().runs.push_back(run);
+    }
+  }
+  return made;
+}
+
+auto power(double q) {
+  return [q](double h) { return std::pow(h, q); };
+}
+
+// A run of an undamped motion that ends with `ratio` times its energy.
+void grown(RunScore& run, double ratio) {
+  run.energy_ratio = ratio;
+  run.energy_error = ratio - 1.0;
+}
+
+void every_run(Ladder& ladder, std::size_t from_level,
+               const std::function<void(RunScore&)>& change) {
+  for (std::size_t i = from_level; i < ladder.size(); ++i)
+    for (auto& run : ladder[i].runs) change(run);
+}
+
+const Claim second{Behaviour::proper, 2.0, ""}, fourth{Behaviour::proper, 4.0, ""},
+    rough{Behaviour::irregular, 1.0, ""},
+    floor_claim{Behaviour::stagnating, 0.0, "contact-stiffness"};
+
+TEST(Judge, WhatIsClaimedAndFoundAgrees) {
+  const auto found = judge(scores(power(2.0)), second);
+  EXPECT_EQ(found.verdict, Verdict::agrees);
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::proper);
+  EXPECT_EQ(found.velocity.behaviour, Behaviour::proper);
+  EXPECT_EQ(found.impact_time.behaviour, Behaviour::proper);
+  EXPECT_NEAR(found.velocity.constant, 2.0, 1e-9);
+  EXPECT_NEAR(found.impact_time.constant, 3.0, 1e-9);
+  EXPECT_TRUE(found.reason.empty());
+  EXPECT_TRUE(found.evidence.empty());
+}
+
+TEST(Judge, AnotherOrderDisagreesInBothDirections) {
+  const auto lower = judge(scores(power(1.0)), second);
+  EXPECT_EQ(lower.verdict, Verdict::disagrees);
+  EXPECT_EQ(lower.displacement.behaviour, Behaviour::reduced);
+  const auto higher = judge(scores(power(4.0), {.levels = 6}), second);
+  EXPECT_EQ(higher.verdict, Verdict::disagrees);
+  EXPECT_EQ(higher.displacement.behaviour, Behaviour::proper);
+}
+
+TEST(Judge, AnOrderWithinATenthAgrees) {
+  EXPECT_EQ(judge(scores(power(1.81)), second).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(power(2.19)), second).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(power(1.79)), second).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(scores(power(2.21)), second).verdict, Verdict::disagrees);
+}
+
+TEST(Judge, AReducedOrderMayBeClaimed) {
+  const Claim reduced{Behaviour::reduced, 1.5, ""};
+  const auto found = judge(scores(power(1.5)), reduced);
+  EXPECT_EQ(found.verdict, Verdict::agrees);
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::reduced);
+  EXPECT_EQ(judge(scores(power(2.0)), reduced).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(scores(power(2.0)), reduced).displacement.behaviour, Behaviour::proper);
+  EXPECT_EQ(judge(scores(power(1.0)), reduced).verdict, Verdict::disagrees);
+}
+
+TEST(Judge, AnIrregularClaimIsComparedWithTheEnvelope) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Scatter scatter(20.0, seed), again(20.0, seed);
+    const auto found = judge(scores([&](double h) { return h / scatter(); }), rough);
+    EXPECT_NE(found.verdict, Verdict::disagrees);
+    EXPECT_EQ(found.displacement.behaviour, Behaviour::irregular);
+    const auto claims_line = judge(scores([&](double h) { return h / again(); }), second);
+    EXPECT_EQ(claims_line.verdict, Verdict::disagrees);
+  }
+}
+
+TEST(Judge, AnEnvelopeOfHalfTheOrderDisagreesAndOneTooUncertainIsUndecided) {
+  Scatter scatter(10.0, 1), wild(1e4, 2);
+  const auto half = judge(scores([&](double h) { return std::sqrt(h) / scatter(); }), rough);
+  EXPECT_EQ(half.displacement.behaviour, Behaviour::irregular);
+  EXPECT_EQ(half.verdict, Verdict::disagrees);
+  const auto few = judge(scores([&](double h) { return h / wild(); }, {.levels = 4}), rough);
+  EXPECT_EQ(few.verdict, Verdict::undecided);
+}
+
+// Rough levels whose largest errors lie at factor e^(+-0.2) around h^order, in the pattern + - - +
+// that leaves the slope as it is: residuals 0.2 and a squared standard error 4 * 0.04 / 2 / (5 ln2^2)
+// = 0.0333 of two degrees of freedom. The raw errors have the variance (22.4 - 1.28 + 1.28) / 30 =
+// 0.748 about the line, so a range of sqrt(12 * 0.748) and of the largest of eight the variance
+// 8.97 * 8 / 810 = 0.0886, over 5 ln2^2 the square 0.0369. Both together, 0.0351, with t = 2.78 of
+// four degrees of freedom give a spread of 0.52; the steps of a level change the raw variance a little.
+Ladder uncertain(double order) {
+  auto made = scores(power(order), {.levels = 4});
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 8; ++j) {
+      auto& run = made[i].runs[j];
+      run.u_error = std::pow(made[i].step, order) * std::exp(i == 0 || i == 3 ? 0.2 : -0.2);
+      if (j > 0) run.u_error /= j % 2 == 0 ? 3.0 : 10.0;
+    }
+  return made;
+}
+
+TEST(Judge, AnEnvelopeThatMayBeAnythingIsUndecided) {
+  for (const double order : {1.0, 1.3}) {
+    const auto found = judge(uncertain(order), rough);
+    EXPECT_EQ(found.displacement.behaviour, Behaviour::irregular);
+    EXPECT_NEAR(found.displacement.order, order, 1e-9);
+    EXPECT_NEAR(found.displacement.spread, 0.52, 0.03);
+    EXPECT_EQ(found.verdict, Verdict::undecided);
+  }
+}
+
+// Errors that a compliant contact left of two buildings, coarse steps first: a floor of two octaves
+// behind errors larger than the motion, whose envelope has the order 0.8 +- 3.
+TEST(Judge, OnlyErrorsThatFallForCertainContradictAFloor) {
+  const double errors[8][8] = {{6.71, 9.65, 8.44, 0.616, 26.5, 10.2, 6.96, 1.12},
+                               {7.85, 1.16, 1.11, 6.92, 18.7, 2.86, 1.11, 1.04},
+                               {15.9, 0.654, 0.68, 0.862, 5.29, 1.25, 0.595, 0.677},
+                               {0.962, 2.1, 0.455, 0.461, 0.28, 0.113, 0.0707, 0.0719},
+                               {0.102, 0.118, 0.108, 0.198, 0.0989, 0.0477, 0.0631, 0.0766},
+                               {0.0857, 0.0455, 0.0519, 0.0449, 0.0515, 0.0444, 0.0443, 0.0441},
+                               {0.044, 0.0439, 0.0438, 0.0437, 0.0436, 0.0436, 0.0435, 0.0435},
+                               {0.0435, 0.0434, 0.0434, 0.0434, 0.0434, 0.0434, 0.0433, 0.0433}};
+  auto made = scores(power(1.0), {.levels = 8});
+  for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t j = 0; j < 8; ++j) made[i].runs[j].u_error = errors[i][j];
+  const auto found = judge(made, floor_claim);
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::irregular);
+  EXPECT_GT(found.displacement.spread, found.displacement.order);
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+  EXPECT_EQ(judge(uncertain(1.0), floor_claim).verdict, Verdict::disagrees);
+}
+
+TEST(Judge, ImpactTimesHaveNoSizeOfTheMotion) {
+  auto late = scores(power(2.0));
+  every_run(late, 0, [](RunScore& run) { run.impacts->worst_time_error = 1.5; });
+  EXPECT_EQ(judge(late, second).impact_time.behaviour, Behaviour::stagnating);
+}
+
+TEST(Judge, WhatIsUndecidedStaysSoWhateverEnergyAndCollisions) {
+  auto unresolved = scores([](double h) { return 0.3 + h; });
+  every_run(unresolved, 0, [](RunScore& run) {
+    grown(run, 8.0);
+    run.impacts->missed = 1;
+  });
+  const auto found = judge(unresolved, floor_claim, {.contact_time = 1e-4});
+  EXPECT_EQ(found.displacement.reason, "contact-not-resolved");
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+}
+
+TEST(Judge, AnExactMotionAtRestMayEndWithAnyEnergyRatio) {
+  auto exact = scores([](double) { return 1e-16; });
+  every_run(exact, 0, [](RunScore& run) { grown(run, 8.0); });
+  EXPECT_EQ(judge(exact, {Behaviour::exact, 0.0, ""}).verdict, Verdict::agrees);
+}
+
+TEST(Judge, ALineOfTheOrderIsATighterEnvelopeThanClaimed) {
+  const auto found = judge(scores(power(1.0)), rough);
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::proper);
+  EXPECT_EQ(found.verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(power(2.0)), rough).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(scores(power(2.0)), rough).mismatch, Mismatch::behaviour);
+}
+
+TEST(Judge, AFloorAgreesOnlyForTheClaimedReason) {
+  const auto flat = scores([](double h) { return 0.3 + h; });
+  const auto found = judge(flat, floor_claim, {.contact_time = 0.0157});
+  EXPECT_EQ(found.verdict, Verdict::agrees);
+  EXPECT_EQ(found.displacement.reason, "contact-stiffness");
+  EXPECT_EQ(judge(flat, floor_claim).verdict, Verdict::disagrees);
+  const Claim tolerance{Behaviour::stagnating, 0.0, "tolerance-floor"};
+  EXPECT_EQ(judge(flat, tolerance).verdict, Verdict::agrees);
+}
+
+TEST(Judge, AnUnresolvedContactIsUndecided) {
+  const auto found =
+      judge(scores([](double h) { return 0.3 + h; }), floor_claim, {.contact_time = 1e-4});
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+  EXPECT_EQ(found.displacement.reason, "contact-not-resolved");
+}
+
+TEST(Judge, WithoutAClaimNothingIsCompared) {
+  const auto found = judge(scores(power(1.0)), {});
+  EXPECT_EQ(found.verdict, Verdict::not_claimed);
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::proper);
+}
+
+TEST(Judge, AnExactMotionAgreesWithTheClaimOfOneAndTellsNothingOfAnOrder) {
+  const auto exact = scores([](double) { return 1e-16; });
+  EXPECT_EQ(judge(exact, {Behaviour::exact, 0.0, ""}).verdict, Verdict::agrees);
+  const auto found = judge(exact, second);
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+}
+
+TEST(Judge, MissedOrExtraCollisionsOnTheFinestLevelsDisagree) {
+  for (const bool extra : {false, true})
+    for (const std::size_t level : {6u, 7u}) {
+      auto ladder = scores(power(2.0));
+      auto& impacts = *ladder[level].runs[5].impacts;
+      (extra ? impacts.extra : impacts.missed) = 1;
+      if (!extra) impacts.matched = impacts.found = 5;
+      const auto found = judge(ladder, second);
+      EXPECT_EQ(found.verdict, Verdict::disagrees) << level;
+      ASSERT_EQ(found.evidence.size(), 1u);
+      EXPECT_EQ(found.evidence[0].code, "collisions-miscounted");
+      const auto& run = ladder[level].runs[5];
+      EXPECT_EQ(found.evidence[0].numbers,
+                (std::vector{run.step, extra ? 6.0 : 5.0, 6.0, extra ? 1.0 : 0.0}));
+    }
+  auto coarse = scores(power(2.0));
+  coarse[5].runs[0].impacts->missed = 1;
+  EXPECT_EQ(judge(coarse, second).verdict, Verdict::agrees);
+}
+
+TEST(Judge, LateCollisionsDoNotContradictAFloorButMissedOnesDo) {
+  auto late = scores([](double) { return 0.9; });
+  every_run(late, 0, [](RunScore& run) { run.impacts = ImpactScore{6, 6, 2, 4, 4}; });
+  EXPECT_EQ(judge(late, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::agrees);
+  every_run(late, 0, [](RunScore& run) { run.impacts = ImpactScore{6, 2, 2, 4, 0}; });
+  EXPECT_EQ(judge(late, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::disagrees);
+}
+
+TEST(Judge, LostEnergyIsNoGrowth) {
+  auto flat = scores([](double h) { return 0.3 + h; });
+  every_run(flat, 6, [](RunScore& run) { run.energy_ratio = 0.4; });
+  EXPECT_EQ(judge(flat, second).displacement.behaviour, Behaviour::stagnating);
+  auto falling = scores([](double h) { return 1.3 * std::tanh(700.0 * h); });
+  every_run(falling, 6, [](RunScore& run) { run.energy_ratio = 0.4; });
+  const auto found = judge(falling, second);
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::undecided);
+  EXPECT_EQ(found.reason, "numerical-damping");
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+}
+
+TEST(Judge, EnergyThatGrowsWhileErrorsDoNotFallDiverges) {
+  for (const double ratio : {2.1, 8.0}) {
+    auto ladder = scores([](double h) { return 1.7 + h; });
+    every_run(ladder, 6, [&](RunScore& run) { grown(run, ratio); });
+    const auto found = judge(ladder, second);
+    EXPECT_EQ(found.displacement.behaviour, Behaviour::divergent);
+    EXPECT_EQ(found.displacement.reason, "energy-growth");
+    EXPECT_EQ(found.verdict, Verdict::disagrees);
+  }
+}
+
+TEST(Judge, AMotionThatDoesNotDecayAsItShouldHasNotGrown) {
+  auto ladder = scores([](double h) { return 0.4 + 0.1 * h; });
+  every_run(ladder, 0, [](RunScore& run) {
+    run.energy_ratio = 8.0;
+    run.energy_error = 0.9;
+  });
+  EXPECT_EQ(judge(ladder, second).displacement.behaviour, Behaviour::stagnating);
+}
+
+TEST(Judge, EnergyDoesNotOverruleALineNorASingleLevelNorAMotionAtRest) {
+  auto line = scores(power(2.0));
+  every_run(line, 0, [](RunScore& run) { grown(run, 8.0); });
+  EXPECT_EQ(judge(line, second).verdict, Verdict::agrees);
+  for (const std::size_t level : {6u, 7u}) {
+    auto flat = scores([](double h) { return 0.3 + h; });
+    for (auto& run : flat[level].runs) grown(run, 8.0);
+    EXPECT_EQ(judge(flat, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::agrees);
+  }
+  auto rest = scores([](double h) { return 0.3 + h; });
+  every_run(rest, 0, [](RunScore& run) { run.energy_ratio = nan; });
+  EXPECT_EQ(judge(rest, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::agrees);
+}
+
+TEST(Judge, ARunThatFailedHasNoErrorHoweverSmall) {
+  auto ladder = scores(power(2.0));
+  for (std::size_t level : {0u, 1u})
+    for (auto& run : ladder[level].runs) {
+      run.finished = false;
+      run.u_error = run.v_error = 1e-9;
+      run.failure_code = "diverged";
+      run.failure = "left the finite numbers at t = 3 s.";
+    }
+  EXPECT_EQ(judge(ladder, second).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(ladder, second).displacement.first_level, 2);
+  every_run(ladder, 0, [](RunScore& run) { run.finished = false; });
+  const auto found = judge(ladder, second);
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+  EXPECT_EQ(found.displacement.reason, "run-failed");
+}
+
+TEST(Judge, WithoutReportedImpactsTheirTimesAreUndecided) {
+  auto ladder = scores(power(2.0));
+  every_run(ladder, 0, [](RunScore& run) { run.impacts.reset(); });
+  const auto found = judge(ladder, second);
+  EXPECT_EQ(found.verdict, Verdict::agrees);
+  EXPECT_EQ(found.impact_time.behaviour, Behaviour::undecided);
+  EXPECT_FALSE(found.impact_time.has_line);
+}
+
+TEST(Judge, FewLevelsAreUndecided) {
+  const auto found = judge(scores(power(2.0), {.levels = 3}), second);
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+  EXPECT_EQ(judge({}, second).verdict, Verdict::undecided);
+}
+
+TEST(Judge, ADivergentClaimMayBeMade) {
+  const auto found =
+      judge(scores([](double h) { return 1e-6 / h; }), {Behaviour::divergent, 0.0, ""});
+  EXPECT_EQ(found.verdict, Verdict::agrees);
+}
+
+// Impacts of one instant, taken one by one: exact until then, another motion after it.
+const SharedImpacts jump{{1.5, 4}, 1e-9, 0.8};
+double as_large(double h) { return 1.3 + 0.2 * std::sin(1.0 / h); }
+
+TEST(Judge, ErrorsThatComeFromSimultaneousImpactsDiverge) {
+  const auto found = judge(scores(as_large), fourth, {.shared = jump});
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::divergent);
+  EXPECT_EQ(found.reason, "simultaneous-impacts");
+  EXPECT_EQ(found.verdict, Verdict::disagrees);
+  ASSERT_EQ(found.evidence.size(), 1u);
+  EXPECT_EQ(found.evidence[0].numbers, (std::vector<double>{1.5, 4.0, 1e-9, 0.8}));
+  const Claim any_floor{Behaviour::stagnating, 0.0, ""}, diverges{Behaviour::divergent, 0.0, ""};
+  for (const auto& claim : {any_floor, diverges})
+    EXPECT_EQ(judge(scores(as_large), claim, {.shared = jump}).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(as_large), floor_claim, {.shared = jump}).verdict, Verdict::disagrees);
+}
+
+TEST(Judge, OtherImpactsAfterSimultaneousOnesAreNoMiscount) {
+  auto ladder = scores(as_large);
+  every_run(ladder, 0, [](RunScore& run) { run.impacts->extra = 5; });
+  const Claim any_floor{Behaviour::stagnating, 0.0, ""};
+  EXPECT_EQ(judge(ladder, any_floor, {.shared = jump}).verdict, Verdict::agrees);
+}
+
+TEST(Judge, StepsThatAreTooLargeStayUndecidedWithSimultaneousImpacts) {
+  const auto behaviour = [](const Ladder& ladder, std::optional<SharedImpacts> shared) {
+    return judge(ladder, fourth, {.shared = shared}).displacement.behaviour;
+  };
+  EXPECT_EQ(behaviour(scores(as_large), {}), Behaviour::undecided);
+  // The error is there before the impacts already, or is small after them.
+  EXPECT_EQ(behaviour(scores(as_large), SharedImpacts{{1.5, 4}, 0.03, 0.8}), Behaviour::undecided);
+  EXPECT_EQ(behaviour(scores(as_large), SharedImpacts{{1.5, 4}, 1e-9, 0.01}), Behaviour::undecided);
+  // The errors fall at last, or there are too few levels.
+  const auto falls = [](double h) { return std::min(1.3, 700.0 * h); };
+  EXPECT_EQ(behaviour(scores(falls), jump), Behaviour::undecided);
+  EXPECT_EQ(behaviour(scores(as_large, {.levels = 3}), jump), Behaviour::undecided);
+}
+
+TEST(Judge, WhatConvergesStaysWhatItIsWithSimultaneousImpacts) {
+  EXPECT_EQ(judge(scores(power(4.0)), fourth, {.shared = jump}).verdict, Verdict::agrees);
+}
+
+TEST(Judge, AFloorThatComesFromSimultaneousImpactsHasThemAsItsReason) {
+  const auto floor = [](double) { return 0.3; };
+  const auto found = judge(scores(floor), fourth, {.shared = jump});
+  EXPECT_EQ(found.displacement.behaviour, Behaviour::stagnating);
+  EXPECT_EQ(found.reason, "simultaneous-impacts");
+  EXPECT_EQ(judge(scores(floor), fourth).reason, "unexplained-floor");
+}
+
+// A gentle impact that comes too late to be matched is missed and extra.
+TEST(Judge, AnEnvelopeMayMiscountAtAFewSteps) {
+  const auto verdict = [](std::size_t wrong, const Claim& claim) {
+    Scatter scatter(8.0, 3);
+    auto ladder = scores([&](double h) { return h / scatter(); });
+    for (std::size_t i = ladder.size() - 2; i < ladder.size(); ++i)
+      for (std::size_t k = 0; k < wrong; ++k)
+        ladder[i].runs[k].impacts = ImpactScore{6, 6, 5, 1, 1};
+    return judge(ladder, claim).verdict;
+  };
+  EXPECT_EQ(verdict(4, rough), Verdict::agrees);
+  EXPECT_EQ(verdict(5, rough), Verdict::disagrees);
+  auto line = scores(power(2.0));
+  line.back().runs.back().impacts = ImpactScore{6, 6, 5, 1, 1};
+  EXPECT_EQ(judge(line, second).verdict, Verdict::disagrees);
+}
+
+// Backward Euler with a contact spring: the errors come from those of a motion that has died away, and
+// end at 0.043 three levels later.
+TEST(Judge, AClaimedFloorIsOpenWhileErrorsFallByNoOrder) {
+  const std::vector<double> bend{0.806, 0.807, 0.808, 0.808, 0.735, 0.626,
+                                 0.516, 0.386, 0.255, 0.156, 0.0937};
+  const auto error = [&](double h) {
+    const double level = std::log2(0.1 / h);
+    const auto i = std::min(std::size_t(level + 1e-9), bend.size() - 2);
+    return bend[i] * std::pow(bend[i + 1] / bend[i], level - double(i));
+  };
+  const auto found = judge(scores(error, {.levels = 11, .coarsest = 0.1}), floor_claim);
+  EXPECT_LT(found.displacement.order, 0.75);
+  EXPECT_EQ(found.verdict, Verdict::undecided);
+  EXPECT_EQ(judge(scores(power(1.0)), floor_claim).verdict, Verdict::disagrees);
+}
+
+}  // namespace
+}  // namespace clackers::assess

@@ -1,0 +1,162 @@
+#include "clackers/measure/errors/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clackers/measure/errors/history_check.hpp"
+#include "clackers/measure/errors/vectors.hpp"
+#include "clackers/measure/impacts/collision_finder.hpp"
+#include "clackers/measure/impacts/impact_matcher.hpp"
+#include "clackers/measure/impacts/jump_limits.hpp"
+
+namespace clackers::assess {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t block_size = 4096;  // rows of reference that fit a cache
+
+double median_difference(const std::vector<double>& t) {
+  std::vector<double> differences;
+  differences.reserve(t.size());
+  for (std::size_t i = 1; i < t.size(); ++i)
+    if (t[i] > t[i - 1]) differences.push_back(t[i] - t[i - 1]);
+  return median(std::move(differences));
+}
+
+// Vectors with an entry that is not finite count as not known.
+void forget_what_is_not_finite(model::Impact& impact) {
+  for (auto* vector : {&impact.u, &impact.v_before, &impact.v_after})
+    if (!std::ranges::all_of(*vector, [](double x) { return std::isfinite(x); })) vector->clear();
+  if (!std::isfinite(impact.impulse)) impact.impulse = unknown;
+}
+
+}  // namespace
+
+double relative_bound(const model::Motion& reference, const model::Kinematics& scale, double t) {
+  const auto bound = reference.error_bound(std::clamp(t, 0.0, reference.end()));
+  double largest = 0.0;
+  for (const auto part : {&model::Kinematics::u, &model::Kinematics::v})
+    for (Eigen::Index i = 0; i < (scale.*part).size(); ++i)
+      if ((scale.*part)[i] > 0.0) largest = std::max(largest, (bound.*part)[i] / (scale.*part)[i]);
+  return largest;
+}
+
+Comparison::Comparison(const model::Trajectory& history, const model::Motion& reference,
+                       const model::ImpactProblem<>& problem)
+    : given_(history), reference_(reference), problem_(problem) {
+  require_comparable(history, reference, problem);
+  step_ = median_difference(history.t);
+  widened_ = with_jump_limits(history);
+  const auto scale = reference.peak();
+  u_envelope_ = entries(scale.u);
+  v_envelope_ = entries(scale.v);
+  a_envelope_ = entries(scale.a);
+  // The search for collisions needs memory for a while; the reference comes after it.
+  collect_impacts();
+  sample_reference();
+}
+
+// Each row once, in blocks of one side.
+void Comparison::sample_reference() {
+  const auto& t = history().t;
+  const auto size = t.size() * dof();
+  reference_u_.resize(size);
+  reference_v_.resize(size);
+  if (has_accelerations()) reference_a_.resize(size);
+  std::vector<double> times;
+  for (std::size_t from = 0; from < t.size(); from += times.size()) {
+    const bool left = is_left_limit(from);
+    times.clear();
+    for (auto row = from; row < t.size() && times.size() < block_size; ++row) {
+      if (is_left_limit(row) != left) break;
+      times.push_back(std::min(t[row], reference_.end()));
+    }
+    const auto part = [&](std::vector<double>& all) {
+      return all.empty() ? std::span<double>()
+                         : std::span(all).subspan(from * dof(), times.size() * dof());
+    };
+    reference_.sample(times, left ? model::Side::left : model::Side::right,
+                      {part(reference_u_), part(reference_v_), part(reference_a_)});
+  }
+}
+
+double Comparison::rounding_floor() const {
+  double floor = std::numeric_limits<double>::epsilon() * double(rows());
+  const auto scale = reference_.peak();
+  for (const double t : {given_.t.front(), given_.t.back()})
+    floor = std::max(floor, relative_bound(reference_, scale, t));
+  return floor;
+}
+
+double Comparison::collision_period() const {
+  if (collision_period_ != 0.0) return collision_period_;
+  collision_period_ = reference_.end();
+  const auto count = reference_.impact_count(reference_.end());
+  for (long long k = 2; k <= count; ++k)
+    if (const double period = reference_.impact(k).t - reference_.impact(1).t; period > 0.0) {
+      collision_period_ = period;
+      break;
+    }
+  return collision_period_;
+}
+
+std::string Comparison::objection_to_sparse_rows() const {
+  const auto& t = history().t;
+  const auto expected = reference_.impact_count(std::min(t.back(), reference_.end())) -
+                        reference_.impact_count(t.front());
+  if (double(expected) <= 10.0 * double(rows()) + 1000.0) return {};
+  return fmt::format("The history has {} rows for {} true impacts.", rows(), expected);
+}
+
+void Comparison::collect_impacts() {
+  // Two true impacts of a contact must never count as one: the two steps within which reports are
+  // joined are at most an eighth of the mean time between them, half of what a match may be off.
+  const auto contacts = std::max<std::size_t>(problem_.contacts.size(), 1);
+  const auto spacing = reference_.end() * double(contacts) /
+                       double(std::max(1LL, reference_.impact_count(reference_.end())));
+  const double step = std::min(step_, spacing / 16.0);
+  if (!given_.impacts) {
+    source_ = ImpactSource::found_in_history;
+    for (auto& found : find_collisions(given_, problem_)) {
+      impacts_.push_back(std::move(found.impact));
+      impact_ends_.push_back(found.end);
+    }
+    match_impacts(step);
+    return;
+  }
+  auto reports = *given_.impacts;
+  std::ranges::stable_sort(reports, {}, &model::Impact::t);
+  std::vector<std::optional<std::size_t>> last(contacts);  // impact of each contact
+  for (auto& report : reports) {
+    forget_what_is_not_finite(report);
+    auto& same = last[std::size_t(report.contact)];
+    if (same && report.t - impact_ends_[*same] < one_collision * step) {
+      impacts_[*same].v_after = std::move(report.v_after);
+      impacts_[*same].impulse += report.impulse;
+      impact_ends_[*same] = report.t;
+    } else {
+      same = impacts_.size();
+      impact_ends_.push_back(report.t);
+      impacts_.push_back(std::move(report));
+    }
+  }
+  match_impacts(step);
+}
+
+void Comparison::match_impacts(double step) {
+  const auto& t = given_.t;
+  ImpactMatcher matcher(reference_, step, t.front(), int(problem_.contacts.size()));
+  matcher.keep_pairs();
+  for (const auto& impact : impacts_)
+    matcher.take(impact.t,
+                 rests_in_contact(reference_, problem_.contacts, impact.contact, impact.t),
+                 impact.contact);
+  score_ = matcher.score(t.back(), rounding_floor());
+  for (const auto& pair : matcher.pairs(t.back()))
+    matches_.push_back({pair.report, reference_.impact(pair.reference)});
+}
+
+}  // namespace clackers::assess

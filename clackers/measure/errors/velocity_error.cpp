@@ -1,0 +1,141 @@
+#include "clackers/measure/errors/velocity_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clackers::assess {
+namespace {
+
+std::vector<double> copy(std::span<const double> from) { return {from.begin(), from.end()}; }
+
+std::vector<double> distance(std::span<const double> one, std::span<const double> other) {
+  std::vector<double> errors(one.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] = std::abs(one[i] - other[i]);
+  return errors;
+}
+
+}  // namespace
+
+VelocityError::VelocityError(const model::Motion& reference, JumpingQuantity quantity)
+    : reference_(reference),
+      quantity_(quantity),
+      dof_(std::size_t(reference.dof())),
+      known_(reference.impact_count(reference.end())),
+      from_error_(dof_),
+      to_error_(dof_),
+      sum_(dof_),
+      squares_(dof_) {}
+
+std::span<const double> VelocityError::part(const model::Kinematics& now) const {
+  const auto& part = quantity_ == JumpingQuantity::velocity ? now.v : now.a;
+  return {part.data(), std::size_t(part.size())};
+}
+
+void VelocityError::take(std::span<const double> t, std::span<const double> v,
+                         std::span<const double> v_reference) {
+  // The interval in front of them, and that between them, may hold an impact.
+  const auto slow = std::min<std::size_t>(2, t.size());
+  for (std::size_t i = 0; i < slow; ++i) take_first(t[i], &v[i * dof_], &v_reference[i * dof_]);
+  for (std::size_t i = slow; i < t.size(); ++i) {
+    const double half = 0.5 * (to_ - from_);
+    for (std::size_t j = 0; j < dof_; ++j) {
+      const double left = from_error_[j], right = to_error_[j];
+      sum_[j] += half * (left + right);
+      squares_[j] += half * (left * left + right * right);
+      from_error_[j] = right;
+      to_error_[j] = std::abs(v[i * dof_ + j] - v_reference[i * dof_ + j]);
+    }
+    from_ = to_;
+    to_ = t[i];
+  }
+}
+
+void VelocityError::take_first(double t, const double* v, const double* v_reference) {
+  if (taken_ > 0) {
+    close();
+    from_ = to_;
+    std::swap(jumps_, later_);
+    later_.clear();
+  }
+  taken_ = std::min(taken_ + 1, 2);
+  to_ = t;
+  for (std::size_t i = 0; i < dof_; ++i) to_error_[i] = std::abs(v[i] - v_reference[i]);
+}
+
+void VelocityError::take(const model::ReportedImpact& impact) {
+  auto& list = taken_ > 0 && impact.t <= to_ ? jumps_ : later_;
+  list.push_back({impact.t, copy(impact.v_before), copy(impact.v_after)});
+}
+
+double VelocityError::integral(int mass) const {
+  VelocityError whole = *this;
+  whole.close();
+  return whole.sum_[std::size_t(mass)];
+}
+
+double VelocityError::integral_of_square(int mass) const {
+  VelocityError whole = *this;
+  whole.close();
+  return whole.squares_[std::size_t(mass)];
+}
+
+void VelocityError::add(double length, const Errors& left, const Errors& right) {
+  for (std::size_t i = 0; i < dof_; ++i) {
+    sum_[i] += 0.5 * length * (left[i] + right[i]);
+    squares_[i] += 0.5 * length * (left[i] * left[i] + right[i] * right[i]);
+  }
+}
+
+// Integrates over the open interval and leaves the error after its end in from_error_.
+void VelocityError::close() {
+  if (taken_ < 2) from_ = to_;
+  if (jumps_.empty()) {
+    add(to_ - from_, from_error_, to_error_);
+    std::swap(from_error_, to_error_);
+    return;
+  }
+  double from = from_;
+  for (const auto& jump : jumps_) pass(jump, from, from_error_);
+  // A jump at the output time itself has the limits of both sides.
+  if (from >= to_) return;
+  add(to_ - from, from_error_, to_error_);
+  std::swap(from_error_, to_error_);
+}
+
+// Integrates from `from` over one reported jump; `from` and `error` come back as what follows it.
+void VelocityError::pass(const Jump& jump, double& from, Errors& error) {
+  if (const auto* impact = join(from)) {
+    const auto before = part(impact->before), after = part(impact->after);
+    const double first = std::max(from, std::min(jump.t, impact->t));
+    const double second = std::max(first, std::max(jump.t, impact->t));
+    add(first - from, error, distance(jump.before, before));
+    const auto between =
+        jump.t < impact->t ? distance(jump.after, before) : distance(jump.before, after);
+    add(second - first, between, between);
+    from = second;
+    error = distance(jump.after, after);
+    return;
+  }
+  const double at = std::max(from, jump.t);
+  const auto now = reference_.at(std::clamp(at, 0.0, reference_.end()), model::Side::right);
+  add(at - from, error, distance(jump.before, part(now)));
+  from = at;
+  error = distance(jump.after, part(now));
+}
+
+// The first true impact in [from, to_] that has not been joined yet, or nothing.
+const model::MotionImpact* VelocityError::join(double from) {
+  next_true_ =
+      std::max(next_true_, reference_.impact_count(std::clamp(from, 0.0, reference_.end())));
+  for (; next_true_ <= known_; ++next_true_) {
+    if (true_impact_.index != next_true_) true_impact_ = reference_.impact(next_true_);
+    if (true_impact_.t > to_) return nullptr;
+    if (true_impact_.t >= from) {
+      ++next_true_;
+      return &true_impact_;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace clackers::assess

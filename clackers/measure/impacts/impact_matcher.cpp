@@ -1,0 +1,131 @@
+#include "clackers/measure/impacts/impact_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "clackers/base/check.hpp"
+#include "clackers/base/error.hpp"
+
+namespace clackers::assess {
+
+bool rests_in_contact(const model::Motion& reference, const std::vector<model::Contact<>>& contacts,
+                      int contact, double t) {
+  if (contact < 0 || contact >= std::ssize(contacts))
+    refuse("impact", "contact", double(contact), "a row of the problem's contacts");
+  const auto& row = contacts[std::size_t(contact)];
+  const auto now = reference.at(std::clamp(t, 0.0, reference.end()), model::Side::right);
+  return row.gap_at(now.u) == 0.0 && row.gap_rate(now.v) == 0.0;
+}
+
+ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double start,
+                             int contacts)
+    : reference_(reference),
+      step_(require_step("impact matcher", step)),
+      start_(start),
+      known_(reference.impact_count(reference.end())),
+      tracks_(std::size_t(std::max(contacts, 1))) {
+  // The impact of each contact before the start may still be found late.
+  const auto before = start > 0.0 ? reference.impact_count(start) : 0;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const auto late = impact_of(int(i), before, -1);
+    tracks_[i].target = target(int(i), late ? late->index : 1);
+  }
+}
+
+// The first impact of a contact from an index on, upwards or downwards.
+std::optional<model::MotionImpact> ImpactMatcher::impact_of(int contact, long long from,
+                                                            int direction) const {
+  for (auto index = from; index >= 1 && index <= known_; index += direction)
+    if (auto impact = reference_.impact(index); tracks_.size() == 1 || impact.contact == contact)
+      return impact;
+  return {};
+}
+
+std::optional<ImpactMatcher::Target> ImpactMatcher::target(int contact, long long from) const {
+  const auto impact = impact_of(contact, from, 1);
+  if (!impact) return {};
+  double spacing = reference_.end();
+  if (const auto before = impact_of(contact, impact->index - 1, -1))
+    spacing = std::min(spacing, impact->t - before->t);
+  if (const auto after = impact_of(contact, impact->index + 1, 1))
+    spacing = std::min(spacing, after->t - impact->t);
+  return Target{impact->index, impact->t, 0.25 * spacing, impact->when.hi - impact->when.lo};
+}
+
+// Counts the true impact of a track with what was found for it.
+void ImpactMatcher::settle(const Track& track) {
+  const auto& [target, nearest, last_report] = track;
+  if (!nearest && target->t <= start_) return;
+  ++sum_.expected;
+  if (!nearest) {
+    ++sum_.missed;
+    return;
+  }
+  ++sum_.matched;
+  sum_.worst_time_error = std::max(sum_.worst_time_error, std::abs(nearest->t - target->t));
+  sum_.rounding_floor = std::max(sum_.rounding_floor, target->uncertainty);
+  if (keeps_pairs_) pairs_.push_back({target->index, nearest->number});
+}
+
+// Moves on to the next true impact of a contact. Those before the last one up to t are out of reach
+// from t on and missed; with one contact they need not be asked for one by one.
+void ImpactMatcher::advance(int contact, double t) {
+  auto& track = tracks_[std::size_t(contact)];
+  settle(track);
+  track.nearest.reset();
+  auto next = track.target->index + 1;
+  if (tracks_.size() == 1) {
+    const auto skipped = reference_.impact_count(std::clamp(t, 0.0, reference_.end())) - next;
+    if (skipped > 0) {
+      sum_.expected += skipped;
+      sum_.missed += skipped;
+      next += skipped;
+    }
+  }
+  track.target = target(contact, next);
+}
+
+void ImpactMatcher::take(double t, bool resting, int contact) {
+  const auto number = reports_++;
+  auto& [target, nearest, last_report] = tracks_.at(std::size_t(contact));
+  const bool same = last_report && t - *last_report < one_collision * step_;
+  last_report = t;
+  if (same) return;
+  while (target && t > target->t + target->reach) advance(contact, t);
+  const bool near = target && t >= target->t - target->reach;
+  if (resting && !(near && !nearest)) return;
+  ++sum_.found;
+  if (!near || nearest) ++sum_.extra;
+  if (near && (!nearest || std::abs(t - target->t) < std::abs(nearest->t - target->t)))
+    nearest = Report{t, number};
+}
+
+// The matcher after the last report it will get.
+ImpactMatcher ImpactMatcher::ended(double end) const {
+  ImpactMatcher rest = *this;
+  // What was found although it truly happens in the last two steps or just behind them counts.
+  const double seen = end - 2.0 * step_;
+  for (std::size_t i = 0; i < rest.tracks_.size(); ++i) {
+    const auto& track = rest.tracks_[i];
+    while (track.target && (track.nearest || track.target->t <= seen)) rest.advance(int(i), seen);
+  }
+  return rest;
+}
+
+ImpactScore ImpactMatcher::score(double end, double rounding) const {
+  auto score = ended(end).sum_;
+  // A displacement error d of a mass that passes with amplitude times frequency moves its passage
+  // by d / (A pi / T), T the time between impacts.
+  const double spacing = end / double(std::max(1LL, score.expected));
+  score.rounding_floor = std::max(score.rounding_floor, rounding * spacing / std::numbers::pi);
+  return score;
+}
+
+std::vector<ImpactPair> ImpactMatcher::pairs(double end) const {
+  auto pairs = ended(end).pairs_;
+  std::ranges::sort(pairs, {}, &ImpactPair::report);
+  return pairs;
+}
+
+}  // namespace clackers::assess

@@ -1,0 +1,238 @@
+#include "clackers/measure/metrics/distance/polyline_distance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "clackers/measure/metrics/distance/segment_distance.hpp"
+#include "clackers/base/error.hpp"
+
+namespace clackers::assess {
+namespace {
+
+constexpr double relative_excess = 1e-6;
+constexpr std::size_t probes = 64;  // points that are measured first
+constexpr double most_looks = 64.0, least_most_looks = 1e6;
+constexpr int largest_exponent = 300;
+
+double largest_coordinate(const Polyline& line) {
+  double largest = 0.0;
+  for (const double x : line.points) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+template <std::size_t Dimension>
+class DistanceSearch {
+  using Point = std::conditional_t<Dimension == 0, std::vector<double>,
+                                   std::array<double, std::max<std::size_t>(Dimension, 1)>>;
+
+ public:
+  DistanceSearch(const Polyline& from, const Polyline& to, double at_least, double largest)
+      : from_(from),
+        to_(to),
+        segments_(std::max<std::size_t>(to.size(), 2) - 1),
+        measure_(from.dimension, 0x1p-100 * largest),
+        value_(at_least),
+        // Differences of coordinates and products with s round by a few units of the coordinates.
+        rounding_(8.0 * std::numeric_limits<double>::epsilon() * largest),
+        looks_left_(std::max(least_most_looks, most_looks * double(from.size() + to.size()))) {}
+
+  PolylineDistance run() {
+    const auto count = from_.size();
+    // A good first value spares searches: what is far away is often far away everywhere.
+    const auto stride = std::max<std::size_t>(count / probes, 1);
+    for (std::size_t i = 0; i < count; i += stride) measure(follow(point(i)));
+    measure(follow(point(count - 1)));
+    at_time_ = last_ = 0;
+    for (std::size_t i = 0; i + 1 < count && looks_left_ > 0.0; ++i) {
+      const double before = value_;
+      cover(follow(point(i)), point(i + 1));
+      if (value_ > before) climb(i + 1);
+    }
+    return {value_, radius(), looks_left_ > 0.0};
+  }
+
+ private:
+  struct Nearest {
+    double distance;
+    std::size_t segment;
+  };
+
+  const double* point(std::size_t i) const {
+    return from_.points.data() + i * measure_.dimension();
+  }
+  const double* start(std::size_t segment) const {
+    return to_.points.data() + segment * measure_.dimension();
+  }
+  const double* finish(std::size_t segment) const {
+    return start(std::min(segment + 1, to_.size() - 1));
+  }
+  // What counts as within the largest distance seen.
+  double radius() const { return value_ * (1.0 + relative_excess) + rounding_; }
+
+  // Moves on to the segment of `to` at the time of p; times of p ascend.
+  const double* follow(const double* p) {
+    while (at_time_ + 1 < segments_ && finish(at_time_)[0] <= p[0]) ++at_time_;
+    return p;
+  }
+
+  // The distance from p where it is larger than any before, otherwise that of some segment within
+  // the largest distance.
+  Nearest measure(const double* p) {
+    Nearest nearest{measure_.to_segment(p, start(last_), finish(last_)), last_};
+    const auto look = [&](std::size_t segment) {
+      looks_left_ -= 1.0;
+      if (measure_.to_box(p, start(segment), finish(segment)) >= nearest.distance) return;
+      const double distance = measure_.to_segment(p, start(segment), finish(segment));
+      if (distance < nearest.distance) nearest = {distance, segment};
+    };
+    std::size_t later = at_time_, earlier = at_time_;
+    bool more_later = true, more_earlier = earlier > 0;
+    while ((more_later || more_earlier) && nearest.distance > value_ && looks_left_ > 0.0) {
+      if (more_later) {
+        look(later++);
+        more_later = later < segments_ && start(later)[0] - p[0] < nearest.distance;
+      }
+      if (more_earlier) {
+        look(--earlier);
+        more_earlier = earlier > 0 && p[0] - finish(earlier - 1)[0] < nearest.distance;
+      }
+    }
+    value_ = std::max(value_, nearest.distance);
+    last_ = nearest.segment;
+    return nearest;
+  }
+
+  // Where the largest distance has grown it often grows on from point to point: looks ahead with
+  // doubled strides for as long as it does, without moving on.
+  void climb(std::size_t from) {
+    const auto at_time = at_time_, last = last_;
+    double before = 0.0;
+    for (std::size_t stride = 1; from + stride < from_.size() && value_ > before; stride *= 2) {
+      before = value_;
+      measure(follow(point(from + stride)));
+    }
+    at_time_ = at_time;
+    last_ = last;
+  }
+
+  // Goes on from `done`, the part of the segment from a to b that is within the radius, to as far
+  // as another segment is.
+  bool extend(const double* a, const double* b, std::size_t segment, double& done) {
+    if (segment >= segments_) return false;
+    const auto part = measure_.part_within(a, b, start(segment), finish(segment), radius());
+    if (!(part.low <= done && part.high > done)) return false;
+    last_ = segment;
+    done = part.high;
+    return true;
+  }
+
+  // Start near start and end near end of one segment: so is what lies between. Without a division.
+  bool is_beside(const double* a, const double* b, std::size_t segment) {
+    if (segment >= segments_ || measure_.to_point(a, start(segment)) > radius() ||
+        measure_.to_point(b, finish(segment)) > radius())
+      return false;
+    last_ = segment;
+    return true;
+  }
+
+  // Makes sure that no point from a to b is farther away than radius(), which grows if need be.
+  void cover(const double* a, const double* b) {
+    if (is_beside(a, b, last_ + 1) || is_beside(a, b, last_)) return;
+    double done = 0.0;
+    while (looks_left_ > 0.0) {
+      extend(a, b, last_, done);
+      while (done < 1.0 && (extend(a, b, last_ + 1, done) || extend(a, b, at_time_, done))) {
+      }
+      if (done >= 1.0) return;
+      const Point here = between(a, b, done);
+      const double before = done, rest = measure_.to_point(here.data(), b);
+      const auto nearest = measure(here.data());
+      if (extend(a, b, nearest.segment, done) && done - before > 0.1 * (1.0 - before)) continue;
+      // On the rest the distance grows by at most the way gone.
+      if (nearest.distance + rest <= radius()) return;
+      const Point middle = between(a, b, 0.5 * (before + 1.0));
+      measure(b);
+      measure(middle.data());
+      last_ = nearest.segment;
+      cover(here.data(), middle.data());
+      cover(middle.data(), b);
+      return;
+    }
+  }
+
+  Point between(const double* a, const double* b, double s) const {
+    Point point{};
+    if constexpr (Dimension == 0) point.resize(measure_.dimension());
+    for (std::size_t i = 0; i < measure_.dimension(); ++i) point[i] = a[i] + s * (b[i] - a[i]);
+    return point;
+  }
+
+  const Polyline &from_, &to_;
+  std::size_t segments_;  // a line of one point counts as one segment of length 0
+  SegmentDistance<Dimension> measure_;
+  double value_, rounding_;
+  double looks_left_;
+  std::size_t last_ = 0;     // the segment used last
+  std::size_t at_time_ = 0;  // the segment at the time of the point of `from`
+};
+
+void require_line(const Polyline& line) {
+  if (line.dimension == 0 || line.points.empty() || line.points.size() % line.dimension != 0)
+    throw InputError(fmt::format("polyline: {} coordinates of points with {}; allowed: one point "
+                                 "or more.",
+                                 line.points.size(), line.dimension),
+                     "wrong-size");
+  for (std::size_t i = 1; i < line.size(); ++i)
+    if (!(line.point(i)[0] >= line.point(i - 1)[0]))
+      refuse("polyline", "time of a point", line.point(i)[0], "times that do not descend");
+}
+
+Polyline scaled(Polyline line, int exponent) {
+  for (double& x : line.points) x = std::ldexp(x, exponent);
+  return line;
+}
+
+PolylineDistance search(const Polyline& from, const Polyline& to, double at_least) {
+  const double largest = std::max(largest_coordinate(from), largest_coordinate(to));
+  if (int exponent = 0; largest > 0.0 && (std::frexp(largest, &exponent), true) &&
+                        std::abs(exponent) > largest_exponent) {
+    auto found =
+        search(scaled(from, -exponent), scaled(to, -exponent), std::ldexp(at_least, -exponent));
+    found.value = std::ldexp(found.value, exponent);
+    found.bound = std::ldexp(found.bound, exponent);
+    return found;
+  }
+  switch (from.dimension) {
+    case 2:
+      return DistanceSearch<2>(from, to, at_least, largest).run();
+    case 5:
+      return DistanceSearch<5>(from, to, at_least, largest).run();
+    default:
+      return DistanceSearch<0>(from, to, at_least, largest).run();
+  }
+}
+
+}  // namespace
+
+PolylineDistance one_sided_distance(const Polyline& from, const Polyline& to, double at_least) {
+  require_line(from);
+  require_line(to);
+  if (from.dimension != to.dimension)
+    throw InputError(
+        fmt::format("polyline: lines of {} and {} coordinates; allowed: equal numbers.",
+                    from.dimension, to.dimension),
+        "wrong-size");
+  return search(from, to, at_least);
+}
+
+PolylineDistance hausdorff_distance(const Polyline& one, const Polyline& other) {
+  const auto first = one_sided_distance(one, other);
+  return first.complete ? one_sided_distance(other, one, first.value) : first;
+}
+
+}  // namespace clackers::assess

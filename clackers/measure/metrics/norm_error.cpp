@@ -1,0 +1,133 @@
+#include "clackers/measure/metrics/norm_error.hpp"
+
+#include <cmath>
+
+#include "clackers/measure/errors/velocity_error.hpp"
+#include "clackers/measure/metrics/metric.hpp"
+
+namespace clackers::assess {
+namespace {
+
+struct Columns {
+  std::span<const double> found, reference;
+};
+
+Columns columns_of(const Comparison& comparison, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::u:
+      return {comparison.history().u, comparison.reference_u()};
+    case Quantity::v:
+      return {comparison.history().v, comparison.reference_v()};
+    case Quantity::a:
+      return {comparison.history().a, comparison.reference_a()};
+  }
+  return {};
+}
+
+// The four norms of one quantity, mass by mass.
+struct Norms {
+  std::vector<double> max, l1, l2, end;
+
+  const std::vector<double>& of(Norm norm) const {
+    return norm == Norm::max ? max : norm == Norm::l1 ? l1 : norm == Norm::l2 ? l2 : end;
+  }
+};
+
+// The integrals of |e| and e^2 of a quantity that is continuous.
+void integrate(const Comparison& comparison, const Columns& columns, Norms& norms) {
+  const auto& t = comparison.history().t;
+  const auto dof = comparison.dof();
+  std::vector<double> last(dof);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double half = i > 0 ? 0.5 * (t[i] - t[i - 1]) : 0.0;
+    for (std::size_t j = 0; j < dof; ++j) {
+      const double error = std::abs(columns.found[i * dof + j] - columns.reference[i * dof + j]);
+      norms.l1[j] += half * (last[j] + error);
+      norms.l2[j] += half * (last[j] * last[j] + error * error);
+      last[j] = error;
+    }
+  }
+}
+
+// The same of one that jumps.
+void integrate_across_jumps(const Comparison& comparison, const Columns& columns,
+                            JumpingQuantity quantity, Norms& norms) {
+  const auto& t = comparison.history().t;
+  const auto dof = comparison.dof();
+  VelocityError error(comparison.reference(), quantity);
+  const auto take = [&](std::size_t from, std::size_t to) {
+    error.take(std::span(t).subspan(from, to - from),
+               columns.found.subspan(from * dof, (to - from) * dof),
+               columns.reference.subspan(from * dof, (to - from) * dof));
+  };
+  std::size_t done = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (!comparison.is_left_limit(i)) continue;
+    // A jump is an instant of its own between output times. At the ends of the history there is
+    // nothing beyond, so that it is an output time as well.
+    take(done, i == 0 ? 1 : i);
+    error.take(model::ReportedImpact{t[i],
+                                     0,
+                                     {},
+                                     columns.found.subspan(i * dof, dof),
+                                     columns.found.subspan((i + 1) * dof, dof),
+                                     0.0});
+    ++i;
+    done = i + 1 == t.size() ? i : i + 1;
+  }
+  take(done, t.size());
+  for (std::size_t j = 0; j < dof; ++j) {
+    norms.l1[j] = error.integral(int(j));
+    norms.l2[j] = error.integral_of_square(int(j));
+  }
+}
+
+template <Quantity quantity>
+Norms norms(const Comparison& comparison) {
+  const auto columns = columns_of(comparison, quantity);
+  const auto dof = comparison.dof();
+  const std::vector<double> zeros(dof);
+  Norms norms{zeros, zeros, zeros, zeros};
+  for (std::size_t i = 0; i < columns.found.size(); i += dof)
+    for (std::size_t j = 0; j < dof; ++j)
+      norms.max[j] =
+          std::max(norms.max[j], std::abs(columns.found[i + j] - columns.reference[i + j]));
+  const auto last = columns.found.size() - dof;
+  for (std::size_t j = 0; j < dof; ++j)
+    norms.end[j] = std::abs(columns.found[last + j] - columns.reference[last + j]);
+  if constexpr (quantity == Quantity::u)
+    integrate(comparison, columns, norms);
+  else
+    integrate_across_jumps(
+        comparison, columns,
+        quantity == Quantity::v ? JumpingQuantity::velocity : JumpingQuantity::acceleration, norms);
+  const double length = comparison.history().t.back() - comparison.history().t.front();
+  for (double& mean : norms.l1) mean /= length;
+  for (double& mean : norms.l2) mean = std::sqrt(mean / length);
+  return norms;
+}
+
+}  // namespace
+
+MetricValue norm_error(const Comparison& comparison, Quantity quantity, Norm norm) {
+  switch (quantity) {
+    case Quantity::u:
+      return measured(comparison.shared(norms<Quantity::u>).of(norm));
+    case Quantity::v:
+      if (!comparison.has_velocities()) return not_measured("The history has no velocities.");
+      return measured(comparison.shared(norms<Quantity::v>).of(norm));
+    case Quantity::a:
+      break;
+  }
+  if (!comparison.has_accelerations()) return not_measured("The history has no accelerations.");
+  return measured(comparison.shared(norms<Quantity::a>).of(norm));
+}
+
+MetricValue relative_norm_error(const Comparison& comparison, Quantity quantity, Norm norm) {
+  const auto envelope = quantity == Quantity::u   ? comparison.u_envelope()
+                        : quantity == Quantity::v ? comparison.v_envelope()
+                                                  : comparison.a_envelope();
+  return relative_to(norm_error(comparison, quantity, norm), envelope);
+}
+
+}  // namespace clackers::assess

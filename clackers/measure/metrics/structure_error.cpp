@@ -1,0 +1,73 @@
+#include "clackers/measure/metrics/structure_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/measure/errors/mechanics.hpp"
+
+namespace clackers::assess {
+
+MetricValue energy_error(const Comparison& comparison, Energy energy) {
+  const auto& system = comparison.problem().system;
+  if (system.nonlinear)
+    return not_measured("The structure has a nonlinear force, whose potential is not known.");
+  if (energy != Energy::potential && !comparison.has_velocities())
+    return not_measured("The history has no velocities.");
+  const MechanicalEnergy of(system);
+  const auto start = comparison.reference().at(0.0, model::Side::right);
+  const double scale = of.total(start.u.data(), start.v.data());
+  if (!(scale > 0.0)) return not_measured("The reference starts without energy.");
+
+  const auto& history = comparison.history();
+  const auto dof = comparison.dof();
+  double worst = 0.0;
+  for (std::size_t i = 0; i < history.u.size(); i += dof) {
+    double error = 0.0;
+    if (energy != Energy::kinetic)
+      error += of.potential(&history.u[i]) - of.potential(&comparison.reference_u()[i]);
+    if (energy != Energy::potential)
+      error += of.kinetic(&history.v[i]) - of.kinetic(&comparison.reference_v()[i]);
+    worst = std::max(worst, std::abs(error));
+  }
+  return measured(worst / scale);
+}
+
+MetricValue momentum_error(const Comparison& comparison) {
+  if (!comparison.has_velocities()) return not_measured("The history has no velocities.");
+  const auto& mass = comparison.problem().system.mass;
+  const Eigen::VectorXd columns = mass.colwise().sum();
+  const auto dof = comparison.dof();
+  double scale = 0.0;
+  for (std::size_t j = 0; j < dof; ++j)
+    scale += mass.col(Eigen::Index(j)).cwiseAbs().sum() * comparison.v_envelope()[j];
+  if (!(scale > 0.0))
+    return not_measured(
+        "The true velocities have no extent at t = 0, so nothing is relative to them.");
+
+  const auto& v = comparison.history().v;
+  const auto v_reference = comparison.reference_v();
+  double worst = 0.0;
+  for (std::size_t i = 0; i < v.size(); i += dof) {
+    double error = 0.0;
+    for (std::size_t j = 0; j < dof; ++j)
+      error += columns[Eigen::Index(j)] * (v[i + j] - v_reference[i + j]);
+    worst = std::max(worst, std::abs(error));
+  }
+  return measured(worst / scale);
+}
+
+MetricValue penetration(const Comparison& comparison) {
+  if (comparison.problem().contacts.empty()) return not_measured("The problem has no contact.");
+  const auto& u = comparison.history().u;
+  const auto dof = comparison.dof();
+  double deepest = 0.0;
+  for (const auto& contact : comparison.problem().contacts)
+    for (std::size_t i = 0; i < u.size(); i += dof) {
+      double gap = -contact.gap;
+      for (std::size_t j = 0; j < dof; ++j) gap += contact.direction[Eigen::Index(j)] * u[i + j];
+      deepest = std::max(deepest, -gap);
+    }
+  return measured(deepest);
+}
+
+}  // namespace clackers::assess

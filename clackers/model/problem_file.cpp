@@ -1,0 +1,217 @@
+#include "clackers/model/problem_file.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "clackers/base/error.hpp"
+#include "clackers/base/toml_reader.hpp"
+#include "clackers/model/harmonic_load.hpp"
+
+namespace clackers::cases {
+
+const std::string_view example_problem =
+    R"(# A frame of two storeys beside a tower; the roof strikes it. SI units.
+M = [[2, 0, 0], [0, 2, 0], [0, 0, 1]]                  # kg: roof, floor, tower
+K = [[8, -8, 0], [-8, 16, 0], [0, 0, 20]]              # N/m
+C = [[0.08, -0.08, 0], [-0.08, 0.16, 0], [0, 0, 0.2]]  # N s/m
+end = 20                                               # s
+
+[start]
+u = [0.5, 0.3, -0.1]  # m
+v = [0, 0, 0]         # m/s
+
+[[contacts]]           # u1 - u3 >= gap
+direction = [1, 0, -1]
+gap = -0.05            # m
+restitution = 0.8
+
+[[loads]]        # amplitude cos(frequency t + phase)
+dof = 2
+amplitude = 0.5  # N
+frequency = 1.1  # rad/s
+phase = 0        # rad
+)";
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t most_masses = 1000;
+
+// Reads vectors and matrices as well.
+class Reader : public TomlReader {
+ public:
+  using TomlReader::TomlReader;
+
+  VectorXd vector(const toml::node& node, const std::string& what, Index size) const {
+    const auto* list = node.as_array();
+    if (list == nullptr || (size >= 0 && Index(list->size()) != size))
+      fail(node,
+           fmt::format("{} {}; allowed: [ ] with {}.", what,
+                       list == nullptr ? "is no list" : fmt::format("has {} numbers", list->size()),
+                       size >= 0 ? fmt::format("{} numbers, as M has rows", size) : "numbers"),
+           "wrong-size");
+    VectorXd values(Index(list->size()));
+    for (std::size_t i = 0; i < list->size(); ++i)
+      values[Index(i)] = number(*list->get(i), fmt::format("{}[{}]", what, i + 1));
+    return values;
+  }
+  MatrixXd matrix(const toml::node& node, const std::string& what, Index size) const {
+    const auto* rows = node.as_array();
+    const auto count = rows == nullptr ? 0 : rows->size();
+    if (count == 0 || (size >= 0 && Index(count) != size))
+      fail(node,
+           fmt::format("{} has {} rows; allowed: {} in [[ ], [ ]].", what, count,
+                       size >= 0 ? fmt::format("{} rows, as M has", size) : "one or more rows"),
+           "wrong-size");
+    if (count > most_masses)
+      fail(node, fmt::format("{} has {} rows; allowed: up to {}.", what, count, most_masses),
+           "out-of-memory");
+    MatrixXd values{Index(count), Index(count)};
+    for (std::size_t i = 0; i < count; ++i)
+      values.row(Index(i)) =
+          vector(*rows->get(i), fmt::format("row {} of {}", i + 1, what), Index(count)).transpose();
+    require_symmetric(node, what, values);
+    return values;
+  }
+
+ private:
+  void require_symmetric(const toml::node& node, const std::string& what, const MatrixXd& x) const {
+    const double allowed =
+        32.0 * double(x.rows()) * std::numeric_limits<double>::epsilon() * x.cwiseAbs().maxCoeff();
+    for (Index j = 0; j < x.rows(); ++j)
+      for (Index i = 0; i < j; ++i)
+        if (!(std::abs(x(i, j) - x(j, i)) <= allowed))
+          fail(
+              node,
+              fmt::format("{0}({1},{2}) = {3} and {0}({2},{1}) = {4}; allowed: a symmetric matrix.",
+                          what, i + 1, j + 1, x(i, j), x(j, i)),
+              "not-symmetric");
+  }
+};
+
+void add_contacts(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
+  const auto* list = reader.tables(root, "contacts");
+  if (list == nullptr) return;
+  for (const auto& node : *list) {
+    const auto& table = *node.as_table();
+    reader.require_known(table, {"direction", "gap", "restitution"}, " of a contact");
+    model::Contact<> contact;
+    contact.direction =
+        reader.vector(reader.need(table, "direction", "a number for each degree of freedom"),
+                      "direction", problem.dof());
+    contact.gap = reader.number(table, "gap", 0.0);
+    contact.restitution = reader.number(table, "restitution", 1.0);
+    if (!(contact.restitution >= 0.0 && contact.restitution <= 1.0))
+      reader.fail(*table.get("restitution"),
+                  fmt::format("restitution = {}; allowed: 0 to 1.", contact.restitution),
+                  "out-of-range");
+    if (contact.direction.isZero(0.0))
+      reader.fail(table, "direction = 0; allowed: a number other than 0 in it.", "out-of-range");
+    problem.contacts.push_back(contact);
+  }
+}
+
+void add_loads(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
+  const auto* list = reader.tables(root, "loads");
+  if (list == nullptr) return;
+  std::vector<model::HarmonicForce> forces;
+  for (const auto& node : *list) {
+    const auto& table = *node.as_table();
+    reader.require_known(table, {"dof", "amplitude", "frequency", "phase"}, " of a load");
+    const double dof = reader.number(table, "dof", "the degree of freedom, from 1");
+    if (!(dof >= 1.0 && dof <= double(problem.dof()) && dof == std::floor(dof)))
+      reader.fail(*table.get("dof"),
+                  fmt::format("dof = {}; allowed: a whole number, 1 to {}.", dof, problem.dof()),
+                  "out-of-range");
+    const double frequency = reader.number(table, "frequency", "rad/s; 0 for a constant force");
+    if (!(frequency >= 0.0))
+      reader.fail(*table.get("frequency"),
+                  fmt::format("frequency = {}; allowed: 0 rad/s or more.", frequency),
+                  "out-of-range");
+    forces.push_back({int(dof) - 1, reader.number(table, "amplitude", "in N"), frequency,
+                      reader.number(table, "phase", 0.0)});
+  }
+  if (!forces.empty()) problem.system.add_load = model::HarmonicLoad(std::move(forces));
+}
+
+// Numbers that come from tonnes, millimetres or milliseconds.
+void require_plausible(const std::string& name, const model::ImpactProblem<>& problem) {
+  const auto fail = [&](const std::string& sentence) {
+    throw InputError(
+        fmt::format("{}: {} Numbers are in kg, m, s and N; did you write others?", name, sentence),
+        "out-of-range");
+  };
+  constexpr double light = 3e8, most_phase = 1e7, least_phase = 1e-4;
+  if (const double v = problem.start.v.cwiseAbs().maxCoeff(); v > light)
+    fail(fmt::format("a start velocity of {:.3g} m/s is above that of light.", v));
+  const VectorXd squares =
+      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(
+          problem.system.stiffness, problem.system.mass, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  const double highest = std::sqrt(std::max(0.0, squares.maxCoeff()));
+  if (const double phase = highest * problem.end; phase > most_phase)
+    fail(fmt::format(
+        "the highest natural frequency, {:.3g} rad/s, oscillates {:.3g} times up to end = "
+        "{} s; allowed: 1e6.",
+        highest, phase / 6.283185307179586, problem.end));
+  else if (highest > 0.0 && phase < least_phase)
+    fail(fmt::format(
+        "up to end = {} s the highest natural frequency, {:.3g} rad/s, turns by {:.3g} rad "
+        "and nothing moves; allowed: 1e-4 or more.",
+        problem.end, highest, phase));
+}
+
+}  // namespace
+
+model::ImpactProblem<> problem_from_toml(std::string_view text, const std::string& name) {
+  const auto root = toml_from(text, name);
+  const Reader reader(name);
+  reader.require_known(root, {"M", "C", "K", "end", "start", "contacts", "loads"}, "");
+  model::ImpactProblem<> problem;
+  auto& system = problem.system;
+  system.mass = reader.matrix(reader.need(root, "M", "the mass matrix in kg"), "M", -1);
+  const auto n = problem.dof();
+  system.stiffness = reader.matrix(reader.need(root, "K", "the stiffness matrix in N/m"), "K", n);
+  const auto* damping = root.get("C");
+  system.damping =
+      damping == nullptr ? MatrixXd(MatrixXd::Zero(n, n)) : reader.matrix(*damping, "C", n);
+  problem.end = reader.number(root, "end", "the end of the run in s");
+  if (!(problem.end > 0.0))
+    reader.fail(*root.get("end"), fmt::format("end = {}; allowed: above 0 s.", problem.end),
+                "out-of-range");
+
+  const auto& start_node = reader.need(root, "start", "a table [start] with u and v");
+  const auto* start = start_node.as_table();
+  if (start == nullptr)
+    reader.fail(start_node, "start is no table; allowed: [start] with u and v below it.",
+                "bad-syntax");
+  reader.require_known(*start, {"u", "v"}, " of start");
+  problem.start.u = reader.vector(reader.need(*start, "u", "displacements in m"), "u", n);
+  const auto* v = start->get("v");
+  problem.start.v = v == nullptr ? VectorXd(VectorXd::Zero(n)) : reader.vector(*v, "v", n);
+  add_contacts(reader, root, problem);
+  add_loads(reader, root, problem);
+  try {
+    validate(problem);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", name, error.what()), error.code());
+  }
+  require_plausible(name, problem);
+  return problem;
+}
+
+model::ImpactProblem<> read_problem(const std::string& path) {
+  const auto text =
+      text_of_file(path, "A problem is a TOML file; its format: clackers show piecewise");
+  return problem_from_toml(text, path);
+}
+
+}  // namespace clackers::cases

@@ -1,0 +1,108 @@
+#include "clackers/model/problem_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "clackers/base/testing/refusal.hpp"
+#include "clackers/model/harmonic_load.hpp"
+
+namespace clackers::study {
+namespace {
+
+model::ImpactProblem<> two_masses() {
+  model::ImpactProblem<> problem;
+  auto& system = problem.system;
+  system.mass = Eigen::MatrixXd{{1.0, 0.0}, {0.0, 2.0}};
+  system.damping = Eigen::MatrixXd{{0.1, -0.1}, {-0.1, 0.3}};
+  system.stiffness = Eigen::MatrixXd{{4.0, -1.5}, {-1.5, 5.0}};
+  problem.contacts.push_back({Eigen::VectorXd{{1.0, -1.0}}, -0.25, 0.5});
+  problem.contacts.push_back({Eigen::VectorXd{{0.0, 1.0}}, -1.0, 1.0});
+  problem.start = {0.0, Eigen::VectorXd{{1.0 / 3.0, 0.0}}, Eigen::VectorXd{{0.0, -1e-7}}};
+  problem.end = 20.0;
+  return problem;
+}
+
+TEST(ProblemText, JsonHasMatricesContactsStartAndEnd) {
+  const auto file = nlohmann::json::parse(problem_file_json("a \"b\"", two_masses()));
+  EXPECT_EQ(file["schema"], "clackers/problem/1");
+  EXPECT_EQ(file["case"], "a \"b\"");
+  const auto expected = nlohmann::json::parse(R"({
+    "M": [[1, 0], [0, 2]], "C": [[0.1, -0.1], [-0.1, 0.3]], "K": [[4, -1.5], [-1.5, 5]],
+    "contacts": [{"direction": [1, -1], "gap": -0.25, "restitution": 0.5},
+                 {"direction": [0, 1], "gap": -1, "restitution": 1}],
+    "start": {"t": 0, "u": [0.3333333333333333, 0], "v": [0, -1e-7]}, "end": 20})");
+  EXPECT_EQ(file["problem"], expected);
+}
+
+TEST(ProblemText, LinesHaveAFixedOrder) {
+  EXPECT_EQ(problem_file_text(two_masses()),
+            "dof=2\ncontacts=2\nt=0\nend=20\nu=0.3333333333333333 0\nv=0 -1e-07\n"
+            "M1=1 0\nM2=0 2\nC1=0.1 -0.1\nC2=-0.1 0.3\nK1=4 -1.5\nK2=-1.5 5\n"
+            "direction1=1 -1\ngap1=-0.25\nrestitution1=0.5\n"
+            "direction2=0 1\ngap2=-1\nrestitution2=1\n");
+}
+
+TEST(ProblemText, LinesReadBackToTheSameProblem) {
+  const auto text = problem_file_text(two_masses());
+  EXPECT_EQ(problem_file_text(problem_from_text(text)), text);
+  EXPECT_EQ(problem_from_text(text).system.stiffness(0, 1), -1.5);
+}
+
+TEST(ProblemText, RefusesOtherLines) {
+  const auto text = problem_file_text(two_masses());
+  EXPECT_REFUSED(problem_from_text(""), "bad-syntax", "dof= and 1 numbers");
+  EXPECT_REFUSED(problem_from_text(text.substr(0, text.find("gap2"))), "bad-syntax", "gap2");
+  for (const auto* change : {"v=0 -1e-07 3", "v=0", "v=0 x", "w=0 -1e-07"}) {
+    auto other = text;
+    other.replace(other.find("v=0"), std::string_view("v=0 -1e-07").size(), change);
+    EXPECT_REFUSED(problem_from_text(other), "bad-syntax", "v= and 2 numbers");
+  }
+}
+
+TEST(ProblemText, RefusesOtherSizes) {
+  for (const auto* size : {"-1", "1.5", "1e300", "9999"}) {
+    auto other = problem_file_text(two_masses());
+    other.replace(0, std::string_view("dof=2").size(), std::string("dof=") + size);
+    EXPECT_REFUSED(problem_from_text(other), "bad-syntax", "problem: dof = ");
+  }
+}
+
+TEST(ProblemText, HarmonicLoadsAndSpringsAreNumbers) {
+  auto problem = two_masses();
+  problem.system.add_load = model::HarmonicLoad({{0, 2.0, 3.0, -0.5}, {1, 1.0, 0.0, 0.0}});
+  problem.system.nonlinear = std::make_shared<model::OneSidedSprings>(
+      std::exchange(problem.contacts, {}), std::vector<double>{400.0, 500.0});
+  const auto json = nlohmann::json::parse(problem_json(problem));
+  EXPECT_EQ(json["loads"], nlohmann::json::parse(R"([
+    {"dof": 1, "amplitude": 2, "frequency": 3, "phase": -0.5},
+    {"dof": 2, "amplitude": 1, "frequency": 0, "phase": 0}])"));
+  EXPECT_EQ(json["springs"], nlohmann::json::parse(R"([
+    {"direction": [1, -1], "gap": -0.25, "stiffness": 400},
+    {"direction": [0, 1], "gap": -1, "stiffness": 500}])"));
+  const auto text = problem_file_text(problem);
+  EXPECT_TRUE(
+      text.ends_with("load1=1 2 3 -0.5\nload2=2 1 0 0\n"
+                     "spring1=1 -1 -0.25 400\nspring2=0 1 -1 500\n"));
+  const auto read = problem_from_text(text);
+  EXPECT_EQ(problem_file_text(read), text);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(2);
+  read.system.add_load(0.7, {force.data(), 2});
+  EXPECT_EQ(force, Eigen::Vector2d(2.0 * std::cos(3.0 * 0.7 - 0.5), 1.0));
+  EXPECT_REFUSED(problem_from_text(text.substr(0, text.find("spring2")) + "spring2=0 1 2\n"),
+                 "bad-syntax", "spring2= and 4 numbers");
+  EXPECT_REFUSED(problem_from_text(text.substr(0, text.find("load1")) + "load1=3 1 1 0\n"),
+                 "bad-syntax", "load1 = 3");
+}
+
+TEST(ProblemText, RefusesOtherLoads) {
+  auto problem = two_masses();
+  problem.system.add_load = [](double, std::span<double>) {};
+  EXPECT_REFUSED(problem_json(problem), "linear-only", "harmonic loads");
+  EXPECT_REFUSED(problem_file_text(problem), "linear-only", "load");
+}
+
+}  // namespace
+}  // namespace clackers::study

@@ -1,0 +1,135 @@
+#include "clackers/record/record.hpp"
+
+#include <algorithm>
+
+namespace clackers::assess {
+
+std::string_view to_string(Mismatch mismatch) {
+  constexpr std::string_view names[] = {
+      "", "behaviour", "lower-order", "higher-order", "floor-reason", "evidence"};
+  return names[static_cast<std::size_t>(mismatch)];
+}
+
+}  // namespace clackers::assess
+
+namespace clackers::study {
+namespace {
+
+void add(Counts& to, const Counts& more) {
+  for (auto count : {&Counts::agrees, &Counts::disagrees, &Counts::not_claimed, &Counts::undecided,
+                     &Counts::refused, &Counts::interrupted})
+    to.*count += more.*count;
+}
+
+bool any(const Record& record, Verdict verdict) {
+  return std::ranges::any_of(record.cases, [&](const CaseRecord& one) {
+    return std::ranges::any_of(one.subjects, [&](const Subject& subject) {
+      return subject.refusal.empty() && subject.assessment.verdict == verdict;
+    });
+  });
+}
+
+}  // namespace
+
+std::string_view to_string(StepSource source) {
+  constexpr std::string_view names[] = {"data", "name", "option"};
+  return names[static_cast<std::size_t>(source)];
+}
+
+std::string_view to_string(CollisionSource source) {
+  constexpr std::string_view names[] = {"events", "history", "unknown"};
+  return names[static_cast<std::size_t>(source)];
+}
+
+std::string_view to_string(SubjectKind kind) {
+  constexpr std::string_view names[] = {"method", "histories", "program", "callable", "plugin"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::string_view to_string(Resolution resolution) {
+  return resolution == Resolution::step ? "step" : "tolerance";
+}
+
+std::string_view to_string(RefinementEnd end) {
+  constexpr std::string_view names[] = {"decided",        "budget",     "rounding-floor",
+                                        "too-many-steps", "run-failed", "interrupted"};
+  return names[static_cast<std::size_t>(end)];
+}
+
+const Run* Subject::shown_run() const {
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level)
+    for (auto run = level->runs.rbegin(); run != level->runs.rend(); ++run)
+      if (!run->metrics.empty() || !run->error_history.t.empty()) return &*run;
+  return nullptr;
+}
+
+LevelScore worst(const Level& level) {
+  std::vector<assess::RunScore> scores;
+  for (const auto& run : level.runs) scores.push_back(run.score);
+  LevelScore score{level.step, assess::worst(scores), int(level.runs.size()), 0};
+  score.failed = int(std::ranges::count(scores, false, &assess::RunScore::finished));
+  return score;
+}
+
+LevelScore worst_of_finest(const Subject& subject) {
+  for (auto level = subject.levels.rbegin(); level != subject.levels.rend(); ++level)
+    if (!level->runs.empty()) return worst(*level);
+  auto none = worst(Level{});
+  none.step = none.worst.step = std::numeric_limits<double>::quiet_NaN();
+  return none;
+}
+
+assess::Ladder ladder_of(const Subject& subject) {
+  assess::Ladder ladder;
+  for (const auto& level : subject.levels) {
+    ladder.push_back({level.step, {}});
+    for (const auto& run : level.runs) ladder.back().runs.push_back(run.score);
+  }
+  return ladder;
+}
+
+Counts counts(const CaseRecord& record) {
+  Counts all;
+  for (const auto& subject : record.subjects) {
+    if (!subject.refusal.empty())
+      ++all.refused;
+    else if (!subject.complete)
+      ++all.interrupted;
+    else
+      switch (subject.assessment.verdict) {
+        case Verdict::agrees:
+          ++all.agrees;
+          break;
+        case Verdict::disagrees:
+          ++all.disagrees;
+          break;
+        case Verdict::not_claimed:
+          ++all.not_claimed;
+          break;
+        case Verdict::undecided:
+          ++all.undecided;
+          break;
+      }
+  }
+  return all;
+}
+
+Counts counts(const Record& record) {
+  Counts all;
+  for (const auto& one : record.cases) add(all, counts(one));
+  return all;
+}
+
+std::string_view verdict_word(const Subject& subject) {
+  if (!subject.refusal.empty()) return "refused";
+  if (!subject.complete) return "interrupted";
+  return to_string(subject.assessment.verdict);
+}
+
+int exit_code(const Record& record) {
+  if (record.interrupted) return 130;
+  if (any(record, Verdict::disagrees)) return 1;
+  return any(record, Verdict::undecided) ? 3 : 0;
+}
+
+}  // namespace clackers::study

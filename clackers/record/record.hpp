@@ -1,0 +1,235 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "clackers/judge/convergence/assessment.hpp"
+#include "clackers/measure/errors/score.hpp"
+#include "clackers/base/judgement.hpp"
+#include "clackers/diagnose/diagnosis.hpp"
+#include "clackers/record/metric_result.hpp"
+#include "clackers/record/profile.hpp"
+#include "clackers/record/schematic.hpp"
+#include "clackers/record/self_result.hpp"
+
+namespace clackers::assess {
+/// "", "behaviour", "lower-order", "higher-order", "floor-reason", "evidence".
+std::string_view to_string(Mismatch mismatch);
+}  // namespace clackers::assess
+
+// The one record of every study: verify and check fill it, for one case or for several; every
+// output format, --report and --baseline reads it.
+namespace clackers::study {
+
+/// A number with its unit and meaning.
+struct Quantity {
+  std::string name;  ///< "omega_D1"
+  double value = 0.0;
+  std::string unit;  ///< "rad/s", empty when dimensionless
+  std::string meaning;
+  std::string text{};  ///< of a parameter that is a word: "chain"; the value is NaN then
+};
+
+/// What was run, where and by what: enough to run it again.
+struct Provenance {
+  std::string command;                             ///< as typed
+  std::string version;                             ///< of clackers
+  std::string compiler, machine, processor, date;  ///< date in UTC, ISO 8601
+};
+
+/// The problem of a case and its reference solution.
+struct CaseSummary {
+  std::string name, summary, equations;
+  std::vector<Quantity> parameters, constants;
+  double end = 0.0;                  ///< [s]
+  double fast_period = 0.0;          ///< shortest damped period of the free masses [s]
+  std::vector<double> impact_times;  ///< at most the first 1000 [s]
+  std::vector<int> impact_contacts;  ///< the contact of each, from 0
+  Schematic drawing;
+  long long impact_count = 0;
+};
+
+/// Steps of a refinement study.
+struct RefinementPlan {
+  double coarsest = 0.05;     ///< [s]
+  int levels = 8;             ///< each half the one before
+  int samples_per_level = 8;  ///< steps a level, ratio 2^(1/samples_per_level)
+};
+
+/// Why refinement beyond the plan ended.
+enum class RefinementEnd {
+  decided,
+  budget,
+  rounding_floor,
+  too_many_steps,
+  run_failed,
+  interrupted
+};
+/// "decided", "budget", "rounding-floor", "too-many-steps", "run-failed", "interrupted"
+std::string_view to_string(RefinementEnd end);
+
+/// What was run of a subject beyond the plan of its case, because the plan left it undecided.
+struct Refinement {
+  int finer_levels = 0, coarser_levels = 0;  ///< added at either end
+  int samples_per_level = 0;                 ///< now
+  RefinementEnd end = RefinementEnd::decided;
+  double next_seconds = 0.0;  ///< expected time of what did not fit into the budget [s], else 0
+};
+
+/// A curve for a figure.
+struct Curve {
+  std::vector<double> t;               ///< [s]
+  std::vector<std::vector<double>> y;  ///< one row a mass
+};
+
+/// How a column of a history is printed.
+struct PrintedColumn {
+  std::string name;
+  int digits = 0;
+  bool single = false;     ///< numbers of single precision
+  double half_unit = 0.0;  ///< largest rounding error of printing, in the column's unit
+};
+
+enum class StepSource { data, name, option };             ///< where a history's step comes from
+enum class CollisionSource { events, history, unknown };  ///< unknown: neither reported nor found
+
+std::string_view to_string(StepSource source);       ///< "data", "name", "option"
+std::string_view to_string(CollisionSource source);  ///< "events", "history", "unknown"
+
+/// Something a reader should know of a history: a code and its numbers; report/words makes the
+/// sentence. `text` holds a name where the note needs one (a column, a code of a step source).
+struct Note {
+  std::string code;             ///< "rows-beyond-end", "columns-not-used", ...
+  std::vector<double> numbers;  ///< in the order that the code's entry in notes.hpp gives
+  std::string text;
+};
+
+/// What a history file holds beside its errors.
+struct HistoryFile {
+  std::string file;                ///< as given
+  long long rows = 0;              ///< assessed
+  long long rows_beyond = 0;       ///< after the end of the case, left out
+  double first = 0.0, last = 0.0;  ///< times of the first and the last row assessed [s]
+  double spacing = 0.0;            ///< median time between rows [s]
+  StepSource step_source = StepSource::data;
+  std::vector<PrintedColumn> columns;
+  double printed_floor = 0.0;  ///< part of u_error that printing alone may make
+  std::string printed_by;      ///< the column that makes most of it, empty for none
+  double unseen_bend = 0.0;    ///< departure of the fast mass from a line between rows / amplitude
+  bool has_velocities = false;
+  std::vector<bool> has_u;   ///< one entry a mass
+  double start_error = 0.0;  ///< of the first row, relative to envelopes of u and v
+  CollisionSource collisions = CollisionSource::unknown;
+  bool rows_resolve_collisions = true;  ///< false: rows too far apart to find collisions in them
+  double contact_time = 0.0;            ///< median length of the contacts in it [s], 0 for instants
+  std::vector<Note> notes;
+  Curve history;  ///< displacements for a figure [m]; empty without those of all masses
+};
+
+/// One run against the reference solution: a run of a method, or a history somebody's program wrote.
+struct Run {
+  assess::RunScore score;             ///< NaN where a history lacks what an error needs
+  std::optional<HistoryFile> file;    ///< of a history
+  std::vector<MetricResult> metrics;  ///< empty where none were measured
+  Curve error_history;    ///< |error in u| / envelope against time; empty where none was kept
+  Curve motion{};         ///< displacements of the method's run that is shown [m]
+  std::string printed{};  ///< last lines that a program printed whose run failed
+};
+
+/// Runs with steps around one nominal step.
+struct Level {
+  double step = 0.0;      ///< nominal h [s]
+  std::vector<Run> runs;  ///< coarsest first
+};
+
+/// What is assessed: a method of the catalogue, a set of histories, or a solver that makes them: a
+/// program, a callable (of Python), or a plug-in.
+enum class SubjectKind { method, histories, program, callable, plugin };
+std::string_view to_string(SubjectKind kind);  ///< "method", "histories", "program", ...
+constexpr bool is_solver(SubjectKind kind) { return kind >= SubjectKind::program; }
+
+/// What the levels of a subject refine: steps [s], or the tolerances of an adaptive solver, which
+/// then stand in every `step`.
+enum class Resolution { step, tolerance };
+std::string_view to_string(Resolution resolution);  ///< "step", "tolerance"
+
+struct Subject {
+  SubjectKind kind = SubjectKind::method;
+  /// The one name in every output. A method as one would type it, without "+event-driven", which is
+  /// what a name without "+contact" means; "histories" for histories.
+  std::string name;
+  Claim claim;                        ///< of the method, or what --expect says of the histories
+  std::optional<double> tolerance;    ///< largest allowed u_error, where one was asked for
+  double contact_time = 0.0;          ///< [s], 0 for rigid contact
+  std::string refusal, refusal_code;  ///< why a method cannot take the case; empty when it can
+  bool complete = true;               ///< false: interrupted before its last level
+  Resolution resolution = Resolution::step;
+  std::vector<Level> levels;             ///< coarsest first
+  std::optional<Refinement> refinement;  ///< nothing where the plan of the case was enough
+  /// Behaviour, verdict, reason (a code) and numbers; `assessment.verdict` is the verdict.
+  assess::Assessment assessment;
+  /// Without the reference solution; nothing where no level was finished, or where no order is
+  /// claimed that differences could be compared with.
+  std::optional<SelfResult> self_convergence;
+  /// Causes of what the runs show, strongest first; empty where nothing was found or looked for.
+  std::vector<diagnose::Diagnosis> diagnoses;
+
+  /// The run that error history and metrics of the subject are taken from: the finest one that has
+  /// them; nullptr where none has.
+  const Run* shown_run() const;
+};
+
+/// The verdicts of a case or of a record, counted.
+struct Counts {
+  int agrees = 0, disagrees = 0, not_claimed = 0, undecided = 0, refused = 0, interrupted = 0;
+  int total() const { return agrees + disagrees + not_claimed + undecided + refused + interrupted; }
+};
+
+/// One case with everything that was assessed on it.
+struct CaseRecord {
+  CaseSummary problem;
+  RefinementPlan plan;  ///< of methods on this case, before refinement; levels = 0 for histories
+  Curve response;       ///< exact displacements, one row a mass [m]
+  std::vector<Subject> subjects;
+  std::vector<Profile> profiles;  ///< of this case alone
+};
+
+struct Record {
+  static constexpr auto schema = "clackers/record/1";
+  std::string command = "verify";  ///< "verify" or "check"
+  Provenance provenance;
+  std::vector<CaseRecord> cases;
+  std::vector<Profile> profiles;  ///< over all cases; empty for one case
+  bool interrupted = false;
+};
+
+/// The numbers of a level that tables show: of every number the worst over the runs that finished
+/// (largest error, largest work and time, the impact score with most missed and extra). One rule
+/// for failed runs: they count in `failed` and nowhere else; a level without a finished run has NaN
+/// errors and no impacts.
+struct LevelScore {
+  double step = 0.0;  ///< nominal [s]
+  assess::RunScore worst;
+  int runs = 0, failed = 0;
+};
+LevelScore worst(const Level& level);
+/// Of the finest level that has runs; NaN without one.
+LevelScore worst_of_finest(const Subject& subject);
+/// The scores alone, as assess reads them.
+assess::Ladder ladder_of(const Subject& subject);
+
+Counts counts(const CaseRecord& record);
+Counts counts(const Record& record);
+/// The word for the verdict: the verdict's, or "refused" or "interrupted".
+std::string_view verdict_word(const Subject& subject);
+
+/// 0 agrees or nothing claimed, 1 disagrees, 3 undecided; of several 1, else 3, else 0. A method
+/// that refused the case counts for nothing. 130 for an interrupted record.
+int exit_code(const Record& record);
+
+}  // namespace clackers::study

@@ -1,0 +1,344 @@
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "clackers/record/record.hpp"
+
+namespace clackers::study {
+
+/// T, or const T: one list of fields serves writing and reading.
+template <class T, class Base>
+concept Like = std::same_as<std::remove_const_t<T>, Base>;
+
+// Every struct of a record and the names of its fields in json. `fields(archive, x)` calls
+// archive(name, member) for each; record_json_test.cpp compares their number with that of the
+// members, so that none is forgotten. archive.added(name, member) is a field that records of earlier
+// versions lack.
+
+template <class Archive>
+void fields(Archive& archive, Like<Quantity> auto& x) {
+  archive("name", x.name);
+  archive("value", x.value);
+  archive("unit", x.unit);
+  archive("meaning", x.meaning);
+  archive.added("text", x.text);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Provenance> auto& x) {
+  archive("command", x.command);
+  archive("version", x.version);
+  archive("compiler", x.compiler);
+  archive("machine", x.machine);
+  archive("processor", x.processor);
+  archive("date", x.date);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Schematic::Block> auto& x) {
+  archive("column", x.column);
+  archive("height", x.height);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Schematic::Spring> auto& x) {
+  archive("one", x.one);
+  archive("other", x.other);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Schematic::Touch> auto& x) {
+  archive("left", x.left);
+  archive("right", x.right);
+  archive("gap", x.gap);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Schematic> auto& x) {
+  archive("blocks", x.blocks);
+  archive("springs", x.springs);
+  archive("contacts", x.contacts);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<CaseSummary> auto& x) {
+  archive("name", x.name);
+  archive("summary", x.summary);
+  archive("equations", x.equations);
+  archive("parameters", x.parameters);
+  archive("constants", x.constants);
+  archive("end", x.end);
+  archive("fast_period", x.fast_period);
+  archive("impact_times", x.impact_times);
+  archive("impact_count", x.impact_count);
+  archive.added("impact_contacts", x.impact_contacts);
+  archive.added("drawing", x.drawing);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<RefinementPlan> auto& x) {
+  archive("coarsest", x.coarsest);
+  archive("levels", x.levels);
+  archive("samples_per_level", x.samples_per_level);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Refinement> auto& x) {
+  archive("finer_levels", x.finer_levels);
+  archive("coarser_levels", x.coarser_levels);
+  archive("samples_per_level", x.samples_per_level);
+  archive("end", x.end);
+  archive("next_seconds", x.next_seconds);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Curve> auto& x) {
+  archive("t", x.t);
+  archive("y", x.y);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<PrintedColumn> auto& x) {
+  archive("name", x.name);
+  archive("digits", x.digits);
+  archive("single_precision", x.single);
+  archive("half_unit", x.half_unit);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Note> auto& x) {
+  archive("code", x.code);
+  archive("numbers", x.numbers);
+  archive("text", x.text);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<HistoryFile> auto& x) {
+  archive("file", x.file);
+  archive("rows", x.rows);
+  archive("rows_beyond_end", x.rows_beyond);
+  archive("first_time", x.first);
+  archive("last_time", x.last);
+  archive("spacing", x.spacing);
+  archive("step_source", x.step_source);
+  archive("columns", x.columns);
+  archive("printed_floor", x.printed_floor);
+  archive("printed_floor_column", x.printed_by);
+  archive("unseen_bend", x.unseen_bend);
+  archive("has_velocities", x.has_velocities);
+  archive("has_displacement", x.has_u);
+  archive("start_error", x.start_error);
+  archive("collision_source", x.collisions);
+  archive("rows_resolve_collisions", x.rows_resolve_collisions);
+  archive("contact_time", x.contact_time);
+  archive("notes", x.notes);
+  archive("history", x.history);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<MetricResult> auto& x) {
+  archive("name", x.name);
+  archive("unit", x.unit);
+  archive("value", x.value);
+  archive("masses", x.masses);
+  archive("reason", x.reason);
+  archive("across_jumps", x.across_jumps);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<model::Work> auto& x) {
+  archive("steps", x.steps);
+  archive("force_evaluations", x.force_evaluations);
+  archive("factorizations", x.factorizations);
+  archive("newton_iterations", x.newton_iterations);
+  archive("event_searches", x.event_searches);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::ImpactScore> auto& x) {
+  archive("expected", x.expected);
+  archive("found", x.found);
+  archive("matched", x.matched);
+  archive("missed", x.missed);
+  archive("extra", x.extra);
+  archive("worst_time_error", x.worst_time_error);
+  archive("rounding_floor", x.rounding_floor);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::RunScore> auto& x) {
+  archive("step", x.step);
+  archive("finished", x.finished);
+  archive("failure_code", x.failure_code);
+  archive("failure", x.failure);
+  archive("u_error", x.u_error);
+  archive("u_error_absolute", x.u_error_absolute);
+  archive("v_error", x.v_error);
+  archive("energy_error", x.energy_error);
+  archive("energy_ratio", x.energy_ratio);
+  archive("rounding_floor", x.rounding_floor);
+  archive("impacts", x.impacts);
+  archive("work", x.work);
+  archive("seconds", x.seconds);
+}
+
+/// The fields of the score stand beside the others.
+template <class Archive>
+void fields(Archive& archive, Like<Run> auto& x) {
+  fields(archive, x.score);
+  archive("file", x.file);
+  archive("metrics", x.metrics);
+  archive("error_history", x.error_history);
+  archive.added("printed", x.printed);
+  archive.added("motion", x.motion);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Level> auto& x) {
+  archive("step", x.step);
+  archive("runs", x.runs);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Claim> auto& x) {
+  archive("behaviour", x.behaviour);
+  archive("order", x.order);
+  archive("reason", x.reason);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::LadderFit> auto& x) {
+  archive("behaviour", x.behaviour);
+  archive("reason", x.reason);
+  archive("has_line", x.has_line);
+  archive("on_envelope", x.on_envelope);
+  archive("order", x.order);
+  archive("spread", x.spread);
+  archive("scatter", x.scatter);
+  archive("constant", x.constant);
+  archive("first_level", x.first_level);
+  archive("last_level", x.last_level);
+  archive.added("largest_step", x.largest_step);
+  archive.added("smallest_step", x.smallest_step);
+  archive("floor", x.floor);
+  archive.added("floor_step", x.floor_step);
+  archive.added("floor_scatter", x.floor_scatter);
+  archive.added("cancel_step", x.cancel_step);
+  archive.added("lucky_share", x.lucky_share);
+  archive.added("stable_step", x.stable_step);
+  archive("steps", x.steps);
+  archive("errors", x.errors);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::Evidence> auto& x) {
+  archive("code", x.code);
+  archive("verdict", x.verdict);
+  archive("numbers", x.numbers);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::Assessment> auto& x) {
+  archive("displacement", x.displacement);
+  archive("velocity", x.velocity);
+  archive("impact_time", x.impact_time);
+  archive("verdict", x.verdict);
+  archive.added("mismatch", x.mismatch);
+  archive("reason", x.reason);
+  archive("evidence", x.evidence);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::SelfConvergence> auto& x) {
+  archive("differences", x.differences);
+  archive("proper", x.proper);
+  archive("estimate", x.estimate);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::SelfAgainstReference> auto& x) {
+  archive("false_convergence", x.false_convergence);
+  archive("reason", x.reason);
+  archive("error_ratio", x.error_ratio);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::Richardson> auto& x) {
+  archive("bounded", x.bounded);
+  archive("reason", x.reason);
+  archive("value", x.value);
+  archive("bound", x.bound);
+  archive("estimate", x.estimate);
+  archive("level", x.level);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<SelfResult> auto& x) {
+  archive("order", x.order);
+  archive("without_reference", x.self);
+  archive("errors", x.errors);
+  archive("against_reference", x.against_reference);
+  archive("extrapolation", x.extrapolation);
+  archive("extrapolation_error", x.extrapolation_error);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Subject> auto& x) {
+  archive("kind", x.kind);
+  archive("name", x.name);
+  archive("claim", x.claim);
+  archive("tolerance", x.tolerance);
+  archive("contact_time", x.contact_time);
+  archive("refusal", x.refusal);
+  archive("refusal_code", x.refusal_code);
+  archive("complete", x.complete);
+  archive.added("resolution", x.resolution);
+  archive("levels", x.levels);
+  archive.added("refinement", x.refinement);
+  archive("assessment", x.assessment);
+  archive("self_convergence", x.self_convergence);
+  archive.added("diagnoses", x.diagnoses);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::ProfileStep> auto& x) {
+  archive("ratio", x.ratio);
+  archive("share", x.share);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<assess::MethodProfile> auto& x) {
+  archive("method", x.method);
+  archive("ratios", x.ratios);
+  archive("steps", x.steps);
+  archive("best", x.best);
+  archive("failed", x.failed);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Profile> auto& x) {
+  archive("counter", x.counter);
+  archive("tasks", x.tasks);
+  archive("methods", x.methods);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<CaseRecord> auto& x) {
+  archive("problem", x.problem);
+  archive("plan", x.plan);
+  archive("response", x.response);
+  archive("subjects", x.subjects);
+  archive("profiles", x.profiles);
+}
+
+template <class Archive>
+void fields(Archive& archive, Like<Record> auto& x) {
+  archive("command", x.command);
+  archive("provenance", x.provenance);
+  archive("cases", x.cases);
+  archive("profiles", x.profiles);
+  archive("interrupted", x.interrupted);
+}
+
+}  // namespace clackers::study

@@ -1,0 +1,101 @@
+#include "clackers/record/schematic.hpp"
+
+#include <gtest/gtest.h>
+
+#include "clackers/model/harmonic_load.hpp"
+
+namespace clackers::study {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+model::ImpactProblem<> problem_of(const MatrixXd& stiffness) {
+  model::ImpactProblem<> problem;
+  const auto n = stiffness.rows();
+  problem.system = {MatrixXd::Identity(n, n), MatrixXd::Zero(n, n), stiffness};
+  return problem;
+}
+
+// Two storeys, roof first, and one.
+model::ImpactProblem<> buildings() {
+  MatrixXd k(3, 3);
+  k << 1.02, -1.0, 0.0, -1.0, 3.0, 0.0, 0.0, 0.0, 4.0;  // the roof has a weak spring of its own
+  auto problem = problem_of(k);
+  problem.contacts.push_back({Eigen::Vector3d(-1.0, 0.0, 1.0), -0.5, 1.0});
+  return problem;
+}
+
+TEST(Schematic, StoreysStandAboveEachOtherAndRoofsSideBySide) {
+  const auto drawing = schematic(buildings());
+  ASSERT_EQ(drawing.blocks.size(), 3u);
+  EXPECT_EQ(drawing.blocks[0].height, 1.0);
+  EXPECT_EQ(drawing.blocks[1].height, 0.5);
+  EXPECT_EQ(drawing.blocks[2].height, 1.0);
+  EXPECT_EQ(drawing.blocks[0].column, 0);
+  EXPECT_EQ(drawing.blocks[1].column, 0);
+  EXPECT_EQ(drawing.blocks[2].column, 1);
+  ASSERT_EQ(drawing.springs.size(), 3u);
+  EXPECT_EQ(drawing.springs[0].other, 1);
+  EXPECT_EQ(drawing.springs[1].other, -1);
+  EXPECT_EQ(drawing.springs[2].one, 2);
+  ASSERT_EQ(drawing.contacts.size(), 1u);
+  EXPECT_EQ(drawing.contacts[0].left, 0);
+  EXPECT_EQ(drawing.contacts[0].right, 2);
+  EXPECT_EQ(drawing.contacts[0].gap, 0.5);
+}
+
+TEST(Schematic, OneSidedSpringsAreDrawnAsTheContactsTheyStandFor) {
+  auto problem = problem_of(MatrixXd::Identity(2, 2));
+  problem.system.nonlinear = std::make_shared<model::OneSidedSprings>(
+      std::vector{model::contact_between(2, 0, 1)}, std::vector{5.0});
+  const auto drawing = schematic(problem);
+  ASSERT_EQ(drawing.contacts.size(), 1u);
+  EXPECT_EQ(drawing.contacts[0].right, 0);
+  EXPECT_EQ(drawing.blocks[0].column, 1);
+}
+
+TEST(Schematic, WhatAContactKeepsAboveStandsAtTheRight) {
+  auto problem = problem_of(MatrixXd::Identity(3, 3));
+  problem.contacts = {{Eigen::Vector3d(1.0, -1.0, 0.0), 0.0, 1.0},
+                      {Eigen::Vector3d(0.0, 2.0, -2.0), 0.4, 1.0}};
+  const auto drawing = schematic(problem);
+  EXPECT_EQ(drawing.blocks[2].column, 0);
+  EXPECT_EQ(drawing.blocks[1].column, 1);
+  EXPECT_EQ(drawing.blocks[0].column, 2);
+  EXPECT_EQ(drawing.contacts[1].gap, -0.2);
+}
+
+TEST(Schematic, StopsAreWallsAndOtherContactsHaveNoPlace) {
+  auto problem = problem_of(MatrixXd::Identity(3, 3));
+  problem.contacts = {{Eigen::Vector3d(0.0, 1.0, 0.0), 0.0, 1.0},
+                      {Eigen::Vector3d(-1.0, 0.0, 0.0), -2.0, 1.0},
+                      {Eigen::Vector3d(1.0, -1.0, 1.0), 0.0, 1.0}};
+  const auto drawing = schematic(problem);
+  EXPECT_EQ(drawing.contacts[0].left, -1);
+  EXPECT_EQ(drawing.contacts[0].right, 1);
+  EXPECT_EQ(drawing.contacts[1].left, 0);
+  EXPECT_EQ(drawing.contacts[1].right, -1);
+  EXPECT_EQ(drawing.contacts[1].gap, 2.0);
+  EXPECT_EQ(drawing.contacts[2].left, -1);
+  EXPECT_EQ(drawing.contacts[2].right, -1);
+}
+
+TEST(Schematic, CircularContactsAndFreeMassesAreDrawnAllTheSame) {
+  auto problem = problem_of(MatrixXd::Zero(2, 2));
+  problem.contacts = {{Eigen::Vector2d(1.0, -1.0), -1.0, 1.0},
+                      {Eigen::Vector2d(-1.0, 1.0), -1.0, 1.0}};
+  const auto drawing = schematic(problem);
+  EXPECT_NE(drawing.blocks[0].column, drawing.blocks[1].column);
+  EXPECT_TRUE(drawing.springs.empty());
+}
+
+TEST(Schematic, IsEmptyForMoreMassesThanAreDrawn) {
+  EXPECT_EQ(schematic(problem_of(MatrixXd::Identity(most_blocks, most_blocks))).blocks.size(),
+            std::size_t(most_blocks));
+  EXPECT_TRUE(
+      schematic(problem_of(MatrixXd::Identity(most_blocks + 1, most_blocks + 1))).blocks.empty());
+}
+
+}  // namespace
+}  // namespace clackers::study

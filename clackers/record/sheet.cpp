@@ -1,0 +1,24 @@
+#include "clackers/record/sheet.hpp"
+
+namespace clackers::study {
+namespace {
+
+Cell cell(double value, ColumnKind kind) {
+  if (kind == ColumnKind::whole) return static_cast<long long>(value);
+  if (kind != ColumnKind::side) return value;
+  return value == 0.0 ? Cell{} : Cell{std::string(value < 0.0 ? "-" : "+")};
+}
+
+}  // namespace
+
+bool NumberRows::next(std::vector<Cell>& row) {
+  if (read_ == block_.size()) {
+    read_ = 0;
+    if (!next_block(block_)) return false;
+  }
+  row.clear();
+  for (const auto& column : columns()) row.push_back(cell(block_[read_++], column.kind));
+  return true;
+}
+
+}  // namespace clackers::study

@@ -1,0 +1,150 @@
+#pragma once
+
+#include <limits>
+
+#include "clackers/record/record.hpp"
+
+namespace clackers::study {
+
+/// For tests: a record in which every member differs from its default and from its neighbours,
+/// with doubles that a careless printer would change.
+inline Record sample_record() {
+  constexpr double tiny = std::numeric_limits<double>::denorm_min();
+  constexpr double huge = std::numeric_limits<double>::max();
+  assess::RunScore run;
+  run.step = 0.1;
+  run.finished = true;
+  run.failure_code = "diverged";
+  run.failure = "said \"no\" at t = 3 s\n\xC3\xBC";
+  run.u_error = 1.0 / 3.0;
+  run.u_error_absolute = tiny;
+  run.v_error = huge;
+  run.energy_error = 5e-324;
+  run.energy_ratio = -0.0;
+  run.rounding_floor = 2.2250738585072011e-308;
+  run.impacts = assess::ImpactScore{6, 7, 5, 1, 2, 0.1 + 0.2, 3e-14};
+  run.work = {1'000'000'007, 2, 3, 4, 5};
+  run.seconds = 1e23;
+  auto silent = run;
+  silent.impacts.reset();
+  silent.finished = false;
+  assess::LadderFit fit;
+  fit.behaviour = Behaviour::irregular;
+  fit.reason = "energy-growth";
+  fit.has_line = fit.on_envelope = true;
+  fit.order = 1.03;
+  fit.spread = 0.07;
+  fit.scatter = 17.5;
+  fit.constant = 0.123456789012345678;
+  fit.first_level = 2;
+  fit.last_level = 7;
+  fit.largest_step = 0.0125;
+  fit.smallest_step = 4e-4;
+  fit.floor = 1e-15;
+  fit.floor_step = 2e-4;
+  fit.floor_scatter = 3.5;
+  fit.cancel_step = 0.0031;
+  fit.lucky_share = 0.25;
+  fit.stable_step = 0.011;
+  fit.steps = {0.05, 0.025};
+  fit.errors = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  auto second = fit, third = fit;
+  second.behaviour = Behaviour::proper;
+  third.behaviour = Behaviour::divergent;
+  Subject method;
+  method.name = "newmark";
+  method.claim = {Behaviour::proper, 2.0, "why"};
+  method.tolerance = 1e-3;
+  method.contact_time = 0.0157;
+  method.refusal = "cannot";
+  method.refusal_code = "redundant-contacts";
+  method.complete = false;
+  const std::vector<MetricResult> metrics = {{"u-max", "m", 0.1 + 0.7, {tiny, huge}, "", true},
+                                             {"v-max", "m/s", -0.0, {}, "no velocities", false}};
+  HistoryFile file;
+  file.file = "h0.01.csv";
+  file.rows = 2001;
+  file.rows_beyond = 7;
+  file.first = 0.01;
+  file.last = 19.99;
+  file.spacing = 0.0101;
+  file.step_source = StepSource::option;
+  file.columns = {{"t", 6, false, 5e-5}, {"u1", 7, true, 5e-6}};
+  file.printed_floor = 3e-6;
+  file.printed_by = "u1";
+  file.unseen_bend = 0.02;
+  file.has_velocities = true;
+  file.has_u = {true, false};
+  file.start_error = 1e-5;
+  file.collisions = CollisionSource::history;
+  file.rows_resolve_collisions = false;
+  file.contact_time = 0.016;
+  file.notes = {{"rows-beyond-end", {7.0, 20.0}, ""}, {"columns-not-used", {}, "energy"}};
+  file.history = {{0.25}, {{1.0}, {0.5}}};
+  method.levels = {
+      {0.05,
+       {{run, {}, metrics, {{0.5, 1.5}, {{1e-3, 1e-4}, {2e-3, 2e-4}}}, {{0.5}, {{0.25}, {0.5}}}},
+        {silent, {}, {}, {}, {}, "Segmentation fault"}}},
+      {0.025, {{run, file, {}, {}}}}};
+  method.refinement = {2, 1, 16, RefinementEnd::budget, 12.5};
+  method.assessment = {fit,
+                       second,
+                       third,
+                       Verdict::not_claimed,
+                       assess::Mismatch::lower_order,
+                       "printed-digits",
+                       {{"within-tolerance", Verdict::agrees, {1e-4, 1e-3, 1e-6}}}};
+  auto& without = method.self_convergence.emplace();
+  without.order = 1.5;
+  without.self = {second, true, 0.1234};
+  without.errors = third;
+  without.against_reference = {true, "wrong-limit", 7.25};
+  without.extrapolation = {true, "differences-turn", {0.3, -tiny}, 1e-9, 2e-10, 6};
+  without.extrapolation_error = 3e-9;
+  method.resolution = Resolution::tolerance;
+  method.diagnoses = {
+      {"restitution-differs",
+       0.99,
+       "1",
+       0.9375,
+       {{"gain", 9e7}, {"uncertainty", tiny}},
+       "t,u2",
+       "damping-differs"},
+      {"wrong-limit", std::numeric_limits<double>::quiet_NaN(), "", 0.5, {}, "", ""}};
+  auto histories = method;
+  histories.kind = SubjectKind::histories;
+  histories.name = "histories";
+  histories.tolerance.reset();
+  histories.self_convergence.reset();
+  histories.refinement.reset();
+  CaseRecord one;
+  one.problem = {"three-parameter",
+                 "two masses",
+                 "Eq. (25)",
+                 {{"N", 2.0, "", "whole"}},
+                 {{"m2", 1.0 / 3.0, "kg", "mass 2"}},
+                 20.0,
+                 0.699,
+                 {1.5727, 4.7181},
+                 {0, 1},
+                 {{{0, 1.0}, {1, 0.5}}, {{0, -1}}, {{0, 1, 0.25}}},
+                 2};
+  one.plan = {0.04, 6, 5};
+  one.response = {{0.0, 1.0}, {{1.0, 0.5}, {-0.3, 0.2}}};
+  one.subjects = {method, histories};
+  one.profiles = {
+      {"steps",
+       {"stop: error in u <= 1e-01"},
+       {{"newmark", {1.5, std::numeric_limits<double>::infinity()}, {{1.5, 0.5}}, 0, 1}}}};
+  Record record;
+  record.command = "check";
+  record.provenance = {"clackers verify", "9.8.7", "GCC 12",
+                       "Linux",           "EPYC",  "2030-01-02T03:04:05Z"};
+  record.cases = {one, CaseRecord{}};
+  record.profiles = one.profiles;
+  record.profiles[0].counter = "force_evaluations";
+  record.interrupted = true;
+  return record;
+}
+
+}  // namespace clackers::study

@@ -1,0 +1,24 @@
+#include "clackers/solvers/work_folder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace clackers::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(WorkFolder, RunsOfTwoInOneFolderDoNotMeet) {
+  const auto path = (fs::path(testing::TempDir()) / "work_folder").string();
+  {
+    WorkFolder programs(path), plugins(path);
+    const RunFolder first(programs, "a", "key"), second(plugins, "b", "key");
+    EXPECT_NE(first.path(), second.path());
+    EXPECT_TRUE(fs::exists(first.path()));
+    EXPECT_TRUE(fs::exists(second.path()));
+  }
+  EXPECT_TRUE(fs::is_empty(path));
+  fs::remove_all(path);
+}
+
+}  // namespace
+}  // namespace clackers::study

@@ -1,0 +1,140 @@
+#include "clackers/tables/listing/amplification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "clackers/numerics/realization.hpp"
+
+namespace clackers::study {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+// A multistep method starts with others' steps, six at most.
+constexpr std::size_t start_up = 6, samples = 15, overshoot_steps = 10;
+// Rounding of a double eigenvalue on the unit circle.
+constexpr double growth = 1e-6;
+
+// States of u'' + u = 0 with steps of h, from u = 1 and from v = 1: a column a start.
+std::vector<Eigen::MatrixXd> states(const methods::Integrator& integrator, double h) {
+  const model::SmoothSystem<1> system{.mass = model::Matrix<1>(1.0),
+                                      .damping = model::Matrix<1>(0.0),
+                                      .stiffness = model::Matrix<1>(1.0)};
+  std::vector<Eigen::MatrixXd> all(start_up + samples, Eigen::MatrixXd(2, 2));
+  const auto count = static_cast<long long>(all.size());
+  const methods::StepPlan plan{0.0, h * double(count), h, count, count};
+  const auto stepper = integrator.stepper(system, plan);
+  for (const Eigen::Index start : {0, 1}) {
+    std::vector<model::State<1>> path(all.size());
+    path[0].u[0] = start == 0 ? 1.0 : 0.0;
+    path[0].v[0] = start == 0 ? 0.0 : 1.0;
+    stepper->restart(path[0]);
+    stepper->advance(0, path);
+    for (std::size_t k = 0; k < all.size(); ++k) all[k].col(start) << path[k].u[0], path[k].v[0];
+  }
+  return all;
+}
+
+// Of the steps behind the start-up, as far as growth leaves their states finite.
+std::vector<Complex> eigenvalues_of(const std::vector<Eigen::MatrixXd>& path) {
+  const auto is_large = [](const Eigen::MatrixXd& x) { return !(x.cwiseAbs().maxCoeff() < 1e100); };
+  const auto own = std::span(path).subspan(start_up);
+  const auto count = static_cast<std::size_t>(std::ranges::find_if(own, is_large) - own.begin());
+  if (count < 3) return {};
+  return numerics::eigenvalues_of_iterates(own.first(count));
+}
+
+// The eigenvalue nearest to where the principal one is expected, if it oscillates.
+std::optional<Complex> principal(const std::vector<Complex>& eigenvalues, Complex expected) {
+  const auto distance = [&](Complex z) { return std::abs(z - expected); };
+  const auto nearest = std::ranges::min_element(eigenvalues, {}, distance);
+  if (nearest == eigenvalues.end() || !(nearest->imag() > 1e-9 * std::abs(*nearest))) return {};
+  return *nearest;
+}
+
+double overshoot(const std::vector<Eigen::MatrixXd>& all, Eigen::Index row) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k <= overshoot_steps; ++k)
+    largest = std::max(largest, all[k].row(row).cwiseAbs().maxCoeff());
+  return largest;
+}
+
+Cell cell(double value) { return std::isnan(value) ? Cell{} : Cell{value}; }
+
+std::vector<double> linear(double first, double last, int count) {
+  std::vector<double> all;
+  for (int i = 0; i < count; ++i) all.push_back(first + (last - first) * i / (count - 1));
+  return all;
+}
+
+}  // namespace
+
+std::vector<Amplification> amplification(const methods::Integrator& integrator,
+                                         const std::vector<double>& steps) {
+  std::vector<Amplification> all;
+  std::optional<Complex> rate = Complex(0.0, 1.0);  // of the principal root: exp(rate h), omega = 1
+  for (const double h_over_T : steps) {
+    const double h = 2.0 * std::numbers::pi * h_over_T;
+    const auto path = states(integrator, h);
+    const auto eigenvalues = eigenvalues_of(path);
+    Amplification point{h_over_T, eigenvalues.empty() ? nan : 0.0, nan, nan, nan, nan};
+    for (const auto one : eigenvalues)
+      point.spectral_radius = std::max(point.spectral_radius, std::abs(one));
+    const auto root = rate ? principal(eigenvalues, std::exp(*rate * h)) : std::nullopt;
+    rate = root ? std::optional(std::log(*root) / h) : std::nullopt;
+    if (rate) {
+      point.period_elongation = 1.0 / rate->imag() - 1.0;
+      point.amplitude_decay = 1.0 - std::exp(2.0 * std::numbers::pi * rate->real() / rate->imag());
+    }
+    if (point.spectral_radius <= 1.0 + growth) {
+      point.u_overshoot = overshoot(path, 0);
+      point.v_overshoot = overshoot(path, 1);
+    }
+    all.push_back(point);
+  }
+  return all;
+}
+
+std::vector<Sheet> amplification_sheets(const methods::Integrator& integrator) {
+  const auto name = integrator.facts().name;
+  const Column steps{"h/T", "", "step over the period of the free, undamped vibration"};
+  Sheet accuracy{"clackers/accuracy/1",
+                 fmt::format("Period elongation and amplitude decay of {}", name),
+                 {steps,
+                  {"period_elongation", "", "T'/T - 1, T' the period that comes out"},
+                  {"amplitude_decay", "", "part of the amplitude lost in a period"}},
+                 {},
+                 Axes{.highest = 1.0}};
+  for (const auto& point : amplification(integrator, linear(0.01, 0.4, 40)))
+    accuracy.rows.push_back(
+        {point.steps, cell(point.period_elongation), cell(point.amplitude_decay)});
+  Sheet radius{"clackers/spectral-radius/1",
+               fmt::format("Spectral radius of {}: above 1 the motion grows", name),
+               {steps, {"spectral_radius", "", "largest |eigenvalue| of a step"}},
+               {},
+               Axes{.log_x = true, .highest = 1.5}};
+  Sheet overshoot{"clackers/overshoot/1",
+                  fmt::format("Overshoot of {} in ten steps, where the motion does not grow", name),
+                  {steps,
+                   {"u_overshoot", "", "largest |u| over the exact amplitude"},
+                   {"v_overshoot", "", "largest |v| over the exact amplitude"}},
+                  {},
+                  Axes{.log_x = true, .log_y = true}};
+  auto powers = linear(-2.0, 2.0, 81);
+  for (double& power : powers) power = std::pow(10.0, power);
+  for (const auto& point : amplification(integrator, powers)) {
+    radius.rows.push_back({point.steps, cell(point.spectral_radius)});
+    overshoot.rows.push_back({point.steps, cell(point.u_overshoot), cell(point.v_overshoot)});
+  }
+  return {accuracy, radius, overshoot};
+}
+
+}  // namespace clackers::study

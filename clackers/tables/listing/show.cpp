@@ -1,0 +1,193 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/methods/method_specification.hpp"
+#include "clackers/methods/registry.hpp"
+#include "clackers/tables/listing.hpp"
+#include "clackers/tables/listing/amplification.hpp"
+#include "clackers/tables/listing/show_sheets.hpp"
+#include "clackers/model/problem_text.hpp"
+#include "clackers/tables/respond.hpp"
+
+namespace clackers::study {
+namespace {
+
+constexpr std::size_t collisions_shown = 6;
+
+Sheet parameter_sheet(const cases::Case& which) {
+  Sheet sheet{
+      "clackers/parameters/1",
+      fmt::format("{}, {}: {}", which.entry->name, which.entry->equations, which.entry->summary),
+      {{"parameter", "", "as typed after --set"},
+       {"value", "", "in use"},
+       {"unit", "", ""},
+       {"allowed", "", ""},
+       {"meaning", "", ""}},
+      {}};
+  for (std::size_t i = 0; i < which.values.size(); ++i) {
+    const auto& p = which.entry->parameters[i];
+    const auto& value = which.values[i].second;
+    const Cell cell = value.is_word() ? Cell(value.text()) : Cell(double(value));
+    sheet.rows.push_back({p.name, cell, p.unit, p.allowed, p.meaning});
+  }
+  return sheet;
+}
+
+Sheet constant_sheet(std::string schema, std::string title,
+                     const std::vector<cases::Constant>& constants) {
+  Sheet sheet{std::move(schema),
+              std::move(title),
+              {{"name", "", ""}, {"value", "", ""}, {"unit", "", ""}, {"meaning", "", ""}},
+              {}};
+  for (const auto& c : constants) sheet.rows.push_back({c.name, c.value, c.unit, c.meaning});
+  return sheet;
+}
+
+// Without the states of the masses, which fill more than a page where there are many.
+void keep_collisions_alone(Sheet& sheet) {
+  for (auto c = sheet.columns.size(); c-- > 0;) {
+    const char first = sheet.columns[c].name.front();
+    if (first != 'u' && first != 'v') continue;
+    sheet.columns.erase(sheet.columns.begin() + std::ptrdiff_t(c));
+    for (auto& row : sheet.rows) row.erase(row.begin() + std::ptrdiff_t(c));
+  }
+}
+
+Sheet collision_sheet(const cases::Case& which) {
+  const auto rows = collisions(which);
+  const auto total = which.motion->impact_count(which.motion->end());
+  Sheet sheet{rows->schema(), {}, rows->columns(), {}};
+  std::vector<Cell> row;
+  while (sheet.rows.size() < collisions_shown && rows->next(row)) sheet.rows.push_back(row);
+  if (which.motion->dof() > 2) keep_collisions_alone(sheet);
+  sheet.title = total <= static_cast<long long>(sheet.rows.size())
+                    ? fmt::format("Collisions: {}", total)
+                    : fmt::format(
+                          "Collisions: the first {} of {}; all: clackers respond {} "
+                          "--collisions",
+                          sheet.rows.size(), total, which.entry->name);
+  return sheet;
+}
+
+Sheet claim_sheet(const methods::Facts& facts) {
+  Sheet sheet{"clackers/facts/1",
+              facts.name,
+              {{"fact", "", ""}, {"value", "", ""}, {"meaning", "", ""}},
+              {}};
+  const auto& claim = facts.through_impacts;
+  sheet.rows.push_back(
+      {"smooth_order", facts.smooth_order, "order of u and v while nothing collides"});
+  sheet.rows.push_back({"stability_limit", facts.stability_limit,
+                        "largest omega h of undamped smooth motion; inf: every step is stable, 0: "
+                        "it grows in every short step"});
+  if (!std::isnan(facts.radius_at_infinity))
+    sheet.rows.push_back({"radius_at_infinity", facts.radius_at_infinity,
+                          "spectral radius at infinite omega h, undamped"});
+  sheet.rows.push_back({"behaviour", std::string(to_string(claim.behaviour)),
+                        "claimed through impacts; clackers explain says what it means"});
+  if (claim.order > 0.0)
+    sheet.rows.push_back({"order", claim.order,
+                          claim.behaviour == Behaviour::irregular
+                              ? "claimed of the upper envelope of the displacement error"
+                              : "claimed of the displacement error"});
+  if (facts.model_order > 0.0)
+    sheet.rows.push_back({"model_order", facts.model_order,
+                          "the error of the contact law falls as stiffness^-model_order"});
+  if (!claim.reason.empty())
+    sheet.rows.push_back({"reason", claim.reason, "of the claimed behaviour"});
+  sheet.rows.push_back({"reports_impacts", std::string(facts.reports_impacts ? "yes" : "no"),
+                        "whether a run says when the masses collide"});
+  return sheet;
+}
+
+Sheet word_sheet(const methods::Entry& entry, const Parameter& parameter) {
+  Sheet sheet{
+      "clackers/words/1",
+      fmt::format("{} of {}", parameter.name, entry.name),
+      {{parameter.name, "", "as typed"}, {"summary", "", "in one line"}, {"source", "", ""}},
+      {}};
+  for (const auto& word : parameter.words)
+    sheet.rows.push_back({word.name, word.summary, word.source});
+  return sheet;
+}
+
+void add_entry(std::vector<Sheet>& sheets, const methods::Entry& entry) {
+  Sheet parameters{"clackers/parameters/1",
+                   fmt::format("Parameters of {}", entry.name),
+                   {{"parameter", "", "as typed"},
+                    {"default", "", ""},
+                    {"allowed", "", ""},
+                    {"meaning", "", "with its unit"}},
+                   {}};
+  for (const auto& p : entry.parameters)
+    parameters.rows.push_back({p.name, p.default_text(), p.allowed, p.meaning});
+  if (!parameters.rows.empty()) sheets.push_back(std::move(parameters));
+  for (const auto& p : entry.parameters)
+    if (!p.words.empty()) sheets.push_back(word_sheet(entry, p));
+  sheets.push_back({"clackers/card/1",
+                    fmt::format("{} ({}): {}", entry.name, entry.kind, entry.summary),
+                    {{"card", "", ""}},
+                    {{entry.card}}});
+}
+
+std::string_view name_of(std::string_view term) { return term.substr(0, term.find(':')); }
+
+const methods::Entry& entry_of(std::string_view term) {
+  return *std::ranges::find(methods::entries(), name_of(term), &methods::Entry::name);
+}
+
+// False for a method that brings its own integration, and for what is no method.
+bool is_integrator(std::string_view term) {
+  return std::ranges::any_of(methods::entries(), [&](const methods::Entry& entry) {
+    return entry.kind == "integrator" && entry.name == name_of(term);
+  });
+}
+
+}  // namespace
+
+std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
+                             double threshold) {
+  const auto which = cases::make(name, settings, threshold);
+  std::vector<Sheet> sheets{
+      parameter_sheet(which),
+      constant_sheet("clackers/constants/1", "Derived constants", which.constants),
+      constant_sheet("clackers/indicators/1", "Indicators", which.indicators),
+      collision_sheet(which)};
+  for (auto& more : {harmonic_sheet(which, threshold), conditioning_sheet(which)})
+    if (more) sheets.push_back(*more);
+  return sheets;
+}
+
+std::string show_problem(std::string_view name, const cases::Settings& settings) {
+  return problem_json(cases::make(name, settings).problem);
+}
+
+std::vector<Sheet> show_method(std::string_view specification) {
+  std::vector<Sheet> sheets;
+  // A contact treatment alone is no method, yet it has a card to show.
+  const auto first = methods::parse_specification(specification).first;
+  for (const auto& entry : methods::entries())
+    if (entry.kind == "contact" && entry.name == first.name) {
+      complete(entry.name, entry.parameters, first.settings);
+      add_entry(sheets, entry);
+      return sheets;
+    }
+  const auto facts = methods::method(specification)->facts();
+  sheets.push_back(claim_sheet(facts));
+  const auto terms = methods::terms_of(facts.name);
+  if (is_integrator(terms[0]) && !facts.is_adaptive)
+    for (auto& sheet : amplification_sheets(*methods::integrator(terms[0])))
+      sheets.push_back(std::move(sheet));
+  for (const auto term : terms) add_entry(sheets, entry_of(term));
+  return sheets;
+}
+
+std::string treatment_of(std::string_view specification) {
+  const auto terms = methods::terms_of(specification);
+  if (!is_integrator(terms[0])) return {};
+  return std::string(terms.size() > 1 ? terms[1] : "event-driven");
+}
+
+}  // namespace clackers::study

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "clackers/tables/respond.hpp"
+
+namespace clackers::study {
+namespace {
+
+// Two masses that touch in their only contact have one place.
+bool has_one_place(const cases::Case& which) {
+  return which.motion->dof() <= 2 && which.problem.contacts.size() <= 1;
+}
+
+std::vector<Column> collision_columns(const cases::Case& which) {
+  std::vector<Column> columns{{"k", "", "number of the collision"},
+                              {"t", "s", "its time, the nearest double"}};
+  const bool names_contact = which.problem.contacts.size() > 1;
+  if (names_contact) columns.push_back({"contact", "", "number of the contact, from 0"});
+  for (int i = 1; i <= which.motion->dof(); ++i) {
+    if (i == 1 || !has_one_place(which))
+      columns.push_back({fmt::format("u{}", i), "m", fmt::format("displacement of mass {}", i)});
+    columns.push_back(
+        {fmt::format("v{}-", i), "m/s", fmt::format("velocity of mass {} just before", i)});
+    columns.push_back(
+        {fmt::format("v{}+", i), "m/s", fmt::format("velocity of mass {} just after", i)});
+  }
+  columns.push_back({"impulse", "N s", "of the contact"});
+  columns.push_back({"energy_before", "J", "of the whole structure"});
+  columns.push_back({"energy_after", "J", "of the whole structure"});
+  for (auto& column : columns) column.kind = ColumnKind::real;
+  columns.front().kind = ColumnKind::whole;
+  if (names_contact) columns[2].kind = ColumnKind::whole;
+  return columns;
+}
+
+class CollisionRows : public NumberRows {
+ public:
+  explicit CollisionRows(const cases::Case& which)
+      : motion_(*which.motion),
+        name_(which.entry->name),
+        total_(motion_.impact_count(motion_.end())),
+        columns_(collision_columns(which)),
+        names_contact_(which.problem.contacts.size() > 1),
+        has_one_place_(has_one_place(which)) {}
+
+  std::string schema() const override { return "clackers/collisions/1"; }
+  std::string title() const override {
+    if (total_ > 0) return "Collisions of " + name_;
+    return fmt::format("Collisions of {}: none until the end of its run, {} s", name_,
+                       motion_.end());
+  }
+  const std::vector<Column>& columns() const override { return columns_; }
+
+  long long count() const override { return total_; }
+
+  bool next_block(std::vector<double>& values) override {
+    constexpr long long block = 64;
+    values.clear();
+    for (const auto end = std::min(done_ + block, total_); done_ < end; ++done_) {
+      const auto now = motion_.impact(done_ + 1);
+      values.insert(values.end(), {double(now.index), now.t});
+      if (names_contact_) values.push_back(double(now.contact));
+      for (Eigen::Index i = 0; i < motion_.dof(); ++i) {
+        if (i == 0 || !has_one_place_) values.push_back(now.before.u[i]);
+        values.insert(values.end(), {now.before.v[i], now.after.v[i]});
+      }
+      values.insert(values.end(), {now.impulse, now.energy_before, now.energy_after});
+    }
+    if (!values.empty()) report(done_, total_);
+    return !values.empty();
+  }
+
+ private:
+  const model::Motion& motion_;
+  std::string name_;
+  long long total_, done_ = 0;
+  std::vector<Column> columns_;
+  bool names_contact_, has_one_place_;
+};
+
+}  // namespace
+
+std::unique_ptr<RowSource> collisions(const cases::Case& which) {
+  return std::make_unique<CollisionRows>(which);
+}
+
+}  // namespace clackers::study

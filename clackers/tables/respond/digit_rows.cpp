@@ -1,0 +1,103 @@
+#include "clackers/tables/respond/digit_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "clackers/exact/certified/digits.hpp"
+
+namespace clackers::study {
+namespace {
+
+using certified::Digits;
+
+// The rows of a source in double precision, their real numbers replaced. What rows there are, and
+// which side each is of, is decided once.
+class DigitRows : public RowSource {
+ public:
+  // `about` is the number of rows, second rows at collisions left out.
+  DigitRows(const cases::Case& which, std::unique_ptr<RowSource> rows, long long digits,
+            long long about)
+      : rows_(std::move(rows)),
+        digits_(*which.motion, digits),
+        columns_(rows_->columns()),
+        title_(fmt::format("{} to {} digits", rows_->title(), digits)),
+        about_(about) {
+    for (auto& column : columns_) column.kind = ColumnKind::any;
+  }
+
+  std::string title() const override { return title_; }
+  const std::vector<Column>& columns() const override { return columns_; }
+
+  bool next(std::vector<Cell>& row) final {
+    if (!rows_->next(row)) return false;
+    round(row);
+    report(std::min(++done_, about_), about_);
+    return true;
+  }
+
+ protected:
+  virtual void round(std::vector<Cell>& row) = 0;
+
+  std::unique_ptr<RowSource> rows_;
+  Digits digits_;
+  std::vector<Column> columns_;
+
+ private:
+  std::string title_;
+  long long about_, done_ = 0;
+};
+
+class ResponseDigits : public DigitRows {
+ public:
+  using DigitRows::DigitRows;
+  std::string schema() const override { return "clackers/response-digits/1"; }
+
+  void round(std::vector<Cell>& row) override {
+    const double t = std::get<double>(row[0]);
+    const auto* side = std::get_if<std::string>(&row[1]);
+    const bool after = side != nullptr && *side == "+";
+    const auto now = digits_.at(t, after ? model::Side::right : model::Side::left);
+    row[0] = digits_.time(t);
+    std::size_t at = 2;
+    for (std::size_t i = 0; i < now.u.size(); ++i)
+      for (const auto* values : {&now.u, &now.v, &now.a}) row[at++] = (*values)[i];
+  }
+};
+
+class CollisionDigits : public DigitRows {
+ public:
+  CollisionDigits(const cases::Case& which, std::unique_ptr<RowSource> rows, long long digits,
+                  long long about)
+      : DigitRows(which, std::move(rows), digits, about) {
+    columns_[1].meaning = "its time";
+  }
+  std::string schema() const override { return "clackers/collisions-digits/1"; }
+
+  void round(std::vector<Cell>& row) override {
+    const auto hit = digits_.impact(std::get<long long>(row[0]));
+    row[1] = hit.t;
+    std::size_t at = columns_[2].name == "contact" ? 3 : 2;
+    for (std::size_t i = 0; i < hit.before.v.size(); ++i) {
+      if (columns_[at].name.front() == 'u') row[at++] = hit.before.u[i];
+      row[at++] = hit.before.v[i];
+      row[at++] = hit.after.v[i];
+    }
+    for (const auto* value : {&hit.impulse, &hit.energy_before, &hit.energy_after})
+      row[at++] = *value;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& grid,
+                                   long long digits) {
+  return std::make_unique<ResponseDigits>(which, respond(which, grid), digits, grid.size());
+}
+
+std::unique_ptr<RowSource> collisions(const cases::Case& which, long long digits) {
+  return std::make_unique<CollisionDigits>(which, collisions(which), digits,
+                                           which.motion->impact_count(which.motion->end()));
+}
+
+}  // namespace clackers::study

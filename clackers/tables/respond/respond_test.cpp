@@ -1,0 +1,192 @@
+#include "clackers/tables/respond.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/base/testing/refusal.hpp"
+#include "clackers/study/testing/toy_motion.hpp"
+
+namespace clackers::study {
+namespace {
+
+const cases::CaseEntry toy_entry{"toy", "", "", {}};
+
+cases::Case toy(int dof, double end, std::vector<double> impacts) {
+  cases::Case which;
+  which.entry = &toy_entry;
+  which.motion = std::make_shared<ToyMotion>(dof, end, std::move(impacts));
+  return which;
+}
+
+std::vector<std::vector<Cell>> all(RowSource& rows) {
+  std::vector<std::vector<Cell>> list;
+  std::vector<Cell> row;
+  while (rows.next(row)) list.push_back(row);
+  return list;
+}
+
+std::vector<std::string> names(const RowSource& rows) {
+  std::vector<std::string> list;
+  for (const auto& column : rows.columns()) list.push_back(column.name);
+  return list;
+}
+
+const Cell nothing{}, minus{std::string("-")}, plus{std::string("+")};
+
+TEST(Respond, NamesItsColumnsByTheNumberOfMasses) {
+  EXPECT_EQ(names(*respond(toy(1, 4.0, {}), grid_of(2, 4.0))),
+            (std::vector<std::string>{"t", "side", "u1", "v1", "a1"}));
+  const auto two = toy(2, 4.0, {});
+  const auto rows = respond(two, grid_of(2, 4.0));
+  EXPECT_EQ(names(*rows),
+            (std::vector<std::string>{"t", "side", "u1", "v1", "a1", "u2", "v2", "a2"}));
+  EXPECT_EQ(rows->schema(), "clackers/response/1");
+  const std::vector<std::string> units{"s", "", "m", "m/s", "m/s^2", "m", "m/s", "m/s^2"};
+  for (std::size_t i = 0; i < units.size(); ++i) EXPECT_EQ(rows->columns()[i].unit, units[i]);
+}
+
+TEST(Respond, ShowsBothSidesWhereATimeIsACollision) {
+  const auto which = toy(2, 4.0, {1.0, 4.0});
+  const auto list = all(*respond(which, {1.0, 5, 0.0, {}}));
+  const std::vector<std::vector<Cell>> expected{{0.0, nothing, 0.0, 1.0, 100.0, 0.0, 2.0, 200.0},
+                                                {1.0, minus, 1.0, 1.0, 101.0, 2.0, 2.0, 201.0},
+                                                {1.0, plus, 1.0, -1.0, 101.0, 2.0, -2.0, 201.0},
+                                                {2.0, nothing, 2.0, -1.0, 102.0, 4.0, -2.0, 202.0},
+                                                {3.0, nothing, 3.0, -1.0, 103.0, 6.0, -2.0, 203.0},
+                                                {4.0, minus, 4.0, -1.0, 104.0, 8.0, -2.0, 204.0},
+                                                {4.0, plus, 4.0, 1.0, 104.0, 8.0, 2.0, 204.0}};
+  EXPECT_EQ(list, expected);
+}
+
+TEST(Respond, ShowsOneSideBesideACollision) {
+  const auto which = toy(1, 4.0, {1.0});
+  const double before = std::nextafter(1.0, 0.0), after = std::nextafter(1.0, 2.0);
+  const auto list = all(*respond(which, {0.0, 0, 0.0, {after, before}}));
+  const std::vector<std::vector<Cell>> expected{{after, nothing, after, -1.0, 100.0 + after},
+                                                {before, nothing, before, 1.0, 100.0 + before}};
+  EXPECT_EQ(list, expected);
+}
+
+TEST(Respond, StreamsManyRowsWithoutLosingOneAtABlocksBorder) {
+  // Every tenth time is a collision; 512 is a multiple of neither 10 nor 11.
+  std::vector<double> impacts;
+  for (int k = 0; k <= 5000; k += 10) impacts.push_back(k);
+  const auto which = toy(1, 5000.0, impacts);
+  const auto rows = respond(which, grid_of(5001, 5000.0));
+  std::vector<Cell> row;
+  for (int k = 0; k <= 5000; ++k) {
+    ASSERT_TRUE(rows->next(row));
+    ASSERT_EQ(row[0], Cell{double(k)});
+    ASSERT_EQ(row[1], k % 10 == 0 ? minus : nothing);
+    if (k % 10 != 0) continue;
+    ASSERT_TRUE(rows->next(row));
+    ASSERT_EQ(row[0], Cell{double(k)});
+    ASSERT_EQ(row[1], plus);
+  }
+  EXPECT_FALSE(rows->next(row));
+  EXPECT_FALSE(rows->next(row));
+}
+
+TEST(Respond, KnowsTheNumberOfItsRowsAndGivesThemAsNumbers) {
+  const auto which = toy(2, 4.0, {1.0, 4.0});
+  const auto rows = respond(which, {1.0, 5, 0.0, {}});
+  ASSERT_NE(rows->numbers(), nullptr);
+  EXPECT_EQ(rows->numbers()->count(), 7);
+  std::vector<double> values;
+  ASSERT_TRUE(rows->numbers()->next_block(values));
+  ASSERT_EQ(values.size(), 7u * 8u);
+  EXPECT_EQ(std::vector<double>(values.begin() + 8, values.begin() + 24),
+            (std::vector<double>{1, -1, 1, 1, 101, 2, 2, 201, 1, 1, 1, -1, 101, 2, -2, 201}));
+  EXPECT_FALSE(rows->numbers()->next_block(values));
+  EXPECT_TRUE(values.empty());
+}
+
+TEST(Respond, ReportsTheShareOfItsRowsAndEndsWhereTheCallerThrows) {
+  const auto which = toy(1, 5000.0, {});
+  const auto rows = respond(which, grid_of(5001, 5000.0));
+  std::vector<double> shares;
+  rows->progress = [&](double share) {
+    shares.push_back(share);
+    if (share > 0.5) throw 1;
+  };
+  std::vector<Cell> row;
+  EXPECT_THROW(while (rows->next(row)){}, int);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_GT(shares.size(), 1u);
+  EXPECT_LT(shares.back(), 1.0);
+}
+
+TEST(Respond, RefusesTimesOutsideTheRunBeforeAnyRow) {
+  const auto which = toy(1, 4.0, {});
+  for (const auto& row : {std::pair{4.5, "time-outside"},
+                          {-0.5, "time-outside"},
+                          {double(NAN), "not-a-number"},
+                          {double(INFINITY), "not-finite"}}) {
+    EXPECT_REFUSED(respond(which, {0.0, 0, 0.0, {1.0, row.first, 2.0}}), row.second);
+  }
+  EXPECT_REFUSED(
+      respond(which, {0.0, 0, 0.0, {4.5}}), "time-outside",
+      "respond: t = 4.5; allowed: 0 <= t <= 4 s, the run of toy. A longer run is another "
+      "value of t_end or a_t.");
+  EXPECT_THROW(respond(which, grid_of(3, 8.0)), InputError);
+}
+
+TEST(Collisions, ListEveryCollisionWithBothSides) {
+  const auto which = toy(2, 4.0, {1.0, 2.5});
+  const auto rows = collisions(which);
+  EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "v2-", "v2+",
+                                                    "impulse", "energy_before", "energy_after"}));
+  EXPECT_EQ(rows->schema(), "clackers/collisions/1");
+  const std::vector<std::vector<Cell>> expected{
+      {1LL, 1.0, 1.0, 1.0, -1.0, 2.0, -2.0, 0.5, 3.0, 2.0},
+      {2LL, 2.5, 2.5, -1.0, 1.0, -2.0, 2.0, 1.0, 6.0, 4.0}};
+  EXPECT_EQ(all(*rows), expected);
+}
+
+TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
+  // Two contacts that close together.
+  struct Several : ToyMotion {
+    Several() : ToyMotion(3, 4.0, {1.0, 1.0}) {}
+    model::MotionImpact impact(long long index) const override {
+      auto now = ToyMotion::impact(index);
+      now.contact = int(2 - index);
+      return now;
+    }
+  };
+  auto which = toy(3, 4.0, {});
+  which.motion = std::make_shared<Several>();
+  which.problem.contacts.resize(2);
+  const auto rows = collisions(which);
+  EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "contact", "u1", "v1-", "v1+", "u2",
+                                                    "v2-", "v2+", "u3", "v3-", "v3+", "impulse",
+                                                    "energy_before", "energy_after"}));
+  // Both together turn the velocities around twice.
+  const std::vector<std::vector<Cell>> expected{
+      {1LL, 1.0, 1LL, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 0.5, 3.0, 2.0},
+      {2LL, 1.0, 0LL, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 1.0, 6.0, 4.0}};
+  EXPECT_EQ(all(*rows), expected);
+  // Rows of the response have two limits there, not four.
+  EXPECT_EQ(all(*respond(which, grid_of(5, 4.0))).size(), 6u);
+}
+
+TEST(Collisions, OfOneMassLeaveOutTheSecond) {
+  const auto which = toy(1, 4.0, {1.0});
+  const auto rows = collisions(which);
+  EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "impulse",
+                                                    "energy_before", "energy_after"}));
+  EXPECT_EQ(all(*rows).size(), 1u);
+  const auto none = toy(1, 4.0, {});
+  EXPECT_TRUE(all(*collisions(none)).empty());
+}
+
+TEST(ResponseCurve, HoldsOneRowAMassOverTheWholeRun) {
+  const auto curve = response_curve(toy(2, 4.0, {1.0}), 5);
+  EXPECT_EQ(curve.t, (std::vector<double>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(curve.y, (std::vector<std::vector<double>>{{0, 1, 2, 3, 4}, {0, 2, 4, 6, 8}}));
+  EXPECT_THROW(response_curve(toy(2, 4.0, {}), 1), InputError);
+}
+
+}  // namespace
+}  // namespace clackers::study

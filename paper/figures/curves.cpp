@@ -1,0 +1,159 @@
+#include "paper/figures/curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace clackers::paper {
+namespace {
+
+// Of a curve in a panel, where its turns allow: what a picture keeps.
+constexpr double wanted_points = 2800.0;
+
+struct Instant {
+  double t;
+  model::Side side;
+  long long collision = 0;  // its number; 0 between collisions
+};
+
+// From `from` to `to` in pieces of `dt`, the last one shorter; both ends included, seen from inside.
+// `first` and `last` are the collisions at the ends, 0 for none.
+void append_flight(double from, long long first, double to, long long last, double dt,
+                   std::vector<Instant>& out) {
+  const auto pieces = std::max(1.0, std::ceil((to - from) / dt * (1.0 - 1e-9)));
+  for (double j = 0.0; j < pieces; ++j)
+    out.push_back({from + j * dt, model::Side::right, j == 0.0 ? first : 0});
+  out.push_back({to, model::Side::left, last});
+}
+
+// The displacement or velocity of mass i at a collision: the limit at the true instant, which lies
+// beside the double nearest to it.
+double limit(const model::Motion& motion, const Instant& when, Quantity quantity, Eigen::Index i) {
+  const auto impact = motion.impact(when.collision);
+  const auto& side = when.side == model::Side::left ? impact.before : impact.after;
+  return quantity == Quantity::displacement ? side.u[i] : side.v[i];
+}
+
+// A collision lies (X theta = X pi/2) a whole number of pieces after each extremum of its flight.
+std::vector<Instant> instants(const model::Motion& motion, double dt) {
+  std::vector<Instant> out;
+  double from = 0.0;
+  const auto count = motion.impact_count(motion.end());
+  for (long long k = 1; k <= count; ++k) {
+    const double t = motion.impact(k).t;
+    append_flight(from, k - 1, t, k, dt, out);
+    from = t;
+  }
+  if (from < motion.end()) append_flight(from, count, motion.end(), 0, dt, out);
+  return out;
+}
+
+}  // namespace
+
+FreeFlight::FreeFlight(const cases::Case& test_case, int mass) {
+  const auto i = mass - 1;
+  const auto& system = test_case.problem.system;
+  const double m = system.mass(i, i);
+  sigma_ = system.damping(i, i) / (2.0 * m);
+  omega_ = std::sqrt(system.stiffness(i, i) / m - sigma_ * sigma_);
+  a_ = test_case.problem.start.u[i];
+  b_ = (test_case.problem.start.v[i] + sigma_ * a_) / omega_;
+}
+
+double FreeFlight::u(double t) const {
+  const double angle = omega_ * t;
+  return std::exp(-sigma_ * t) * (a_ * std::cos(angle) + b_ * std::sin(angle));
+}
+
+double FreeFlight::v(double t) const {
+  const double angle = omega_ * t;
+  return std::exp(-sigma_ * t) * ((b_ * omega_ - sigma_ * a_) * std::cos(angle) -
+                                  (a_ * omega_ + sigma_ * b_) * std::sin(angle));
+}
+
+Series curve(const cases::Case& test_case, int mass, Quantity quantity, int points_per_half_turn) {
+  const auto& motion = *test_case.motion;
+  const auto i = std::size_t(mass - 1), dof = std::size_t(motion.dof());
+  const auto dt = test_case.damped_periods.at(i) / (2.0 * points_per_half_turn);
+  const auto when = instants(motion, dt);
+  std::vector<double> times;
+  for (const auto& one : when) times.push_back(one.t);
+  std::vector<double> u[2], v[2], none;
+  for (const auto side : {model::Side::left, model::Side::right}) {
+    const auto s = std::size_t(side == model::Side::right);
+    u[s].resize(times.size() * dof);
+    v[s].resize(times.size() * dof);
+    motion.sample(times, side, {u[s], v[s], none});
+  }
+  Series out{.name = dof == 1 ? "the mass" : "mass " + std::to_string(mass),
+             .x = {},
+             .y = {},
+             .stroke = mass == 1 ? first_mass() : second_mass()};
+  for (std::size_t k = 0; k < when.size(); ++k) {
+    const auto s = std::size_t(when[k].side == model::Side::right);
+    const auto& rows = quantity == Quantity::displacement ? u[s] : v[s];
+    // Displacements do not jump, so one point is enough.
+    if (quantity == Quantity::displacement && !out.x.empty() && out.x.back() == when[k].t) continue;
+    out.x.push_back(when[k].t);
+    out.y.push_back(when[k].collision > 0
+                        ? limit(motion, when[k], quantity, static_cast<Eigen::Index>(i))
+                        : rows[k * dof + i]);
+  }
+  return out;
+}
+
+Panel response_panel(const cases::Case& test_case, Quantity quantity, std::string label,
+                     std::string note, std::vector<double> range) {
+  Panel panel{std::move(label),
+              std::move(note),
+              time_axis(0.0, test_case.motion->end()),
+              quantity == Quantity::displacement ? displacement_axis() : velocity_axis(),
+              {}};
+  if (!range.empty()) {
+    panel.y.lowest = range.at(0);
+    panel.y.highest = range.at(1);
+  }
+  for (int mass = 1; mass <= test_case.motion->dof(); ++mass) {
+    const double half_turns =
+        2.0 * test_case.motion->end() / test_case.damped_periods.at(std::size_t(mass - 1));
+    const int points = std::clamp(int(wanted_points / half_turns), 10, 48);
+    panel.series.push_back(curve(test_case, mass, quantity, points));
+  }
+  return panel;
+}
+
+Series without_contact(const cases::Case& test_case, int mass, const Series& like) {
+  const FreeFlight flight(test_case, mass);
+  Series out = like;
+  std::ranges::transform(like.x, out.y.begin(), [&](double t) { return flight.u(t); });
+  return out;
+}
+
+double largest_difference(const Series& one, const Series& other) {
+  if (one.x != other.x || one.y.size() != other.y.size())
+    throw std::logic_error("curves of different abscissae");
+  double largest = 0.0;
+  for (std::size_t i = 0; i < one.y.size(); ++i)
+    largest = std::max(largest, std::abs(one.y[i] - other.y[i]));
+  return largest;
+}
+
+int maxima(const Series& curve, double before) {
+  int count = 0;
+  for (std::size_t i = 1; i + 1 < curve.x.size() && curve.x[i] < before; ++i)
+    count += curve.y[i] > curve.y[i - 1] && curve.y[i] >= curve.y[i + 1];
+  return count;
+}
+
+double constant(const cases::Case& test_case, const std::string& name) {
+  for (const auto* list : {&test_case.constants, &test_case.indicators})
+    for (const auto& one : *list)
+      if (one.name == name) return one.value;
+  throw std::logic_error("no constant " + name);
+}
+
+std::string number(double value) { return fmt::format("{:.3g}", value); }
+
+}  // namespace clackers::paper

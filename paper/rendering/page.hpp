@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "paper/figure.hpp"
+
+namespace clackers::paper {
+
+/// A figure with its picture as svg text, empty where it could not be drawn.
+struct Drawn {
+  Figure figure;
+  std::string svg;
+  std::vector<std::string> files;  ///< beside the page: "fig12.svg", ...
+};
+
+/// One self-contained html page: each figure with caption, claims, choices and links to its files,
+/// and the points that the paper leaves open, with numbers computed here. `command` is as typed.
+std::string page(const std::vector<Drawn>& drawn, const std::string& command);
+
+}  // namespace clackers::paper

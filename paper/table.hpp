@@ -1,0 +1,24 @@
+#pragma once
+
+#include <iosfwd>
+#include <vector>
+
+#include "paper/figure.hpp"
+#include "clackers/record/sheet.hpp"
+
+namespace clackers::paper {
+
+/// The numbers behind a figure as csv, unreduced: panel,series,x_name,x,y_name,y; numbers read back
+/// to the same double. A vertical line has an empty y.
+void write_csv(const Figure& figure, std::ostream& out);
+
+/// Every claim of the figures with its verdict, a row each.
+study::Sheet claims_of(const std::vector<Figure>& figures);
+
+/// What `clackers list figures` shows.
+study::Sheet list_figures();
+
+/// "holds", "holds in part" (see Claim) or "differs".
+const char* verdict_of(const Claim& claim);
+
+}  // namespace clackers::paper
