@@ -30,7 +30,7 @@ struct Cost {
 
 double sum_of_timings(const std::string& database) {
   const auto store = campaign::Store::open(database);
-  std::vector<study::Cell> row;
+  std::vector<record::Cell> row;
   store.query("SELECT sum(seconds) FROM timings")->next(row);
   return std::get<double>(row.front());
 }

@@ -61,8 +61,8 @@ void write_npy(const fs::path& path, std::span<const double> numbers) {
   out.write(reinterpret_cast<const char*>(numbers.data()), std::streamsize(numbers.size_bytes()));
 }
 
-exchange::NumberColumns columns_of(const std::vector<double>& numbers) {
-  exchange::NumberColumns columns{"history 1", numbers.size() / names.size(), {}};
+input::NumberColumns columns_of(const std::vector<double>& numbers) {
+  input::NumberColumns columns{"history 1", numbers.size() / names.size(), {}};
   for (const auto* name : names)
     columns.columns.push_back(
         {name, numbers.data() + columns.columns.size(), std::ptrdiff_t(names.size())});
@@ -77,14 +77,14 @@ double peak_memory() {
 }
 
 // In a process of its own, since the peak of memory never falls.
-void measure(const char* kind, const exchange::Source& source, double most_memory) {
+void measure(const char* kind, const input::Source& source, double most_memory) {
   std::fflush(nullptr);
   if (const auto child = ::fork(); child != 0) {
     ::waitpid(child, nullptr, 0);
     return;
   }
   const double start = processor_time(), before = peak_memory();
-  const auto expected = exchange::read_history(source, {.dof = 2}).motion.t.size();
+  const auto expected = input::read_history(source, {.dof = 2}).motion.t.size();
   const double read = processor_time();
   study::CheckRequest request;
   request.files = {source};

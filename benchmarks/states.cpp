@@ -18,8 +18,8 @@
 
 #include "benchmarks/measure.hpp"
 #include "benchmarks/naive_pair.hpp"
-#include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
+#include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/numerics/testing/forced_target.hpp"
 
@@ -138,7 +138,7 @@ void race_runs() {
                     {}});
     rows.push_back({"the same, every state assessed",
                     [&, run] {
-                      assess::ErrorSink sink(motion, problem, h);
+                      measure::ErrorSink sink(motion, problem, h);
                       run->advance(sink);
                     },
                     rows.size() - 1,

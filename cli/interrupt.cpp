@@ -49,7 +49,7 @@ void remove_at(int parent, const char* name, int depth) {
 
 // Programs that were started do not outlive us, and write nothing more.
 void end_work() {
-  study::kill_processes();
+  solvers::kill_processes();
   for (auto& entry : paths_to_remove)
     if (const char* path = entry.exchange(nullptr)) remove_path(path);
 }

@@ -15,18 +15,18 @@ void add_require_option(Command& command, std::vector<std::string>& requirements
       ->option_text("WHAT");
 }
 
-std::vector<study::Requirement> read_requirements(const std::vector<std::string>& options) {
-  std::vector<study::Requirement> all;
-  for (const auto& text : options) all.push_back(study::requirement_from(text));
+std::vector<record::Requirement> read_requirements(const std::vector<std::string>& options) {
+  std::vector<record::Requirement> all;
+  for (const auto& text : options) all.push_back(record::requirement_from(text));
   return all;
 }
 
-int required_exit_code(const study::Record& record,
-                       const std::vector<study::Requirement>& requirements) {
+int required_exit_code(const record::Record& record,
+                       const std::vector<record::Requirement>& requirements) {
   for (const auto& requirement : requirements)
-    if (const auto missing = study::unmet(record, requirement); !missing.empty())
+    if (const auto missing = record::unmet(record, requirement); !missing.empty())
       note(report::requirement_text(record, requirement, missing));
-  return study::exit_code(record, requirements);
+  return record::exit_code(record, requirements);
 }
 
 }  // namespace clackers::cli

@@ -15,11 +15,11 @@ namespace {
 
 // `part` is the whole, or a side of a fraction.
 double read_decimal(std::string_view what, std::string_view whole, std::string_view part) {
-  exchange::Number number;
-  switch (exchange::read(part, number)) {
-    case exchange::NumberError::none:
+  input::Number number;
+  switch (input::read(part, number)) {
+    case input::NumberError::none:
       return number.value;
-    case exchange::NumberError::not_finite:
+    case input::NumberError::not_finite:
       if (!std::isfinite(number.value)) return number.value;  // nan and inf as words
       refuse("clackers", what, whole, "a number that a double can hold, 5e-324 to 1.8e308 in size",
              {}, "not-finite");

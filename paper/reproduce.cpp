@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "clackers/record/provenance.hpp"
 #include "paper/rendering/files.hpp"
 #include "paper/rendering/page.hpp"
 #include "paper/rendering/specification.hpp"
 #include "paper/table.hpp"
-#include "clackers/record/provenance.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -35,7 +35,7 @@ std::vector<std::string> files_of(const Figure& figure, const fs::path& folder) 
 
 void write_manifest(const std::vector<Drawn>& drawn, const std::string& command,
                     const fs::path& folder) {
-  const auto from = study::provenance(command);
+  const auto from = record::provenance(command);
   Json figures = Json::array(), files{manifest, "index.html"};
   for (const auto& one : drawn) {
     Json claims = Json::array();

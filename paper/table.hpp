@@ -3,8 +3,8 @@
 #include <iosfwd>
 #include <vector>
 
-#include "paper/figure.hpp"
 #include "clackers/record/sheet.hpp"
+#include "paper/figure.hpp"
 
 namespace clackers::paper {
 
@@ -13,10 +13,10 @@ namespace clackers::paper {
 void write_csv(const Figure& figure, std::ostream& out);
 
 /// Every claim of the figures with its verdict, a row each.
-study::Sheet claims_of(const std::vector<Figure>& figures);
+record::Sheet claims_of(const std::vector<Figure>& figures);
 
 /// What `clackers list figures` shows.
-study::Sheet list_figures();
+record::Sheet list_figures();
 
 /// "holds", "holds in part" (see Claim) or "differs".
 const char* verdict_of(const Claim& claim);

@@ -43,11 +43,11 @@ TEST(Claims, EachIsARowWithItsVerdict) {
       {"says", "found 1", true}, {"says more", "found 2", false}, {"c", "3", true, true}};
   const auto sheet = claims_of({figure, figure});
   ASSERT_EQ(sheet.rows.size(), 6u);
-  const std::vector<study::Cell> first{"fig0", "holds", "says", "found 1"},
+  const std::vector<record::Cell> first{"fig0", "holds", "says", "found 1"},
       second{"fig0", "differs", "says more", "found 2"};
   EXPECT_EQ(sheet.rows[0], first);
   EXPECT_EQ(sheet.rows[4], second);
-  EXPECT_EQ(sheet.rows[5][1], study::Cell("holds in part"));
+  EXPECT_EQ(sheet.rows[5][1], record::Cell("holds in part"));
 }
 
 }  // namespace

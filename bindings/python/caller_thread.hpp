@@ -22,7 +22,7 @@ namespace py = pybind11;
 /// objects. The threads of the study never take the GIL.
 class CallerThread {
  public:
-  using Work = std::function<void(const study::Progress& progress)>;
+  using Work = std::function<void(const Progress& progress)>;
 
   CallerThread();
   ~CallerThread();

@@ -106,7 +106,7 @@ py::dict impacts(const Case& which, py::handle from, py::handle to) {
 
 py::tuple collisions(const Case& which) {
   last_impact(py::none(), 1, which.motion->impact_count(which.motion->end()));
-  return read_rows(*study::collisions(which));
+  return read_rows(*tables::collisions(which));
 }
 
 long long impact_count(const Case& which, py::handle t) {

@@ -12,26 +12,26 @@ namespace {
 
 using cases::Case;
 
-study::TimeGrid read_grid(std::string_view who, py::handle t) {
+tables::TimeGrid read_grid(std::string_view who, py::handle t) {
   const auto times = read_vector(who, "t", t);
   const auto values = values_of(times);
-  study::TimeGrid grid;
+  tables::TimeGrid grid;
   grid.times.assign(values.begin(), values.end());
   return grid;
 }
 
 py::tuple energies(const Case& which, py::handle t) {
-  return read_rows(*study::energies(which, read_grid("energies", t)));
+  return read_rows(*tables::energies(which, read_grid("energies", t)));
 }
 
 py::tuple sensitivity(const Case& which, py::handle name, py::handle t) {
   const auto text = read_text("sensitivity", "name", name);
-  return read_rows(*study::sensitivity(which, read_grid("sensitivity", t), text));
+  return read_rows(*tables::sensitivity(which, read_grid("sensitivity", t), text));
 }
 
 py::tuple spectrum(const Case& which, py::handle n, py::handle highest) {
   const auto count = read_whole("spectrum", "n", n);
-  return read_rows(*study::spectrum(which, count, read_number("spectrum", "highest", highest)));
+  return read_rows(*tables::spectrum(which, count, read_number("spectrum", "highest", highest)));
 }
 
 }  // namespace

@@ -12,22 +12,22 @@
 namespace clackers::python {
 namespace {
 
-using study::Cell;
-using study::ColumnKind;
+using record::Cell;
+using record::ColumnKind;
 
-py::list columns_of(const study::RowSource& rows) {
+py::list columns_of(const record::RowSource& rows) {
   py::list columns;
   for (const auto& column : rows.columns())
     columns.append(py::make_tuple(column.name, column.unit, column.meaning));
   return columns;
 }
 
-py::tuple table(const study::RowSource& rows, const py::list& arrays) {
+py::tuple table(const record::RowSource& rows, const py::list& arrays) {
   return py::make_tuple(rows.schema(), rows.title(), columns_of(rows), arrays);
 }
 
 // Numbers come in blocks, row by row; each column gets an array of its own.
-py::list read_numbers(study::NumberRows& rows) {
+py::list read_numbers(record::NumberRows& rows) {
   const auto width = rows.columns().size();
   long long count = 0;
   {
@@ -85,7 +85,7 @@ py::object array_of(const std::vector<Cell>& cells, ColumnKind kind) {
   return py::module_::import("numpy").attr("array")(objects, py::arg("dtype") = type);
 }
 
-py::list read_cells(study::RowSource& rows) {
+py::list read_cells(record::RowSource& rows) {
   std::vector<std::vector<Cell>> columns(rows.columns().size());
   std::vector<Cell> row;
   while (rows.next(row))
@@ -98,7 +98,7 @@ py::list read_cells(study::RowSource& rows) {
 
 }  // namespace
 
-py::tuple read_rows(study::RowSource& rows) {
+py::tuple read_rows(record::RowSource& rows) {
   Interrupts interrupts;
   rows.progress = [&](double) { interrupts.check(); };
   auto* const numbers = rows.numbers();

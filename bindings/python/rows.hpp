@@ -11,6 +11,6 @@ namespace py = pybind11;
 /// All rows of a source as clackers.Table takes them: (schema, title, columns, arrays), a column being
 /// (name, unit, meaning). Real numbers become float64 (an empty cell NaN), whole ones int64, sides int8
 /// (-1, 0, 1), all else text (an empty cell None). Without the GIL, and Ctrl-C ends it.
-py::tuple read_rows(study::RowSource& rows);
+py::tuple read_rows(record::RowSource& rows);
 
 }  // namespace clackers::python

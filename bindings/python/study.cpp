@@ -14,15 +14,15 @@
 #include "bindings/python/study_solver.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
-#include "clackers/study/check.hpp"
 #include "clackers/solvers/program.hpp"
+#include "clackers/study/check.hpp"
 #include "clackers/study/solver.hpp"
 #include "clackers/study/verify.hpp"
 
 namespace clackers::python {
 namespace {
 
-using RecordPointer = std::shared_ptr<study::Record>;
+using RecordPointer = std::shared_ptr<record::Record>;
 // (name, parameters) of a case.
 using CaseChoice = std::pair<std::string, py::dict>;
 // (name, run, steps, tolerances) of a callable.
@@ -31,11 +31,11 @@ using Callable = std::tuple<std::string, py::object, std::vector<double>, std::v
 // Runs a study in the caller's thread: (record, exception of Python that ended it), either None. A
 // study that leaves no record when it is interrupted throws Error (interrupted).
 py::tuple result_of(CallerThread& caller, const py::object& progress,
-                    const std::function<study::Record(const study::Progress&)>& make) {
+                    const std::function<record::Record(const Progress&)>& make) {
   RecordPointer record;
   try {
-    caller.run(progress, [&](const study::Progress& report) {
-      record = std::make_shared<study::Record>(make(report));
+    caller.run(progress, [&](const Progress& report) {
+      record = std::make_shared<record::Record>(make(report));
     });
   } catch (const Error& error) {
     if (error.code() != Code("interrupted")) throw;
@@ -70,7 +70,7 @@ py::tuple verify(const std::vector<std::string>& methods, const std::vector<Call
     if (!neighbours) request.plan.samples_per_level = study::default_solver_samples;
   }
   CallerThread caller;
-  return result_of(caller, progress, [&](const study::Progress& report) {
+  return result_of(caller, progress, [&](const Progress& report) {
     if (subjects.empty()) return study::verify(request, report, caller.interrupt());
     std::vector<study::SolverSubject> solvers;
     for (const auto& subject : subjects) solvers.push_back(solver_subject(subject, caller));
@@ -95,7 +95,7 @@ py::tuple check(const py::list& histories, const py::list& events, const CaseCho
   request.tolerance = tolerance;
   request.command = command;
   CallerThread caller;
-  return result_of(caller, progress, [&](const study::Progress& report) {
+  return result_of(caller, progress, [&](const Progress& report) {
     return study::check(request, report, caller.interrupt());
   });
 }
@@ -109,7 +109,7 @@ void bind_study(py::module_& core) {
   core.def("check", &check, py::arg("histories"), py::arg("events"), py::arg("case"),
            py::arg("steps"), py::arg("tolerances"), py::arg("columns"), py::arg("expect"),
            py::arg("tolerance"), py::arg("command"), py::arg("progress"));
-  core.def("tolerances_from", &study::tolerances_from, py::arg("text"));
+  core.def("tolerances_from", &solvers::tolerances_from, py::arg("text"));
   py::module_::import("atexit").attr("register")(py::cpp_function(&CallerThread::stop_all));
 }
 

@@ -6,9 +6,9 @@
 
 namespace clackers::python {
 
-exchange::NumberColumns columns_of(const std::string& name, const py::list& columns) {
+input::NumberColumns columns_of(const std::string& name, const py::list& columns) {
   using Numbers = py::array_t<double>;
-  exchange::NumberColumns table;
+  input::NumberColumns table;
   table.name = name;
   for (const auto column : columns) {
     const auto [title, values] = column.cast<std::pair<std::string, py::object>>();
@@ -26,7 +26,7 @@ exchange::NumberColumns columns_of(const std::string& name, const py::list& colu
   return table;
 }
 
-exchange::Source source_of(py::handle source) {
+input::Source source_of(py::handle source) {
   if (py::isinstance<py::str>(source)) return source.cast<std::string>();
   const auto [name, columns] = source.cast<std::pair<std::string, py::list>>();
   return columns_of(name, columns);

@@ -13,9 +13,9 @@ namespace py = pybind11;
 /// Arrays of one dimension as columns of a table: a list of (name, float64 array) of equal lengths, any
 /// strides. The arrays must outlive the result. Throws std::invalid_argument for anything else, since
 /// clackers._history makes these lists.
-exchange::NumberColumns columns_of(const std::string& name, const py::list& columns);
+input::NumberColumns columns_of(const std::string& name, const py::list& columns);
 
 /// A path, or such a list under a name: a str, or (name, list).
-exchange::Source source_of(py::handle source);
+input::Source source_of(py::handle source);
 
 }  // namespace clackers::python

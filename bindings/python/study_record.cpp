@@ -9,19 +9,19 @@
 #include "bindings/python/interrupts.hpp"
 #include "bindings/python/rows.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/record/record_json.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/html/notebook.hpp"
 #include "clackers/report/words/words.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/record/record_json.hpp"
 #include "clackers/study/solver.hpp"
 
 namespace clackers::python {
 namespace {
 
+using record::Record;
+using record::Subject;
 using report::Finding;
-using study::Record;
-using study::Subject;
 
 py::object number_or_none(bool is_known, double value) {
   return is_known ? py::object(py::float_(value)) : py::none();
@@ -35,14 +35,14 @@ std::string written(const Record& record, const std::string& format, int width) 
 }
 
 // Numbers that no run has are NaN, not None.
-py::tuple read_sheet(study::Sheet sheet) {
+py::tuple read_sheet(record::Sheet sheet) {
   for (auto& column : sheet.columns) {
     const auto known = std::ranges::find(report::columns(), column.name, &report::Column::name);
     const bool is_metric = known == report::columns().end();
     if (is_metric || known->kind == report::Kind::number || known->kind == report::Kind::error)
-      column.kind = study::ColumnKind::real;
+      column.kind = record::ColumnKind::real;
   }
-  study::SheetRows rows(sheet);
+  record::SheetRows rows(sheet);
   return read_rows(rows);
 }
 
@@ -67,9 +67,9 @@ std::vector<std::string> findings(const Subject& subject) {
   return all;
 }
 
-py::tuple level_rows(const study::CaseRecord& problem, const Subject& subject) {
+py::tuple level_rows(const record::CaseRecord& problem, const Subject& subject) {
   const auto table = report::level_table(problem, subject);
-  study::Sheet sheet{"clackers/levels/1", "Levels of " + subject.name, {}, {}};
+  record::Sheet sheet{"clackers/levels/1", "Levels of " + subject.name, {}, {}};
   for (const auto* column : table.columns)
     sheet.columns.push_back(
         {std::string(column->name), std::string(column->unit), std::string(column->meaning)});
@@ -81,19 +81,19 @@ py::tuple level_rows(const study::CaseRecord& problem, const Subject& subject) {
 }
 
 // Every run of one subject.
-py::tuple run_rows(const study::CaseRecord& problem, const Subject& subject) {
+py::tuple run_rows(const record::CaseRecord& problem, const Subject& subject) {
   auto alone = problem;
   alone.subjects = {subject};
   return read_sheet(report::run_sheet({&alone, 1}));
 }
 
-py::dict subject_of(const study::CaseRecord& problem, const Subject& subject) {
+py::dict subject_of(const record::CaseRecord& problem, const Subject& subject) {
   const auto& fit = subject.assessment.displacement;
   py::dict all;
   all["name"] = subject.name;
   all["kind"] = std::string(to_string(subject.kind));
   all["case"] = problem.problem.name;
-  all["verdict"] = std::string(study::verdict_word(subject));
+  all["verdict"] = std::string(record::verdict_word(subject));
   all["behaviour"] = std::string(to_string(fit.behaviour));
   all["order"] = number_or_none(fit.has_line, fit.order);
   all["uncertainty"] = number_or_none(fit.has_line, fit.spread);
@@ -112,12 +112,12 @@ py::object failure_of_all(const Record& record) {
   return py::make_tuple(run->score.failure, run->score.failure_code, run->printed);
 }
 
-const study::CaseRecord& case_at(const Record& record, std::size_t number) {
+const record::CaseRecord& case_at(const Record& record, std::size_t number) {
   return record.cases.at(number);
 }
 
 std::shared_ptr<Record> from_json(const std::string& text) {
-  return std::make_shared<Record>(study::record_from_json(text));
+  return std::make_shared<Record>(record::record_from_json(text));
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ void bind_record(py::module_& core) {
   py::class_<Record, std::shared_ptr<Record>>(core, "Record")
       .def_static("from_json", &from_json, py::arg("text"),
                   py::call_guard<py::gil_scoped_release>())
-      .def("to_json", &study::to_json, py::call_guard<py::gil_scoped_release>())
+      .def("to_json", &record::to_json, py::call_guard<py::gil_scoped_release>())
       .def("written", &written, py::arg("format"), py::arg("width"),
            py::call_guard<py::gil_scoped_release>())
       .def(

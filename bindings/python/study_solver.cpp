@@ -65,7 +65,7 @@ class CallableSolver : public study::Solver {
 
 study::SolverSubject solver_subject(const CallableSubject& callable, CallerThread& caller) {
   study::SolverSubject subject;
-  subject.kind = study::SubjectKind::callable;
+  subject.kind = record::SubjectKind::callable;
   subject.name = callable.name;
   subject.claim = callable.expect.value_or(Claim{});
   subject.steps = callable.steps;

@@ -18,12 +18,12 @@
 namespace clackers::python {
 namespace {
 
-py::tuple read_sheet(const study::Sheet& sheet) {
-  study::SheetRows rows(sheet);
+py::tuple read_sheet(const record::Sheet& sheet) {
+  record::SheetRows rows(sheet);
   return read_rows(rows);
 }
 
-study::Cell cell_of(py::handle value) {
+record::Cell cell_of(py::handle value) {
   if (value.is_none()) return {};
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   if (py::isinstance<py::int_>(value)) return value.cast<long long>();
@@ -34,14 +34,14 @@ study::Cell cell_of(py::handle value) {
 std::string table_text(const std::string& title,
                        const std::vector<std::pair<std::string, std::string>>& columns,
                        const std::vector<py::tuple>& rows, int width) {
-  study::Sheet sheet{"", title, {}, {}};
+  record::Sheet sheet{"", title, {}, {}};
   for (const auto& [name, unit] : columns) sheet.columns.push_back({name, unit, ""});
   for (const auto& row : rows) {
     auto& cells = sheet.rows.emplace_back();
     for (const auto value : row) cells.push_back(cell_of(value));
   }
   std::ostringstream out;
-  study::SheetRows source(sheet);
+  record::SheetRows source(sheet);
   report::write(source, report::Format::table, out, {.width = width});
   return std::move(out).str();
 }
@@ -61,24 +61,24 @@ std::string cell_text(py::handle value) {
 
 py::tuple listing(py::handle given) {
   const auto kind = read_text("catalogue", "kind", given);
-  return read_sheet(kind == "columns" ? report::list_columns() : study::list(kind));
+  return read_sheet(kind == "columns" ? report::list_columns() : tables::list(kind));
 }
 
 py::tuple explain(py::handle code) {
-  return read_sheet(study::explain(code.is_none() ? "" : read_text("explain", "code", code)));
+  return read_sheet(tables::explain(code.is_none() ? "" : read_text("explain", "code", code)));
 }
 
 // What `clackers show` shows of a case, a table each.
 py::list case_tables(const cases::Case& which, std::optional<double> share) {
   const double threshold = share.value_or(cases::default_threshold);
   py::list tables;
-  for (const auto& sheet : study::show_case(which.entry->name, which.values, threshold))
+  for (const auto& sheet : tables::show_case(which.entry->name, which.values, threshold))
     tables.append(read_sheet(sheet));
   return tables;
 }
 
 std::vector<std::string> listing_kinds() {
-  auto kinds = study::list_kinds();
+  auto kinds = tables::list_kinds();
   kinds.emplace_back("columns");
   return kinds;
 }

@@ -24,14 +24,14 @@ std::string with_methods(const std::string& text, std::span<const MethodEntry> m
 /// compute them again.
 struct AtlasResults {
   std::string origin;                        ///< who computed them
-  study::Provenance from;                    ///< with what, where and when
+  record::Provenance from;                   ///< with what, where and when
   std::string options;                       ///< of `clackers verify`, for the same steps
   std::map<std::string, std::string> calls;  ///< see report::AtlasPart
   std::string specification;
-  study::Sheet subjects, runs;
+  record::Sheet subjects, runs;
 };
 AtlasResults results_of(const Store& store, const std::string& origin,
-                        const study::Provenance& from);
+                        const record::Provenance& from);
 
 /// Results as the text of a json file, schema "clackers/atlas-results/1", and back; `name` stands in
 /// messages. Throws InputError for what is no such file: bad-syntax, not-a-campaign, other-version.
@@ -41,6 +41,6 @@ AtlasResults results_from(const std::string& text, const std::string& name);
 /// The page of a campaign, with the results of others beside it. `command` is what writes it, "atlas";
 /// `from` has the whole line. Throws InputError where no task is finished.
 std::string campaign_page(const Store& store, std::span<const AtlasResults> others,
-                          const std::string& command, const study::Provenance& from);
+                          const std::string& command, const record::Provenance& from);
 
 }  // namespace clackers::campaign

@@ -75,14 +75,15 @@ Plan plan_of(const Specification& specification, const std::vector<std::string>&
   return plan;
 }
 
-study::Sheet plan_sheet(const Plan& plan) {
-  study::Sheet sheet{
+record::Sheet plan_sheet(const Plan& plan) {
+  record::Sheet sheet{
       "clackers/campaign-plan/1",
       "",
       {{"quantity", "", ""}, {"value", "", ""}, {"unit", "", ""}, {"meaning", "", ""}},
       {}};
-  const auto add = [&](const char* name, study::Cell value, const char* unit, const char* meaning) {
-    sheet.rows.push_back({name, std::move(value), unit[0] == 0 ? study::Cell() : unit, meaning});
+  const auto add = [&](const char* name, record::Cell value, const char* unit,
+                       const char* meaning) {
+    sheet.rows.push_back({name, std::move(value), unit[0] == 0 ? record::Cell() : unit, meaning});
   };
   add("systems", plan.systems, "", "cases with the values of their parameters");
   add("tasks", plan.tasks, "", "systems times methods");

@@ -22,7 +22,7 @@ Plan plan_of(const Specification& specification, const std::vector<std::string>&
              bool timed);
 
 /// A quantity a row: what `clackers campaign plan` prints.
-study::Sheet plan_sheet(const Plan& plan);
+record::Sheet plan_sheet(const Plan& plan);
 
 /// Runs beyond this are not started unasked.
 inline constexpr double most_runs_unasked = 1e7;

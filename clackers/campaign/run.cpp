@@ -61,7 +61,7 @@ class Finished {
 
 RunSummary run_campaign(const Specification& specification, Store& store, TaskSource& source,
                         const RunOptions& options, const std::atomic<bool>* interrupt) {
-  const auto workers = static_cast<std::size_t>(study::thread_count(options.jobs));
+  const auto workers = static_cast<std::size_t>(thread_count(options.jobs));
   const auto solvers = solvers_of(specification, options.plugin_host);
   Finished finished;
   std::exception_ptr failure;
@@ -76,7 +76,7 @@ RunSummary run_campaign(const Specification& specification, Store& store, TaskSo
   };
   std::jthread crew([&] {
     try {
-      study::run_all(workers, static_cast<int>(workers), [&](std::size_t) {
+      run_all(workers, static_cast<int>(workers), [&](std::size_t) {
         try {
           serve();
         } catch (...) {

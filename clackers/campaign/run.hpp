@@ -19,7 +19,7 @@ struct RunSummary {
 
 struct RunOptions {
   int jobs = 0;  ///< worker threads; 0: one a processor
-  /// The words that call study::host_plugin(), for plug-ins.
+  /// The words that call solvers::host_plugin(), for plug-ins.
   std::vector<std::string> plugin_host{};
   /// Called by the calling thread now and then with what was stored so far.
   std::function<void(const RunSummary&)> progress{};

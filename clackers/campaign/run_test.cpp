@@ -126,18 +126,18 @@ TEST_F(Campaign, RefusedSystemsAndMethodsAreFinishedTasks) {
   const auto value = [&](const TaskRows& rows, std::string_view name) {
     for (std::size_t i = 1; i < columns.size(); ++i)
       if (columns[i].name == name) return rows.subject[i - 1];
-    return study::Cell();
+    return record::Cell();
   };
   for (const long long task : {0, 1}) {
     const auto rows = runner.run(task);
     ASSERT_TRUE(rows);
     EXPECT_TRUE(rows->runs.empty());
-    EXPECT_EQ(value(*rows, "verdict"), study::Cell("refused"));
-    EXPECT_EQ(value(*rows, "method"), study::Cell("newmark+penalty"));
-    EXPECT_EQ(value(*rows, "case"), study::Cell("synchronized-pair"));
-    EXPECT_EQ(value(*rows, "set_X"), study::Cell(task == 0 ? 8.0 : 9.0));
+    EXPECT_EQ(value(*rows, "verdict"), record::Cell("refused"));
+    EXPECT_EQ(value(*rows, "method"), record::Cell("newmark+penalty"));
+    EXPECT_EQ(value(*rows, "case"), record::Cell("synchronized-pair"));
+    EXPECT_EQ(value(*rows, "set_X"), record::Cell(task == 0 ? 8.0 : 9.0));
   }
-  EXPECT_EQ(value(*runner.run(1), "refusal_code"), study::Cell("penalty-needs-elastic"));
+  EXPECT_EQ(value(*runner.run(1), "refusal_code"), record::Cell("penalty-needs-elastic"));
 }
 
 TEST_F(Campaign, PlanCountsWhatIsRun) {

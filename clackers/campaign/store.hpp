@@ -51,12 +51,12 @@ class Store {
 
   /// The rows of a table in the order of (task, run); `runs` with the columns of its subject before its
   /// own. With times, a column `seconds` behind. The store must outlive the rows.
-  std::unique_ptr<study::RowSource> rows(TableName table, bool with_times = false) const;
+  std::unique_ptr<record::RowSource> rows(TableName table, bool with_times = false) const;
   /// The columns of numbers alone, what is empty NaN: NumPy's format takes these.
-  std::unique_ptr<study::RowSource> numbers(TableName table, bool with_times = false) const;
+  std::unique_ptr<record::RowSource> numbers(TableName table, bool with_times = false) const;
   /// The rows of a statement in SQL that only reads; `kinds` of columns are any. Throws InputError
   /// (bad-syntax) with what SQLite says.
-  std::unique_ptr<study::RowSource> query(const std::string& sql) const;
+  std::unique_ptr<record::RowSource> query(const std::string& sql) const;
 
  private:
   struct Connection;

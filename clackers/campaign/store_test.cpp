@@ -24,7 +24,7 @@ class StoreTest : public test::DatabaseTest {
     for (std::size_t i = 1; i < tables.subjects.size(); ++i)
       rows.subject.emplace_back(double(task) + double(i) / 16.0);
     for (std::size_t run = 0; run < runs; ++run) {
-      rows.runs.emplace_back(tables.runs.size() - 2, study::Cell(double(run)));
+      rows.runs.emplace_back(tables.runs.size() - 2, record::Cell(double(run)));
       rows.seconds.push_back(0.25);
     }
     return rows;
@@ -53,11 +53,11 @@ TEST_F(StoreTest, RowsComeInOrderAndTimesOnRequest) {
   EXPECT_EQ(timed->columns().back().name, "seconds");
   const auto rows = read(*timed);
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(rows[i][0], study::Cell(i < 2 ? 1LL : 3LL));
-    EXPECT_EQ(rows[i][1], study::Cell(i % 2 == 0 ? 1LL : 2LL));
-    EXPECT_EQ(rows[i].back(), study::Cell(0.25));
+    EXPECT_EQ(rows[i][0], record::Cell(i < 2 ? 1LL : 3LL));
+    EXPECT_EQ(rows[i][1], record::Cell(i % 2 == 0 ? 1LL : 2LL));
+    EXPECT_EQ(rows[i].back(), record::Cell(0.25));
   }
-  EXPECT_EQ(read(*store.rows(TableName::subjects, true))[0].back(), study::Cell(0.5));
+  EXPECT_EQ(read(*store.rows(TableName::subjects, true))[0].back(), record::Cell(0.5));
 }
 
 TEST_F(StoreTest, NumbersLeaveTextOut) {
@@ -162,7 +162,7 @@ TEST_F(StoreTest, FileWithoutTablesIsANewDatabase) {
 TEST_F(StoreTest, QueriesOnlyRead) {
   fill(path("a.db"), {0, 1});
   const auto store = Store::open(path("a.db"));
-  EXPECT_EQ(read(*store.query("SELECT count(*) FROM runs;"))[0][0], study::Cell(4LL));
+  EXPECT_EQ(read(*store.query("SELECT count(*) FROM runs;"))[0][0], record::Cell(4LL));
   EXPECT_EQ(store.query("SELECT task AS number FROM runs")->columns()[0].name, "number");
   EXPECT_REFUSED(store.query("DELETE FROM runs"), "bad-syntax", "SELECT");
   EXPECT_REFUSED(store.query("SELEC 1"), "bad-syntax", "syntax error");

@@ -5,14 +5,14 @@
 
 #include "clackers/campaign/tasks/prepared_system.hpp"
 #include "clackers/report/columns.hpp"
-#include "clackers/study/check.hpp"
 #include "clackers/solvers/plugin.hpp"
+#include "clackers/study/check.hpp"
 
 namespace clackers::campaign {
 namespace {
 
-using study::Cell;
-using study::ColumnKind;
+using record::Cell;
+using record::ColumnKind;
 
 // Processor times differ from run to run and stand in a table of their own.
 bool is_kept(const report::Column& column) { return column.in_rows && column.name != "seconds"; }
@@ -22,7 +22,7 @@ ColumnKind kind_of(report::Kind kind) {
   return is_number(kind) ? ColumnKind::real : ColumnKind::any;
 }
 
-study::Column column_of(const report::Column& column) {
+record::Column column_of(const report::Column& column) {
   return {std::string(column.name), std::string(column.unit), std::string(column.meaning),
           kind_of(column.kind)};
 }
@@ -66,21 +66,22 @@ std::vector<Cell> run_cells(const Specification& specification, const report::Ro
 
 study::SolverSubject solver_of(const Specification& specification, const MethodEntry& method,
                                const std::vector<std::string>& plugin_host) {
-  study::ProcessOptions options;
+  solvers::ProcessOptions options;
   options.tolerances = specification.ladder().tolerances;
   if (!method.expect.empty()) options.expect = study::claim_from(method.expect);
   if (method.kind == MethodEntry::Kind::command)
     return std::move(
-        study::subjects_of(study::ProgramRequest{options, {{method.text, method.name}}}).front());
-  return std::move(
-      study::subjects_of(study::PluginRequest{options, {{method.text, method.name}}, plugin_host})
-          .front());
+        solvers::subjects_of(solvers::ProgramRequest{options, {{method.text, method.name}}})
+            .front());
+  return std::move(solvers::subjects_of(
+                       solvers::PluginRequest{options, {{method.text, method.name}}, plugin_host})
+                       .front());
 }
 
 }  // namespace
 
 Tables tables_of(const Specification& specification) {
-  const study::Column task{"task", "", "number of the task, from 0", ColumnKind::whole};
+  const record::Column task{"task", "", "number of the task, from 0", ColumnKind::whole};
   Tables tables;
   tables.subjects = {task, {"system", "", "number of the system, from 0", ColumnKind::whole}};
   for (const auto& name : specification.parameters())

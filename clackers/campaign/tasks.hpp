@@ -25,22 +25,22 @@ struct TaskBlock {
 /// specification and the task's number, but for `seconds`.
 struct TaskRows {
   long long task = 0;
-  std::vector<study::Cell> subject;
-  std::vector<std::vector<study::Cell>> runs;  ///< run 1 is the first of the coarsest level
-  std::vector<double> seconds;                 ///< processor time of each run
+  std::vector<record::Cell> subject;
+  std::vector<std::vector<record::Cell>> runs;  ///< run 1 is the first of the coarsest level
+  std::vector<double> seconds;                  ///< processor time of each run
 };
 
 /// The columns of a campaign's tables, taken from the one table of report/columns.hpp.
 struct Tables {
-  std::vector<study::Column>
-      subjects;                     ///< task, system, set_NAME..., all columns of a subject's row
-  std::vector<study::Column> runs;  ///< task, run, the columns that differ between runs, metrics
+  std::vector<record::Column>
+      subjects;                      ///< task, system, set_NAME..., all columns of a subject's row
+  std::vector<record::Column> runs;  ///< task, run, the columns that differ between runs, metrics
 };
 Tables tables_of(const Specification& specification);
 
 /// The commands and plug-ins of a specification, ready to run; one for each method, nothing for those of
-/// the catalogue. `plugin_host` are the words that call study::host_plugin(). Throws as
-/// study::subjects_of() does.
+/// the catalogue. `plugin_host` are the words that call solvers::host_plugin(). Throws as
+/// solvers::subjects_of() does.
 std::vector<std::optional<study::SolverSubject>> solvers_of(
     const Specification& specification, const std::vector<std::string>& plugin_host);
 

@@ -6,7 +6,6 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/model/problem_file.hpp"
 #include "clackers/cases/row.hpp"
 #include "clackers/exact/event_driven/piecewise_motion.hpp"
 #include "clackers/exact/orbit/cradle.hpp"
@@ -14,6 +13,7 @@
 #include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/exact/penalized/penalized_motion.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/model/problem_file.hpp"
 
 namespace clackers::cases {
 namespace {
@@ -202,7 +202,8 @@ void build_penalized(Case& which, const Values& value, double) {
 
 void build_piecewise(Case& which, const Values& value, double) {
   const auto file = value("problem").text();
-  which.problem = file == "example" ? problem_from_toml(example_problem, file) : read_problem(file);
+  which.problem = file == "example" ? model::problem_from_toml(model::example_problem, file)
+                                    : model::read_problem(file);
   const auto motion =
       std::make_shared<const exact::PiecewiseMotion>(which.problem, which.entry->name);
   which.motion = motion;

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "clackers/judge/convergence/assessment.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/diagnose/limit.hpp"
 #include "clackers/diagnose/observation.hpp"
+#include "clackers/judge/convergence/assessment.hpp"
 
 namespace clackers::diagnose {
 
@@ -18,9 +18,9 @@ struct Question {
   const model::Motion& motion;
   /// The finished histories, coarsest first; empty for a method whose runs are not stored.
   std::span<const Observation> histories;
-  const assess::Ladder& ladder;           ///< all runs, failed ones as well
-  const assess::LadderFit& displacement;  ///< the fit of their errors
-  const assess::LadderFit& velocity;
+  const measure::Ladder& ladder;         ///< all runs, failed ones as well
+  const judge::LadderFit& displacement;  ///< the fit of their errors
+  const judge::LadderFit& velocity;
   Limit limit{};              ///< limit_of() the histories
   bool by_tolerance = false;  ///< the ladder is of tolerances, not of steps
 };

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "clackers/measure/errors/comparison.hpp"
 #include "clackers/diagnose/ladder/error_curve.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
+#include "clackers/measure/errors/comparison.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
 namespace clackers::diagnose {
@@ -190,7 +190,7 @@ Limit limit_of(std::span<const Observation> histories, const model::ImpactProble
   limit.order = order_of(differences, h);
   const double floor =
       std::max({finest.facts.floor, std::numeric_limits<double>::epsilon() * double(finest.rows),
-                assess::relative_bound(motion, scale, finest.last)});
+                measure::relative_bound(motion, scale, finest.last)});
   if (!(limit.distance > above_floor * floor)) return limit;
   if (may_be_chance(finest, limit, scale.u.maxCoeff(), other_grids, problem)) return limit;
   const auto most = [&](double order, double cap) {

@@ -58,6 +58,6 @@ inline constexpr std::size_t most_sample_rows = 1500, most_opening_rows = 4096,
 
 /// What diagnosis keeps of a compared history. One pass over its rows: 1e6 rows take a few
 /// milliseconds.
-Observation observe(const assess::Comparison& comparison, const FileFacts& facts);
+Observation observe(const measure::Comparison& comparison, const FileFacts& facts);
 
 }  // namespace clackers::diagnose

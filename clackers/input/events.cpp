@@ -10,7 +10,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/input/table.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 using Column = std::optional<std::size_t>;
@@ -94,4 +94,4 @@ std::vector<model::Impact> read_events(const Source& source, int dof, int contac
   return impacts;
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -7,7 +7,7 @@
 #include "clackers/input/source.hpp"
 #include "clackers/model/trajectory.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// Reads a list of collisions from any source: a column t and, where they are known, impulse, u1,
 /// v1-, v1+, u2, ... (v-, v+ for one mass); one column alone needs no name. Other columns are left
@@ -20,4 +20,4 @@ namespace clackers::exchange {
 std::vector<model::Impact> read_events(const Source& source, int dof, int contacts = 1,
                                        const std::atomic<bool>* interrupt = nullptr);
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -12,7 +12,7 @@
 #include "clackers/input/table.hpp"
 #include "clackers/input/text/printed_digits.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 // One column of a source and the vector its numbers go to.
@@ -192,4 +192,4 @@ History read_history(const Source& source, const HistoryOptions& options) {
   return Reader(*table, options).run();
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

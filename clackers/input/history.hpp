@@ -8,7 +8,7 @@
 #include "clackers/input/source.hpp"
 #include "clackers/model/trajectory.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// Something a reader should know of a source. A code and its numbers, as study/notes.hpp lists them.
 struct ReadNote {
@@ -70,4 +70,4 @@ struct History {
 /// file of numbers (not-an-array); FileError when a file cannot be read.
 History read_history(const Source& source, const HistoryOptions& options);
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

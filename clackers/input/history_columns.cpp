@@ -7,7 +7,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/text.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 // For a message: of many names the first.
@@ -99,4 +99,4 @@ HistoryColumns history_columns(const std::string& path, const std::vector<std::s
   return columns;
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -6,7 +6,7 @@
 
 #include "clackers/input/history.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// Which column of a file holds what.
 struct HistoryColumns {
@@ -23,4 +23,4 @@ struct HistoryColumns {
 HistoryColumns history_columns(const std::string& path, const std::vector<std::string>& names,
                                const HistoryOptions& options, std::vector<ReadNote>& notes);
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -7,7 +7,7 @@
 #include "clackers/input/events.hpp"
 #include "clackers/input/testing/test_file.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -171,4 +171,4 @@ TEST(Events, MayBeTimesAloneOrNone) {
 }
 
 }  // namespace
-}  // namespace clackers::exchange
+}  // namespace clackers::input

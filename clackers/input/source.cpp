@@ -1,6 +1,6 @@
 #include "clackers/input/source.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 std::string name_of(const Source& source) {
   if (const auto* columns = std::get_if<NumberColumns>(&source)) return columns->name;
@@ -22,4 +22,4 @@ bool is_given(const Source& source) {
   return std::holds_alternative<NumberColumns>(source) || !std::get<std::string>(source).empty();
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

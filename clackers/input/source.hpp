@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// A column of doubles in memory.
 struct NumberColumn {
@@ -34,4 +34,4 @@ std::string given_name(const Source& source);
 /// False for an empty path, which stands for no source.
 bool is_given(const Source& source);
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -8,7 +8,7 @@
 #include "clackers/input/testing/test_columns.hpp"
 #include "clackers/input/testing/test_file.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 // The same refusal of a file and of memory, each with its own place.
@@ -93,4 +93,4 @@ TEST(SourcesRefused, LeaveColumnsWithoutNumbersOut) {
 }
 
 }  // namespace
-}  // namespace clackers::exchange
+}  // namespace clackers::input

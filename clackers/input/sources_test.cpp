@@ -10,7 +10,7 @@
 #include "clackers/input/testing/test_columns.hpp"
 #include "clackers/input/testing/test_file.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 void expect_same(const History& found, const History& expected) {
@@ -175,4 +175,4 @@ TEST(Sources, HaveNames) {
 }
 
 }  // namespace
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -9,7 +9,7 @@
 #include "clackers/input/text/separation.hpp"
 #include "clackers/input/text/text_table.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 void Table::refuse_not_finite(std::size_t column, std::string_view shown) const {
   refuse(place(), names_[column], shown, "a finite number that a double can hold",
@@ -35,4 +35,4 @@ std::string plain_name(std::string_view text) {
   return name;
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -9,7 +9,7 @@
 #include "clackers/input/history.hpp"
 #include "clackers/input/text/number.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// What a table is expected to be.
 enum class TableKind {
@@ -73,4 +73,4 @@ std::unique_ptr<Table> open_table(const Source& source, const std::vector<std::s
 /// "U1 [m]" is u1.
 std::string plain_name(std::string_view text);
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

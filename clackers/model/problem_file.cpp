@@ -12,7 +12,7 @@
 #include "clackers/base/toml_reader.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
-namespace clackers::cases {
+namespace clackers::model {
 
 const std::string_view example_problem =
     R"(# A frame of two storeys beside a tower; the roof strikes it. SI units.
@@ -214,4 +214,4 @@ model::ImpactProblem<> read_problem(const std::string& path) {
   return problem_from_toml(text, path);
 }
 
-}  // namespace clackers::cases
+}  // namespace clackers::model

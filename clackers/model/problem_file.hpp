@@ -6,7 +6,7 @@
 #include "clackers/model/impact_problem.hpp"
 
 // Problems of files in TOML: M a + C v + K u = f(t) with contacts, in SI units.
-namespace clackers::cases {
+namespace clackers::model {
 
 /// A problem as an example of the format; what the case `piecewise` is without a file.
 extern const std::string_view example_problem;
@@ -35,4 +35,4 @@ model::ImpactProblem<> problem_from_toml(std::string_view text, const std::strin
 /// The same of a file. Throws FileError (cannot-read) too.
 model::ImpactProblem<> read_problem(const std::string& path);
 
-}  // namespace clackers::cases
+}  // namespace clackers::model

@@ -9,7 +9,7 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
-namespace clackers::cases {
+namespace clackers::model {
 namespace {
 
 // Two masses; each test changes one line.
@@ -136,4 +136,4 @@ TEST(ProblemFile, CaseReadsAFileOrTheExample) {
 }
 
 }  // namespace
-}  // namespace clackers::cases
+}  // namespace clackers::model

@@ -13,7 +13,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
-namespace clackers::study {
+namespace clackers::model {
 namespace {
 
 using Problem = model::ImpactProblem<>;
@@ -212,4 +212,4 @@ Problem problem_from_text(std::string_view text) {
   return problem;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::model

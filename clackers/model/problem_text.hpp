@@ -6,7 +6,7 @@
 #include "clackers/model/impact_problem.hpp"
 
 // A problem as other programs read it. Numbers read back to the same double.
-namespace clackers::study {
+namespace clackers::model {
 
 /// The json object `problem`, as `show CASE --format json` has it:
 ///
@@ -48,4 +48,4 @@ std::string problem_file_text(const model::ImpactProblem<>& problem);
 /// The problem of problem_file_text(). Throws InputError (bad-syntax) for other text.
 model::ImpactProblem<> problem_from_text(std::string_view text);
 
-}  // namespace clackers::study
+}  // namespace clackers::model

@@ -9,7 +9,7 @@
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
-namespace clackers::study {
+namespace clackers::model {
 namespace {
 
 model::ImpactProblem<> two_masses() {
@@ -105,4 +105,4 @@ TEST(ProblemText, RefusesOtherLoads) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::model

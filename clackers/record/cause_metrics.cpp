@@ -10,19 +10,19 @@
 #include <optional>
 #include <string>
 
+#include "clackers/base/error.hpp"
+#include "clackers/exact/penalized/penalized_motion.hpp"
 #include "clackers/measure/metrics/detuning.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/measure/metrics/penalty_split.hpp"
 #include "clackers/measure/metrics/synchrony.hpp"
-#include "clackers/base/error.hpp"
-#include "clackers/exact/penalized/penalized_motion.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
-using assess::measured;
-using assess::MetricValue;
-using assess::not_measured;
+using measure::measured;
+using measure::MetricValue;
+using measure::not_measured;
 
 constexpr auto table = std::to_array<CauseMetric>({
     {"synchrony-loss-index", "1",
@@ -56,7 +56,7 @@ struct Synchrony {
   MetricValue lost, growth, detuning, predicted, share;
 };
 
-void explain(const assess::SynchronyLoss& loss, double eps, double rate, Synchrony& out) {
+void explain(const measure::SynchronyLoss& loss, double eps, double rate, Synchrony& out) {
   if (!(rate > 0.0)) {
     out.predicted = out.share = not_measured("On this case no detuning grows.");
     return;
@@ -65,13 +65,13 @@ void explain(const assess::SynchronyLoss& loss, double eps, double rate, Synchro
     out.predicted = out.share = not_measured("The method's frequencies are true.");
     return;
   }
-  const auto part = assess::explained_by_detuning(loss, {.rate = rate, .eta = 1.0, .eps = eps});
+  const auto part = measure::explained_by_detuning(loss, {.rate = rate, .eta = 1.0, .eps = eps});
   out.predicted = measured(part.collision);
   out.share = std::isnan(out.growth.value) ? not_measured(out.growth.reason) : measured(part.share);
 }
 
-Synchrony synchrony(const assess::Comparison& comparison, double rate) {
-  const auto loss = assess::synchrony_loss(comparison);
+Synchrony synchrony(const measure::Comparison& comparison, double rate) {
+  const auto loss = measure::synchrony_loss(comparison);
   Synchrony out;
   if (loss.collisions == 0)
     out.lost = not_measured("The history or the reference has no collisions.");
@@ -87,13 +87,13 @@ Synchrony synchrony(const assess::Comparison& comparison, double rate) {
         not_measured("Momenta after the collisions before the loss are too few or unknown.");
   else
     out.growth = measured(loss.growth);
-  const auto found = assess::flight_frequencies(comparison);
+  const auto found = measure::flight_frequencies(comparison);
   if (found.errors.size() != 2) {
     out.detuning = out.predicted = out.share =
         not_measured(found.reason.empty() ? "There is no pair of masses." : found.reason);
     return out;
   }
-  const double eps = assess::detuning(comparison, found);
+  const double eps = measure::detuning(comparison, found);
   out.detuning = measured(eps);
   explain(loss, eps, rate, out);
   return out;
@@ -106,17 +106,17 @@ double stiffness_of(const model::ImpactProblem<>& problem, double contact_time) 
   return std::pow(std::numbers::pi / contact_time, 2) / mobility;
 }
 
-assess::PenaltySplit split(const assess::Comparison& comparison, double contact_time) {
+measure::PenaltySplit split(const measure::Comparison& comparison, double contact_time) {
   const auto none = [](const std::string& reason) {
-    return assess::PenaltySplit{not_measured(reason), not_measured(reason), not_measured(reason),
-                                not_measured(reason)};
+    return measure::PenaltySplit{not_measured(reason), not_measured(reason), not_measured(reason),
+                                 not_measured(reason)};
   };
   const auto& problem = comparison.problem();
   if (!(contact_time > 0.0) || problem.contacts.size() != 1)
     return none("No contact spring of the run is known.");
   try {
     const exact::PenalizedMotion penalized(problem, stiffness_of(problem, contact_time));
-    return assess::penalty_split(comparison, penalized);
+    return measure::penalty_split(comparison, penalized);
   } catch (const InputError& error) {
     return none(error.what());
   }
@@ -131,7 +131,7 @@ RunFacts facts_of(const CaseSummary& problem, double contact_time) {
   return {rate == problem.constants.end() ? 0.0 : rate->value, contact_time};
 }
 
-std::vector<MetricResult> cause_results(const assess::Comparison& comparison,
+std::vector<MetricResult> cause_results(const measure::Comparison& comparison,
                                         const RunFacts& facts) {
   const auto lost = synchrony(comparison, facts.detuning_rate);
   const auto parts = split(comparison, facts.contact_time);
@@ -146,11 +146,11 @@ std::vector<MetricResult> cause_results(const assess::Comparison& comparison,
   return all;
 }
 
-std::optional<std::vector<MetricResult>> all_metrics(const assess::Comparison& comparison,
+std::optional<std::vector<MetricResult>> all_metrics(const measure::Comparison& comparison,
                                                      const RunFacts& facts, const MetricsDone& done,
                                                      const std::atomic<bool>* interrupt) {
   std::vector<MetricResult> all;
-  const auto table_of_metrics = assess::metrics();
+  const auto table_of_metrics = measure::metrics();
   for (const auto& metric : table_of_metrics) {
     if (interrupt != nullptr && *interrupt) return {};
     auto found = metric.measure(comparison);
@@ -163,4 +163,4 @@ std::optional<std::vector<MetricResult>> all_metrics(const assess::Comparison& c
   return all;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -11,9 +11,9 @@
 #include "clackers/record/metric_result.hpp"
 #include "clackers/record/record.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 
-/// A number that gives a cause of a run's error. Unlike assess::Metric it needs more than history and reference.
+/// A number that gives a cause of a run's error. Unlike measure::Metric it needs more than history and reference.
 struct CauseMetric {
   std::string_view name, unit, definition, source;
 };
@@ -33,17 +33,17 @@ RunFacts facts_of(const CaseSummary& problem, double contact_time);
 
 /// Where synchrony is lost and what part of it the method's own frequencies explain; what part of an
 /// error is the contact spring's and what part the integration's.
-std::vector<MetricResult> cause_results(const assess::Comparison& comparison,
+std::vector<MetricResult> cause_results(const measure::Comparison& comparison,
                                         const RunFacts& facts);
 
 /// Called now and then with the share that is done, in [0, 1].
 using MetricsDone = std::function<void(double share)>;
 
-/// All metrics of a history, in the order of assess::metrics(), then cause_results(). Nothing when
+/// All metrics of a history, in the order of measure::metrics(), then cause_results(). Nothing when
 /// `interrupt` becomes true.
-std::optional<std::vector<MetricResult>> all_metrics(const assess::Comparison& comparison,
+std::optional<std::vector<MetricResult>> all_metrics(const measure::Comparison& comparison,
                                                      const RunFacts& facts,
                                                      const MetricsDone& done = {},
                                                      const std::atomic<bool>* interrupt = nullptr);
 
-}  // namespace clackers::study
+}  // namespace clackers::record

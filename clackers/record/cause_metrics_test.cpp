@@ -14,7 +14,7 @@
 #include "clackers/model/trajectory.hpp"
 #include "clackers/study/verify/verify_plan.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 // What a run of a method on a case shows.
@@ -34,7 +34,7 @@ Shown shown(const char* method, const char* name, const cases::Settings& setting
   const auto made = methods::method(method);
   model::TrajectorySink sink(true);
   made->prepare(one.problem, h)->advance(sink);
-  const assess::Comparison comparison(sink.trajectory(), *one.motion, one.problem);
+  const measure::Comparison comparison(sink.trajectory(), *one.motion, one.problem);
   const auto contact_time = made->contact_time(one.problem);
   return {cause_results(comparison, facts_of(summary_of(one), contact_time))};
 }
@@ -95,10 +95,10 @@ TEST(CauseMetrics, TellWhyThePenalizedMotionIsNotKnown) {
   problem.contacts[0].restitution = 0.5;
   model::TrajectorySink sink(true);
   methods::method("rk4")->prepare(pair.problem, 0.01)->advance(sink);
-  const assess::Comparison comparison(sink.trajectory(), *pair.motion, problem);
+  const measure::Comparison comparison(sink.trajectory(), *pair.motion, problem);
   const auto all = cause_results(comparison, {.detuning_rate = 0.0, .contact_time = 0.01});
   EXPECT_NE(all[5].reason.find("restitution"), std::string::npos) << all[5].reason;
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::record

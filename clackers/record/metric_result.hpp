@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace clackers::study {
+namespace clackers::record {
 
 /// A metric of one history.
 struct MetricResult {
@@ -16,4 +16,4 @@ struct MetricResult {
   bool across_jumps = true;
 };
 
-}  // namespace clackers::study
+}  // namespace clackers::record

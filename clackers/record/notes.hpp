@@ -8,9 +8,9 @@
 
 #include "clackers/record/record.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 
-/// A code of study::Note: what it says, and what its numbers and its text are.
+/// A code of record::Note: what it says, and what its numbers and its text are.
 struct NoteEntry {
   std::string_view code, meaning;
   std::string_view numbers;  ///< in their order, "; " between them; empty for none
@@ -62,4 +62,4 @@ inline Note note(NoteCode code, std::vector<double> numbers = {}, std::string te
   return {std::string(code.name()), std::move(numbers), std::move(text)};
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

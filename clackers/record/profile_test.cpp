@@ -6,7 +6,7 @@
 
 #include "clackers/record/record.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 // Four levels of one run each, errors 0.05, 0.005, 0.0005, 0.00005 times `factor`, and steps
@@ -15,7 +15,7 @@ Subject method(const std::string& name, double factor, long long price) {
   Subject result;
   result.name = name;
   for (int level = 0; level < 4; ++level) {
-    assess::RunScore run;
+    measure::RunScore run;
     run.step = 0.1 * std::exp2(-level);
     run.finished = true;
     run.u_error = factor * 0.05 * std::pow(10.0, -level);
@@ -86,4 +86,4 @@ TEST(Profiles, DoNotExistOfInterruptedStudiesOrWhereNothingIsReached) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::record

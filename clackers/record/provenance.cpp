@@ -12,7 +12,7 @@
 #error "the build gives CLACKERS_VERSION, the version of the project"
 #endif
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 std::string compiler_name() {
@@ -60,4 +60,4 @@ Provenance provenance(std::string command) {
           machine_name(),     processor_name(cpuinfo), now_utc()};
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -4,7 +4,7 @@
 
 #include "clackers/record/record.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 
 /// Who computes here and now: version, compiler, machine, processor, date. What the machine
 /// does not provide stays "unknown".
@@ -13,4 +13,4 @@ Provenance provenance(std::string command);
 /// The processor's name in the text of /proc/cpuinfo, or "unknown".
 std::string processor_name(const std::string& cpuinfo);
 
-}  // namespace clackers::study
+}  // namespace clackers::record

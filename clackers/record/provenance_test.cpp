@@ -4,7 +4,7 @@
 
 #include <regex>
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 TEST(Provenance, SaysWhoComputesHereAndNow) {
@@ -29,4 +29,4 @@ TEST(Provenance, ReadsTheProcessorsName) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 std::string_view to_string(Mismatch mismatch) {
   constexpr std::string_view names[] = {
@@ -10,9 +10,9 @@ std::string_view to_string(Mismatch mismatch) {
   return names[static_cast<std::size_t>(mismatch)];
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 void add(Counts& to, const Counts& more) {
@@ -64,10 +64,10 @@ const Run* Subject::shown_run() const {
 }
 
 LevelScore worst(const Level& level) {
-  std::vector<assess::RunScore> scores;
+  std::vector<measure::RunScore> scores;
   for (const auto& run : level.runs) scores.push_back(run.score);
-  LevelScore score{level.step, assess::worst(scores), int(level.runs.size()), 0};
-  score.failed = int(std::ranges::count(scores, false, &assess::RunScore::finished));
+  LevelScore score{level.step, measure::worst(scores), int(level.runs.size()), 0};
+  score.failed = int(std::ranges::count(scores, false, &measure::RunScore::finished));
   return score;
 }
 
@@ -79,8 +79,8 @@ LevelScore worst_of_finest(const Subject& subject) {
   return none;
 }
 
-assess::Ladder ladder_of(const Subject& subject) {
-  assess::Ladder ladder;
+measure::Ladder ladder_of(const Subject& subject) {
+  measure::Ladder ladder;
   for (const auto& level : subject.levels) {
     ladder.push_back({level.step, {}});
     for (const auto& run : level.runs) ladder.back().runs.push_back(run.score);
@@ -132,4 +132,4 @@ int exit_code(const Record& record) {
   return any(record, Verdict::undecided) ? 3 : 0;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

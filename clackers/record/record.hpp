@@ -8,23 +8,23 @@
 #include <utility>
 #include <vector>
 
-#include "clackers/judge/convergence/assessment.hpp"
-#include "clackers/measure/errors/score.hpp"
 #include "clackers/base/judgement.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
+#include "clackers/judge/convergence/assessment.hpp"
+#include "clackers/measure/errors/score.hpp"
 #include "clackers/record/metric_result.hpp"
 #include "clackers/record/profile.hpp"
 #include "clackers/record/schematic.hpp"
 #include "clackers/record/self_result.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 /// "", "behaviour", "lower-order", "higher-order", "floor-reason", "evidence".
 std::string_view to_string(Mismatch mismatch);
-}  // namespace clackers::assess
+}  // namespace clackers::judge
 
 // The one record of every study: verify and check fill it, for one case or for several; every
 // output format, --report and --baseline reads it.
-namespace clackers::study {
+namespace clackers::record {
 
 /// A number with its unit and meaning.
 struct Quantity {
@@ -133,7 +133,7 @@ struct HistoryFile {
 
 /// One run against the reference solution: a run of a method, or a history somebody's program wrote.
 struct Run {
-  assess::RunScore score;             ///< NaN where a history lacks what an error needs
+  measure::RunScore score;            ///< NaN where a history lacks what an error needs
   std::optional<HistoryFile> file;    ///< of a history
   std::vector<MetricResult> metrics;  ///< empty where none were measured
   Curve error_history;    ///< |error in u| / envelope against time; empty where none was kept
@@ -172,7 +172,7 @@ struct Subject {
   std::vector<Level> levels;             ///< coarsest first
   std::optional<Refinement> refinement;  ///< nothing where the plan of the case was enough
   /// Behaviour, verdict, reason (a code) and numbers; `assessment.verdict` is the verdict.
-  assess::Assessment assessment;
+  judge::Assessment assessment;
   /// Without the reference solution; nothing where no level was finished, or where no order is
   /// claimed that differences could be compared with.
   std::optional<SelfResult> self_convergence;
@@ -214,14 +214,14 @@ struct Record {
 /// errors and no impacts.
 struct LevelScore {
   double step = 0.0;  ///< nominal [s]
-  assess::RunScore worst;
+  measure::RunScore worst;
   int runs = 0, failed = 0;
 };
 LevelScore worst(const Level& level);
 /// Of the finest level that has runs; NaN without one.
 LevelScore worst_of_finest(const Subject& subject);
 /// The scores alone, as assess reads them.
-assess::Ladder ladder_of(const Subject& subject);
+measure::Ladder ladder_of(const Subject& subject);
 
 Counts counts(const CaseRecord& record);
 Counts counts(const Record& record);
@@ -232,4 +232,4 @@ std::string_view verdict_word(const Subject& subject);
 /// that refused the case counts for nothing. 130 for an interrupted record.
 int exit_code(const Record& record);
 
-}  // namespace clackers::study
+}  // namespace clackers::record

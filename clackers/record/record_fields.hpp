@@ -5,7 +5,7 @@
 
 #include "clackers/record/record.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 
 /// T, or const T: one list of fields serves writing and reading.
 template <class T, class Base>
@@ -156,7 +156,7 @@ void fields(Archive& archive, Like<model::Work> auto& x) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::ImpactScore> auto& x) {
+void fields(Archive& archive, Like<measure::ImpactScore> auto& x) {
   archive("expected", x.expected);
   archive("found", x.found);
   archive("matched", x.matched);
@@ -167,7 +167,7 @@ void fields(Archive& archive, Like<assess::ImpactScore> auto& x) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::RunScore> auto& x) {
+void fields(Archive& archive, Like<measure::RunScore> auto& x) {
   archive("step", x.step);
   archive("finished", x.finished);
   archive("failure_code", x.failure_code);
@@ -208,7 +208,7 @@ void fields(Archive& archive, Like<Claim> auto& x) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::LadderFit> auto& x) {
+void fields(Archive& archive, Like<judge::LadderFit> auto& x) {
   archive("behaviour", x.behaviour);
   archive("reason", x.reason);
   archive("has_line", x.has_line);
@@ -232,14 +232,14 @@ void fields(Archive& archive, Like<assess::LadderFit> auto& x) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::Evidence> auto& x) {
+void fields(Archive& archive, Like<judge::Evidence> auto& x) {
   archive("code", x.code);
   archive("verdict", x.verdict);
   archive("numbers", x.numbers);
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::Assessment> auto& x) {
+void fields(Archive& archive, Like<judge::Assessment> auto& x) {
   archive("displacement", x.displacement);
   archive("velocity", x.velocity);
   archive("impact_time", x.impact_time);
@@ -250,21 +250,21 @@ void fields(Archive& archive, Like<assess::Assessment> auto& x) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::SelfConvergence> auto& x) {
+void fields(Archive& archive, Like<judge::SelfConvergence> auto& x) {
   archive("differences", x.differences);
   archive("proper", x.proper);
   archive("estimate", x.estimate);
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::SelfAgainstReference> auto& x) {
+void fields(Archive& archive, Like<judge::SelfAgainstReference> auto& x) {
   archive("false_convergence", x.false_convergence);
   archive("reason", x.reason);
   archive("error_ratio", x.error_ratio);
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::Richardson> auto& x) {
+void fields(Archive& archive, Like<judge::Richardson> auto& x) {
   archive("bounded", x.bounded);
   archive("reason", x.reason);
   archive("value", x.value);
@@ -302,13 +302,13 @@ void fields(Archive& archive, Like<Subject> auto& x) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::ProfileStep> auto& x) {
+void fields(Archive& archive, Like<judge::ProfileStep> auto& x) {
   archive("ratio", x.ratio);
   archive("share", x.share);
 }
 
 template <class Archive>
-void fields(Archive& archive, Like<assess::MethodProfile> auto& x) {
+void fields(Archive& archive, Like<judge::MethodProfile> auto& x) {
   archive("method", x.method);
   archive("ratios", x.ratios);
   archive("steps", x.steps);
@@ -341,4 +341,4 @@ void fields(Archive& archive, Like<Record> auto& x) {
   archive("interrupted", x.interrupted);
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

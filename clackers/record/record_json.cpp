@@ -15,7 +15,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/record/record_fields.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -188,8 +188,8 @@ class Reader {
   static void read(const Json& json, const std::string& where, Resolution& x) {
     read_word(json, where, x, {Resolution::step, Resolution::tolerance});
   }
-  static void read(const Json& json, const std::string& where, assess::Mismatch& x) {
-    using enum assess::Mismatch;
+  static void read(const Json& json, const std::string& where, judge::Mismatch& x) {
+    using enum judge::Mismatch;
     read_word(json, where, x, {none, behaviour, lower_order, higher_order, floor_reason, evidence});
   }
   static void read(const Json& json, const std::string& where, diagnose::Diagnosis& x) {
@@ -277,4 +277,4 @@ Record record_from_json(const std::string& text, const std::atomic<bool>* interr
   return record;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -6,7 +6,7 @@
 
 #include "clackers/record/record.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 
 /// The record as json and back (docs/schemas/record-1.json); every number reads back to the same
 /// double. Json knows neither infinity nor NaN: they stand as the texts "inf", "-inf" and "nan".
@@ -20,4 +20,4 @@ inline constexpr std::size_t longest_record = 20'000'000;  // bytes
 /// another schema; Error (interrupted) when `interrupt` becomes true.
 Record record_from_json(const std::string& text, const std::atomic<bool>* interrupt = nullptr);
 
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -11,7 +11,7 @@
 #include "clackers/record/record_fields.hpp"
 #include "clackers/record/testing/sample_record.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -65,10 +65,10 @@ class RecordFields : public testing::Test {};
 using Structs =
     testing::Types<Quantity, Schematic, Schematic::Block, Schematic::Spring, Schematic::Touch,
                    Provenance, CaseSummary, RefinementPlan, Refinement, Curve, PrintedColumn, Note,
-                   HistoryFile, MetricResult, model::Work, assess::ImpactScore, assess::RunScore,
-                   Level, Claim, assess::LadderFit, assess::Evidence, assess::Assessment,
-                   assess::SelfConvergence, assess::SelfAgainstReference, assess::Richardson,
-                   SelfResult, Subject, assess::ProfileStep, assess::MethodProfile, Profile,
+                   HistoryFile, MetricResult, model::Work, measure::ImpactScore, measure::RunScore,
+                   Level, Claim, judge::LadderFit, judge::Evidence, judge::Assessment,
+                   judge::SelfConvergence, judge::SelfAgainstReference, judge::Richardson,
+                   SelfResult, Subject, judge::ProfileStep, judge::MethodProfile, Profile,
                    CaseRecord, Record>;
 TYPED_TEST_SUITE(RecordFields, Structs);
 
@@ -77,7 +77,7 @@ TYPED_TEST(RecordFields, HoldEveryMember) {
 }
 
 TEST(RecordFieldsOfRun, HoldEveryMemberAndTheScore) {
-  EXPECT_EQ(fields_of<study::Run>(), members<study::Run>() - 1 + fields_of<assess::RunScore>());
+  EXPECT_EQ(fields_of<record::Run>(), members<record::Run>() - 1 + fields_of<measure::RunScore>());
 }
 
 TEST(RecordJson, ReadsBackToTheSameRecord) {
@@ -213,4 +213,4 @@ TEST(RecordJson, StopsReadingAfterAnInterrupt) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 CaseRecord assessed(std::initializer_list<Verdict> verdicts) {
@@ -110,4 +110,4 @@ TEST(Subject, ShowsTheFinestRunWithMetricsOrHistory) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::record

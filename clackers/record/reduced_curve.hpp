@@ -6,7 +6,7 @@
 
 #include "clackers/record/record.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 
 /// The most points of a curve in a figure.
 inline constexpr std::size_t most_points = 1000;
@@ -58,4 +58,4 @@ inline Curve reduced(const Curve& curve, std::size_t most = most_points) {
       [&](std::size_t row, std::size_t i) { return curve.y[row][i]; }, most);
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

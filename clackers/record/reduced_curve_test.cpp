@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 Curve zigzag(std::size_t n) {
@@ -48,4 +48,4 @@ TEST(ReducedCurve, KeepsPointsTogetherAndInOrder) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -7,11 +7,11 @@
 #include <limits>
 #include <optional>
 
-#include "clackers/judge/convergence/judge.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
+#include "clackers/judge/convergence/judge.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -38,8 +38,8 @@ Behaviour behaviour_required(std::string_view word) {
   refuse_name("requirement", word, words, forms);
 }
 
-double tolerance_of(const assess::LadderFit& fit) {
-  return fit.on_envelope ? assess::envelope_order_tolerance : assess::order_tolerance;
+double tolerance_of(const judge::LadderFit& fit) {
+  return fit.on_envelope ? judge::envelope_order_tolerance : judge::order_tolerance;
 }
 
 // What was found instead of what is required; nothing when it is met.
@@ -119,4 +119,4 @@ int exit_code(const Record& record, const std::vector<Requirement>& requirements
   return is_met || code == 130 ? code : 1;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -6,7 +6,7 @@
 
 #include "clackers/record/record.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 
 /// What --require asks of every subject of a record, beside a verdict that neither disagrees nor is
 /// undecided.
@@ -41,4 +41,4 @@ std::vector<Unmet> unmet(const Record& record, const Requirement& requirement);
 /// is worse.
 int exit_code(const Record& record, const std::vector<Requirement>& requirements);
 
-}  // namespace clackers::study
+}  // namespace clackers::record

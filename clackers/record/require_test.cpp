@@ -6,7 +6,7 @@
 
 #include "clackers/base/testing/refusal.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 Subject subject(Verdict verdict, Behaviour behaviour, double order = 0.0, double error = 1e-4) {
@@ -121,4 +121,4 @@ TEST(Requirement, DecidesTheExitCodeAndCountsRefusedMethods) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -5,7 +5,7 @@
 
 #include "clackers/model/harmonic_load.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 using Eigen::Index;
@@ -143,4 +143,4 @@ Schematic schematic(const model::ImpactProblem<>& problem) {
   return drawing;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -4,7 +4,7 @@
 
 #include "clackers/model/impact_problem.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 
 /// How a structure is drawn: masses that springs couple stand above each other in one column, in
 /// layers by their distance from the ground; what may collide stands side by side. Masses are
@@ -35,4 +35,4 @@ inline constexpr int most_blocks = 64;
 /// Read from the stiffness matrix and the contacts; empty beyond most_blocks.
 Schematic schematic(const model::ImpactProblem<>& problem);
 
-}  // namespace clackers::study
+}  // namespace clackers::record

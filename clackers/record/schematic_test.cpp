@@ -4,7 +4,7 @@
 
 #include "clackers/model/harmonic_load.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 using Eigen::MatrixXd;
@@ -98,4 +98,4 @@ TEST(Schematic, IsEmptyForMoreMassesThanAreDrawn) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::record

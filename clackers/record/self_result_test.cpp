@@ -6,15 +6,15 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 using Values = std::vector<double>;
 
 // Runs of two neighbouring steps a level, six halvings from 0.1 s, the value of one mass each.
 template <class Value>
-std::vector<assess::ResponseLevel> runs_of(const Value& value) {
-  std::vector<assess::ResponseLevel> levels;
+std::vector<judge::ResponseLevel> runs_of(const Value& value) {
+  std::vector<judge::ResponseLevel> levels;
   for (int j = 0; j < 6; ++j) {
     levels.emplace_back();
     for (const double h : {0.1 * std::exp2(-j), 0.1 * std::exp2(-j - 0.5)})
@@ -24,7 +24,7 @@ std::vector<assess::ResponseLevel> runs_of(const Value& value) {
 }
 
 constexpr double exact = 0.25;
-const assess::SelfContext second_order{.claimed_order = 2.0};
+const judge::SelfContext second_order{.claimed_order = 2.0};
 
 TEST(SelfResult, TellsTheReferenceOfRunsThatConvergeToTheTrueMotion) {
   const auto result = self_result(runs_of([](double h) { return exact + 3.0 * h * h; }),
@@ -87,4 +87,4 @@ TEST(SelfResult, AsksForAnOrder) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -1,6 +1,6 @@
 #include "clackers/record/sheet.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 namespace {
 
 Cell cell(double value, ColumnKind kind) {
@@ -21,4 +21,4 @@ bool NumberRows::next(std::vector<Cell>& row) {
   return true;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-namespace clackers::study {
+namespace clackers::record {
 
 /// Empty, a real number, a whole number or text.
 using Cell = std::variant<std::monostate, double, long long, std::string>;
@@ -98,4 +98,4 @@ class SheetRows : public RowSource {
   std::size_t next_ = 0;
 };
 
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -15,11 +15,11 @@ namespace clackers::report {
 /// which a run belongs to a subject; `subjects` also has "set_NAME" for the parameters of its case.
 /// Columns that the page does not show may be missing or left out.
 struct AtlasPart {
-  const study::Sheet* subjects = nullptr;
-  study::RowSource* runs = nullptr;
-  std::string origin{};      ///< who computed it; empty: the campaign of the page itself
-  study::Provenance from{};  ///< of the runs
-  std::string options{};     ///< of `clackers verify`, for the same steps: "--levels 5"
+  const record::Sheet* subjects = nullptr;
+  record::RowSource* runs = nullptr;
+  std::string origin{};       ///< who computed it; empty: the campaign of the page itself
+  record::Provenance from{};  ///< of the runs
+  std::string options{};      ///< of `clackers verify`, for the same steps: "--levels 5"
   /// What a command line says for a method that is no name of the catalogue: "--exec './solver {h}'".
   std::map<std::string, std::string> calls{};
 };
@@ -29,7 +29,7 @@ struct AtlasText {
   std::string command;        ///< "atlas" or "campaign report"
   std::string heading, lead;  ///< text
   std::string specification;  ///< of the campaign, as it was read
-  study::Provenance from;     ///< who writes the page; its command writes it again
+  record::Provenance from;    ///< who writes the page; its command writes it again
 };
 
 /// More cells than this, methods times systems, are more than a reader or a browser takes in.

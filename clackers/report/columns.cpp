@@ -12,7 +12,7 @@
 namespace clackers::report {
 namespace {
 
-using study::Cell;
+using record::Cell;
 
 Cell number(double value) { return std::isnan(value) ? Cell() : Cell(value); }
 
@@ -20,10 +20,10 @@ Cell text(std::string_view value) { return value.empty() ? Cell() : Cell(std::st
 
 Cell yes_or_no(bool yes) { return text(yes ? "yes" : "no"); }
 
-bool is_method(const Row& row) { return row.subject->kind == study::SubjectKind::method; }
+bool is_method(const Row& row) { return row.subject->kind == record::SubjectKind::method; }
 
 bool is_assessed(const Row& row) {
-  const auto ran = [](const study::Level& level) { return !level.runs.empty(); };
+  const auto ran = [](const record::Level& level) { return !level.runs.empty(); };
   return row.subject->refusal.empty() && std::ranges::any_of(row.subject->levels, ran);
 }
 
@@ -33,7 +33,7 @@ Cell score(const Row& row) {
   return row.score.failed < row.score.runs ? number(row.score.worst.*member) : Cell();
 }
 
-const assess::ImpactScore* impacts_of(const Row& row) {
+const measure::ImpactScore* impacts_of(const Row& row) {
   const bool finished = row.score.failed < row.score.runs;
   return finished && row.score.worst.impacts ? &*row.score.worst.impacts : nullptr;
 }
@@ -52,7 +52,7 @@ Cell work(const Row& row) {
              : Cell();
 }
 
-const study::HistoryFile* file_of(const Row& row) {
+const record::HistoryFile* file_of(const Row& row) {
   return row.run != nullptr && row.run->file ? &*row.run->file : nullptr;
 }
 
@@ -77,14 +77,14 @@ Cell count(Whole value) {
   return value > 0 ? Cell(static_cast<long long>(value)) : Cell();
 }
 
-template <study::Resolution resolved_by>
+template <record::Resolution resolved_by>
 Cell resolution(const Row& row) {
   const bool has = row.score.runs > 0 && row.subject->resolution == resolved_by;
   return has ? number(row.score.step) : Cell();
 }
 
-bool is_by_step(const study::Subject& subject) {
-  return subject.resolution == study::Resolution::step;
+bool is_by_step(const record::Subject& subject) {
+  return subject.resolution == record::Resolution::step;
 }
 
 Cell steps_per_fast_period(const Row& row) {
@@ -131,11 +131,11 @@ Cell diagnosis_codes(const Row& row) {
   return text(codes);
 }
 
-using Score = assess::RunScore;
-using Impacts = assess::ImpactScore;
+using Score = measure::RunScore;
+using Impacts = measure::ImpactScore;
 using Work = model::Work;
-using File = study::HistoryFile;
-using Fit = assess::LadderFit;
+using File = record::HistoryFile;
+using Fit = judge::LadderFit;
 constexpr auto name = Kind::name;
 constexpr auto word = Kind::word;
 constexpr auto error = Kind::error;
@@ -158,8 +158,8 @@ const Column all[] = {
     {"file", "", "file", "", "history, as given", name, true, file<&File::file>},
     {"file_name", "", "file", "", "history, without its folder", name, false, short_file},
     {"level", "", "level", "", "1 is the coarsest", Kind::count, true, [](const Row& row) { return count(row.level); }},
-    {"step", "s", "step", "", "h", Kind::number, true, resolution<study::Resolution::step>},
-    {"tolerance", "", "tolerance", "", "of an adaptive solver, which has no step", Kind::number, true, resolution<study::Resolution::tolerance>},
+    {"step", "s", "step", "", "h", Kind::number, true, resolution<record::Resolution::step>},
+    {"tolerance", "", "tolerance", "", "of an adaptive solver, which has no step", Kind::number, true, resolution<record::Resolution::tolerance>},
     {"step_source", "", "step from", "", "data (median spacing), name or option", word, true, [](const Row& row) { return file_of(row) ? text(to_string(file_of(row)->step_source)) : Cell(); }},
     {"steps_per_fast_period", "", "steps per fast period", "", "shortest damped period of the free masses / h", Kind::number, true, steps_per_fast_period},
     {"runs", "", "runs", "", "of the level", Kind::count, false, [](const Row& row) { return count(row.score.runs); }},
@@ -206,15 +206,15 @@ std::vector<const Column*> named(std::initializer_list<std::string_view> names) 
 }
 
 // Metrics of any run, in the order in which they are met.
-std::vector<study::Column> metric_columns(std::span<const study::CaseRecord> cases) {
-  std::vector<study::Column> out;
+std::vector<record::Column> metric_columns(std::span<const record::CaseRecord> cases) {
+  std::vector<record::Column> out;
   for (const auto& problem : cases)
     for (const auto& subject : problem.subjects)
       for (const auto& level : subject.levels)
         for (const auto& run : level.runs)
           for (const auto& metric : run.metrics) {
             const auto title = "metric:" + metric.name;
-            if (std::ranges::find(out, title, &study::Column::name) == out.end())
+            if (std::ranges::find(out, title, &record::Column::name) == out.end())
               out.push_back({title, metric.unit, "see clackers list metrics"});
           }
   return out;
@@ -223,11 +223,11 @@ std::vector<study::Column> metric_columns(std::span<const study::CaseRecord> cas
 Cell metric_of(const Row& row, std::string_view wanted) {
   if (row.run == nullptr) return {};
   const auto found = std::ranges::find(row.run->metrics, wanted.substr(wanted.find(':') + 1),
-                                       &study::MetricResult::name);
+                                       &record::MetricResult::name);
   return found == row.run->metrics.end() ? Cell() : number(found->value);
 }
 
-std::vector<Row> run_rows(const study::CaseRecord& problem, const study::Subject& subject) {
+std::vector<Row> run_rows(const record::CaseRecord& problem, const record::Subject& subject) {
   std::vector<Row> out;
   for (std::size_t level = 0; level < subject.levels.size(); ++level)
     for (const auto& run : subject.levels[level].runs)
@@ -237,18 +237,19 @@ std::vector<Row> run_rows(const study::CaseRecord& problem, const study::Subject
 
 }  // namespace
 
-Row run_row(const study::CaseRecord& problem, const study::Subject& subject, int level,
-            const study::Run& run) {
+Row run_row(const record::CaseRecord& problem, const record::Subject& subject, int level,
+            const record::Run& run) {
   const auto& score = run.score;
   return {&problem, &subject, level, {score.step, score, 1, score.finished ? 0 : 1}, &run};
 }
 
-Row level_row(const study::CaseRecord& problem, const study::Subject& subject, int level) {
-  return {&problem, &subject, level, study::worst(subject.levels[std::size_t(level - 1)]), nullptr};
+Row level_row(const record::CaseRecord& problem, const record::Subject& subject, int level) {
+  return {&problem, &subject, level, record::worst(subject.levels[std::size_t(level - 1)]),
+          nullptr};
 }
 
-Row subject_row(const study::CaseRecord& problem, const study::Subject& subject) {
-  return {&problem, &subject, 0, study::worst_of_finest(subject), nullptr};
+Row subject_row(const record::CaseRecord& problem, const record::Subject& subject) {
+  return {&problem, &subject, 0, record::worst_of_finest(subject), nullptr};
 }
 
 std::span<const Column> columns() { return all; }
@@ -261,9 +262,9 @@ const Column& column(std::string_view wanted) {
 
 bool is_of_subject(const Column& asked) { return &asked < &column(first_of_run); }
 
-Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind,
+Table summary_table(const record::CaseRecord& problem, record::SubjectKind kind,
                     const std::vector<std::string>& only) {
-  const bool methods = kind == study::SubjectKind::method;
+  const bool methods = kind == record::SubjectKind::method;
   const bool by_step = std::ranges::all_of(problem.subjects, is_by_step);
   Table table{methods
                   ? named({"method", "u_error", "order_range", "collisions", "collision_time_error",
@@ -275,7 +276,7 @@ Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind,
     if (methods && group.is_headed) table.heads.push_back({table.rows.size(), group});
     for (const auto* subject : group.subjects) {
       // A program is a method of others.
-      if ((subject->kind != study::SubjectKind::histories) != methods) continue;
+      if ((subject->kind != record::SubjectKind::histories) != methods) continue;
       if (methods)
         table.rows.push_back(subject_row(problem, *subject));
       else
@@ -285,7 +286,7 @@ Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind,
   return table;
 }
 
-Table level_table(const study::CaseRecord& problem, const study::Subject& subject) {
+Table level_table(const record::CaseRecord& problem, const record::Subject& subject) {
   Table table{named({"level", is_by_step(subject) ? "step" : "tolerance", "steps_per_fast_period",
                      "runs", "failed_runs", "u_error", "v_error", "collisions",
                      "collision_time_error", "energy_error", "force_evaluations", "seconds"}),
@@ -295,13 +296,13 @@ Table level_table(const study::CaseRecord& problem, const study::Subject& subjec
   return table;
 }
 
-study::Sheet run_sheet(std::span<const study::CaseRecord> cases, bool with_metrics) {
-  study::Sheet sheet{"clackers/runs/1", "Every run", {}, {}};
+record::Sheet run_sheet(std::span<const record::CaseRecord> cases, bool with_metrics) {
+  record::Sheet sheet{"clackers/runs/1", "Every run", {}, {}};
   for (const auto& shown : all)
     if (shown.in_rows)
       sheet.columns.push_back(
           {std::string(shown.name), std::string(shown.unit), std::string(shown.meaning)});
-  const auto metrics = with_metrics ? metric_columns(cases) : std::vector<study::Column>{};
+  const auto metrics = with_metrics ? metric_columns(cases) : std::vector<record::Column>{};
   sheet.columns.insert(sheet.columns.end(), metrics.begin(), metrics.end());
   for (const auto& problem : cases)
     for (const auto& subject : problem.subjects) {
@@ -317,14 +318,14 @@ study::Sheet run_sheet(std::span<const study::CaseRecord> cases, bool with_metri
   return sheet;
 }
 
-study::Sheet list_columns() {
-  study::Sheet sheet{"clackers/columns/1",
-                     "Columns of csv and json",
-                     {{"name", "", "in the first line of csv"},
-                      {"unit", "", "empty when dimensionless"},
-                      {"command", "", "verify and check have the same columns"},
-                      {"meaning", "", "empty cells: not measured, or not of this kind of run"}},
-                     {}};
+record::Sheet list_columns() {
+  record::Sheet sheet{"clackers/columns/1",
+                      "Columns of csv and json",
+                      {{"name", "", "in the first line of csv"},
+                       {"unit", "", "empty when dimensionless"},
+                       {"command", "", "verify and check have the same columns"},
+                       {"meaning", "", "empty cells: not measured, or not of this kind of run"}},
+                      {}};
   const auto add = [&](std::string_view title, std::string_view unit, std::string_view command,
                        std::string_view meaning) {
     sheet.rows.push_back(

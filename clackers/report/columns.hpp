@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/report/groups.hpp"
 #include "clackers/record/record.hpp"
 #include "clackers/record/sheet.hpp"
+#include "clackers/report/groups.hpp"
 
 // The one table of columns. Every output takes its names, units, meanings and values from here.
 namespace clackers::report {
@@ -15,17 +15,17 @@ namespace clackers::report {
 /// What a row of a table is about: a run, the worst of a level, or a subject by the worst of its
 /// finest level.
 struct Row {
-  const study::CaseRecord* problem = nullptr;
-  const study::Subject* subject = nullptr;
-  int level = 0;                    ///< 1 is the coarsest; 0 of a subject
-  study::LevelScore score;          ///< of one run: that run; NaN without any
-  const study::Run* run = nullptr;  ///< of a run alone: its file and its metrics
+  const record::CaseRecord* problem = nullptr;
+  const record::Subject* subject = nullptr;
+  int level = 0;                     ///< 1 is the coarsest; 0 of a subject
+  record::LevelScore score;          ///< of one run: that run; NaN without any
+  const record::Run* run = nullptr;  ///< of a run alone: its file and its metrics
 };
 
-Row run_row(const study::CaseRecord& problem, const study::Subject& subject, int level,
-            const study::Run& run);
-Row level_row(const study::CaseRecord& problem, const study::Subject& subject, int level);
-Row subject_row(const study::CaseRecord& problem, const study::Subject& subject);
+Row run_row(const record::CaseRecord& problem, const record::Subject& subject, int level,
+            const record::Run& run);
+Row level_row(const record::CaseRecord& problem, const record::Subject& subject, int level);
+Row subject_row(const record::CaseRecord& problem, const record::Subject& subject);
 
 /// How the values of a column are shown to a person; csv, json and JUnit have them as they are.
 enum class Kind {
@@ -46,7 +46,7 @@ struct Column {
   std::string_view meaning;
   Kind kind;
   bool in_rows;  ///< false: for tables alone, composed of other columns
-  study::Cell (*get)(const Row&);
+  record::Cell (*get)(const Row&);
 
   std::string_view brief_heading() const { return brief.empty() ? heading : brief; }
 };
@@ -73,16 +73,16 @@ struct Table {
 };
 /// A row a subject of the kind, in the order of groups_of(); for histories a row a file. `only` as
 /// there.
-Table summary_table(const study::CaseRecord& problem, study::SubjectKind kind,
+Table summary_table(const record::CaseRecord& problem, record::SubjectKind kind,
                     const std::vector<std::string>& only = {});
 /// The levels of one subject.
-Table level_table(const study::CaseRecord& problem, const study::Subject& subject);
+Table level_table(const record::CaseRecord& problem, const record::Subject& subject);
 
 /// Every run of the cases as a row, a subject without runs as one row with its refusal. Metrics of
 /// any run are columns "metric:NAME" behind the others.
-study::Sheet run_sheet(std::span<const study::CaseRecord> cases, bool with_metrics = true);
+record::Sheet run_sheet(std::span<const record::CaseRecord> cases, bool with_metrics = true);
 
 /// What `clackers list columns` shows.
-study::Sheet list_columns();
+record::Sheet list_columns();
 
 }  // namespace clackers::report

@@ -13,15 +13,15 @@
 namespace clackers::report {
 namespace {
 
-using study::Cell;
+using record::Cell;
 
-std::size_t position(const study::Sheet& sheet, std::string_view name) {
-  const auto at = std::ranges::find(sheet.columns, name, &study::Column::name);
+std::size_t position(const record::Sheet& sheet, std::string_view name) {
+  const auto at = std::ranges::find(sheet.columns, name, &record::Column::name);
   EXPECT_NE(at, sheet.columns.end()) << name;
   return std::size_t(at - sheet.columns.begin());
 }
 
-Cell cell(const study::Sheet& sheet, std::size_t row, std::string_view name) {
+Cell cell(const record::Sheet& sheet, std::size_t row, std::string_view name) {
   return sheet.rows.at(row).at(position(sheet, name));
 }
 
@@ -73,7 +73,7 @@ TEST(RunSheet, EveryNumberOfARunIsInItsColumn) {
          .energy_error = 5,
          .energy_ratio = 6,
          .rounding_floor = 7,
-         .impacts = assess::ImpactScore{8, 9, 10, 11, 12, 13},
+         .impacts = measure::ImpactScore{8, 9, 10, 11, 12, 13},
          .work = {14, 15, 16, 17, 18},
          .seconds = 19};
   const auto sheet = run_sheet(record.cases);
@@ -132,8 +132,8 @@ TEST(RunSheet, MetricsAreThoseOfAllRuns) {
 TEST(SummaryTable, CollisionsAreMatchedOverExact) {
   auto record = sample_record();
   for (auto& run : record.cases[0].subjects[0].levels.back().runs)
-    run.score.impacts = assess::ImpactScore{6, 6, 5, 1, 1, 1e-3};
-  const auto table = summary_table(record.cases[0], study::SubjectKind::method);
+    run.score.impacts = measure::ImpactScore{6, 6, 5, 1, 1, 1e-3};
+  const auto table = summary_table(record.cases[0], record::SubjectKind::method);
   EXPECT_EQ(column("collisions").get(table.rows[0]), Cell("5/6"));
 }
 
@@ -158,7 +158,7 @@ TEST(Columns, ARunOfALadderOfTolerancesHasAToleranceAndNoStep) {
   const auto row = run_row(problem, subject, 2, run);
   EXPECT_EQ(column("step").get(row), Cell(run.score.step));
   EXPECT_EQ(column("tolerance").get(row), Cell());
-  subject.resolution = study::Resolution::tolerance;
+  subject.resolution = record::Resolution::tolerance;
   EXPECT_EQ(column("step").get(row), Cell());
   EXPECT_EQ(column("tolerance").get(row), Cell(run.score.step));
 }

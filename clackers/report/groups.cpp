@@ -17,24 +17,24 @@ constexpr auto worst_first = std::to_array<std::string_view>(
     {"disagrees", "undecided", "interrupted", "not claimed", "agrees", "refused"});
 
 // Smaller is worse.
-std::pair<std::ptrdiff_t, double> rank(const study::Subject* subject) {
-  const auto* place = std::ranges::find(worst_first, study::verdict_word(*subject));
-  const double error = study::worst_of_finest(*subject).worst.u_error;
+std::pair<std::ptrdiff_t, double> rank(const record::Subject* subject) {
+  const auto* place = std::ranges::find(worst_first, record::verdict_word(*subject));
+  const double error = record::worst_of_finest(*subject).worst.u_error;
   return {place - worst_first.begin(),
           std::isnan(error) ? -std::numeric_limits<double>::infinity() : -error};
 }
 
 }  // namespace
 
-std::vector<SubjectGroup> groups_of(const study::CaseRecord& problem,
+std::vector<SubjectGroup> groups_of(const record::CaseRecord& problem,
                                     const std::vector<std::string>& only) {
   const bool is_grouped = problem.subjects.size() > most_ungrouped;
   std::vector<SubjectGroup> groups;
   for (const auto& subject : problem.subjects) {
-    if (!only.empty() && std::ranges::find(only, study::verdict_word(subject)) == only.end())
+    if (!only.empty() && std::ranges::find(only, record::verdict_word(subject)) == only.end())
       continue;
-    const auto treatment = is_grouped && subject.kind == study::SubjectKind::method
-                               ? study::treatment_of(subject.name)
+    const auto treatment = is_grouped && subject.kind == record::SubjectKind::method
+                               ? tables::treatment_of(subject.name)
                                : std::string();
     auto group = std::ranges::find(groups, treatment, &SubjectGroup::treatment);
     if (group == groups.end()) group = groups.insert(groups.end(), {treatment, {}, is_grouped});
@@ -53,7 +53,7 @@ std::string heading_of(const SubjectGroup& group) {
                      counted(std::ssize(group.subjects), "method"));
 }
 
-std::string name_in(const SubjectGroup& group, const study::Subject& subject) {
+std::string name_in(const SubjectGroup& group, const record::Subject& subject) {
   const auto end = '+' + group.treatment;
   return group.is_headed && subject.name.ends_with(end)
              ? subject.name.substr(0, subject.name.size() - end.size())
@@ -62,7 +62,7 @@ std::string name_in(const SubjectGroup& group, const study::Subject& subject) {
 
 std::vector<NamedFinding> named_findings(
     const std::vector<SubjectGroup>& groups,
-    const std::function<std::vector<Finding>(const study::Subject&)>& findings) {
+    const std::function<std::vector<Finding>(const record::Subject&)>& findings) {
   struct Place {
     std::string treatment;  // without parameters
     int others = 0;
@@ -76,7 +76,7 @@ std::vector<NamedFinding> named_findings(
         const auto is_same = [&](std::size_t i) {
           return group.is_headed && places[i].treatment == treatment && all[i].subject != subject &&
                  all[i].finding.code == found.code &&
-                 study::verdict_word(*all[i].subject) == study::verdict_word(*subject);
+                 record::verdict_word(*all[i].subject) == record::verdict_word(*subject);
         };
         std::size_t i = 0;
         while (i < all.size() && !is_same(i)) ++i;

@@ -5,11 +5,11 @@
 namespace clackers::report {
 namespace {
 
-study::Subject subject(const std::string& name, Verdict verdict, double error) {
-  study::Subject made;
+record::Subject subject(const std::string& name, Verdict verdict, double error) {
+  record::Subject made;
   made.name = name;
   made.assessment.verdict = verdict;
-  study::Run run;
+  record::Run run;
   run.score.finished = true;
   run.score.u_error = error;
   made.levels = {{0.1, {run}}};
@@ -17,8 +17,8 @@ study::Subject subject(const std::string& name, Verdict verdict, double error) {
 }
 
 // Eleven methods, so that they stand in groups.
-study::CaseRecord many() {
-  study::CaseRecord problem;
+record::CaseRecord many() {
+  record::CaseRecord problem;
   for (const char* name : {"newmark", "rk4", "rk3", "chang", "cr"})
     problem.subjects.push_back(subject(name, Verdict::agrees, 1e-3));
   problem.subjects[1].assessment.verdict = Verdict::undecided;
@@ -72,9 +72,9 @@ TEST(Groups, HoldOnlyTheVerdictsAskedFor) {
   EXPECT_TRUE(groups_of(problem, {"disagrees"}).empty());
 }
 
-std::vector<std::string> said(const study::CaseRecord& problem, bool twice = false) {
+std::vector<std::string> said(const record::CaseRecord& problem, bool twice = false) {
   std::vector<std::string> all;
-  const auto found = named_findings(groups_of(problem), [&](const study::Subject& one) {
+  const auto found = named_findings(groups_of(problem), [&](const record::Subject& one) {
     const bool is_penalty = one.name.find("penalty") != std::string::npos;
     if (!is_penalty) return std::vector<Finding>{};
     return std::vector<Finding>(twice ? 2 : 1, {"Of " + one.name, "contact-stiffness"});

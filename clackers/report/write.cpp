@@ -10,31 +10,31 @@
 #include <vector>
 
 #include "clackers/base/suggest.hpp"
+#include "clackers/record/record_json.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/junit/junit.hpp"
 #include "clackers/report/latex/latex.hpp"
 #include "clackers/report/rows/rows.hpp"
 #include "clackers/report/text/plot.hpp"
 #include "clackers/report/text/text.hpp"
-#include "clackers/record/record_json.hpp"
 
 namespace clackers::report {
 namespace {
 
-using RowWriter = void (*)(study::RowSource&, std::ostream&, const Style&);
-using RecordWriter = void (*)(const study::Record&, std::ostream&, const Style&,
+using RowWriter = void (*)(record::RowSource&, std::ostream&, const Style&);
+using RecordWriter = void (*)(const record::Record&, std::ostream&, const Style&,
                               const study::BaselineComparison*);
 
-void write_runs(const study::Record& record, std::ostream& out, const Style&,
+void write_runs(const record::Record& record, std::ostream& out, const Style&,
                 const study::BaselineComparison*) {
   const auto sheet = run_sheet(record.cases);
-  study::SheetRows rows(sheet);
+  record::SheetRows rows(sheet);
   write_csv(rows, out);
 }
 
-void write_record_json(const study::Record& record, std::ostream& out, const Style&,
+void write_record_json(const record::Record& record, std::ostream& out, const Style&,
                        const study::BaselineComparison*) {
-  out << study::to_json(record) << '\n';
+  out << record::to_json(record) << '\n';
 }
 
 struct FormatRow {
@@ -84,19 +84,19 @@ Format format_from(std::string_view text, Content content) {
 
 bool shows_changes(Format format) { return row_of(format).shows_changes; }
 
-void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style) {
+void write(record::RowSource& rows, Format format, std::ostream& out, const Style& style) {
   const auto writer = row_of(format).rows;
   if (writer == nullptr) throw std::logic_error("rows do not have this format");
   writer(rows, out, style);
 }
 
-void write(std::span<const study::Sheet> sheets, std::string_view schema, Format format,
+void write(std::span<const record::Sheet> sheets, std::string_view schema, Format format,
            std::ostream& out, const Style& style, std::string_view problem) {
   if (format == Format::json) return write_json(sheets, schema, problem, out);
   const char* between = "";
   for (const auto& sheet : sheets) {
     out << between;
-    study::SheetRows rows(sheet);
+    record::SheetRows rows(sheet);
     if (sheet.curves && format == Format::table)
       out << curves(sheet, style);
     else
@@ -105,7 +105,7 @@ void write(std::span<const study::Sheet> sheets, std::string_view schema, Format
   }
 }
 
-void write(const study::Record& record, Format format, std::ostream& out, const Style& style,
+void write(const record::Record& record, Format format, std::ostream& out, const Style& style,
            const study::BaselineComparison* changes) {
   const auto writer = row_of(format).record;
   if (writer == nullptr) throw std::logic_error("records do not have this format");

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/study/baseline.hpp"
 #include "clackers/record/record.hpp"
 #include "clackers/record/sheet.hpp"
+#include "clackers/study/baseline.hpp"
 
 namespace clackers::report {
 
@@ -30,17 +30,17 @@ struct Style {
 
 /// Rows, one by one: a table at 80 columns, csv with a header line, or json with the schema, the
 /// columns and the rows, or NumPy's file. Numbers of csv and json read back to the same double.
-void write(study::RowSource& rows, Format format, std::ostream& out, const Style& style = {});
+void write(record::RowSource& rows, Format format, std::ostream& out, const Style& style = {});
 
 /// Several sheets, one below the other, curves of tables as pictures of characters; json: one object whose "sheets" holds all. `schema` names
 /// it; `problem`, the text of a json object, stands in it as well unless it is empty.
-void write(std::span<const study::Sheet> sheets, std::string_view schema, Format format,
+void write(std::span<const record::Sheet> sheets, std::string_view schema, Format format,
            std::ostream& out, const Style& style = {}, std::string_view problem = {});
 
 /// A record of verify or check, of one case or several: tables with findings and a last line with
 /// the verdict, a csv row for every run, its json, JUnit XML, or LaTeX tables. The formats that
 /// shows_changes names also show what changed since a baseline.
-void write(const study::Record& record, Format format, std::ostream& out, const Style& style = {},
+void write(const record::Record& record, Format format, std::ostream& out, const Style& style = {},
            const study::BaselineComparison* changes = nullptr);
 bool shows_changes(Format format);
 
@@ -49,19 +49,19 @@ void write_changes(const study::BaselineComparison& changes, std::ostream& out,
                    const Style& style = {});
 
 /// A record as one self-contained page that opens without a network.
-std::string html(const study::Record& record, const study::BaselineComparison* changes = nullptr);
+std::string html(const record::Record& record, const study::BaselineComparison* changes = nullptr);
 
 /// Sheets as such a page: tables, texts, and figures of the curves; `name` is what they are about.
 /// With the `motion` of a case, which has no subjects, its response and animation stand first.
-std::string html(std::span<const study::Sheet> sheets, const std::string& name,
-                 const study::Provenance& from, const study::CaseRecord* motion = nullptr,
+std::string html(std::span<const record::Sheet> sheets, const std::string& name,
+                 const record::Provenance& from, const record::CaseRecord* motion = nullptr,
                  const std::string& command = "show");
 
 /// Figures draw the displacements of this many masses at most, the first ones, and say so.
 inline constexpr std::size_t most_drawn_masses = 9;
 
 /// The displacements as a picture of characters, masses marked 1, 2, ..., collisions on the axis.
-std::string plot(const study::Curve& response, std::span<const double> impact_times,
+std::string plot(const record::Curve& response, std::span<const double> impact_times,
                  const Style& style = {});
 
 }  // namespace clackers::report

@@ -14,7 +14,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 namespace fs = std::filesystem;
@@ -222,4 +222,4 @@ std::string CommandTemplate::name() const {
   return stem.empty() ? "program" : stem;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clackers::study {
+namespace clackers::solvers {
 
 /// The name of a placeholder, without braces, and what takes its place.
 struct PlaceholderValue {
@@ -48,4 +48,4 @@ class CommandTemplate {
   std::string first_word_;
 };
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -7,7 +7,7 @@
 
 #include "clackers/base/testing/refusal.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ TEST(CommandTemplate, HasTheNameOfTheProgram) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::solvers

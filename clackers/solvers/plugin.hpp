@@ -8,7 +8,7 @@
 
 // `clackers verify --plugin`: solvers of others in shared libraries, see clackers_solver.h. Every call
 // of a library is made in a process of its own.
-namespace clackers::study {
+namespace clackers::solvers {
 
 /// A plug-in to assess.
 struct Plugin {
@@ -28,12 +28,12 @@ struct PluginRequest : ProcessOptions {
 /// (not-a-plugin) for a library that cannot be loaded or has no solver of a known version, FileError
 /// for one that cannot be read and where the folder of runs cannot be made. A library that crashes
 /// while it is loaded is a subject whose runs fail.
-std::vector<SolverSubject> subjects_of(const PluginRequest& request,
-                                       const std::atomic<bool>* interrupt = nullptr);
+std::vector<study::SolverSubject> subjects_of(const PluginRequest& request,
+                                              const std::atomic<bool>* interrupt = nullptr);
 
 /// The work of the process: loads the library, calls it, and writes what came of it to files that
 /// subjects_of() named in `arguments`. False where something failed, which a file then says. The
 /// caller has set signals and std::terminate to their defaults, so that a crash is one.
 bool host_plugin(const std::vector<std::string>& arguments);
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

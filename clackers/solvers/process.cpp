@@ -17,7 +17,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -268,4 +268,4 @@ void kill_processes() noexcept {
     if (const pid_t group = entry.load(); group > 0) ::kill(-group, SIGKILL);
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <string>
 
-namespace clackers::study {
+namespace clackers::solvers {
 
 /// A shell command to run.
 struct ProcessTask {
@@ -41,4 +41,4 @@ ProcessResult run_process(const ProcessTask& task, const std::atomic<bool>* inte
 /// Kills all process groups of run_process() that run; for a signal handler that ends the program.
 void kill_processes() noexcept;
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -10,7 +10,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,4 +108,4 @@ TEST_F(Process, IsNotStartedInAFolderThatIsNot) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -10,7 +10,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/solvers/program_runner.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 double tolerance_in(std::string_view whole, std::string_view text) {
@@ -25,15 +25,15 @@ double tolerance_in(std::string_view whole, std::string_view text) {
 
 }  // namespace
 
-std::vector<SolverSubject> subjects_of(const ProgramRequest& request) {
+std::vector<study::SolverSubject> subjects_of(const ProgramRequest& request) {
   require_positive("verify", "timeout", request.timeout);
   const auto tolerances = tolerances_of(request);
   const auto folder = std::make_shared<WorkFolder>(request.work);
-  std::vector<SolverSubject> subjects;
+  std::vector<study::SolverSubject> subjects;
   for (const auto& program : request.programs) {
     CommandTemplate command(program.command);
     auto& subject = subjects.emplace_back();
-    subject.kind = SubjectKind::program;
+    subject.kind = record::SubjectKind::program;
     subject.name = program.name.empty() ? command.name() : program.name;
     subject.claim = request.expect.value_or(Claim{});
     if (command.uses("tolerance")) subject.tolerances = tolerances;
@@ -70,4 +70,4 @@ std::vector<double> tolerances_from(std::string_view text) {
   return tolerances;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -4,7 +4,7 @@
 
 #include "clackers/base/testing/refusal.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -29,4 +29,4 @@ TEST(ProgramTolerances, AreRefusedWhereTheyAreNone) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -11,7 +11,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +127,4 @@ std::string without_folder(std::string sentence, const fs::path& folder) {
   return sentence;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace clackers::study {
+namespace clackers::solvers {
 
 /// Where programs run and where their results are kept: a folder for each run. May be used from
 /// several threads and by several processes at once.
@@ -58,4 +58,4 @@ class RunFolder {
 /// Sentences begin with a folder that has gone when they are read: its path is taken out of them.
 std::string without_folder(std::string sentence, const std::filesystem::path& folder);
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,4 +21,4 @@ TEST(WorkFolder, RunsOfTwoInOneFolderDoNotMeet) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::solvers

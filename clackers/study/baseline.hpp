@@ -47,7 +47,7 @@ struct SubjectChange {
   std::optional<Change<Finding>> finding;
   /// Order and spread of the displacement error, where the change is larger than both spreads
   /// together and at least `visible_order`.
-  std::optional<Change<assess::LadderFit>> order;
+  std::optional<Change<judge::LadderFit>> order;
   /// Displacement error of the finest step that both finished, where the change is larger than
   /// `visible_error` of the larger and than both rounding floors together.
   std::optional<ChangeAtStep<double>> error;
@@ -70,8 +70,8 @@ inline constexpr double visible_error = 0.01, visible_work = 0.01;
 
 /// What changed between two records.
 struct BaselineComparison {
-  Provenance before;         ///< of the older record
-  bool interrupted = false;  ///< the older record was
+  record::Provenance before;  ///< of the older record
+  bool interrupted = false;   ///< the older record was
   /// A row for each subject of the new record in its order, case by case, then those that are gone.
   std::vector<SubjectChange> subjects;
 
@@ -81,10 +81,10 @@ struct BaselineComparison {
 /// Throws InputError (other-study), with the settings to repeat it, where the baseline cannot be
 /// compared with what is asked for: a record of the other command, no case in common, or a common
 /// case with other parameters or other steps; and what verify and check throw before any work.
-void require_same_study(const VerifyRequest& request, const Record& baseline);
-void require_same_study(const CheckRequest& request, const Record& baseline);
+void require_same_study(const VerifyRequest& request, const record::Record& baseline);
+void require_same_study(const CheckRequest& request, const record::Record& baseline);
 
 /// Compares subject by subject, by the names of case and subject. Throws as require_same_study.
-BaselineComparison compare(const Record& now, const Record& before);
+BaselineComparison compare(const record::Record& now, const record::Record& before);
 
 }  // namespace clackers::study

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/base/jobs/progress.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/input/source.hpp"
-#include "clackers/base/jobs/progress.hpp"
 #include "clackers/record/record.hpp"
 
 namespace clackers::study {
@@ -16,13 +16,13 @@ namespace clackers::study {
 /// What `clackers check` is asked for.
 struct CheckRequest {
   /// One or more; several are levels of one method. "-" is standard input, one of them at most.
-  std::vector<exchange::Source> files;
+  std::vector<input::Source> files;
   std::string case_name;  ///< empty: the default case
   cases::Settings settings;
-  std::vector<std::string> columns;      ///< names of the columns; empty: those of the files
-  std::vector<exchange::Source> events;  ///< collisions: none, or one a history
-  std::vector<double> steps;             ///< none, or one a history [s]
-  std::vector<double> tolerances;        ///< none, or one a history instead of a step, of (0, 1)
+  std::vector<std::string> columns;   ///< names of the columns; empty: those of the files
+  std::vector<input::Source> events;  ///< collisions: none, or one a history
+  std::vector<double> steps;          ///< none, or one a history [s]
+  std::vector<double> tolerances;     ///< none, or one a history instead of a step, of (0, 1)
   std::optional<Claim> expect;
   std::optional<double> tolerance;  ///< largest allowed u_error, 0 < tolerance
   std::string command;              ///< as typed
@@ -38,15 +38,15 @@ struct CheckRequest {
 /// case are left out with a note. Steps of one octave are one level. A history that NaN or infinity
 /// ends is a failed run of its level.
 ///
-/// assess::judge gives behaviour and verdict. Its claim is `expect`; without it the verdict goes by
+/// judge::judge gives behaviour and verdict. Its claim is `expect`; without it the verdict goes by
 /// the tolerance, and the finest history disagrees where it misses a collision, has one too many, or
 /// begins far from the reference.
 ///
 /// Throws InputError for what read_history refuses, histories none of which is finite, one that
 /// starts from another state than the case (not-this-case), and options that do not fit the files;
 /// FileError for files that cannot be read; Error (interrupted) when `interrupt` becomes true.
-Record check(const CheckRequest& request, const Progress& progress = {},
-             const std::atomic<bool>* interrupt = nullptr);
+record::Record check(const CheckRequest& request, const Progress& progress = {},
+                     const std::atomic<bool>* interrupt = nullptr);
 
 /// "proper:2", "irregular:1", "exact": a behaviour and, where it needs one, an order. Throws
 /// InputError for any other text.

@@ -26,7 +26,8 @@ double default_coarsest(double fast_period, double end);
 int default_levels(double coarsest, double end);
 
 /// The plan of a request on a case.
-RefinementPlan plan_for(const RefinementRequest& request, const CaseSummary& problem);
+record::RefinementPlan plan_for(const RefinementRequest& request,
+                                const record::CaseSummary& problem);
 
 /// Largest number of steps a level that refinement chooses.
 inline constexpr int most_samples_per_level = 32;
@@ -37,14 +38,16 @@ inline constexpr int wanted_contact_levels = 3;
 
 /// What refinement would run next, or why nothing.
 struct NextPlan {
-  std::optional<RefinementPlan> plan;
-  RefinementEnd end = RefinementEnd::decided;  ///< where there is no plan
+  std::optional<record::RefinementPlan> plan;
+  record::RefinementEnd end = record::RefinementEnd::decided;  ///< where there is no plan
 };
 
 /// What a record says of a refinement from the ladder `asked` to `now`; nothing where the first was
 /// enough. `next_seconds` is what did not fit into the budget.
-std::optional<Refinement> refinement_of(const RefinementPlan& asked, const RefinementPlan& now,
-                                        RefinementEnd end, double next_seconds = 0.0);
+std::optional<record::Refinement> refinement_of(const record::RefinementPlan& asked,
+                                                const record::RefinementPlan& now,
+                                                record::RefinementEnd end,
+                                                double next_seconds = 0.0);
 
 /// The next ladder of a subject whose levels are those of `plan`; depends on nothing else, so that
 /// it is the same on every machine. The first rule that applies decides:
@@ -59,6 +62,7 @@ std::optional<Refinement> refinement_of(const RefinementPlan& asked, const Refin
 ///  5 the finest level is at the rounding floor: a coarser first level, while it has two steps a
 ///    fast period or more
 ///  6 anything else: one finer level, while it needs at most 1e9 steps
-NextPlan next_plan(const Subject& subject, const RefinementPlan& plan, const CaseSummary& problem);
+NextPlan next_plan(const record::Subject& subject, const record::RefinementPlan& plan,
+                   const record::CaseSummary& problem);
 
 }  // namespace clackers::study

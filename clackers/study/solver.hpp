@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "clackers/input/source.hpp"
 #include "clackers/base/jobs/progress.hpp"
+#include "clackers/input/source.hpp"
 #include "clackers/record/record.hpp"
 #include "clackers/study/verify.hpp"
 
@@ -26,14 +26,14 @@ struct SolverRun {
 /// What a run left.
 struct SolverOutput {
   bool interrupted = false;
-  std::optional<exchange::Source> history;  ///< nothing: the run failed
-  std::optional<exchange::Source> events;   ///< nothing: none reported
-  std::string failure_code;                 ///< "program-failed", "program-timeout", ...
-  std::string failure;                      ///< in a sentence, with its full stop
-  std::string printed;                      ///< the last bytes that it printed
-  bool reused = false;                      ///< of an earlier run
-  bool would_repeat = false;                ///< the failure is one that smaller steps share
-  std::shared_ptr<const void> memory{};     ///< what holds the columns of history and events
+  std::optional<input::Source> history;  ///< nothing: the run failed
+  std::optional<input::Source> events;   ///< nothing: none reported
+  std::string failure_code;              ///< "program-failed", "program-timeout", ...
+  std::string failure;                   ///< in a sentence, with its full stop
+  std::string printed;                   ///< the last bytes that it printed
+  bool reused = false;                   ///< of an earlier run
+  bool would_repeat = false;             ///< the failure is one that smaller steps share
+  std::shared_ptr<const void> memory{};  ///< what holds the columns of history and events
 };
 
 /// A solver prepared for one case.
@@ -46,8 +46,8 @@ class Solver {
 
 /// A solver to assess, before it is prepared.
 struct SolverSubject {
-  SubjectKind kind = SubjectKind::program;  ///< program, callable or plugin
-  std::string name;                         ///< in every output
+  record::SubjectKind kind = record::SubjectKind::program;  ///< program, callable or plugin
+  std::string name;                                         ///< in every output
   Claim claim;
   /// Levels of tolerances, descending, instead of steps; {h} is then the coarsest step.
   std::vector<double> tolerances;
@@ -62,11 +62,11 @@ inline constexpr int default_solver_levels = 6, default_solver_samples = 4;
 /// As verify(), with solvers behind the methods; no methods means none. A run that fails is a failed
 /// run of its step with what was printed. After three failures in a row that smaller steps would
 /// share, those are not made. Throws as verify() does, and InputError for two subjects of one name.
-Record verify(const VerifyRequest& request, std::vector<SolverSubject> solvers,
-              const Progress& progress = {}, const std::atomic<bool>* interrupt = nullptr);
+record::Record verify(const VerifyRequest& request, std::vector<SolverSubject> solvers,
+                      const Progress& progress = {}, const std::atomic<bool>* interrupt = nullptr);
 
 /// The failure of the first run, where every run of every subject failed and some subject is a
 /// solver; nullptr otherwise.
-const Run* failure_of_all(const Record& record);
+const record::Run* failure_of_all(const record::Record& record);
 
 }  // namespace clackers::study

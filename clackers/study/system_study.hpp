@@ -41,10 +41,11 @@ class SystemStudy {
 
   /// The case with the method as its only subject, valid until the next call; nullptr when
   /// interrupted. A method that objects has its refusal. Throws InputError as verify() does.
-  const CaseRecord* assess(const std::string& method, const std::atomic<bool>* interrupt = nullptr);
+  const record::CaseRecord* assess(const std::string& method,
+                                   const std::atomic<bool>* interrupt = nullptr);
   /// The same of a solver over another ladder, since its runs cost more.
-  const CaseRecord* assess(const SolverSubject& solver, const RefinementRequest& ladder,
-                           const std::atomic<bool>* interrupt = nullptr);
+  const record::CaseRecord* assess(const SolverSubject& solver, const RefinementRequest& ladder,
+                                   const std::atomic<bool>* interrupt = nullptr);
   /// What assess() would do; `seconds` only where `timed`: one run is made then, the shortest.
   CostEstimate estimate(const std::string& method, bool timed);
   CostEstimate estimate(const SolverSubject& solver, const RefinementRequest& ladder, bool timed);
@@ -53,12 +54,12 @@ class SystemStudy {
   struct Plan;
 
   std::unique_ptr<Plan> plan_;
-  CaseRecord record_;
+  record::CaseRecord record_;
 };
 
 /// The record of a system that was refused as a whole: the names alone, and why.
-CaseRecord refused_record(std::string_view case_name, std::string subject_name,
-                          const InputError& why);
+record::CaseRecord refused_record(std::string_view case_name, std::string subject_name,
+                                  const InputError& why);
 
 /// The name that a method of the catalogue has in every output.
 std::string subject_name(const std::string& method);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "clackers/cases/case.hpp"
 #include "clackers/base/jobs/progress.hpp"
+#include "clackers/cases/case.hpp"
 #include "clackers/record/record.hpp"
 #include "clackers/study/refinement.hpp"
 
@@ -37,7 +37,7 @@ struct VerifyRequest {
 /// a step, is not begun. Every round reports progress from 0 to 1. When `interrupt` becomes true the
 /// record comes back with what was finished, marked interrupted; a subject whose refinement was
 /// interrupted keeps the ladder it had before.
-Record verify(const VerifyRequest& request, const Progress& progress = {},
-              const std::atomic<bool>* interrupt = nullptr);
+record::Record verify(const VerifyRequest& request, const Progress& progress = {},
+                      const std::atomic<bool>* interrupt = nullptr);
 
 }  // namespace clackers::study

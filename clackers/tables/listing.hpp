@@ -7,19 +7,19 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/record/sheet.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 
 /// What `clackers list KIND` shows; KIND is cases, integrators, contacts, methods, pairs,
 /// metrics or diagnoses. Throws InputError with did-you-mean for any other.
-Sheet list(std::string_view kind);
+record::Sheet list(std::string_view kind);
 
 /// What `kind` may be, in the order of the help.
 std::vector<std::string> list_kinds();
 
 /// What `clackers show NAME` shows of a case: parameters, derived constants, indicators, margin,
 /// first collisions, and of a pair the harmonics and when disturbances make it lose synchrony.
-std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
-                             double threshold);
+std::vector<record::Sheet> show_case(std::string_view name, const cases::Settings& settings,
+                                     double threshold);
 
 /// What `clackers show NAME --format json` has beside it, and the programs of verify --exec read: the
 /// text of the json object `problem` (program/problem_text.hpp).
@@ -27,13 +27,13 @@ std::string show_problem(std::string_view name, const cases::Settings& settings)
 
 /// What `clackers show NAME` shows of a method: its claim, parameters and card. The card is a
 /// sheet of one text column.
-std::vector<Sheet> show_method(std::string_view specification);
+std::vector<record::Sheet> show_method(std::string_view specification);
 
 /// The contact treatment of a method as typed: "penalty:law=hertz", "event-driven" where an integrator
 /// stands alone; empty for a method that brings its own, and for what is no method.
 std::string treatment_of(std::string_view specification);
 
 /// What `clackers explain [CODE]` shows; an empty code lists all.
-Sheet explain(std::string_view code);
+record::Sheet explain(std::string_view code);
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "clackers/campaign/run.hpp"
-#include "clackers/report/write.hpp"
 #include "clackers/record/provenance.hpp"
+#include "clackers/report/write.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/atlas_folder.hpp"
 #include "cli/commands/campaign_actions.hpp"
@@ -79,7 +79,7 @@ int submit(const Options& options, const std::string& line) {
   const auto done = run_tasks(store, {}, jobs_from(options.jobs), options.common.quiet);
   if (done.interrupted) throw Interrupted();
   const auto results = campaign::results_of(
-      store, options.author.empty() ? options.submit : options.author, study::provenance(line));
+      store, options.author.empty() ? options.submit : options.author, record::provenance(line));
   file.stream() << campaign::results_text(results);
   file.commit();
   if (!options.common.quiet)
@@ -118,7 +118,7 @@ int run(const Options& options, const std::string& line) {
   const auto done = run_tasks(store, {}, jobs, options.common.quiet);
   if (store.finished().size() > 0)
     folder.write_page(
-        campaign::campaign_page(store, folder.results(), "atlas", study::provenance(line)));
+        campaign::campaign_page(store, folder.results(), "atlas", record::provenance(line)));
   print_verdicts(store, results);
   if (done.interrupted) {
     report_error("interrupted; what was finished is stored. The same command goes on.",

@@ -18,7 +18,7 @@
 namespace clackers::cli {
 namespace {
 
-using study::Cell;
+using record::Cell;
 
 std::vector<std::vector<Cell>> all_rows(const campaign::Store& store, const std::string& sql) {
   std::vector<std::vector<Cell>> rows;
@@ -55,8 +55,8 @@ std::string next_command(const campaign::Store& store, bool is_whole) {
   return shell_line(run);
 }
 
-study::Sheet status_sheet(const campaign::Store& store) {
-  study::Sheet sheet{
+record::Sheet status_sheet(const campaign::Store& store) {
+  record::Sheet sheet{
       "clackers/campaign-status/1", "", {{"quantity", "", ""}, {"value", "", ""}}, {}};
   const auto tasks = tasks_of(store);
   long long finished = 0;
@@ -115,7 +115,7 @@ void print_status(const CampaignOptions& options, const std::string& database) {
   const auto store = campaign::Store::open(database);
   Results results(options.common, OnInterrupt::finish);
   const auto sheet = status_sheet(store);
-  study::SheetRows rows(sheet);
+  record::SheetRows rows(sheet);
   report::write(rows, results.format(), results.stream(), results.style());
   results.finish();
 }

@@ -17,7 +17,7 @@ int report_campaign(const CampaignOptions& options, const std::string& line) {
                      "bad-syntax");
   const auto store = campaign::Store::open(options.files.front());
   OutputFile file(options.common.out, OnInterrupt::stop);
-  file.stream() << campaign::campaign_page(store, {}, "campaign report", study::provenance(line));
+  file.stream() << campaign::campaign_page(store, {}, "campaign report", record::provenance(line));
   file.commit();
   if (!options.common.quiet) note(fmt::format("Wrote {}", options.common.out));
   return 0;

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "clackers/base/jobs/work_queue.hpp"
 #include "clackers/campaign/plan.hpp"
 #include "clackers/campaign/run.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/base/jobs/work_queue.hpp"
 #include "cli/cluster/run_on_ranks.hpp"
 #include "cli/commands/campaign_actions.hpp"
 #include "cli/commands/plugin_run.hpp"
@@ -35,8 +35,8 @@ campaign::RunSummary run_tasks(campaign::Store& store, const campaign::Shard& sh
   how.jobs = jobs;
   how.plugin_host = plugin_host_words();
   // The blocks of a shard depend on the number of shards alone.
-  const auto block = campaign::block_size(
-      specification, shard.is_all() ? study::thread_count(how.jobs) : shard.count);
+  const auto block =
+      campaign::block_size(specification, shard.is_all() ? thread_count(how.jobs) : shard.count);
   campaign::LocalTasks source(specification.tasks(), store.finished(), block, shard);
   ProgressLine line("campaign", quiet);
   const auto all = source.remaining();
@@ -95,7 +95,7 @@ int plan_campaign(const CampaignOptions& options, const std::string&) {
   Results results(options.common, OnInterrupt::stop);
   const auto sheet =
       campaign::plan_sheet(campaign::plan_of(specification, plugin_host_words(), true));
-  study::SheetRows rows(sheet);
+  record::SheetRows rows(sheet);
   report::write(rows, results.format(), results.stream(), results.style());
   results.finish();
   return 0;

@@ -70,11 +70,11 @@ void write_file(const std::string& path, const std::string& text) {
 }
 
 // The sentence of a process that failed.
-std::string reason_of(const study::ProcessResult& result) {
+std::string reason_of(const solvers::ProcessResult& result) {
   auto printed = result.printed;
   std::ranges::replace(printed, '\n', ' ');
   while (!printed.empty() && (printed.back() == ' ' || printed.back() == '.')) printed.pop_back();
-  if (result.end == study::ProcessResult::End::timed_out)
+  if (result.end == solvers::ProcessResult::End::timed_out)
     return fmt::format("no answer within {} s {}", patience, printed);
   return printed.empty() ? fmt::format("exit status {}", result.status) : printed;
 }
@@ -99,9 +99,9 @@ std::string number_in(const std::string& printed) {
 // Calls sbatch; the number of the job.
 std::string submit(const std::vector<std::string>& words, const std::string& folder) {
   const auto line = shell_line(words);
-  const auto result = study::run_process({line, folder, patience, {}}, &interrupt_flag());
-  if (result.end == study::ProcessResult::End::interrupted) throw Interrupted();
-  if (result.end != study::ProcessResult::End::exited || result.status != 0)
+  const auto result = solvers::run_process({line, folder, patience, {}}, &interrupt_flag());
+  if (result.end == solvers::ProcessResult::End::interrupted) throw Interrupted();
+  if (result.end != solvers::ProcessResult::End::exited || result.status != 0)
     fail(line, reason_of(result));
   const auto number = number_in(result.printed);
   if (number.empty()) fail(line, "no number of a job in \"" + result.printed + "\"");

@@ -64,7 +64,7 @@ study::CheckRequest request_of(const Options& options, const std::string& line) 
   return request;
 }
 
-study::Record run_check(const Options& options, const study::CheckRequest& request) {
+record::Record run_check(const Options& options, const study::CheckRequest& request) {
   ProgressLine progress("check", options.common.quiet);
   return study::check(request, progress.callback(), &interrupt_flag());
 }

@@ -16,8 +16,8 @@ struct Options {
 
 int run(const Options& options) {
   Results results(options.common, OnInterrupt::stop);
-  const auto sheet = study::explain(options.code);
-  study::SheetRows rows(sheet);
+  const auto sheet = tables::explain(options.code);
+  record::SheetRows rows(sheet);
   report::write(rows, results.format(), results.stream(), results.style());
   results.finish();
   return 0;

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "clackers/base/suggest.hpp"
-#include "paper/table.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/files/results.hpp"
 #include "cli/options.hpp"
+#include "paper/table.hpp"
 
 namespace clackers::cli {
 namespace {
@@ -26,23 +26,23 @@ struct Options {
 constexpr auto shown_together = {"cases", "methods", "metrics"};
 
 // Columns and figures are in modules above the one that lists the rest.
-study::Sheet list(const std::string& kind) {
+record::Sheet list(const std::string& kind) {
   if (kind == "columns") return report::list_columns();
   if (kind == "figures") return paper::list_figures();
-  auto kinds = study::list_kinds();
+  auto kinds = tables::list_kinds();
   kinds.insert(kinds.end(), {"columns", "figures"});
   if (std::ranges::find(kinds, kind) == kinds.end())
     refuse_name("list", kind, kinds, fmt::format("{}", fmt::join(kinds, ", ")));
-  return study::list(kind);
+  return tables::list(kind);
 }
 
 // Metrics as people read them at 80 columns: a mark and the source are in the texts, so that the
 // definitions have the width of the page.
-study::Sheet for_people(const study::Sheet& metrics) {
-  study::Sheet out{metrics.schema,
-                   "Metrics (* need not vanish while impacts are a little early or late)",
-                   {{"name", "", ""}, {"unit", "", ""}, {"meaning", "", "and who defined it"}},
-                   {}};
+record::Sheet for_people(const record::Sheet& metrics) {
+  record::Sheet out{metrics.schema,
+                    "Metrics (* need not vanish while impacts are a little early or late)",
+                    {{"name", "", ""}, {"unit", "", ""}, {"meaning", "", "and who defined it"}},
+                    {}};
   for (const auto& row : metrics.rows) {
     const auto text = [&](std::size_t column) {
       const auto* found = std::get_if<std::string>(&row[column]);
@@ -54,7 +54,7 @@ study::Sheet for_people(const study::Sheet& metrics) {
   return out;
 }
 
-study::Sheet shown(study::Sheet sheet, report::Format format) {
+record::Sheet shown(record::Sheet sheet, report::Format format) {
   const bool is_metrics = sheet.schema == "clackers/metrics/1";
   return is_metrics && format == report::Format::table ? for_people(sheet) : sheet;
 }
@@ -62,13 +62,13 @@ study::Sheet shown(study::Sheet sheet, report::Format format) {
 int run(const Options& options) {
   Results results(options.common, OnInterrupt::stop);
   if (options.kind.empty()) {
-    std::vector<study::Sheet> sheets;
+    std::vector<record::Sheet> sheets;
     for (const auto* kind : shown_together)
-      sheets.push_back(shown(study::list(kind), results.format()));
+      sheets.push_back(shown(tables::list(kind), results.format()));
     report::write(sheets, "clackers/list/1", results.format(), results.stream(), results.style());
   } else {
     const auto sheet = shown(list(options.kind), results.format());
-    study::SheetRows rows(sheet);
+    record::SheetRows rows(sheet);
     report::write(rows, results.format(), results.stream(), results.style());
   }
   results.finish();

@@ -5,9 +5,6 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "paper/catalogue.hpp"
-#include "paper/reproduce.hpp"
-#include "paper/table.hpp"
 #include "clackers/report/write.hpp"
 #include "cli/command.hpp"
 #include "cli/files/output_folder.hpp"
@@ -16,6 +13,9 @@
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
+#include "paper/catalogue.hpp"
+#include "paper/reproduce.hpp"
+#include "paper/table.hpp"
 
 namespace clackers::cli {
 namespace {
@@ -44,7 +44,7 @@ int run(const Options& options, const std::string& line) {
   if (made.interrupted) throw Interrupted();
   folder.commit();
   const auto sheet = paper::claims_of(made.figures);
-  study::SheetRows rows(sheet);
+  record::SheetRows rows(sheet);
   report::write(rows, results.format(), results.stream(), results.style());
   results.finish();
   for (const auto& missing : made.missing) report_error(missing.sentence, missing.code.name());

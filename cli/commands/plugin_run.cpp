@@ -25,7 +25,7 @@ int run_plugin(const std::vector<std::string>& arguments) {
   // Ours would turn a crash of the library into a message and an exit code.
   for (int number = 1; number < SIGRTMIN; ++number) ::signal(number, SIG_DFL);
   std::set_terminate(std::abort);
-  return study::host_plugin(arguments) ? 0 : 4;
+  return solvers::host_plugin(arguments) ? 0 : 4;
 }
 
 }  // namespace clackers::cli

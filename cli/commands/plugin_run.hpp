@@ -9,10 +9,10 @@ namespace clackers::cli {
 /// The first argument of a command that calls a plug-in, see run_plugin().
 inline constexpr std::string_view plugin_run_flag = "--plugin-run";
 
-/// This program with plugin_run_flag, for study::PluginRequest.
+/// This program with plugin_run_flag, for solvers::PluginRequest.
 std::vector<std::string> plugin_host_words();
 
-/// Calls a plug-in in this process, for `verify --plugin` in another one: study::host_plugin() with
+/// Calls a plug-in in this process, for `verify --plugin` in another one: solvers::host_plugin() with
 /// signals as a program of the library's author would have them. Returns the exit code.
 int run_plugin(const std::vector<std::string>& arguments);
 

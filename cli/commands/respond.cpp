@@ -8,10 +8,10 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
-#include "clackers/report/write.hpp"
-#include "clackers/tables/respond/digit_rows.hpp"
-#include "clackers/tables/listing.hpp"
 #include "clackers/record/provenance.hpp"
+#include "clackers/report/write.hpp"
+#include "clackers/tables/listing.hpp"
+#include "clackers/tables/respond/digit_rows.hpp"
 #include "cli/command.hpp"
 #include "cli/files/input_files.hpp"
 #include "cli/files/report_page.hpp"
@@ -97,29 +97,29 @@ void check_format(const Options& options, const Results& results) {
                  "one of the two out.");
 }
 
-std::unique_ptr<study::RowSource> rows_of(const Options& options, const cases::Case& which) {
+std::unique_ptr<record::RowSource> rows_of(const Options& options, const cases::Case& which) {
   const double end = which.motion->end();
   const bool digits = !options.digits.empty();
   const auto count = digits ? read_whole("--digits", options.digits, 1, 1000) : 0;
-  const auto respond = [&](const study::TimeGrid& grid) {
-    if (options.energy) return study::energies(which, grid);
-    if (!options.sensitivity.empty()) return study::sensitivity(which, grid, options.sensitivity);
-    return digits ? study::respond(which, grid, count) : study::respond(which, grid);
+  const auto respond = [&](const tables::TimeGrid& grid) {
+    if (options.energy) return tables::energies(which, grid);
+    if (!options.sensitivity.empty()) return tables::sensitivity(which, grid, options.sensitivity);
+    return digits ? tables::respond(which, grid, count) : tables::respond(which, grid);
   };
   if (options.collisions)
-    return digits ? study::collisions(which, count) : study::collisions(which);
+    return digits ? tables::collisions(which, count) : tables::collisions(which);
   if (!options.times.empty()) {
-    study::TimeGrid grid;
+    tables::TimeGrid grid;
     grid.times = read_times(options.times, end);
     return respond(grid);
   }
   if (!options.step.empty())
-    return respond(study::grid_every(read_number("--step", options.step), end));
+    return respond(tables::grid_every(read_number("--step", options.step), end));
   constexpr long long any = 1LL << 53;  // what makes sense is the study's to say
   const auto samples = read_whole("--samples", options.samples, -any, any);
   if (options.spectrum)
-    return study::spectrum(which, samples, read_number("--highest", options.highest));
-  return respond(study::grid_of(samples, end));
+    return tables::spectrum(which, samples, read_number("--highest", options.highest));
+  return respond(tables::grid_of(samples, end));
 }
 
 std::string picture(const cases::Case& which, const report::Style& style) {
@@ -130,15 +130,15 @@ std::string picture(const cases::Case& which, const report::Style& style) {
   const auto count = std::min(motion.impact_count(motion.end()), most_marks);
   for (long long k = 1; k <= count; ++k) impact_times.push_back(motion.impact(k).t);
   // Eight points a column let a fast oscillation be seen as a band instead of a false slow one.
-  return report::plot(study::response_curve(which, 8 * style.width), impact_times, style);
+  return report::plot(tables::response_curve(which, 8 * style.width), impact_times, style);
 }
 
 std::string page_of(const cases::Case& which, const Options& options, const std::string& line) {
-  const auto motion = study::response_record(which);
+  const auto motion = tables::response_record(which);
   return report::html(
-      study::show_case(options.name, read_settings(options.settings, options.problem),
-                       cases::default_threshold),
-      options.name, study::provenance(line), &motion, "respond");
+      tables::show_case(options.name, read_settings(options.settings, options.problem),
+                        cases::default_threshold),
+      options.name, record::provenance(line), &motion, "respond");
 }
 
 int run(Options options, const std::string& line) {

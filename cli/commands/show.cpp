@@ -8,9 +8,9 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/record/provenance.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/tables/listing.hpp"
-#include "clackers/record/provenance.hpp"
 #include "clackers/tables/respond.hpp"
 #include "cli/command.hpp"
 #include "cli/files/report_page.hpp"
@@ -35,7 +35,7 @@ bool is_case(const std::string& name) {
 // Refuses a name that is neither a case nor the beginning of a method's specification.
 void require_method(const std::string& specification) {
   std::vector<std::string> known;
-  for (const auto& row : study::list("methods").rows)
+  for (const auto& row : tables::list("methods").rows)
     known.push_back(std::get<std::string>(row.front()));
   const auto name = specification.substr(0, specification.find_first_of(":+"));
   if (std::ranges::find(known, name) != known.end()) return;
@@ -43,7 +43,7 @@ void require_method(const std::string& specification) {
   refuse_name("case or method", name, known, "clackers list");
 }
 
-std::vector<study::Sheet> sheets_of(const Options& options) {
+std::vector<record::Sheet> sheets_of(const Options& options) {
   if (options.name.empty())
     throw InputError(
         "show needs a CASE or METHOD, for example three-parameter. All names: clackers list",
@@ -52,14 +52,14 @@ std::vector<study::Sheet> sheets_of(const Options& options) {
   const double threshold = options.threshold.empty()
                                ? cases::default_threshold
                                : read_number("--threshold", options.threshold);
-  if (is_case(options.name)) return study::show_case(options.name, settings, threshold);
+  if (is_case(options.name)) return tables::show_case(options.name, settings, threshold);
   require_method(options.name);
   if (!settings.empty() || !options.threshold.empty())
     throw InputError("show " + options.name +
                          ": --set and --threshold are for cases. Parameters of a method stand in "
                          "its name: newmark:beta=0.25",
                      "bad-syntax");
-  return study::show_method(options.name);
+  return tables::show_method(options.name);
 }
 
 int run(Options options, const std::string& line) {
@@ -71,17 +71,17 @@ int run(Options options, const std::string& line) {
   const bool with_problem = results.format() == report::Format::json && is_case(options.name);
   const auto problem =
       with_problem
-          ? study::show_problem(options.name, read_settings(options.settings, options.problem))
+          ? tables::show_problem(options.name, read_settings(options.settings, options.problem))
           : std::string();
   report::write(sheets, "clackers/show/1", results.format(), results.stream(), results.style(),
                 problem);
   results.finish();
   if (!page.wanted()) return 0;
-  std::optional<study::CaseRecord> motion;
+  std::optional<record::CaseRecord> motion;
   if (is_case(options.name))
-    motion = study::response_record(
+    motion = tables::response_record(
         cases::make(options.name, read_settings(options.settings, options.problem)));
-  return page.write(report::html(sheets, options.name, study::provenance(line),
+  return page.write(report::html(sheets, options.name, record::provenance(line),
                                  motion ? &*motion : nullptr))
              ? 0
              : 4;

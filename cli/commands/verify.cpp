@@ -14,8 +14,8 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/cases/case.hpp"
-#include "clackers/tables/listing.hpp"
 #include "clackers/solvers/program.hpp"
+#include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/verify_programs.hpp"
 #include "cli/files/record_output.hpp"
@@ -49,7 +49,7 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
   study::VerifyRequest request;
   request.methods = options.methods;
   if (options.all)
-    for (const auto& row : study::list("pairs").rows)
+    for (const auto& row : tables::list("pairs").rows)
       request.methods.push_back(std::get<std::string>(row.front()));
   request.cases = options.cases;
   request.settings = read_settings(options.settings, options.problem);
@@ -66,7 +66,7 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
   else if (options.levels.empty())
     request.budget = default_budget;
   const auto& tolerances = options.programs.tolerances;
-  if (!tolerances.empty()) request.tolerances = study::tolerances_from(tolerances);
+  if (!tolerances.empty()) request.tolerances = solvers::tolerances_from(tolerances);
   request.jobs = whole("--jobs", options.jobs, 1, request.jobs);
   request.command = line;
   if (options.programs.any()) plan = program_plan(plan, !options.neighbours.empty());
@@ -102,7 +102,7 @@ void check(const Options& options) {
         refuse_usage(fmt::format("{0}: this is a case, not a method. Write --case {0}", method));
 }
 
-study::Record run_study(const Options& options, const study::VerifyRequest& request) {
+record::Record run_study(const Options& options, const study::VerifyRequest& request) {
   ProgressLine progress("verify", options.common.quiet);
   auto programs = program_subjects(options.programs);
   if (!programs.empty())

@@ -7,8 +7,8 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/report/words/words.hpp"
-#include "clackers/study/check.hpp"
 #include "clackers/solvers/plugin.hpp"
+#include "clackers/study/check.hpp"
 #include "cli/commands/plugin_run.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
@@ -89,10 +89,11 @@ void require_any(const ProgramOptions& options) {
   refuse_given("--fresh", options.fresh);
 }
 
-study::ProcessOptions process_options_of(const ProgramOptions& options) {
-  study::ProcessOptions process;
+solvers::ProcessOptions process_options_of(const ProgramOptions& options) {
+  solvers::ProcessOptions process;
   if (!options.expect.empty()) process.expect = study::claim_from(options.expect);
-  if (!options.tolerances.empty()) process.tolerances = study::tolerances_from(options.tolerances);
+  if (!options.tolerances.empty())
+    process.tolerances = solvers::tolerances_from(options.tolerances);
   if (!options.timeout.empty()) process.timeout = read_duration("--timeout", options.timeout);
   process.work = options.work;
   process.fresh = options.fresh;
@@ -114,16 +115,17 @@ std::vector<study::SolverSubject> program_subjects(const ProgramOptions& options
   const auto process = process_options_of(options);
   std::vector<study::SolverSubject> subjects;
   if (!options.commands.empty()) {
-    study::ProgramRequest request{process, {}};
+    solvers::ProgramRequest request{process, {}};
     for (const auto& line : options.commands)
       request.programs.push_back({line, name(request.programs.size())});
-    subjects = study::subjects_of(request);
+    subjects = solvers::subjects_of(request);
   }
   if (!options.libraries.empty()) {
-    study::PluginRequest request{process, {}, plugin_host_words()};
+    solvers::PluginRequest request{process, {}, plugin_host_words()};
     for (const auto& library : options.libraries)
       request.plugins.push_back({library, name(options.commands.size() + request.plugins.size())});
-    std::ranges::move(study::subjects_of(request, &interrupt_flag()), std::back_inserter(subjects));
+    std::ranges::move(solvers::subjects_of(request, &interrupt_flag()),
+                      std::back_inserter(subjects));
   }
   return subjects;
 }
@@ -134,7 +136,7 @@ study::RefinementRequest program_plan(study::RefinementRequest plan, bool has_ne
   return plan;
 }
 
-int exit_code_of_programs(const study::Record& record, int exit_code) {
+int exit_code_of_programs(const record::Record& record, int exit_code) {
   const auto* failure = study::failure_of_all(record);
   if (failure == nullptr || record.interrupted) return exit_code;
   const auto printed = report::printed_text(failure->printed);

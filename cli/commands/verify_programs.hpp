@@ -28,6 +28,6 @@ std::vector<study::SolverSubject> program_subjects(const ProgramOptions& options
 study::RefinementRequest program_plan(study::RefinementRequest plan, bool has_neighbours);
 
 /// 4, with a message, where every run of all programs failed; else `exit_code`.
-int exit_code_of_programs(const study::Record& record, int exit_code);
+int exit_code_of_programs(const record::Record& record, int exit_code);
 
 }  // namespace clackers::cli

@@ -13,10 +13,10 @@
 namespace clackers::cli {
 
 std::vector<double> read_times(const std::string& path, double end) {
-  exchange::TextLines lines(path, &interrupt_flag());
+  input::TextLines lines(path, &interrupt_flag());
   std::vector<double> times;
   while (lines.next()) {
-    const auto text = exchange::trimmed(lines.text());
+    const auto text = input::trimmed(lines.text());
     if (text.empty()) continue;
     const double t = read_number(lines.place(), text);
     if (!(t >= 0.0 && t <= end))
@@ -30,23 +30,23 @@ std::vector<double> read_times(const std::string& path, double end) {
   return times;
 }
 
-study::Record read_baseline(const std::string& path) {
-  exchange::InputFile file(path, &interrupt_flag());
+record::Record read_baseline(const std::string& path) {
+  input::InputFile file(path, &interrupt_flag());
   std::string text;
   std::size_t size = 0, count = 0;
   do {
     size += count;
-    if (size > study::longest_record)
+    if (size > record::longest_record)
       throw InputError(fmt::format("baseline {}: is longer than {} bytes; allowed: json as written "
                                    "by clackers verify or check with --format json.",
-                                   path, study::longest_record),
+                                   path, record::longest_record),
                        "not-a-record");
     text.resize(size + (1 << 16));
     count = file.read(text.data() + size, text.size() - size);
   } while (count > 0);
   text.resize(size);
   try {
-    return study::record_from_json(text, &interrupt_flag());
+    return record::record_from_json(text, &interrupt_flag());
   } catch (const InputError& error) {
     throw InputError(fmt::format("baseline {}: {}", path, error.what()), error.code());
   }

@@ -16,6 +16,6 @@ std::vector<double> read_times(const std::string& path, double end);
 /// The record of an earlier `verify --format json`; "-" reads standard input. Throws FileError when
 /// the file cannot be read, InputError with its name and the place when it is no such record;
 /// Interrupted.
-study::Record read_baseline(const std::string& path);
+record::Record read_baseline(const std::string& path);
 
 }  // namespace clackers::cli

@@ -6,8 +6,8 @@
 
 namespace clackers::cli {
 
-RecordOutput::RecordOutput(const study::Record& record,
-                           const std::optional<study::Record>& baseline,
+RecordOutput::RecordOutput(const record::Record& record,
+                           const std::optional<record::Record>& baseline,
                            const CommonOptions& options, const RecordView& view)
     : record_(record), quiet_(options.quiet), view_(view) {
   if (baseline) changes_ = study::compare(record, *baseline);

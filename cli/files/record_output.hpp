@@ -15,7 +15,7 @@ namespace clackers::cli {
 /// work: what cannot be compared must not be found out afterwards. Throws as read_baseline and
 /// study::require_same_study do.
 template <class Request>
-std::optional<study::Record> baseline_of(const std::string& path, const Request& request) {
+std::optional<record::Record> baseline_of(const std::string& path, const Request& request) {
   if (path.empty()) return {};
   auto baseline = read_baseline(path);
   study::require_same_study(request, baseline);
@@ -31,7 +31,7 @@ struct RecordView {
 /// A record of verify or check with what changed since its baseline. The record must outlive it.
 class RecordOutput {
  public:
-  RecordOutput(const study::Record& record, const std::optional<study::Record>& baseline,
+  RecordOutput(const record::Record& record, const std::optional<record::Record>& baseline,
                const CommonOptions& options, const RecordView& view = {});
 
   std::string html() const;
@@ -42,7 +42,7 @@ class RecordOutput {
  private:
   const study::BaselineComparison* changes() const { return changes_ ? &*changes_ : nullptr; }
 
-  const study::Record& record_;
+  const record::Record& record_;
   std::optional<study::BaselineComparison> changes_;
   bool quiet_;
   RecordView view_;

@@ -49,7 +49,7 @@ void Results::finish() {
   if (!quiet_) note(fmt::format("Wrote {}", file_->path()));
 }
 
-void write_rows(study::RowSource& rows, Results& results, const std::string& command, bool quiet) {
+void write_rows(record::RowSource& rows, Results& results, const std::string& command, bool quiet) {
   // Rows on a terminal show the progress themselves.
   ProgressLine line(command, quiet || results.is_terminal());
   rows.progress = [&](double share) {

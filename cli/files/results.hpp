@@ -37,7 +37,7 @@ class Results {
 };
 
 /// Writes rows, with a progress line where they do not go to a terminal. Throws Interrupted.
-void write_rows(study::RowSource& rows, Results& results, const std::string& command, bool quiet);
+void write_rows(record::RowSource& rows, Results& results, const std::string& command, bool quiet);
 
 /// The look of standard output: colours on a terminal unless --no-color, NO_COLOR or TERM=dumb;
 /// the terminal's width, or 80 columns.

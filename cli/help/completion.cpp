@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "clackers/cases/case.hpp"
-#include "paper/table.hpp"
 #include "clackers/tables/listing.hpp"
+#include "paper/table.hpp"
 
 namespace clackers::cli {
 namespace {
@@ -20,7 +20,7 @@ class Candidates {
     words_.push_back(word);
     lines_.push_back(word + "\t" + explanation.substr(0, explanation.find(". ")));
   }
-  void add_column(const study::Sheet& sheet, const std::string& kind = {}) {
+  void add_column(const record::Sheet& sheet, const std::string& kind = {}) {
     for (const auto& row : sheet.rows)
       if (kind.empty() || std::get<std::string>(row[1]) == kind) add(std::get<std::string>(row[0]));
   }
@@ -47,19 +47,19 @@ void add_parameters(const std::vector<std::string>& words, Candidates& to) {
 // What one placeholder stands for; numbers complete to nothing.
 void add_values(std::string_view placeholder, bool is_choice, Candidates& to) {
   if (placeholder == "CASE") {
-    to.add_column(study::list("cases"));
+    to.add_column(tables::list("cases"));
   } else if (placeholder == "METHOD") {
-    to.add_column(study::list("integrators"));
-    to.add_column(study::list("pairs"));
+    to.add_column(tables::list("integrators"));
+    to.add_column(tables::list("pairs"));
   } else if (placeholder == "KIND") {
-    for (const auto& kind : study::list_kinds()) to.add(kind);
+    for (const auto& kind : tables::list_kinds()) to.add(kind);
     to.add("figures");
   } else if (placeholder == "CODE") {
-    to.add_column(study::explain(""));
+    to.add_column(tables::explain(""));
   } else if (placeholder == "FIGURE") {
     to.add_column(paper::list_figures());
   } else if (placeholder.starts_with("BEHAVIOUR")) {
-    to.add_column(study::explain(""), "behaviour");
+    to.add_column(tables::explain(""), "behaviour");
   } else if (placeholder.starts_with("FILE") || placeholder == "FOLDER") {
     to.add_files();
   } else if (is_choice) {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/study/verify.hpp"
 #include "paper/catalogue.hpp"
 #include "paper/figures/curves.hpp"
-#include "clackers/study/verify.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -31,7 +31,7 @@ Claim integrated(const std::string& says, const std::string& name,
   request.plan = {.coarsest = step, .levels = 1, .samples_per_level = 1};
   request.jobs = 1;
   const auto record = study::verify(request).cases.at(0);
-  const auto score = study::worst_of_finest(record.subjects.at(0)).worst;
+  const auto score = record::worst_of_finest(record.subjects.at(0)).worst;
   const long long expected = record.problem.impact_count;
   const long long found = score.impacts ? score.impacts->found : 0;
   auto measured = fmt::format("rk4 with located impacts, step {} s: largest error {}", step,

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "clackers/study/verify.hpp"
 #include "paper/catalogue.hpp"
 #include "paper/figures/validation.hpp"
-#include "clackers/study/verify.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -31,7 +31,7 @@ const std::vector<Method>& methods_shown() {
 
 // Steps from a sixteenth of the fast period down by halves: the same part of the fast motion for
 // every N.
-study::Record study_of(int N, const std::atomic<bool>* interrupt) {
+record::Record study_of(int N, const std::atomic<bool>* interrupt) {
   study::VerifyRequest request;
   for (const auto& method : methods_shown()) request.methods.push_back(method.name);
   request.cases = {"three-parameter"};
@@ -43,10 +43,10 @@ study::Record study_of(int N, const std::atomic<bool>* interrupt) {
 }
 
 // The largest error of each level; a level with a run that failed has none.
-Series errors_of(const study::Subject& subject, const Method& look) {
+Series errors_of(const record::Subject& subject, const Method& look) {
   Series out{look.name, {}, {}, look.stroke};
   for (const auto& level : subject.levels) {
-    const auto score = study::worst(level);
+    const auto score = record::worst(level);
     if (score.failed > 0 || !(score.worst.u_error > 0.0)) continue;
     out.x.push_back(level.step);
     out.y.push_back(score.worst.u_error);

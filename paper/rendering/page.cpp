@@ -8,11 +8,11 @@
 
 #include "clackers/cases/case.hpp"
 #include "clackers/exact/quantities/indicators.hpp"
-#include "paper/rendering/assets.hpp"
-#include "paper/table.hpp"
+#include "clackers/record/provenance.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/markup.hpp"
-#include "clackers/record/provenance.hpp"
+#include "paper/rendering/assets.hpp"
+#include "paper/table.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -123,7 +123,7 @@ std::string page(const std::vector<Drawn>& drawn, const std::string& command) {
     contents += fmt::format("<a href=\"#{}\">{}</a>\n", one.figure.name, label(one.figure.name));
     figures += section(one);
   }
-  const auto from = study::provenance(command);
+  const auto from = record::provenance(command);
   return report::fill(assets::page_html, {{"version", escape(from.version)},
                                           {"date", escape(from.date)},
                                           {"style", std::string(report::assets::page_css) +

@@ -12,9 +12,9 @@
 #include <thread>
 
 #include "clackers/base/error.hpp"
+#include "clackers/report/assets.hpp"
 #include "paper/rendering/assets.hpp"
 #include "paper/rendering/files.hpp"
-#include "clackers/report/assets.hpp"
 
 namespace clackers::paper {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "paper/rendering/assets.hpp"
-#include "clackers/report/markup.hpp"
 #include "clackers/record/reduced_curve.hpp"
+#include "clackers/report/markup.hpp"
+#include "paper/rendering/assets.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -124,8 +124,8 @@ Json rows_of(const Panel& panel, Kind kind) {
   Json rows = Json::array();
   for (const auto& series : panel.series) {
     if (series.kind != kind) continue;
-    auto drawn = study::Curve{series.x, {series.y}};
-    if (kind == Kind::line) drawn = study::reduced(drawn, drawn_points);
+    auto drawn = record::Curve{series.x, {series.y}};
+    if (kind == Kind::line) drawn = record::reduced(drawn, drawn_points);
     rows.push_back({{"series", series.name},
                     {"piece", rows.size()},
                     {"x", rounded(drawn.t)},

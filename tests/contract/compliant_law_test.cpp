@@ -6,8 +6,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/methods/contact/compliant_law.hpp"
 #include "clackers/methods/registry.hpp"
 
@@ -28,7 +28,7 @@ class LawOrder : public testing::TestWithParam<methods::CompliantLaw> {
     const double steps = std::round(
         steps_per_contact * which.problem.end / method->contact_time(which.problem) + 0.37);
     const double h = which.problem.end / steps;
-    assess::ErrorSink sink(*which.motion, which.problem, h);
+    measure::ErrorSink sink(*which.motion, which.problem, h);
     const auto outcome = method->prepare(which.problem, h)->advance(sink);
     EXPECT_TRUE(outcome.finished) << outcome.detail;
     EXPECT_EQ(sink.score(outcome).impacts->matched, 2);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
@@ -40,9 +40,9 @@ const std::vector<Task>& tasks() {
   return all;
 }
 
-assess::RunScore score_of(const methods::Method& method, const cases::Case& which, double steps) {
+measure::RunScore score_of(const methods::Method& method, const cases::Case& which, double steps) {
   const double h = which.problem.end / steps;
-  assess::ErrorSink sink(*which.motion, which.problem, h);
+  measure::ErrorSink sink(*which.motion, which.problem, h);
   const auto outcome = method.prepare(which.problem, h)->advance(sink);
   EXPECT_TRUE(outcome.finished) << outcome.detail;
   return sink.score(outcome);
@@ -78,7 +78,7 @@ AdaptiveOrder adaptive_order(const methods::Method& method, const cases::Case& w
   for (int i = 0; i <= 8; ++i) {
     const double tolerance = std::pow(10.0, -6.0 - 0.5 * i);
     const double scale = which.problem.end / 1e4;  // of the matcher of impacts, which are not used
-    assess::ErrorSink sink(*which.motion, which.problem, scale);
+    measure::ErrorSink sink(*which.motion, which.problem, scale);
     const auto outcome =
         method.prepare(which.problem, methods::Resolution::by_tolerance(tolerance))->advance(sink);
     EXPECT_TRUE(outcome.finished) << outcome.detail;
@@ -140,7 +140,7 @@ class ImpactOrder : public testing::TestWithParam<std::string> {
 
   void expect_floor_by_tolerance(const cases::Case& which) const {
     const auto error = [&](double tolerance) {
-      assess::ErrorSink sink(*which.motion, which.problem, which.problem.end / 1e4);
+      measure::ErrorSink sink(*which.motion, which.problem, which.problem.end / 1e4);
       const auto run = chosen->prepare(which.problem, methods::Resolution::by_tolerance(tolerance));
       const auto outcome = run->advance(sink);
       EXPECT_TRUE(outcome.finished) << outcome.detail;

@@ -29,7 +29,7 @@ std::vector<std::string> parts(std::string_view text) {
   return out;
 }
 
-void require_whole(const exchange::History& history, int dof) {
+void require_whole(const input::History& history, int dof) {
   const auto& motion = history.motion;
   const auto rows = motion.t.size(), cells = rows * std::size_t(dof);
   require(rows >= 2, "a history has two rows");
@@ -51,14 +51,14 @@ void read_history(std::string_view bytes) {
   if (bytes.empty()) return;
   const unsigned choice = static_cast<unsigned char>(bytes.front());
   bytes.remove_prefix(1);
-  exchange::HistoryOptions options{.dof = choice % 2 == 0 ? 2 : 1};
+  input::HistoryOptions options{.dof = choice % 2 == 0 ? 2 : 1};
   if (choice / 2 % 2 == 1) options.step = 0.01;
   if (choice / 4 % 2 == 1) {
     options.columns = parts(bytes.substr(0, bytes.find('\n')));
     bytes.remove_prefix(std::min(bytes.size(), bytes.find('\n')));
   }
   const MemoryFile file(bytes);
-  require_whole(exchange::read_history(file.path(), options), options.dof);
+  require_whole(input::read_history(file.path(), options), options.dof);
 }
 
 // A NumPy file behind its magic bytes. The first byte chooses the masses, and names for up to seven
@@ -67,15 +67,15 @@ void read_npy(std::string_view bytes) {
   if (bytes.empty()) return;
   const unsigned choice = static_cast<unsigned char>(bytes.front());
   const MemoryFile file("\x93NUMPY" + std::string(bytes.substr(1)));
-  exchange::HistoryOptions options{.dof = choice % 2 == 0 ? 2 : 1, .step = 0.01};
+  input::HistoryOptions options{.dof = choice % 2 == 0 ? 2 : 1, .step = 0.01};
   for (const auto* name : {"t", "u1", "v1", "u2", "v2", "a1", "a2"})
     if (options.columns.size() < choice / 2 % 8) options.columns.emplace_back(name);
-  require_whole(exchange::read_history(file.path(), options), options.dof);
+  require_whole(input::read_history(file.path(), options), options.dof);
 }
 
 void read_events(std::string_view bytes) {
   const MemoryFile file(bytes);
-  const auto events = exchange::read_events(file.path(), 2);
+  const auto events = input::read_events(file.path(), 2);
   double last = -INFINITY;
   for (const auto& event : events) {
     require(std::isfinite(event.t) && event.t >= last, "times of collisions ascend");

@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include "clackers/base/error.hpp"
+#include "clackers/record/record_json.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/baseline.hpp"
 #include "clackers/study/check.hpp"
-#include "clackers/record/record_json.hpp"
 #include "cli/values.hpp"
 #include "target.hpp"
 
@@ -60,10 +60,10 @@ std::size_t fields(std::string_view line) {
   return count;
 }
 
-void write_all(const study::Record& record) {
-  const auto json = study::to_json(record);
-  require(study::to_json(study::record_from_json(json)) == json, "a record survives its json");
-  const int code = study::exit_code(record);
+void write_all(const record::Record& record) {
+  const auto json = record::to_json(record);
+  require(record::to_json(record::record_from_json(json)) == json, "a record survives its json");
+  const int code = record::exit_code(record);
   require(code == 0 || code == 1 || code == 3 || code == 130, "a verdict has an exit code");
   for (const auto* name : {"table", "csv", "json", "junit", "latex"}) {
     std::ostringstream out;
@@ -103,9 +103,9 @@ void check_and_report(std::string_view bytes) {
 
 // What --baseline does with a file.
 void read_record(std::string_view bytes) {
-  const auto record = study::record_from_json(std::string(bytes));
-  const auto json = study::to_json(record);
-  require(study::to_json(study::record_from_json(json)) == json, "a record survives its json");
+  const auto record = record::record_from_json(std::string(bytes));
+  const auto json = record::to_json(record);
+  require(record::to_json(record::record_from_json(json)) == json, "a record survives its json");
   require(!study::compare(record, record).any(), "a record does not differ from itself");
 }
 

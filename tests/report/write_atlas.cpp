@@ -14,7 +14,7 @@ int main(int count, char** arguments) {
   auto own = report::sample_atlas(), other = report::sample_atlas(1, 1);
   other.subjects.rows.resize(1);
   other.runs.rows.resize(8);
-  study::SheetRows first(own.runs), second(other.runs);
+  record::SheetRows first(own.runs), second(other.runs);
   const std::array parts{report::sample_part(own, first),
                          report::sample_part(other, second, "A. <b>Author</b>")};
   std::ofstream file(arguments[1], std::ios::binary);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace clackers::study {
+namespace clackers {
 
 ProgressMeter::ProgressMeter(double total, Progress progress)
     : total_(total), progress_(std::move(progress)) {}
@@ -31,4 +31,4 @@ void TaskShare::add(double amount) {
   meter_.add(part);
 }
 
-}  // namespace clackers::study
+}  // namespace clackers

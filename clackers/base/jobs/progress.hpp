@@ -4,7 +4,7 @@
 #include <functional>
 #include <mutex>
 
-namespace clackers::study {
+namespace clackers {
 
 /// The share of the work that is done, in [0, 1]. Called now and then, from any thread, one call at
 /// a time. Where work comes in rounds, each begins at 0 again.
@@ -47,4 +47,4 @@ class TaskShare {
   double left_;
 };
 
-}  // namespace clackers::study
+}  // namespace clackers

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace clackers::study {
+namespace clackers {
 namespace {
 
 TEST(ProgressMeter, ReportsSharesThatNeverFallAndEndAtOne) {
@@ -74,4 +74,4 @@ TEST(TaskShare, AddsItsWholeCostHoweverTheTaskWent) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers

@@ -12,7 +12,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::study {
+namespace clackers {
 
 int thread_count(int jobs) {
   constexpr int most = 1024;
@@ -52,4 +52,4 @@ void run_all(std::size_t count, int threads, const std::function<void(std::size_
   if (first) std::rethrow_exception(first);
 }
 
-}  // namespace clackers::study
+}  // namespace clackers

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace clackers::study {
+namespace clackers {
 
 /// Number of threads meant by `jobs`: itself, or one a processor for 0. Throws InputError for a
 /// negative number or one beyond 1024.
@@ -13,4 +13,4 @@ int thread_count(int jobs);
 /// index once, started in order. After an exception nothing more is started; the first one is thrown here when all threads have ended.
 void run_all(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
-}  // namespace clackers::study
+}  // namespace clackers

@@ -11,7 +11,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::study {
+namespace clackers {
 namespace {
 
 TEST(WorkQueue, DoesEachPieceOnceWithAnyNumberOfThreads) {
@@ -69,4 +69,4 @@ TEST(WorkQueue, TakesJobsAsThreadsAndZeroAsOneAProcessor) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers

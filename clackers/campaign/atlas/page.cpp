@@ -30,14 +30,14 @@ std::string lead_of(const Store& store, std::size_t others) {
   return lead;
 }
 
-report::AtlasPart part_of(const AtlasResults& results, study::RowSource& runs) {
+report::AtlasPart part_of(const AtlasResults& results, record::RowSource& runs) {
   return {&results.subjects, &runs, results.origin, results.from, results.options, results.calls};
 }
 
 }  // namespace
 
 std::string campaign_page(const Store& store, std::span<const AtlasResults> others,
-                          const std::string& command, const study::Provenance& from) {
+                          const std::string& command, const record::Provenance& from) {
   const auto& specification = store.specification();
   report::require_few_cells(store.finished().size());  // before they are read
   const auto subjects = sheet_of(*store.rows(TableName::subjects));
@@ -48,7 +48,7 @@ std::string campaign_page(const Store& store, std::span<const AtlasResults> othe
                                         from,
                                         ladder_options(specification.ladder()),
                                         calls_of(specification, subjects)}};
-  std::deque<study::SheetRows> sheets;
+  std::deque<record::SheetRows> sheets;
   for (const auto& results : others)
     parts.push_back(part_of(results, sheets.emplace_back(results.runs)));
   return report::atlas_page(parts, {command, heading_of(store, command),

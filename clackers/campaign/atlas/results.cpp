@@ -16,17 +16,17 @@ namespace {
 std::string call_of(const MethodEntry& entry, const std::string& name) {
   auto call = fmt::format("{} {} --name {}",
                           entry.kind == MethodEntry::Kind::command ? "--exec" : "--plugin",
-                          study::shell_quoted(entry.text), study::shell_quoted(name));
-  if (!entry.expect.empty()) call += " --expect " + study::shell_quoted(entry.expect);
+                          solvers::shell_quoted(entry.text), solvers::shell_quoted(name));
+  if (!entry.expect.empty()) call += " --expect " + solvers::shell_quoted(entry.expect);
   return call;
 }
 
-std::size_t place_of(const std::vector<study::Column>& columns, const std::string& name) {
-  return std::size_t(std::ranges::find(columns, name, &study::Column::name) - columns.begin());
+std::size_t place_of(const std::vector<record::Column>& columns, const std::string& name) {
+  return std::size_t(std::ranges::find(columns, name, &record::Column::name) - columns.begin());
 }
 
 // Without the columns of subjects, which stand in the other sheet.
-study::Sheet runs_alone(study::RowSource& rows) {
+record::Sheet runs_alone(record::RowSource& rows) {
   std::vector<std::size_t> kept;
   const auto& columns = rows.columns();
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -34,9 +34,9 @@ study::Sheet runs_alone(study::RowSource& rows) {
     const bool is_run = found != report::columns().end() && !report::is_of_subject(*found);
     if (is_run || columns[c].name == "task" || columns[c].name == "run") kept.push_back(c);
   }
-  study::Sheet sheet{rows.schema(), rows.title(), {}, {}};
+  record::Sheet sheet{rows.schema(), rows.title(), {}, {}};
   for (const auto c : kept) sheet.columns.push_back(columns[c]);
-  for (std::vector<study::Cell> row; rows.next(row);) {
+  for (std::vector<record::Cell> row; rows.next(row);) {
     auto& cells = sheet.rows.emplace_back();
     for (const auto c : kept) cells.push_back(std::move(row[c]));
   }
@@ -61,7 +61,7 @@ std::string ladder_options(const Ladder& ladder) {
 }
 
 std::map<std::string, std::string> calls_of(const Specification& specification,
-                                            const study::Sheet& subjects) {
+                                            const record::Sheet& subjects) {
   std::map<std::string, std::string> calls;
   const auto& methods = specification.methods();
   const auto task = place_of(subjects.columns, "task");
@@ -75,14 +75,14 @@ std::map<std::string, std::string> calls_of(const Specification& specification,
   return calls;
 }
 
-study::Sheet sheet_of(study::RowSource& rows) {
-  study::Sheet sheet{rows.schema(), rows.title(), rows.columns(), {}};
-  for (std::vector<study::Cell> row; rows.next(row);) sheet.rows.push_back(row);
+record::Sheet sheet_of(record::RowSource& rows) {
+  record::Sheet sheet{rows.schema(), rows.title(), rows.columns(), {}};
+  for (std::vector<record::Cell> row; rows.next(row);) sheet.rows.push_back(row);
   return sheet;
 }
 
 AtlasResults results_of(const Store& store, const std::string& origin,
-                        const study::Provenance& from) {
+                        const record::Provenance& from) {
   const auto& specification = store.specification();
   AtlasResults results;
   results.origin = origin;

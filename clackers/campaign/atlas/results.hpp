@@ -13,8 +13,8 @@ std::string ladder_options(const Ladder& ladder);
 /// How a command line names the programs and plug-ins of a specification, by their names in the rows
 /// of `subjects`.
 std::map<std::string, std::string> calls_of(const Specification& specification,
-                                            const study::Sheet& subjects);
+                                            const record::Sheet& subjects);
 
-study::Sheet sheet_of(study::RowSource& rows);
+record::Sheet sheet_of(record::RowSource& rows);
 
 }  // namespace clackers::campaign

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view family = "clackers/atlas-results/";
 constexpr std::string_view schema = "clackers/atlas-results/1";
 
-Json cell_json(const study::Cell& cell) {
+Json cell_json(const record::Cell& cell) {
   if (const auto* real = std::get_if<double>(&cell))
     return std::isfinite(*real) ? Json(*real) : Json(nullptr);
   if (const auto* whole = std::get_if<long long>(&cell)) return *whole;
@@ -24,7 +24,7 @@ Json cell_json(const study::Cell& cell) {
   return nullptr;
 }
 
-Json sheet_json(const study::Sheet& sheet) {
+Json sheet_json(const record::Sheet& sheet) {
   Json columns = Json::array(), rows = Json::array();
   for (const auto& column : sheet.columns) columns.push_back(column.name);
   for (const auto& row : sheet.rows) {
@@ -34,19 +34,19 @@ Json sheet_json(const study::Sheet& sheet) {
   return {{"columns", columns}, {"rows", rows}};
 }
 
-study::Cell cell_from(const Json& json) {
+record::Cell cell_from(const Json& json) {
   if (json.is_null()) return {};
   if (json.is_number_integer()) return json.get<long long>();
   if (json.is_number()) return json.get<double>();
   return json.get<std::string>();  // throws for anything else
 }
 
-study::Sheet sheet_from(const Json& json, std::initializer_list<const char*> needed) {
-  study::Sheet sheet;
+record::Sheet sheet_from(const Json& json, std::initializer_list<const char*> needed) {
+  record::Sheet sheet;
   for (const auto& name : json.at("columns"))
     sheet.columns.push_back({name.get<std::string>(), "", ""});
   for (const auto* name : needed)
-    if (std::ranges::find(sheet.columns, name, &study::Column::name) == sheet.columns.end())
+    if (std::ranges::find(sheet.columns, name, &record::Column::name) == sheet.columns.end())
       throw InputError(fmt::format("there is no column {}", name), "no-column");
   for (const auto& row : json.at("rows")) {
     auto& cells = sheet.rows.emplace_back();
@@ -60,7 +60,7 @@ study::Sheet sheet_from(const Json& json, std::initializer_list<const char*> nee
 }
 
 // A cell of the matrix has one row.
-void require_different(const study::Sheet& subjects) {
+void require_different(const record::Sheet& subjects) {
   std::set<std::string> seen;
   for (const auto& row : subjects.rows) {
     Json key = Json::array();
@@ -76,12 +76,12 @@ void require_different(const study::Sheet& subjects) {
   }
 }
 
-Json provenance_json(const study::Provenance& from) {
+Json provenance_json(const record::Provenance& from) {
   return {{"command", from.command}, {"version", from.version},     {"compiler", from.compiler},
           {"machine", from.machine}, {"processor", from.processor}, {"date", from.date}};
 }
 
-study::Provenance provenance_from(const Json& json) {
+record::Provenance provenance_from(const Json& json) {
   const auto text = [&](const char* key) { return json.at(key).get<std::string>(); };
   return {text("command"), text("version"),   text("compiler"),
           text("machine"), text("processor"), text("date")};

@@ -36,7 +36,7 @@ class Ranks : public test::DatabaseTest {
     return summary;
   }
 
-  std::vector<std::vector<std::vector<study::Cell>>> expected() {
+  std::vector<std::vector<std::vector<record::Cell>>> expected() {
     run("one.db", 1);
     return rows("one.db");
   }

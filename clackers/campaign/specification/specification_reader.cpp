@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/base/suggest.hpp"
+#include "clackers/base/toml_reader.hpp"
 #include "clackers/campaign/specification.hpp"
 #include "clackers/campaign/specification/sampling.hpp"
-#include "clackers/base/toml_reader.hpp"
+#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/record/cause_metrics.hpp"
-#include "clackers/study/check.hpp"
 #include "clackers/solvers/program.hpp"
+#include "clackers/study/check.hpp"
 #include "clackers/study/system_study.hpp"
 
 namespace clackers::campaign {
@@ -22,8 +22,8 @@ constexpr double most_tasks = 1e18;
 
 std::vector<std::string> metric_names() {
   std::vector<std::string> names;
-  for (const auto& metric : assess::metrics()) names.emplace_back(metric.name);
-  for (const auto& metric : study::cause_metrics()) names.emplace_back(metric.name);
+  for (const auto& metric : measure::metrics()) names.emplace_back(metric.name);
+  for (const auto& metric : record::cause_metrics()) names.emplace_back(metric.name);
   return names;
 }
 
@@ -103,11 +103,11 @@ class SpecificationReader : public TomlReader {
       ladder.tolerances = at(*found, [&] { return tolerances(*found); });
   }
   std::vector<double> tolerances(const toml::node& node) const {
-    if (!node.is_array()) return study::tolerances_from(word(node, "tolerances"));
+    if (!node.is_array()) return solvers::tolerances_from(word(node, "tolerances"));
     std::string text;
     for (const auto& one : list(node, "tolerances"))
       text += fmt::format("{}{}", text.empty() ? "" : ",", number(one, "a tolerance"));
-    return study::tolerances_from(text);
+    return solvers::tolerances_from(text);
   }
 
   void read_metrics(const toml::node& node) {

@@ -12,14 +12,14 @@
 namespace clackers::campaign {
 namespace {
 
-std::string type_of(const study::Column& column) {
-  if (column.kind == study::ColumnKind::real) return " REAL";
-  if (column.kind == study::ColumnKind::whole) return " INTEGER";
+std::string type_of(const record::Column& column) {
+  if (column.kind == record::ColumnKind::real) return " REAL";
+  if (column.kind == record::ColumnKind::whole) return " INTEGER";
   // Of a parameter with words and numbers: as given.
   return column.name.starts_with("set_") ? "" : " TEXT";
 }
 
-std::string definitions(const std::vector<study::Column>& columns) {
+std::string definitions(const std::vector<record::Column>& columns) {
   std::string text;
   for (const auto& column : columns)
     text += fmt::format("{}{}{}", text.empty() ? "" : ", ", quoted(column.name), type_of(column));
@@ -32,7 +32,7 @@ std::string sql_text(std::string_view text) {
   return out + "'";
 }
 
-const study::Column seconds_column{"seconds", "s", "processor time", study::ColumnKind::real};
+const record::Column seconds_column{"seconds", "s", "processor time", record::ColumnKind::real};
 
 }  // namespace
 
@@ -53,7 +53,7 @@ std::string schema_of(const Specification& specification, const std::string& sha
              "PRAGMA application_id = {};\nPRAGMA user_version = {};\n",
              subjects, definitions(tables.runs), application_id, schema_version) +
          row("specification", specification.text()) + row("file", specification.name()) +
-         row("version", study::provenance("").version) +
+         row("version", record::provenance("").version) +
          row("tasks", fmt::format("{}", specification.tasks())) + row("shard", shard) + "COMMIT;\n";
 }
 
@@ -86,7 +86,7 @@ void require_same(const Sqlite& database, const Specification& specification) {
                     "campaign query {} \"SELECT value FROM campaign WHERE key = 'specification'\"",
                     database.path(), database.path()),
         "other-campaign");
-  const auto version = value_of(database, "version"), ours = study::provenance("").version;
+  const auto version = value_of(database, "version"), ours = record::provenance("").version;
   if (version != ours)
     throw InputError(
         fmt::format("{}: clackers {} wrote the rows of this database; allowed: {}, since another "
@@ -97,7 +97,7 @@ void require_same(const Sqlite& database, const Specification& specification) {
 
 std::string value_of(const Sqlite& database, const std::string& key) {
   auto statement = database.prepare("SELECT value FROM campaign WHERE key = ?");
-  const study::Cell cell = key;
+  const record::Cell cell = key;
   statement.bind(1, cell);
   return statement.step() ? statement.text(0) : std::string();
 }
@@ -125,12 +125,12 @@ Selection subjects_selection(const Tables& tables, bool with_times) {
 Selection runs_selection(const Tables& tables, bool with_times) {
   Selection out;
   std::string names;
-  const auto add = [&](const study::Column& column, char table) {
+  const auto add = [&](const record::Column& column, char table) {
     out.columns.push_back(column);
     names += fmt::format("{}{}.{}", names.empty() ? "" : ", ", table, quoted(column.name));
   };
-  const auto is_of_run = [&](const study::Column& column) {
-    return std::ranges::find(tables.runs, column.name, &study::Column::name) != tables.runs.end();
+  const auto is_of_run = [&](const record::Column& column) {
+    return std::ranges::find(tables.runs, column.name, &record::Column::name) != tables.runs.end();
   };
   add(tables.subjects[0], 's');
   add(tables.runs[1], 'r');

@@ -28,7 +28,7 @@ std::string insert_into(const std::string& table, std::size_t columns);
 /// A query for the rows of `runs` or `subjects` as they are exported, and its columns.
 struct Selection {
   std::string sql;
-  std::vector<study::Column> columns;
+  std::vector<record::Column> columns;
 };
 Selection subjects_selection(const Tables& tables, bool with_times);
 Selection runs_selection(const Tables& tables, bool with_times);

@@ -6,11 +6,11 @@
 namespace clackers::campaign {
 namespace {
 
-using study::Cell;
+using record::Cell;
 
-class SqlRows : public study::RowSource {
+class SqlRows : public record::RowSource {
  public:
-  SqlRows(std::string schema, std::string title, std::vector<study::Column> columns,
+  SqlRows(std::string schema, std::string title, std::vector<record::Column> columns,
           Statement statement)
       : schema_(std::move(schema)),
         title_(std::move(title)),
@@ -19,7 +19,7 @@ class SqlRows : public study::RowSource {
 
   std::string schema() const override { return schema_; }
   std::string title() const override { return title_; }
-  const std::vector<study::Column>& columns() const override { return columns_; }
+  const std::vector<record::Column>& columns() const override { return columns_; }
   bool next(std::vector<Cell>& row) override {
     if (!statement_.step()) return false;
     row.clear();
@@ -30,7 +30,7 @@ class SqlRows : public study::RowSource {
 
  private:
   std::string schema_, title_;
-  std::vector<study::Column> columns_;
+  std::vector<record::Column> columns_;
   Statement statement_;
   long long made_ = 0;
 };
@@ -41,16 +41,16 @@ double number(const Cell& cell) {
   return std::nan("");
 }
 
-class SqlNumbers : public study::NumberRows {
+class SqlNumbers : public record::NumberRows {
  public:
-  SqlNumbers(std::string schema, std::string title, const std::vector<study::Column>& columns,
+  SqlNumbers(std::string schema, std::string title, const std::vector<record::Column>& columns,
              Statement statement, long long count)
       : schema_(std::move(schema)),
         title_(std::move(title)),
         statement_(std::move(statement)),
         count_(count) {
     for (std::size_t i = 0; i < columns.size(); ++i)
-      if (columns[i].kind != study::ColumnKind::any) {
+      if (columns[i].kind != record::ColumnKind::any) {
         columns_.push_back(columns[i]);
         places_.push_back(int(i));
       }
@@ -58,7 +58,7 @@ class SqlNumbers : public study::NumberRows {
 
   std::string schema() const override { return schema_; }
   std::string title() const override { return title_; }
-  const std::vector<study::Column>& columns() const override { return columns_; }
+  const std::vector<record::Column>& columns() const override { return columns_; }
   long long count() const override { return count_; }
   bool next_block(std::vector<double>& values) override {
     constexpr int block = 1024;
@@ -71,7 +71,7 @@ class SqlNumbers : public study::NumberRows {
 
  private:
   std::string schema_, title_;
-  std::vector<study::Column> columns_;
+  std::vector<record::Column> columns_;
   std::vector<int> places_;
   Statement statement_;
   long long count_, made_ = 0;
@@ -79,15 +79,15 @@ class SqlNumbers : public study::NumberRows {
 
 }  // namespace
 
-std::unique_ptr<study::RowSource> sql_rows(const std::string& schema, const std::string& title,
-                                           std::vector<study::Column> columns,
-                                           Statement statement) {
+std::unique_ptr<record::RowSource> sql_rows(const std::string& schema, const std::string& title,
+                                            std::vector<record::Column> columns,
+                                            Statement statement) {
   return std::make_unique<SqlRows>(schema, title, std::move(columns), std::move(statement));
 }
 
-std::unique_ptr<study::RowSource> sql_numbers(const std::string& schema, const std::string& title,
-                                              const std::vector<study::Column>& columns,
-                                              Statement statement, long long count) {
+std::unique_ptr<record::RowSource> sql_numbers(const std::string& schema, const std::string& title,
+                                               const std::vector<record::Column>& columns,
+                                               Statement statement, long long count) {
   return std::make_unique<SqlNumbers>(schema, title, columns, std::move(statement), count);
 }
 

@@ -50,7 +50,7 @@ constexpr int busy_milliseconds = 5000;
 
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
-void Statement::bind(int parameter, const study::Cell& cell) {
+void Statement::bind(int parameter, const record::Cell& cell) {
   auto* const s = statement_.get();
   int code = SQLITE_OK;
   if (const auto* real = std::get_if<double>(&cell))
@@ -82,7 +82,7 @@ std::string Statement::column_name(int column) const {
   return sqlite3_column_name(statement_.get(), column);
 }
 
-study::Cell Statement::cell(int column) const {
+record::Cell Statement::cell(int column) const {
   switch (sqlite3_column_type(statement_.get(), column)) {
     case SQLITE_INTEGER:
       return whole(column);

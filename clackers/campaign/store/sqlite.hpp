@@ -21,7 +21,7 @@ class Statement {
       : database_(database), statement_(statement), path_(&path) {}
 
   /// The parameters from 1; text must live until the next step.
-  void bind(int parameter, const study::Cell& cell);
+  void bind(int parameter, const record::Cell& cell);
   /// True while there is a row.
   bool step();
   /// Runs it to the end and makes it ready for other parameters.
@@ -29,7 +29,7 @@ class Statement {
 
   int columns() const;
   std::string column_name(int column) const;
-  study::Cell cell(int column) const;
+  record::Cell cell(int column) const;
   long long whole(int column) const;
   std::string text(int column) const;
   bool only_reads() const;

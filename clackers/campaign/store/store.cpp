@@ -137,17 +137,17 @@ void Store::write(std::span<const TaskRows> tasks) {
   auto& connection = *connection_;
   auto& [subject, run, timing] = connection.inserts.value();
   Transaction transaction(connection.database);
-  const auto bind = [](Statement& statement, int first, const std::vector<study::Cell>& cells) {
+  const auto bind = [](Statement& statement, int first, const std::vector<record::Cell>& cells) {
     for (const auto& cell : cells) statement.bind(first++, cell);
   };
   for (const auto& rows : tasks) {
-    const study::Cell task = rows.task;
+    const record::Cell task = rows.task;
     subject.bind(1, task);
     bind(subject, 2, rows.subject);
     subject.run();
     if (connection.database.changes() == 0) continue;
     for (std::size_t i = 0; i < rows.runs.size(); ++i) {
-      const study::Cell number = static_cast<long long>(i + 1);
+      const record::Cell number = static_cast<long long>(i + 1);
       run.bind(1, task);
       run.bind(2, number);
       bind(run, 3, rows.runs[i]);
@@ -172,7 +172,7 @@ long long Store::merge(const std::string& path) {
   }
   const auto& database = connection_->database;
   auto attach = database.prepare("ATTACH ? AS other");
-  const study::Cell name = path.starts_with('/') ? path : "./" + path;
+  const record::Cell name = path.starts_with('/') ? path : "./" + path;
   attach.bind(1, name);
   attach.run();
   long long added = 0;
@@ -194,7 +194,7 @@ long long Store::merge(const std::string& path) {
   return added;
 }
 
-std::unique_ptr<study::RowSource> Store::rows(TableName table, bool with_times) const {
+std::unique_ptr<record::RowSource> Store::rows(TableName table, bool with_times) const {
   const auto& [lock, database, specification, shard, tables, inserts] = *connection_;
   auto selection = table == TableName::runs ? runs_selection(tables, with_times)
                                             : subjects_selection(tables, with_times);
@@ -203,7 +203,7 @@ std::unique_ptr<study::RowSource> Store::rows(TableName table, bool with_times) 
                   database.prepare(selection.sql));
 }
 
-std::unique_ptr<study::RowSource> Store::numbers(TableName table, bool with_times) const {
+std::unique_ptr<record::RowSource> Store::numbers(TableName table, bool with_times) const {
   const auto& database = connection_->database;
   const auto& tables = connection_->tables;
   const auto selection = table == TableName::runs ? runs_selection(tables, with_times)
@@ -213,7 +213,7 @@ std::unique_ptr<study::RowSource> Store::numbers(TableName table, bool with_time
                      count);
 }
 
-std::unique_ptr<study::RowSource> Store::query(const std::string& sql) const {
+std::unique_ptr<record::RowSource> Store::query(const std::string& sql) const {
   const auto& database = connection_->database;
   database.only_read();
   auto statement = database.prepare(sql);
@@ -221,7 +221,7 @@ std::unique_ptr<study::RowSource> Store::query(const std::string& sql) const {
     throw InputError(
         fmt::format("{}: \"{}\"; allowed: a statement that reads, such as SELECT.", path(), sql),
         "bad-syntax");
-  std::vector<study::Column> columns;
+  std::vector<record::Column> columns;
   for (int i = 0; i < statement.columns(); ++i)
     columns.push_back({statement.column_name(i), "", ""});
   return sql_rows("clackers/campaign-query/1", "", std::move(columns), std::move(statement));

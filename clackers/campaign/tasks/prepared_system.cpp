@@ -32,9 +32,9 @@ PreparedSystem::PreparedSystem(const Specification& specification, System system
   }
 }
 
-const study::CaseRecord* PreparedSystem::assess(const MethodEntry& method,
-                                                const std::optional<study::SolverSubject>& solver,
-                                                const std::atomic<bool>* interrupt) {
+const record::CaseRecord* PreparedSystem::assess(const MethodEntry& method,
+                                                 const std::optional<study::SolverSubject>& solver,
+                                                 const std::atomic<bool>* interrupt) {
   const auto& name = solver ? solver->name : method.name;
   if (!study_) return refused(name, *refusal_);
   try {
@@ -57,7 +57,7 @@ study::CostEstimate PreparedSystem::estimate(const MethodEntry& method,
   }
 }
 
-const study::CaseRecord* PreparedSystem::refused(std::string name, const InputError& why) {
+const record::CaseRecord* PreparedSystem::refused(std::string name, const InputError& why) {
   record_ = study::refused_record(system_.name, std::move(name), why);
   return &record_;
 }

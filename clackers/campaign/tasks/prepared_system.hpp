@@ -22,20 +22,20 @@ class PreparedSystem {
 
   /// A record with one subject, valid until the next call; nullptr when interrupted. `solver` is there
   /// for a method that is none of the catalogue.
-  const study::CaseRecord* assess(const MethodEntry& method,
-                                  const std::optional<study::SolverSubject>& solver,
-                                  const std::atomic<bool>* interrupt);
+  const record::CaseRecord* assess(const MethodEntry& method,
+                                   const std::optional<study::SolverSubject>& solver,
+                                   const std::atomic<bool>* interrupt);
   study::CostEstimate estimate(const MethodEntry& method,
                                const std::optional<study::SolverSubject>& solver, bool timed);
 
  private:
-  const study::CaseRecord* refused(std::string name, const InputError& why);
+  const record::CaseRecord* refused(std::string name, const InputError& why);
 
   const Specification& specification_;
   System system_;
   std::optional<study::SystemStudy> study_;
   std::optional<InputError> refusal_;
-  study::CaseRecord record_;  // of what was refused
+  record::CaseRecord record_;  // of what was refused
 };
 
 }  // namespace clackers::campaign

@@ -24,7 +24,7 @@ inline Specification small() {
 /// A folder of its own for each test.
 class DatabaseTest : public ::testing::Test {
  protected:
-  using Rows = std::vector<std::vector<study::Cell>>;
+  using Rows = std::vector<std::vector<record::Cell>>;
 
   DatabaseTest() {
     std::string name = (std::filesystem::temp_directory_path() / "clackers-XXXXXX").string();
@@ -34,9 +34,9 @@ class DatabaseTest : public ::testing::Test {
 
   std::string path(const std::string& name) const { return folder_ / name; }
 
-  static Rows read(study::RowSource& source) {
+  static Rows read(record::RowSource& source) {
     Rows rows;
-    for (std::vector<study::Cell> row; source.next(row);) rows.push_back(row);
+    for (std::vector<record::Cell> row; source.next(row);) rows.push_back(row);
     return rows;
   }
   /// Of the table subjects and of the table runs.

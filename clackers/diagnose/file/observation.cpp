@@ -7,7 +7,7 @@ namespace clackers::diagnose {
 namespace {
 
 // Rows that are no limits of jumps, and the two ends.
-std::vector<std::size_t> plain_rows(const assess::Comparison& comparison) {
+std::vector<std::size_t> plain_rows(const measure::Comparison& comparison) {
   std::vector<std::size_t> rows;
   const auto last = comparison.rows() - 1;
   rows.reserve(comparison.rows());
@@ -63,7 +63,7 @@ std::vector<long long> grid_places(const model::Trajectory& history,
 
 class Mismatch {
  public:
-  explicit Mismatch(const assess::Comparison& comparison)
+  explicit Mismatch(const measure::Comparison& comparison)
       : comparison_(comparison), history_(comparison.history()), h_(comparison.step()) {}
 
   // Largest |v - du/dt| over the envelope at this row; NaN where it cannot be told.
@@ -98,21 +98,21 @@ class Mismatch {
     return next != impacts.end() && next->t <= to + h_;
   }
 
-  const assess::Comparison& comparison_;
+  const measure::Comparison& comparison_;
   const model::Trajectory& history_;
   double h_;
 };
 
 }  // namespace
 
-Observation observe(const assess::Comparison& comparison, const FileFacts& facts) {
+Observation observe(const measure::Comparison& comparison, const FileFacts& facts) {
   const auto& history = comparison.history();
   Observation seen;
   seen.facts = facts;
   seen.rows = (long long)(comparison.rows());
   seen.first = history.t.front();
   seen.last = history.t.back();
-  seen.impacts_reported = comparison.impact_source() == assess::ImpactSource::reported;
+  seen.impacts_reported = comparison.impact_source() == measure::ImpactSource::reported;
   seen.sample.dof = seen.opening.dof = history.dof;
   for (std::size_t row = 0; row < std::min(comparison.rows(), most_opening_rows); ++row)
     append(seen.opening, history, row);

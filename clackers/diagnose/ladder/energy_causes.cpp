@@ -10,7 +10,7 @@ std::vector<Diagnosis> energy_causes(const Question& question) {
   if (!question.histories.empty() || question.by_tolerance) return {};
   constexpr double least_loss = 0.01;
   std::vector<double> x, y;
-  const assess::RunScore* finest = nullptr;
+  const measure::RunScore* finest = nullptr;
   for (const auto& level : question.ladder)
     for (const auto& run : level.runs) {
       const double loss = 1.0 - run.energy_ratio;

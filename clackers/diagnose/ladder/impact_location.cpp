@@ -11,7 +11,7 @@
 namespace clackers::diagnose {
 namespace {
 
-using assess::FreeState;
+using measure::FreeState;
 
 constexpr std::size_t most_impacts = 60, most_flights = 40;
 // Rows beside an impact that may still be closed, as after an impact noticed late.
@@ -85,7 +85,7 @@ class Locator {
     return std::sqrt(std::max(1e-6, modes.eigenvalues().maxCoeff()));
   }
 
-  assess::FreeMotion motion_;
+  measure::FreeMotion motion_;
   double frequency_;
 };
 
@@ -169,7 +169,7 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
   if (found.impacts.empty()) return found;
   std::vector<double> speeds, gaps, defects;
   for (const auto& impact : found.impacts) speeds.push_back(impact.closing);
-  const double speed = assess::median(speeds);
+  const double speed = measure::median(speeds);
   const auto& rows = sample;
   const auto stride = std::max<std::size_t>(1, rows.t.size() / most_flights);
   for (std::size_t i = 0; i + 1 < rows.t.size(); i += stride) {
@@ -184,8 +184,8 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
     found.impacts.clear();
     return found;
   }
-  found.uncertainty = assess::median(gaps);
-  found.flight_defect = assess::median(defects);
+  found.uncertainty = measure::median(gaps);
+  found.flight_defect = measure::median(defects);
   return found;
 }
 

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <optional>
 
-#include "clackers/measure/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
+#include "clackers/measure/errors/vectors.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -38,7 +38,7 @@ std::optional<double> power_of_step(const std::vector<LocatedImpacts>& files, do
     for (std::size_t j = i + 1; j < x.size(); ++j)
       if (x[i] - x[j] > std::log(1.3)) slopes.push_back((y[i] - y[j]) / (x[i] - x[j]));
   if (slopes.empty() || x.front() - x.back() < std::log(0.98 * range)) return {};
-  return assess::median(std::move(slopes));
+  return measure::median(std::move(slopes));
 }
 
 double rms_delay(const LocatedImpacts& file) { return file.rms_delay(); }
@@ -107,7 +107,7 @@ std::optional<Diagnosis> interpolated(const Question& question,
 }
 
 // Largest displacement error of the runs of that step or tolerance; NaN without one.
-double error_at(const assess::Ladder& ladder, double step) {
+double error_at(const measure::Ladder& ladder, double step) {
   for (const auto& level : ladder)
     for (const auto& run : level.runs)
       if (run.finished && std::abs(run.step - step) <= 1e-9 * step) return run.u_error;
@@ -138,7 +138,7 @@ std::optional<Diagnosis> tolerance(const Question& question,
     parts.push_back(displaced / (error_at(question.ladder, file->step) * scale));
   }
   constexpr double least_part = 0.2, most_steps = 0.5;
-  const double part = std::max(parts.front(), assess::median(parts));
+  const double part = std::max(parts.front(), measure::median(parts));
   const double spacing =
       question.by_tolerance ? question.histories.back().facts.spacing : files.back().step;
   if (!(part > least_part) || largest > most_steps * spacing) return {};
@@ -166,10 +166,10 @@ std::optional<Diagnosis> compliant(const Question& question,
       speed = std::max(speed, impact.closing);
     }
     finest_resolves =
-        !one.empty() && assess::median(one) >= 3.0 * question.histories[i].facts.spacing;
+        !one.empty() && measure::median(one) >= 3.0 * question.histories[i].facts.spacing;
     if (!finest_resolves) continue;
     ++resolving;
-    durations.push_back(assess::median(one));
+    durations.push_back(measure::median(one));
     for (const auto& impact : files[i].impacts)
       if (std::isfinite(impact.closed_speed)) {
         closed_speeds += impact.closed_speed;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <optional>
 
-#include "clackers/measure/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
+#include "clackers/measure/errors/vectors.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -37,8 +37,8 @@ double white_noise(const Observation& seen, const model::Motion& motion,
       fourth.push_back(
           std::abs(e[i - 2] - 4.0 * e[i - 1] + 6.0 * e[i] - 4.0 * e[i + 1] + e[i + 2]));
     }
-    const double from_second = assess::median(second) / second_gain / normal_median;
-    const double from_fourth = assess::median(fourth) / fourth_gain / normal_median;
+    const double from_second = measure::median(second) / second_gain / normal_median;
+    const double from_fourth = measure::median(fourth) / fourth_gain / normal_median;
     if (from_fourth > 0.7 * from_second && std::isfinite(from_fourth))
       largest = std::max(largest, from_fourth);
   }
@@ -78,7 +78,7 @@ std::optional<Diagnosis> in_rows(const Question& question) {
 // of a random sequence are turning points, at most two of one that passes zero once.
 std::optional<Diagnosis> in_ladder(const Question& question) {
   constexpr double saturated = 0.3, above_floor = 30.0, most_factor = 2.5;
-  std::vector<const assess::RunScore*> runs;  // finest first
+  std::vector<const measure::RunScore*> runs;  // finest first
   for (auto level = question.ladder.rbegin(); level != question.ladder.rend(); ++level)
     for (auto run = level->runs.rbegin(); run != level->runs.rend(); ++run)
       if (run->finished) runs.push_back(&*run);

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/measure/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
+#include "clackers/measure/errors/vectors.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -20,8 +20,8 @@ double off_grid(const model::Motion& motion, double step) {
   return largest;
 }
 
-std::vector<const assess::RunScore*> runs_of(const assess::Ladder& ladder) {
-  std::vector<const assess::RunScore*> runs;
+std::vector<const measure::RunScore*> runs_of(const measure::Ladder& ladder) {
+  std::vector<const measure::RunScore*> runs;
   for (const auto& level : ladder)
     for (const auto& run : level.runs) runs.push_back(&run);
   return runs;
@@ -37,7 +37,7 @@ void commensurate(const Question& question, bool impacts_at_steps, std::vector<D
   const double near = known == 1 ? 1e-3 : 1e-2;
   // Steps are known to more digits than this.
   constexpr double divides = 1e-4;
-  std::vector<const assess::RunScore*> on, off;
+  std::vector<const measure::RunScore*> on, off;
   for (const auto* run : runs_of(question.ladder))
     if (run->finished && run->step > 0.0 && std::isfinite(run->u_error))
       (off_grid(question.motion, run->step) < near ? on : off).push_back(run);
@@ -54,7 +54,7 @@ void commensurate(const Question& question, bool impacts_at_steps, std::vector<D
       for (const auto* other : off)
         if (std::abs(std::log2(other->step / run->step)) <= 1.05) beside.push_back(other->u_error);
       lucky += (impacts_at_steps && off_grid(question.motion, run->step) < divides) ||
-               (!beside.empty() && run->u_error < 0.1 * assess::median(beside));
+               (!beside.empty() && run->u_error < 0.1 * measure::median(beside));
     }
     if (2 * lucky <= std::ssize(on)) return;
     one.confidence = on.size() >= 2 ? 0.95 : 0.8;
@@ -70,16 +70,16 @@ void commensurate(const Question& question, bool impacts_at_steps, std::vector<D
 void unstable(const Question& question, std::vector<Diagnosis>& found) {
   if (question.by_tolerance) return;
   auto runs = runs_of(question.ladder);
-  std::ranges::stable_sort(runs, std::greater{}, &assess::RunScore::step);
+  std::ranges::stable_sort(runs, std::greater{}, &measure::RunScore::step);
   // Errors of bounded motions stay near 2: both amplitudes in opposite phase.
   constexpr double exploded = 10.0;
-  const auto fails = [](const assess::RunScore* run) {
+  const auto fails = [](const measure::RunScore* run) {
     return !run->finished || !(run->u_error < exploded);
   };
   const auto first_stable = std::ranges::find_if_not(runs, fails);
   if (first_stable == runs.begin() || first_stable == runs.end()) return;
   if (std::any_of(first_stable, runs.end(), fails)) return;
-  const bool grew = std::any_of(runs.begin(), first_stable, [](const assess::RunScore* run) {
+  const bool grew = std::any_of(runs.begin(), first_stable, [](const measure::RunScore* run) {
     return run->finished || run->failure_code == "diverged" || run->failure_code == "not-finite" ||
            run->failure_code == "not-a-number";
   });

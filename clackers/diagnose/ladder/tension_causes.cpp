@@ -2,10 +2,10 @@
 #include <cmath>
 #include <optional>
 
-#include "clackers/measure/errors/mechanics.hpp"
-#include "clackers/measure/errors/vectors.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/measure/errors/vectors.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -34,11 +34,11 @@ Impulses impulses_of(const Observation& seen, const model::ImpactProblem<>& prob
   constexpr int least_flights = 10;
   const auto& contact = problem.contacts.front();
   const auto& rows = rows_of(seen);
-  const assess::FreeMotion motion(problem.system);
+  const measure::FreeMotion motion(problem.system);
   const double mass = 1.0 / contact.direction.dot(motion.response(contact.direction));
   const auto n = std::size_t(rows.dof);
   const auto state = [&](std::size_t i) {
-    return assess::FreeState{
+    return measure::FreeState{
         rows.t[i], Eigen::Map<const Eigen::VectorXd>(rows.u.data() + i * n, Eigen::Index(n)),
         Eigen::Map<const Eigen::VectorXd>(rows.v.data() + i * n, Eigen::Index(n))};
   };

@@ -47,14 +47,14 @@ struct SpringContact : model::NonlinearForce<model::any_dof> {
 
 class ForeignRun {
  public:
-  using State = assess::FreeState;
+  using State = measure::FreeState;
 
   ForeignRun(const model::ImpactProblem<>& problem, const ForeignSolver& solver)
       : problem_(problem), solver_(solver), system_(problem.system), random_(solver.seed) {
     if (solver.location == Location::spring)
       system_.nonlinear =
           std::make_shared<SpringContact>(problem.contacts.front(), solver.spring, solver.dashpot);
-    motion_ = std::make_unique<assess::FreeMotion>(system_);
+    motion_ = std::make_unique<measure::FreeMotion>(system_);
   }
 
   /// Rows at n h, n = 0, 1, ..., as far as the problem's end.
@@ -125,8 +125,8 @@ class ForeignRun {
     now.v -=
         (1.0 + contact.restitution) * contact.gap_rate(now.v) / contact.direction.dot(push) * push;
     if (rows_.impacts)
-      rows_.impacts->push_back({now.t, 0, assess::entries(now.u), assess::entries(before),
-                                assess::entries(now.v), std::nan("")});
+      rows_.impacts->push_back({now.t, 0, measure::entries(now.u), measure::entries(before),
+                                measure::entries(now.v), std::nan("")});
   }
 
   bool strikes(const State& now) const {
@@ -173,7 +173,7 @@ class ForeignRun {
   const model::ImpactProblem<>& problem_;
   ForeignSolver solver_;
   model::SmoothSystem<> system_;
-  std::unique_ptr<assess::FreeMotion> motion_;
+  std::unique_ptr<measure::FreeMotion> motion_;
   model::Trajectory rows_;
   std::mt19937 random_;
   std::normal_distribution<double> normal_;

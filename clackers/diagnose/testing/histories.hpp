@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "clackers/judge/convergence/judge.hpp"
-#include "clackers/measure/errors/velocity_error.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/diagnose.hpp"
+#include "clackers/judge/convergence/judge.hpp"
+#include "clackers/measure/errors/velocity_error.hpp"
 
 namespace clackers::diagnose::testing {
 
@@ -85,7 +85,7 @@ inline FileFacts facts_of(const cases::Case& problem, const model::Trajectory& r
 
 inline Observation observed(const cases::Case& problem, const model::Trajectory& rows,
                             const FileFacts& facts) {
-  return observe(assess::Comparison(rows, *problem.motion, problem.problem), facts);
+  return observe(measure::Comparison(rows, *problem.motion, problem.problem), facts);
 }
 
 inline Observation observed(const cases::Case& problem, const model::Trajectory& rows,
@@ -94,8 +94,8 @@ inline Observation observed(const cases::Case& problem, const model::Trajectory&
 }
 
 /// RunScore::v_error of rows without reported impacts.
-inline double velocity_error(const model::Trajectory& rows, const assess::Comparison& comparison) {
-  assess::VelocityError error(comparison.reference());
+inline double velocity_error(const model::Trajectory& rows, const measure::Comparison& comparison) {
+  measure::VelocityError error(comparison.reference());
   error.take(rows.t, rows.v, comparison.reference_v());
   const auto scale = comparison.reference().peak().v;
   double largest = 0.0;
@@ -108,13 +108,13 @@ inline double velocity_error(const model::Trajectory& rows, const assess::Compar
 struct Files {
   cases::Case problem;
   std::vector<Observation> histories{};
-  assess::Ladder ladder{};
-  assess::LadderFit displacement{}, velocity{};
+  measure::Ladder ladder{};
+  judge::LadderFit displacement{}, velocity{};
 
   void add(const model::Trajectory& rows, const FileFacts& facts) {
-    const assess::Comparison comparison(rows, *problem.motion, problem.problem);
+    const measure::Comparison comparison(rows, *problem.motion, problem.problem);
     histories.push_back(observe(comparison, facts));
-    assess::RunScore score;
+    measure::RunScore score;
     score.step = facts.step;
     score.finished = true;
     for (std::size_t i = 0; i < rows.u.size(); ++i)
@@ -130,7 +130,7 @@ struct Files {
 
   /// Judges the errors, each file as a level.
   void fit(const Claim& claim = {}) {
-    const auto found = assess::judge(ladder, claim);
+    const auto found = judge::judge(ladder, claim);
     displacement = found.displacement;
     velocity = found.velocity;
   }

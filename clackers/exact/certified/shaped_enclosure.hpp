@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "clackers/exact/certified/enclosure.hpp"
 #include "clackers/exact/assembly/shaped_motion.hpp"
+#include "clackers/exact/certified/enclosure.hpp"
 
 namespace clackers::certified {
 

@@ -11,7 +11,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 constexpr std::size_t block_bytes = std::size_t{1} << 20;
@@ -145,4 +145,4 @@ void NpyFile::next_block() {
   if (rows_left() == 0 && !size_is_known() && file_.read(bytes_.data(), 1) > 0) fail_long();
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -8,7 +8,7 @@
 #include "clackers/input/source.hpp"
 #include "clackers/input/text/input_file.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// The first bytes of every NumPy file.
 inline constexpr std::string_view npy_magic = "\x93NUMPY";
@@ -58,4 +58,4 @@ class NpyFile {
   NumberColumns block_;
 };
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

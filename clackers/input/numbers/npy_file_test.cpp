@@ -10,7 +10,7 @@
 #include "clackers/input/testing/npy_bytes.hpp"
 #include "clackers/input/testing/test_file.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -185,4 +185,4 @@ TEST(NpyFile, RefusesOtherVersions) {
 }
 
 }  // namespace
-}  // namespace clackers::exchange
+}  // namespace clackers::input

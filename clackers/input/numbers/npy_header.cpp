@@ -11,7 +11,7 @@
 #include "clackers/input/numbers/npy_file.hpp"
 #include "clackers/input/numbers/python_literal.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 using List = PythonLiteral::List;
@@ -157,4 +157,4 @@ NpyHeader read_npy_header(const std::string& name, std::string_view text) {
   return HeaderReader(name, text).run();
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

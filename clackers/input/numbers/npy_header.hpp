@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// How a number stands in a file.
 struct NpyNumber {
@@ -44,4 +44,4 @@ inline constexpr std::size_t longest_npy_row = std::size_t{1} << 24;
 /// columns, and rows longer than longest_npy_row.
 NpyHeader read_npy_header(const std::string& name, std::string_view text);
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -4,7 +4,7 @@
 #include "clackers/input/testing/npy_bytes.hpp"
 #include "clackers/input/testing/test_file.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -76,4 +76,4 @@ TEST(NpyHeader, RefusesAHeaderWithoutItsMembers) {
 }
 
 }  // namespace
-}  // namespace clackers::exchange
+}  // namespace clackers::input

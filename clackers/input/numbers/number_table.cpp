@@ -9,7 +9,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 constexpr int whole_double = 17;  // digits; no double has more
@@ -128,4 +128,4 @@ std::size_t NumberTable::expected_rows() const {
 
 double NumberTable::share() const { return double(next_row_) / double(rows_); }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -9,7 +9,7 @@
 #include "clackers/input/source.hpp"
 #include "clackers/input/table.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// Rows of columns of doubles: those of a caller, or the blocks of a NumPy file. Rows count from 0,
 /// as NumPy counts them. A number has the digits of its shortest text, so that what was printed once
@@ -42,4 +42,4 @@ class NumberTable : public Table {
   const std::atomic<bool>* interrupt_;
 };
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -5,7 +5,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/text.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 class LiteralReader {
@@ -131,4 +131,4 @@ PythonLiteral read_python_literal(const std::string& name, std::string_view text
   return LiteralReader(name, text).whole();
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// A Python literal, as the header of a NumPy file is one.
 struct PythonLiteral {
@@ -29,4 +29,4 @@ struct PythonLiteral {
 /// InputError (not-an-array) for any other text; `name` is that of the file in its message.
 PythonLiteral read_python_literal(const std::string& name, std::string_view text);
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -2,7 +2,7 @@
 
 #include "clackers/input/testing/test_file.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 using List = PythonLiteral::List;
@@ -38,4 +38,4 @@ TEST(PythonLiteral, RefusesEverythingElseWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace clackers::exchange
+}  // namespace clackers::input

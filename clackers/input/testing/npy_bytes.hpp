@@ -9,7 +9,7 @@
 #include <vector>
 
 // For tests that read NumPy files.
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// The numbers as they stand in memory, one after the other; `swapped` in the other byte order.
 template <class Number>
@@ -42,4 +42,4 @@ inline std::string npy(std::string_view type, std::string_view shape, const std:
                          data, version);
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -11,7 +11,7 @@
 #include "clackers/input/testing/npy_bytes.hpp"
 
 // For tests that read the same numbers from several sources.
-namespace clackers::exchange {
+namespace clackers::input {
 
 using Numbers = std::vector<double>;
 
@@ -66,4 +66,4 @@ inline std::string plain_of(const Data& data) {
              bytes_of(by_rows(data)));
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -11,7 +11,7 @@
 #include "clackers/base/error.hpp"
 
 // For tests that read files.
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// A file with the given bytes that vanishes at the end of the test.
 class TestFile {
@@ -32,7 +32,7 @@ class TestFile {
   std::string path_;
 };
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input
 
 /// Expects an Error with a code whose message holds a text.
 #define EXPECT_REFUSED(statement, expected_code, text)                                    \

@@ -13,7 +13,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/input/source.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 [[noreturn]] void fail_to_read(const std::string& name, int error) {
@@ -104,4 +104,4 @@ std::size_t InputFile::read_all_at(std::size_t place, char* bytes, std::size_t c
   return have;
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// A file that is read once, from its beginning to its end; "-" is standard input.
 ///
@@ -44,4 +44,4 @@ class InputFile {
   std::string first_;    ///< bytes that read() returns before those of the descriptor
 };
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -4,7 +4,7 @@
 
 #include "clackers/input/testing/test_file.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 std::string read(InputFile& file, std::size_t capacity) {
@@ -60,4 +60,4 @@ TEST(InputFile, OfStandardInputBeginsWhereItStands) {
 }
 
 }  // namespace
-}  // namespace clackers::exchange
+}  // namespace clackers::input

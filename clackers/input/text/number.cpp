@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -65,4 +65,4 @@ bool looks_numeric(std::string_view text) {
   return read(text, number) != NumberError::no_number;
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

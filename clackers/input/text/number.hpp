@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// A number as it is printed.
 struct Number {
@@ -21,4 +21,4 @@ NumberError read(std::string_view text, Number& number);
 /// Whether the text is a number, NaN and infinity included. A header has none.
 bool looks_numeric(std::string_view text);
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

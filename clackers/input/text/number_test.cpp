@@ -4,7 +4,7 @@
 
 #include "clackers/input/text/printed_digits.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 Number number(std::string_view text) {
@@ -94,4 +94,4 @@ TEST(PrintedDigits, KnowSinglePrecisionByItsNumbers) {
 }
 
 }  // namespace
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -1,6 +1,6 @@
 #include "clackers/input/text/printed_digits.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 double PrintedDigits::half_unit() const {
   if (!(largest_ > 0.0)) return 0.0;
@@ -14,4 +14,4 @@ double PrintedDigits::half_unit() const {
   return 0.5 * std::pow(10.0, exponent - digits_ + 1);
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -6,7 +6,7 @@
 
 #include "clackers/input/text/number.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// How many digits a column of numbers is printed with, and what that hides.
 ///
@@ -40,4 +40,4 @@ class PrintedDigits {
   bool single_ = true;
 };
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -1,6 +1,6 @@
 #include "clackers/input/text/separation.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f\"";
@@ -46,4 +46,4 @@ void Separation::split(std::string_view line, std::vector<std::string_view>& fie
   }
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

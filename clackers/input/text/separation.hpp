@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// What stands between the fields of a row: a comma, a semicolon or a tab, one between two fields,
 /// or any run of blanks and tabs.
@@ -27,4 +27,4 @@ class Separation {
 /// `text` without blanks, tabs and quotes around it.
 std::string_view trimmed(std::string_view text);
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

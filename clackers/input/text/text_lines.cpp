@@ -8,7 +8,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 using namespace std::string_view_literals;
@@ -115,4 +115,4 @@ bool TextLines::next() {
   return true;
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -8,7 +8,7 @@
 
 #include "clackers/input/text/input_file.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// A line longer than this (some 700 000 columns) is no row of numbers; it keeps a wrong file from
 /// filling the memory.
@@ -61,4 +61,4 @@ class TextLines {
   std::string_view text_, comment_;
 };
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -7,7 +7,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/input/text/number.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 constexpr auto decimal_comma_hint =
@@ -160,4 +160,4 @@ std::vector<ReadNote> TextTable::notes() const {
   return notes;
 }
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -9,7 +9,7 @@
 #include "clackers/input/text/separation.hpp"
 #include "clackers/input/text/text_lines.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 
 /// Rows of fields of a text file. The names of its columns come from the caller, or from a header (a
 /// first line without any number), or from the last comment above the rows when it has a name for
@@ -47,4 +47,4 @@ class TextTable : public Table {
   std::vector<std::string_view> fields_;
 };
 
-}  // namespace clackers::exchange
+}  // namespace clackers::input

@@ -7,7 +7,7 @@
 #include "clackers/input/testing/test_file.hpp"
 #include "clackers/input/text/number.hpp"
 
-namespace clackers::exchange {
+namespace clackers::input {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -186,4 +186,4 @@ TEST(TextTable, StopsWhenInterrupted) {
 }
 
 }  // namespace
-}  // namespace clackers::exchange
+}  // namespace clackers::input

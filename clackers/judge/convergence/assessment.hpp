@@ -5,7 +5,7 @@
 
 #include "clackers/base/judgement.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// What a ladder of errors says: a behaviour, and a line  error = constant * h^order  where there
 /// is one.
@@ -78,4 +78,4 @@ struct Assessment {
   std::vector<Evidence> evidence;
 };
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -6,7 +6,7 @@
 #include "clackers/judge/convergence/ladder_fit.hpp"
 #include "clackers/judge/testing/random_ladder.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -70,4 +70,4 @@ TEST(IntervalCoverage, ACleanLineOfOrderTwoIsKnownToATwentieth) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -7,18 +7,18 @@
 #include <optional>
 #include <utility>
 
+#include "clackers/base/codes.hpp"
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 #include "clackers/judge/convergence/judge_evidence.hpp"
 #include "clackers/judge/convergence/ladder_fit.hpp"
-#include "clackers/base/codes.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 template <class Measure>
-LadderFit fit(const Ladder& ladder, const FitContext& context, const Measure& measure) {
+LadderFit fit(const measure::Ladder& ladder, const FitContext& context, const Measure& measure) {
   std::vector<ErrorLevel> errors;
   for (const auto& level : ladder) {
     errors.emplace_back();
@@ -32,17 +32,17 @@ LadderFit fit(const Ladder& ladder, const FitContext& context, const Measure& me
   return fit_ladder(errors, context);
 }
 
-ErrorPoint impact_time_error(const RunScore& run) {
+ErrorPoint impact_time_error(const measure::RunScore& run) {
   if (!run.impacts || run.impacts->matched == 0) return {.error = unknown};
   return {.error = run.impacts->worst_time_error, .floor = run.impacts->rounding_floor};
 }
 
 // Whether the energy at the end is wrong, as asked, in most runs of both finest levels.
 template <class Wrong>
-bool energy_is(const Ladder& ladder, Wrong wrong) {
+bool energy_is(const measure::Ladder& ladder, Wrong wrong) {
   if (ladder.size() < 2) return false;
-  return std::all_of(ladder.end() - 2, ladder.end(), [&](const Level& level) {
-    const auto run_is = [&](const RunScore& run) { return run.finished && wrong(run); };
+  return std::all_of(ladder.end() - 2, ladder.end(), [&](const measure::Level& level) {
+    const auto run_is = [&](const measure::RunScore& run) { return run.finished && wrong(run); };
     return 2 * std::ranges::count_if(level.runs, run_is) > std::ssize(level.runs);
   });
 }
@@ -66,7 +66,8 @@ bool stays_large(const LadderFit& fit) {
 
 // Whether printed digits are what stops the fit. It knows them as the rounding of its levels: it
 // calls `exact` what lies below them throughout, and finds too few levels where they begin early.
-bool stopped_by_printing(const LadderFit& fit, const RunScore& finest, const HistoryFacts& facts) {
+bool stopped_by_printing(const LadderFit& fit, const measure::RunScore& finest,
+                         const HistoryFacts& facts) {
   const double arithmetic = 1e-15 * double(facts.rows);
   const bool printed =
       facts.printed_floor > arithmetic && finest.u_error <= rounding_slack * facts.printed_floor;
@@ -87,15 +88,17 @@ bool is_unexplained_floor(const LadderFit& fit) {
 }
 
 // The fit with the behaviour that the rules of judge.hpp give, first hit wins.
-LadderFit behaviour_of(LadderFit fit, const Ladder& ladder, const Claim& claim,
+LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim& claim,
                        const Facts& facts) {
   const bool open = !shows_a_line(fit) && fit.behaviour != Behaviour::exact &&
                     fit.reason != Code("contact-not-resolved").name();
   // Less than all of the initial energy too much: a motion that should have decayed, and has not grown.
-  const auto too_much = [](const RunScore& run) {
+  const auto too_much = [](const measure::RunScore& run) {
     return run.energy_ratio > largest_energy_ratio && !(run.energy_error < 1.0);
   };
-  const auto too_little = [](const RunScore& run) { return run.energy_ratio < least_energy_ratio; };
+  const auto too_little = [](const measure::RunScore& run) {
+    return run.energy_ratio < least_energy_ratio;
+  };
   if (open && !facts.wrong_limit && !errors_fall(fit) && energy_is(ladder, too_much)) {
     fit.behaviour = Behaviour::divergent;
     fit.reason = Code("energy-growth").name();
@@ -192,7 +195,8 @@ int severity(Verdict verdict) {
 }
 
 // Verdict and its reason: of the behaviour, overruled by what is more severe.
-void decide(Assessment& found, const Claim& claim, const Ladder& ladder, const Facts& facts) {
+void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder,
+            const Facts& facts) {
   const auto& fit = found.displacement;
   found.verdict = compare(fit, claim, facts);
   // One history without a claim was not fitted for its order.
@@ -217,7 +221,7 @@ void decide(Assessment& found, const Claim& claim, const Ladder& ladder, const F
 
 }  // namespace
 
-Assessment judge(const Ladder& ladder, const Claim& claim, const Facts& facts) {
+Assessment judge(const measure::Ladder& ladder, const Claim& claim, const Facts& facts) {
   Assessment found;
   FitContext context{.claimed_order = claim.order,
                      .order_tolerance = claim.behaviour == Behaviour::irregular
@@ -228,10 +232,10 @@ Assessment judge(const Ladder& ladder, const Claim& claim, const Facts& facts) {
                      .by_tolerance = facts.by_tolerance,
                      .wrong_limit = facts.wrong_limit,
                      .noise = facts.noise};
-  const auto measured = fit(ladder, context, [](const RunScore& run) {
+  const auto measured = fit(ladder, context, [](const measure::RunScore& run) {
     return ErrorPoint{.error = run.u_error, .floor = run.rounding_floor};
   });
-  found.velocity = fit(ladder, context, [](const RunScore& run) {
+  found.velocity = fit(ladder, context, [](const measure::RunScore& run) {
     return ErrorPoint{.error = run.v_error, .floor = run.rounding_floor};
   });
   context.saturation = std::numeric_limits<double>::infinity();
@@ -244,4 +248,4 @@ Assessment judge(const Ladder& ladder, const Claim& claim, const Facts& facts) {
   return found;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -2,12 +2,12 @@
 
 #include <optional>
 
+#include "clackers/base/judgement.hpp"
 #include "clackers/judge/convergence/assessment.hpp"
 #include "clackers/measure/errors/score.hpp"
 #include "clackers/measure/impacts/shared_impacts.hpp"
-#include "clackers/base/judgement.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// Largest distance of a measured order from the claimed one, relative: of a line, and of an upper
 /// envelope. The logarithm of the largest of eight errors that scatter evenly (in logarithms) by a
@@ -54,7 +54,7 @@ struct Facts {
   bool wrong_limit = false;
   bool noise = false;  ///< a floor of the runs is noise, as their rows show
   /// Where contacts that share masses close together, if they do, and what the error does there.
-  std::optional<SharedImpacts> shared{};
+  std::optional<measure::SharedImpacts> shared{};
   /// The ladder is one of tolerances of an adaptive solver: `step` of a run is its tolerance.
   bool by_tolerance = false;
 };
@@ -95,6 +95,6 @@ struct Facts {
 /// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of
 /// another motion: it starts far from the reference, misses a collision or has one too many. Of
 /// several verdicts counts the first of disagrees, undecided, agrees, not claimed.
-Assessment judge(const Ladder& ladder, const Claim& claim, const Facts& facts = {});
+Assessment judge(const measure::Ladder& ladder, const Claim& claim, const Facts& facts = {});
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -7,17 +7,17 @@
 
 #include "clackers/base/codes.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // At least this share of the runs lies at the rounding floor by luck, where it is worth a word.
 constexpr double notable_luck = 1.0 / 16.0;
 
-bool miscounts(const RunScore& run) {
+bool miscounts(const measure::RunScore& run) {
   return run.finished && run.impacts && run.impacts->missed + run.impacts->extra > 0;
 }
 
-Evidence miscount(const RunScore& run) {
+Evidence miscount(const measure::RunScore& run) {
   const auto& found = *run.impacts;
   return {"collisions-miscounted",
           Verdict::disagrees,
@@ -28,9 +28,10 @@ Evidence miscount(const RunScore& run) {
 // decide nothing, steps may be too long to find them: then only if every run of both levels misses as
 // many and has as many too many, as no refinement will mend. Where errors scatter as claimed, gentle
 // impacts are off by more than their match may be at some steps: then only if most runs miscount.
-std::optional<Evidence> miscounted(const Ladder& ladder, const LadderFit& fit, const Claim& claim) {
+std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFit& fit,
+                                   const Claim& claim) {
   const bool late_is_allowed = claim.behaviour == Behaviour::stagnating;
-  const RunScore* first = nullptr;
+  const measure::RunScore* first = nullptr;
   bool all_alike = true;
   int miscounting = 0, finished = 0;
   for (auto level = ladder.end() - std::min<std::ptrdiff_t>(2, std::ssize(ladder));
@@ -57,7 +58,7 @@ std::optional<Evidence> miscounted(const Ladder& ladder, const LadderFit& fit, c
   return miscount(*first);
 }
 
-Evidence tolerance_evidence(const RunScore& finest, double limit, double printed_floor) {
+Evidence tolerance_evidence(const measure::RunScore& finest, double limit, double printed_floor) {
   const double error = finest.u_error;
   Evidence found{{}, Verdict::not_claimed, {error, limit, printed_floor}};
   if (!(std::abs(error - limit) > printed_floor)) {
@@ -71,7 +72,7 @@ Evidence tolerance_evidence(const RunScore& finest, double limit, double printed
 }
 
 // Why the history is of another motion than the case's.
-std::optional<Evidence> other_motion(const RunScore& finest, const HistoryFacts& facts) {
+std::optional<Evidence> other_motion(const measure::RunScore& finest, const HistoryFacts& facts) {
   if (facts.first > 0.0 && facts.start_error > far_start)
     return Evidence{"other-start", Verdict::disagrees, {facts.start_error}};
   if (!facts.rows_resolve_collisions || !miscounts(finest)) return {};
@@ -98,7 +99,7 @@ std::optional<Evidence> velocity_order(const Assessment& fits) {
   return Evidence{"velocity-order-lower", Verdict::not_claimed, {v.order, u.order}};
 }
 
-std::optional<Evidence> error_over_tolerance(const Ladder& ladder, const LadderFit& fit) {
+std::optional<Evidence> error_over_tolerance(const measure::Ladder& ladder, const LadderFit& fit) {
   if (!fit.has_line) return {};
   double sum = 0.0, least = std::numeric_limits<double>::infinity(), most = 0.0;
   int runs = 0;
@@ -124,8 +125,8 @@ bool claims_convergence(const Claim& claim) {
 }
 
 // What the fit itself noticed.
-std::vector<Evidence> of_the_fit(const LadderFit& fit, const Ladder& ladder, const Claim& claim,
-                                 const Facts& facts) {
+std::vector<Evidence> of_the_fit(const LadderFit& fit, const measure::Ladder& ladder,
+                                 const Claim& claim, const Facts& facts) {
   std::vector<Evidence> all;
   const auto note = [&](std::string_view code, std::vector<double> numbers) {
     all.push_back({std::string(code), Verdict::not_claimed, std::move(numbers)});
@@ -148,10 +149,13 @@ std::vector<Evidence> of_the_fit(const LadderFit& fit, const Ladder& ladder, con
 
 }  // namespace
 
-const RunScore& finest_run(const Ladder& ladder) { return ladder.back().runs.back(); }
+const measure::RunScore& finest_run(const measure::Ladder& ladder) {
+  return ladder.back().runs.back();
+}
 
 std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
-                                  const Ladder& ladder, const Claim& claim, const Facts& facts) {
+                                  const measure::Ladder& ladder, const Claim& claim,
+                                  const Facts& facts) {
   std::vector<Evidence> all;
   if (ladder.empty() || ladder.back().runs.empty()) return all;
   const auto add = [&](std::optional<Evidence> found) {
@@ -181,4 +185,4 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   return all;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -6,21 +6,21 @@
 #include "clackers/judge/convergence/judge.hpp"
 
 // Verdicts on histories: printed digits, tolerance, and other motions.
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
-RunScore run(double step, double error, double printed = 0.0) {
-  RunScore score;
+measure::RunScore run(double step, double error, double printed = 0.0) {
+  measure::RunScore score;
   score.step = step;
   score.finished = true;
   score.u_error = score.v_error = error;
   score.rounding_floor = std::max(printed, 2e-16 * 20.0 / step);
-  score.impacts = ImpactScore{6, 6, 6, 0, 0, error, 0.0};
+  score.impacts = measure::ImpactScore{6, 6, 6, 0, 0, error, 0.0};
   return score;
 }
 
-Ladder levels(double order, double floor = 0.0, double printed = 0.0) {
-  Ladder ladder;
+measure::Ladder levels(double order, double floor = 0.0, double printed = 0.0) {
+  measure::Ladder ladder;
   for (int i = 0; i < 7; ++i) {
     const double h = 0.04 * std::exp2(-i);
     ladder.push_back({h, {run(h, std::pow(h, order) + floor, printed)}});
@@ -28,9 +28,9 @@ Ladder levels(double order, double floor = 0.0, double printed = 0.0) {
   return ladder;
 }
 
-Ladder one(const RunScore& score) { return {{score.step, {score}}}; }
+measure::Ladder one(const measure::RunScore& score) { return {{score.step, {score}}}; }
 
-Assessment assessed(const Ladder& ladder, const Claim& claim = {},
+Assessment assessed(const measure::Ladder& ladder, const Claim& claim = {},
                     std::optional<double> tolerance = {}, HistoryFacts finest = {}) {
   finest.rows = std::llround(20.0 / ladder.back().step);
   return judge(ladder, claim, {.tolerance = tolerance, .finest = finest});
@@ -87,7 +87,7 @@ TEST(JudgeHistories, PrintedDigitsThroughoutAreNotExact) {
 }
 
 TEST(JudgeHistories, GoByTheToleranceOfTheFinestUnlessPrintingHidesIt) {
-  const Ladder two{{0.02, {run(0.02, 1e-1)}}, {0.01, {run(0.01, 1e-3)}}};
+  const measure::Ladder two{{0.02, {run(0.02, 1e-1)}}, {0.01, {run(0.01, 1e-3)}}};
   EXPECT_EQ(assessed(two, {}, 2e-3).verdict, Verdict::agrees);
   EXPECT_EQ(assessed(one(run(0.01, 3e-3)), {}, 2e-3).verdict, Verdict::disagrees);
   EXPECT_EQ(assessed(one(run(0.01, 2e-3)), {}, 2e-3).verdict, Verdict::undecided)
@@ -133,4 +133,4 @@ TEST(JudgeHistories, AFloorOfCompliantContactsAgreesWithAnExpectedFloor) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

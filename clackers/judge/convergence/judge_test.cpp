@@ -8,25 +8,25 @@
 
 #include "clackers/judge/testing/synthetic_ladder.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
 
 // Scores whose displacement error is `error(h)`, with velocity and impact times in proportion and
 // all six collisions found.
-Ladder scores(const std::function<double(double)>& error, const Shape& shape = {}) {
-  Ladder made;
+measure::Ladder scores(const std::function<double(double)>& error, const Shape& shape = {}) {
+  measure::Ladder made;
   for (const auto& level : ladder(error, shape)) {
     made.push_back({level.front().step, {}});
     for (const auto& point : level) {
-      RunScore run;
+      measure::RunScore run;
       run.step = point.step;
       run.finished = true;
       run.u_error = point.error;
       run.v_error = 2.0 * point.error;
       run.rounding_floor = point.floor;
-      run.impacts = ImpactScore{.expected = 6, .found = 6, .matched = 6};
+      run.impacts = measure::ImpactScore{.expected = 6, .found = 6, .matched = 6};
       run.impacts->worst_time_error = 3.0 * point.error;
       made.back().runs.push_back(run);
     }
@@ -39,13 +39,13 @@ auto power(double q) {
 }
 
 // A run of an undamped motion that ends with `ratio` times its energy.
-void grown(RunScore& run, double ratio) {
+void grown(measure::RunScore& run, double ratio) {
   run.energy_ratio = ratio;
   run.energy_error = ratio - 1.0;
 }
 
-void every_run(Ladder& ladder, std::size_t from_level,
-               const std::function<void(RunScore&)>& change) {
+void every_run(measure::Ladder& ladder, std::size_t from_level,
+               const std::function<void(measure::RunScore&)>& change) {
   for (std::size_t i = from_level; i < ladder.size(); ++i)
     for (auto& run : ladder[i].runs) change(run);
 }
@@ -119,7 +119,7 @@ TEST(Judge, AnEnvelopeOfHalfTheOrderDisagreesAndOneTooUncertainIsUndecided) {
 // 0.748 about the line, so a range of sqrt(12 * 0.748) and of the largest of eight the variance
 // 8.97 * 8 / 810 = 0.0886, over 5 ln2^2 the square 0.0369. Both together, 0.0351, with t = 2.78 of
 // four degrees of freedom give a spread of 0.52; the steps of a level change the raw variance a little.
-Ladder uncertain(double order) {
+measure::Ladder uncertain(double order) {
   auto made = scores(power(order), {.levels = 4});
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 8; ++j) {
@@ -163,13 +163,13 @@ TEST(Judge, OnlyErrorsThatFallForCertainContradictAFloor) {
 
 TEST(Judge, ImpactTimesHaveNoSizeOfTheMotion) {
   auto late = scores(power(2.0));
-  every_run(late, 0, [](RunScore& run) { run.impacts->worst_time_error = 1.5; });
+  every_run(late, 0, [](measure::RunScore& run) { run.impacts->worst_time_error = 1.5; });
   EXPECT_EQ(judge(late, second).impact_time.behaviour, Behaviour::stagnating);
 }
 
 TEST(Judge, WhatIsUndecidedStaysSoWhateverEnergyAndCollisions) {
   auto unresolved = scores([](double h) { return 0.3 + h; });
-  every_run(unresolved, 0, [](RunScore& run) {
+  every_run(unresolved, 0, [](measure::RunScore& run) {
     grown(run, 8.0);
     run.impacts->missed = 1;
   });
@@ -180,7 +180,7 @@ TEST(Judge, WhatIsUndecidedStaysSoWhateverEnergyAndCollisions) {
 
 TEST(Judge, AnExactMotionAtRestMayEndWithAnyEnergyRatio) {
   auto exact = scores([](double) { return 1e-16; });
-  every_run(exact, 0, [](RunScore& run) { grown(run, 8.0); });
+  every_run(exact, 0, [](measure::RunScore& run) { grown(run, 8.0); });
   EXPECT_EQ(judge(exact, {Behaviour::exact, 0.0, ""}).verdict, Verdict::agrees);
 }
 
@@ -244,18 +244,22 @@ TEST(Judge, MissedOrExtraCollisionsOnTheFinestLevelsDisagree) {
 
 TEST(Judge, LateCollisionsDoNotContradictAFloorButMissedOnesDo) {
   auto late = scores([](double) { return 0.9; });
-  every_run(late, 0, [](RunScore& run) { run.impacts = ImpactScore{6, 6, 2, 4, 4}; });
+  every_run(late, 0, [](measure::RunScore& run) {
+    run.impacts = measure::ImpactScore{6, 6, 2, 4, 4};
+  });
   EXPECT_EQ(judge(late, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::agrees);
-  every_run(late, 0, [](RunScore& run) { run.impacts = ImpactScore{6, 2, 2, 4, 0}; });
+  every_run(late, 0, [](measure::RunScore& run) {
+    run.impacts = measure::ImpactScore{6, 2, 2, 4, 0};
+  });
   EXPECT_EQ(judge(late, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::disagrees);
 }
 
 TEST(Judge, LostEnergyIsNoGrowth) {
   auto flat = scores([](double h) { return 0.3 + h; });
-  every_run(flat, 6, [](RunScore& run) { run.energy_ratio = 0.4; });
+  every_run(flat, 6, [](measure::RunScore& run) { run.energy_ratio = 0.4; });
   EXPECT_EQ(judge(flat, second).displacement.behaviour, Behaviour::stagnating);
   auto falling = scores([](double h) { return 1.3 * std::tanh(700.0 * h); });
-  every_run(falling, 6, [](RunScore& run) { run.energy_ratio = 0.4; });
+  every_run(falling, 6, [](measure::RunScore& run) { run.energy_ratio = 0.4; });
   const auto found = judge(falling, second);
   EXPECT_EQ(found.displacement.behaviour, Behaviour::undecided);
   EXPECT_EQ(found.reason, "numerical-damping");
@@ -265,7 +269,7 @@ TEST(Judge, LostEnergyIsNoGrowth) {
 TEST(Judge, EnergyThatGrowsWhileErrorsDoNotFallDiverges) {
   for (const double ratio : {2.1, 8.0}) {
     auto ladder = scores([](double h) { return 1.7 + h; });
-    every_run(ladder, 6, [&](RunScore& run) { grown(run, ratio); });
+    every_run(ladder, 6, [&](measure::RunScore& run) { grown(run, ratio); });
     const auto found = judge(ladder, second);
     EXPECT_EQ(found.displacement.behaviour, Behaviour::divergent);
     EXPECT_EQ(found.displacement.reason, "energy-growth");
@@ -275,7 +279,7 @@ TEST(Judge, EnergyThatGrowsWhileErrorsDoNotFallDiverges) {
 
 TEST(Judge, AMotionThatDoesNotDecayAsItShouldHasNotGrown) {
   auto ladder = scores([](double h) { return 0.4 + 0.1 * h; });
-  every_run(ladder, 0, [](RunScore& run) {
+  every_run(ladder, 0, [](measure::RunScore& run) {
     run.energy_ratio = 8.0;
     run.energy_error = 0.9;
   });
@@ -284,7 +288,7 @@ TEST(Judge, AMotionThatDoesNotDecayAsItShouldHasNotGrown) {
 
 TEST(Judge, EnergyDoesNotOverruleALineNorASingleLevelNorAMotionAtRest) {
   auto line = scores(power(2.0));
-  every_run(line, 0, [](RunScore& run) { grown(run, 8.0); });
+  every_run(line, 0, [](measure::RunScore& run) { grown(run, 8.0); });
   EXPECT_EQ(judge(line, second).verdict, Verdict::agrees);
   for (const std::size_t level : {6u, 7u}) {
     auto flat = scores([](double h) { return 0.3 + h; });
@@ -292,7 +296,7 @@ TEST(Judge, EnergyDoesNotOverruleALineNorASingleLevelNorAMotionAtRest) {
     EXPECT_EQ(judge(flat, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::agrees);
   }
   auto rest = scores([](double h) { return 0.3 + h; });
-  every_run(rest, 0, [](RunScore& run) { run.energy_ratio = nan; });
+  every_run(rest, 0, [](measure::RunScore& run) { run.energy_ratio = nan; });
   EXPECT_EQ(judge(rest, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::agrees);
 }
 
@@ -307,7 +311,7 @@ TEST(Judge, ARunThatFailedHasNoErrorHoweverSmall) {
     }
   EXPECT_EQ(judge(ladder, second).verdict, Verdict::agrees);
   EXPECT_EQ(judge(ladder, second).displacement.first_level, 2);
-  every_run(ladder, 0, [](RunScore& run) { run.finished = false; });
+  every_run(ladder, 0, [](measure::RunScore& run) { run.finished = false; });
   const auto found = judge(ladder, second);
   EXPECT_EQ(found.verdict, Verdict::undecided);
   EXPECT_EQ(found.displacement.reason, "run-failed");
@@ -315,7 +319,7 @@ TEST(Judge, ARunThatFailedHasNoErrorHoweverSmall) {
 
 TEST(Judge, WithoutReportedImpactsTheirTimesAreUndecided) {
   auto ladder = scores(power(2.0));
-  every_run(ladder, 0, [](RunScore& run) { run.impacts.reset(); });
+  every_run(ladder, 0, [](measure::RunScore& run) { run.impacts.reset(); });
   const auto found = judge(ladder, second);
   EXPECT_EQ(found.verdict, Verdict::agrees);
   EXPECT_EQ(found.impact_time.behaviour, Behaviour::undecided);
@@ -335,7 +339,7 @@ TEST(Judge, ADivergentClaimMayBeMade) {
 }
 
 // Impacts of one instant, taken one by one: exact until then, another motion after it.
-const SharedImpacts jump{{1.5, 4}, 1e-9, 0.8};
+const measure::SharedImpacts jump{{1.5, 4}, 1e-9, 0.8};
 double as_large(double h) { return 1.3 + 0.2 * std::sin(1.0 / h); }
 
 TEST(Judge, ErrorsThatComeFromSimultaneousImpactsDiverge) {
@@ -353,19 +357,22 @@ TEST(Judge, ErrorsThatComeFromSimultaneousImpactsDiverge) {
 
 TEST(Judge, OtherImpactsAfterSimultaneousOnesAreNoMiscount) {
   auto ladder = scores(as_large);
-  every_run(ladder, 0, [](RunScore& run) { run.impacts->extra = 5; });
+  every_run(ladder, 0, [](measure::RunScore& run) { run.impacts->extra = 5; });
   const Claim any_floor{Behaviour::stagnating, 0.0, ""};
   EXPECT_EQ(judge(ladder, any_floor, {.shared = jump}).verdict, Verdict::agrees);
 }
 
 TEST(Judge, StepsThatAreTooLargeStayUndecidedWithSimultaneousImpacts) {
-  const auto behaviour = [](const Ladder& ladder, std::optional<SharedImpacts> shared) {
+  const auto behaviour = [](const measure::Ladder& ladder,
+                            std::optional<measure::SharedImpacts> shared) {
     return judge(ladder, fourth, {.shared = shared}).displacement.behaviour;
   };
   EXPECT_EQ(behaviour(scores(as_large), {}), Behaviour::undecided);
   // The error is there before the impacts already, or is small after them.
-  EXPECT_EQ(behaviour(scores(as_large), SharedImpacts{{1.5, 4}, 0.03, 0.8}), Behaviour::undecided);
-  EXPECT_EQ(behaviour(scores(as_large), SharedImpacts{{1.5, 4}, 1e-9, 0.01}), Behaviour::undecided);
+  EXPECT_EQ(behaviour(scores(as_large), measure::SharedImpacts{{1.5, 4}, 0.03, 0.8}),
+            Behaviour::undecided);
+  EXPECT_EQ(behaviour(scores(as_large), measure::SharedImpacts{{1.5, 4}, 1e-9, 0.01}),
+            Behaviour::undecided);
   // The errors fall at last, or there are too few levels.
   const auto falls = [](double h) { return std::min(1.3, 700.0 * h); };
   EXPECT_EQ(behaviour(scores(falls), jump), Behaviour::undecided);
@@ -391,13 +398,13 @@ TEST(Judge, AnEnvelopeMayMiscountAtAFewSteps) {
     auto ladder = scores([&](double h) { return h / scatter(); });
     for (std::size_t i = ladder.size() - 2; i < ladder.size(); ++i)
       for (std::size_t k = 0; k < wrong; ++k)
-        ladder[i].runs[k].impacts = ImpactScore{6, 6, 5, 1, 1};
+        ladder[i].runs[k].impacts = measure::ImpactScore{6, 6, 5, 1, 1};
     return judge(ladder, claim).verdict;
   };
   EXPECT_EQ(verdict(4, rough), Verdict::agrees);
   EXPECT_EQ(verdict(5, rough), Verdict::disagrees);
   auto line = scores(power(2.0));
-  line.back().runs.back().impacts = ImpactScore{6, 6, 5, 1, 1};
+  line.back().runs.back().impacts = measure::ImpactScore{6, 6, 5, 1, 1};
   EXPECT_EQ(judge(line, second).verdict, Verdict::disagrees);
 }
 
@@ -418,4 +425,4 @@ TEST(Judge, AClaimedFloorIsOpenWhileErrorsFallByNoOrder) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

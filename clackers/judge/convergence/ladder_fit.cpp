@@ -2,7 +2,7 @@
 
 #include "clackers/judge/convergence/fit/rules.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // As numbered in the header.
@@ -22,4 +22,4 @@ LadderFit fit_ladder(std::span<const ErrorLevel> ladder, const FitContext& conte
   return range.blank;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -5,7 +5,7 @@
 #include "clackers/judge/convergence/assessment.hpp"
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// What the fit may know beside the errors.
 struct FitContext {
@@ -92,4 +92,4 @@ inline constexpr double settling_share = 0.5;
 /// not descend (view() of error_ladder.hpp).
 LadderFit fit_ladder(std::span<const ErrorLevel> ladder, const FitContext& context);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

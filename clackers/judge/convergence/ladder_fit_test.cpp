@@ -7,7 +7,7 @@
 #include "clackers/judge/testing/expect_behaviour.hpp"
 #include "clackers/judge/testing/synthetic_ladder.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -356,4 +356,4 @@ TEST(LadderFit, ASlopeThatNoMethodHasIsTheFloorOfAnotherLimit) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/judge/convergence/fit/window.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/judge/convergence/fit/window.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 constexpr auto who = "Richardson extrapolation";
@@ -97,4 +97,4 @@ Richardson extrapolate(std::span<const Response> runs, const SelfContext& contex
   return found;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -7,7 +7,7 @@
 
 #include "clackers/judge/convergence/self_convergence.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// An extrapolated value with its bound, or the reason why there is none.
 struct Richardson {
@@ -41,4 +41,4 @@ Richardson extrapolate(std::span<const Response> runs, const SelfContext& contex
 /// The largest departure of a difference from the rho fold of the one before it, relative to that.
 constexpr double largest_departure(double rho) { return (1.0 - rho) / (1.0 + rho); }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

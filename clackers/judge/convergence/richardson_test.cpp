@@ -5,11 +5,11 @@
 #include <cmath>
 #include <random>
 
+#include "clackers/base/error.hpp"
 #include "clackers/judge/testing/synthetic_ladder.hpp"
 #include "clackers/judge/testing/synthetic_runs.hpp"
-#include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -146,4 +146,4 @@ TEST(Richardson, RefusesToWorkWithoutAnOrder) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/judge/convergence/judge.hpp"
-#include "clackers/judge/convergence/ladder_fit.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/judge/convergence/judge.hpp"
+#include "clackers/judge/convergence/ladder_fit.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 constexpr auto who = "self-convergence";
@@ -129,4 +129,4 @@ SelfAgainstReference compare(const SelfConvergence& self, const LadderFit& refer
   return both;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

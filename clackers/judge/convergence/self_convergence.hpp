@@ -8,7 +8,7 @@
 
 // Convergence assessed from the runs alone, by the differences between runs at successive steps, and
 // beside it what the true motion says of the same runs.
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// What one run says at times that all runs share (the end of the run, or a common output grid).
 struct Response {
@@ -74,4 +74,4 @@ struct SelfAgainstReference {
 /// Compares what the differences say with the errors of the same runs (true_convergence).
 SelfAgainstReference compare(const SelfConvergence& self, const LadderFit& reference);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -7,7 +7,7 @@
 #include "clackers/judge/testing/synthetic_ladder.hpp"
 #include "clackers/judge/testing/synthetic_runs.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -103,4 +103,4 @@ TEST(SelfAgainstReference, AReferenceBetterThanTheDifferencesShowIsSaid) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

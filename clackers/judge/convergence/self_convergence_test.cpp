@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "clackers/base/error.hpp"
 #include "clackers/judge/testing/expect_behaviour.hpp"
 #include "clackers/judge/testing/synthetic_ladder.hpp"
 #include "clackers/judge/testing/synthetic_runs.hpp"
-#include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -131,4 +131,4 @@ TEST(SelfConvergence, RefusesRunsThatCannotBeCompared) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

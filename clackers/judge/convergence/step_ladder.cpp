@@ -8,7 +8,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 constexpr auto who = "step ladder";
@@ -85,4 +85,4 @@ std::vector<StepLevel> step_ladder(const StepPlan& plan, double end,
   return ladder;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -5,7 +5,7 @@
 
 #include "clackers/model/run.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// What a ladder of steps is asked for.
 struct StepPlan {
@@ -38,4 +38,4 @@ using model::most_steps;
 std::vector<StepLevel> step_ladder(const StepPlan& plan, double end,
                                    std::span<const double> impact_times);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

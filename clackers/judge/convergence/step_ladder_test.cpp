@@ -9,7 +9,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 std::vector<double> default_impacts() {
@@ -182,4 +182,4 @@ TEST(StepLadder, RefusesMoreStepsThanCanEnd) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

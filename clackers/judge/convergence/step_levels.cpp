@@ -6,7 +6,7 @@
 
 #include "clackers/base/check.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // Rounding of log2 of two steps: steps nearer than this, in octaves, are one.
@@ -51,4 +51,4 @@ std::vector<std::vector<std::size_t>> levels_of_steps(std::span<const double> st
   return levels;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

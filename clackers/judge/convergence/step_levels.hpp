@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// The levels of any set of steps (or tolerances): indices into `steps`, coarsest level first, within
 /// a level coarsest first, equal steps in the order given.
@@ -18,4 +18,4 @@ namespace clackers::assess {
 /// Throws InputError unless every step is positive and finite.
 std::vector<std::vector<std::size_t>> levels_of_steps(std::span<const double> steps);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

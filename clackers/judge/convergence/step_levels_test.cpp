@@ -8,7 +8,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 std::vector<double> geometric(double ratio, int count, double first = 0.02) {
@@ -103,4 +103,4 @@ TEST(StepLevels, AStepThatIsNotPositiveIsRefused) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -2,7 +2,7 @@
 
 #include "clackers/judge/testing/verdict_sequence.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -18,8 +18,8 @@ std::vector<ErrorLevel> without(std::initializer_list<std::size_t> levels, doubl
 }
 
 // Every run of the two finest levels.
-auto at_the_end(void (*change)(RunScore&)) {
-  return [=](Ladder& ladder) {
+auto at_the_end(void (*change)(measure::RunScore&)) {
+  return [=](measure::Ladder& ladder) {
     for (auto level = ladder.end() - 2; level != ladder.end(); ++level)
       for (auto& run : level->runs) change(run);
   };
@@ -79,7 +79,7 @@ const VerdictSequence rows[] = {
      .make = [] { return ladder([](double h) { return 0.3 + h; }); },
      .claim = claims(2), .behaviour = divergent, .verdict = Verdict::disagrees,
      .reason = "energy-growth",
-     .change = at_the_end([](RunScore& run) {
+     .change = at_the_end([](measure::RunScore& run) {
        run.energy_ratio = 2.1;
        run.energy_error = 1.1;
      })},
@@ -87,12 +87,12 @@ const VerdictSequence rows[] = {
      .make = [] { return ladder([](double h) { return 0.3 + h; }); },
      .claim = claims(2), .behaviour = stagnating, .verdict = Verdict::disagrees,
      .reason = "unexplained-floor",
-     .change = at_the_end([](RunScore& run) { run.energy_ratio = 0.4; })},
+     .change = at_the_end([](measure::RunScore& run) { run.energy_ratio = 0.4; })},
     {.name = "a line that misses a collision disagrees",
      .make = [] { return ladder([](double h) { return h * h; }); },
      .claim = claims(2), .behaviour = proper, .verdict = Verdict::disagrees, .order = 2.0,
      .within = 1e-9,
-     .change = at_the_end([](RunScore& run) {
+     .change = at_the_end([](measure::RunScore& run) {
        run.impacts->found = run.impacts->matched = 5;
        run.impacts->missed = 1;
      })},
@@ -120,12 +120,12 @@ const VerdictSequence rows[] = {
      .make = [] { return ladder([](double h) { return 1.0 - exp(-60.0 * h); }, {.levels = 4}); },
      .claim = claims(1), .behaviour = undecided, .verdict = Verdict::undecided,
      .reason = "numerical-damping",
-     .change = at_the_end([](RunScore& run) { run.energy_ratio = 0.4; })},
+     .change = at_the_end([](measure::RunScore& run) { run.energy_ratio = 0.4; })},
     {.name = "a floor whose collisions are late but all there agrees",
      .make = [] { return ladder([](double h) { return 0.3 + h; }); },
      .claim = claims_floor(""), .behaviour = stagnating, .verdict = Verdict::agrees,
      .reason = "unexplained-floor",
-     .change = at_the_end([](RunScore& run) {
+     .change = at_the_end([](measure::RunScore& run) {
        run.impacts->matched = 5;
        run.impacts->missed = run.impacts->extra = 1;
      })},
@@ -133,7 +133,7 @@ const VerdictSequence rows[] = {
      .make = [] { return ladder([](double h) { return 0.3 + h; }); },
      .claim = claims_floor(""), .behaviour = stagnating, .verdict = Verdict::disagrees,
      .reason = "unexplained-floor",
-     .change = at_the_end([](RunScore& run) {
+     .change = at_the_end([](measure::RunScore& run) {
        run.impacts->found = run.impacts->matched = 5;
        run.impacts->missed = 1;
      })},
@@ -143,4 +143,4 @@ const VerdictSequence rows[] = {
 INSTANTIATE_TEST_SUITE_P(Failure, VerdictSequences, testing::ValuesIn(rows), name_of_row);
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

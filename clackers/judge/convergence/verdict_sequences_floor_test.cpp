@@ -2,7 +2,7 @@
 
 #include "clackers/judge/testing/verdict_sequence.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -144,4 +144,4 @@ const VerdictSequence rows[] = {
 INSTANTIATE_TEST_SUITE_P(Floor, VerdictSequences, testing::ValuesIn(rows), name_of_row);
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

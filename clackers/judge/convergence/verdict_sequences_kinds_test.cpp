@@ -5,7 +5,7 @@
 
 #include "clackers/judge/testing/verdict_sequence.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -154,4 +154,4 @@ INSTANTIATE_TEST_SUITE_P(AnyShape, VerdictKinds, testing::ValuesIn(smooth_rows()
 INSTANTIATE_TEST_SUITE_P(LongLadder, VerdictKinds, testing::ValuesIn(long_rows()), name_of_kind);
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

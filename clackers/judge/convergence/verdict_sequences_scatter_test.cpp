@@ -2,7 +2,7 @@
 
 #include "clackers/judge/testing/verdict_sequence.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -141,4 +141,4 @@ const VerdictSequence rows[] = {
 INSTANTIATE_TEST_SUITE_P(Scatter, VerdictSequences, testing::ValuesIn(rows), name_of_row);
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "clackers/base/error.hpp"
 #include "clackers/judge/convergence/ladder_fit.hpp"
 #include "clackers/judge/testing/expect_behaviour.hpp"
 #include "clackers/judge/testing/verdict_sequence.hpp"
-#include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -46,4 +46,4 @@ TEST(LadderOrder, AStepInTwoLevelsIsRefusedAndTwiceInOneIsNot) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -2,7 +2,7 @@
 
 #include "clackers/judge/testing/verdict_sequence.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -85,4 +85,4 @@ const VerdictSequence rows[] = {
 INSTANTIATE_TEST_SUITE_P(Tolerance, VerdictSequences, testing::ValuesIn(rows), name_of_row);
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

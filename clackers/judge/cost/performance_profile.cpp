@@ -6,7 +6,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 constexpr auto who = "performance profile";
@@ -74,4 +74,4 @@ double share_within(const MethodProfile& profile, double ratio) {
   return share;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

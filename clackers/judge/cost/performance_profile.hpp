@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// What each method costs for each task, a task being a case with a metric and an error to reach.
 struct CostTable {
@@ -38,4 +38,4 @@ std::vector<MethodProfile> performance_profile(const CostTable& table);
 /// solved. Throws InputError for a ratio below 1.
 double share_within(const MethodProfile& profile, double ratio);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -6,7 +6,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 constexpr double none = HUGE_VAL;
@@ -91,4 +91,4 @@ TEST(PerformanceProfile, RefusesTablesThatDoNotFitAndCostsWithoutARatio) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 constexpr double failed = std::numeric_limits<double>::infinity();
@@ -14,7 +14,7 @@ constexpr int smallest_decade = 16;  // below 1e-16 of the envelope nothing is m
 
 }  // namespace
 
-void add_tasks(CostTable& table, std::string_view name, std::span<const Ladder> ladders,
+void add_tasks(CostTable& table, std::string_view name, std::span<const measure::Ladder> ladders,
                Counter counter) {
   std::vector<WorkCurve> curves;
   for (const auto& ladder : ladders) curves.push_back(work_curve(ladder, counter));
@@ -36,4 +36,4 @@ bool has_ratios(const CostTable& table) {
   });
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

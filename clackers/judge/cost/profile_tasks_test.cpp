@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // Three levels of one run: errors 0.05, 0.005, 0.0005 times `factor`, steps 100, 200, 400.
-Ladder ladder(double factor) {
-  Ladder result;
+measure::Ladder ladder(double factor) {
+  measure::Ladder result;
   for (int level = 0; level < 3; ++level) {
-    RunScore run;
+    measure::RunScore run;
     run.step = 0.1 * std::exp2(-level);
     run.finished = true;
     run.u_error = factor * 0.05 * std::pow(10.0, -level);
@@ -23,7 +23,7 @@ Ladder ladder(double factor) {
 
 TEST(ProfileTasks, AreTheDecadesThatSomeMethodReaches) {
   CostTable table{{"good", "poor", "refused"}, {}, {{}, {}, {}}};
-  const std::vector<Ladder> ladders{ladder(1.0), ladder(10.0), {}};
+  const std::vector<measure::Ladder> ladders{ladder(1.0), ladder(10.0), {}};
   add_tasks(table, "stop", ladders, Counter::steps);
   EXPECT_EQ(table.tasks,
             (std::vector<std::string>{"stop: error in u <= 1e-01", "stop: error in u <= 1e-02",
@@ -38,10 +38,10 @@ TEST(ProfileTasks, AreTheDecadesThatSomeMethodReaches) {
 TEST(ProfileTasks, HaveNoRatiosToWorkThatCostsNothing) {
   CostTable table{{"good"}, {}, {{}}};
   EXPECT_FALSE(has_ratios(table));
-  const std::vector<Ladder> ladders{ladder(1.0)};
+  const std::vector<measure::Ladder> ladders{ladder(1.0)};
   add_tasks(table, "stop", ladders, Counter::event_searches);
   EXPECT_FALSE(has_ratios(table));
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

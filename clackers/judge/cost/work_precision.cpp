@@ -7,7 +7,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 constexpr auto who = "work and precision";
@@ -43,7 +43,7 @@ std::string_view to_string(Counter counter) {
   return "seconds";
 }
 
-double cost(const RunScore& run, Counter counter) {
+double cost(const measure::RunScore& run, Counter counter) {
   switch (counter) {
     case Counter::steps:
       return double(run.work.steps);
@@ -61,7 +61,7 @@ double cost(const RunScore& run, Counter counter) {
   return run.seconds;
 }
 
-WorkCurve work_curve(const Ladder& ladder, Counter counter) {
+WorkCurve work_curve(const measure::Ladder& ladder, Counter counter) {
   WorkCurve curve;
   for (const auto& level : ladder) {
     if (level.runs.empty()) continue;
@@ -72,10 +72,11 @@ WorkCurve work_curve(const Ladder& ladder, Counter counter) {
       if (run.finished) curve.runs.push_back({run.step, cost(run, counter), run.u_error});
     }
     const auto largest = worst(runs);
-    curve.envelope.push_back({.step = level.step,
-                              .work = cost(largest, counter),
-                              .error = largest.u_error,
-                              .failed = int(std::ranges::count(runs, false, &RunScore::finished))});
+    curve.envelope.push_back(
+        {.step = level.step,
+         .work = cost(largest, counter),
+         .error = largest.u_error,
+         .failed = int(std::ranges::count(runs, false, &measure::RunScore::finished))});
   }
   std::ranges::stable_sort(
       curve.runs, {}, [](const WorkPoint& point) { return std::tuple(point.work, point.error); });
@@ -93,4 +94,4 @@ std::optional<double> work_for(const WorkCurve& curve, double error) {
   return least;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

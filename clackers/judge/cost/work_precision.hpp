@@ -7,7 +7,7 @@
 #include "clackers/measure/errors/score.hpp"
 
 // Error against what it cost, by counters that are the same on every machine, or by time.
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// What a run costs.
 enum class Counter {
@@ -24,7 +24,7 @@ inline constexpr Counter all_counters[] = {Counter::steps,          Counter::for
                                            Counter::event_searches, Counter::seconds};
 
 std::string_view to_string(Counter counter);  ///< "force evaluations"
-double cost(const RunScore& run, Counter counter);
+double cost(const measure::RunScore& run, Counter counter);
 
 /// One finished run.
 struct WorkPoint {
@@ -49,11 +49,11 @@ struct WorkCurve {
 
 /// The curve of a ladder; a run whose error is not finite has failed. Throws InputError for a
 /// negative error.
-WorkCurve work_curve(const Ladder& ladder, Counter counter);
+WorkCurve work_curve(const measure::Ladder& ladder, Counter counter);
 
 /// The least work of a level such that, at it and at all finer ones, no run fails and no error
 /// exceeds `error`; nothing where the finest level does not reach it. Costs are not interpolated
 /// between levels. Throws InputError unless error > 0.
 std::optional<double> work_for(const WorkCurve& curve, double error);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -7,11 +7,11 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
-RunScore run(double step, long long steps, double error) {
-  RunScore made;
+measure::RunScore run(double step, long long steps, double error) {
+  measure::RunScore made;
   made.step = step;
   made.finished = true;
   made.u_error = error;
@@ -25,7 +25,7 @@ RunScore run(double step, long long steps, double error) {
   return made;
 }
 
-RunScore failed(double step, long long steps) {
+measure::RunScore failed(double step, long long steps) {
   auto made = run(step, steps, 1e-9);
   made.finished = false;
   made.failure_code = "diverged";
@@ -33,7 +33,7 @@ RunScore failed(double step, long long steps) {
 }
 
 // Three levels of two runs: by hand, errors 4 3 | 1 2 | 0.5 0.25.
-Ladder three_levels() {
+measure::Ladder three_levels() {
   return {{0.4, {run(0.4, 10, 4.0), run(0.3, 14, 3.0)}},
           {0.2, {run(0.2, 20, 1.0), run(0.15, 28, 2.0)}},
           {0.1, {run(0.1, 40, 0.5), run(0.075, 56, 0.25)}}};
@@ -67,7 +67,7 @@ TEST(WorkPrecision, ACurveHasEveryRunInTheOrderOfItsWork) {
 }
 
 TEST(WorkPrecision, OfEqualWorkTheSmallerErrorIsOnTheFrontAndTwinsBothAre) {
-  const Ladder same{
+  const measure::Ladder same{
       {0.1, {run(0.1, 10, 2.0), run(0.1, 10, 1.0), run(0.1, 10, 1.0), run(0.05, 20, 1.0)}}};
   const auto curve = work_curve(same, Counter::steps);
   const double error[] = {1, 1, 2, 1};
@@ -134,4 +134,4 @@ TEST(WorkPrecision, TheLeastWorkCountsWhereACoarserLevelCostsMore) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -7,7 +7,7 @@
 #include "clackers/judge/convergence/assessment.hpp"
 
 // For tests of the fitter.
-namespace clackers::assess {
+namespace clackers::judge {
 
 inline std::string text(const LadderFit& fit) {
   return std::string(to_string(fit.behaviour)) + " (" + fit.reason + ") order " +
@@ -16,7 +16,7 @@ inline std::string text(const LadderFit& fit) {
          std::to_string(fit.last_level);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge
 
 /// Expects a behaviour with its reason and shows the whole fit where it is another one.
 #define EXPECT_BEHAVIOUR(fit, expected, why)                                   \

@@ -12,7 +12,7 @@
 #include "clackers/judge/testing/synthetic_ladder.hpp"
 
 // Ladders with errors of a known order, drawn at random, for tests.
-namespace clackers::assess::synthetic {
+namespace clackers::judge::synthetic {
 
 using Random = std::mt19937;
 
@@ -187,4 +187,4 @@ inline std::vector<RandomKind> random_kinds() {
           {"lognormal shares", lognormal_shares}};
 }
 
-}  // namespace clackers::assess::synthetic
+}  // namespace clackers::judge::synthetic

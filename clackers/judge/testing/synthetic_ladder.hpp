@@ -10,7 +10,7 @@
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 
 // Ladders of errors made by hand, for tests.
-namespace clackers::assess::synthetic {
+namespace clackers::judge::synthetic {
 
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -66,4 +66,4 @@ inline double late_impacts(double h, int impacts, double first = 1.571, double s
   return worst;
 }
 
-}  // namespace clackers::assess::synthetic
+}  // namespace clackers::judge::synthetic

@@ -7,7 +7,7 @@
 #include "clackers/judge/convergence/self_convergence.hpp"
 
 // Runs made by hand, for tests.
-namespace clackers::assess::synthetic {
+namespace clackers::judge::synthetic {
 
 /// Runs of `levels` levels with the values `at(h)`, steps halved from `coarsest`, `neighbours` of
 /// ratio 2^(1/neighbours) a level.
@@ -45,4 +45,4 @@ inline double midpoint(double h, double stiffness = 1.0) {
   return u;
 }
 
-}  // namespace clackers::assess::synthetic
+}  // namespace clackers::judge::synthetic

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/base/judgement.hpp"
 #include "clackers/judge/convergence/judge.hpp"
 #include "clackers/judge/testing/synthetic_ladder.hpp"
-#include "clackers/base/judgement.hpp"
 
 // Ladders of errors that a simple rule would misjudge, for tests.
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// A ladder of errors, what is claimed of it, and the verdict of an expert.
 struct VerdictSequence {
@@ -23,11 +23,11 @@ struct VerdictSequence {
   Claim claim;
   Behaviour behaviour = Behaviour::undecided;
   Verdict verdict = Verdict::undecided;
-  std::string_view reason = {};              ///< code, empty for none
-  double order = 0.0, within = 0.0;          ///< of the line; within 0: there is no line
-  double contact_time = 0.0;                 ///< of a compliant contact [s]
-  bool by_tolerance = false;                 ///< steps are tolerances
-  std::function<void(Ladder&)> change = {};  ///< what else is wrong with the runs
+  std::string_view reason = {};                       ///< code, empty for none
+  double order = 0.0, within = 0.0;                   ///< of the line; within 0: there is no line
+  double contact_time = 0.0;                          ///< of a compliant contact [s]
+  bool by_tolerance = false;                          ///< steps are tolerances
+  std::function<void(measure::Ladder&)> change = {};  ///< what else is wrong with the runs
 };
 
 /// For names of tests: the words of the sentence in camel case.
@@ -53,18 +53,18 @@ inline auto name_of_row = [](const testing::TestParamInfo<VerdictSequence>& row)
 
 /// Scores of finished runs with these displacement errors and all six collisions found. NaN is a
 /// run that failed; an infinite error one that came to its end.
-inline Ladder scores_of(const std::vector<ErrorLevel>& errors) {
-  Ladder made;
+inline measure::Ladder scores_of(const std::vector<ErrorLevel>& errors) {
+  measure::Ladder made;
   for (const auto& level : errors) {
     made.push_back({level.empty() ? 0.0 : level.front().step, {}});
     for (const auto& point : level) {
-      RunScore run;
+      measure::RunScore run;
       run.step = point.step;
       run.finished = point.error == point.error;
       if (!run.finished) run.failure = "left the finite numbers.";
       run.u_error = run.v_error = point.error;
       run.rounding_floor = point.floor;
-      run.impacts = ImpactScore{.expected = 6, .found = 6, .matched = 6};
+      run.impacts = measure::ImpactScore{.expected = 6, .found = 6, .matched = 6};
       run.impacts->worst_time_error = point.error;
       made.back().runs.push_back(run);
     }
@@ -84,4 +84,4 @@ inline Claim claims_floor(std::string reason) {
 }
 
 }  // namespace synthetic
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -12,7 +12,7 @@
 #include "clackers/measure/impacts/impact_matcher.hpp"
 #include "clackers/measure/impacts/jump_limits.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -159,4 +159,4 @@ void Comparison::match_impacts(double step) {
     matches_.push_back({pair.report, reference_.impact(pair.reference)});
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

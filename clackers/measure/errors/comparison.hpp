@@ -12,7 +12,7 @@
 #include "clackers/model/motion.hpp"
 #include "clackers/model/trajectory.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// The largest proved error of the reference at time t over `scale`, its peak(), of u and v of all
 /// masses; components without a scale are left out.
@@ -121,4 +121,4 @@ class Comparison {
   mutable std::map<void (*)(), std::shared_ptr<const void>> shared_;
 };
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -5,7 +5,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 ErrorHistory::ErrorHistory(int bins, int dof, double start, double end)
     : bins_(bins), dof_(dof), start_(start), width_(bins > 0 ? (end - start) / bins : 0.0) {
@@ -38,4 +38,4 @@ std::vector<double> ErrorHistory::largest(int mass) const {
   return errors;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Error against time, reduced to the largest in each of equal intervals: what a figure can show.
 class ErrorHistory {
@@ -30,4 +30,4 @@ class ErrorHistory {
   std::vector<bool> seen_;
 };
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -6,7 +6,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 using Values = std::vector<double>;
@@ -45,4 +45,4 @@ TEST(ErrorHistory, WithoutIntervalsNothingIsKept) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/measure/errors/comparison.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/measure/errors/comparison.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr auto who = "error sink";
@@ -141,4 +141,4 @@ RunScore ErrorSink::score(const model::Outcome& outcome) const {
   return score;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

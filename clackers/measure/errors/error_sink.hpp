@@ -13,7 +13,7 @@
 #include "clackers/model/run.hpp"
 #include "clackers/model/sink.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Options of an ErrorSink.
 struct ErrorSinkOptions {
@@ -66,4 +66,4 @@ class ErrorSink : public model::Sink {
   ErrorHistory history_;
 };
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

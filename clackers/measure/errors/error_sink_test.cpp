@@ -6,10 +6,10 @@
 #include <functional>
 #include <string>
 
-#include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 // A run in the making: the true states at 0, h, 2 h, ..., to be spoiled and then delivered in
@@ -339,4 +339,4 @@ TEST(ErrorSink, RefusesAnotherNumberOfMassesAndAStepThatIsNotPositive) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -9,7 +9,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr auto who = "history";
@@ -84,4 +84,4 @@ void require_comparable(const model::Trajectory& history, const model::Motion& r
   if (history.impacts) require_impacts(*history.impacts, dof, problem);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -4,7 +4,7 @@
 #include "clackers/model/motion.hpp"
 #include "clackers/model/trajectory.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Throws InputError unless the history can be compared with the reference: both and the problem
 /// have the same number of masses, all lists have the size that its times ask for (velocities may
@@ -17,4 +17,4 @@ void require_comparable(const model::Trajectory& history, const model::Motion& r
 /// The largest time that passes for the end of the motion [s].
 double latest_time(const model::Motion& reference);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -7,7 +7,7 @@
 
 #include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -112,4 +112,4 @@ TEST(HistoryCheck, RefusesAProblemOfAnotherSize) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

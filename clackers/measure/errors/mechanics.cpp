@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace clackers::assess {
+namespace clackers::measure {
 MechanicalEnergy::Rows MechanicalEnergy::rows_of(const Eigen::MatrixXd& matrix) {
   Rows rows;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -50,4 +50,4 @@ FreeState FreeMotion::moved(const FreeState& from, double s) const {
 MechanicalEnergy::MechanicalEnergy(const model::SmoothSystem<>& system)
     : mass_(rows_of(system.mass)), stiffness_(rows_of(system.stiffness)) {}
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -5,7 +5,7 @@
 
 #include "clackers/model/impact_problem.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 using FreeState = model::State<model::any_dof>;
 
@@ -64,4 +64,4 @@ class MechanicalEnergy {
   Rows mass_, stiffness_;
 };
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

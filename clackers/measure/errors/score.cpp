@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 void raise(double& largest, double value) {
@@ -71,4 +71,4 @@ RunScore worst(std::span<const RunScore> runs) {
   return result;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

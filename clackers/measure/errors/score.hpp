@@ -7,7 +7,7 @@
 
 #include "clackers/model/run.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Impacts of a run against the true ones, matched in order, nearest within a quarter of the time
 /// between true neighbours. One compliant contact, or impacts in adjacent steps, are one impact,
@@ -60,4 +60,4 @@ using Ladder = std::vector<Level>;
 /// that of no run, and the failure is the first run's. The step is the first run's.
 RunScore worst(std::span<const RunScore> runs);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

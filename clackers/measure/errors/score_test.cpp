@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 RunScore run(double step, double u_error, long long steps, double seconds) {
@@ -85,4 +85,4 @@ TEST(WorstRun, TheEnergyRatioIsTheOneFarthestFromOne) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <vector>
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 inline std::vector<double> entries(const Eigen::VectorXd& vector) {
   return {vector.data(), vector.data() + vector.size()};
@@ -18,4 +18,4 @@ inline double median(std::vector<double> values) {
   return *middle;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

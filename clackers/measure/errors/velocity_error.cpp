@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 std::vector<double> copy(std::span<const double> from) { return {from.begin(), from.end()}; }
@@ -138,4 +138,4 @@ const model::MotionImpact* VelocityError::join(double from) {
   return nullptr;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

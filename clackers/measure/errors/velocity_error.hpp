@@ -6,7 +6,7 @@
 #include "clackers/model/motion.hpp"
 #include "clackers/model/sink.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// What jumps at an impact.
 enum class JumpingQuantity { velocity, acceleration };
@@ -74,4 +74,4 @@ class VelocityError {
   Errors sum_, squares_;
 };
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

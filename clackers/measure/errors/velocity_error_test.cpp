@@ -8,7 +8,7 @@
 
 #include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -178,4 +178,4 @@ TEST(VelocityError, AskingForTheIntegralChangesNothing) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -9,7 +9,7 @@
 #include "clackers/measure/errors/vectors.hpp"
 #include "clackers/measure/impacts/gap_history.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 using Eigen::VectorXd;
@@ -205,4 +205,4 @@ std::vector<FoundCollision> find_collisions(const model::Trajectory& history,
   return found;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

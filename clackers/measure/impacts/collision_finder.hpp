@@ -5,7 +5,7 @@
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/trajectory.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// A collision read from a history that reports none.
 struct FoundCollision {
@@ -38,4 +38,4 @@ struct FoundCollision {
 std::vector<FoundCollision> find_collisions(const model::Trajectory& history,
                                             const model::ImpactProblem<>& problem);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

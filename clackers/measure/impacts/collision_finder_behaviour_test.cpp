@@ -6,7 +6,7 @@
 #include "clackers/measure/impacts/collision_finder.hpp"
 #include "clackers/measure/testing/sampled_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -188,4 +188,4 @@ TEST(FreeMotion, IsThatOfTheEquationOfMotion) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

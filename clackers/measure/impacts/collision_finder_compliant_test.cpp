@@ -5,7 +5,7 @@
 #include "clackers/measure/impacts/collision_finder.hpp"
 #include "clackers/measure/testing/sampled_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 TEST(CollisionFinder, TakesACompliantContactForOneCollisionAtItsBeginning) {
@@ -61,4 +61,4 @@ TEST(CollisionFinder, SaysWhatIsUnknownOfAContactThatIsStillClosed) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

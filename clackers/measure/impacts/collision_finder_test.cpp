@@ -6,11 +6,11 @@
 #include <numbers>
 #include <string>
 
+#include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/measure/testing/sampled_motion.hpp"
 #include "clackers/measure/testing/shifted_history.hpp"
-#include "clackers/exact/pair/closed_form.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 // How far the found collisions are from the true ones, which must be as many.
@@ -101,4 +101,4 @@ INSTANTIATE_TEST_SUITE_P(Members, CollisionsOfAPair,
                                          Pair{5.0, 2.0, 0.8}, Pair{1.0 / 3.0, 2.0, 0.5}));
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -7,7 +7,7 @@
 
 #include "clackers/measure/errors/vectors.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -177,4 +177,4 @@ GapHistory gap_history_from_displacements(const model::Trajectory& history,
   return best;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

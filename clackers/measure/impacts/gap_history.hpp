@@ -7,7 +7,7 @@
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/trajectory.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// One contact along a history: its gap g = b . u - gap, the rate of it, and what free motion would
 /// make of that rate. One entry a row that is used; all vectors have the same length.
@@ -42,4 +42,4 @@ GapHistory gap_history_from_displacements(const model::Trajectory& history,
                                           const FreeMotion& motion,
                                           const model::Contact<>& contact);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

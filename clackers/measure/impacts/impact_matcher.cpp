@@ -7,7 +7,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 bool rests_in_contact(const model::Motion& reference, const std::vector<model::Contact<>>& contacts,
                       int contact, double t) {
@@ -128,4 +128,4 @@ std::vector<ImpactPair> ImpactMatcher::pairs(double end) const {
   return pairs;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -8,7 +8,7 @@
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// A true impact and the report that is its match.
 struct ImpactPair {
@@ -91,4 +91,4 @@ class ImpactMatcher {
   ImpactScore sum_;  ///< of all true impacts before the targets
 };
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -6,10 +6,10 @@
 #include <limits>
 #include <random>
 
-#include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 // True impacts at 2, 6, 10, 14, 18: a quarter of the spacing is 1.
@@ -289,4 +289,4 @@ TEST(ImpactMatcher, RefusesAStepThatIsNotPositive) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 bool is_known(const std::vector<double>& entries, int dof) {
@@ -95,4 +95,4 @@ std::optional<model::Trajectory> with_jump_limits(const model::Trajectory& histo
   return rows.take();
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -4,7 +4,7 @@
 
 #include "clackers/model/trajectory.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// The history with both limits of its reported impacts as two rows of one time, or nothing where
 /// no row is to be added. A row that stands alone at the time of an impact is replaced by them;
@@ -16,4 +16,4 @@ namespace clackers::assess {
 /// as it is, since an impact does not carry accelerations.
 std::optional<model::Trajectory> with_jump_limits(const model::Trajectory& history);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 using List = std::vector<double>;
@@ -90,4 +90,4 @@ TEST(JumpLimits, AreNotMadeOfWhatIsUnknown) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 // Whether an impulse at one of these contacts changes the gap rate of another.
@@ -82,4 +82,4 @@ bool comes_from_shared_impacts(const SharedImpacts& found) {
   return found.error_after >= smallest && found.error_after >= factor * found.error_before;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

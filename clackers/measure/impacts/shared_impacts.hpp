@@ -6,7 +6,7 @@
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// An instant at which contacts that share masses close together: an impulse at one changes the gap
 /// rate of another.
@@ -37,4 +37,4 @@ std::optional<SharedImpacts> at_shared_instant(const SharedInstant& instant, dou
 /// grows with time, twofold over these times, and by a few of the factors by which impacts magnify it.
 bool comes_from_shared_impacts(const SharedImpacts& found);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

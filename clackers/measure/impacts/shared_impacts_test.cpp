@@ -8,7 +8,7 @@
 #include "clackers/exact/assembly/assembly.hpp"
 #include "clackers/exact/assembly/row.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 TEST(SharedImpacts, AreThoseOfContactsWithCommonMasses) {
@@ -46,4 +46,4 @@ TEST(SharedImpacts, ErrorsAreLargestBeforeAndInAsMuchTimeAfter) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -5,7 +5,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 // Free motion of one mass: u = A e^(-sigma t) cos(omega t + phase).
@@ -95,4 +95,4 @@ double detuning(const Comparison& comparison, const FlightFrequencies& found) {
   return (1.0 + fast) / (1.0 + slow) - 1.0;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

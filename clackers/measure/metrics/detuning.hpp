@@ -5,7 +5,7 @@
 
 #include "clackers/measure/errors/comparison.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// A method's own frequencies in flight, as a history shows them.
 struct FlightFrequencies {
@@ -26,4 +26,4 @@ FlightFrequencies flight_frequencies(const Comparison& comparison);
 /// InputError unless there are two masses and their errors.
 double detuning(const Comparison& comparison, const FlightFrequencies& found);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

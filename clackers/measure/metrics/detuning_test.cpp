@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
+#include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/methods/registry.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 TEST(Detuning, OfAHistoryWithTheTrueFrequenciesIsZero) {
@@ -83,4 +83,4 @@ TEST(Detuning, IsWhatTheFasterMassTurnsBeyondTheSlowerOne) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

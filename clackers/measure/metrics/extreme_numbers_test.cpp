@@ -4,13 +4,13 @@
 #include <cmath>
 #include <random>
 
+#include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/measure/testing/shifted_history.hpp"
-#include "clackers/exact/pair/closed_form.hpp"
 
 // No input of a kilobyte, about 20 rows, takes a second, whatever its numbers are.
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 const exact::SynchronizedPair& pair() {
@@ -99,4 +99,4 @@ TEST(ExtremeNumbers, TwoRowsOfAMotionWithManyImpactsAreMeasured) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "clackers/base/suggest.hpp"
 #include "clackers/measure/metrics/distance/filled_graph.hpp"
 #include "clackers/measure/metrics/distance/hybrid_arc.hpp"
 #include "clackers/measure/metrics/distance/undone_jumps.hpp"
@@ -15,9 +16,8 @@
 #include "clackers/measure/metrics/norm_error.hpp"
 #include "clackers/measure/metrics/structure_error.hpp"
 #include "clackers/measure/metrics/synchrony.hpp"
-#include "clackers/base/suggest.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 struct NormRow {
@@ -185,4 +185,4 @@ MetricValue relative_to(const MetricValue& value, std::span<const double> envelo
   return measured(std::move(masses));
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 class Comparison;
 
@@ -55,4 +55,4 @@ MetricValue not_measured(std::string reason);
 /// `value` divided mass by mass by an envelope; not measured where one is not positive.
 MetricValue relative_to(const MetricValue& value, std::span<const double> envelope);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

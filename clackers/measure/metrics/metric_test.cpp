@@ -6,13 +6,13 @@
 #include <memory>
 #include <set>
 
+#include "clackers/base/error.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/measure/testing/shifted_history.hpp"
-#include "clackers/base/error.hpp"
-#include "clackers/exact/pair/closed_form.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 using Values = std::vector<double>;  // one a level, the first with the longest delay
@@ -177,4 +177,4 @@ TEST(Metrics, SuggestANameForAMisspelledOne) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -5,7 +5,7 @@
 #include "clackers/measure/errors/velocity_error.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 struct Columns {
@@ -130,4 +130,4 @@ MetricValue relative_norm_error(const Comparison& comparison, Quantity quantity,
   return relative_to(norm_error(comparison, quantity, norm), envelope);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

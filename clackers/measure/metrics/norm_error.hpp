@@ -3,7 +3,7 @@
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Displacement [m], velocity [m/s] or acceleration [m/s^2].
 enum class Quantity { u, v, a };
@@ -31,4 +31,4 @@ MetricValue norm_error(const Comparison& comparison, Quantity quantity, Norm nor
 /// The same relative to the envelope of the reference at t = 0.
 MetricValue relative_norm_error(const Comparison& comparison, Quantity quantity, Norm norm);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -9,7 +9,7 @@
 #include "clackers/measure/testing/shifted_history.hpp"
 #include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double half_pi = 0.5 * std::numbers::pi;
@@ -143,4 +143,4 @@ TEST(NormError, IsRelativeToNothingWhereAMassDoesNotMove) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 class Distances {
@@ -68,4 +68,4 @@ PenaltySplit penalty_split(const Comparison& comparison, const model::Motion& pe
   return split;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -4,7 +4,7 @@
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/model/motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// The error of a run with compliant contacts in two parts: what its model is wrong by, and what
 /// its integration is. `penalized` is the exact motion with the run's own contact springs.
@@ -25,4 +25,4 @@ struct PenaltySplit {
 /// the history (give or take a rounding).
 PenaltySplit penalty_split(const Comparison& comparison, const model::Motion& penalized);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/exact/penalized/penalized_motion.hpp"
+#include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/methods/registry.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 // Stands for a penalized motion: ToyMotion with u greater by 0.1 and v by 0.2 t, in mass 1; mass 2
@@ -101,4 +101,4 @@ TEST(PenaltySplit, WithoutVelocitiesMeasuresDisplacements) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -5,7 +5,7 @@
 
 #include "clackers/measure/errors/mechanics.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 MetricValue energy_error(const Comparison& comparison, Energy energy) {
   const auto& system = comparison.problem().system;
@@ -70,4 +70,4 @@ MetricValue penetration(const Comparison& comparison) {
   return measured(deepest);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

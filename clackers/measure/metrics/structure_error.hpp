@@ -4,7 +4,7 @@
 #include "clackers/measure/metrics/metric.hpp"
 
 // Errors of the whole structure over the history's output times.
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// v' M v / 2, u' K u / 2 or their sum.
 enum class Energy { kinetic, potential, total };
@@ -32,4 +32,4 @@ MetricValue momentum_error(const Comparison& comparison);
 /// Valid across jumps: yes, displacements do not jump. Source: common.
 MetricValue penetration(const Comparison& comparison);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

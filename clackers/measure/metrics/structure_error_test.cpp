@@ -7,7 +7,7 @@
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 const ToyMotion reference;
@@ -103,4 +103,4 @@ TEST(Penetration, IsTheDeepestOfAllContactsAndTimes) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

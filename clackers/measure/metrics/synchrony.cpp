@@ -5,12 +5,12 @@
 #include <limits>
 #include <numeric>
 
-#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -93,4 +93,4 @@ MetricValue measure_spacing_error(const Comparison& comparison) {
   return measured(loss.worst);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

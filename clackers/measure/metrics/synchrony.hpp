@@ -7,7 +7,7 @@
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Synchrony counts as lost when the time between two collisions is wrong by this part of T.
 inline constexpr double lost_synchrony = 0.1;
@@ -76,4 +76,4 @@ DetuningPart explained_by_detuning(const SynchronyLoss& loss, const DetuningFact
 /// Row of the table of metrics: the largest error of a spacing over T, to the loss if there is one.
 MetricValue measure_spacing_error(const Comparison& comparison);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/quantities/conditioning.hpp"
+#include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/methods/registry.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -192,4 +192,4 @@ TEST(Synchrony, OfAverageAccelerationIsLostByItsOwnDetuning) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

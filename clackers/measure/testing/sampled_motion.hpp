@@ -11,7 +11,7 @@
 #include "clackers/model/trajectory.hpp"
 
 // Motions of two masses written as formulas, and their histories, for tests.
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Two undamped masses of 1 and 1/2 kg, frequencies w1 and w2, mass 1 above.
 inline model::ImpactProblem<> masses(double w1, double w2, double restitution = 1.0) {
@@ -87,4 +87,4 @@ inline model::ImpactProblem<> equal_masses() {
   return problem;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -8,7 +8,7 @@
 #include "clackers/model/trajectory.hpp"
 
 // Histories made of a reference whose impacts are moved, for tests.
-namespace clackers::assess {
+namespace clackers::measure {
 
 struct ShiftedHistory {
   double step = 0.01;   ///< of the grid, which starts at 0 [s]
@@ -68,4 +68,4 @@ inline model::Trajectory shifted(const model::Motion& reference, const ShiftedHi
   return history;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

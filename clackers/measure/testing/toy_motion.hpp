@@ -11,7 +11,7 @@
 #include "clackers/model/trajectory.hpp"
 
 // A motion simple enough to check by hand, and its histories, for tests.
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Two masses that strike each other at equilibrium for ever, undamped and elastic:
 /// u1 = |cos t|, u2 = -u1 / 2, masses and stiffnesses 1 and 2, impacts at (k - 1/2) pi with
@@ -157,4 +157,4 @@ inline model::Trajectory toy_history(const ToyFlaws& flaws) {
   return made;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

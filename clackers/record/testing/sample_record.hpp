@@ -4,14 +4,14 @@
 
 #include "clackers/record/record.hpp"
 
-namespace clackers::study {
+namespace clackers::record {
 
 /// For tests: a record in which every member differs from its default and from its neighbours,
 /// with doubles that a careless printer would change.
 inline Record sample_record() {
   constexpr double tiny = std::numeric_limits<double>::denorm_min();
   constexpr double huge = std::numeric_limits<double>::max();
-  assess::RunScore run;
+  measure::RunScore run;
   run.step = 0.1;
   run.finished = true;
   run.failure_code = "diverged";
@@ -22,13 +22,13 @@ inline Record sample_record() {
   run.energy_error = 5e-324;
   run.energy_ratio = -0.0;
   run.rounding_floor = 2.2250738585072011e-308;
-  run.impacts = assess::ImpactScore{6, 7, 5, 1, 2, 0.1 + 0.2, 3e-14};
+  run.impacts = measure::ImpactScore{6, 7, 5, 1, 2, 0.1 + 0.2, 3e-14};
   run.work = {1'000'000'007, 2, 3, 4, 5};
   run.seconds = 1e23;
   auto silent = run;
   silent.impacts.reset();
   silent.finished = false;
-  assess::LadderFit fit;
+  judge::LadderFit fit;
   fit.behaviour = Behaviour::irregular;
   fit.reason = "energy-growth";
   fit.has_line = fit.on_envelope = true;
@@ -91,7 +91,7 @@ inline Record sample_record() {
                        second,
                        third,
                        Verdict::not_claimed,
-                       assess::Mismatch::lower_order,
+                       judge::Mismatch::lower_order,
                        "printed-digits",
                        {{"within-tolerance", Verdict::agrees, {1e-4, 1e-3, 1e-6}}}};
   auto& without = method.self_convergence.emplace();
@@ -147,4 +147,4 @@ inline Record sample_record() {
   return record;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::record

@@ -15,7 +15,7 @@ namespace clackers::report {
 namespace {
 
 std::string page_of(const SampleAtlas& atlas) {
-  study::SheetRows runs(atlas.runs);
+  record::SheetRows runs(atlas.runs);
   const auto part = sample_part(atlas, runs);
   return atlas_page({&part, 1}, sample_atlas_text());
 }
@@ -59,7 +59,7 @@ TEST(Atlas, HasEverySubjectWithItsRuns) {
 
 TEST(Atlas, CommandsNameTheSystemAndTheMethodAsAShellReadsThem) {
   auto atlas = sample_atlas(1, 1);
-  study::SheetRows runs(atlas.runs);
+  record::SheetRows runs(atlas.runs);
   auto part = sample_part(atlas, runs);
   part.calls["rk4"] = "--exec './solver {h}'";
   const auto data = atlas_data(atlas_page({&part, 1}, sample_atlas_text()));
@@ -81,7 +81,7 @@ TEST(Atlas, ProfilesCountTheTasksOfAllSystems) {
 
 TEST(Atlas, PartsOfOthersStandBesideWithTheirOrigin) {
   const auto own = sample_atlas(1, 1), other = sample_atlas(1, 1);
-  study::SheetRows first(own.runs), second(other.runs);
+  record::SheetRows first(own.runs), second(other.runs);
   const std::array parts{sample_part(own, first), sample_part(other, second, "A. Author")};
   const auto page = atlas_page(parts, sample_atlas_text());
   const auto data = atlas_data(page);

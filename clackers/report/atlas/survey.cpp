@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::string_view set_prefix = "set_";
 
-std::string cell_text(const study::Cell& cell) {
+std::string cell_text(const record::Cell& cell) {
   if (const auto* real = std::get_if<double>(&cell)) return exact_number(*real);
   if (const auto* whole = std::get_if<long long>(&cell)) return fmt::format("{}", *whole);
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   return {};
 }
 
-SurveySystem system_of(const study::Sheet& sheet, const std::vector<study::Cell>& row,
+SurveySystem system_of(const record::Sheet& sheet, const std::vector<record::Cell>& row,
                        const NamedCells& cells) {
   SurveySystem system{cells.text(row, "case"), {}};
   for (std::size_t c = 0; c < sheet.columns.size(); ++c)
@@ -33,7 +33,7 @@ SurveySystem system_of(const study::Sheet& sheet, const std::vector<study::Cell>
 
 // The same of two parts whose columns stand in different orders.
 std::string key_of(SurveySystem system) {
-  std::ranges::sort(system.settings, {}, &std::pair<std::string, study::Cell>::first);
+  std::ranges::sort(system.settings, {}, &std::pair<std::string, record::Cell>::first);
   return system.name + ' ' + system.settings_text();
 }
 
@@ -45,8 +45,8 @@ std::size_t place_of(std::vector<Item>& list, std::map<std::string, std::size_t>
   return found->second;
 }
 
-assess::RunScore run_of(const std::vector<study::Cell>& row, const NamedCells& cells) {
-  assess::RunScore run;
+measure::RunScore run_of(const std::vector<record::Cell>& row, const NamedCells& cells) {
+  measure::RunScore run;
   run.step = cells.number(row, "step");
   if (std::isnan(run.step)) run.step = cells.number(row, "tolerance");
   run.finished = cells.text(row, "finished") == "yes";
@@ -60,7 +60,7 @@ assess::RunScore run_of(const std::vector<study::Cell>& row, const NamedCells& c
 void read_runs(const AtlasPart& part, const std::map<long long, std::size_t>& place_of_task,
                std::vector<SurveySubject>& subjects) {
   const NamedCells cells(part.runs->columns());
-  std::vector<study::Cell> row;
+  std::vector<record::Cell> row;
   while (part.runs->next(row)) {
     const auto level = cells.whole(row, "level");
     const auto found = place_of_task.find(cells.whole(row, "task"));
@@ -83,22 +83,23 @@ std::string SurveySystem::settings_text() const {
   return out;
 }
 
-NamedCells::NamedCells(const std::vector<study::Column>& columns) {
+NamedCells::NamedCells(const std::vector<record::Column>& columns) {
   for (std::size_t c = 0; c < columns.size(); ++c) places_.try_emplace(columns[c].name, c);
 }
 
-const study::Cell* NamedCells::find(const std::vector<study::Cell>& row,
-                                    const std::string& column) const {
+const record::Cell* NamedCells::find(const std::vector<record::Cell>& row,
+                                     const std::string& column) const {
   const auto found = places_.find(column);
   return found == places_.end() || row[found->second].index() == 0 ? nullptr : &row[found->second];
 }
 
-std::string NamedCells::text(const std::vector<study::Cell>& row, const std::string& column) const {
+std::string NamedCells::text(const std::vector<record::Cell>& row,
+                             const std::string& column) const {
   const auto* cell = find(row, column);
   return cell == nullptr ? std::string() : cell_text(*cell);
 }
 
-double NamedCells::number(const std::vector<study::Cell>& row, const std::string& column) const {
+double NamedCells::number(const std::vector<record::Cell>& row, const std::string& column) const {
   const auto* cell = find(row, column);
   if (cell == nullptr) return std::nan("");
   if (const auto* whole = std::get_if<long long>(cell)) return double(*whole);
@@ -106,7 +107,7 @@ double NamedCells::number(const std::vector<study::Cell>& row, const std::string
   return real == nullptr ? std::nan("") : *real;
 }
 
-long long NamedCells::whole(const std::vector<study::Cell>& row, const std::string& column) const {
+long long NamedCells::whole(const std::vector<record::Cell>& row, const std::string& column) const {
   const double value = number(row, column);
   return std::isfinite(value) ? static_cast<long long>(value) : 0;
 }
@@ -126,7 +127,7 @@ Survey survey_of(std::span<const AtlasPart> parts) {
       SurveySubject subject;
       subject.system = place_of(survey.systems, systems, key_of(system), system);
       subject.method = place_of(survey.methods, methods, fmt::format("{} {}", p, name),
-                                SurveyMethod{name, study::treatment_of(name), p});
+                                SurveyMethod{name, tables::treatment_of(name), p});
       subject.part = p;
       subject.row = r;
       if (!seen.try_emplace({subject.method, subject.system}, true).second)

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "clackers/measure/errors/score.hpp"
 #include "clackers/base/judgement.hpp"
+#include "clackers/measure/errors/score.hpp"
 #include "clackers/report/atlas.hpp"
 
 namespace clackers::report {
@@ -15,7 +15,7 @@ namespace clackers::report {
 /// A case with values of its parameters: a column of the matrix.
 struct SurveySystem {
   std::string name;  ///< of the case
-  std::vector<std::pair<std::string, study::Cell>> settings;
+  std::vector<std::pair<std::string, record::Cell>> settings;
 
   /// "N=2,xi1=0.05", as --set reads it; empty without any.
   std::string settings_text() const;
@@ -34,7 +34,7 @@ struct SurveyMethod {
 struct SurveySubject {
   std::size_t method = 0, system = 0;
   std::size_t part = 0, row = 0;  ///< of its sheet of subjects
-  assess::Ladder ladder;          ///< empty for a method that was refused
+  measure::Ladder ladder;         ///< empty for a method that was refused
   bool by_tolerance = false;
 };
 
@@ -50,15 +50,15 @@ Survey survey_of(std::span<const AtlasPart> parts);
 /// Reads cells by the names of their columns.
 class NamedCells {
  public:
-  explicit NamedCells(const std::vector<study::Column>& columns);
+  explicit NamedCells(const std::vector<record::Column>& columns);
   /// Text of a column that may be missing or empty.
-  std::string text(const std::vector<study::Cell>& row, const std::string& column) const;
+  std::string text(const std::vector<record::Cell>& row, const std::string& column) const;
   /// A number; NaN where there is none.
-  double number(const std::vector<study::Cell>& row, const std::string& column) const;
-  long long whole(const std::vector<study::Cell>& row, const std::string& column) const;
+  double number(const std::vector<record::Cell>& row, const std::string& column) const;
+  long long whole(const std::vector<record::Cell>& row, const std::string& column) const;
 
  private:
-  const study::Cell* find(const std::vector<study::Cell>& row, const std::string& column) const;
+  const record::Cell* find(const std::vector<record::Cell>& row, const std::string& column) const;
 
   std::map<std::string, std::size_t, std::less<>> places_;
 };

@@ -46,8 +46,9 @@ Json settings_json(const SurveySystem& system) {
 }
 
 Json system_json(const SurveySystem& system) {
-  auto command = "--case " + study::shell_quoted(system.name);
-  if (!system.settings.empty()) command += " --set " + study::shell_quoted(system.settings_text());
+  auto command = "--case " + solvers::shell_quoted(system.name);
+  if (!system.settings.empty())
+    command += " --set " + solvers::shell_quoted(system.settings_text());
   return {{"case", valid_utf8(system.name)},
           {"set", settings_json(system)},
           {"command", valid_utf8(command)}};
@@ -57,8 +58,8 @@ Json method_json(const SurveyMethod& method, const AtlasPart& part) {
   const auto call = part.calls.find(method.name);
   return {{"name", valid_utf8(method.name)},
           {"treatment", method.treatment},
-          {"call",
-           valid_utf8(call == part.calls.end() ? study::shell_quoted(method.name) : call->second)},
+          {"call", valid_utf8(call == part.calls.end() ? solvers::shell_quoted(method.name)
+                                                       : call->second)},
           {"part", method.part}};
 }
 
@@ -106,7 +107,7 @@ constexpr std::string_view words[] = {"behaviour", "verdict",      "reason",
 void add_ladder(Json& cell, const SurveySubject& subject, Shared& ladders) {
   Json errors = Json::array(), steps = Json::array(), forces = Json::array();
   for (const auto& level : subject.ladder) {
-    const auto worst = assess::worst(level.runs);
+    const auto worst = measure::worst(level.runs);
     steps.push_back(worst.work.steps);
     forces.push_back(worst.work.force_evaluations);
     for (const auto& run : level.runs)

@@ -4,29 +4,29 @@
 #include <nlohmann/json.hpp>
 
 #include "clackers/judge/cost/profile_tasks.hpp"
+#include "clackers/record/profile.hpp"
 #include "clackers/report/atlas/survey_data.hpp"
 #include "clackers/report/columns.hpp"
-#include "clackers/record/profile.hpp"
 
 namespace clackers::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-assess::CostTable cost_table(const Survey& survey, assess::Counter counter) {
-  assess::CostTable table;
+judge::CostTable cost_table(const Survey& survey, judge::Counter counter) {
+  judge::CostTable table;
   for (const auto& method : survey.methods) table.methods.push_back(method.name);
   table.costs.resize(table.methods.size());
-  std::vector<std::vector<assess::Ladder>> ladders(
-      survey.systems.size(), std::vector<assess::Ladder>(survey.methods.size()));
+  std::vector<std::vector<measure::Ladder>> ladders(
+      survey.systems.size(), std::vector<measure::Ladder>(survey.methods.size()));
   for (const auto& subject : survey.subjects)
     ladders[subject.system][subject.method] = subject.ladder;
   for (std::size_t s = 0; s < ladders.size(); ++s)
-    assess::add_tasks(table, survey.systems[s].name, ladders[s], counter);
+    judge::add_tasks(table, survey.systems[s].name, ladders[s], counter);
   return table;
 }
 
-Json line_json(const assess::MethodProfile& line, double tasks) {
+Json line_json(const judge::MethodProfile& line, double tasks) {
   Json ratios = Json::array(), solved = Json::array();
   for (const auto& step : line.steps) {
     const Json ratio = std::stod(fmt::format("{:.2e}", step.ratio));  // finer than any screen
@@ -45,12 +45,12 @@ Json line_json(const assess::MethodProfile& line, double tasks) {
 
 Json survey_profiles(const Survey& survey) {
   Json profiles = Json::array();
-  for (const auto counter : {assess::Counter::force_evaluations, assess::Counter::steps}) {
+  for (const auto counter : {judge::Counter::force_evaluations, judge::Counter::steps}) {
     const auto table = cost_table(survey, counter);
-    if (!assess::has_ratios(table)) continue;
-    const auto field = study::field_of(counter);
+    if (!judge::has_ratios(table)) continue;
+    const auto field = record::field_of(counter);
     Json lines = Json::array();
-    for (const auto& line : assess::performance_profile(table))
+    for (const auto& line : judge::performance_profile(table))
       lines.push_back(line_json(line, double(table.tasks.size())));
     profiles.push_back({{"counter", field},
                         {"title", column(field).heading},

@@ -11,35 +11,35 @@
 namespace clackers::report {
 namespace {
 
-ShownCounter shown(assess::Counter counter) {
-  const auto field = study::field_of(counter);
-  if (counter == assess::Counter::seconds) return {counter, field, "processor time [s]"};
+ShownCounter shown(judge::Counter counter) {
+  const auto field = record::field_of(counter);
+  if (counter == judge::Counter::seconds) return {counter, field, "processor time [s]"};
   return {counter, field, std::string(column(field).heading)};
 }
 
-bool is_counted(const study::CaseRecord& problem, assess::Counter counter) {
+bool is_counted(const record::CaseRecord& problem, judge::Counter counter) {
   for (const auto& subject : problem.subjects) {
-    if (subject.kind != study::SubjectKind::method) continue;
+    if (subject.kind != record::SubjectKind::method) continue;
     for (const auto& level : subject.levels)
       for (const auto& run : level.runs)
-        if (run.score.finished && assess::cost(run.score, counter) > 0.0) return true;
+        if (run.score.finished && judge::cost(run.score, counter) > 0.0) return true;
   }
   return false;
 }
 
 }  // namespace
 
-std::vector<ShownCounter> counters_of(const study::CaseRecord& problem) {
+std::vector<ShownCounter> counters_of(const record::CaseRecord& problem) {
   std::vector<ShownCounter> list;
-  for (const auto counter : assess::all_counters)
+  for (const auto counter : judge::all_counters)
     if (is_counted(problem, counter)) list.push_back(shown(counter));
   return list;
 }
 
-std::vector<ShownCounter> counters_of(const std::vector<study::Profile>& profiles) {
+std::vector<ShownCounter> counters_of(const std::vector<record::Profile>& profiles) {
   std::vector<ShownCounter> list;
-  for (const auto counter : assess::all_counters)
-    if (std::ranges::count(profiles, study::field_of(counter), &study::Profile::counter) > 0)
+  for (const auto counter : judge::all_counters)
+    if (std::ranges::count(profiles, record::field_of(counter), &record::Profile::counter) > 0)
       list.push_back(shown(counter));
   return list;
 }
@@ -47,7 +47,7 @@ std::vector<ShownCounter> counters_of(const std::vector<study::Profile>& profile
 ShownCounter first_shown(const std::vector<ShownCounter>& counters) {
   if (counters.empty()) throw std::logic_error("a figure of work without a counter");
   const auto forces = std::ranges::find(
-      counters, study::field_of(assess::Counter::force_evaluations), &ShownCounter::field);
+      counters, record::field_of(judge::Counter::force_evaluations), &ShownCounter::field);
   return forces == counters.end() ? counters.front() : *forces;
 }
 

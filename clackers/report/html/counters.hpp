@@ -10,16 +10,16 @@ namespace clackers::report {
 
 /// A counter of work that a figure may show.
 struct ShownCounter {
-  assess::Counter counter;
+  judge::Counter counter;
   std::string_view field;  ///< name of its column: "force_evaluations"
   std::string title;       ///< "force evaluations", with the unit where there is one
 };
 
 /// The counters of which some finished run of a method has more than none, in the order of their
 /// buttons.
-std::vector<ShownCounter> counters_of(const study::CaseRecord& problem);
+std::vector<ShownCounter> counters_of(const record::CaseRecord& problem);
 /// Those of the profiles.
-std::vector<ShownCounter> counters_of(const std::vector<study::Profile>& profiles);
+std::vector<ShownCounter> counters_of(const std::vector<record::Profile>& profiles);
 
 /// What is shown first: force evaluations where they are counted. Throws std::logic_error for none.
 ShownCounter first_shown(const std::vector<ShownCounter>& counters);

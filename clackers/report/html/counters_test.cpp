@@ -7,8 +7,8 @@
 namespace clackers::report {
 namespace {
 
-study::CaseRecord with_run(bool finished) {
-  study::CaseRecord record;
+record::CaseRecord with_run(bool finished) {
+  record::CaseRecord record;
   record.subjects.emplace_back().levels.emplace_back().runs.emplace_back();
   auto& run = record.subjects[0].levels[0].runs[0].score;
   run.finished = finished;
@@ -18,8 +18,8 @@ study::CaseRecord with_run(bool finished) {
   return record;
 }
 
-const ShownCounter steps{assess::Counter::steps, "steps", "steps"};
-const ShownCounter forces{assess::Counter::force_evaluations, "force_evaluations", "forces"};
+const ShownCounter steps{judge::Counter::steps, "steps", "steps"};
+const ShownCounter forces{judge::Counter::force_evaluations, "force_evaluations", "forces"};
 
 TEST(Counters, AreThoseThatSomeFinishedRunHas) {
   const auto found = counters_of(with_run(true));
@@ -32,7 +32,7 @@ TEST(Counters, AreThoseThatSomeFinishedRunHas) {
 }
 
 TEST(Counters, OfProfilesStandInTheSameOrder) {
-  const std::vector<study::Profile> profiles{{"event_searches", {}, {}}, {"steps", {}, {}}};
+  const std::vector<record::Profile> profiles{{"event_searches", {}, {}}, {"steps", {}, {}}};
   const auto found = counters_of(profiles);
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].field, "steps");
@@ -41,7 +41,7 @@ TEST(Counters, OfProfilesStandInTheSameOrder) {
 
 TEST(Counters, ShowForceEvaluationsFirstWhereTheyAreCounted) {
   EXPECT_EQ(first_shown({steps, forces}).field, "force_evaluations");
-  EXPECT_EQ(first_shown({steps, {assess::Counter::seconds, "seconds", ""}}).field, "steps");
+  EXPECT_EQ(first_shown({steps, {judge::Counter::seconds, "seconds", ""}}).field, "steps");
   EXPECT_THROW(first_shown({}), std::logic_error);
 }
 

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "clackers/judge/cost/work_precision.hpp"
+#include "clackers/record/reduced_curve.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/html/counters.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/record/reduced_curve.hpp"
 
 namespace clackers::report {
 namespace {
@@ -27,7 +27,7 @@ Json rounded_list(const std::vector<double>& values) {
   return out;
 }
 
-Json cell(const study::Cell& value) {
+Json cell(const record::Cell& value) {
   return std::visit(
       [](const auto& x) -> Json {
         if constexpr (std::is_same_v<std::decay_t<decltype(x)>, std::monostate>)
@@ -38,24 +38,24 @@ Json cell(const study::Cell& value) {
       value);
 }
 
-bool is_drawable(const assess::RunScore& score) {
+bool is_drawable(const measure::RunScore& score) {
   return score.finished && score.u_error > 0.0 && std::isfinite(score.u_error);
 }
 
 template <class Use>
-void for_each_run(const study::CaseRecord& problem, const Use& use) {
+void for_each_run(const record::CaseRecord& problem, const Use& use) {
   for (const auto& subject : problem.subjects)
     for (const auto& level : subject.levels)
       for (const auto& run : level.runs) use(run.score);
 }
 
 // The masses and points of a figure.
-study::Curve drawn(study::Curve whole) {
+record::Curve drawn(record::Curve whole) {
   whole.y.resize(std::min(whole.y.size(), most_drawn_masses));
-  return study::reduced(whole);
+  return record::reduced(whole);
 }
 
-Json displacements(const study::Curve& whole) {
+Json displacements(const record::Curve& whole) {
   const auto curve = drawn(whole);
   Json out = Json::array();
   for (std::size_t mass = 0; mass < curve.y.size(); ++mass)
@@ -65,7 +65,7 @@ Json displacements(const study::Curve& whole) {
   return out;
 }
 
-Json collisions(const study::CaseSummary& problem) {
+Json collisions(const record::CaseSummary& problem) {
   Json out = Json::array();
   for (std::size_t k = 0; k < problem.impact_times.size(); ++k)
     out.push_back(
@@ -73,7 +73,7 @@ Json collisions(const study::CaseSummary& problem) {
   return out;
 }
 
-Json all_runs(const study::CaseRecord& problem) {
+Json all_runs(const record::CaseRecord& problem) {
   const auto sheet = run_sheet({&problem, 1}, false);
   Json columns = Json::array(), rows = Json::array();
   for (const auto& column : sheet.columns) columns.push_back(column.name);
@@ -86,7 +86,7 @@ Json all_runs(const study::CaseRecord& problem) {
 }
 
 // The fit has no number for a level that it calls unusable.
-Json levels(const study::CaseRecord& problem) {
+Json levels(const record::CaseRecord& problem) {
   Json out = Json::array();
   for (const auto& subject : problem.subjects) {
     const auto& fit = subject.assessment.displacement;
@@ -104,9 +104,9 @@ Json levels(const study::CaseRecord& problem) {
 
 // Triangles whose third side climbs with order 1, 2 and 4, in the lower right corner, where a
 // convergence plot is empty. The highest takes at most a third of the height.
-Json slopes(const study::CaseRecord& problem) {
+Json slopes(const record::CaseRecord& problem) {
   double step = 0.0, lowest = INFINITY, highest = 0.0;
-  for_each_run(problem, [&](const assess::RunScore& score) {
+  for_each_run(problem, [&](const measure::RunScore& score) {
     if (!is_drawable(score)) return;
     step = std::max(step, score.step);
     lowest = std::min(lowest, score.u_error);
@@ -130,7 +130,7 @@ Json slopes(const study::CaseRecord& problem) {
   return out;
 }
 
-Json history(const study::CaseRecord& problem) {
+Json history(const record::CaseRecord& problem) {
   Json out = Json::array();
   for (const auto& subject : problem.subjects) {
     const auto* run = subject.shown_run();
@@ -146,11 +146,11 @@ Json history(const study::CaseRecord& problem) {
   return out;
 }
 
-Json work(const study::CaseRecord& problem, const std::vector<ShownCounter>& counters) {
+Json work(const record::CaseRecord& problem, const std::vector<ShownCounter>& counters) {
   Json out = Json::array();
   for (const auto& subject : problem.subjects)
     for (const auto& counter : counters) {
-      const auto curve = assess::work_curve(study::ladder_of(subject), counter.counter);
+      const auto curve = judge::work_curve(record::ladder_of(subject), counter.counter);
       for (std::size_t level = 0; level < curve.envelope.size(); ++level) {
         const auto& worst = curve.envelope[level];
         if (worst.work > 0.0 && std::isfinite(worst.error))
@@ -165,20 +165,20 @@ Json work(const study::CaseRecord& problem, const std::vector<ShownCounter>& cou
   return out;
 }
 
-Json front(const study::CaseRecord& problem, const std::vector<ShownCounter>& counters) {
-  assess::Ladder all;
+Json front(const record::CaseRecord& problem, const std::vector<ShownCounter>& counters) {
+  measure::Ladder all;
   for (const auto& subject : problem.subjects)
-    if (subject.kind == study::SubjectKind::method)
-      for (auto& level : study::ladder_of(subject)) all.push_back(std::move(level));
+    if (subject.kind == record::SubjectKind::method)
+      for (auto& level : record::ladder_of(subject)) all.push_back(std::move(level));
   Json out = Json::array();
   for (const auto& counter : counters)
-    for (const auto& run : assess::work_curve(all, counter.counter).runs)
+    for (const auto& run : judge::work_curve(all, counter.counter).runs)
       if (run.on_front && run.work > 0.0 && run.error > 0.0)
         out.push_back({{"counter", counter.field}, {"cost", run.work}, {"u_error", run.error}});
   return out;
 }
 
-bool is_refused(std::span<const study::CaseRecord> cases, const std::string& name) {
+bool is_refused(std::span<const record::CaseRecord> cases, const std::string& name) {
   bool known = false, refused = true;
   for (const auto& problem : cases)
     for (const auto& subject : problem.subjects)
@@ -201,8 +201,8 @@ double rounded(double value) {
 }
 
 // Lines from ratio 1 to a common end, so that the height at which a line stays can be seen.
-Json profile_data(const std::vector<study::Profile>& profiles,
-                  std::span<const study::CaseRecord> cases) {
+Json profile_data(const std::vector<record::Profile>& profiles,
+                  std::span<const record::CaseRecord> cases) {
   Json out = Json::array();
   for (const auto& profile : profiles) {
     double end = 2.0;
@@ -211,7 +211,7 @@ Json profile_data(const std::vector<study::Profile>& profiles,
     for (const auto& method : profile.methods) {
       // A method that never ran has no entry in the legend; the text beside the figure names it.
       if (is_refused(cases, method.method)) continue;
-      std::vector<assess::ProfileStep> line;
+      std::vector<judge::ProfileStep> line;
       if (method.steps.empty() || method.steps.front().ratio > 1.0) line.push_back({1.0, 0.0});
       line.insert(line.end(), method.steps.begin(), method.steps.end());
       line.push_back({end, line.back().share});
@@ -232,13 +232,13 @@ Json profile_data(const std::vector<study::Profile>& profiles,
   return out;
 }
 
-bool has_convergence(const study::CaseRecord& problem) {
+bool has_convergence(const record::CaseRecord& problem) {
   int drawable = 0;
-  for_each_run(problem, [&](const assess::RunScore& score) { drawable += is_drawable(score); });
+  for_each_run(problem, [&](const measure::RunScore& score) { drawable += is_drawable(score); });
   return drawable > 1;
 }
 
-const study::Subject* drawn_subject(const study::CaseRecord& problem) {
+const record::Subject* drawn_subject(const record::CaseRecord& problem) {
   for (const auto& subject : problem.subjects) {
     const auto* run = subject.shown_run();
     if (run != nullptr && run->file && !run->file->history.t.empty()) return &subject;
@@ -246,12 +246,12 @@ const study::Subject* drawn_subject(const study::CaseRecord& problem) {
   return nullptr;
 }
 
-bool has_player(const study::CaseRecord& problem) {
+bool has_player(const record::CaseRecord& problem) {
   return problem.response.t.size() > 1 &&
          problem.problem.drawing.blocks.size() == problem.response.y.size();
 }
 
-Json player_data(const study::CaseRecord& problem) {
+Json player_data(const record::CaseRecord& problem) {
   const auto& drawing = problem.problem.drawing;
   const auto& whole = problem.response;
   const auto every = 1 + whole.y.size() * whole.t.size() / most_player_numbers;
@@ -290,7 +290,7 @@ Json player_data(const study::CaseRecord& problem) {
           {"impacts", impacts}};
 }
 
-Json figure_data(const study::CaseRecord& problem) {
+Json figure_data(const record::CaseRecord& problem) {
   const auto counters = counters_of(problem);
   const auto* drawn = drawn_subject(problem);
   return {{"response", displacements(problem.response)},

@@ -22,22 +22,22 @@ namespace clackers::report {
 ///     work                     the envelopes of error against work, by every counter
 ///     front                    the Pareto front over all runs of methods, by every counter
 ///     profile                  the performance profiles of the case
-nlohmann::ordered_json figure_data(const study::CaseRecord& problem);
+nlohmann::ordered_json figure_data(const record::CaseRecord& problem);
 
 /// Whether the motion of a case can be played: its structure has a drawing.
-bool has_player(const study::CaseRecord& problem);
-/// What player.js draws: the displacements "u" of all masses at the times "t"; "blocks", "springs" and "contacts" as study::Schematic has them; "impacts"; and of each subject one
+bool has_player(const record::CaseRecord& problem);
+/// What player.js draws: the displacements "u" of all masses at the times "t"; "blocks", "springs" and "contacts" as record::Schematic has them; "impacts"; and of each subject one
 /// of its "runs", with its own times.
-nlohmann::ordered_json player_data(const study::CaseRecord& problem);
+nlohmann::ordered_json player_data(const record::CaseRecord& problem);
 
 /// Lines of profiles. Methods that refused every one of the cases have none.
-nlohmann::ordered_json profile_data(const std::vector<study::Profile>& profiles,
-                                    std::span<const study::CaseRecord> cases);
+nlohmann::ordered_json profile_data(const std::vector<record::Profile>& profiles,
+                                    std::span<const record::CaseRecord> cases);
 
 /// Whether a convergence figure has anything to join: two runs with an error above zero.
-bool has_convergence(const study::CaseRecord& problem);
+bool has_convergence(const record::CaseRecord& problem);
 /// The subject whose shown run is a history with displacements of all masses; nullptr without one.
-const study::Subject* drawn_subject(const study::CaseRecord& problem);
+const record::Subject* drawn_subject(const record::CaseRecord& problem);
 
 /// Six digits, which are finer than any screen; any double, subnormal or not finite too.
 double rounded(double value);

@@ -9,15 +9,15 @@
 #include <set>
 
 #include "clackers/judge/cost/work_precision.hpp"
+#include "clackers/record/reduced_curve.hpp"
 #include "clackers/report/html/figure_specifications.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/testing/sample_record.hpp"
-#include "clackers/record/reduced_curve.hpp"
 
 namespace clackers::report {
 namespace {
 
-study::CaseRecord sample() { return sample_record().cases[0]; }
+record::CaseRecord sample() { return sample_record().cases[0]; }
 
 TEST(Rounded, AnyDoubleHasSixDigits) {
   EXPECT_EQ(rounded(1.23456789), 1.23457);
@@ -88,7 +88,7 @@ TEST(FigureData, TheLineOfWorkIsTheEnvelopeOfTheProfile) {
   runs[1].score.u_error = 5.0;                      // the largest error
   runs[4].score.work.force_evaluations = 12345678;  // and of another run the largest cost
   const auto curve =
-      assess::work_curve(study::ladder_of(problem.subjects[0]), assess::Counter::force_evaluations);
+      judge::work_curve(record::ladder_of(problem.subjects[0]), judge::Counter::force_evaluations);
   bool found = false;
   const auto data = figure_data(problem);
   for (const auto& row : data["work"])
@@ -146,11 +146,11 @@ TEST(FigureData, HistoriesHaveTheRowsOfTheFinest) {
 }
 
 TEST(ProfileData, LinesBeginAtTheLeastCostAndEndTogether) {
-  const std::vector<study::Profile> profiles{{"steps",
-                                              {"a", "b"},
-                                              {{"cheap", {1, 1}, {{1.0, 1.0}}, 2, 0},
-                                               {"dear", {4, INFINITY}, {{4.0, 0.5}}, 0, 1},
-                                               {"never", {INFINITY, INFINITY}, {}, 0, 2}}}};
+  const std::vector<record::Profile> profiles{{"steps",
+                                               {"a", "b"},
+                                               {{"cheap", {1, 1}, {{1.0, 1.0}}, 2, 0},
+                                                {"dear", {4, INFINITY}, {{4.0, 0.5}}, 0, 1},
+                                                {"never", {INFINITY, INFINITY}, {}, 0, 2}}}};
   const auto rows = profile_data(profiles, {});
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0]["ratio"], (nlohmann::ordered_json{1.0, 5.0}));

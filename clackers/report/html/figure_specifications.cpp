@@ -100,7 +100,7 @@ Json counter_values(const std::vector<ShownCounter>& counters, const std::string
            "indexof(hidden, datum.method) < 0"}};
 }
 
-Json mass_scales(const study::CaseRecord& problem) {
+Json mass_scales(const record::CaseRecord& problem) {
   Json names = Json::array(), colors = Json::array(), dashes = Json::array();
   for (std::size_t mass = 0; mass < std::min(problem.response.y.size(), most_drawn_masses);
        ++mass) {
@@ -121,7 +121,7 @@ Json specification_of(std::string_view text, const std::vector<std::string>& met
   return specification;
 }
 
-Json figure_specifications(const study::CaseRecord& problem) {
+Json figure_specifications(const record::CaseRecord& problem) {
   std::vector<std::string> names;
   bool has_history = false;
   for (const auto& subject : problem.subjects) {
@@ -134,8 +134,8 @@ Json figure_specifications(const study::CaseRecord& problem) {
   if (drawn_subject(problem) != nullptr)
     all["response"]["layer"].push_back(
         specification_of(assets::history_rows_vl_json, names, masses));
-  const bool by_step = std::ranges::any_of(problem.subjects, [](const study::Subject& subject) {
-    return subject.resolution == study::Resolution::step;
+  const bool by_step = std::ranges::any_of(problem.subjects, [](const record::Subject& subject) {
+    return subject.resolution == record::Resolution::step;
   });
   const Json step{{"x_step", by_step ? "step h [s]" : "tolerance"}};
   if (has_convergence(problem))
@@ -153,14 +153,14 @@ Json figure_specifications(const study::CaseRecord& problem) {
   return all;
 }
 
-Json profile_specification(const std::vector<study::Profile>& profiles) {
+Json profile_specification(const std::vector<record::Profile>& profiles) {
   std::vector<std::string> names;
   for (const auto& method : profiles.front().methods) names.push_back(method.method);
   return specification_of(assets::profile_vl_json, names,
                           counter_values(counters_of(profiles), "times the least "));
 }
 
-Json curves_specification(const study::Sheet& sheet, std::string_view name) {
+Json curves_specification(const record::Sheet& sheet, std::string_view name) {
   const auto scale = [](bool is_log) {
     Json axis{{"type", is_log ? "log" : "linear"}, {"nice", false}};
     if (!is_log) axis["zero"] = false;

@@ -13,7 +13,7 @@ namespace clackers::report {
 /// The Vega-Lite specifications of a case by the name of the figure: "response", and where there is
 /// something to show "convergence", "history", "work" and "profile". usermeta.counters are the titles
 /// of a figure's counters. Each names its data sets; colours are variables of page.css.
-nlohmann::ordered_json figure_specifications(const study::CaseRecord& problem);
+nlohmann::ordered_json figure_specifications(const record::CaseRecord& problem);
 
 /// An embedded specification with its "$placeholders" replaced: those of the methods, which a figure
 /// tells apart by colour, marker and dash, those of axes, and `values`.
@@ -22,10 +22,10 @@ nlohmann::ordered_json specification_of(
     nlohmann::ordered_json values = nlohmann::ordered_json::object());
 
 /// That of profiles over several cases, which name the methods.
-nlohmann::ordered_json profile_specification(const std::vector<study::Profile>& profiles);
+nlohmann::ordered_json profile_specification(const std::vector<record::Profile>& profiles);
 
 /// That of a sheet of curves, whose data set is `name`.
-nlohmann::ordered_json curves_specification(const study::Sheet& sheet, std::string_view name);
+nlohmann::ordered_json curves_specification(const record::Sheet& sheet, std::string_view name);
 
 /// Appends `suffix` to the names of the data sets, so that the figures of several cases can stand in
 /// one page.

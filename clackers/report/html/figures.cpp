@@ -38,17 +38,17 @@ std::string small_key(std::string_view color, std::string_view shape) {
       color, shape);
 }
 
-std::size_t drawn_masses(const study::CaseRecord& problem) {
+std::size_t drawn_masses(const record::CaseRecord& problem) {
   return std::min(problem.response.y.size(), most_drawn_masses);
 }
 
-std::string masses_left_out(const study::CaseRecord& problem) {
+std::string masses_left_out(const record::CaseRecord& problem) {
   const auto masses = problem.response.y.size(), drawn = drawn_masses(problem);
   return drawn == masses ? std::string()
                          : fmt::format(" Of {} masses the first {} are drawn.", masses, drawn);
 }
 
-std::string response_legend(const study::CaseRecord& problem, const Place& place) {
+std::string response_legend(const record::CaseRecord& problem, const Place& place) {
   auto out = fmt::format(
       "<div class=\"legend\" role=\"group\" aria-label=\"Shown in the response\" "
       "data-legend=\"response{}\">\n",
@@ -77,11 +77,11 @@ std::string legend(std::string_view figures, const std::vector<std::string>& tog
   return out + "<button type=\"button\" class=\"every quiet\">all / none</button>\n</div>\n";
 }
 
-std::string method_legend(const study::CaseRecord& problem, const Place& place) {
+std::string method_legend(const record::CaseRecord& problem, const Place& place) {
   std::vector<std::string> toggles;
   for (std::size_t i = 0; i < problem.subjects.size(); ++i) {
     const auto& subject = problem.subjects[i];
-    const auto ran = [](const study::Level& level) { return !level.runs.empty(); };
+    const auto ran = [](const record::Level& level) { return !level.runs.empty(); };
     if (std::ranges::any_of(subject.levels, ran))
       toggles.push_back(toggle(subject.name, key_svg(plot_style(i)), subject.name));
   }
@@ -89,7 +89,7 @@ std::string method_legend(const study::CaseRecord& problem, const Place& place) 
   return legend(fmt::format("convergence{0} history{0} work{0} profile{0}", place.suffix), toggles);
 }
 
-std::string mass_choice(const study::CaseRecord& problem, const Place& place) {
+std::string mass_choice(const record::CaseRecord& problem, const Place& place) {
   if (problem.response.y.size() < 2) return {};
   std::string out =
       "<div class=\"tools\" role=\"group\" aria-label=\"Mass shown in the figure\">\n";
@@ -102,7 +102,7 @@ std::string mass_choice(const study::CaseRecord& problem, const Place& place) {
 }
 
 // What a logarithmic axis cannot show.
-std::string not_drawn(const study::CaseRecord& problem) {
+std::string not_drawn(const record::CaseRecord& problem) {
   long long failed = 0, zero = 0;
   for (const auto& subject : problem.subjects)
     for (const auto& level : subject.levels)
@@ -118,7 +118,7 @@ std::string not_drawn(const study::CaseRecord& problem) {
   return out;
 }
 
-FigureText response_text(const study::CaseRecord& record, const Place& place) {
+FigureText response_text(const record::CaseRecord& record, const Place& place) {
   const auto& problem = record.problem;
   const auto drawn = problem.impact_times.size();
   const auto* rows = drawn_subject(record);
@@ -150,9 +150,9 @@ FigureText response_text(const study::CaseRecord& record, const Place& place) {
           response_legend(record, place)};
 }
 
-FigureText convergence_text(const study::CaseRecord& problem) {
-  const bool by_step = std::ranges::any_of(problem.subjects, [](const study::Subject& subject) {
-    return subject.resolution == study::Resolution::step;
+FigureText convergence_text(const record::CaseRecord& problem) {
+  const bool by_step = std::ranges::any_of(problem.subjects, [](const record::Subject& subject) {
+    return subject.resolution == record::Resolution::step;
   });
   return {
       "convergence",
@@ -170,7 +170,7 @@ FigureText convergence_text(const study::CaseRecord& problem) {
       {}};
 }
 
-FigureText history_text(const study::CaseRecord& problem, const Place& place) {
+FigureText history_text(const record::CaseRecord& problem, const Place& place) {
   return {"history",
           "history",
           "Error against time",
@@ -183,7 +183,7 @@ FigureText history_text(const study::CaseRecord& problem, const Place& place) {
           mass_choice(problem, place)};
 }
 
-std::string player_html(int& number, const study::CaseRecord& problem, const Place& place) {
+std::string player_html(int& number, const record::CaseRecord& problem, const Place& place) {
   return fill(
       assets::player_html,
       {{"name", "motion" + place.suffix},
@@ -215,7 +215,7 @@ FigureText work_text(const std::vector<ShownCounter>& counters, const Place& pla
 }
 
 // A line that stays low is easily overlooked.
-std::string failed_tasks(const study::Profile& profile) {
+std::string failed_tasks(const record::Profile& profile) {
   std::string list;
   for (const auto& method : profile.methods)
     if (method.failed > 0)
@@ -224,7 +224,7 @@ std::string failed_tasks(const study::Profile& profile) {
   return list.empty() ? " Every method solves all." : " Not solved: " + list + ".";
 }
 
-FigureText profile_text(const std::vector<study::Profile>& profiles, const Place& place,
+FigureText profile_text(const std::vector<record::Profile>& profiles, const Place& place,
                         long long cases) {
   const auto& profile = profiles.front();
   return {"profile",
@@ -243,14 +243,14 @@ FigureText profile_text(const std::vector<study::Profile>& profiles, const Place
 
 }  // namespace
 
-std::string response_html(const study::CaseRecord& problem, const Place& place, int& number) {
+std::string response_html(const record::CaseRecord& problem, const Place& place, int& number) {
   auto out = figure_html(number, place, response_text(problem, place));
   if (has_player(problem)) out += player_html(number, problem, place);
   return out;
 }
 
-std::string figures_html(const study::CaseRecord& problem, const Place& place, int& number) {
-  const auto has_error_history = [](const study::Subject& subject) {
+std::string figures_html(const record::CaseRecord& problem, const Place& place, int& number) {
+  const auto has_error_history = [](const record::Subject& subject) {
     const auto* run = subject.shown_run();
     return run != nullptr && !run->error_history.t.empty();
   };
@@ -267,7 +267,7 @@ std::string figures_html(const study::CaseRecord& problem, const Place& place, i
   return pair.empty() ? out : out + "<div class=\"pair\">\n" + pair + "</div>\n";
 }
 
-std::string profile_html(const study::Record& record, int& number) {
+std::string profile_html(const record::Record& record, int& number) {
   if (record.profiles.empty()) return {};
   std::vector<std::string> toggles;
   const auto& methods = record.profiles.front().methods;

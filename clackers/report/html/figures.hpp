@@ -20,13 +20,13 @@ std::string figure_html(int& number, const Place& place, const FigureText& text)
 std::string toggle(const std::string& series, const std::string& key, const std::string& text);
 
 /// The figure "response" and, of a case whose structure has a drawing, the player of its motion.
-std::string response_html(const study::CaseRecord& problem, const Place& place, int& number);
+std::string response_html(const record::CaseRecord& problem, const Place& place, int& number);
 
 /// The figures of a case: frames with captions, legends and tools. `number` counts the figures of the
 /// page and is raised.
-std::string figures_html(const study::CaseRecord& problem, const Place& place, int& number);
+std::string figures_html(const record::CaseRecord& problem, const Place& place, int& number);
 
 /// The figure "profile" of profiles over several cases, with its legend.
-std::string profile_html(const study::Record& record, int& number);
+std::string profile_html(const record::Record& record, int& number);
 
 }  // namespace clackers::report

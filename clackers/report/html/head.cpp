@@ -8,14 +8,14 @@
 
 namespace clackers::report {
 
-std::string lead_html(const study::CaseRecord& problem) {
+std::string lead_html(const record::CaseRecord& problem) {
   const auto plan = plan_text(problem);
   return fmt::format("{} {}.{}", escape(problem.problem.summary),
                      escape(length_text(problem.problem)),
                      plan.empty() ? "" : " " + escape(plan) + ".");
 }
 
-std::string overall_html(const study::Record& record) {
+std::string overall_html(const record::Record& record) {
   const auto line = verdict_line(record);
   auto text = escape(line.counts);
   if (line.counts.empty() && !record.cases.empty() && !record.cases.front().subjects.empty())

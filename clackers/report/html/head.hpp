@@ -8,9 +8,9 @@
 namespace clackers::report {
 
 /// What the case is, how long, and its steps.
-std::string lead_html(const study::CaseRecord& problem);
+std::string lead_html(const record::CaseRecord& problem);
 
 /// The verdict over all, and what it rests on.
-std::string overall_html(const study::Record& record);
+std::string overall_html(const record::Record& record);
 
 }  // namespace clackers::report

@@ -18,7 +18,7 @@ constexpr auto noscript =
     "<noscript><p class=\"notice\">The figures are drawn by JavaScript, which is switched off. "
     "All numbers are in the tables.</p></noscript>\n  ";
 
-std::vector<PageSection> case_sections(const study::CaseRecord& problem, const Place& place,
+std::vector<PageSection> case_sections(const record::CaseRecord& problem, const Place& place,
                                        int& number) {
   const auto id = [&](const char* name) { return name + place.suffix; };
   return {{id("verdicts"), "Verdicts", "Verdicts", verdicts_html(problem, place)},
@@ -29,7 +29,7 @@ std::vector<PageSection> case_sections(const study::CaseRecord& problem, const P
 }
 
 // The sections of one case as one.
-PageSection case_section(const study::CaseRecord& problem, std::size_t index, int& number) {
+PageSection case_section(const record::CaseRecord& problem, std::size_t index, int& number) {
   const Place place{fmt::format("-{}", index + 1)};
   auto html = fmt::format("<p>{}</p>\n", lead_html(problem));
   for (const auto& section : case_sections(problem, place, number))
@@ -40,7 +40,7 @@ PageSection case_section(const study::CaseRecord& problem, std::size_t index, in
   return {"case" + place.suffix, problem.problem.name, case_text(problem.problem), std::move(html)};
 }
 
-void add_figures(Page& page, const study::CaseRecord& problem, const Place& place) {
+void add_figures(Page& page, const record::CaseRecord& problem, const Place& place) {
   const auto data = figure_data(problem);
   for (const auto& [name, rows] : data.items()) page.data[name + place.suffix] = rows;
   if (has_player(problem)) page.data["motion" + place.suffix] = player_data(problem);
@@ -51,14 +51,14 @@ void add_figures(Page& page, const study::CaseRecord& problem, const Place& plac
   }
 }
 
-void add_one_case(Page& page, const study::CaseRecord& problem, int& number) {
+void add_one_case(Page& page, const record::CaseRecord& problem, int& number) {
   page.heading = escape(case_text(problem.problem, "\u00a0"));
   page.lead = lead_html(problem);
   add_figures(page, problem, {});
   page.sections = case_sections(problem, {}, number);
 }
 
-void add_several_cases(Page& page, const study::Record& record, int& number) {
+void add_several_cases(Page& page, const record::Record& record, int& number) {
   page.heading = escape(counted(std::ssize(record.cases), "case"));
   page.sections.push_back(
       {"cases", "Cases", "Cases", cases_html(record) + profile_html(record, number)});
@@ -74,7 +74,7 @@ void add_several_cases(Page& page, const study::Record& record, int& number) {
 
 }  // namespace
 
-std::string html(const study::Record& record, const study::BaselineComparison* changes) {
+std::string html(const record::Record& record, const study::BaselineComparison* changes) {
   Page page;
   page.command = record.command;
   int number = 1;

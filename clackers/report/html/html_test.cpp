@@ -180,7 +180,7 @@ TEST(Html, NoTextOfTheRecordBecomesMarkup) {
           for (auto& metric : run.metrics) metric = {evil, evil, 1.0, {}, evil, true};
           if (!run.file) continue;
           run.file->file = evil;
-          run.file->notes.push_back(study::note("columns-not-used", {}, evil));
+          run.file->notes.push_back(record::note("columns-not-used", {}, evil));
         }
     }
   }
@@ -209,7 +209,7 @@ TEST(Html, CausesOfHistoriesStandAboveTheNumbersOnce) {
 TEST(Html, ToleranceIsOnTheAxisOfALadderOfTolerances) {
   auto record = sample_check();
   EXPECT_TRUE(has(html(record), "step h [s]"));
-  record.cases[0].subjects[0].resolution = study::Resolution::tolerance;
+  record.cases[0].subjects[0].resolution = record::Resolution::tolerance;
   EXPECT_FALSE(has(html(record), "step h"));
 }
 

@@ -58,7 +58,7 @@ Json rows_of(const Json& data) {
 
 }  // namespace
 
-std::string notebook_html(const study::Record& record) {
+std::string notebook_html(const record::Record& record) {
   std::string colors;
   for (const auto& [name, color] : look("colors").items())
     colors += fmt::format("{}--{}: {}", colors.empty() ? "" : "; ", name, color.get<std::string>());
@@ -73,14 +73,14 @@ std::string notebook_html(const study::Record& record) {
   return fill(assets::notebook_html, {{"colors", colors}, {"content", content}});
 }
 
-std::vector<std::string> figure_names(const study::CaseRecord& problem) {
+std::vector<std::string> figure_names(const record::CaseRecord& problem) {
   std::vector<std::string> names;
   const auto specifications = figure_specifications(problem);
   for (const auto& [name, specification] : specifications.items()) names.push_back(name);
   return names;
 }
 
-std::string notebook_figure(const study::CaseRecord& problem, std::string_view name) {
+std::string notebook_figure(const record::CaseRecord& problem, std::string_view name) {
   const auto specifications = figure_specifications(problem);
   if (!specifications.contains(name)) {
     const auto names = figure_names(problem);

@@ -14,7 +14,7 @@ std::vector<std::string_view> shared_scripts() {
 
 }  // namespace
 
-std::string page_html(const Page& page, const study::Provenance& from) {
+std::string page_html(const Page& page, const record::Provenance& from) {
   std::string links, sections, scripts, hashes;
   for (const auto script : page.scripts) scripts += fmt::format("<script>{}</script>\n", script);
   for (const auto& list : {shared_scripts(), page.scripts})

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/report/assets.hpp"
 #include "clackers/record/record.hpp"
+#include "clackers/report/assets.hpp"
 
 namespace clackers::report {
 
@@ -29,6 +29,6 @@ struct Page {
 
 /// One self-contained page that opens without a network: style, libraries and figures inside. Its
 /// content security policy allows the scripts of this library and nothing else.
-std::string page_html(const Page& page, const study::Provenance& from);
+std::string page_html(const Page& page, const record::Provenance& from);
 
 }  // namespace clackers::report

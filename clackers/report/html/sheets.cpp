@@ -21,24 +21,24 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // "clackers/spectral-radius/1": "spectral-radius".
-std::string name_of(const study::Sheet& sheet) {
+std::string name_of(const record::Sheet& sheet) {
   const auto first = sheet.schema.find('/') + 1;
   return sheet.schema.substr(first, sheet.schema.rfind('/') - first);
 }
 
-std::string cell_html(const study::Cell& cell) {
+std::string cell_html(const record::Cell& cell) {
   if (const auto* real = std::get_if<double>(&cell)) return html_number(*real, 6);
   if (const auto* whole = std::get_if<long long>(&cell)) return html_count(*whole);
   if (const auto* text = std::get_if<std::string>(&cell)) return escape(*text);
   return {};
 }
 
-bool is_text(const study::Sheet& sheet) {
+bool is_text(const record::Sheet& sheet) {
   return sheet.columns.size() == 1 && sheet.rows.size() == 1 &&
          std::holds_alternative<std::string>(sheet.rows[0][0]);
 }
 
-std::string table_html(const study::Sheet& sheet) {
+std::string table_html(const record::Sheet& sheet) {
   if (is_text(sheet))
     return fmt::format("<pre tabindex=\"0\">{}</pre>\n", cell_html(sheet.rows[0][0]));
   std::vector<HtmlColumn> columns;
@@ -58,7 +58,7 @@ std::string table_html(const study::Sheet& sheet) {
 }
 
 // A row a point that has a value and is not cut off.
-Json points(const study::Sheet& sheet) {
+Json points(const record::Sheet& sheet) {
   Json rows = Json::array();
   for (std::size_t c = 1; c < sheet.columns.size(); ++c)
     for (const auto& row : sheet.rows) {
@@ -69,7 +69,7 @@ Json points(const study::Sheet& sheet) {
   return rows;
 }
 
-std::string legend(const study::Sheet& sheet) {
+std::string legend(const record::Sheet& sheet) {
   if (sheet.columns.size() < 3) return {};
   auto out = fmt::format(
       "<div class=\"legend\" role=\"group\" aria-label=\"Curves shown\" data-legend=\"{}\">\n",
@@ -79,7 +79,7 @@ std::string legend(const study::Sheet& sheet) {
   return out + "</div>\n";
 }
 
-FigureText figure_of(const study::Sheet& sheet) {
+FigureText figure_of(const record::Sheet& sheet) {
   std::string reading;
   for (std::size_t c = 1; c < sheet.columns.size(); ++c)
     reading += fmt::format("{}{}: {}", c == 1 ? "" : "; ", escape(sheet.columns[c].name),
@@ -97,8 +97,8 @@ FigureText figure_of(const study::Sheet& sheet) {
 
 }  // namespace
 
-std::string html(std::span<const study::Sheet> sheets, const std::string& name,
-                 const study::Provenance& from, const study::CaseRecord* motion,
+std::string html(std::span<const record::Sheet> sheets, const std::string& name,
+                 const record::Provenance& from, const record::CaseRecord* motion,
                  const std::string& command) {
   Page page;
   page.command = command;

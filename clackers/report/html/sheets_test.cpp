@@ -11,14 +11,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<study::Sheet> sheets() {
+std::vector<record::Sheet> sheets() {
   return {{"clackers/facts/1", "Facts", {{"name", "", ""}, {"value", "m", ""}}, {{"a<b", 0.25}}},
           {"clackers/card/1", "Card", {{"card", "", ""}}, {{"u1 = u0 & v0"}}},
           {"clackers/decay/1",
            "Decay",
            {{"h/T", "", "step"}, {"slow", "", "one"}, {"fast", "", "other"}},
            {{0.1, 1.0, 0.5}, {1.0, 2.0, {}}, {10.0, 4.0, 0.25}},
-           study::Axes{.log_x = true, .highest = 3.0}}};
+           record::Axes{.log_x = true, .highest = 3.0}}};
 }
 
 // What stands in the script element `id` of the page.
@@ -29,7 +29,7 @@ Json embedded(const std::string& page, const std::string& id) {
 }
 
 TEST(SheetsPage, HasTablesTextsAndTheCommand) {
-  study::Provenance from;
+  record::Provenance from;
   from.command = "clackers show newmark";
   const auto page = html(sheets(), "newmark", from);
   for (const auto* part : {"a&lt;b", "0.25", "u1 = u0 &amp; v0", "clackers show newmark"})

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/base/codes.hpp"
+#include "clackers/measure/metrics/metric.hpp"
+#include "clackers/record/cause_metrics.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/markup.hpp"
-#include "clackers/record/cause_metrics.hpp"
 
 namespace clackers::report {
 namespace {
 
-std::string order_html(const assess::LadderFit& fit) {
+std::string order_html(const judge::LadderFit& fit) {
   if (!fit.has_line) return {};
   return fmt::format("{}{}, levels {} to {}", escape(order_text(fit, "\u202f")),
                      fit.on_envelope ? " of the upper envelope" : "", fit.first_level + 1,
@@ -23,7 +23,7 @@ std::string order_html(const assess::LadderFit& fit) {
 }
 
 // The failed runs, with the sentence of the first.
-std::string failures_html(const study::Subject& subject) {
+std::string failures_html(const record::Subject& subject) {
   Finding first;
   long long count = 0;
   for (const auto& level : subject.levels)
@@ -33,7 +33,7 @@ std::string failures_html(const study::Subject& subject) {
                     : fmt::format("{}; the first: {}", counted(count, "run"), finding_html(first));
 }
 
-std::string facts_html(const study::Subject& subject) {
+std::string facts_html(const record::Subject& subject) {
   const auto& assessment = subject.assessment;
   const auto& displacement = assessment.displacement;
   std::string out = fact("Claimed", escape(claim_text(subject.claim)));
@@ -53,14 +53,14 @@ std::string facts_html(const study::Subject& subject) {
   return out + fact("Failed runs", failures_html(subject));
 }
 
-std::string levels_html(const study::CaseRecord& problem, const study::Subject& subject) {
+std::string levels_html(const record::CaseRecord& problem, const record::Subject& subject) {
   if (subject.levels.empty()) return {};
   const auto text = "Levels of " + subject.name;
   return html_table(text, text + "; of each the worst of its runs.", level_table(problem, subject),
                     [](const Row& row) { return fmt::format("{}", row.level); });
 }
 
-std::string extrapolation_html(const study::SelfResult& result) {
+std::string extrapolation_html(const record::SelfResult& result) {
   const auto& found = result.extrapolation;
   if (!found.bounded) {
     const auto* code = find_code(found.reason);
@@ -76,8 +76,8 @@ std::string extrapolation_html(const study::SelfResult& result) {
       result.extrapolation_error > found.bound ? ": the limit is not the reference solution" : "");
 }
 
-std::string self_html(const study::Subject& subject) {
-  if (subject.levels.empty() || subject.kind == study::SubjectKind::histories) return {};
+std::string self_html(const record::Subject& subject) {
+  if (subject.levels.empty() || subject.kind == record::SubjectKind::histories) return {};
   std::string warning, findings, facts;
   if (subject.self_convergence) {
     const auto& result = *subject.self_convergence;
@@ -102,15 +102,15 @@ std::string definition_html(std::string_view name) {
     return escape(row.definition) +
            (row.source == "common" ? "" : fmt::format(" <small>{}</small>", escape(row.source)));
   };
-  for (const auto& row : assess::metrics())
+  for (const auto& row : measure::metrics())
     if (row.name == name) return text(row);
-  for (const auto& row : study::cause_metrics())
+  for (const auto& row : record::cause_metrics())
     if (row.name == name) return text(row);
   return "–";
 }
 
 // Each reason once, with the metrics it holds for.
-std::string not_measured_html(const std::vector<study::MetricResult>& metrics) {
+std::string not_measured_html(const std::vector<record::MetricResult>& metrics) {
   std::vector<std::pair<std::string, std::string>> reasons;
   for (const auto& metric : metrics) {
     if (metric.reason.empty()) continue;
@@ -128,11 +128,11 @@ std::string not_measured_html(const std::vector<study::MetricResult>& metrics) {
   return out;
 }
 
-std::string metrics_html(const study::Subject& subject) {
+std::string metrics_html(const record::Subject& subject) {
   if (subject.levels.empty()) return {};
   const auto* run = subject.shown_run();
   if (run == nullptr || run->metrics.empty())
-    return subject.kind == study::SubjectKind::method
+    return subject.kind == record::SubjectKind::method
                ? "<p>Metrics were not measured: no run that is short enough reached its end.</p>\n"
                : "<p>Metrics need the displacements of all masses, which the file does not "
                  "have.</p>\n";
@@ -164,21 +164,21 @@ std::string metrics_html(const study::Subject& subject) {
          not_measured_html(run->metrics) + "</details>\n";
 }
 
-std::string text_html(const study::Subject& subject) {
+std::string text_html(const record::Subject& subject) {
   if (const auto found = finding(subject)) return fmt::format("<p>{}</p>\n", finding_html(*found));
   return fmt::format("<p>{}</p>\n", escape(assessment_text(subject)));
 }
 
 }  // namespace
 
-std::string subjects_html(const study::CaseRecord& problem, const Place& place) {
+std::string subjects_html(const record::CaseRecord& problem, const Place& place) {
   std::string out;
   for (std::size_t i = 0; i < problem.subjects.size(); ++i) {
     const auto& subject = problem.subjects[i];
     out += fill(assets::subject_html, {{"id", anchor(place, i)},
                                        {"key", key_svg(plot_style(i))},
                                        {"name", escape(subject.name)},
-                                       {"verdict", badge(study::verdict_word(subject))},
+                                       {"verdict", badge(record::verdict_word(subject))},
                                        {"verdicts", "verdicts" + place.suffix},
                                        {"finding", text_html(subject)},
                                        {"facts", facts_html(subject)},

@@ -32,9 +32,9 @@ std::string linked(const std::string& name, const Place& place, std::size_t subj
   return fmt::format("<a href=\"#{}\">{}</a>", anchor(place, subject), name);
 }
 
-std::string findings_html(const study::CaseRecord& problem, const Place& place) {
+std::string findings_html(const record::CaseRecord& problem, const Place& place) {
   std::string out;
-  const auto all = named_findings(groups_of(problem), [](const study::Subject& subject) {
+  const auto all = named_findings(groups_of(problem), [](const record::Subject& subject) {
     const auto found = finding(subject);
     return found ? std::vector{*found} : std::vector<Finding>{};
   });
@@ -46,14 +46,14 @@ std::string findings_html(const study::CaseRecord& problem, const Place& place) 
 }
 
 // Of a page with one subject the finding and its causes stand at the head.
-bool is_check(const study::CaseRecord& problem, const Place& place) {
+bool is_check(const record::CaseRecord& problem, const Place& place) {
   return place.suffix.empty() && problem.subjects.size() == 1 &&
-         problem.subjects.front().kind == study::SubjectKind::histories;
+         problem.subjects.front().kind == record::SubjectKind::histories;
 }
 
 }  // namespace
 
-std::string diagnoses_html(const study::CaseRecord& problem, const Place& place) {
+std::string diagnoses_html(const record::CaseRecord& problem, const Place& place) {
   std::string out;
   for (std::size_t i = 0; i < problem.subjects.size(); ++i) {
     const auto& subject = problem.subjects[i];
@@ -67,7 +67,7 @@ std::string diagnoses_html(const study::CaseRecord& problem, const Place& place)
 
 namespace {
 
-std::string failures_html(const study::CaseRecord& problem, const Place& place) {
+std::string failures_html(const record::CaseRecord& problem, const Place& place) {
   std::string out;
   for (std::size_t i = 0; i < problem.subjects.size(); ++i)
     for (const auto& failure : failure_texts(problem.subjects[i]))
@@ -76,7 +76,7 @@ std::string failures_html(const study::CaseRecord& problem, const Place& place) 
   return out.empty() ? out : "<ul class=\"remarks\">\n" + out + "</ul>\n";
 }
 
-std::string notes_html(const study::CaseRecord& problem) {
+std::string notes_html(const record::CaseRecord& problem) {
   std::string out;
   for (const auto& subject : problem.subjects)
     for (const auto& note : note_texts(subject)) out += fmt::format("<li>{}</li>\n", escape(note));
@@ -86,7 +86,7 @@ std::string notes_html(const study::CaseRecord& problem) {
 }
 
 std::string quantities_html(const std::string& caption,
-                            const std::vector<study::Quantity>& quantities) {
+                            const std::vector<record::Quantity>& quantities) {
   if (quantities.empty()) return {};
   std::vector<std::vector<std::string>> rows;
   for (const auto& quantity : quantities)
@@ -167,9 +167,9 @@ std::string finding_html(const Finding& found) {
               : fmt::format(" <span class=\"code\">[{}]</span>", escape(found.code)));
 }
 
-std::string verdicts_html(const study::CaseRecord& problem, const Place& place) {
+std::string verdicts_html(const record::CaseRecord& problem, const Place& place) {
   auto out = is_check(problem, place) ? std::string() : diagnoses_html(problem, place);
-  const auto methods = summary_table(problem, study::SubjectKind::method);
+  const auto methods = summary_table(problem, record::SubjectKind::method);
   if (!methods.rows.empty())
     out += html_table(
         "Verdict table",
@@ -183,10 +183,10 @@ std::string verdicts_html(const study::CaseRecord& problem, const Place& place) 
         },
         "verdicts");
   out += failures_html(problem, place);
-  const bool by_step = std::ranges::all_of(problem.subjects, [](const study::Subject& subject) {
-    return subject.resolution == study::Resolution::step;
+  const bool by_step = std::ranges::all_of(problem.subjects, [](const record::Subject& subject) {
+    return subject.resolution == record::Resolution::step;
   });
-  const auto histories = summary_table(problem, study::SubjectKind::histories);
+  const auto histories = summary_table(problem, record::SubjectKind::histories);
   if (!histories.rows.empty())
     out += html_table("Histories",
                       std::string(by_step ? "Coarsest step" : "Loosest tolerance") +
@@ -201,7 +201,7 @@ std::string verdicts_html(const study::CaseRecord& problem, const Place& place) 
          notes_html(problem);
 }
 
-std::string cases_html(const study::Record& record) {
+std::string cases_html(const record::Record& record) {
   const HtmlColumn columns[] = {{"Case", {}},
                                 {"Agree", {}, true},
                                 {"Disagree", {}, true},
@@ -211,7 +211,7 @@ std::string cases_html(const study::Record& record) {
                                 {"Interrupted", {}, true}};
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < record.cases.size(); ++i) {
-    const auto all = study::counts(record.cases[i]);
+    const auto all = record::counts(record.cases[i]);
     auto& cells = rows.emplace_back();
     cells.push_back(fmt::format("<a href=\"#case-{}\">{}</a>", i + 1,
                                 escape(case_text(record.cases[i].problem))));
@@ -234,14 +234,14 @@ std::string changes_html(const study::BaselineComparison& changes) {
   return rows.empty() ? out : out + "<dl class=\"changes\">\n" + rows + "</dl>\n";
 }
 
-std::string case_html(const study::CaseSummary& problem) {
+std::string case_html(const record::CaseSummary& problem) {
   return fmt::format("<p><strong>{}</strong>, {}: {}</p>\n", escape(problem.name),
                      escape(problem.equations), escape(problem.summary)) +
          quantities_html("Parameters", problem.parameters) +
          quantities_html("Derived constants", problem.constants);
 }
 
-std::string again_html(const study::Provenance& provenance) {
+std::string again_html(const record::Provenance& provenance) {
   std::string out = fmt::format(
       "<div class=\"command\"><pre id=\"command\">{}</pre>"
       "<button type=\"button\" data-copy=\"command\">Copy</button></div>\n<dl class=\"facts\">\n",

@@ -45,15 +45,15 @@ std::string fact(std::string_view term, const std::string& html);
 std::string finding_html(const Finding& found);
 
 /// The causes of every subject; empty without any.
-std::string diagnoses_html(const study::CaseRecord& problem, const Place& place);
+std::string diagnoses_html(const record::CaseRecord& problem, const Place& place);
 /// The tables of methods and of histories of a case, each with its findings and notes.
-std::string verdicts_html(const study::CaseRecord& problem, const Place& place);
+std::string verdicts_html(const record::CaseRecord& problem, const Place& place);
 /// A row a case: how many subjects got which verdict.
-std::string cases_html(const study::Record& record);
+std::string cases_html(const record::Record& record);
 /// What changed since a baseline.
 std::string changes_html(const study::BaselineComparison& changes);
 /// Parameters and derived constants.
-std::string case_html(const study::CaseSummary& problem);
-std::string again_html(const study::Provenance& provenance);
+std::string case_html(const record::CaseSummary& problem);
+std::string again_html(const record::Provenance& provenance);
 
 }  // namespace clackers::report

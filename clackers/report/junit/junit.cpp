@@ -18,7 +18,7 @@ namespace {
 // In JUnit's words.
 enum class Status { passed, failed, skipped, error };
 
-Status status_of(const study::Subject& subject) {
+Status status_of(const record::Subject& subject) {
   if (!subject.refusal.empty()) return Status::skipped;
   if (!subject.complete) return Status::error;
   switch (subject.assessment.verdict) {
@@ -46,14 +46,14 @@ void add(Totals& totals, const Totals& more) {
   totals.seconds += more.seconds;
 }
 
-double seconds_of(const study::Subject& subject) {
+double seconds_of(const record::Subject& subject) {
   double sum = 0.0;
   for (const auto& level : subject.levels)
     for (const auto& run : level.runs) sum += run.score.seconds;
   return sum;
 }
 
-Totals totals_of(const study::CaseRecord& problem) {
+Totals totals_of(const record::CaseRecord& problem) {
   Totals totals;
   for (const auto& subject : problem.subjects) {
     const auto status = status_of(subject);
@@ -87,7 +87,7 @@ class Properties {
   void add(const std::string& name, double value) {
     if (!std::isnan(value)) add(name, exact_number(value));
   }
-  void add(const std::string& name, const study::Cell& cell) {
+  void add(const std::string& name, const record::Cell& cell) {
     if (const auto* real = std::get_if<double>(&cell)) add(name, *real);
     if (const auto* whole = std::get_if<long long>(&cell)) add(name, fmt::format("{}", *whole));
     if (const auto* text = std::get_if<std::string>(&cell)) add(name, *text);
@@ -97,8 +97,8 @@ class Properties {
   pugi::xml_node node_;
 };
 
-void add_measured(Properties& properties, const study::CaseRecord& problem,
-                  const study::Subject& subject) {
+void add_measured(Properties& properties, const record::CaseRecord& problem,
+                  const record::Subject& subject) {
   const auto row = subject_row(problem, subject);
   for (const auto* name :
        {"verdict", "claim", "behaviour", "order", "order_spread", "step", "u_error", "v_error",
@@ -113,7 +113,7 @@ void add_measured(Properties& properties, const study::CaseRecord& problem,
     for (const auto& metric : run->metrics) properties.add("metric:" + metric.name, metric.value);
 }
 
-std::string run_line(const study::Subject& subject, const assess::RunScore& score, int runs,
+std::string run_line(const record::Subject& subject, const measure::RunScore& score, int runs,
                      int failed) {
   auto text = fmt::format("{}: error in u {}", resolution_text(subject, score.step, 4),
                           scientific(score.u_error, 2));
@@ -125,17 +125,17 @@ std::string run_line(const study::Subject& subject, const assess::RunScore& scor
 }
 
 // A line a level, or a line a history, for a person who reads the log of a failed build.
-std::string log_text(const study::Subject& subject) {
+std::string log_text(const record::Subject& subject) {
   std::string text;
   for (const auto& cause : diagnosis_texts(subject)) text += text_of(cause) + '\n';
   text += fmt::format("claimed: {}\nfound: {}\n", claim_text(subject.claim),
                       fit_text(subject.assessment.displacement));
   for (const auto& level : subject.levels) {
-    if (subject.kind == study::SubjectKind::histories) {
+    if (subject.kind == record::SubjectKind::histories) {
       for (const auto& run : level.runs)
         text += (run.file ? run.file->file + ": " : "") + run_line(subject, run.score, 1, 0);
     } else {
-      auto worst = study::worst(level);
+      auto worst = record::worst(level);
       worst.worst.step = level.step;
       text += run_line(subject, worst.worst, worst.runs, worst.failed);
     }
@@ -144,7 +144,7 @@ std::string log_text(const study::Subject& subject) {
   return text;
 }
 
-void add_status(pugi::xml_node& test, const study::Subject& subject) {
+void add_status(pugi::xml_node& test, const record::Subject& subject) {
   const auto status = status_of(subject);
   if (status == Status::passed) return;
   auto node = test.append_child(status == Status::failed    ? "failure"
@@ -156,12 +156,12 @@ void add_status(pugi::xml_node& test, const study::Subject& subject) {
       causes.empty() ? text_of(found)
                      : fmt::format("{} {}", text_of(causes.front()), text_of(found)));
   if (status == Status::skipped) return;
-  set(node, "type", found.code.empty() ? std::string(study::verdict_word(subject)) : found.code);
+  set(node, "type", found.code.empty() ? std::string(record::verdict_word(subject)) : found.code);
   node.text() = xml_text(log_text(subject)).c_str();
 }
 
-void add_suite(pugi::xml_node& suites, const study::Record& record,
-               const study::CaseRecord& problem, const study::BaselineComparison* changes) {
+void add_suite(pugi::xml_node& suites, const record::Record& record,
+               const record::CaseRecord& problem, const study::BaselineComparison* changes) {
   const auto& from = record.provenance;
   auto suite = suites.append_child("testsuite");
   set(suite, "name", case_text(problem.problem));
@@ -200,7 +200,7 @@ void add_suite(pugi::xml_node& suites, const study::Record& record,
 
 }  // namespace
 
-void write_junit(const study::Record& record, std::ostream& out, const Style&,
+void write_junit(const record::Record& record, std::ostream& out, const Style&,
                  const study::BaselineComparison* changes) {
   pugi::xml_document document;
   auto suites = document.append_child("testsuites");

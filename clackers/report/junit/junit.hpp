@@ -9,7 +9,7 @@ namespace clackers::report {
 /// stays undecided is skipped with the reason; one that was interrupted is an error. `time` is
 /// processor time [s]. What was measured stands in properties, as numbers that read back to the same
 /// double. What changed since a baseline is the output of the suite.
-void write_junit(const study::Record& record, std::ostream& out, const Style& style,
+void write_junit(const record::Record& record, std::ostream& out, const Style& style,
                  const study::BaselineComparison* changes);
 
 }  // namespace clackers::report

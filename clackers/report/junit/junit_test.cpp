@@ -11,7 +11,7 @@
 namespace clackers::report {
 namespace {
 
-pugi::xml_document parsed(const study::Record& record) {
+pugi::xml_document parsed(const record::Record& record) {
   pugi::xml_document document;
   const auto text = written(record, Format::junit);
   EXPECT_TRUE(document.load_string(text.c_str())) << text;
@@ -132,7 +132,7 @@ TEST(Junit, ALadderOfTolerancesHasNoStep) {
   auto document = parsed(record);
   EXPECT_FALSE(property(test_of(document, "newmark"), "step").empty());
   EXPECT_EQ(property(test_of(document, "newmark"), "solver_tolerance"), "");
-  record.cases[0].subjects[0].resolution = study::Resolution::tolerance;
+  record.cases[0].subjects[0].resolution = record::Resolution::tolerance;
   document = parsed(record);
   const auto test = test_of(document, record.cases[0].subjects[0].name.c_str());
   EXPECT_EQ(property(test, "step"), "");

@@ -93,8 +93,8 @@ void write_table(const Table& table, const std::vector<std::string>& marks, cons
   out << "\\end{table}\n";
 }
 
-void write_methods(const study::CaseRecord& problem, bool interrupted, std::ostream& out) {
-  const auto table = summary_table(problem, study::SubjectKind::method);
+void write_methods(const record::CaseRecord& problem, bool interrupted, std::ostream& out) {
+  const auto table = summary_table(problem, record::SubjectKind::method);
   if (table.rows.empty()) return;
   Frame frame{fmt::format("{}: {}. Of each method the worst run of the finest level; errors "
                           "relative to the largest envelope and energy, order with its 95\\,\\% "
@@ -117,8 +117,8 @@ void write_methods(const study::CaseRecord& problem, bool interrupted, std::ostr
   write_table(table, marks, frame, out);
 }
 
-void write_histories(const study::CaseRecord& problem, std::ostream& out) {
-  const auto table = summary_table(problem, study::SubjectKind::histories);
+void write_histories(const record::CaseRecord& problem, std::ostream& out) {
+  const auto table = summary_table(problem, record::SubjectKind::histories);
   if (table.rows.empty()) return;
   Frame frame{fmt::format("{}: time histories against the exact motion. Errors relative to the "
                           "largest envelope, of velocities in the mean over time; collisions "
@@ -127,10 +127,10 @@ void write_histories(const study::CaseRecord& problem, std::ostream& out) {
               "check-" + problem.problem.name,
               {}};
   for (const auto& subject : problem.subjects) {
-    if (subject.kind != study::SubjectKind::histories) continue;
+    if (subject.kind != record::SubjectKind::histories) continue;
     for (const auto& cause : diagnosis_texts(subject))
       frame.notes += fmt::format("  \\par {}\n", tex_text(text_of(cause)));
-    frame.notes += fmt::format("  \\par Verdict: {}. {}\n", study::verdict_word(subject),
+    frame.notes += fmt::format("  \\par Verdict: {}. {}\n", record::verdict_word(subject),
                                tex_text(text_of(finding(subject).value_or(Finding{}))));
     for (const auto& note : note_texts(subject))
       frame.notes += fmt::format("  \\par {}\n", tex_text(note));
@@ -140,7 +140,7 @@ void write_histories(const study::CaseRecord& problem, std::ostream& out) {
 
 }  // namespace
 
-void write_latex(const study::Record& record, std::ostream& out, const Style&,
+void write_latex(const record::Record& record, std::ostream& out, const Style&,
                  const study::BaselineComparison*) {
   const auto& from = record.provenance;
   out << fmt::format("% Written by clackers {} on {}: {}\n", tex_comment(from.version),

@@ -12,7 +12,7 @@
 namespace clackers::report {
 namespace {
 
-std::string latex(const study::Record& record) { return written(record, Format::latex); }
+std::string latex(const record::Record& record) { return written(record, Format::latex); }
 
 // Columns of a line of the table: "&" that is no "\&".
 long columns(const std::string& line) {

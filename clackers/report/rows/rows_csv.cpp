@@ -25,7 +25,7 @@ struct CsvText {
 
 }  // namespace
 
-void write_csv(study::RowSource& rows, std::ostream& out) {
+void write_csv(record::RowSource& rows, std::ostream& out) {
   const char* comma = "";
   for (const auto& column : rows.columns()) {
     out << comma << quoted(column.name);
@@ -38,7 +38,7 @@ void write_csv(study::RowSource& rows, std::ostream& out) {
     while (out && numbers->next_block(values)) out << text.text(values);
     return;
   }
-  std::vector<study::Cell> row;
+  std::vector<record::Cell> row;
   while (out && rows.next(row)) {
     comma = "";
     for (const auto& cell : row) {

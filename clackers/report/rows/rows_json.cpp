@@ -25,7 +25,7 @@ struct JsonText {
   std::string operator()(const std::string& text) const { return json_text(text); }
 };
 
-void write_rows(study::RowSource& rows, std::ostream& out) {
+void write_rows(record::RowSource& rows, std::ostream& out) {
   if (auto* const numbers = rows.numbers()) {
     std::string_view skipped = ",";  // the first row has none before it
     NumberText text(rows.columns(), {",\n  [", ", ", "]", "null", "\""});
@@ -36,7 +36,7 @@ void write_rows(study::RowSource& rows, std::ostream& out) {
     }
     return;
   }
-  std::vector<study::Cell> row;
+  std::vector<record::Cell> row;
   const char* comma = "\n";
   while (out && rows.next(row)) {
     out << comma << "  [";
@@ -52,7 +52,7 @@ void write_rows(study::RowSource& rows, std::ostream& out) {
 
 }  // namespace
 
-void write_json(study::RowSource& rows, std::ostream& out) {
+void write_json(record::RowSource& rows, std::ostream& out) {
   out << "{\n\"schema\": " << json_text(rows.schema())
       << ",\n\"title\": " << json_text(rows.title()) << ",\n\"columns\": [";
   const char* comma = "\n";
@@ -67,7 +67,7 @@ void write_json(study::RowSource& rows, std::ostream& out) {
   out << "\n]\n}\n";
 }
 
-void write_json(std::span<const study::Sheet> sheets, std::string_view schema,
+void write_json(std::span<const record::Sheet> sheets, std::string_view schema,
                 std::string_view problem, std::ostream& out) {
   out << "{\n\"schema\": " << json_text(schema);
   if (!problem.empty()) out << ",\n\"problem\": " << problem;
@@ -75,7 +75,7 @@ void write_json(std::span<const study::Sheet> sheets, std::string_view schema,
   const char* comma = "\n";
   for (const auto& sheet : sheets) {
     out << comma;
-    study::SheetRows rows(sheet);
+    record::SheetRows rows(sheet);
     write_json(rows, out);
     comma = ",\n";
   }

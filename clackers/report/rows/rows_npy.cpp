@@ -9,7 +9,7 @@
 
 namespace clackers::report {
 
-void write_npy(study::RowSource& rows, std::ostream& out) {
+void write_npy(record::RowSource& rows, std::ostream& out) {
   static_assert(std::endian::native == std::endian::little);
   auto* const numbers = rows.numbers();
   if (numbers == nullptr)

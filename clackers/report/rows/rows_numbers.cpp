@@ -27,7 +27,7 @@ std::string_view NumberText::text(std::span<const double> values) {
     for (std::size_t c = 0; c < width; ++c, ++value) {
       if (c > 0) to = put(to, marks_.between);
       const auto kind = columns_[c].kind;
-      if (kind == study::ColumnKind::side) {
+      if (kind == record::ColumnKind::side) {
         if (*value == 0.0) {
           to = put(to, marks_.empty);
         } else {
@@ -35,7 +35,7 @@ std::string_view NumberText::text(std::span<const double> values) {
           *to++ = *value < 0.0 ? '-' : '+';
           to = put(to, marks_.quote);
         }
-      } else if (kind == study::ColumnKind::whole) {
+      } else if (kind == record::ColumnKind::whole) {
         to = fmt::format_to(to, FMT_COMPILE("{}"), static_cast<long long>(*value));
       } else if (std::isfinite(*value)) {
         to = fmt::format_to(to, FMT_COMPILE("{}"), *value + 0.0);

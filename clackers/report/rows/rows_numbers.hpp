@@ -20,14 +20,14 @@ struct RowMarks {
 /// double, -0 as 0.
 class NumberText {
  public:
-  NumberText(const std::vector<study::Column>& columns, const RowMarks& marks)
+  NumberText(const std::vector<record::Column>& columns, const RowMarks& marks)
       : columns_(columns), marks_(marks) {}
 
   /// The text of `values`, row-major. Valid until the next call.
   std::string_view text(std::span<const double> values);
 
  private:
-  const std::vector<study::Column>& columns_;
+  const std::vector<record::Column>& columns_;
   RowMarks marks_;
   std::vector<char> text_;
 };

@@ -10,7 +10,7 @@
 namespace clackers::report {
 namespace {
 
-using Row = std::vector<study::Cell>;
+using Row = std::vector<record::Cell>;
 
 constexpr std::size_t rows_measured = 1000;
 constexpr int most_digits = 6, fewest_digits = 3;
@@ -20,7 +20,7 @@ constexpr std::size_t any_number = 8;
 // Text is wrapped to no less than this, so that a sentence stays readable.
 constexpr std::size_t least_text = 12;
 
-std::string text_of(const study::Cell& cell, int digits, std::size_t width) {
+std::string text_of(const record::Cell& cell, int digits, std::size_t width) {
   if (const auto* real = std::get_if<double>(&cell))
     return short_number(*real + 0.0, digits, width);  // no -0
   if (const auto* whole = std::get_if<long long>(&cell)) return fmt::format("{}", *whole);
@@ -29,7 +29,7 @@ std::string text_of(const study::Cell& cell, int digits, std::size_t width) {
   return {};
 }
 
-bool is_number(const study::Cell& cell) { return cell.index() == 1 || cell.index() == 2; }
+bool is_number(const record::Cell& cell) { return cell.index() == 1 || cell.index() == 2; }
 
 std::size_t widest_line(std::string_view text) {
   std::size_t widest = 0;
@@ -49,7 +49,7 @@ std::size_t longest_word(std::string_view text) {
 }
 
 // The columns as wide as the measured rows need them when numbers have `digits` digits.
-std::vector<TextColumn> measure(const std::vector<study::Column>& columns,
+std::vector<TextColumn> measure(const std::vector<record::Column>& columns,
                                 const std::vector<Row>& rows, int digits) {
   std::vector<TextColumn> out;
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -77,7 +77,7 @@ std::vector<TextColumn> measure(const std::vector<study::Column>& columns,
 }
 
 // The most digits that fit; first with two spaces between columns, then with one.
-bool choose_layout(const std::vector<study::Column>& columns, const std::vector<Row>& rows,
+bool choose_layout(const std::vector<record::Column>& columns, const std::vector<Row>& rows,
                    std::size_t width, std::vector<TextColumn>& layout, int& digits,
                    std::size_t& gap) {
   for (digits = most_digits; digits >= fewest_digits; --digits)
@@ -88,7 +88,7 @@ bool choose_layout(const std::vector<study::Column>& columns, const std::vector<
   return false;
 }
 
-void print_block(const std::vector<study::Column>& columns, const Row& row, std::size_t width,
+void print_block(const std::vector<record::Column>& columns, const Row& row, std::size_t width,
                  std::ostream& out) {
   for (std::size_t c = 0; c < row.size(); ++c) {
     auto text = columns[c].name + ": " + text_of(row[c], most_digits, 32);
@@ -101,7 +101,7 @@ void print_block(const std::vector<study::Column>& columns, const Row& row, std:
 
 }  // namespace
 
-void write_table(study::RowSource& rows, std::ostream& out, const Style& style) {
+void write_table(record::RowSource& rows, std::ostream& out, const Style& style) {
   const auto width = std::size_t(std::max(style.width, 1));
   if (!rows.title().empty())
     for (const auto& line : wrap(rows.title(), width))

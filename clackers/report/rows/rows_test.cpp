@@ -17,7 +17,7 @@
 namespace clackers::report {
 namespace {
 
-using study::Sheet;
+using record::Sheet;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -33,21 +33,21 @@ Sheet mixed_sheet() {
 }
 
 std::string csv(const Sheet& sheet) {
-  study::SheetRows rows(sheet);
+  record::SheetRows rows(sheet);
   std::ostringstream out;
   write(rows, Format::csv, out);
   return out.str();
 }
 
 std::string json(const Sheet& sheet) {
-  study::SheetRows rows(sheet);
+  record::SheetRows rows(sheet);
   std::ostringstream out;
   write(rows, Format::json, out);
   return out.str();
 }
 
 std::string table(const Sheet& sheet, const Style& style = {}) {
-  study::SheetRows rows(sheet);
+  record::SheetRows rows(sheet);
   std::ostringstream out;
   write(rows, Format::table, out, style);
   return out.str();
@@ -258,19 +258,19 @@ TEST(Table, ColoursOnlyWhenAsked) {
 }
 
 /// Rows without end.
-class Endless : public study::RowSource {
+class Endless : public record::RowSource {
  public:
   std::string schema() const override { return "x/1"; }
   std::string title() const override { return {}; }
-  const std::vector<study::Column>& columns() const override { return columns_; }
-  bool next(std::vector<study::Cell>& row) override {
+  const std::vector<record::Column>& columns() const override { return columns_; }
+  bool next(std::vector<record::Cell>& row) override {
     row = {static_cast<long long>(++asked)};
     return asked < 1000000;
   }
   int asked = 0;
 
  private:
-  std::vector<study::Column> columns_{{"k", "", ""}};
+  std::vector<record::Column> columns_{{"k", "", ""}};
 };
 
 TEST(Rows, WritingStopsWhenTheStreamHasFailed) {
@@ -284,12 +284,12 @@ TEST(Rows, WritingStopsWhenTheStreamHasFailed) {
 }
 
 /// Rows of numbers in blocks of two.
-class Numbers : public study::NumberRows {
+class Numbers : public record::NumberRows {
  public:
   explicit Numbers(std::vector<double> values) : values_(std::move(values)) {}
   std::string schema() const override { return "x/1"; }
   std::string title() const override { return {}; }
-  const std::vector<study::Column>& columns() const override { return columns_; }
+  const std::vector<record::Column>& columns() const override { return columns_; }
   long long count() const override { return static_cast<long long>(values_.size() / 3); }
   bool next_block(std::vector<double>& values) override {
     const auto end = std::min(read_ + 6, values_.size());
@@ -301,12 +301,12 @@ class Numbers : public study::NumberRows {
  private:
   std::vector<double> values_;
   std::size_t read_ = 0;
-  std::vector<study::Column> columns_{{"k", "", "", study::ColumnKind::whole},
-                                      {"side", "", "", study::ColumnKind::side},
-                                      {"u", "m", "", study::ColumnKind::real}};
+  std::vector<record::Column> columns_{{"k", "", "", record::ColumnKind::whole},
+                                       {"side", "", "", record::ColumnKind::side},
+                                       {"u", "m", "", record::ColumnKind::real}};
 };
 
-std::string written(study::RowSource& rows, Format format) {
+std::string written(record::RowSource& rows, Format format) {
   std::ostringstream out;
   write(rows, format, out);
   return out.str();
@@ -318,9 +318,9 @@ TEST(NumberRows, AreWrittenAsTheirCellsAre) {
   for (const auto format : {Format::csv, Format::json, Format::table}) {
     Numbers blocks(few), cells(few);
     Sheet sheet{"x/1", "", cells.columns(), {}};
-    for (std::vector<study::Cell> row; cells.next(row);) sheet.rows.push_back(row);
+    for (std::vector<record::Cell> row; cells.next(row);) sheet.rows.push_back(row);
     EXPECT_EQ(sheet.rows.size(), 4u);
-    study::SheetRows rows(sheet);
+    record::SheetRows rows(sheet);
     EXPECT_EQ(written(blocks, format), written(rows, format));
   }
 }
@@ -362,7 +362,7 @@ TEST(Npy, HasAPaddedHeaderAndTheDoubles) {
 
 TEST(Npy, IsRefusedForRowsWithText) {
   const auto sheet = mixed_sheet();
-  study::SheetRows rows(sheet);
+  record::SheetRows rows(sheet);
   EXPECT_REFUSED(written(rows, Format::npy), "bad-syntax", "hold text", "Use csv or json");
 }
 

@@ -8,18 +8,18 @@
 namespace clackers::report {
 
 struct SampleAtlas {
-  study::Sheet subjects, runs;
+  record::Sheet subjects, runs;
 };
 
-inline study::Sheet sheet_of(std::initializer_list<const char*> first) {
-  study::Sheet sheet;
+inline record::Sheet sheet_of(std::initializer_list<const char*> first) {
+  record::Sheet sheet;
   for (const auto* name : first) sheet.columns.push_back({name, "", ""});
   for (const auto& shown : columns())
     if (shown.in_rows) sheet.columns.push_back({std::string(shown.name), "", ""});
   return sheet;
 }
 
-inline void add_row(study::Sheet& sheet, std::vector<study::Cell> first, const Row& row) {
+inline void add_row(record::Sheet& sheet, std::vector<record::Cell> first, const Row& row) {
   for (const auto& shown : columns())
     if (shown.in_rows) first.push_back(shown.get(row));
   sheet.rows.push_back(std::move(first));
@@ -31,7 +31,7 @@ inline SampleAtlas sample_atlas(int n = 3, int xi = 2) {
   SampleAtlas atlas{sheet_of({"task", "system", "set_N", "set_xi1"}), sheet_of({"task"})};
   auto record = sample_record({.levels = 4, .samples = 2, .points = 9}).cases.front();
   long long task = 0;
-  const auto add_system = [&](long long system, study::Cell first, study::Cell second) {
+  const auto add_system = [&](long long system, record::Cell first, record::Cell second) {
     for (auto& subject : record.subjects) {
       for (int level = 0; level < int(subject.levels.size()); ++level)
         for (auto& run : subject.levels[std::size_t(level)].runs) {
@@ -49,7 +49,7 @@ inline SampleAtlas sample_atlas(int n = 3, int xi = 2) {
   return atlas;
 }
 
-inline AtlasPart sample_part(const SampleAtlas& atlas, study::RowSource& runs,
+inline AtlasPart sample_part(const SampleAtlas& atlas, record::RowSource& runs,
                              const std::string& origin = {}) {
   AtlasPart part;
   part.subjects = &atlas.subjects;

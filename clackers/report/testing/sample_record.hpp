@@ -27,8 +27,8 @@ struct SampleSize {
   std::size_t points = 900;  ///< of a curve
 };
 
-inline study::CaseSummary sample_case() {
-  study::CaseSummary problem;
+inline record::CaseSummary sample_case() {
+  record::CaseSummary problem;
   problem.name = "three-parameter";
   problem.summary = "Two masses that collide at equilibrium, given by N, damping and amplitude.";
   problem.equations = "Eq. (25)-(26)";
@@ -48,8 +48,8 @@ inline study::CaseSummary sample_case() {
   return problem;
 }
 
-inline study::Curve sample_response(std::size_t points) {
-  study::Curve curve;
+inline record::Curve sample_response(std::size_t points) {
+  record::Curve curve;
   curve.y.resize(2);
   for (std::size_t i = 0; i < points; ++i) {
     const double t = 20.0 * double(i) / double(points - 1), fade = std::exp(-0.05 * t);
@@ -63,8 +63,8 @@ inline study::Curve sample_response(std::size_t points) {
 // A number in [-1, 1] that looks random and is the same everywhere.
 inline double sample_noise(int i) { return std::sin(12.9898 * i + 78.233 * i * i); }
 
-inline assess::RunScore sample_run(const SampleMethod& method, double step, int seed) {
-  assess::RunScore run;
+inline measure::RunScore sample_run(const SampleMethod& method, double step, int seed) {
+  measure::RunScore run;
   run.step = step;
   run.finished = true;
   run.u_error = method.constant * std::pow(step, method.order) *
@@ -75,7 +75,7 @@ inline assess::RunScore sample_run(const SampleMethod& method, double step, int 
   run.energy_error = 3.0 * run.u_error;
   run.energy_ratio = 1.0 + run.energy_error;
   run.rounding_floor = 1e-14;
-  run.impacts = assess::ImpactScore{6, 6, 6, 0, 0, run.u_error / 3.0};
+  run.impacts = measure::ImpactScore{6, 6, 6, 0, 0, run.u_error / 3.0};
   run.work.steps = std::llround(20.0 / step);
   run.work.force_evaluations = method.forces_per_step * run.work.steps;
   run.work.event_searches = 6;
@@ -83,8 +83,8 @@ inline assess::RunScore sample_run(const SampleMethod& method, double step, int 
   return run;
 }
 
-inline study::SelfResult sample_self(const SampleMethod& method) {
-  study::SelfResult result;
+inline record::SelfResult sample_self(const SampleMethod& method) {
+  record::SelfResult result;
   result.order = method.order;
   auto& seen = result.self.differences;
   seen.behaviour = Behaviour::proper;
@@ -105,7 +105,7 @@ inline study::SelfResult sample_self(const SampleMethod& method) {
   return result;
 }
 
-inline std::vector<study::MetricResult> sample_metrics() {
+inline std::vector<record::MetricResult> sample_metrics() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return {{"u-max", "m", 1e-6, {1e-6, 5e-7}, "", true},
           {"v-max", "m/s", 2.0, {2.0, 1.0}, "", false},
@@ -114,8 +114,8 @@ inline std::vector<study::MetricResult> sample_metrics() {
           {"impact-spacing-max-relative", "1", nan, {}, "There are no collisions.", true}};
 }
 
-inline study::Curve sample_error_history(const SampleMethod& method, double step,
-                                         std::size_t points) {
+inline record::Curve sample_error_history(const SampleMethod& method, double step,
+                                          std::size_t points) {
   auto curve = sample_response(points);
   const double size = 1e-16 + method.floor + method.constant * std::pow(step, method.order);
   for (auto& y : curve.y)
@@ -124,17 +124,17 @@ inline study::Curve sample_error_history(const SampleMethod& method, double step
   return curve;
 }
 
-inline study::Subject sample_method(const SampleMethod& method, const SampleSize& size) {
-  study::Subject subject;
+inline record::Subject sample_method(const SampleMethod& method, const SampleSize& size) {
+  record::Subject subject;
   subject.name = method.name;
   subject.claim = method.claim;
   auto& fit = subject.assessment.displacement;
   for (int level = 0; level < size.levels; ++level) {
-    study::Level row;
+    record::Level row;
     row.step = 0.05 / double(1 << level);
     double worst = 0.0;
     for (int k = 0; k < size.samples; ++k) {
-      study::Run run;
+      record::Run run;
       run.score = sample_run(method, row.step * std::exp2(-double(k) / size.samples),
                              size.samples * level + k);
       worst = std::max(worst, run.score.u_error);
@@ -163,8 +163,8 @@ inline study::Subject sample_method(const SampleMethod& method, const SampleSize
   return subject;
 }
 
-inline study::Subject sample_refusal() {
-  study::Subject refused;
+inline record::Subject sample_refusal() {
+  record::Subject refused;
   refused.name = "newmark+penalty:stiffness=1e6";
   refused.claim = {Behaviour::stagnating, 0, "contact-stiffness"};
   refused.refusal =
@@ -174,7 +174,7 @@ inline study::Subject sample_refusal() {
   return refused;
 }
 
-inline study::Provenance sample_provenance(const std::string& command) {
+inline record::Provenance sample_provenance(const std::string& command) {
   return {command,
           "0.1.0",
           "GCC 12.2.0, -O3",
@@ -184,7 +184,7 @@ inline study::Provenance sample_provenance(const std::string& command) {
 }
 
 /// One case with eight methods: one disagrees, one was interrupted and one refused the case.
-inline study::Record sample_record(const SampleSize& size = {}) {
+inline record::Record sample_record(const SampleSize& size = {}) {
   using enum Behaviour;
   const std::vector<SampleMethod> methods{
       {"newmark", {proper, 2, ""}, proper, Verdict::agrees, 0.8, 2, 1e-14, 1, 1},
@@ -210,7 +210,7 @@ inline study::Record sample_record(const SampleSize& size = {}) {
        1,
        2},
       {"moreau-jean", {irregular, 1, ""}, undecided, Verdict::undecided, 1.4, 1, 1e-14, 1.8, 1}};
-  study::Record record;
+  record::Record record;
   record.provenance = sample_provenance("clackers verify --report report.html");
   record.interrupted = true;
   auto& problem = record.cases.emplace_back();
@@ -225,19 +225,19 @@ inline study::Record sample_record(const SampleSize& size = {}) {
   problem.subjects.push_back(sample_refusal());
   for (auto& run : problem.subjects.front().levels.back().runs)
     run.motion = sample_response(size.points);
-  problem.profiles = study::profiles_of({&problem, 1});
+  problem.profiles = record::profiles_of({&problem, 1});
   problem.subjects[6].complete = false;
   return record;
 }
 
-inline study::Run sample_history_run(const std::string& name, double step) {
-  study::Run run;
+inline record::Run sample_history_run(const std::string& name, double step) {
+  record::Run run;
   auto& score = run.score;
   score.step = step;
   score.finished = true;
   score.u_error = 0.1 * step;
   score.v_error = score.energy_error = score.energy_ratio = std::nan("");
-  score.impacts = assess::ImpactScore{6, 5, 4, 2, 1, 0.125, 0.0};
+  score.impacts = measure::ImpactScore{6, 5, 4, 2, 1, 0.125, 0.0};
   auto& file = run.file.emplace();
   file.file = name;
   file.rows = 2001;
@@ -247,8 +247,8 @@ inline study::Run sample_history_run(const std::string& name, double step) {
   file.printed_floor = 5e-6;
   file.printed_by = "u1";
   file.has_u = {true, true};
-  file.collisions = study::CollisionSource::history;
-  file.notes = {study::note("collisions-from-history", {step, 1.0, 5.0, 6.0, 0.0})};
+  file.collisions = record::CollisionSource::history;
+  file.notes = {record::note("collisions-from-history", {step, 1.0, 5.0, 6.0, 0.0})};
   file.history = run.error_history = sample_response(201);
   for (auto& y : run.error_history.y)
     for (std::size_t i = 0; i < y.size(); ++i) y[i] = 1e-3 * run.error_history.t[i];
@@ -257,8 +257,8 @@ inline study::Run sample_history_run(const std::string& name, double step) {
 }
 
 /// Two histories of one method that disagree.
-inline study::Record sample_check() {
-  study::Record record;
+inline record::Record sample_check() {
+  record::Record record;
   record.command = "check";
   record.provenance = sample_provenance("clackers check coarse.csv fine.csv");
   auto& problem = record.cases.emplace_back();
@@ -266,11 +266,11 @@ inline study::Record sample_check() {
   problem.plan = {0.0, 0, 0};
   problem.response = sample_response(801);
   auto& subject = problem.subjects.emplace_back();
-  subject.kind = study::SubjectKind::histories;
+  subject.kind = record::SubjectKind::histories;
   subject.name = "histories";
   subject.levels = {{0.02, {sample_history_run("/a/long/way/to/coarse.csv", 0.02)}},
                     {0.01, {sample_history_run("fine.csv", 0.01)}}};
-  subject.levels[0].runs[0].file->notes.push_back(study::note("starts-late", {0.02}));
+  subject.levels[0].runs[0].file->notes.push_back(record::note("starts-late", {0.02}));
   auto& assessment = subject.assessment;
   assessment.displacement.behaviour = Behaviour::undecided;
   assessment.displacement.reason = "too-few-levels";
@@ -282,7 +282,7 @@ inline study::Record sample_check() {
 }
 
 /// Two cases: methods, one with a run that failed and one that refused, and histories.
-inline study::Record sample_of_all() {
+inline record::Record sample_of_all() {
   auto record = sample_record({.levels = 4, .samples = 2, .points = 9});
   record.interrupted = false;
   auto& methods = record.cases.front().subjects;

@@ -9,7 +9,7 @@
 
 namespace clackers::report {
 
-inline std::string written(const study::Record& record, Format format, const Style& style = {},
+inline std::string written(const record::Record& record, Format format, const Style& style = {},
                            const study::BaselineComparison* changes = nullptr) {
   std::ostringstream out;
   write(record, format, out, style, changes);

@@ -193,7 +193,7 @@ std::string draw(CharacterPlot plot, const Style& style) {
   return out + axis(across, plot.marks, columns) + '\n' + tick_labels(plot, across, columns) + '\n';
 }
 
-std::string plot(const study::Curve& response, std::span<const double> impact_times,
+std::string plot(const record::Curve& response, std::span<const double> impact_times,
                  const Style& style) {
   const auto masses = response.y.size(), drawn = std::min(masses, most_drawn_masses);
   CharacterPlot picture{.title = "u [m] against t [s]; 1: mass 1",
@@ -209,14 +209,14 @@ std::string plot(const study::Curve& response, std::span<const double> impact_ti
   return draw(std::move(picture), style);
 }
 
-std::string curves(const study::Sheet& sheet, const Style& style) {
+std::string curves(const record::Sheet& sheet, const Style& style) {
   const auto& axes = *sheet.curves;
   CharacterPlot picture{.title = sheet.title + "; across: " + sheet.columns[0].name,
                         .log_x = axes.log_x,
                         .log_y = axes.log_y,
                         .rows = 9,
                         .least_height = 1e-6};
-  const auto number = [](const study::Cell& cell) {
+  const auto number = [](const record::Cell& cell) {
     const auto* value = std::get_if<double>(&cell);
     return value != nullptr ? *value : std::numeric_limits<double>::quiet_NaN();
   };

@@ -24,6 +24,6 @@ struct CharacterPlot {
 std::string draw(CharacterPlot plot, const Style& style);
 
 /// The picture of a sheet of curves.
-std::string curves(const study::Sheet& sheet, const Style& style);
+std::string curves(const record::Sheet& sheet, const Style& style);
 
 }  // namespace clackers::report

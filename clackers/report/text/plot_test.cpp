@@ -44,7 +44,7 @@ TEST(Plot, FitsItsWidthInAboutTwentyLines) {
 
 TEST(Plot, PutsHighAboveLowAndEarlyBeforeLate) {
   // A straight line from (0, -1) to (1, 1): dots in the lower left and upper right corner only.
-  const study::Curve curve{{0.0, 1.0}, {{-1.0, 1.0}}};
+  const record::Curve curve{{0.0, 1.0}, {{-1.0, 1.0}}};
   const auto out = lines(plot(curve, {}));
   EXPECT_EQ(at(out[15], 10), "⣀") << out[15];
   EXPECT_EQ(display_width(out[1]), 80u);   // reaches the right edge
@@ -85,8 +85,8 @@ TEST(Plot, TellsTheMassesApartWithoutColour) {
   EXPECT_NE(colored.find("\x1b[33m"), std::string::npos);
 }
 
-study::Curve rising_curves(std::size_t masses) {
-  study::Curve curve{{0.0, 1.0}, {}};
+record::Curve rising_curves(std::size_t masses) {
+  record::Curve curve{{0.0, 1.0}, {}};
   for (std::size_t i = 1; i <= masses; ++i) curve.y.push_back({0.0, double(i)});
   return curve;
 }
@@ -105,7 +105,7 @@ TEST(Plot, DrawsAMotionAtRestInTheMiddle) {
   EXPECT_EQ(display_width(out[8]), 80u);
 }
 
-study::Sheet decay(study::Axes axes) {
+record::Sheet decay(record::Axes axes) {
   return {"clackers/decay/1",
           "Decay",
           {{"h/T", "", ""}, {"slow", "", ""}, {"fast", "", ""}},

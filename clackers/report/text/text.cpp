@@ -9,9 +9,9 @@
 #include <functional>
 #include <ostream>
 
+#include "clackers/base/text.hpp"
 #include "clackers/judge/cost/performance_profile.hpp"
 #include "clackers/measure/metrics/metric.hpp"
-#include "clackers/base/text.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/groups.hpp"
@@ -77,12 +77,12 @@ void print(Table table, std::ostream& out, const Style& style) {
   print_table(std::move(columns), rows, out, style, heads);
 }
 
-bool is_in_reports(const study::MetricResult& metric) {
-  const auto row = std::ranges::find(assess::metrics(), metric.name, &assess::Metric::name);
-  return row != assess::metrics().end() && row->in_reports;
+bool is_in_reports(const record::MetricResult& metric) {
+  const auto row = std::ranges::find(measure::metrics(), metric.name, &measure::Metric::name);
+  return row != measure::metrics().end() && row->in_reports;
 }
 
-void print_metrics(const study::Run& run, std::ostream& out, const Style& style) {
+void print_metrics(const record::Run& run, std::ostream& out, const Style& style) {
   Cells rows;
   std::vector<std::string> missing;
   std::size_t hidden = 0;
@@ -115,8 +115,8 @@ void print_metrics(const study::Run& run, std::ostream& out, const Style& style)
   if (hidden > 0) print_wrapped(fmt::format("{} more: --metrics all.", hidden), out, style);
 }
 
-void print_methods(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
-  const auto table = summary_table(problem, study::SubjectKind::method, style.only);
+void print_methods(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
+  const auto table = summary_table(problem, record::SubjectKind::method, style.only);
   if (!style.only.empty()) {
     out << '\n';
     print_wrapped(fmt::format("Only {}: {} of {}.", fmt::join(style.only, " or "),
@@ -133,7 +133,7 @@ void print_methods(const study::CaseRecord& problem, std::ostream& out, const St
       out, style);
 }
 
-void print_failures(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+void print_failures(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
   bool is_first = true;
   for (const auto& subject : problem.subjects)
     for (const auto& failure : failure_texts(subject)) {
@@ -143,8 +143,8 @@ void print_failures(const study::CaseRecord& problem, std::ostream& out, const S
     }
 }
 
-void print_histories(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
-  const auto table = summary_table(problem, study::SubjectKind::histories);
+void print_histories(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
+  const auto table = summary_table(problem, record::SubjectKind::histories);
   if (table.rows.empty()) return;
   out << '\n';
   print(table, out, style);
@@ -154,7 +154,7 @@ void print_histories(const study::CaseRecord& problem, std::ostream& out, const 
       "matched/exact.",
       out, style);
   for (const auto& subject : problem.subjects) {
-    if (subject.kind != study::SubjectKind::histories) continue;
+    if (subject.kind != record::SubjectKind::histories) continue;
     const auto notes = note_texts(subject);
     if (!notes.empty()) out << '\n';
     for (const auto& note : notes) print_wrapped(note, out, style);
@@ -163,32 +163,32 @@ void print_histories(const study::CaseRecord& problem, std::ostream& out, const 
   }
 }
 
-void print_named(const study::CaseRecord& problem, bool is_named, std::ostream& out,
+void print_named(const record::CaseRecord& problem, bool is_named, std::ostream& out,
                  const Style& style,
-                 const std::function<std::vector<Finding>(const study::Subject&)>& findings) {
+                 const std::function<std::vector<Finding>(const record::Subject&)>& findings) {
   const auto all = named_findings(groups_of(problem, style.only), findings);
   if (!all.empty()) out << '\n';
   for (const auto& [subject, who, found] : all)
     print_wrapped((is_named ? who + ": " : "") + text_of(found), out, style);
 }
 
-void print_findings(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+void print_findings(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
   // The name of the only subject of `check` says nothing.
   const bool is_named = problem.plan.levels > 0 || problem.subjects.size() > 1;
   for (const auto& texts : {&finding, &false_convergence})
-    print_named(problem, is_named, out, style, [&](const study::Subject& subject) {
+    print_named(problem, is_named, out, style, [&](const record::Subject& subject) {
       const auto found = texts(subject);
       return found ? std::vector{*found} : std::vector<Finding>{};
     });
 }
 
 // Causes stand before the numbers.
-void print_diagnoses(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+void print_diagnoses(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
   const bool is_named = problem.plan.levels > 0 || problem.subjects.size() > 1;
   print_named(problem, is_named, out, style, diagnosis_texts);
 }
 
-void print_case(const study::CaseRecord& problem, std::ostream& out, const Style& style) {
+void print_case(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
   print_wrapped(case_text(problem.problem), out, style);
   print_wrapped(length_text(problem.problem), out, style);
   if (const auto plan = plan_text(problem); !plan.empty()) print_wrapped(plan, out, style);
@@ -202,7 +202,7 @@ void print_case(const study::CaseRecord& problem, std::ostream& out, const Style
 }
 
 // Over all cases, by force evaluations where they are counted.
-void print_profile(const study::Record& record, std::ostream& out, const Style& style) {
+void print_profile(const record::Record& record, std::ostream& out, const Style& style) {
   out << '\n';
   if (record.profiles.empty())
     return print_wrapped(
@@ -210,8 +210,8 @@ void print_profile(const study::Record& record, std::ostream& out, const Style& 
         "any case.",
         out, style);
   const auto counted_forces =
-      std::ranges::find(record.profiles, study::field_of(assess::Counter::force_evaluations),
-                        &study::Profile::counter);
+      std::ranges::find(record.profiles, record::field_of(judge::Counter::force_evaluations),
+                        &record::Profile::counter);
   const auto& profile =
       counted_forces == record.profiles.end() ? record.profiles.front() : *counted_forces;
   const auto tasks = std::ssize(profile.tasks);
@@ -227,8 +227,8 @@ void print_profile(const study::Record& record, std::ostream& out, const Style& 
   for (const auto& method : profile.methods)
     rows.push_back({{method.method, TextColor::bold},
                     {fmt::format("{}", method.best)},
-                    {percent(assess::share_within(method, 2.0))},
-                    {percent(assess::share_within(method, 10.0))},
+                    {percent(judge::share_within(method, 2.0))},
+                    {percent(judge::share_within(method, 10.0))},
                     {fmt::format("{}/{}", tasks - method.failed, tasks)}});
   out << '\n';
   print_table({{"method"},
@@ -261,7 +261,7 @@ void write_changes(const study::BaselineComparison& changes, std::ostream& out,
   }
 }
 
-void write_text(const study::Record& record, std::ostream& out, const Style& style,
+void write_text(const record::Record& record, std::ostream& out, const Style& style,
                 const study::BaselineComparison* changes) {
   if (record.interrupted)
     print_wrapped("INTERRUPTED: only what was finished is shown [interrupted]", out, style,

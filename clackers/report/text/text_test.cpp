@@ -12,7 +12,7 @@
 namespace clackers::report {
 namespace {
 
-std::string text_of_record(const study::Record& record, const Style& style = {}) {
+std::string text_of_record(const record::Record& record, const Style& style = {}) {
   return written(record, Format::table, style);
 }
 
@@ -31,7 +31,7 @@ TEST(Text, LongNamesAndThousandsOfCollisionsStayWithinTheWidth) {
     subject.name += "+event-driven:tolerance=1e-12,limit=100";
     for (auto& level : subject.levels)
       for (auto& run : level.runs)
-        run.score.impacts = assess::ImpactScore{318309, 318310, 318309, 0, 1, 1e-12};
+        run.score.impacts = measure::ImpactScore{318309, 318310, 318309, 0, 1, 1e-12};
   }
   for (const int width : {40, 80, 120})
     for (const auto& line : lines_of(text_of_record(record, {.color = false, .width = width})))
@@ -46,7 +46,7 @@ TEST(Text, ARowHasErrorOrderCollisionsCostBehaviourAndVerdict) {
 }
 
 // Twelve methods with two treatments, of which two disagree.
-study::Record record_of_many() {
+record::Record record_of_many() {
   auto record = sample_record();
   auto& subjects = record.cases[0].subjects;
   const auto sound = subjects[0];
@@ -101,7 +101,7 @@ TEST(Text, OfHistoriesTheCauseAndTheAnswerStandBeforeTheNumbers) {
   EXPECT_LT(text.find("[restitution-differs]"), text.find(answer));
   EXPECT_LT(text.find(answer), text.find("coll."));
   EXPECT_FALSE(has(text, "tolerance"));
-  subject.resolution = study::Resolution::tolerance;
+  subject.resolution = record::Resolution::tolerance;
   text = text_of_record(record);
   EXPECT_TRUE(has(text, "tolerance"));
   EXPECT_FALSE(has(text, "h = "));
@@ -171,7 +171,7 @@ TEST(Text, NoControlCharacterOfOthersIsPrinted) {
           run.score.failure = evil;
           if (!run.file) continue;
           run.file->file = evil;
-          run.file->notes.push_back(study::note("columns-not-used", {}, evil));
+          run.file->notes.push_back(record::note("columns-not-used", {}, evil));
         }
     }
   }

@@ -52,9 +52,9 @@ struct NextOption {
   std::string option, value, words;
 };
 
-std::optional<NextOption> deciding_option(const study::CaseRecord& problem,
-                                          const study::Subject& subject) {
-  if (problem.plan.levels == 0 || subject.resolution != study::Resolution::step) return {};
+std::optional<NextOption> deciding_option(const record::CaseRecord& problem,
+                                          const record::Subject& subject) {
+  if (problem.plan.levels == 0 || subject.resolution != record::Resolution::step) return {};
   const auto& fit = subject.assessment.displacement;
   // Runs of a program that fails do not profit from another step.
   if (!subject.complete || fit.behaviour != Behaviour::undecided ||
@@ -65,7 +65,7 @@ std::optional<NextOption> deciding_option(const study::CaseRecord& problem,
     return NextOption{"--coarsest", short_number(usual, 3),
                       fmt::format(" ({} steps a fast period)",
                                   short_number(problem.problem.fast_period / usual, 2))};
-  if (!subject.refinement || subject.refinement->end != study::RefinementEnd::budget) return {};
+  if (!subject.refinement || subject.refinement->end != record::RefinementEnd::budget) return {};
   const double seconds = subject.refinement->next_seconds;
   return NextOption{
       "--budget",
@@ -73,8 +73,8 @@ std::optional<NextOption> deciding_option(const study::CaseRecord& problem,
 }
 
 // "proper:2" for histories without a claim that show an order; empty without one.
-std::string expectation(const study::Record& record) {
-  if (record.command != "check" || study::counts(record).not_claimed == 0) return {};
+std::string expectation(const record::Record& record) {
+  if (record.command != "check" || record::counts(record).not_claimed == 0) return {};
   const auto& fit = record.cases.front().subjects.front().assessment.displacement;
   const double half = 0.5 * std::round(2.0 * fit.order);
   const bool is_plain = half > 0.0 && std::abs(fit.order - half) <= 0.1;
@@ -98,13 +98,13 @@ std::string counted(long long count, std::string_view noun) {
                      in_y ? "ies" : "s");
 }
 
-std::string order_text(const assess::LadderFit& fit, std::string_view space) {
+std::string order_text(const judge::LadderFit& fit, std::string_view space) {
   if (!fit.has_line) return {};
   return fmt::format("{:.2f}{}±{:.{}f}", fit.order, space, std::max(fit.spread, 0.01),
                      fit.spread < 9.95 ? 2 : 0);
 }
 
-std::string fit_text(const assess::LadderFit& fit) {
+std::string fit_text(const judge::LadderFit& fit) {
   auto text = std::string(to_string(fit.behaviour));
   if (fit.has_line)
     text += fmt::format(", order {}{}", order_text(fit),
@@ -123,7 +123,7 @@ std::string claim_text(const Claim& claim) {
   return text;
 }
 
-std::string case_text(const study::CaseSummary& problem, std::string_view space) {
+std::string case_text(const record::CaseSummary& problem, std::string_view space) {
   std::string parameters;
   for (const auto& p : problem.parameters)
     parameters += fmt::format("{0}{2}{1}={1}{3}{4}{5}", parameters.empty() ? "" : ", ", space,
@@ -132,13 +132,13 @@ std::string case_text(const study::CaseSummary& problem, std::string_view space)
   return parameters.empty() ? problem.name : fmt::format("{} ({})", problem.name, parameters);
 }
 
-std::string length_text(const study::CaseSummary& problem) {
+std::string length_text(const record::CaseSummary& problem) {
   return fmt::format("{} s with {}; fast period {} s", short_number(problem.end),
                      counted(problem.impact_count, "collision"),
                      short_number(problem.fast_period, 4));
 }
 
-std::string plan_text(const study::CaseRecord& problem) {
+std::string plan_text(const record::CaseRecord& problem) {
   const auto& plan = problem.plan;
   if (plan.levels == 0) return {};
   const double finest = plan.coarsest / std::exp2(plan.levels - 1);
@@ -149,9 +149,9 @@ std::string plan_text(const study::CaseRecord& problem) {
       "{} of {}, h = {} s to {} s, {} to {} steps per fast period", counted(plan.levels, "level"),
       counted(plan.samples_per_level, "step"), short_number(plan.coarsest, 3),
       short_number(finest, 3), per_period(plan.coarsest), per_period(finest));
-  const auto is_adaptive = [](const study::Subject& subject) {
-    return subject.kind == study::SubjectKind::method && !subject.levels.empty() &&
-           subject.resolution == study::Resolution::tolerance;
+  const auto is_adaptive = [](const record::Subject& subject) {
+    return subject.kind == record::SubjectKind::method && !subject.levels.empty() &&
+           subject.resolution == record::Resolution::tolerance;
   };
   const auto adaptive = std::ranges::find_if(problem.subjects, is_adaptive);
   if (adaptive == problem.subjects.end()) return steps;
@@ -163,8 +163,8 @@ std::string plan_text(const study::CaseRecord& problem) {
   return are_all ? tolerances : fmt::format("{}; adaptive: {}", steps, tolerances);
 }
 
-VerdictLine verdict_line(const study::Record& record) {
-  const auto all = study::counts(record);
+VerdictLine verdict_line(const record::Record& record) {
+  const auto all = record::counts(record);
   VerdictLine line;
   line.word = record.interrupted  ? "interrupted"
               : all.disagrees > 0 ? "disagrees"
@@ -194,10 +194,10 @@ VerdictLine verdict_line(const study::Record& record) {
                               parts.empty() ? "none was assessed" : parts);
 
   // First what decides the verdict, then the page, then what a word in the table means.
-  const study::Subject* decisive = nullptr;
+  const record::Subject* decisive = nullptr;
   for (const auto& problem : record.cases)
     for (const auto& subject : problem.subjects)
-      if (decisive == nullptr && study::verdict_word(subject) == line.word && finding(subject))
+      if (decisive == nullptr && record::verdict_word(subject) == line.word && finding(subject))
         decisive = &subject;
   const bool has_cause = decisive != nullptr && !decisive->diagnoses.empty();
   const auto code = decisive == nullptr ? std::string()
@@ -207,7 +207,7 @@ VerdictLine verdict_line(const study::Record& record) {
     line.next_in_words = in_words.empty() ? command : std::move(in_words);
     line.next = std::move(command);
   };
-  const study::CaseRecord* place = nullptr;
+  const record::CaseRecord* place = nullptr;
   for (const auto& problem : record.cases)
     for (const auto& subject : problem.subjects)
       if (&subject == decisive) place = &problem;
@@ -253,8 +253,8 @@ VerdictLine verdict_line(const study::Record& record) {
   return line;
 }
 
-std::string resolution_text(const study::Subject& subject, double step, int digits) {
-  return subject.resolution == study::Resolution::tolerance
+std::string resolution_text(const record::Subject& subject, double step, int digits) {
+  return subject.resolution == record::Resolution::tolerance
              ? "tolerance " + short_number(step, digits)
              : fmt::format("h = {} s", short_number(step, digits));
 }
@@ -263,8 +263,8 @@ std::string short_path(std::string_view path) {
   return std::string(path.substr(path.find_last_of('/') + 1));
 }
 
-std::string history_name(const study::Subject& subject, const study::Run& run) {
-  if (!study::is_solver(subject.kind)) return short_path(run.file->file);
+std::string history_name(const record::Subject& subject, const record::Run& run) {
+  if (!record::is_solver(subject.kind)) return short_path(run.file->file);
   return fmt::format("{} at {}", subject.name, resolution_text(subject, run.score.step, 3));
 }
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/study/baseline.hpp"
 #include "clackers/record/record.hpp"
 #include "clackers/record/require.hpp"
+#include "clackers/study/baseline.hpp"
 
 // Every sentence of a report, made of the codes and numbers of a record.
 namespace clackers::report {
@@ -23,51 +23,51 @@ std::string text_of(const Finding& finding);
 std::string counted(long long count, std::string_view noun);
 
 /// "2.00 ±0.01", never less than 0.01; empty where there is no line.
-std::string order_text(const assess::LadderFit& fit, std::string_view space = " ");
+std::string order_text(const judge::LadderFit& fit, std::string_view space = " ");
 /// "proper, order 2.00 ±0.01", "stagnating at 3.1e-3 [contact-stiffness]".
-std::string fit_text(const assess::LadderFit& fit);
+std::string fit_text(const judge::LadderFit& fit);
 /// "proper, order 2", "stagnating [contact-stiffness]", "nothing".
 std::string claim_text(const Claim& claim);
 
 /// "three-parameter (N = 2, xi1 = 0.05, a_t = 1 m)"; `space` stands around "=" and before units.
-std::string case_text(const study::CaseSummary& problem, std::string_view space = " ");
+std::string case_text(const record::CaseSummary& problem, std::string_view space = " ");
 /// "20 s with 6 collisions; fast period 1.258 s".
-std::string length_text(const study::CaseSummary& problem);
+std::string length_text(const record::CaseSummary& problem);
 /// "8 levels of 8 steps, h = 0.05 s to 0.00039 s, 13 to 1625 steps per fast period", of adaptive
 /// methods "8 levels, tolerance 0.001 to 1e-10"; empty for histories.
-std::string plan_text(const study::CaseRecord& problem);
+std::string plan_text(const record::CaseRecord& problem);
 
 /// What was measured of a subject, what decided the verdict, and how it compares with the claim.
-std::string assessment_text(const study::Subject& subject);
+std::string assessment_text(const record::Subject& subject);
 /// The histories to add so that more can be said, with their steps: of one or a few levels the
 /// finer ones, of one step a level those between. Empty for methods and programs, whose steps verify chooses, and where enough are there.
-std::string hint_text(const study::Subject& subject);
+std::string hint_text(const record::Subject& subject);
 /// Finer levels that a study added on its own, and what kept it from more; empty for none.
-std::string refinement_text(const study::Subject& subject);
+std::string refinement_text(const record::Subject& subject);
 /// What a reader must know of a subject beside its numbers; nothing for a method that is as it
 /// claims to be.
-std::optional<Finding> finding(const study::Subject& subject);
+std::optional<Finding> finding(const record::Subject& subject);
 /// Where the differences between runs show convergence and the errors do not.
-std::optional<Finding> false_convergence(const study::Subject& subject);
+std::optional<Finding> false_convergence(const record::Subject& subject);
 /// What the differences between runs show, beside what the errors of the same runs show.
-std::string self_convergence_text(const study::SelfResult& result);
+std::string self_convergence_text(const record::SelfResult& result);
 
 /// A cause with its value, its uncertainty, how much closer to the history it comes, and the cure:
 /// "Restitution looks like 0.9900 ±0.0001 instead of 1 (9e7 times closer): check
 /// the impact law and its coefficient."
 Finding diagnosis_text(const diagnose::Diagnosis& cause);
 /// Of the strongest causes of a subject, `most_shown_diagnoses` at most.
-std::vector<Finding> diagnosis_texts(const study::Subject& subject);
+std::vector<Finding> diagnosis_texts(const record::Subject& subject);
 inline constexpr std::size_t most_shown_diagnoses = 3;
 
 /// The notes on the histories of a subject, one for each code; the finest history stands for
 /// others with the same.
-std::vector<std::string> note_texts(const study::Subject& subject);
-std::string note_text(const study::Note& note);
+std::vector<std::string> note_texts(const record::Subject& subject);
+std::string note_text(const record::Note& note);
 
 /// The failed runs of a program: for each kind of failure, three at most, how many runs, the first of
 /// them, and what it printed last; empty for other subjects.
-std::vector<std::string> failure_texts(const study::Subject& subject);
+std::vector<std::string> failure_texts(const record::Subject& subject);
 /// The end of what a program printed on one line, lines separated by " / "; 400 characters at most.
 std::string printed_text(std::string_view printed);
 
@@ -78,11 +78,11 @@ struct VerdictLine {
   std::string next;           ///< the command to type next
   std::string next_in_words;  ///< the same where a long command does not fit
 };
-VerdictLine verdict_line(const study::Record& record);
+VerdictLine verdict_line(const record::Record& record);
 
 /// "Required: order:2. Not met by 1 of 7: moreau-jean (order 0.99)."; of subjects that do not meet it.
-std::string requirement_text(const study::Record& record, const study::Requirement& requirement,
-                             const std::vector<study::Unmet>& unmet);
+std::string requirement_text(const record::Record& record, const record::Requirement& requirement,
+                             const std::vector<record::Unmet>& unmet);
 
 /// "Against the baseline of 2025-11-21T09:43:00Z (clackers 0.1.0): 2 of 7 methods changed."
 std::string change_summary(const study::BaselineComparison& changes);
@@ -90,13 +90,13 @@ std::string change_summary(const study::BaselineComparison& changes);
 std::vector<std::string> change_texts(const study::SubjectChange& change);
 
 /// "h = 0.01 s", or "tolerance 1e-5" of a solver that is given one.
-std::string resolution_text(const study::Subject& subject, double step, int digits = 3);
+std::string resolution_text(const record::Subject& subject, double step, int digits = 3);
 /// Whether a cause of that code is among those shown, so that nothing else need say it.
-bool is_shown_cause(const study::Subject& subject, std::string_view code);
+bool is_shown_cause(const record::Subject& subject, std::string_view code);
 
 /// A path without its folder.
 std::string short_path(std::string_view path);
 /// What a sentence calls the history of a run: its file, or the solver and the step or tolerance.
-std::string history_name(const study::Subject& subject, const study::Run& run);
+std::string history_name(const record::Subject& subject, const record::Run& run);
 
 }  // namespace clackers::report

@@ -6,8 +6,8 @@
 #include <span>
 #include <tuple>
 
-#include "clackers/judge/convergence/ladder_fit.hpp"
 #include "clackers/base/codes.hpp"
+#include "clackers/judge/convergence/ladder_fit.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/words/words.hpp"
 
@@ -31,7 +31,7 @@ std::string meaning_of(std::string_view code) {
 }
 
 // The steps of the runs that the line was fitted to.
-std::string range_text(const study::Subject& subject, const assess::LadderFit& fit) {
+std::string range_text(const record::Subject& subject, const judge::LadderFit& fit) {
   const auto nominal = [&](int level) {
     const auto i = std::size_t(level);
     return i < fit.steps.size() ? fit.steps[i] : std::nan("");
@@ -40,13 +40,13 @@ std::string range_text(const study::Subject& subject, const assess::LadderFit& f
   const double from = is_known ? fit.largest_step : nominal(fit.first_level);
   const double to = is_known ? fit.smallest_step : nominal(fit.last_level);
   if (from == to) return resolution_text(subject, from);
-  const bool is_step = subject.resolution == study::Resolution::step;
+  const bool is_step = subject.resolution == record::Resolution::step;
   return fmt::format("{} to {}{}", resolution_text(subject, from), short_number(to, 3),
                      is_step ? " s" : "");
 }
 
 // Of a line that ends at a floor: where and at which error.
-std::string floor_part(const study::Subject& subject, const assess::LadderFit& fit) {
+std::string floor_part(const record::Subject& subject, const judge::LadderFit& fit) {
   if (!(fit.floor > 0.0 && fit.floor_step > 0.0)) return {};
   return fmt::format("; from {} on a floor of {}{}", resolution_text(subject, fit.floor_step),
                      scientific(fit.floor),
@@ -55,9 +55,9 @@ std::string floor_part(const study::Subject& subject, const assess::LadderFit& f
                          : "");
 }
 
-std::string tolerance_sentence(const study::Subject& subject, const assess::LadderFit& fit) {
-  if (subject.resolution != study::Resolution::tolerance || !fit.has_line) return {};
-  const bool is_proportional = std::abs(fit.order - 1.0) <= assess::tolerance_proportional;
+std::string tolerance_sentence(const record::Subject& subject, const judge::LadderFit& fit) {
+  if (subject.resolution != record::Resolution::tolerance || !fit.has_line) return {};
+  const bool is_proportional = std::abs(fit.order - 1.0) <= judge::tolerance_proportional;
   return fmt::format("The error is {}proportional to the tolerance.",
                      is_proportional ? "" : "not ");
 }
@@ -74,7 +74,7 @@ bool is_one_of(std::span<const Code> codes, std::string_view code) {
   return std::ranges::any_of(codes, [&](Code one) { return one.name() == code; });
 }
 
-bool is_explained(const study::Subject& subject) {
+bool is_explained(const record::Subject& subject) {
   const auto& reason = subject.assessment.displacement.reason;
   if (is_shown_cause(subject, reason)) return true;
   if (subject.diagnoses.empty()) return false;
@@ -83,7 +83,7 @@ bool is_explained(const study::Subject& subject) {
           !is_one_of(method_causes, subject.diagnoses.front().code));
 }
 
-std::string behaviour_sentence(const study::Subject& subject) {
+std::string behaviour_sentence(const record::Subject& subject) {
   const auto& fit = subject.assessment.displacement;
   const auto order = [&] {
     return fmt::format("{} ({}{})", order_text(fit), range_text(subject, fit),
@@ -129,7 +129,7 @@ std::string behaviour_sentence(const study::Subject& subject) {
 }
 
 // What explains a fit, behind its sentence: numbers as the table in assessment.hpp has them.
-std::string remark(const study::Subject& subject, const assess::Evidence& evidence) {
+std::string remark(const record::Subject& subject, const judge::Evidence& evidence) {
   const auto& code = evidence.code;
   const auto number = [&](std::size_t i) {
     return i < evidence.numbers.size() ? evidence.numbers[i] : std::nan("");
@@ -158,7 +158,7 @@ std::string remark(const study::Subject& subject, const assess::Evidence& eviden
 }
 
 // The numbers of an Evidence as its table in assessment.hpp has them.
-std::string evidence_sentence(const study::Subject& subject, const assess::Evidence& evidence) {
+std::string evidence_sentence(const record::Subject& subject, const judge::Evidence& evidence) {
   const auto& code = evidence.code;
   const auto number = [&](std::size_t i) {
     return i < evidence.numbers.size() ? evidence.numbers[i] : std::nan("");
@@ -199,21 +199,21 @@ std::string evidence_sentence(const study::Subject& subject, const assess::Evide
   return meaning_of(code);
 }
 
-const study::Run* first_failure(const study::Subject& subject) {
+const record::Run* first_failure(const record::Subject& subject) {
   for (const auto& level : subject.levels)
     for (const auto& run : level.runs)
       if (!run.score.failure.empty()) return &run;
   return nullptr;
 }
 
-std::string claim_sentence(const study::Subject& subject) {
+std::string claim_sentence(const record::Subject& subject) {
   const auto& [claim, assessment] = std::tie(subject.claim, subject.assessment);
   if (claim.behaviour == Behaviour::undecided)
     return subject.tolerance ? std::string() : "Nothing is claimed.";
   const auto& fit = assessment.displacement;
-  using assess::Mismatch;
+  using judge::Mismatch;
   const auto claimed =
-      fmt::format("{}: {}", subject.kind == study::SubjectKind::method ? "Claimed" : "Expected",
+      fmt::format("{}: {}", subject.kind == record::SubjectKind::method ? "Claimed" : "Expected",
                   claim_text(claim));
   if (assessment.verdict == Verdict::undecided && fit.behaviour == Behaviour::exact)
     return claimed + "; a larger coarsest step is needed to measure it.";
@@ -225,7 +225,7 @@ std::string claim_sentence(const study::Subject& subject) {
   return claimed + ".";
 }
 
-long long run_count(const study::Subject& subject) {
+long long run_count(const record::Subject& subject) {
   long long runs = 0;
   for (const auto& level : subject.levels) runs += static_cast<long long>(level.runs.size());
   return runs;
@@ -233,14 +233,14 @@ long long run_count(const study::Subject& subject) {
 
 }  // namespace
 
-std::string assessment_text(const study::Subject& subject) {
+std::string assessment_text(const record::Subject& subject) {
   const auto& assessment = subject.assessment;
   const auto& fit = assessment.displacement;
   std::string text;
   for (const auto& evidence : assessment.evidence)
     if (remark(subject, evidence).empty() && !is_shown_cause(subject, evidence.code))
       add(text, evidence_sentence(subject, evidence));
-  const bool is_method = subject.kind == study::SubjectKind::method;
+  const bool is_method = subject.kind == record::SubjectKind::method;
   const bool has_claim = subject.claim.behaviour != Behaviour::undecided;
   const bool in_evidence = fit.reason == Code("printed-digits").name() && !text.empty();
   // One history without a claim has no levels to compare.
@@ -258,7 +258,7 @@ std::string assessment_text(const study::Subject& subject) {
   return text;
 }
 
-std::optional<Finding> finding(const study::Subject& subject) {
+std::optional<Finding> finding(const record::Subject& subject) {
   if (!subject.refusal.empty()) return Finding{subject.refusal, subject.refusal_code};
   if (!subject.complete)
     return Finding{"Interrupted before the last level; only the finished levels are assessed.",
@@ -267,7 +267,7 @@ std::optional<Finding> finding(const study::Subject& subject) {
   const auto& fit = assessment.displacement;
   const bool as_claimed = assessment.verdict == Verdict::agrees && fit.reason.empty() &&
                           (fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::exact);
-  if (subject.kind != study::SubjectKind::method)
+  if (subject.kind != record::SubjectKind::method)
     return Finding{assessment_text(subject), assessment.reason};
   if (as_claimed) return {};
   auto code = assessment.reason;
@@ -275,7 +275,7 @@ std::optional<Finding> finding(const study::Subject& subject) {
   return Finding{assessment_text(subject), code};
 }
 
-std::optional<Finding> false_convergence(const study::Subject& subject) {
+std::optional<Finding> false_convergence(const record::Subject& subject) {
   if (!subject.self_convergence) return {};
   const auto& result = *subject.self_convergence;
   const auto& comparison = result.against_reference;
@@ -287,7 +287,7 @@ std::optional<Finding> false_convergence(const study::Subject& subject) {
                     "reference solution.",
                     short_number(errors.errors.empty() ? errors.floor : errors.errors.back(), 2)),
         comparison.reason};
-  if (result.self.proper && comparison.error_ratio > assess::trust_factor)
+  if (result.self.proper && comparison.error_ratio > judge::trust_factor)
     return Finding{fmt::format("False convergence: the error is {} times the estimate from the "
                                "differences between runs.",
                                short_number(comparison.error_ratio, 2)),
@@ -296,7 +296,7 @@ std::optional<Finding> false_convergence(const study::Subject& subject) {
                  comparison.reason};
 }
 
-std::string self_convergence_text(const study::SelfResult& result) {
+std::string self_convergence_text(const record::SelfResult& result) {
   auto text = fmt::format("Differences between runs: {}. Errors of the same runs: {}.",
                           fit_text(result.self.differences), fit_text(result.errors));
   if (result.against_reference.false_convergence) return text;

@@ -88,7 +88,7 @@ TEST(Changes, VerdictBehaviourAndClaimAreGiven) {
 
 TEST(Changes, NumbersHaveTheirStep) {
   auto change = named();
-  assess::LadderFit before, now;
+  judge::LadderFit before, now;
   before.has_line = now.has_line = true;
   before.order = 3.98;
   before.spread = 0.012;

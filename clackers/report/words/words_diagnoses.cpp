@@ -237,7 +237,7 @@ Finding diagnosis_text(const Diagnosis& cause) {
       cause.code};
 }
 
-bool is_shown_cause(const study::Subject& subject, std::string_view code) {
+bool is_shown_cause(const record::Subject& subject, std::string_view code) {
   const auto shown = std::min(subject.diagnoses.size(), most_shown_diagnoses);
   return std::any_of(subject.diagnoses.begin(), subject.diagnoses.begin() + std::ptrdiff_t(shown),
                      [&](const Diagnosis& cause) {
@@ -247,7 +247,7 @@ bool is_shown_cause(const study::Subject& subject, std::string_view code) {
                      });
 }
 
-std::vector<Finding> diagnosis_texts(const study::Subject& subject) {
+std::vector<Finding> diagnosis_texts(const record::Subject& subject) {
   std::vector<Finding> texts;
   for (const auto& cause : subject.diagnoses) {
     if (texts.size() == most_shown_diagnoses) break;

@@ -79,7 +79,7 @@ TEST(DiagnosisText, EveryCodeHasASentenceWithACure) {
 }
 
 TEST(DiagnosisTexts, AreThreeAtMostInTheirOrder) {
-  study::Subject subject;
+  record::Subject subject;
   for (const auto* code : {"wrong-limit", "noise-floor", "period-error", "time-drifts"})
     subject.diagnoses.push_back({code, 0.1, "1", 0.9, {}, "", ""});
   const auto texts = diagnosis_texts(subject);

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most_failures = 3, most_printed = 400;
 
 struct Failures {
-  const study::Run* first;
+  const record::Run* first;
   int count = 0;
 };
 
@@ -30,8 +30,8 @@ std::string printed_text(std::string_view printed) {
   return printable(text);
 }
 
-std::vector<std::string> failure_texts(const study::Subject& subject) {
-  if (subject.kind == study::SubjectKind::method) return {};
+std::vector<std::string> failure_texts(const record::Subject& subject) {
+  if (subject.kind == record::SubjectKind::method) return {};
   std::vector<Failures> kinds;
   int runs = 0;
   for (const auto& level : subject.levels)
@@ -54,9 +54,9 @@ std::vector<std::string> failure_texts(const study::Subject& subject) {
                             count > 1 ? "the first at" : "at", resolution_text(subject, score.step),
                             sentence, score.failure_code);
     if (const auto printed = printed_text(first->printed); !printed.empty())
-      text += fmt::format(" {}: {}",
-                          subject.kind == study::SubjectKind::callable ? "Traceback" : "It printed",
-                          printed);
+      text += fmt::format(
+          " {}: {}", subject.kind == record::SubjectKind::callable ? "Traceback" : "It printed",
+          printed);
     texts.push_back(std::move(text));
   }
   return texts;

@@ -25,29 +25,29 @@ std::string list(const std::vector<double>& steps) {
   return text;
 }
 
-std::string with_unit(const study::Subject& subject, const std::vector<double>& steps) {
-  return subject.resolution == study::Resolution::tolerance
+std::string with_unit(const record::Subject& subject, const std::vector<double>& steps) {
+  return subject.resolution == record::Resolution::tolerance
              ? fmt::format("tolerance{} {}", steps.size() == 1 ? "" : "s", list(steps))
              : fmt::format("h = {} s", list(steps));
 }
 
 // The next finer levels: half the step, or a tenth of the tolerance.
-std::vector<double> finer(const study::Subject& subject, double finest, int count) {
-  const double ratio = subject.resolution == study::Resolution::tolerance ? 10.0 : 2.0;
+std::vector<double> finer(const record::Subject& subject, double finest, int count) {
+  const double ratio = subject.resolution == record::Resolution::tolerance ? 10.0 : 2.0;
   std::vector<double> steps;
   for (int i = 1; i <= count; ++i) steps.push_back(finest / std::pow(ratio, i));
   return steps;
 }
 
-std::vector<const assess::RunScore*> runs_of(const study::Subject& subject) {
-  std::vector<const assess::RunScore*> runs;
+std::vector<const measure::RunScore*> runs_of(const record::Subject& subject) {
+  std::vector<const measure::RunScore*> runs;
   for (const auto& level : subject.levels)
     for (const auto& run : level.runs) runs.push_back(&run.score);
   return runs;
 }
 
 // The size of an error in words.
-std::string size_text(const assess::RunScore& run) {
+std::string size_text(const measure::RunScore& run) {
   const double error = run.u_error;
   if (std::isnan(error)) return "The error in u is not known.";
   if (error <= run.rounding_floor) return "The error in u is at the rounding floor.";
@@ -61,7 +61,7 @@ std::string size_text(const assess::RunScore& run) {
   return fmt::format("The largest error in u is {} of the largest envelope.", scientific(error));
 }
 
-std::string one_file(const study::Subject& subject, const assess::RunScore& run) {
+std::string one_file(const record::Subject& subject, const measure::RunScore& run) {
   auto text = size_text(run);
   if (run.impacts && run.impacts->expected > 0)
     text += fmt::format(
@@ -69,14 +69,14 @@ std::string one_file(const study::Subject& subject, const assess::RunScore& run)
         run.impacts->extra > 0 ? fmt::format(", {} extra", run.impacts->extra) : "");
   return text +
          fmt::format(" One {} shows no order: add the same run at {}; four are the least.",
-                     subject.resolution == study::Resolution::tolerance ? "tolerance" : "step",
+                     subject.resolution == record::Resolution::tolerance ? "tolerance" : "step",
                      with_unit(subject, finer(subject, run.step, 3)));
 }
 
 }  // namespace
 
-std::string hint_text(const study::Subject& subject) {
-  if (subject.kind != study::SubjectKind::histories) return {};
+std::string hint_text(const record::Subject& subject) {
+  if (subject.kind != record::SubjectKind::histories) return {};
   const auto runs = runs_of(subject);
   if (runs.empty()) return {};
   if (runs.size() == 1) return runs.front()->finished ? one_file(subject, *runs.front()) : "";
@@ -88,10 +88,10 @@ std::string hint_text(const study::Subject& subject) {
         "{}; {} are the least: add the same run at {}.", counted(levels, "level"), least_levels,
         with_unit(subject, finer(subject, runs.back()->step, least_levels - levels)));
   const bool single = std::ranges::all_of(
-      subject.levels, [](const study::Level& level) { return level.runs.size() == 1; });
+      subject.levels, [](const record::Level& level) { return level.runs.size() == 1; });
   const bool scatters = fit.reason == "one-sample-a-level" || fit.reason == "more-neighbours" ||
                         fit.reason == Code("no-convergence-yet").name();
-  if (single && scatters && subject.resolution == study::Resolution::step) {
+  if (single && scatters && subject.resolution == record::Resolution::step) {
     std::vector<double> between;
     for (int i = 1; i <= 3; ++i) between.push_back(runs.front()->step * std::exp2(-0.25 * i));
     return fmt::format(
@@ -106,7 +106,7 @@ std::string hint_text(const study::Subject& subject) {
   return {};
 }
 
-std::string refinement_text(const study::Subject& subject) {
+std::string refinement_text(const record::Subject& subject) {
   if (!subject.refinement) return {};
   const auto& refinement = *subject.refinement;
   std::string text;
@@ -122,7 +122,7 @@ std::string refinement_text(const study::Subject& subject) {
                         refinement.coarser_levels == 1
                             ? std::string("1 coarser level was")
                             : fmt::format("{} coarser levels were", refinement.coarser_levels));
-  if (refinement.end == study::RefinementEnd::budget && refinement.next_seconds > 0.0)
+  if (refinement.end == record::RefinementEnd::budget && refinement.next_seconds > 0.0)
     text += fmt::format("{}The next level takes about {} s: --budget {}s.", text.empty() ? "" : " ",
                         short_number(refinement.next_seconds, 2),
                         short_number(std::ceil(1.5 * refinement.next_seconds), 3));

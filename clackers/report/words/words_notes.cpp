@@ -3,24 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/record/notes.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/words/words.hpp"
-#include "clackers/record/notes.hpp"
 
 namespace clackers::report {
 namespace {
 
-using study::NoteCode;
+using record::NoteCode;
 
 // The notes of one code.
 struct Group {
-  const study::Note* note = nullptr;  ///< of the finest history that has it
-  const study::Run* run = nullptr;    ///< that history
+  const record::Note* note = nullptr;  ///< of the finest history that has it
+  const record::Run* run = nullptr;    ///< that history
   long long files = 0;
   bool same = true;  ///< in all of them the same sentence
 };
 
-std::string printed_digits(const study::Note& note, const std::vector<double>& n) {
+std::string printed_digits(const record::Note& note, const std::vector<double>& n) {
   const bool is_single = n[1] == 1.0;
   const double share = n[3], slack = n[4];
   const auto measured =
@@ -48,7 +48,7 @@ std::string collisions_from_history(const std::vector<double>& n) {
 
 }  // namespace
 
-std::string note_text(const study::Note& note) {
+std::string note_text(const record::Note& note) {
   auto n = note.numbers;
   n.resize(std::max<std::size_t>(n.size(), 5), std::nan(""));
   const auto text = [&](std::size_t i, int digits = 6) { return short_number(n[i], digits); };
@@ -109,9 +109,9 @@ std::string note_text(const study::Note& note) {
   return note.code;
 }
 
-std::vector<std::string> note_texts(const study::Subject& subject) {
+std::vector<std::string> note_texts(const record::Subject& subject) {
   std::vector<Group> groups;
-  const study::Run* finest = nullptr;
+  const record::Run* finest = nullptr;
   long long files = 0;
   for (auto level = subject.levels.rbegin(); level != subject.levels.rend(); ++level)
     for (auto run = level->runs.rbegin(); run != level->runs.rend(); ++run) {

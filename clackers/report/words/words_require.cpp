@@ -7,8 +7,8 @@
 
 namespace clackers::report {
 
-std::string requirement_text(const study::Record& record, const study::Requirement& requirement,
-                             const std::vector<study::Unmet>& unmet) {
+std::string requirement_text(const record::Record& record, const record::Requirement& requirement,
+                             const std::vector<record::Unmet>& unmet) {
   std::string list;
   for (const auto& one : unmet) {
     auto found = one.found;
@@ -19,7 +19,7 @@ std::string requirement_text(const study::Record& record, const study::Requireme
     list += fmt::format("{}{}{} ({})", list.empty() ? "" : ", ", one.subject, where, found);
   }
   return fmt::format("Required: {}. Not met by {} of {}: {}.", requirement.text, unmet.size(),
-                     study::counts(record).total(), list);
+                     record::counts(record).total(), list);
 }
 
 }  // namespace clackers::report

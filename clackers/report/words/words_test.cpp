@@ -9,8 +9,8 @@
 namespace clackers::report {
 namespace {
 
-study::Subject assessed(Behaviour behaviour, std::string reason = {}) {
-  study::Subject subject;
+record::Subject assessed(Behaviour behaviour, std::string reason = {}) {
+  record::Subject subject;
   subject.claim = {Behaviour::proper, 2.0, ""};
   auto& fit = subject.assessment.displacement;
   fit.behaviour = behaviour;
@@ -79,7 +79,7 @@ TEST(AssessmentText, AClaimThatIsTooLowIsSaid) {
   subject.assessment.displacement.order = 4.0;
   subject.assessment.verdict = Verdict::disagrees;
   EXPECT_FALSE(has(assessment_text(subject), "converges faster")) << "collisions may be the cause";
-  subject.assessment.mismatch = assess::Mismatch::higher_order;
+  subject.assessment.mismatch = judge::Mismatch::higher_order;
   EXPECT_TRUE(has(assessment_text(subject), "converges faster"));
   subject.claim = {};
   EXPECT_TRUE(has(assessment_text(subject), "Nothing is claimed."));
@@ -155,7 +155,7 @@ TEST(AssessmentText, AnEarlyEndIsSaidFirst) {
 
 TEST(AssessmentText, ALadderOfTolerancesHasTheRatioOfTheError) {
   auto subject = assessed(Behaviour::proper);
-  subject.resolution = study::Resolution::tolerance;
+  subject.resolution = record::Resolution::tolerance;
   auto& fit = subject.assessment.displacement;
   fit.steps = {1e-3, 1e-4, 1e-5};
   subject.assessment.evidence = {{"error-over-tolerance", Verdict::not_claimed, {12.0, 9.0, 15.0}}};
@@ -166,15 +166,15 @@ TEST(AssessmentText, ALadderOfTolerancesHasTheRatioOfTheError) {
       << assessment_text(subject);
 }
 
-study::Subject histories(std::vector<double> steps, std::string reason = {}) {
+record::Subject histories(std::vector<double> steps, std::string reason = {}) {
   auto subject = assessed(Behaviour::undecided, std::move(reason));
-  subject.kind = study::SubjectKind::histories;
+  subject.kind = record::SubjectKind::histories;
   for (const double step : steps) {
-    auto& run = subject.levels.emplace_back(study::Level{step, {}}).runs.emplace_back();
+    auto& run = subject.levels.emplace_back(record::Level{step, {}}).runs.emplace_back();
     run.score.step = step;
     run.score.finished = true;
     run.score.u_error = 0.023;
-    run.score.impacts = assess::ImpactScore{6, 6, 5, 1, 1, 0.0, 0.0};
+    run.score.impacts = measure::ImpactScore{6, 6, 5, 1, 1, 0.0, 0.0};
   }
   return subject;
 }
@@ -190,7 +190,7 @@ TEST(HintText, OfFewLevelsHasTheMissingOnes) {
   EXPECT_EQ(hint_text(histories({0.02, 0.01}, "too-few-levels")),
             "2 levels; 4 are the least: add the same run at h = 0.005 and 0.0025 s.");
   auto subject = histories({1e-3, 1e-4}, "too-few-levels");
-  subject.resolution = study::Resolution::tolerance;
+  subject.resolution = record::Resolution::tolerance;
   EXPECT_TRUE(has(hint_text(subject), "at tolerances 1e-5 and 1e-6."));
 }
 
@@ -205,7 +205,7 @@ TEST(RefinementText, SaysWhatWasAddedAndWhatItWouldTake) {
   auto subject = assessed(Behaviour::undecided, "too-few-levels");
   EXPECT_EQ(refinement_text(subject), "");
   subject.levels.resize(11);
-  subject.refinement = {3, 0, 8, study::RefinementEnd::budget, 40.0};
+  subject.refinement = {3, 0, 8, record::RefinementEnd::budget, 40.0};
   EXPECT_EQ(
       refinement_text(subject),
       "3 finer levels were added (11 in all). The next level takes about 40 s: --budget 60s.");
@@ -219,7 +219,7 @@ TEST(ClaimText, HasBehaviourOrderAndReason) {
 }
 
 TEST(OrderText, NeedsALine) {
-  assess::LadderFit fit;
+  judge::LadderFit fit;
   EXPECT_EQ(order_text(fit), "");
   fit.has_line = true;
   fit.order = 1.996;
@@ -249,7 +249,7 @@ TEST(FalseConvergence, TheDistanceOfTheLimitIsGiven) {
 }
 
 TEST(NoteText, EveryCodeHasASentenceOfItsOwn) {
-  for (const auto& entry : study::note_entries) {
+  for (const auto& entry : record::note_entries) {
     const auto text = note_text({std::string(entry.code), {17.0, 1.0, 3.0, 4.0, 5.0}, "<name>"});
     EXPECT_NE(text, entry.code);
     EXPECT_TRUE(text.ends_with('.')) << text;
@@ -271,11 +271,11 @@ TEST(NoteTexts, OneForEachCode) {
 
 TEST(NoteTexts, OfASolverNameItsRun) {
   auto subject = sample_check().cases[0].subjects[0];
-  subject.kind = study::SubjectKind::program;
+  subject.kind = record::SubjectKind::program;
   subject.name = "mine";
   subject.levels[0].runs[0].score.step = 0.02;
   EXPECT_TRUE(note_texts(subject)[1].starts_with("mine at h = 0.02 s: The first row"));
-  subject.resolution = study::Resolution::tolerance;
+  subject.resolution = record::Resolution::tolerance;
   EXPECT_TRUE(note_texts(subject)[1].starts_with("mine at tolerance 0.02: The first row"));
 }
 
@@ -347,7 +347,7 @@ TEST(VerdictLine, OfACallOfPythonOptionsAreArguments) {
   subject.assessment.displacement.behaviour = Behaviour::undecided;
   subject.assessment.displacement.reason = subject.assessment.reason = "too-few-levels";
   problem.plan.coarsest = 0.09;  // a fourteenth of the fast period
-  subject.refinement = {.end = study::RefinementEnd::budget, .next_seconds = 40.0};
+  subject.refinement = {.end = record::RefinementEnd::budget, .next_seconds = 40.0};
   EXPECT_EQ(verdict_line(record).next, "the same with budget=60");
 }
 
@@ -390,7 +390,7 @@ TEST(VerdictLine, AnUndecidedMethodGetsTheNumberToType) {
   subject.assessment.verdict = Verdict::undecided;
   subject.assessment.displacement.behaviour = Behaviour::undecided;
   subject.assessment.reason = subject.assessment.displacement.reason = "no-convergence-yet";
-  subject.refinement = study::Refinement{1, 0, 8, study::RefinementEnd::budget, 40.0};
+  subject.refinement = record::Refinement{1, 0, 8, record::RefinementEnd::budget, 40.0};
   record.provenance.command = "clackers verify rk4 --budget 20s --levels 5";
   EXPECT_EQ(verdict_line(record).next, "clackers verify rk4 --levels 5 --budget 60s");
   // A fast period of 1.4 s has 14 steps of 0.1 s.

@@ -6,7 +6,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/npy_header.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
@@ -57,4 +57,4 @@ void NumberFile::commit() {
   if (!file_ || error) throw FileError(path_.string() + ": cannot be written.", "cannot-write");
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

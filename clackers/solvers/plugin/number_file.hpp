@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace clackers::study {
+namespace clackers::solvers {
 
 /// A table of doubles in a NumPy file that appears whole or not at all.
 class NumberFile {
@@ -41,4 +41,4 @@ class NumberFile {
   std::size_t written_ = 0;  ///< numbers
 };
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -11,7 +11,7 @@
 #include "clackers/solvers/process.hpp"
 #include "clackers/solvers/program_runner.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr auto report_name = "report.txt";
 
 // Where the library was when its run ended, and why if that is known.
-void complete(const fs::path& folder, SolverOutput& output) {
+void complete(const fs::path& folder, study::SolverOutput& output) {
   const auto report = read_plugin_report(folder / report_name);
   if (!report.code.empty()) {
     output.failure_code = report.code;
@@ -68,18 +68,18 @@ PluginReport report_of(const std::string& command, double timeout, WorkFolder& w
 
 }  // namespace
 
-std::vector<SolverSubject> subjects_of(const PluginRequest& request,
-                                       const std::atomic<bool>* interrupt) {
+std::vector<study::SolverSubject> subjects_of(const PluginRequest& request,
+                                              const std::atomic<bool>* interrupt) {
   require_positive("verify", "timeout", request.timeout);
   const auto folder = std::make_shared<WorkFolder>(request.work);
-  std::vector<SolverSubject> subjects;
+  std::vector<study::SolverSubject> subjects;
   for (const auto& plugin : request.plugins) {
     const auto library = library_of(plugin);
     const auto load = command_of(request, library);
     const auto report = report_of(load, request.timeout, *folder, interrupt);
     const CommandTemplate command(load + " {case:text} {h} {n} {tolerance} {out} {events}");
     auto& subject = subjects.emplace_back();
-    subject.kind = SubjectKind::plugin;
+    subject.kind = record::SubjectKind::plugin;
     subject.name = !plugin.name.empty()   ? plugin.name
                    : !report.name.empty() ? report.name
                                           : library.stem().string();
@@ -91,4 +91,4 @@ std::vector<SolverSubject> subjects_of(const PluginRequest& request,
   return subjects;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

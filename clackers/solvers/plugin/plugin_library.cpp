@@ -7,7 +7,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 constexpr auto entry_name = "clackers_plugin";
@@ -82,4 +82,4 @@ PluginProblem::PluginProblem(const model::ImpactProblem<>& problem)
               .v = v_.data()};
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -7,7 +7,7 @@
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/solvers/plugin/clackers_solver.h"
 
-namespace clackers::study {
+namespace clackers::solvers {
 
 /// Loads a shared library, which stays for the rest of the process, and returns its solver. Throws
 /// InputError (not-a-plugin) where it cannot be loaded, has no function clackers_plugin(), or a solver
@@ -28,4 +28,4 @@ class PluginProblem {
   clackers_solver_problem problem_;
 };
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

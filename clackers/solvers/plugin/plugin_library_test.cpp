@@ -4,7 +4,7 @@
 
 #include "clackers/base/testing/refusal.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 TEST(PluginProblem, HasRowsOfMatricesAndAContactARow) {
@@ -54,4 +54,4 @@ TEST(PluginLibrary, RefusesAFileThatIsNone) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -10,7 +10,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 PluginOutput& ours(clackers_solver_host* host) { return *static_cast<PluginOutput*>(host); }
@@ -177,4 +177,4 @@ void PluginOutput::commit() {
   history_.commit();
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -10,7 +10,7 @@
 #include "clackers/solvers/plugin/number_file.hpp"
 #include "clackers/solvers/process.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 
 /// What a plug-in calls back: writes the states and collisions that it delivers to files, and keeps
 /// the first failure.
@@ -57,4 +57,4 @@ class PluginOutput : public clackers_solver_host {
   int at_last_t_ = 0;  ///< states at the last time
 };
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

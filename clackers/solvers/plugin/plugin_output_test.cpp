@@ -8,7 +8,7 @@
 #include "clackers/input/events.hpp"
 #include "clackers/input/history.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ class PluginOutputTest : public testing::Test {
   }
 
   model::Trajectory history() const {
-    return exchange::read_history(history_.string(), {.dof = 2}).motion;
+    return input::read_history(history_.string(), {.dof = 2}).motion;
   }
   int state(double t, const double* v = nullptr, const double* a = nullptr) {
     return output_.state(&output_, t, u_, v, a);
@@ -59,7 +59,7 @@ TEST_F(PluginOutputTest, CollisionsHaveTheirOwnFile) {
   EXPECT_EQ(output_.collision(&output_, 0.25, 3.0, v_, after_), 0);
   output_.commit();
   EXPECT_TRUE(history().v.empty());
-  const auto impacts = exchange::read_events(events_.string(), 2);
+  const auto impacts = input::read_events(events_.string(), 2);
   ASSERT_EQ(impacts.size(), 1u);
   EXPECT_EQ(impacts[0].t, 0.25);
   EXPECT_EQ(impacts[0].impulse, 3.0);
@@ -121,4 +121,4 @@ TEST_F(PluginOutputTest, IsOfTheVersionOfTheHeader) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::solvers

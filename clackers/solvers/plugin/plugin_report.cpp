@@ -7,7 +7,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/text.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 
 void write(const PluginReport& report, const std::filesystem::path& path) {
   std::ofstream file(path, std::ios::binary);
@@ -30,4 +30,4 @@ PluginReport read_plugin_report(const std::filesystem::path& path) {
   return report;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace clackers::study {
+namespace clackers::solvers {
 
 /// How far the process of a plug-in came, which it writes to a file before every call of the library:
 /// when it crashes the file says where.
@@ -21,4 +21,4 @@ void write(const PluginReport& report, const std::filesystem::path& path);
 /// "start" where there is no such file.
 PluginReport read_plugin_report(const std::filesystem::path& path);
 
-}  // namespace clackers::study
+}  // namespace clackers::solvers

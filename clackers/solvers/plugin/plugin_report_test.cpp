@@ -4,7 +4,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::study {
+namespace clackers::solvers {
 namespace {
 
 TEST(PluginReport, IsReadAsItWasWritten) {
@@ -28,4 +28,4 @@ TEST(PluginReport, WithoutAFileIsTheStart) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::solvers

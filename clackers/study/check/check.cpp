@@ -8,11 +8,11 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/study/check/history_set.hpp"
 #include "clackers/record/provenance.hpp"
 #include "clackers/record/reduced_curve.hpp"
-#include "clackers/tables/respond.hpp"
+#include "clackers/study/check/history_set.hpp"
 #include "clackers/study/verify/verify_plan.hpp"
+#include "clackers/tables/respond.hpp"
 
 namespace clackers::study {
 namespace {
@@ -26,7 +26,7 @@ void require_one_each(const char* option, std::size_t given, std::size_t files) 
 void validate(const CheckRequest& request) {
   if (request.files.empty())
     throw InputError("check needs a FILE with a time history.", "bad-syntax");
-  const auto is_input = [](const exchange::Source& source) { return path_of(source) == "-"; };
+  const auto is_input = [](const input::Source& source) { return path_of(source) == "-"; };
   if (std::ranges::count_if(request.files, is_input) +
           std::ranges::count_if(request.events, is_input) >
       1)
@@ -44,8 +44,8 @@ void validate(const CheckRequest& request) {
 }
 
 // Work to expect of a history: its bytes. Of standard input nothing is known.
-double cost_of(const exchange::Source& source) {
-  if (const auto* columns = std::get_if<exchange::NumberColumns>(&source))
+double cost_of(const input::Source& source) {
+  if (const auto* columns = std::get_if<input::NumberColumns>(&source))
     return 1.0 + double(columns->rows * columns->columns.size() * sizeof(double));
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path_of(source), error);
@@ -76,23 +76,23 @@ void read_all(const CheckRequest& request, HistorySet& histories, const Progress
 
 }  // namespace
 
-Record check(const CheckRequest& request, const Progress& progress,
-             const std::atomic<bool>* interrupt) {
+record::Record check(const CheckRequest& request, const Progress& progress,
+                     const std::atomic<bool>* interrupt) {
   validate(request);
   const auto problem = cases::make(
       request.case_name.empty() ? cases::default_case() : request.case_name, request.settings);
-  CaseRecord one;
+  record::CaseRecord one;
   one.problem = summary_of(problem);
   one.plan = no_refinement;
-  one.response = reduced(response_curve(problem, response_points));
+  one.response = reduced(tables::response_curve(problem, tables::response_points));
   HistorySet histories(problem, one.problem, request.columns, interrupt);
   read_all(request, histories, progress);
-  one.subjects.push_back(histories.assess(SubjectKind::histories, "histories",
+  one.subjects.push_back(histories.assess(record::SubjectKind::histories, "histories",
                                           request.expect.value_or(Claim{}), request.tolerance,
                                           !request.tolerances.empty()));
-  Record record;
+  record::Record record;
   record.command = "check";
-  record.provenance = provenance(request.command);
+  record.provenance = record::provenance(request.command);
   record.cases.push_back(std::move(one));
   return record;
 }

@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "clackers/base/testing/refusal.hpp"
-#include "clackers/study/check.hpp"
 #include "clackers/record/record_json.hpp"
+#include "clackers/study/check.hpp"
 #include "clackers/study/testing/check_fixture.hpp"
 
 namespace clackers::study {
@@ -24,8 +24,7 @@ TEST_F(Check, ColumnsInMemoryAreJudgedAsTheirFile) {
     auto expected = check(request);
     auto given = request;
     given.files = {columns("h0.01", values)};
-    if (with_events)
-      given.events = {exchange::NumberColumns{"events 1", 3, {{"t", hits.data(), 1}}}};
+    if (with_events) given.events = {input::NumberColumns{"events 1", 3, {{"t", hits.data(), 1}}}};
     const auto record = check(given);
     const auto* run = record.cases[0].subjects[0].shown_run();
     EXPECT_EQ(run->file->file, "h0.01");

@@ -22,7 +22,7 @@ TEST_F(Check, FillsARecordOfOneCaseAndOneSubject) {
   EXPECT_EQ(record.cases[0].plan.levels, 0);
   ASSERT_EQ(record.cases[0].subjects.size(), 1u);
   const auto& subject = record.cases[0].subjects[0];
-  EXPECT_EQ(subject.kind, SubjectKind::histories);
+  EXPECT_EQ(subject.kind, record::SubjectKind::histories);
   EXPECT_EQ(subject.name, "histories");
   EXPECT_EQ(subject.assessment.verdict, Verdict::not_claimed);
   const auto* run = subject.shown_run();
@@ -82,7 +82,7 @@ TEST_F(Check, TolerancesAreLevels) {
   request.tolerances = {1e-3, 1e-5, 1e-7};
   const auto record = check(request);
   const auto& subject = record.cases[0].subjects[0];
-  EXPECT_EQ(subject.resolution, Resolution::tolerance);
+  EXPECT_EQ(subject.resolution, record::Resolution::tolerance);
   ASSERT_EQ(subject.levels.size(), 3u);
   EXPECT_EQ(subject.levels[2].step, 1e-7);
   request.steps = {0.01, 0.005, 0.0025};

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "clackers/base/jobs/progress.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/study/check/history/history_run.hpp"
 #include "clackers/study/check/named_resolution.hpp"
-#include "clackers/base/jobs/progress.hpp"
-#include "clackers/record/record.hpp"
 
 namespace clackers::study {
 
@@ -20,11 +20,11 @@ namespace clackers::study {
 class HistorySet {
  public:
   /// `columns` are the names of the files' columns, empty for those of the files.
-  HistorySet(cases::Case problem, CaseSummary summary, std::vector<std::string> columns = {},
-             const std::atomic<bool>* interrupt = nullptr);
+  HistorySet(cases::Case problem, record::CaseSummary summary,
+             std::vector<std::string> columns = {}, const std::atomic<bool>* interrupt = nullptr);
 
   const cases::Case& problem() const { return problem_; }
-  const CaseSummary& summary() const { return summary_; }
+  const record::CaseSummary& summary() const { return summary_; }
 
   /// Adds a history. One with NaN or infinite numbers is a failed run of its step (not-finite).
   /// Throws as check() does for a file that cannot be read or compared.
@@ -38,21 +38,21 @@ class HistorySet {
   /// tasks and of failed runs are tolerances; names of files may say it, too. May be called again
   /// after more runs. Throws InputError for several histories of one step and, unless the subject is
   /// a solver, where every history is not finite.
-  Subject assess(SubjectKind kind, std::string name, const Claim& claim,
-                 std::optional<double> tolerance = {}, bool by_tolerance = false);
+  record::Subject assess(record::SubjectKind kind, std::string name, const Claim& claim,
+                         std::optional<double> tolerance = {}, bool by_tolerance = false);
 
  private:
   struct Entry {
-    Run run;
+    record::Run run;
     NamedResolution named;
     bool step_is_given = false;
     std::optional<std::size_t> observation{};  ///< index into observations_
   };
   void add(Entry entry, std::optional<diagnose::Observation> observation);
-  void choose_steps(Resolution& resolution);
+  void choose_steps(record::Resolution& resolution);
 
   cases::Case problem_;
-  CaseSummary summary_;
+  record::CaseSummary summary_;
   std::vector<std::string> columns_;
   const std::atomic<bool>* interrupt_;
   std::mutex guard_;

@@ -6,12 +6,12 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/base/jobs/work_queue.hpp"
 #include "clackers/record/provenance.hpp"
 #include "clackers/record/reduced_curve.hpp"
-#include "clackers/tables/respond.hpp"
 #include "clackers/study/solver/solver_study.hpp"
 #include "clackers/study/verify/verify_plan.hpp"
-#include "clackers/base/jobs/work_queue.hpp"
+#include "clackers/tables/respond.hpp"
 
 namespace clackers::study {
 namespace {
@@ -29,15 +29,15 @@ struct Task {
 };
 
 // A record of the cases, without subjects.
-Record empty_record(const VerifyRequest& request, const std::vector<cases::Case>& problems,
-                    bool has_plan) {
-  Record record;
-  record.provenance = provenance(request.command);
+record::Record empty_record(const VerifyRequest& request, const std::vector<cases::Case>& problems,
+                            bool has_plan) {
+  record::Record record;
+  record.provenance = record::provenance(request.command);
   for (const auto& problem : problems) {
-    CaseRecord one;
+    record::CaseRecord one;
     one.problem = summary_of(problem);
     one.plan = has_plan ? plan_for(request.plan, one.problem) : no_refinement;
-    one.response = reduced(response_curve(problem, response_points));
+    one.response = reduced(tables::response_curve(problem, tables::response_points));
     record.cases.push_back(std::move(one));
   }
   return record;
@@ -67,7 +67,7 @@ void require_levels(const SolverSubject& solver) {
 class SolverStudies {
  public:
   SolverStudies(const VerifyRequest& request, const std::vector<cases::Case>& problems,
-                const std::vector<SolverSubject>& solvers, Record& record,
+                const std::vector<SolverSubject>& solvers, record::Record& record,
                 const std::atomic<bool>* interrupt)
       : request_(request),
         record_(record),
@@ -118,16 +118,16 @@ class SolverStudies {
   void refine(SolverStudy& study, const Progress& progress) {
     using Clock = std::chrono::steady_clock;
     for (;;) {
-      if (is_interrupted()) return study.close(RefinementEnd::interrupted);
+      if (is_interrupted()) return study.close(record::RefinementEnd::interrupted);
       const auto next = study.next();
       if (!next.plan) return study.close(next.end);
       const auto runs = study.missing(*next.plan);
       // Callables are called in one thread.
-      const bool is_serial = study.kind() == SubjectKind::callable;
+      const bool is_serial = study.kind() == record::SubjectKind::callable;
       const int parallel = is_serial ? 1 : std::min(threads_, thread_count(0));
       const double expected = study.expected_seconds(runs) / parallel;
       if (!(used_ + expected <= request_.budget))
-        return study.close(RefinementEnd::budget, expected);
+        return study.close(record::RefinementEnd::budget, expected);
       const auto start = Clock::now();
       std::vector<Task> tasks;
       for (const auto& run : runs) tasks.push_back({&study, run});
@@ -138,7 +138,7 @@ class SolverStudies {
   }
 
   const VerifyRequest& request_;
-  Record& record_;
+  record::Record& record_;
   const std::atomic<bool>* interrupt_;
   int threads_;
   std::deque<CaseStudies> cases_;
@@ -147,8 +147,8 @@ class SolverStudies {
 
 }  // namespace
 
-Record verify(const VerifyRequest& request, std::vector<SolverSubject> solvers,
-              const Progress& progress, const std::atomic<bool>* interrupt) {
+record::Record verify(const VerifyRequest& request, std::vector<SolverSubject> solvers,
+                      const Progress& progress, const std::atomic<bool>* interrupt) {
   require_names(request, solvers);
   for (const auto& solver : solvers) require_levels(solver);
   const bool has_plan =
@@ -167,8 +167,8 @@ Record verify(const VerifyRequest& request, std::vector<SolverSubject> solvers,
   return record;
 }
 
-const Run* failure_of_all(const Record& record) {
-  const Run* first = nullptr;
+const record::Run* failure_of_all(const record::Record& record) {
+  const record::Run* first = nullptr;
   for (const auto& one : record.cases)
     for (const auto& subject : one.subjects)
       for (const auto& level : subject.levels)

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "clackers/judge/convergence/step_ladder.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/judge/convergence/step_ladder.hpp"
 #include "clackers/solvers/work_folder.hpp"
 
 namespace clackers::study {
@@ -27,8 +27,9 @@ constexpr int most_repeated = 3;
 
 }  // namespace
 
-SolverStudy::SolverStudy(const SolverSubject& asked, cases::Case problem, CaseSummary summary,
-                         const RefinementPlan& plan, const std::atomic<bool>* interrupt)
+SolverStudy::SolverStudy(const SolverSubject& asked, cases::Case problem,
+                         record::CaseSummary summary, const record::RefinementPlan& plan,
+                         const std::atomic<bool>* interrupt)
     : asked_(asked),
       solver_(asked.prepare(problem)),
       histories_(std::move(problem), std::move(summary), {}, interrupt),
@@ -40,13 +41,13 @@ SolverStudy::SolverStudy(const SolverSubject& asked, cases::Case problem, CaseSu
   subject_.claim = asked.claim;
 }
 
-std::vector<SolverRun> SolverStudy::missing(const RefinementPlan& plan) const {
+std::vector<SolverRun> SolverStudy::missing(const record::RefinementPlan& plan) const {
   const auto& problem = histories_.summary();
   std::vector<SolverRun> runs;
   for (const double step : asked_.steps) runs.push_back({step, steps_to(problem.end, step), 0.0});
   if (!runs.empty()) return runs;
-  const auto levels = assess::step_ladder({plan.coarsest, plan.levels, plan.samples_per_level},
-                                          problem.end, problem.impact_times);
+  const auto levels = judge::step_ladder({plan.coarsest, plan.levels, plan.samples_per_level},
+                                         problem.end, problem.impact_times);
   for (const double tolerance : asked_.tolerances)
     runs.push_back({levels[0].steps[0], levels[0].counts[0], tolerance});
   if (!runs.empty()) return runs;
@@ -113,10 +114,11 @@ void SolverStudy::take(const SolverRun& run, const SolverOutput& output) {
   try {
     histories_.read(task);
   } catch (const InputError& error) {
-    const std::filesystem::path file = exchange::path_of(*output.history);
-    add_failed(run, std::string(error.code().name()),
-               file.empty() ? error.what() : without_folder(error.what(), file.parent_path()),
-               output.printed);
+    const std::filesystem::path file = input::path_of(*output.history);
+    add_failed(
+        run, std::string(error.code().name()),
+        file.empty() ? error.what() : solvers::without_folder(error.what(), file.parent_path()),
+        output.printed);
   } catch (const FileError& error) {
     add_failed(run, std::string(error.code().name()), error.what(), output.printed);
   }
@@ -128,7 +130,7 @@ double SolverStudy::expected_seconds(const std::vector<SolverRun>& runs) const {
   return longest_ > 0 ? steps * longest_seconds_ / double(longest_) : 0.0;
 }
 
-void SolverStudy::assess(const RefinementPlan& plan) {
+void SolverStudy::assess(const record::RefinementPlan& plan) {
   plan_ = plan;
   const bool any = !made_.empty();
   if (any)
@@ -147,7 +149,7 @@ NextPlan SolverStudy::next() const {
   return next_plan(open, plan_, histories_.summary());
 }
 
-void SolverStudy::close(RefinementEnd end, double next_seconds) {
+void SolverStudy::close(record::RefinementEnd end, double next_seconds) {
   subject_.refinement = refinement_of(first_, plan_, end, next_seconds);
 }
 

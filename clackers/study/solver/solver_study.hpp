@@ -18,25 +18,25 @@ class SolverStudy {
  public:
   /// `plan` is the first ladder, of steps; where the subject has tolerances, its coarsest step goes
   /// with each of them.
-  SolverStudy(const SolverSubject& asked, cases::Case problem, CaseSummary summary,
-              const RefinementPlan& plan, const std::atomic<bool>* interrupt);
+  SolverStudy(const SolverSubject& asked, cases::Case problem, record::CaseSummary summary,
+              const record::RefinementPlan& plan, const std::atomic<bool>* interrupt);
 
   /// The runs that a ladder needs and that were not made yet, coarsest first.
-  std::vector<SolverRun> missing(const RefinementPlan& plan) const;
+  std::vector<SolverRun> missing(const record::RefinementPlan& plan) const;
   /// Makes a run and compares its history. From any thread.
   void make(const SolverRun& run);
   /// Expected time of these runs by that of a step of the longest run so far [s].
   double expected_seconds(const std::vector<SolverRun>& runs) const;
 
   /// Assesses all runs; `plan` is the ladder that they belong to.
-  void assess(const RefinementPlan& plan);
+  void assess(const record::RefinementPlan& plan);
   /// The next ladder: next_plan(), also where nothing is claimed and the behaviour is open; none where the
   /// subject has levels of its own.
   NextPlan next() const;
-  void close(RefinementEnd end, double next_seconds = 0.0);
-  SubjectKind kind() const { return asked_.kind; }
-  const RefinementPlan& plan() const { return plan_; }
-  Subject finish() { return std::move(subject_); }
+  void close(record::RefinementEnd end, double next_seconds = 0.0);
+  record::SubjectKind kind() const { return asked_.kind; }
+  const record::RefinementPlan& plan() const { return plan_; }
+  record::Subject finish() { return std::move(subject_); }
 
  private:
   void take(const SolverRun& run, const SolverOutput& output);
@@ -50,10 +50,10 @@ class SolverStudy {
   const SolverSubject& asked_;
   std::unique_ptr<Solver> solver_;
   HistorySet histories_;
-  const RefinementPlan first_;
-  RefinementPlan plan_;
+  const record::RefinementPlan first_;
+  record::RefinementPlan plan_;
   const std::atomic<bool>* interrupt_;
-  Subject subject_;
+  record::Subject subject_;
 
   std::mutex guard_;            // of what follows
   std::set<long long> made_;    // numbers of steps

@@ -37,7 +37,7 @@ class SolversUnderTest : public testing::Test {
       return std::make_unique<FailingSolver>(runs_, would_repeat_);
     };
   }
-  Record verify_one() { return verify(request_, {subject_}); }
+  record::Record verify_one() { return verify(request_, {subject_}); }
 
   std::vector<SolverRun> runs_;
   bool would_repeat_ = false;
@@ -71,14 +71,14 @@ TEST_F(SolversUnderTest, AreRunWithTheirTolerances) {
   ASSERT_EQ(runs_.size(), 2u);
   EXPECT_EQ(runs_[1].tolerance, 1e-6);
   EXPECT_EQ(runs_[0].step, runs_[1].step);
-  EXPECT_EQ(record.cases[0].subjects[0].resolution, Resolution::tolerance);
+  EXPECT_EQ(record.cases[0].subjects[0].resolution, record::Resolution::tolerance);
 }
 
 TEST_F(SolversUnderTest, KeepTheFailuresOfTheirRuns) {
   const auto record = verify_one();
   const auto& subject = record.cases[0].subjects[0];
   EXPECT_EQ(subject.name, "mine");
-  EXPECT_EQ(subject.kind, SubjectKind::program);
+  EXPECT_EQ(subject.kind, record::SubjectKind::program);
   ASSERT_FALSE(subject.levels.empty());
   const auto& run = subject.levels[0].runs[0];
   EXPECT_EQ(run.score.failure_code, "program-failed");
@@ -136,12 +136,12 @@ struct ExactSolver : Solver {
       const auto now = motion->at(t, model::Side::right);
       numbers->insert(numbers->end(), {t, now.u[0], now.u[1]});
     }
-    exchange::NumberColumns columns{"mine", numbers->size() / 3, {}};
+    input::NumberColumns columns{"mine", numbers->size() / 3, {}};
     for (std::size_t c = 0; c < 3; ++c)
       columns.columns.push_back({c == 0 ? "t" : c == 1 ? "u1" : "u2", numbers->data() + c, 3});
     SolverOutput output;
     output.history = columns;
-    output.events = exchange::NumberColumns{"its collisions", 0, {{"t"}}};
+    output.events = input::NumberColumns{"its collisions", 0, {{"t"}}};
     output.memory = numbers;
     return output;
   }
@@ -149,7 +149,7 @@ struct ExactSolver : Solver {
 };
 
 TEST_F(SolversUnderTest, AreReadFromMemory) {
-  subject_.kind = SubjectKind::callable;
+  subject_.kind = record::SubjectKind::callable;
   subject_.prepare = [](const cases::Case& problem) {
     return std::make_unique<ExactSolver>(problem);
   };
@@ -178,29 +178,29 @@ TEST_F(SolversUnderTest, TakeEachCaseWithItsOwnSettings) {
   EXPECT_EQ(value(1, "N"), 3.0);
 }
 
-Record with(SubjectKind kind, std::vector<bool> finished) {
-  Subject subject;
+record::Record with(record::SubjectKind kind, std::vector<bool> finished) {
+  record::Subject subject;
   subject.kind = kind;
   subject.levels.emplace_back();
   for (const bool good : finished) {
-    Run run;
+    record::Run run;
     run.score.finished = good;
     run.score.step = double(subject.levels[0].runs.size());
     subject.levels[0].runs.push_back(run);
   }
-  Record record;
+  record::Record record;
   record.cases.emplace_back();
   record.cases[0].subjects.push_back(subject);
   return record;
 }
 
 TEST(FailureOfAll, IsTheFirstRunOfASolverWhereAllFailed) {
-  const auto failed = with(SubjectKind::program, {false, false});
+  const auto failed = with(record::SubjectKind::program, {false, false});
   ASSERT_NE(failure_of_all(failed), nullptr);
   EXPECT_EQ(failure_of_all(failed)->score.step, 0.0);
-  EXPECT_EQ(failure_of_all(with(SubjectKind::program, {false, true})), nullptr);
-  EXPECT_EQ(failure_of_all(with(SubjectKind::method, {false})), nullptr);
-  EXPECT_EQ(failure_of_all(Record{}), nullptr);
+  EXPECT_EQ(failure_of_all(with(record::SubjectKind::program, {false, true})), nullptr);
+  EXPECT_EQ(failure_of_all(with(record::SubjectKind::method, {false})), nullptr);
+  EXPECT_EQ(failure_of_all(record::Record{}), nullptr);
 }
 
 }  // namespace

@@ -43,9 +43,8 @@ class Check : public testing::Test {
     return numbers;
   }
 
-  static exchange::NumberColumns columns(const std::string& name,
-                                         const std::vector<double>& numbers) {
-    exchange::NumberColumns columns{name, numbers.size() / 5, {}};
+  static input::NumberColumns columns(const std::string& name, const std::vector<double>& numbers) {
+    input::NumberColumns columns{name, numbers.size() / 5, {}};
     for (const auto* letter : {"t", "u1", "v1", "u2", "v2"})
       columns.columns.push_back({letter, numbers.data() + columns.columns.size(), 5});
     return columns;
@@ -66,8 +65,8 @@ class Check : public testing::Test {
   std::filesystem::path folder_;
 };
 
-inline bool has(const Run& run, std::string_view code) {
-  return std::ranges::count(run.file->notes, code, &Note::code) > 0;
+inline bool has(const record::Run& run, std::string_view code) {
+  return std::ranges::count(run.file->notes, code, &record::Note::code) > 0;
 }
 
 }  // namespace clackers::study

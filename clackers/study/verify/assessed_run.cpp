@@ -21,18 +21,18 @@ constexpr double error_state = 1.0, timed_state = 0.5, measured_state = 10.0;
 constexpr double shortest_timing = 1e-3;  // [s]
 constexpr int most_repetitions = 1000;
 
-Curve curve_of(const assess::ErrorHistory& history, int dof) {
-  Curve curve;
+record::Curve curve_of(const measure::ErrorHistory& history, int dof) {
+  record::Curve curve;
   curve.t = history.times();
   for (int i = 0; i < dof; ++i) curve.y.push_back(history.largest(i));
   return curve;
 }
 
 // The points of a run that an animation needs; the whole run would fill memory.
-Curve motion_of(const model::Trajectory& history) {
+record::Curve motion_of(const model::Trajectory& history) {
   constexpr std::size_t most = 500;
   const auto dof = std::size_t(history.dof);
-  return reduced(
+  return record::reduced(
       history.t.size(), dof, [&](std::size_t row) { return history.t[row]; },
       [&](std::size_t mass, std::size_t row) { return history.u[row * dof + mass]; }, most);
 }
@@ -76,12 +76,12 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   const double start = processor_time();
   const auto& method = plan.methods[task.method];
   const auto& motion = *plan.problem.motion;
-  const bool by_tolerance = method.subject.resolution == Resolution::tolerance;
+  const bool by_tolerance = method.subject.resolution == record::Resolution::tolerance;
   const auto run = method.method->prepare(
       plan.problem.problem,
       by_tolerance ? methods::Resolution::by_tolerance(task.step) : methods::Resolution(task.step));
   const double step = by_tolerance ? plan.summary.end / double(task.steps) : task.step;
-  assess::ErrorSink errors(
+  measure::ErrorSink errors(
       motion, plan.problem.problem, step,
       {.impacts_are_reported = method.reports_impacts, .history_bins = task.history_bins});
   model::TrajectorySink stored(method.reports_impacts);
@@ -102,7 +102,7 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
                                facts_of(plan.summary, method.spring_time), {}, interrupt);
     if (!metrics) return {};
     result.run.metrics = std::move(*metrics);
-    if (plan.extras.record && motion.dof() <= most_blocks)
+    if (plan.extras.record && motion.dof() <= record::most_blocks)
       result.run.motion = motion_of(stored.trajectory());
   }
   if (!plan.extras.times) {

@@ -23,7 +23,7 @@ struct RunTask {
 
 /// A run and what self-convergence needs of it.
 struct AssessedRun {
-  Run run;
+  record::Run run;
   /// Displacements at the end over the largest envelopes; empty for a run that failed.
   std::vector<double> end_u;
   double seconds = 0.0;  ///< processor time of the assessment [s]

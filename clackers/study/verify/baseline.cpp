@@ -13,7 +13,7 @@ namespace clackers::study {
 namespace {
 
 // "--case NAME --set a=1,b=2", which makes a case again.
-std::string case_options(const CaseSummary& problem) {
+std::string case_options(const record::CaseSummary& problem) {
   std::string values;
   for (const auto& p : problem.parameters)
     values += fmt::format("{}{}={}", values.empty() ? "" : ",", p.name,
@@ -21,7 +21,7 @@ std::string case_options(const CaseSummary& problem) {
   return fmt::format("--case {}{}{}", problem.name, values.empty() ? "" : " --set ", values);
 }
 
-std::string plan_options(const RefinementPlan& plan) {
+std::string plan_options(const record::RefinementPlan& plan) {
   return fmt::format("--coarsest {} --levels {} --neighbours {}", plan.coarsest, plan.levels,
                      plan.samples_per_level);
 }
@@ -36,12 +36,12 @@ std::string plan_options(const RefinementPlan& plan) {
 }
 
 // Numbers are compared bit by bit: a record reads back to the same doubles.
-bool same(const Quantity& a, const Quantity& b) {
+bool same(const record::Quantity& a, const record::Quantity& b) {
   return a.name == b.name && a.text == b.text && (a.value == b.value || !a.text.empty());
 }
 
-void require_same_case(const CaseSummary& problem, const RefinementPlan& plan,
-                       const CaseRecord& baseline) {
+void require_same_case(const record::CaseSummary& problem, const record::RefinementPlan& plan,
+                       const record::CaseRecord& baseline) {
   const auto& other = baseline.problem;
   if (!std::ranges::equal(other.parameters, problem.parameters, same))
     refuse_other("other parameters", case_options(other), case_options(problem));
@@ -56,26 +56,26 @@ void require_same_case(const CaseSummary& problem, const RefinementPlan& plan,
     refuse_other("another ladder", plan_options(steps), plan_options(plan));
 }
 
-const CaseRecord* find(const Record& record, const std::string& case_name) {
-  const auto found = std::ranges::find(record.cases, case_name,
-                                       [](const CaseRecord& one) { return one.problem.name; });
+const record::CaseRecord* find(const record::Record& record, const std::string& case_name) {
+  const auto found = std::ranges::find(
+      record.cases, case_name, [](const record::CaseRecord& one) { return one.problem.name; });
   return found == record.cases.end() ? nullptr : &*found;
 }
 
-const Subject* find(const CaseRecord* record, const std::string& name) {
+const record::Subject* find(const record::CaseRecord* record, const std::string& name) {
   if (record == nullptr) return nullptr;
-  const auto found = std::ranges::find(record->subjects, name, &Subject::name);
+  const auto found = std::ranges::find(record->subjects, name, &record::Subject::name);
   return found == record->subjects.end() ? nullptr : &*found;
 }
 
 // What is asked for of one case.
 struct CaseStudy {
-  CaseSummary problem;
-  RefinementPlan plan;
+  record::CaseSummary problem;
+  record::RefinementPlan plan;
 };
 
 void require_same(const std::string& command, const std::vector<CaseStudy>& cases,
-                  const Record& baseline) {
+                  const record::Record& baseline) {
   if (baseline.command != command)
     refuse_other("another command", "clackers " + baseline.command, "clackers " + command);
   bool common = false;
@@ -90,7 +90,7 @@ void require_same(const std::string& command, const std::vector<CaseStudy>& case
                case_options(cases.front().problem));
 }
 
-Finding finding_of(const Subject& subject) {
+Finding finding_of(const record::Subject& subject) {
   Finding finding;
   finding.refused = !subject.refusal.empty();
   finding.complete = subject.complete;
@@ -107,9 +107,9 @@ Finding finding_of(const Subject& subject) {
 
 // Steps of both, finest first, each with its two runs.
 struct Pair {
-  const assess::RunScore *before, *now;
+  const measure::RunScore *before, *now;
 };
-std::vector<Pair> common_runs(const Subject& before, const Subject& now) {
+std::vector<Pair> common_runs(const record::Subject& before, const record::Subject& now) {
   std::vector<Pair> pairs;
   for (const auto& level : now.levels)
     for (const auto& run : level.runs)
@@ -127,13 +127,13 @@ bool visible(double before, double now, double share) {
   return std::abs(now - before) > share * std::max(std::abs(before), std::abs(now));
 }
 
-std::optional<Change<assess::LadderFit>> order_change(const assess::LadderFit& before,
-                                                      const assess::LadderFit& now) {
+std::optional<Change<judge::LadderFit>> order_change(const judge::LadderFit& before,
+                                                     const judge::LadderFit& now) {
   // A line that appears or vanishes changes the behaviour, which has a row of its own.
   if (!before.has_line || !now.has_line) return {};
   const double change = std::abs(now.order - before.order);
   if (!(change > before.spread + now.spread && change >= visible_order)) return {};
-  return Change<assess::LadderFit>{before, now};
+  return Change<judge::LadderFit>{before, now};
 }
 
 std::optional<ChangeAtStep<double>> error_change(const Pair& pair) {
@@ -149,13 +149,14 @@ std::optional<ChangeAtStep<Collisions>> collision_change(const Pair& pair) {
   const auto& now = pair.now->impacts;
   if (!before || !now) return {};
   if (before->missed == now->missed && before->extra == now->extra) return {};
-  const auto of = [](const assess::ImpactScore& s) {
+  const auto of = [](const measure::ImpactScore& s) {
     return Collisions{s.expected, s.missed, s.extra};
   };
   return ChangeAtStep<Collisions>{pair.now->step, of(*before), of(*now)};
 }
 
-void compare_runs(const Subject& before, const Subject& now, SubjectChange& change) {
+void compare_runs(const record::Subject& before, const record::Subject& now,
+                  SubjectChange& change) {
   bool finest = true;
   for (const auto& pair : common_runs(before, now)) {
     const double step = pair.now->step;
@@ -182,7 +183,7 @@ SubjectChange only(SubjectChange::Presence presence) {
   return change;
 }
 
-SubjectChange change_of(const Subject& before, const Subject& now) {
+SubjectChange change_of(const record::Subject& before, const record::Subject& now) {
   SubjectChange change;
   const Change<Finding> finding{finding_of(before), finding_of(now)};
   if (!(finding.before == finding.now)) change.finding = finding;
@@ -206,26 +207,27 @@ bool SubjectChange::any() const {
 
 bool BaselineComparison::any() const { return std::ranges::any_of(subjects, &SubjectChange::any); }
 
-void require_same_study(const VerifyRequest& request, const Record& baseline) {
+void require_same_study(const VerifyRequest& request, const record::Record& baseline) {
   std::vector<CaseStudy> cases;
   for (auto& plan : plans_of(request)) cases.push_back({std::move(plan.summary), plan.steps});
   require_same("verify", cases, baseline);
 }
 
-void require_same_study(const CheckRequest& request, const Record& baseline) {
+void require_same_study(const CheckRequest& request, const record::Record& baseline) {
   const auto problem = cases::make(
       request.case_name.empty() ? cases::default_case() : request.case_name, request.settings);
   require_same("check", {{summary_of(problem), no_refinement}}, baseline);
 }
 
-BaselineComparison compare(const Record& now, const Record& before) {
+BaselineComparison compare(const record::Record& now, const record::Record& before) {
   std::vector<CaseStudy> cases;
   for (const auto& one : now.cases) cases.push_back({one.problem, one.plan});
   require_same(now.command, cases, before);
   BaselineComparison all;
   all.before = before.provenance;
   all.interrupted = before.interrupted;
-  const auto add = [&](SubjectChange change, const CaseRecord& one, const Subject& subject) {
+  const auto add = [&](SubjectChange change, const record::CaseRecord& one,
+                       const record::Subject& subject) {
     change.case_name = one.problem.name;
     change.name = subject.name;
     all.subjects.push_back(std::move(change));

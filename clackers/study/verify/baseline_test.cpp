@@ -11,20 +11,20 @@
 namespace clackers::study {
 namespace {
 
-Run run_of(double step, double error) {
-  Run whole;
+record::Run run_of(double step, double error) {
+  record::Run whole;
   auto& run = whole.score;
   run.step = step;
   run.finished = true;
   run.u_error = error;
   run.rounding_floor = 1e-14;
-  run.impacts = assess::ImpactScore{6, 6, 6, 0, 0, 1e-3, 1e-15};
+  run.impacts = measure::ImpactScore{6, 6, 6, 0, 0, 1e-3, 1e-15};
   run.work.force_evaluations = std::llround(20.0 / step);
   return whole;
 }
 
-Subject method_of(const std::string& name) {
-  Subject method;
+record::Subject method_of(const std::string& name) {
+  record::Subject method;
   method.name = name;
   method.claim = {Behaviour::proper, 2.0, ""};
   for (const double h : {0.04, 0.02, 0.01})
@@ -38,15 +38,15 @@ Subject method_of(const std::string& name) {
   return method;
 }
 
-Record record_of(const std::vector<std::string>& names) {
-  CaseRecord one;
+record::Record record_of(const std::vector<std::string>& names) {
+  record::CaseRecord one;
   one.problem.name = "three-parameter";
   one.problem.parameters = {{"N", 2, "", ""}, {"xi1", 0.05, "", ""}};
   one.problem.end = 20.0;
   one.problem.impact_count = 6;
   one.plan = {0.04, 3, 2};
   for (const auto& name : names) one.subjects.push_back(method_of(name));
-  Record record;
+  record::Record record;
   record.cases = {one};
   return record;
 }
@@ -60,7 +60,7 @@ SubjectChange after(const Change& change) {
   return compare(now, before).subjects.front();
 }
 
-std::string refusal_of(const Record& now, const Record& baseline) {
+std::string refusal_of(const record::Record& now, const record::Record& baseline) {
   try {
     compare(now, baseline);
   } catch (const InputError& error) {
@@ -217,35 +217,39 @@ TEST(Baseline, OfAnotherCaseOrLadderIsRefusedWithTheOptionsOfBoth) {
     change(other);
     return refusal_of(now, other);
   };
-  EXPECT_EQ(refused([](Record& r) { r.cases[0].problem.name = "stop"; }),
+  EXPECT_EQ(refused([](record::Record& r) { r.cases[0].problem.name = "stop"; }),
             "other-study: baseline: is of another case: --case stop --set N=2,xi1=0.05; this run: "
             "--case three-parameter --set N=2,xi1=0.05. Only the same case and the same steps can "
             "be compared; repeat one of the two with the options of the other.");
-  EXPECT_NE(refused([](Record& r) {
+  EXPECT_NE(refused([](record::Record& r) {
               r.cases[0].problem.parameters[1].value = 0.1;
             }).find("other parameters: --case three-parameter --set N=2,xi1=0.1; this run"),
             std::string::npos);
-  EXPECT_NE(
-      refused([](Record& r) { r.cases[0].problem.parameters.pop_back(); }).find("other parameters"),
-      std::string::npos);
-  EXPECT_NE(refused([](Record& r) {
+  EXPECT_NE(refused([](record::Record& r) {
+              r.cases[0].problem.parameters.pop_back();
+            }).find("other parameters"),
+            std::string::npos);
+  EXPECT_NE(refused([](record::Record& r) {
               r.cases[0].problem.parameters[1].name = "xi";
             }).find("other parameters"),
             std::string::npos);
-  EXPECT_NE(refused([](Record& r) {
+  EXPECT_NE(refused([](record::Record& r) {
               r.cases[0].problem.end = 21.0;
             }).find("another motion: 21 s, 6 collisions; this run: 20 s, 6 collisions"),
             std::string::npos);
-  EXPECT_NE(refused([](Record& r) { r.cases[0].problem.impact_count = 7; }).find("another motion"),
+  EXPECT_NE(refused([](record::Record& r) {
+              r.cases[0].problem.impact_count = 7;
+            }).find("another motion"),
             std::string::npos);
-  EXPECT_NE(refused([](Record& r) { r.cases[0].plan.levels = 4; })
+  EXPECT_NE(refused([](record::Record& r) { r.cases[0].plan.levels = 4; })
                 .find("another ladder: --coarsest 0.04 --levels 4 --neighbours 2; this run: "
                       "--coarsest 0.04 --levels 3 --neighbours 2"),
             std::string::npos);
-  EXPECT_NE(refused([](Record& r) { r.cases[0].plan.coarsest = 0.05; }).find("ladder"),
+  EXPECT_NE(refused([](record::Record& r) { r.cases[0].plan.coarsest = 0.05; }).find("ladder"),
             std::string::npos);
-  EXPECT_NE(refused([](Record& r) { r.cases[0].plan.samples_per_level = 3; }).find("ladder"),
-            std::string::npos);
+  EXPECT_NE(
+      refused([](record::Record& r) { r.cases[0].plan.samples_per_level = 3; }).find("ladder"),
+      std::string::npos);
 }
 
 TEST(Baseline, MatchesSubjectsByCaseAndName) {
@@ -279,7 +283,7 @@ TEST(Baseline, OfTheOtherCommandIsRefused) {
 TEST(Baseline, IsRefusedBeforeAnyRun) {
   VerifyRequest request;
   request.methods = {"rk4"};
-  EXPECT_THROW(require_same_study(request, Record{}), InputError);
+  EXPECT_THROW(require_same_study(request, record::Record{}), InputError);
   request.plan = {0.5, 1, 1};
   auto record = verify(request);
   EXPECT_NO_THROW(require_same_study(request, record));

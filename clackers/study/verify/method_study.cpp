@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "clackers/judge/convergence/judge.hpp"
 #include "clackers/base/codes.hpp"
+#include "clackers/judge/convergence/judge.hpp"
 
 namespace clackers::study {
 namespace {
@@ -16,28 +16,31 @@ constexpr int history_bins = 400;
 constexpr long long most_metric_rows = 262144;
 
 // The finest level whose first run metrics can be measured on; none: beyond the last.
-std::size_t measured_level(const std::vector<assess::StepLevel>& levels) {
+std::size_t measured_level(const std::vector<judge::StepLevel>& levels) {
   for (auto level = levels.size(); level-- > 0;)
     if (!levels[level].counts.empty() && levels[level].counts[0] < most_metric_rows) return level;
   return levels.size();
 }
 
-std::optional<assess::SharedImpacts> shared_impacts(const CasePlan& plan, const Subject& subject) {
+std::optional<measure::SharedImpacts> shared_impacts(const CasePlan& plan,
+                                                     const record::Subject& subject) {
   const auto* run = subject.shown_run();
   if (!plan.shared || run == nullptr) return {};
-  return assess::at_shared_instant(*plan.shared, plan.problem.problem.start.t, run->error_history.t,
-                                   run->error_history.y);
+  return measure::at_shared_instant(*plan.shared, plan.problem.problem.start.t,
+                                    run->error_history.t, run->error_history.y);
 }
 
 // Without a claim through impacts a user expects the order of smooth motion.
-std::optional<SelfResult> self_convergence(const PlannedMethod& planned, const Subject& subject,
-                                           std::vector<assess::ResponseLevel> ends,
-                                           std::span<const double> exact) {
+std::optional<record::SelfResult> self_convergence(const PlannedMethod& planned,
+                                                   const record::Subject& subject,
+                                                   std::vector<judge::ResponseLevel> ends,
+                                                   std::span<const double> exact) {
   const double order =
       subject.claim.order > 0.0 ? subject.claim.order : planned.method->facts().smooth_order;
   if (ends.empty() || !(order > 0.0) || !std::isfinite(order)) return {};
-  return self_result(std::move(ends), exact,
-                     {.claimed_order = order, .size = 1.0, .contact_time = subject.contact_time});
+  return record::self_result(
+      std::move(ends), exact,
+      {.claimed_order = order, .size = 1.0, .contact_time = subject.contact_time});
 }
 
 }  // namespace
@@ -49,7 +52,7 @@ MethodStudy::MethodStudy(const CasePlan& plan, std::size_t method)
       subject_(plan.methods[method].subject),
       is_closed_(!subject_.refusal.empty()) {}
 
-std::vector<RunTask> MethodStudy::missing(const RefinementPlan& steps) const {
+std::vector<RunTask> MethodStudy::missing(const record::RefinementPlan& steps) const {
   std::vector<RunTask> tasks;
   if (!subject_.refusal.empty()) return tasks;
   const auto levels = levels_of(*plan_, plan_->methods[method_], steps);
@@ -86,7 +89,7 @@ void MethodStudy::take(const RunTask& task, AssessedRun run) {
   runs_.insert_or_assign(task.steps, std::move(run));
 }
 
-void MethodStudy::assess(const RefinementPlan& steps) {
+void MethodStudy::assess(const record::RefinementPlan& steps) {
   steps_ = steps;
   if (!subject_.refusal.empty()) return;
   subject_.complete = true;
@@ -96,32 +99,34 @@ void MethodStudy::assess(const RefinementPlan& steps) {
         std::ranges::all_of(level.counts, [&](long long count) { return runs_.contains(count); });
     subject_.complete = subject_.complete && is_whole;
     if (!is_whole) continue;
-    auto& added = subject_.levels.emplace_back(Level{level.nominal, {}});
+    auto& added = subject_.levels.emplace_back(record::Level{level.nominal, {}});
     for (const auto count : level.counts) added.runs.push_back(runs_.at(count).run);
   }
   auto& assessment = subject_.assessment;
   if (subject_.levels.empty())
     assessment.reason = assessment.displacement.reason = Code("interrupted").name();
   else
-    assessment = assess::judge(ladder_of(subject_), subject_.claim,
-                               {.contact_time = subject_.contact_time,
-                                .shared = shared_impacts(*plan_, subject_),
-                                .by_tolerance = subject_.resolution == Resolution::tolerance});
+    assessment =
+        judge::judge(ladder_of(subject_), subject_.claim,
+                     {.contact_time = subject_.contact_time,
+                      .shared = shared_impacts(*plan_, subject_),
+                      .by_tolerance = subject_.resolution == record::Resolution::tolerance});
 }
 
 NextPlan MethodStudy::next() const {
-  if (subject_.resolution == Resolution::tolerance) return {};
+  if (subject_.resolution == record::Resolution::tolerance) return {};
   return next_plan(subject_, steps_, plan_->summary);
 }
 
-void MethodStudy::close(RefinementEnd end, double next_seconds) {
+void MethodStudy::close(record::RefinementEnd end, double next_seconds) {
   is_closed_ = true;
   subject_.refinement = refinement_of(plan_->steps, steps_, end, next_seconds);
 }
 
-Subject MethodStudy::finish(std::span<const double> exact) {
-  if (plan_->extras.record && subject_.refusal.empty() && subject_.resolution == Resolution::step) {
-    std::vector<assess::ResponseLevel> ends;
+record::Subject MethodStudy::finish(std::span<const double> exact) {
+  if (plan_->extras.record && subject_.refusal.empty() &&
+      subject_.resolution == record::Resolution::step) {
+    std::vector<judge::ResponseLevel> ends;
     for (const auto& level : subject_.levels) {
       ends.emplace_back();
       for (const auto& run : level.runs) {

@@ -18,42 +18,42 @@ constexpr int most_default_levels = 8, least_default_levels = 5;
 constexpr double most_default_steps = 1 << 20;
 constexpr double least_steps_per_period = 2.0;
 
-double nominal_step(const RefinementPlan& plan, int level) {
+double nominal_step(const record::RefinementPlan& plan, int level) {
   return std::ldexp(plan.coarsest, -level);
 }
 
-bool has_weak_envelope(const Subject& subject) {
+bool has_weak_envelope(const record::Subject& subject) {
   const auto& fit = subject.assessment.displacement;
   return fit.has_line && fit.on_envelope &&
-         fit.spread > assess::envelope_order_tolerance * subject.claim.order;
+         fit.spread > judge::envelope_order_tolerance * subject.claim.order;
 }
 
-bool is_decided(const Subject& subject) {
+bool is_decided(const record::Subject& subject) {
   const auto verdict = subject.assessment.verdict;
   return verdict != Verdict::undecided &&
          !(verdict == Verdict::agrees && has_weak_envelope(subject));
 }
 
-bool is_at_floor(const Level& level) {
-  return std::ranges::all_of(level.runs, [](const Run& run) {
-    return run.score.u_error <= assess::rounding_slack * run.score.rounding_floor;
+bool is_at_floor(const record::Level& level) {
+  return std::ranges::all_of(level.runs, [](const record::Run& run) {
+    return run.score.u_error <= judge::rounding_slack * run.score.rounding_floor;
   });
 }
 
 // Finer levels up to the first one that resolves the contact, then one by one to as many as are
 // wanted: the last ones cost most.
-int next_contact_levels(const Subject& subject, const RefinementPlan& plan) {
+int next_contact_levels(const record::Subject& subject, const record::RefinementPlan& plan) {
   if (!(subject.contact_time > 0.0)) return 0;
-  const double resolving = subject.contact_time / assess::steps_per_contact;
+  const double resolving = subject.contact_time / judge::steps_per_contact;
   const int first = std::max(0, int(std::ceil(std::log2(plan.coarsest / resolving))));
   if (plan.levels >= first + wanted_contact_levels) return 0;
   return std::max(1, first + 1 - plan.levels);
 }
 
-NextPlan with_finer(RefinementPlan plan, int more, double end) {
+NextPlan with_finer(record::RefinementPlan plan, int more, double end) {
   plan.levels += more;
-  if (!(end / nominal_step(plan, plan.levels) <= assess::most_steps))
-    return {{}, RefinementEnd::too_many_steps};
+  if (!(end / nominal_step(plan, plan.levels) <= judge::most_steps))
+    return {{}, record::RefinementEnd::too_many_steps};
   return {plan};
 }
 
@@ -71,39 +71,42 @@ int default_levels(double coarsest, double end) {
   return int(std::clamp<double>(1.0 + halvings, least_default_levels, most_default_levels));
 }
 
-RefinementPlan plan_for(const RefinementRequest& request, const CaseSummary& problem) {
+record::RefinementPlan plan_for(const RefinementRequest& request,
+                                const record::CaseSummary& problem) {
   const double coarsest =
       request.coarsest.value_or(default_coarsest(problem.fast_period, problem.end));
   return {coarsest, request.levels.value_or(default_levels(coarsest, problem.end)),
           request.samples_per_level};
 }
 
-std::optional<Refinement> refinement_of(const RefinementPlan& asked, const RefinementPlan& now,
-                                        RefinementEnd end, double next_seconds) {
+std::optional<record::Refinement> refinement_of(const record::RefinementPlan& asked,
+                                                const record::RefinementPlan& now,
+                                                record::RefinementEnd end, double next_seconds) {
   const int coarser = int(std::lround(std::log2(now.coarsest / asked.coarsest)));
-  const Refinement found{now.levels - asked.levels - coarser, coarser, now.samples_per_level, end,
-                         next_seconds};
+  const record::Refinement found{now.levels - asked.levels - coarser, coarser,
+                                 now.samples_per_level, end, next_seconds};
   const bool is_asked = found.finer_levels == 0 && found.coarser_levels == 0 &&
                         found.samples_per_level == asked.samples_per_level;
-  if (end == RefinementEnd::decided && is_asked) return {};
+  if (end == record::RefinementEnd::decided && is_asked) return {};
   return found;
 }
 
-NextPlan next_plan(const Subject& subject, const RefinementPlan& plan, const CaseSummary& problem) {
+NextPlan next_plan(const record::Subject& subject, const record::RefinementPlan& plan,
+                   const record::CaseSummary& problem) {
   if (!subject.refusal.empty() || !subject.complete || subject.levels.empty()) return {};
   if (const int missing = next_contact_levels(subject, plan);
       missing > 0 && subject.assessment.verdict != Verdict::agrees)
     return with_finer(plan, missing, problem.end);
   if (is_decided(subject)) return {};
   const auto& finest = subject.levels.back();
-  if (worst(finest).failed > 0) return {{}, RefinementEnd::run_failed};
+  if (worst(finest).failed > 0) return {{}, record::RefinementEnd::run_failed};
   if (has_weak_envelope(subject) && 2 * plan.samples_per_level <= most_samples_per_level)
-    return {RefinementPlan{plan.coarsest, plan.levels, 2 * plan.samples_per_level}};
+    return {record::RefinementPlan{plan.coarsest, plan.levels, 2 * plan.samples_per_level}};
   if (!is_at_floor(finest)) return with_finer(plan, 1, problem.end);
   const double coarser = 2.0 * plan.coarsest;
   if (coarser > std::min(problem.end, problem.fast_period / least_steps_per_period))
-    return {{}, RefinementEnd::rounding_floor};
-  return {RefinementPlan{coarser, plan.levels + 1, plan.samples_per_level}};
+    return {{}, record::RefinementEnd::rounding_floor};
+  return {record::RefinementPlan{coarser, plan.levels + 1, plan.samples_per_level}};
 }
 
 }  // namespace clackers::study

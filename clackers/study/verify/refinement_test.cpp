@@ -9,18 +9,18 @@ namespace {
 
 constexpr double end = 20.0;
 
-CaseSummary problem() {
-  CaseSummary summary;
+record::CaseSummary problem() {
+  record::CaseSummary summary;
   summary.end = end;
   summary.fast_period = 0.7;
   return summary;
 }
 
 // A subject on `plan` with a run a level, error h^2 far above rounding.
-Subject undecided(const RefinementPlan& plan, double floor = 1e-30) {
-  Subject subject;
+record::Subject undecided(const record::RefinementPlan& plan, double floor = 1e-30) {
+  record::Subject subject;
   for (int i = 0; i < plan.levels; ++i) {
-    Run run;
+    record::Run run;
     run.score.step = std::ldexp(plan.coarsest, -i);
     run.score.finished = true;
     run.score.u_error = run.score.step * run.score.step;
@@ -32,7 +32,7 @@ Subject undecided(const RefinementPlan& plan, double floor = 1e-30) {
   return subject;
 }
 
-Subject with_envelope(const RefinementPlan& plan, double spread) {
+record::Subject with_envelope(const record::RefinementPlan& plan, double spread) {
   auto subject = undecided(plan);
   subject.claim = {Behaviour::irregular, 1.0, {}};
   auto& fit = subject.assessment.displacement;
@@ -51,7 +51,7 @@ std::ostream& operator<<(std::ostream& out, const Steps& x) {
   return out << x.coarsest << " s, " << x.levels << " levels of " << x.samples;
 }
 
-Steps next(const Subject& subject, const RefinementPlan& plan) {
+Steps next(const record::Subject& subject, const record::RefinementPlan& plan) {
   const auto found = next_plan(subject, plan, problem());
   if (!found.plan) return {};
   return {found.plan->coarsest, found.plan->levels, found.plan->samples_per_level};
@@ -88,7 +88,7 @@ TEST(PlanFor, TakesWhatIsAskedFor) {
 }
 
 TEST(NextPlan, IsNoneForWhatIsDecidedRefusedOrIncomplete) {
-  const RefinementPlan plan{0.05, 4, 8};
+  const record::RefinementPlan plan{0.05, 4, 8};
   for (const auto verdict : {Verdict::agrees, Verdict::disagrees, Verdict::not_claimed}) {
     auto subject = undecided(plan);
     subject.assessment.verdict = verdict;
@@ -108,7 +108,7 @@ TEST(NextPlan, AddsAFinerLevel) {
 
 TEST(NextPlan, AddsTheLevelsThatACompliantContactNeeds) {
   // 25 steps a contact of 0.025 s: 0.001 s. 0.05 / 2^6 = 7.8e-4 is the seventh level; three of them.
-  const RefinementPlan plan{0.05, 4, 8};
+  const record::RefinementPlan plan{0.05, 4, 8};
   auto subject = undecided(plan);
   subject.contact_time = 0.025;
   EXPECT_EQ(next(subject, plan), (Steps{0.05, 7, 8}));
@@ -125,7 +125,7 @@ TEST(NextPlan, AddsTheLevelsThatACompliantContactNeeds) {
 }
 
 TEST(NextPlan, TakesMoreStepsALevelWhereTheEnvelopeIsUncertain) {
-  const RefinementPlan plan{0.05, 8, 8};
+  const record::RefinementPlan plan{0.05, 8, 8};
   auto weak = with_envelope(plan, 0.3);
   EXPECT_EQ(next(weak, plan), (Steps{0.05, 8, 16}));
   weak.assessment.verdict = Verdict::agrees;
@@ -138,26 +138,26 @@ TEST(NextPlan, TakesMoreStepsALevelWhereTheEnvelopeIsUncertain) {
 }
 
 TEST(NextPlan, StartsCoarserAtTheRoundingFloor) {
-  const RefinementPlan plan{0.05, 4, 8};
+  const record::RefinementPlan plan{0.05, 4, 8};
   EXPECT_EQ(next(undecided(plan, 1.0), plan), (Steps{0.1, 5, 8}));
   // Two steps a period of 0.7 s: no coarser than 0.35 s.
-  const RefinementPlan coarse{0.2, 6, 8};
+  const record::RefinementPlan coarse{0.2, 6, 8};
   const auto found = next_plan(undecided(coarse, 1.0), coarse, problem());
   EXPECT_FALSE(found.plan);
-  EXPECT_EQ(found.end, RefinementEnd::rounding_floor);
+  EXPECT_EQ(found.end, record::RefinementEnd::rounding_floor);
 }
 
 TEST(NextPlan, EndsAtFailedRunsAndAtTheMostSteps) {
-  const RefinementPlan plan{0.05, 4, 8};
+  const record::RefinementPlan plan{0.05, 4, 8};
   auto failed = undecided(plan);
   failed.levels.back().runs[0].score.finished = false;
-  EXPECT_EQ(next_plan(failed, plan, problem()).end, RefinementEnd::run_failed);
+  EXPECT_EQ(next_plan(failed, plan, problem()).end, record::RefinementEnd::run_failed);
   // 20 s / 2e-8 s is the limit of 1e9 steps; the next level has a finest step of nearly half its
   // nominal one.
-  const RefinementPlan long_one{1.5e-7, 2, 8};
+  const record::RefinementPlan long_one{1.5e-7, 2, 8};
   const auto found = next_plan(undecided(long_one), long_one, problem());
   EXPECT_FALSE(found.plan);
-  EXPECT_EQ(found.end, RefinementEnd::too_many_steps);
+  EXPECT_EQ(found.end, record::RefinementEnd::too_many_steps);
 }
 
 }  // namespace

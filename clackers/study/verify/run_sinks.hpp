@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "clackers/model/sink.hpp"
 #include "clackers/base/jobs/progress.hpp"
+#include "clackers/model/sink.hpp"
 
 namespace clackers::study {
 

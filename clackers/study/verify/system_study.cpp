@@ -21,8 +21,8 @@ SystemStudy::SystemStudy(const SystemRequest& request, cases::Case problem)
 
 SystemStudy::~SystemStudy() = default;
 
-const CaseRecord* SystemStudy::assess(const std::string& method,
-                                      const std::atomic<bool>* interrupt) {
+const record::CaseRecord* SystemStudy::assess(const std::string& method,
+                                              const std::atomic<bool>* interrupt) {
   plan_->methods = {planned_method(method, *plan_)};
   MethodStudy study(*plan_, 0);
   for (const auto& task : study.missing(plan_->steps)) {
@@ -37,8 +37,9 @@ const CaseRecord* SystemStudy::assess(const std::string& method,
   return &record_;
 }
 
-const CaseRecord* SystemStudy::assess(const SolverSubject& solver, const RefinementRequest& ladder,
-                                      const std::atomic<bool>* interrupt) {
+const record::CaseRecord* SystemStudy::assess(const SolverSubject& solver,
+                                              const RefinementRequest& ladder,
+                                              const std::atomic<bool>* interrupt) {
   const auto steps = plan_for(ladder, plan_->summary);
   SolverStudy study(solver, plan_->problem, plan_->summary, steps, interrupt);
   for (const auto& run : study.missing(steps)) study.make(run);
@@ -68,9 +69,9 @@ CostEstimate SystemStudy::estimate(const SolverSubject& solver, const Refinement
   return {runs.size(), study.expected_seconds(runs)};
 }
 
-CaseRecord refused_record(std::string_view case_name, std::string subject_name,
-                          const InputError& why) {
-  CaseRecord record;
+record::CaseRecord refused_record(std::string_view case_name, std::string subject_name,
+                                  const InputError& why) {
+  record::CaseRecord record;
   record.problem.name = case_name;
   auto& subject = record.subjects.emplace_back();
   subject.name = std::move(subject_name);

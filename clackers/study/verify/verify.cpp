@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/jobs/work_queue.hpp"
 #include "clackers/record/provenance.hpp"
-#include "clackers/tables/respond.hpp"
 #include "clackers/study/verify/method_study.hpp"
 #include "clackers/study/verify/verify_plan.hpp"
-#include "clackers/base/jobs/work_queue.hpp"
+#include "clackers/tables/respond.hpp"
 
 namespace clackers::study {
 namespace {
@@ -27,7 +27,7 @@ struct Task {
 // What a ladder lacks.
 struct Round {
   MethodStudy* study;
-  RefinementPlan steps;
+  record::RefinementPlan steps;
   std::vector<RunTask> missing;
   double seconds = 0.0;  // expected
 };
@@ -81,7 +81,7 @@ std::vector<Round> affordable(std::vector<Round> rounds, double left) {
   std::ranges::stable_sort(rounds, {}, &Round::seconds);
   double sum = 0.0;
   std::erase_if(rounds, [&](const Round& round) {
-    if (!(round.seconds <= left)) round.study->close(RefinementEnd::budget, round.seconds);
+    if (!(round.seconds <= left)) round.study->close(record::RefinementEnd::budget, round.seconds);
     sum += round.seconds;
     return !(sum <= left);
   });
@@ -99,7 +99,7 @@ bool refine(std::vector<CaseStudies>& cases, double budget, int threads, const P
     if (rounds.empty()) return true;
     run_rounds(rounds, threads, progress, interrupt);
     if (interrupt != nullptr && *interrupt) {
-      for (const auto& round : rounds) round.study->close(RefinementEnd::interrupted);
+      for (const auto& round : rounds) round.study->close(record::RefinementEnd::interrupted);
       return false;
     }
     for (const auto& round : rounds) round.study->assess(round.steps);
@@ -120,21 +120,21 @@ std::vector<double> reference_end(const model::Motion& motion) {
   return u;
 }
 
-CaseRecord case_record(const CasePlan& plan, CaseStudies& studies) {
-  CaseRecord record;
+record::CaseRecord case_record(const CasePlan& plan, CaseStudies& studies) {
+  record::CaseRecord record;
   record.problem = plan.summary;
   record.plan = plan.steps;
-  record.response = response_curve(plan.problem, response_points);
+  record.response = tables::response_curve(plan.problem, tables::response_points);
   const auto exact = reference_end(*plan.problem.motion);
   for (auto& study : studies) record.subjects.push_back(study.finish(exact));
-  record.profiles = profiles_of({&record, 1});
+  record.profiles = record::profiles_of({&record, 1});
   return record;
 }
 
 }  // namespace
 
-Record verify(const VerifyRequest& request, const Progress& progress,
-              const std::atomic<bool>* interrupt) {
+record::Record verify(const VerifyRequest& request, const Progress& progress,
+                      const std::atomic<bool>* interrupt) {
   const int threads = thread_count(request.jobs);
   require_budget(request.budget);
   if (!request.tolerances.empty() && !has_adaptive_method(request))
@@ -157,9 +157,9 @@ Record verify(const VerifyRequest& request, const Progress& progress,
     is_whole =
         refine(cases, request.budget, std::min(threads, thread_count(0)), progress, interrupt);
 
-  Record record;
+  record::Record record;
   record.command = "verify";
-  record.provenance = provenance(request.command);
+  record.provenance = record::provenance(request.command);
   for (std::size_t c = 0; c < plans.size(); ++c)
     record.cases.push_back(case_record(plans[c], cases[c]));
   record.interrupted = counts(record).interrupted > 0 || !is_whole;

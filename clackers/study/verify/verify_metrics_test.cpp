@@ -24,8 +24,9 @@ TEST(Verify, MeasuresAllMetricsOfTheFirstRunOfTheFinestLevel) {
   const auto record = verify(small({"newmark"}));
   const auto& finest = record.cases[0].subjects[0].levels[4].runs[0];
   ASSERT_EQ(record.cases[0].subjects[0].shown_run(), &finest);
-  ASSERT_EQ(finest.metrics.size(), assess::metrics().size() + cause_metrics().size());
-  const auto found = std::ranges::find(finest.metrics, "u-max-relative", &MetricResult::name);
+  ASSERT_EQ(finest.metrics.size(), measure::metrics().size() + cause_metrics().size());
+  const auto found =
+      std::ranges::find(finest.metrics, "u-max-relative", &record::MetricResult::name);
   EXPECT_EQ(found->value, finest.score.u_error);  // the same definition, measured twice
 }
 
@@ -43,7 +44,7 @@ TEST(Verify, SplitsTheErrorOfALinearContactSpringAlone) {
   const auto record = verify(small({"newmark+penalty", "newmark+penalty:law=hertz"}));
   const auto split = [&](std::size_t i) {
     const auto& metrics = record.cases[0].subjects[i].shown_run()->metrics;
-    return *std::ranges::find(metrics, "u-penalty-model-max-relative", &MetricResult::name);
+    return *std::ranges::find(metrics, "u-penalty-model-max-relative", &record::MetricResult::name);
   };
   EXPECT_GT(split(0).value, 0.0);
   EXPECT_EQ(split(1).reason, "No contact spring of the run is known.");

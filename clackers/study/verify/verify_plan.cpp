@@ -16,7 +16,7 @@ namespace {
 
 constexpr long long most_impact_times = 1000;
 
-void require_steps(const RefinementPlan& plan, double end) {
+void require_steps(const record::RefinementPlan& plan, double end) {
   if (!(plan.coarsest > 0.0 && plan.coarsest <= end))
     refuse("verify", "coarsest", plan.coarsest,
            fmt::format("0 < coarsest <= {} s, the length of the run", end), {},
@@ -40,7 +40,7 @@ double fast_period(const cases::Case& problem) {
   return largest > 0.0 ? 2.0 * std::numbers::pi / std::sqrt(largest) : problem.motion->end();
 }
 
-Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
+record::Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
 
 // One refusal beside other methods is a row of the record; nothing but refusals is refused input.
 void require_some_method(const std::vector<PlannedMethod>& all,
@@ -75,12 +75,12 @@ CasePlan plan_without_methods(const RefinementRequest& steps, std::vector<double
   CasePlan plan;
   plan.problem = std::move(problem);
   plan.summary = summary_of(plan.problem);
-  plan.shared = assess::first_shared_instant(*plan.problem.motion, plan.problem.problem);
+  plan.shared = measure::first_shared_instant(*plan.problem.motion, plan.problem.problem);
   plan.steps = plan_for(steps, plan.summary);
   require_steps(plan.steps, plan.summary.end);
   levels_of(plan, plan.steps);  // refuses too many steps before any work
-  plan.tolerances =
-      tolerances.empty() ? tolerances_from(default_tolerances) : std::move(tolerances);
+  plan.tolerances = tolerances.empty() ? solvers::tolerances_from(solvers::default_tolerances)
+                                       : std::move(tolerances);
   return plan;
 }
 
@@ -96,7 +96,7 @@ PlannedMethod planned_method(const std::string& specification, const CasePlan& p
   subject.name = short_name(facts.name);
   subject.claim = methods::claim_on(facts, problem, collides, plan.shared.has_value());
   if (facts.is_adaptive) {
-    subject.resolution = Resolution::tolerance;
+    subject.resolution = record::Resolution::tolerance;
     // The estimate falls with the power of the step that the error over a run does.
     if (subject.claim.order > 0.0) subject.claim.order = 1.0;
   }
@@ -116,8 +116,8 @@ std::string short_name(const std::string& name) {
   return name.ends_with(understood) ? name.substr(0, name.size() - understood.size()) : name;
 }
 
-CaseSummary summary_of(const cases::Case& problem) {
-  CaseSummary summary;
+record::CaseSummary summary_of(const cases::Case& problem) {
+  record::CaseSummary summary;
   summary.name = problem.entry->name;
   summary.summary = problem.entry->summary;
   summary.equations = problem.entry->equations;
@@ -125,7 +125,7 @@ CaseSummary summary_of(const cases::Case& problem) {
     const auto& parameter = problem.entry->parameters[i];
     const auto& value = problem.values[i].second;
     auto& added = summary.parameters.emplace_back(
-        Quantity{parameter.name, NAN, parameter.unit, parameter.meaning});
+        record::Quantity{parameter.name, NAN, parameter.unit, parameter.meaning});
     if (value.is_word())
       added.text = value.text();
     else
@@ -141,19 +141,19 @@ CaseSummary summary_of(const cases::Case& problem) {
     summary.impact_times.push_back(impact.t);
     summary.impact_contacts.push_back(impact.contact);
   }
-  summary.drawing = schematic(problem.problem);
+  summary.drawing = record::schematic(problem.problem);
   return summary;
 }
 
-std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const RefinementPlan& steps) {
-  return assess::step_ladder({steps.coarsest, steps.levels, steps.samples_per_level},
-                             plan.summary.end, plan.summary.impact_times);
+std::vector<judge::StepLevel> levels_of(const CasePlan& plan, const record::RefinementPlan& steps) {
+  return judge::step_ladder({steps.coarsest, steps.levels, steps.samples_per_level},
+                            plan.summary.end, plan.summary.impact_times);
 }
 
-std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const PlannedMethod& method,
-                                         const RefinementPlan& steps) {
-  if (method.subject.resolution == Resolution::step) return levels_of(plan, steps);
-  std::vector<assess::StepLevel> levels;
+std::vector<judge::StepLevel> levels_of(const CasePlan& plan, const PlannedMethod& method,
+                                        const record::RefinementPlan& steps) {
+  if (method.subject.resolution == record::Resolution::step) return levels_of(plan, steps);
+  std::vector<judge::StepLevel> levels;
   long long count = 0;
   for (const double tolerance : plan.tolerances) {
     const double per_period = 2.5 * std::pow(tolerance, -1.0 / method.order);

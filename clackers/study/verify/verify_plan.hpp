@@ -13,7 +13,7 @@ namespace clackers::study {
 /// A method of a study before its runs.
 struct PlannedMethod {
   std::shared_ptr<const methods::Method> method;
-  Subject subject;  ///< name, claim, contact time and refusal
+  record::Subject subject;  ///< name, claim, contact time and refusal
   bool reports_impacts = true;
   double order = 0.0;        ///< of smooth motion
   double spring_time = 0.0;  ///< contact time of a linear contact spring [s]; 0: it has none
@@ -29,29 +29,29 @@ struct Extras {
 /// One case of a request, ready to run.
 struct CasePlan {
   cases::Case problem;
-  CaseSummary summary;
-  std::optional<assess::SharedInstant> shared;  ///< the first of the reference
+  record::CaseSummary summary;
+  std::optional<measure::SharedInstant> shared;  ///< the first of the reference
   std::vector<PlannedMethod> methods;
-  RefinementPlan steps;
+  record::RefinementPlan steps;
   std::vector<double> tolerances;  ///< the levels of adaptive methods
   Extras extras{};
 };
 
 /// The plan of a case whose subjects are histories.
-inline constexpr RefinementPlan no_refinement{0.0, 0, 0};
+inline constexpr record::RefinementPlan no_refinement{0.0, 0, 0};
 
-CaseSummary summary_of(const cases::Case& problem);
+record::CaseSummary summary_of(const cases::Case& problem);
 
 /// The name of a method in every output: as one would type it, without "+event-driven".
 std::string short_name(const std::string& name);
 
 /// The steps of a plan on a case.
-std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const RefinementPlan& steps);
+std::vector<judge::StepLevel> levels_of(const CasePlan& plan, const record::RefinementPlan& steps);
 
 /// The levels of a method: those steps, or the tolerances of the plan, one run each, with the number
 /// of steps to expect.
-std::vector<assess::StepLevel> levels_of(const CasePlan& plan, const PlannedMethod& method,
-                                         const RefinementPlan& steps);
+std::vector<judge::StepLevel> levels_of(const CasePlan& plan, const PlannedMethod& method,
+                                        const record::RefinementPlan& steps);
 
 /// Whether some method of a request is adaptive. Throws InputError for a specification.
 bool has_adaptive_method(const VerifyRequest& request);

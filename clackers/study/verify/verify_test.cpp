@@ -26,7 +26,7 @@ VerifyRequest small(std::vector<std::string> methods) {
 }
 
 // What must not depend on the machine, the time of day or the number of threads.
-std::string findings_of(Record record) {
+std::string findings_of(record::Record record) {
   record.provenance = {};
   for (auto& one : record.cases)
     for (auto& subject : one.subjects)
@@ -35,7 +35,9 @@ std::string findings_of(Record record) {
   return to_json(record);
 }
 
-const std::vector<Subject>& subjects(const Record& record) { return record.cases.at(0).subjects; }
+const std::vector<record::Subject>& subjects(const record::Record& record) {
+  return record.cases.at(0).subjects;
+}
 
 std::string refusal(const VerifyRequest& request) {
   bool worked = false;
@@ -52,7 +54,7 @@ TEST(Verify, AssessesAdaptiveMethodsOverTolerances) {
   auto request = small({"dopri5", "rk4"});
   const auto record = verify(request);
   const auto& adaptive = subjects(record).at(0);
-  EXPECT_EQ(adaptive.resolution, Resolution::tolerance);
+  EXPECT_EQ(adaptive.resolution, record::Resolution::tolerance);
   ASSERT_EQ(adaptive.levels.size(), 8u);
   for (std::size_t i = 0; i < adaptive.levels.size(); ++i) {
     const auto& level = adaptive.levels[i];
@@ -66,7 +68,7 @@ TEST(Verify, AssessesAdaptiveMethodsOverTolerances) {
   EXPECT_EQ(adaptive.claim.order, 1.0);
   EXPECT_EQ(adaptive.assessment.verdict, Verdict::agrees);
   EXPECT_FALSE(adaptive.refinement);
-  EXPECT_EQ(subjects(record).at(1).resolution, Resolution::step);
+  EXPECT_EQ(subjects(record).at(1).resolution, record::Resolution::step);
 
   request.tolerances = {1e-4, 1e-6};
   EXPECT_EQ(subjects(verify(request)).at(0).levels.size(), 2u);
@@ -132,7 +134,7 @@ TEST(Verify, HoldsTheProblemAndItsProvenance) {
   EXPECT_EQ(problem.parameters[2].unit, "s");
   EXPECT_FALSE(problem.parameters[2].meaning.empty());
   const auto has = [&](std::string_view name) {
-    return std::ranges::count(problem.constants, name, &Quantity::name) == 1;
+    return std::ranges::count(problem.constants, name, &record::Quantity::name) == 1;
   };
   EXPECT_TRUE(has("omega_D1") && has("I_ms"));
   EXPECT_EQ(problem.end, 8.0);

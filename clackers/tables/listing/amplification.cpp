@@ -12,7 +12,7 @@
 
 #include "clackers/numerics/realization.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 using Complex = std::complex<double>;
@@ -67,7 +67,7 @@ double overshoot(const std::vector<Eigen::MatrixXd>& all, Eigen::Index row) {
   return largest;
 }
 
-Cell cell(double value) { return std::isnan(value) ? Cell{} : Cell{value}; }
+record::Cell cell(double value) { return std::isnan(value) ? record::Cell{} : record::Cell{value}; }
 
 std::vector<double> linear(double first, double last, int count) {
   std::vector<double> all;
@@ -103,31 +103,32 @@ std::vector<Amplification> amplification(const methods::Integrator& integrator,
   return all;
 }
 
-std::vector<Sheet> amplification_sheets(const methods::Integrator& integrator) {
+std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integrator) {
   const auto name = integrator.facts().name;
-  const Column steps{"h/T", "", "step over the period of the free, undamped vibration"};
-  Sheet accuracy{"clackers/accuracy/1",
-                 fmt::format("Period elongation and amplitude decay of {}", name),
-                 {steps,
-                  {"period_elongation", "", "T'/T - 1, T' the period that comes out"},
-                  {"amplitude_decay", "", "part of the amplitude lost in a period"}},
-                 {},
-                 Axes{.highest = 1.0}};
+  const record::Column steps{"h/T", "", "step over the period of the free, undamped vibration"};
+  record::Sheet accuracy{"clackers/accuracy/1",
+                         fmt::format("Period elongation and amplitude decay of {}", name),
+                         {steps,
+                          {"period_elongation", "", "T'/T - 1, T' the period that comes out"},
+                          {"amplitude_decay", "", "part of the amplitude lost in a period"}},
+                         {},
+                         record::Axes{.highest = 1.0}};
   for (const auto& point : amplification(integrator, linear(0.01, 0.4, 40)))
     accuracy.rows.push_back(
         {point.steps, cell(point.period_elongation), cell(point.amplitude_decay)});
-  Sheet radius{"clackers/spectral-radius/1",
-               fmt::format("Spectral radius of {}: above 1 the motion grows", name),
-               {steps, {"spectral_radius", "", "largest |eigenvalue| of a step"}},
-               {},
-               Axes{.log_x = true, .highest = 1.5}};
-  Sheet overshoot{"clackers/overshoot/1",
-                  fmt::format("Overshoot of {} in ten steps, where the motion does not grow", name),
-                  {steps,
-                   {"u_overshoot", "", "largest |u| over the exact amplitude"},
-                   {"v_overshoot", "", "largest |v| over the exact amplitude"}},
-                  {},
-                  Axes{.log_x = true, .log_y = true}};
+  record::Sheet radius{"clackers/spectral-radius/1",
+                       fmt::format("Spectral radius of {}: above 1 the motion grows", name),
+                       {steps, {"spectral_radius", "", "largest |eigenvalue| of a step"}},
+                       {},
+                       record::Axes{.log_x = true, .highest = 1.5}};
+  record::Sheet overshoot{
+      "clackers/overshoot/1",
+      fmt::format("Overshoot of {} in ten steps, where the motion does not grow", name),
+      {steps,
+       {"u_overshoot", "", "largest |u| over the exact amplitude"},
+       {"v_overshoot", "", "largest |v| over the exact amplitude"}},
+      {},
+      record::Axes{.log_x = true, .log_y = true}};
   auto powers = linear(-2.0, 2.0, 81);
   for (double& power : powers) power = std::pow(10.0, power);
   for (const auto& point : amplification(integrator, powers)) {
@@ -137,4 +138,4 @@ std::vector<Sheet> amplification_sheets(const methods::Integrator& integrator) {
   return {accuracy, radius, overshoot};
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -5,7 +5,7 @@
 #include "clackers/methods/integrator.hpp"
 #include "clackers/record/sheet.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 
 /// What an integrator does to the free vibration of one undamped mass with the period T, with steps
 /// of h. NaN where a quantity has no meaning, or growth is too fast to be measured.
@@ -29,6 +29,6 @@ std::vector<Amplification> amplification(const methods::Integrator& integrator,
 
 /// The figures of an integrator: period elongation and amplitude decay for h/T up to 0.4, spectral
 /// radius and overshoot from 0.01 to 100.
-std::vector<Sheet> amplification_sheets(const methods::Integrator& integrator);
+std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integrator);
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -9,7 +9,7 @@
 
 #include "clackers/methods/registry.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -87,4 +87,4 @@ TEST(AmplificationSheets, OfEveryIntegratorAreDrawnAndLackWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -4,7 +4,7 @@
 
 #include "clackers/diagnose/diagnosis.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 // What the value of a diagnosis is; both empty for a cause without a number.
@@ -56,16 +56,16 @@ static_assert(value_rows.size() == diagnose::diagnosis_codes.size());
 
 }  // namespace
 
-Sheet list_diagnoses() {
-  Sheet sheet{"clackers/diagnoses/1",
-              "Causes that check and verify look for",
-              {{"code", "", ""},
-               {"unit", "", "of the value"},
-               {"value", "", "what it is"},
-               {"meaning", "", "and what to do about it"}},
-              {}};
+record::Sheet list_diagnoses() {
+  record::Sheet sheet{"clackers/diagnoses/1",
+                      "Causes that check and verify look for",
+                      {{"code", "", ""},
+                       {"unit", "", "of the value"},
+                       {"value", "", "what it is"},
+                       {"meaning", "", "and what to do about it"}},
+                      {}};
   const auto cell = [](std::string_view text) {
-    return text.empty() ? Cell{} : Cell{std::string(text)};
+    return text.empty() ? record::Cell{} : record::Cell{std::string(text)};
   };
   for (const auto& row : value_rows)
     sheet.rows.push_back({std::string(row.code.name()), cell(row.unit), cell(row.value),
@@ -73,4 +73,4 @@ Sheet list_diagnoses() {
   return sheet;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -2,9 +2,9 @@
 
 #include "clackers/record/sheet.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 
 /// Every cause that check and verify look for: what its value is, the unit, and what it means.
-Sheet list_diagnoses();
+record::Sheet list_diagnoses();
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -5,18 +5,18 @@
 #include <array>
 #include <functional>
 
-#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/base/codes.hpp"
 #include "clackers/base/suggest.hpp"
+#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/record/cause_metrics.hpp"
 #include "clackers/tables/listing/list_diagnoses.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
-const Column name_column{"name", "", "as typed"};
-const Column summary_column{"summary", "", "in one line"};
+const record::Column name_column{"name", "", "as typed"};
+const record::Column summary_column{"summary", "", "in one line"};
 
 template <class Parameters>
 std::string with_defaults(const Parameters& parameters) {
@@ -26,14 +26,14 @@ std::string with_defaults(const Parameters& parameters) {
   return text;
 }
 
-Sheet list_cases() {
-  Sheet sheet{"clackers/cases/1",
-              "Cases",
-              {name_column,
-               {"equations", "", "of the paper"},
-               {"parameters", "", "with their defaults"},
-               summary_column},
-              {}};
+record::Sheet list_cases() {
+  record::Sheet sheet{"clackers/cases/1",
+                      "Cases",
+                      {name_column,
+                       {"equations", "", "of the paper"},
+                       {"parameters", "", "with their defaults"},
+                       summary_column},
+                      {}};
   for (const auto& entry : cases::entries()) {
     const bool standard = entry.name == cases::default_case();
     sheet.rows.push_back({entry.name, entry.equations, with_defaults(entry.parameters),
@@ -43,26 +43,26 @@ Sheet list_cases() {
 }
 
 // The parameters of a variant are those of its entry.
-void add_with_variants(Sheet& sheet, const methods::Entry& entry) {
+void add_with_variants(record::Sheet& sheet, const methods::Entry& entry) {
   const auto parameters = with_defaults(entry.parameters);
   sheet.rows.push_back({entry.name, parameters, entry.summary});
   for (const auto& variant : methods::variants(entry))
-    sheet.rows.push_back({variant.specification, Cell{}, variant.summary});
+    sheet.rows.push_back({variant.specification, record::Cell{}, variant.summary});
 }
 
-Sheet list_entries(std::string_view title, std::string_view schema, std::string_view kind) {
-  Sheet sheet{std::string(schema),
-              std::string(title),
-              {name_column, {"parameters", "", "with their defaults"}, summary_column},
-              {}};
+record::Sheet list_entries(std::string_view title, std::string_view schema, std::string_view kind) {
+  record::Sheet sheet{std::string(schema),
+                      std::string(title),
+                      {name_column, {"parameters", "", "with their defaults"}, summary_column},
+                      {}};
   for (const auto& entry : methods::entries())
     if (entry.kind == kind) add_with_variants(sheet, entry);
   return sheet;
 }
 
 // All that a specification can begin with or name behind its "+".
-Sheet list_methods() {
-  Sheet sheet{
+record::Sheet list_methods() {
+  record::Sheet sheet{
       "clackers/methods/1",
       fmt::format("Methods: integrator+contact, or one that stands alone. Default panel: {}",
                   fmt::join(methods::default_panel(), ", ")),
@@ -77,47 +77,48 @@ Sheet list_methods() {
 }
 
 // Whole methods with what each claims through impacts.
-Sheet list_pairs() {
-  Sheet sheet{"clackers/pairs/1",
-              "Every method, with default parameters",
-              {{"method", "", "as typed"},
-               {"smooth_order", "", "order of u and v while nothing collides"},
-               {"claim", "", "behaviour through impacts"},
-               {"order", "", "order through impacts, of the upper envelope when irregular"}},
-              {}};
+record::Sheet list_pairs() {
+  record::Sheet sheet{
+      "clackers/pairs/1",
+      "Every method, with default parameters",
+      {{"method", "", "as typed"},
+       {"smooth_order", "", "order of u and v while nothing collides"},
+       {"claim", "", "behaviour through impacts"},
+       {"order", "", "order through impacts, of the upper envelope when irregular"}},
+      {}};
   for (const auto& specification : methods::pairs()) {
     const auto facts = methods::method(specification)->facts();
     const auto& claim = facts.through_impacts;
     const bool has_order = claim.order > 0.0;
     sheet.rows.push_back({specification, facts.smooth_order,
                           std::string(to_string(claim.behaviour)),
-                          has_order ? Cell{claim.order} : Cell{}});
+                          has_order ? record::Cell{claim.order} : record::Cell{}});
   }
   return sheet;
 }
 
 // What a run is scored by, then the table of `check`, where a history is whole.
-Sheet list_metrics() {
-  Sheet sheet{"clackers/metrics/1",
-              "Metrics",
-              {name_column,
-               {"unit", "", "empty when dimensionless"},
-               {"across_impacts", "", "whether it is valid across jumps of velocity"},
-               {"meaning", "", ""},
-               {"source", "", "who defined it"}},
-              {}};
-  for (const auto& metric : assess::metrics())
+record::Sheet list_metrics() {
+  record::Sheet sheet{"clackers/metrics/1",
+                      "Metrics",
+                      {name_column,
+                       {"unit", "", "empty when dimensionless"},
+                       {"across_impacts", "", "whether it is valid across jumps of velocity"},
+                       {"meaning", "", ""},
+                       {"source", "", "who defined it"}},
+                      {}};
+  for (const auto& metric : measure::metrics())
     sheet.rows.push_back({std::string(metric.name),
                           std::string(metric.unit == "1" ? "" : metric.unit),
                           metric.across_jumps ? "yes" : "no", std::string(metric.definition),
                           std::string(metric.source)});
-  for (const auto& metric : cause_metrics())
+  for (const auto& metric : record::cause_metrics())
     sheet.rows.push_back({std::string(metric.name), "", "yes", std::string(metric.definition),
                           std::string(metric.source)});
   return sheet;
 }
 
-using Lister = std::function<Sheet()>;
+using Lister = std::function<record::Sheet()>;
 
 const auto& listers() {
   static const auto table = std::to_array<std::pair<std::string, Lister>>({
@@ -142,20 +143,20 @@ std::vector<std::string> list_kinds() {
   return kinds;
 }
 
-Sheet list(std::string_view kind) {
+record::Sheet list(std::string_view kind) {
   for (const auto& [name, lister] : listers())
     if (name == kind) return lister();
   const auto kinds = list_kinds();
   refuse_name("list", kind, kinds, fmt::format("{}", fmt::join(kinds, ", ")));
 }
 
-Sheet explain(std::string_view code) {
-  Sheet sheet{"clackers/codes/1",
-              code.empty() ? "Codes" : "",
-              {{"code", "", "printed in brackets after a message"},
-               {"kind", "", "behaviour, reason, verdict, refusal or failure"},
-               {"meaning", "", "what happened and what to do about it"}},
-              {}};
+record::Sheet explain(std::string_view code) {
+  record::Sheet sheet{"clackers/codes/1",
+                      code.empty() ? "Codes" : "",
+                      {{"code", "", "printed in brackets after a message"},
+                       {"kind", "", "behaviour, reason, verdict, refusal or failure"},
+                       {"meaning", "", "what happened and what to do about it"}},
+                      {}};
   std::vector<std::string> known;
   for (const auto& entry : code_table()) {
     known.emplace_back(entry.name);
@@ -167,4 +168,4 @@ Sheet explain(std::string_view code) {
   return sheet;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

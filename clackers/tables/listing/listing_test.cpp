@@ -8,7 +8,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/methods/registry.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 std::string refusal(const std::function<void()>& action) {
@@ -21,22 +21,22 @@ std::string refusal(const std::function<void()>& action) {
 }
 
 // The cell of the row whose first cell is `name`, in the column of that name.
-Cell cell(const Sheet& sheet, const std::string& name, const std::string& column) {
-  const auto place = std::ranges::find(sheet.columns, column, &Column::name);
+record::Cell cell(const record::Sheet& sheet, const std::string& name, const std::string& column) {
+  const auto place = std::ranges::find(sheet.columns, column, &record::Column::name);
   if (place == sheet.columns.end()) return std::string("no such column");
   for (const auto& row : sheet.rows)
-    if (row.front() == Cell{name})
+    if (row.front() == record::Cell{name})
       return row[static_cast<std::size_t>(place - sheet.columns.begin())];
   return std::string("no such row");
 }
 
-bool holds(const Sheet& sheet, const std::string& name) {
+bool holds(const record::Sheet& sheet, const std::string& name) {
   return std::ranges::any_of(sheet.rows,
-                             [&](const auto& row) { return row.front() == Cell{name}; });
+                             [&](const auto& row) { return row.front() == record::Cell{name}; });
 }
 
 TEST(Listing, EverySheetIsRectangular) {
-  std::vector<Sheet> sheets{explain(""), explain("proper")};
+  std::vector<record::Sheet> sheets{explain(""), explain("proper")};
   for (const auto* kind : {"cases", "integrators", "contacts", "methods", "pairs", "metrics"})
     sheets.push_back(list(kind));
   for (const auto& sheet : show_case("three-parameter", {}, 0.1)) sheets.push_back(sheet);
@@ -53,8 +53,10 @@ TEST(Listing, EverySheetIsRectangular) {
 TEST(Listing, OfCasesHoldsThemAll) {
   const auto sheet = list("cases");
   EXPECT_EQ(sheet.rows.size(), cases::entries().size());
-  EXPECT_EQ(cell(sheet, "three-parameter", "equations"), Cell{std::string("Eq. (25)-(26)")});
-  EXPECT_EQ(cell(sheet, "three-parameter", "parameters"), Cell{std::string("N=2 xi1=0.05 a_t=1")});
+  EXPECT_EQ(cell(sheet, "three-parameter", "equations"),
+            record::Cell{std::string("Eq. (25)-(26)")});
+  EXPECT_EQ(cell(sheet, "three-parameter", "parameters"),
+            record::Cell{std::string("N=2 xi1=0.05 a_t=1")});
   const auto summary = std::get<std::string>(cell(sheet, "three-parameter", "summary"));
   EXPECT_NE(summary.find("The default case."), std::string::npos);
   EXPECT_EQ(std::get<std::string>(cell(sheet, "stop", "summary")).find("default"),
@@ -68,26 +70,27 @@ TEST(Listing, OfMethodsComesFromTheRegistry) {
   }
   const auto all = list("methods");
   EXPECT_EQ(all.rows.size(), methods::entries().size());
-  EXPECT_EQ(cell(all, "rk4", "kind"), Cell{std::string("integrator")});
+  EXPECT_EQ(cell(all, "rk4", "kind"), record::Cell{std::string("integrator")});
   EXPECT_NE(all.title.find("Default panel: newmark, central-difference"), std::string::npos);
   EXPECT_EQ(list("pairs").rows.size(), methods::pairs().size());
-  EXPECT_EQ(cell(list("pairs"), "rk4+event-driven", "claim"), Cell{std::string("proper")});
-  EXPECT_EQ(cell(list("pairs"), "rk4+event-driven", "order"), Cell{4.0});
-  EXPECT_EQ(cell(list("pairs"), "rk4+event-driven", "smooth_order"), Cell{4.0});
+  EXPECT_EQ(cell(list("pairs"), "rk4+event-driven", "claim"), record::Cell{std::string("proper")});
+  EXPECT_EQ(cell(list("pairs"), "rk4+event-driven", "order"), record::Cell{4.0});
+  EXPECT_EQ(cell(list("pairs"), "rk4+event-driven", "smooth_order"), record::Cell{4.0});
 }
 
 TEST(Listing, OfContactsHasALawARow) {
   const auto sheet = list("contacts");
-  EXPECT_EQ(cell(sheet, "penalty:law=hertz", "summary"), Cell{std::string("F = k d^1.5, elastic")});
+  EXPECT_EQ(cell(sheet, "penalty:law=hertz", "summary"),
+            record::Cell{std::string("F = k d^1.5, elastic")});
   EXPECT_FALSE(holds(sheet, "penalty:law=linear"));
 }
 
 TEST(Listing, OfMetricsNamesWhatARunIsJudgedBy) {
-  EXPECT_EQ(cell(list("metrics"), "impact-time-max", "unit"), Cell{std::string("s")});
-  EXPECT_EQ(cell(list("metrics"), "v-max", "across_impacts"), Cell{std::string("no")});
-  EXPECT_EQ(cell(list("metrics"), "v-l1", "across_impacts"), Cell{std::string("yes")});
-  EXPECT_EQ(cell(list("metrics"), "u-max", "unit"), Cell{std::string("m")});
-  EXPECT_EQ(cell(list("metrics"), "u-max-relative", "unit"), Cell{std::string()});
+  EXPECT_EQ(cell(list("metrics"), "impact-time-max", "unit"), record::Cell{std::string("s")});
+  EXPECT_EQ(cell(list("metrics"), "v-max", "across_impacts"), record::Cell{std::string("no")});
+  EXPECT_EQ(cell(list("metrics"), "v-l1", "across_impacts"), record::Cell{std::string("yes")});
+  EXPECT_EQ(cell(list("metrics"), "u-max", "unit"), record::Cell{std::string("m")});
+  EXPECT_EQ(cell(list("metrics"), "u-max-relative", "unit"), record::Cell{std::string()});
 }
 
 TEST(Listing, RefusesUnknownKindsWithASuggestion) {
@@ -102,9 +105,9 @@ TEST(Explain, TellsOneCodeOrAll) {
   for (const auto& entry : code_table()) {
     const auto one = explain(entry.name);
     ASSERT_EQ(one.rows.size(), 1u) << entry.name;
-    EXPECT_EQ(one.rows[0][0], Cell{std::string(entry.name)});
-    EXPECT_EQ(one.rows[0][1], Cell{std::string(entry.kind)});
-    EXPECT_EQ(one.rows[0][2], Cell{std::string(entry.meaning)});
+    EXPECT_EQ(one.rows[0][0], record::Cell{std::string(entry.name)});
+    EXPECT_EQ(one.rows[0][1], record::Cell{std::string(entry.kind)});
+    EXPECT_EQ(one.rows[0][2], record::Cell{std::string(entry.meaning)});
   }
 }
 
@@ -117,13 +120,13 @@ TEST(Explain, RefusesUnknownCodesWithASuggestion) {
 TEST(ShowCase, TellsParametersConstantsIndicatorsAndCollisions) {
   const auto sheets = show_case("three-parameter", {{"N", 5.0}}, 0.2);
   ASSERT_EQ(sheets.size(), 6u);
-  EXPECT_EQ(cell(sheets[0], "N", "value"), Cell{5.0});
-  EXPECT_EQ(cell(sheets[0], "xi1", "value"), Cell{0.05});
-  EXPECT_EQ(cell(sheets[0], "xi1", "allowed"), Cell{std::string("0 or 1e-60 <= xi1 < 1")});
+  EXPECT_EQ(cell(sheets[0], "N", "value"), record::Cell{5.0});
+  EXPECT_EQ(cell(sheets[0], "xi1", "value"), record::Cell{0.05});
+  EXPECT_EQ(cell(sheets[0], "xi1", "allowed"), record::Cell{std::string("0 or 1e-60 <= xi1 < 1")});
   EXPECT_NE(sheets[0].title.find("Eq. (25)-(26)"), std::string::npos);
-  EXPECT_EQ(cell(sheets[1], "X", "value"), Cell{21.0});
-  EXPECT_EQ(cell(sheets[1], "T", "unit"), Cell{std::string("s")});
-  EXPECT_EQ(cell(sheets[2], "threshold", "value"), Cell{0.2});
+  EXPECT_EQ(cell(sheets[1], "X", "value"), record::Cell{21.0});
+  EXPECT_EQ(cell(sheets[1], "T", "unit"), record::Cell{std::string("s")});
+  EXPECT_EQ(cell(sheets[2], "threshold", "value"), record::Cell{0.2});
   EXPECT_EQ(sheets[3].title, "Collisions: 6");
   EXPECT_EQ(sheets[3].rows.size(), 6u);
   EXPECT_EQ(sheets[3].columns[1].name, "t");
@@ -150,22 +153,24 @@ TEST(ShowCase, RefusesAsTheCaseDoes) {
 TEST(ShowMethod, TellsClaimParametersAndCards) {
   const auto sheets = show_method("newmark:beta=0+penalty");
   EXPECT_EQ(sheets.front().schema, "clackers/facts/1");
-  EXPECT_EQ(cell(sheets.front(), "smooth_order", "value"), Cell{2.0});
-  EXPECT_EQ(cell(sheets.front(), "behaviour", "value"), Cell{std::string("stagnating")});
-  EXPECT_EQ(cell(sheets.front(), "reason", "value"), Cell{std::string("contact-stiffness")});
-  const auto cards = std::ranges::count(sheets, "clackers/card/1", &Sheet::schema);
+  EXPECT_EQ(cell(sheets.front(), "smooth_order", "value"), record::Cell{2.0});
+  EXPECT_EQ(cell(sheets.front(), "behaviour", "value"), record::Cell{std::string("stagnating")});
+  EXPECT_EQ(cell(sheets.front(), "reason", "value"),
+            record::Cell{std::string("contact-stiffness")});
+  const auto cards = std::ranges::count(sheets, "clackers/card/1", &record::Sheet::schema);
   EXPECT_EQ(cards, 2);
-  const auto parameters = std::ranges::find(sheets, "clackers/parameters/1", &Sheet::schema);
+  const auto parameters =
+      std::ranges::find(sheets, "clackers/parameters/1", &record::Sheet::schema);
   ASSERT_NE(parameters, sheets.end());
-  EXPECT_EQ(cell(*parameters, "beta", "default"), Cell{std::string("0.25")});
+  EXPECT_EQ(cell(*parameters, "beta", "default"), record::Cell{std::string("0.25")});
 }
 
 TEST(ShowMethod, ShowsEverythingRegistered) {
   for (const auto& entry : methods::entries()) {
     const auto sheets = show_method(entry.name);
     const auto& card = sheets.back();
-    const bool found = std::ranges::any_of(sheets, [&](const Sheet& sheet) {
-      return sheet.schema == "clackers/card/1" && sheet.rows[0][0] == Cell{entry.card};
+    const bool found = std::ranges::any_of(sheets, [&](const record::Sheet& sheet) {
+      return sheet.schema == "clackers/card/1" && sheet.rows[0][0] == record::Cell{entry.card};
     });
     EXPECT_TRUE(found) << entry.name << card.title;
   }
@@ -175,11 +180,12 @@ TEST(ShowMethod, ShowsEverythingRegistered) {
 
 TEST(ShowMethod, ShowsATreatmentWithItsWordsAndTheirSources) {
   const auto sheets = show_method("penalty:law=ye");
-  const auto words = std::ranges::find(sheets, "clackers/words/1", &Sheet::schema);
+  const auto words = std::ranges::find(sheets, "clackers/words/1", &record::Sheet::schema);
   ASSERT_NE(words, sheets.end());
   EXPECT_NE(std::get<std::string>(cell(*words, "ye", "source")).find("38, 1135-1142 (2009)"),
             std::string::npos);
-  EXPECT_EQ(cell(show_method("rk4+penalty:law=ye").front(), "model_order", "value"), Cell{0.4});
+  EXPECT_EQ(cell(show_method("rk4+penalty:law=ye").front(), "model_order", "value"),
+            record::Cell{0.4});
 }
 
 TEST(TreatmentOf, IsWhatFollowsTheIntegrator) {
@@ -200,4 +206,4 @@ TEST(ShowMethod, RefusesUnknownNames) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -5,19 +5,19 @@
 
 #include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
+#include "clackers/model/problem_text.hpp"
 #include "clackers/tables/listing.hpp"
 #include "clackers/tables/listing/amplification.hpp"
 #include "clackers/tables/listing/show_sheets.hpp"
-#include "clackers/model/problem_text.hpp"
 #include "clackers/tables/respond.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 constexpr std::size_t collisions_shown = 6;
 
-Sheet parameter_sheet(const cases::Case& which) {
-  Sheet sheet{
+record::Sheet parameter_sheet(const cases::Case& which) {
+  record::Sheet sheet{
       "clackers/parameters/1",
       fmt::format("{}, {}: {}", which.entry->name, which.entry->equations, which.entry->summary),
       {{"parameter", "", "as typed after --set"},
@@ -29,24 +29,25 @@ Sheet parameter_sheet(const cases::Case& which) {
   for (std::size_t i = 0; i < which.values.size(); ++i) {
     const auto& p = which.entry->parameters[i];
     const auto& value = which.values[i].second;
-    const Cell cell = value.is_word() ? Cell(value.text()) : Cell(double(value));
+    const record::Cell cell =
+        value.is_word() ? record::Cell(value.text()) : record::Cell(double(value));
     sheet.rows.push_back({p.name, cell, p.unit, p.allowed, p.meaning});
   }
   return sheet;
 }
 
-Sheet constant_sheet(std::string schema, std::string title,
-                     const std::vector<cases::Constant>& constants) {
-  Sheet sheet{std::move(schema),
-              std::move(title),
-              {{"name", "", ""}, {"value", "", ""}, {"unit", "", ""}, {"meaning", "", ""}},
-              {}};
+record::Sheet constant_sheet(std::string schema, std::string title,
+                             const std::vector<cases::Constant>& constants) {
+  record::Sheet sheet{std::move(schema),
+                      std::move(title),
+                      {{"name", "", ""}, {"value", "", ""}, {"unit", "", ""}, {"meaning", "", ""}},
+                      {}};
   for (const auto& c : constants) sheet.rows.push_back({c.name, c.value, c.unit, c.meaning});
   return sheet;
 }
 
 // Without the states of the masses, which fill more than a page where there are many.
-void keep_collisions_alone(Sheet& sheet) {
+void keep_collisions_alone(record::Sheet& sheet) {
   for (auto c = sheet.columns.size(); c-- > 0;) {
     const char first = sheet.columns[c].name.front();
     if (first != 'u' && first != 'v') continue;
@@ -55,11 +56,11 @@ void keep_collisions_alone(Sheet& sheet) {
   }
 }
 
-Sheet collision_sheet(const cases::Case& which) {
+record::Sheet collision_sheet(const cases::Case& which) {
   const auto rows = collisions(which);
   const auto total = which.motion->impact_count(which.motion->end());
-  Sheet sheet{rows->schema(), {}, rows->columns(), {}};
-  std::vector<Cell> row;
+  record::Sheet sheet{rows->schema(), {}, rows->columns(), {}};
+  std::vector<record::Cell> row;
   while (sheet.rows.size() < collisions_shown && rows->next(row)) sheet.rows.push_back(row);
   if (which.motion->dof() > 2) keep_collisions_alone(sheet);
   sheet.title = total <= static_cast<long long>(sheet.rows.size())
@@ -71,11 +72,11 @@ Sheet collision_sheet(const cases::Case& which) {
   return sheet;
 }
 
-Sheet claim_sheet(const methods::Facts& facts) {
-  Sheet sheet{"clackers/facts/1",
-              facts.name,
-              {{"fact", "", ""}, {"value", "", ""}, {"meaning", "", ""}},
-              {}};
+record::Sheet claim_sheet(const methods::Facts& facts) {
+  record::Sheet sheet{"clackers/facts/1",
+                      facts.name,
+                      {{"fact", "", ""}, {"value", "", ""}, {"meaning", "", ""}},
+                      {}};
   const auto& claim = facts.through_impacts;
   sheet.rows.push_back(
       {"smooth_order", facts.smooth_order, "order of u and v while nothing collides"});
@@ -102,8 +103,8 @@ Sheet claim_sheet(const methods::Facts& facts) {
   return sheet;
 }
 
-Sheet word_sheet(const methods::Entry& entry, const Parameter& parameter) {
-  Sheet sheet{
+record::Sheet word_sheet(const methods::Entry& entry, const Parameter& parameter) {
+  record::Sheet sheet{
       "clackers/words/1",
       fmt::format("{} of {}", parameter.name, entry.name),
       {{parameter.name, "", "as typed"}, {"summary", "", "in one line"}, {"source", "", ""}},
@@ -113,14 +114,14 @@ Sheet word_sheet(const methods::Entry& entry, const Parameter& parameter) {
   return sheet;
 }
 
-void add_entry(std::vector<Sheet>& sheets, const methods::Entry& entry) {
-  Sheet parameters{"clackers/parameters/1",
-                   fmt::format("Parameters of {}", entry.name),
-                   {{"parameter", "", "as typed"},
-                    {"default", "", ""},
-                    {"allowed", "", ""},
-                    {"meaning", "", "with its unit"}},
-                   {}};
+void add_entry(std::vector<record::Sheet>& sheets, const methods::Entry& entry) {
+  record::Sheet parameters{"clackers/parameters/1",
+                           fmt::format("Parameters of {}", entry.name),
+                           {{"parameter", "", "as typed"},
+                            {"default", "", ""},
+                            {"allowed", "", ""},
+                            {"meaning", "", "with its unit"}},
+                           {}};
   for (const auto& p : entry.parameters)
     parameters.rows.push_back({p.name, p.default_text(), p.allowed, p.meaning});
   if (!parameters.rows.empty()) sheets.push_back(std::move(parameters));
@@ -147,10 +148,10 @@ bool is_integrator(std::string_view term) {
 
 }  // namespace
 
-std::vector<Sheet> show_case(std::string_view name, const cases::Settings& settings,
-                             double threshold) {
+std::vector<record::Sheet> show_case(std::string_view name, const cases::Settings& settings,
+                                     double threshold) {
   const auto which = cases::make(name, settings, threshold);
-  std::vector<Sheet> sheets{
+  std::vector<record::Sheet> sheets{
       parameter_sheet(which),
       constant_sheet("clackers/constants/1", "Derived constants", which.constants),
       constant_sheet("clackers/indicators/1", "Indicators", which.indicators),
@@ -164,8 +165,8 @@ std::string show_problem(std::string_view name, const cases::Settings& settings)
   return problem_json(cases::make(name, settings).problem);
 }
 
-std::vector<Sheet> show_method(std::string_view specification) {
-  std::vector<Sheet> sheets;
+std::vector<record::Sheet> show_method(std::string_view specification) {
+  std::vector<record::Sheet> sheets;
   // A contact treatment alone is no method, yet it has a card to show.
   const auto first = methods::parse_specification(specification).first;
   for (const auto& entry : methods::entries())
@@ -190,4 +191,4 @@ std::string treatment_of(std::string_view specification) {
   return std::string(terms.size() > 1 ? terms[1] : "event-driven");
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

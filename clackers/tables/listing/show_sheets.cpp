@@ -9,7 +9,7 @@
 #include "clackers/exact/quantities/harmonics.hpp"
 #include "clackers/exact/quantities/indicators.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 // A pair in closed form, or null.
@@ -25,14 +25,14 @@ double lost_after(const exact::ClosedForm& motion, double eps) {
 
 }  // namespace
 
-std::optional<Sheet> harmonic_sheet(const cases::Case& which, double threshold) {
+std::optional<record::Sheet> harmonic_sheet(const cases::Case& which, double threshold) {
   const auto* motion = pair_of(which);
   if (motion == nullptr) return std::nullopt;
   const auto& c = *motion->pair();
   const double odd = c.ratio.odd, omega = std::min(c.omega_D1, c.omega_D2);
   const double last = exact::indicators(odd, omega, 1.0, threshold).highest_harmonic;
   const double peak = exact::peak_harmonic(odd), size = exact::harmonic_amplitude(odd, peak);
-  Sheet sheet{
+  record::Sheet sheet{
       "clackers/harmonics/1",
       fmt::format("Harmonics of the fast mass, elastic and undamped; T_S counts those of at "
                   "least {:g} of the peak",
@@ -55,15 +55,15 @@ std::optional<Sheet> harmonic_sheet(const cases::Case& which, double threshold) 
   return sheet;
 }
 
-std::optional<Sheet> conditioning_sheet(const cases::Case& which) {
+std::optional<record::Sheet> conditioning_sheet(const cases::Case& which) {
   const auto* motion = pair_of(which);
   if (motion == nullptr) return std::nullopt;
-  Sheet sheet{"clackers/conditioning/1",
-              "Synchrony lost: collisions spaced wrongly by a tenth",
-              {{"disturbance", "", "of what"},
-               {"size", "", "relative"},
-               {"lost_after", "", "number of the collision; inf: never"}},
-              {}};
+  record::Sheet sheet{"clackers/conditioning/1",
+                      "Synchrony lost: collisions spaced wrongly by a tenth",
+                      {{"disturbance", "", "of what"},
+                       {"size", "", "relative"},
+                       {"lost_after", "", "number of the collision; inf: never"}},
+                      {}};
   for (const double size : {1e-3, 1e-6, 1e-9, 0x1p-53})
     sheet.rows.push_back({std::string("of the state at one collision"), size,
                           exact::collisions_until_perturbation(motion->flight().eta, size)});
@@ -73,4 +73,4 @@ std::optional<Sheet> conditioning_sheet(const cases::Case& which) {
   return sheet;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

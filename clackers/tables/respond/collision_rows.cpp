@@ -4,7 +4,7 @@
 
 #include "clackers/tables/respond.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 // Two masses that touch in their only contact have one place.
@@ -12,9 +12,9 @@ bool has_one_place(const cases::Case& which) {
   return which.motion->dof() <= 2 && which.problem.contacts.size() <= 1;
 }
 
-std::vector<Column> collision_columns(const cases::Case& which) {
-  std::vector<Column> columns{{"k", "", "number of the collision"},
-                              {"t", "s", "its time, the nearest double"}};
+std::vector<record::Column> collision_columns(const cases::Case& which) {
+  std::vector<record::Column> columns{{"k", "", "number of the collision"},
+                                      {"t", "s", "its time, the nearest double"}};
   const bool names_contact = which.problem.contacts.size() > 1;
   if (names_contact) columns.push_back({"contact", "", "number of the contact, from 0"});
   for (int i = 1; i <= which.motion->dof(); ++i) {
@@ -28,13 +28,13 @@ std::vector<Column> collision_columns(const cases::Case& which) {
   columns.push_back({"impulse", "N s", "of the contact"});
   columns.push_back({"energy_before", "J", "of the whole structure"});
   columns.push_back({"energy_after", "J", "of the whole structure"});
-  for (auto& column : columns) column.kind = ColumnKind::real;
-  columns.front().kind = ColumnKind::whole;
-  if (names_contact) columns[2].kind = ColumnKind::whole;
+  for (auto& column : columns) column.kind = record::ColumnKind::real;
+  columns.front().kind = record::ColumnKind::whole;
+  if (names_contact) columns[2].kind = record::ColumnKind::whole;
   return columns;
 }
 
-class CollisionRows : public NumberRows {
+class CollisionRows : public record::NumberRows {
  public:
   explicit CollisionRows(const cases::Case& which)
       : motion_(*which.motion),
@@ -50,7 +50,7 @@ class CollisionRows : public NumberRows {
     return fmt::format("Collisions of {}: none until the end of its run, {} s", name_,
                        motion_.end());
   }
-  const std::vector<Column>& columns() const override { return columns_; }
+  const std::vector<record::Column>& columns() const override { return columns_; }
 
   long long count() const override { return total_; }
 
@@ -75,14 +75,14 @@ class CollisionRows : public NumberRows {
   const model::Motion& motion_;
   std::string name_;
   long long total_, done_ = 0;
-  std::vector<Column> columns_;
+  std::vector<record::Column> columns_;
   bool names_contact_, has_one_place_;
 };
 
 }  // namespace
 
-std::unique_ptr<RowSource> collisions(const cases::Case& which) {
+std::unique_ptr<record::RowSource> collisions(const cases::Case& which) {
   return std::make_unique<CollisionRows>(which);
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -6,30 +6,30 @@
 
 #include "clackers/exact/certified/digits.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 using certified::Digits;
 
 // The rows of a source in double precision, their real numbers replaced. What rows there are, and
 // which side each is of, is decided once.
-class DigitRows : public RowSource {
+class DigitRows : public record::RowSource {
  public:
   // `about` is the number of rows, second rows at collisions left out.
-  DigitRows(const cases::Case& which, std::unique_ptr<RowSource> rows, long long digits,
+  DigitRows(const cases::Case& which, std::unique_ptr<record::RowSource> rows, long long digits,
             long long about)
       : rows_(std::move(rows)),
         digits_(*which.motion, digits),
         columns_(rows_->columns()),
         title_(fmt::format("{} to {} digits", rows_->title(), digits)),
         about_(about) {
-    for (auto& column : columns_) column.kind = ColumnKind::any;
+    for (auto& column : columns_) column.kind = record::ColumnKind::any;
   }
 
   std::string title() const override { return title_; }
-  const std::vector<Column>& columns() const override { return columns_; }
+  const std::vector<record::Column>& columns() const override { return columns_; }
 
-  bool next(std::vector<Cell>& row) final {
+  bool next(std::vector<record::Cell>& row) final {
     if (!rows_->next(row)) return false;
     round(row);
     report(std::min(++done_, about_), about_);
@@ -37,11 +37,11 @@ class DigitRows : public RowSource {
   }
 
  protected:
-  virtual void round(std::vector<Cell>& row) = 0;
+  virtual void round(std::vector<record::Cell>& row) = 0;
 
-  std::unique_ptr<RowSource> rows_;
+  std::unique_ptr<record::RowSource> rows_;
   Digits digits_;
-  std::vector<Column> columns_;
+  std::vector<record::Column> columns_;
 
  private:
   std::string title_;
@@ -53,7 +53,7 @@ class ResponseDigits : public DigitRows {
   using DigitRows::DigitRows;
   std::string schema() const override { return "clackers/response-digits/1"; }
 
-  void round(std::vector<Cell>& row) override {
+  void round(std::vector<record::Cell>& row) override {
     const double t = std::get<double>(row[0]);
     const auto* side = std::get_if<std::string>(&row[1]);
     const bool after = side != nullptr && *side == "+";
@@ -67,14 +67,14 @@ class ResponseDigits : public DigitRows {
 
 class CollisionDigits : public DigitRows {
  public:
-  CollisionDigits(const cases::Case& which, std::unique_ptr<RowSource> rows, long long digits,
-                  long long about)
+  CollisionDigits(const cases::Case& which, std::unique_ptr<record::RowSource> rows,
+                  long long digits, long long about)
       : DigitRows(which, std::move(rows), digits, about) {
     columns_[1].meaning = "its time";
   }
   std::string schema() const override { return "clackers/collisions-digits/1"; }
 
-  void round(std::vector<Cell>& row) override {
+  void round(std::vector<record::Cell>& row) override {
     const auto hit = digits_.impact(std::get<long long>(row[0]));
     row[1] = hit.t;
     std::size_t at = columns_[2].name == "contact" ? 3 : 2;
@@ -90,14 +90,14 @@ class CollisionDigits : public DigitRows {
 
 }  // namespace
 
-std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& grid,
-                                   long long digits) {
+std::unique_ptr<record::RowSource> respond(const cases::Case& which, const TimeGrid& grid,
+                                           long long digits) {
   return std::make_unique<ResponseDigits>(which, respond(which, grid), digits, grid.size());
 }
 
-std::unique_ptr<RowSource> collisions(const cases::Case& which, long long digits) {
+std::unique_ptr<record::RowSource> collisions(const cases::Case& which, long long digits) {
   return std::make_unique<CollisionDigits>(which, collisions(which), digits,
                                            which.motion->impact_count(which.motion->end()));
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -1,20 +1,21 @@
 #include <algorithm>
 #include <memory>
 
-#include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/exact/quantities/energy.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/tables/respond/timed_rows.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
-const Column kinetic{"kinetic", "J", "of all masses"};
-const Column potential{"potential", "J", "in the springs"};
-const Column lost{"lost", "J", "at impacts so far"};
-const Column momentum{"momentum", "kg m/s", "of all masses"};
+const record::Column kinetic{"kinetic", "J", "of all masses"};
+const record::Column potential{"potential", "J", "in the springs"};
+const record::Column lost{"lost", "J", "at impacts so far"};
+const record::Column momentum{"momentum", "kg m/s", "of all masses"};
 
-std::unique_ptr<RowSource> rows_of(const cases::Case& which, const TimeGrid& grid,
-                                   const std::vector<Column>& columns, TimedRows::Fill fill) {
+std::unique_ptr<record::RowSource> rows_of(const cases::Case& which, const TimeGrid& grid,
+                                           const std::vector<record::Column>& columns,
+                                           TimedRows::Fill fill) {
   return std::make_unique<TimedRows>(*which.motion, grid, "clackers/energy/1",
                                      "Energy of " + which.entry->name, columns, 64,
                                      std::move(fill));
@@ -43,9 +44,10 @@ class LostEnergy {
   std::vector<double> t_, sum_{0.0};
 };
 
-std::unique_ptr<RowSource> sampled_energies(const cases::Case& which, const TimeGrid& grid) {
+std::unique_ptr<record::RowSource> sampled_energies(const cases::Case& which,
+                                                    const TimeGrid& grid) {
   const auto& motion = *which.motion;
-  const auto energy = std::make_shared<const assess::MechanicalEnergy>(which.problem.system);
+  const auto energy = std::make_shared<const measure::MechanicalEnergy>(which.problem.system);
   const auto at_impacts = std::make_shared<const LostEnergy>(motion);
   const Eigen::VectorXd mass = which.problem.system.mass.colwise().sum();
   return rows_of(
@@ -60,7 +62,7 @@ std::unique_ptr<RowSource> sampled_energies(const cases::Case& which, const Time
 
 }  // namespace
 
-std::unique_ptr<RowSource> energies(const cases::Case& which, const TimeGrid& grid) {
+std::unique_ptr<record::RowSource> energies(const cases::Case& which, const TimeGrid& grid) {
   require_inside(which, grid);
   const auto* motion = exact::as_closed_form(*which.motion);
   if (motion == nullptr) return sampled_energies(which, grid);
@@ -81,4 +83,4 @@ std::unique_ptr<RowSource> energies(const cases::Case& which, const TimeGrid& gr
       }));
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace clackers::study {
+namespace clackers::tables {
 
 ImpactFinder::ImpactFinder(const model::Motion& motion)
     : motion_(motion),
@@ -26,4 +26,4 @@ bool ImpactFinder::is_impact(double t) {
   return t == before_ || t == after_;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

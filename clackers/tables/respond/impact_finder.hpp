@@ -2,7 +2,7 @@
 
 #include "clackers/model/motion.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 
 /// Answers whether a time is the double nearest to an impact. Remembers the two impacts around the
 /// last time asked for, so that ascending times cost next to nothing.
@@ -22,4 +22,4 @@ class ImpactFinder {
   double before_, after_;  // neighbouring impacts, none between them
 };
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -7,30 +7,30 @@
 #include "clackers/exact/quantities/energy.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/exact/quantities/spectrum.hpp"
+#include "clackers/study/testing/toy_motion.hpp"
 #include "clackers/tables/listing/show_sheets.hpp"
 #include "clackers/tables/respond.hpp"
 #include "clackers/tables/respond/timed_rows.hpp"
-#include "clackers/study/testing/toy_motion.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
-using Rows = std::vector<std::vector<Cell>>;
+using Rows = std::vector<std::vector<record::Cell>>;
 
-Rows all(RowSource& rows) {
+Rows all(record::RowSource& rows) {
   Rows list;
-  std::vector<Cell> row;
+  std::vector<record::Cell> row;
   while (rows.next(row)) list.push_back(row);
   return list;
 }
 
-std::string names(const RowSource& rows) {
+std::string names(const record::RowSource& rows) {
   std::string list;
   for (const auto& column : rows.columns()) list += (list.empty() ? "" : ",") + column.name;
   return list;
 }
 
-std::string units(const RowSource& rows) {
+std::string units(const record::RowSource& rows) {
   std::string list;
   for (const auto& column : rows.columns()) list += "," + column.unit;
   return list;
@@ -51,14 +51,15 @@ TEST(EnergyRows, AreTheSplitAtEveryTimeAndOnBothSidesOfACollision) {
   const exact::EnergyAccount account(motion_of(which));
   const auto row = [&](double t, const char* sign, model::Side side) {
     const auto s = account.at(t, side);
-    return std::vector<Cell>{t,
-                             *sign == '\0' ? Cell{} : Cell{std::string(sign)},
-                             s.kinetic,
-                             s.potential,
-                             s.dissipated,
-                             s.lost,
-                             s.total(),
-                             account.momentum(t, side)};
+    return std::vector<record::Cell>{
+        t,
+        *sign == '\0' ? record::Cell{} : record::Cell{std::string(sign)},
+        s.kinetic,
+        s.potential,
+        s.dissipated,
+        s.lost,
+        s.total(),
+        account.momentum(t, side)};
   };
   EXPECT_EQ(all(*rows), (Rows{row(0.5, "", model::Side::left), row(hit, "-", model::Side::left),
                               row(hit, "+", model::Side::right), row(3.0, "", model::Side::left)}));
@@ -70,8 +71,8 @@ TEST(SensitivityRows, AreTheRawDerivativeWhereARawParameterIsNamed) {
   EXPECT_EQ(names(*rows), "t,side,du1,dv1,da1,du2,dv2,da2");
   EXPECT_EQ(units(*rows), ",s,,m^2/N,m^2/N/s,m^2/N/s^2,m^2/N,m^2/N/s,m^2/N/s^2");
   const auto d = exact::raw_sensitivity(motion_of(which), "k1")->at(10.0, model::Side::left);
-  EXPECT_EQ(all(*rows)[1],
-            (std::vector<Cell>{10.0, Cell{}, d.u[0], d.v[0], d.a[0], d.u[1], d.v[1], d.a[1]}));
+  EXPECT_EQ(all(*rows)[1], (std::vector<record::Cell>{10.0, record::Cell{}, d.u[0], d.v[0], d.a[0],
+                                                      d.u[1], d.v[1], d.a[1]}));
 }
 
 TEST(SensitivityRows, AreTheDerivativeWithinTheClassWhereAParameterOfTheCaseIsNamed) {
@@ -79,8 +80,8 @@ TEST(SensitivityRows, AreTheDerivativeWithinTheClassWhereAParameterOfTheCaseIsNa
   for (const auto& [name, plain] : {std::pair{"r", "r"}, {"xi1", "xi1"}, {"class:k1", "k1"}}) {
     const auto d = exact::class_sensitivity(motion_of(which), plain)->at(10.0, model::Side::left);
     const auto rows = all(*sensitivity(which, grid_of(3, 20.0), name));
-    EXPECT_EQ(rows[1][2], Cell{d.u[0]}) << name;
-    EXPECT_EQ(rows[1][7], Cell{d.a[1]}) << name;
+    EXPECT_EQ(rows[1][2], record::Cell{d.u[0]}) << name;
+    EXPECT_EQ(rows[1][7], record::Cell{d.a[1]}) << name;
   }
   EXPECT_EQ(units(*sensitivity(which, grid_of(3, 20.0), "r")), ",s,,m,m/s,m/s^2,m,m/s,m/s^2");
   EXPECT_EQ(units(*sensitivity(cases::make("sdof"), grid_of(3, 20.0), "m1")),
@@ -131,8 +132,8 @@ TEST(SpectrumRows, AreTheTransformFromZeroToTheHighestFrequency) {
   for (std::size_t k = 0; k < 5; ++k) {
     const double omega = 0.5 * double(k);
     const auto f = exact::Spectrum(motion_of(which)).at(omega);
-    EXPECT_EQ(list[k],
-              (std::vector<Cell>{omega, f[0].real(), f[0].imag(), f[1].real(), f[1].imag()}));
+    EXPECT_EQ(list[k], (std::vector<record::Cell>{omega, f[0].real(), f[0].imag(), f[1].real(),
+                                                  f[1].imag()}));
   }
   EXPECT_EQ(names(*spectrum(cases::make("sdof"), 2, 1.0)), "omega,re1,im1");
   for (const double highest : {0.0, -1.0, 1e300})
@@ -144,10 +145,10 @@ TEST(SpectrumRows, AreTheTransformFromZeroToTheHighestFrequency) {
 // Masses 1, 2 and 3 kg with v = i and u = i t, on springs of 2 N/m; two impacts at 1 s, each with
 // the loss of 1 J that both make together, and one of 3 J at 2 s.
 TEST(EnergyRows, OfAnyMotionAreThoseOfItsStatesAndImpacts) {
-  struct Lossy : ToyMotion {
-    Lossy() : ToyMotion(3, 4.0, {1.0, 1.0, 2.0}) {}
+  struct Lossy : study::ToyMotion {
+    Lossy() : study::ToyMotion(3, 4.0, {1.0, 1.0, 2.0}) {}
     model::MotionImpact impact(long long index) const override {
-      auto now = ToyMotion::impact(index);
+      auto now = study::ToyMotion::impact(index);
       now.energy_after = now.energy_before - (index < 3 ? 1.0 : 3.0);
       return now;
     }
@@ -160,11 +161,11 @@ TEST(EnergyRows, OfAnyMotionAreThoseOfItsStatesAndImpacts) {
   toy.problem.system.stiffness = 2.0 * Eigen::Matrix3d::Identity();
   const auto rows = energies(toy, {0.0, 0, 0.0, {0.5, 1.0, 3.0}});
   EXPECT_EQ(names(*rows), "t,side,kinetic,potential,lost,momentum");
-  const Cell minus{std::string("-")}, plus{std::string("+")};
-  const Rows expected{{0.5, Cell{}, 18.0, 3.5, 0.0, 14.0},
+  const record::Cell minus{std::string("-")}, plus{std::string("+")};
+  const Rows expected{{0.5, record::Cell{}, 18.0, 3.5, 0.0, 14.0},
                       {1.0, minus, 18.0, 14.0, 0.0, 14.0},
                       {1.0, plus, 18.0, 14.0, 1.0, 14.0},
-                      {3.0, Cell{}, 18.0, 126.0, 4.0, -14.0}};
+                      {3.0, record::Cell{}, 18.0, 126.0, 4.0, -14.0}};
   EXPECT_EQ(all(*rows), expected);
 }
 
@@ -172,7 +173,7 @@ TEST(QuantityRows, NeedAClosedFormAndTimesInsideTheRun) {
   const cases::CaseEntry entry{"toy", "", "", {}};
   cases::Case toy;
   toy.entry = &entry;
-  toy.motion = std::make_shared<ToyMotion>(2, 4.0, std::vector<double>{});
+  toy.motion = std::make_shared<study::ToyMotion>(2, 4.0, std::vector<double>{});
   for (const auto& text : {refusal_of([&] { sensitivity(toy, grid_of(2, 1.0), "m1"); }),
                            refusal_of([&] { spectrum(toy, 2, 1.0); })})
     EXPECT_NE(text.find("toy is none. [no-closed-form]"), std::string::npos) << text;
@@ -188,11 +189,11 @@ TEST(HarmonicSheet, HasThePeakAndTheLastThatCounts) {
   ASSERT_TRUE(sheet);
   // X = 9: peak at 4, the last at 0.1 is 7; 1 to 7 around the first, 8 to 10 around the second.
   ASSERT_EQ(sheet->rows.size(), 10u);
-  EXPECT_EQ(sheet->rows[3][0], Cell{4LL});
-  EXPECT_EQ(sheet->rows[3][3], Cell{1.0});
+  EXPECT_EQ(sheet->rows[3][0], record::Cell{4LL});
+  EXPECT_EQ(sheet->rows[3][3], record::Cell{1.0});
   EXPECT_NEAR(std::get<double>(sheet->rows[3][1]), 8.0 * std::sqrt(0.9975), 1e-14);
-  EXPECT_EQ(sheet->rows[6][4], Cell{std::string("yes")});
-  EXPECT_EQ(sheet->rows[7][4], Cell{std::string("no")});
+  EXPECT_EQ(sheet->rows[6][4], record::Cell{std::string("yes")});
+  EXPECT_EQ(sheet->rows[7][4], record::Cell{std::string("no")});
   EXPECT_NE(sheet->title.find("0.1 of the peak"), std::string::npos);
   // Far apart, rows between the two groups are left out.
   EXPECT_EQ(harmonic_sheet(cases::make("synchronized-pair", {{"X", 401.0}}), 0.001)->rows.size(),
@@ -224,4 +225,4 @@ TEST(ConditioningSheet, TellsWhenSynchronyIsLost) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -8,7 +8,7 @@
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/study/testing/toy_motion.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 const cases::CaseEntry toy_entry{"toy", "", "", {}};
@@ -16,24 +16,24 @@ const cases::CaseEntry toy_entry{"toy", "", "", {}};
 cases::Case toy(int dof, double end, std::vector<double> impacts) {
   cases::Case which;
   which.entry = &toy_entry;
-  which.motion = std::make_shared<ToyMotion>(dof, end, std::move(impacts));
+  which.motion = std::make_shared<study::ToyMotion>(dof, end, std::move(impacts));
   return which;
 }
 
-std::vector<std::vector<Cell>> all(RowSource& rows) {
-  std::vector<std::vector<Cell>> list;
-  std::vector<Cell> row;
+std::vector<std::vector<record::Cell>> all(record::RowSource& rows) {
+  std::vector<std::vector<record::Cell>> list;
+  std::vector<record::Cell> row;
   while (rows.next(row)) list.push_back(row);
   return list;
 }
 
-std::vector<std::string> names(const RowSource& rows) {
+std::vector<std::string> names(const record::RowSource& rows) {
   std::vector<std::string> list;
   for (const auto& column : rows.columns()) list.push_back(column.name);
   return list;
 }
 
-const Cell nothing{}, minus{std::string("-")}, plus{std::string("+")};
+const record::Cell nothing{}, minus{std::string("-")}, plus{std::string("+")};
 
 TEST(Respond, NamesItsColumnsByTheNumberOfMasses) {
   EXPECT_EQ(names(*respond(toy(1, 4.0, {}), grid_of(2, 4.0))),
@@ -50,13 +50,14 @@ TEST(Respond, NamesItsColumnsByTheNumberOfMasses) {
 TEST(Respond, ShowsBothSidesWhereATimeIsACollision) {
   const auto which = toy(2, 4.0, {1.0, 4.0});
   const auto list = all(*respond(which, {1.0, 5, 0.0, {}}));
-  const std::vector<std::vector<Cell>> expected{{0.0, nothing, 0.0, 1.0, 100.0, 0.0, 2.0, 200.0},
-                                                {1.0, minus, 1.0, 1.0, 101.0, 2.0, 2.0, 201.0},
-                                                {1.0, plus, 1.0, -1.0, 101.0, 2.0, -2.0, 201.0},
-                                                {2.0, nothing, 2.0, -1.0, 102.0, 4.0, -2.0, 202.0},
-                                                {3.0, nothing, 3.0, -1.0, 103.0, 6.0, -2.0, 203.0},
-                                                {4.0, minus, 4.0, -1.0, 104.0, 8.0, -2.0, 204.0},
-                                                {4.0, plus, 4.0, 1.0, 104.0, 8.0, 2.0, 204.0}};
+  const std::vector<std::vector<record::Cell>> expected{
+      {0.0, nothing, 0.0, 1.0, 100.0, 0.0, 2.0, 200.0},
+      {1.0, minus, 1.0, 1.0, 101.0, 2.0, 2.0, 201.0},
+      {1.0, plus, 1.0, -1.0, 101.0, 2.0, -2.0, 201.0},
+      {2.0, nothing, 2.0, -1.0, 102.0, 4.0, -2.0, 202.0},
+      {3.0, nothing, 3.0, -1.0, 103.0, 6.0, -2.0, 203.0},
+      {4.0, minus, 4.0, -1.0, 104.0, 8.0, -2.0, 204.0},
+      {4.0, plus, 4.0, 1.0, 104.0, 8.0, 2.0, 204.0}};
   EXPECT_EQ(list, expected);
 }
 
@@ -64,8 +65,8 @@ TEST(Respond, ShowsOneSideBesideACollision) {
   const auto which = toy(1, 4.0, {1.0});
   const double before = std::nextafter(1.0, 0.0), after = std::nextafter(1.0, 2.0);
   const auto list = all(*respond(which, {0.0, 0, 0.0, {after, before}}));
-  const std::vector<std::vector<Cell>> expected{{after, nothing, after, -1.0, 100.0 + after},
-                                                {before, nothing, before, 1.0, 100.0 + before}};
+  const std::vector<std::vector<record::Cell>> expected{
+      {after, nothing, after, -1.0, 100.0 + after}, {before, nothing, before, 1.0, 100.0 + before}};
   EXPECT_EQ(list, expected);
 }
 
@@ -75,14 +76,14 @@ TEST(Respond, StreamsManyRowsWithoutLosingOneAtABlocksBorder) {
   for (int k = 0; k <= 5000; k += 10) impacts.push_back(k);
   const auto which = toy(1, 5000.0, impacts);
   const auto rows = respond(which, grid_of(5001, 5000.0));
-  std::vector<Cell> row;
+  std::vector<record::Cell> row;
   for (int k = 0; k <= 5000; ++k) {
     ASSERT_TRUE(rows->next(row));
-    ASSERT_EQ(row[0], Cell{double(k)});
+    ASSERT_EQ(row[0], record::Cell{double(k)});
     ASSERT_EQ(row[1], k % 10 == 0 ? minus : nothing);
     if (k % 10 != 0) continue;
     ASSERT_TRUE(rows->next(row));
-    ASSERT_EQ(row[0], Cell{double(k)});
+    ASSERT_EQ(row[0], record::Cell{double(k)});
     ASSERT_EQ(row[1], plus);
   }
   EXPECT_FALSE(rows->next(row));
@@ -111,7 +112,7 @@ TEST(Respond, ReportsTheShareOfItsRowsAndEndsWhereTheCallerThrows) {
     shares.push_back(share);
     if (share > 0.5) throw 1;
   };
-  std::vector<Cell> row;
+  std::vector<record::Cell> row;
   EXPECT_THROW(while (rows->next(row)){}, int);
   EXPECT_TRUE(std::ranges::is_sorted(shares));
   EXPECT_GT(shares.size(), 1u);
@@ -133,24 +134,24 @@ TEST(Respond, RefusesTimesOutsideTheRunBeforeAnyRow) {
   EXPECT_THROW(respond(which, grid_of(3, 8.0)), InputError);
 }
 
-TEST(Collisions, ListEveryCollisionWithBothSides) {
+TEST(study::Collisions, ListEveryCollisionWithBothSides) {
   const auto which = toy(2, 4.0, {1.0, 2.5});
   const auto rows = collisions(which);
   EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "v2-", "v2+",
                                                     "impulse", "energy_before", "energy_after"}));
   EXPECT_EQ(rows->schema(), "clackers/collisions/1");
-  const std::vector<std::vector<Cell>> expected{
+  const std::vector<std::vector<record::Cell>> expected{
       {1LL, 1.0, 1.0, 1.0, -1.0, 2.0, -2.0, 0.5, 3.0, 2.0},
       {2LL, 2.5, 2.5, -1.0, 1.0, -2.0, 2.0, 1.0, 6.0, 4.0}};
   EXPECT_EQ(all(*rows), expected);
 }
 
-TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
+TEST(study::Collisions, NameTheirContactWhereThereAreSeveral) {
   // Two contacts that close together.
-  struct Several : ToyMotion {
-    Several() : ToyMotion(3, 4.0, {1.0, 1.0}) {}
+  struct Several : study::ToyMotion {
+    Several() : study::ToyMotion(3, 4.0, {1.0, 1.0}) {}
     model::MotionImpact impact(long long index) const override {
-      auto now = ToyMotion::impact(index);
+      auto now = study::ToyMotion::impact(index);
       now.contact = int(2 - index);
       return now;
     }
@@ -163,7 +164,7 @@ TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
                                                     "v2-", "v2+", "u3", "v3-", "v3+", "impulse",
                                                     "energy_before", "energy_after"}));
   // Both together turn the velocities around twice.
-  const std::vector<std::vector<Cell>> expected{
+  const std::vector<std::vector<record::Cell>> expected{
       {1LL, 1.0, 1LL, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 0.5, 3.0, 2.0},
       {2LL, 1.0, 0LL, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 1.0, 6.0, 4.0}};
   EXPECT_EQ(all(*rows), expected);
@@ -171,7 +172,7 @@ TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
   EXPECT_EQ(all(*respond(which, grid_of(5, 4.0))).size(), 6u);
 }
 
-TEST(Collisions, OfOneMassLeaveOutTheSecond) {
+TEST(study::Collisions, OfOneMassLeaveOutTheSecond) {
   const auto which = toy(1, 4.0, {1.0});
   const auto rows = collisions(which);
   EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "impulse",
@@ -189,4 +190,4 @@ TEST(ResponseCurve, HoldsOneRowAMassOverTheWholeRun) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::tables

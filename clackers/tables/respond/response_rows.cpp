@@ -1,16 +1,16 @@
 #include <fmt/format.h>
 
+#include "clackers/study/verify/verify_plan.hpp"
 #include "clackers/tables/respond.hpp"
 #include "clackers/tables/respond/timed_rows.hpp"
-#include "clackers/study/verify/verify_plan.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 constexpr std::size_t block = 2048;  // states sampled together, which is much faster than singly
 
-std::vector<Column> response_columns(int dof) {
-  std::vector<Column> columns;
+std::vector<record::Column> response_columns(int dof) {
+  std::vector<record::Column> columns;
   for (int i = 1; i <= dof; ++i) {
     columns.push_back({fmt::format("u{}", i), "m", fmt::format("displacement of mass {}", i)});
     columns.push_back({fmt::format("v{}", i), "m/s", fmt::format("velocity of mass {}", i)});
@@ -40,7 +40,7 @@ struct States {
 
 }  // namespace
 
-std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& grid) {
+std::unique_ptr<record::RowSource> respond(const cases::Case& which, const TimeGrid& grid) {
   require_inside(which, grid);
   const auto& motion = *which.motion;
   return std::make_unique<TimedRows>(
@@ -48,18 +48,18 @@ std::unique_ptr<RowSource> respond(const cases::Case& which, const TimeGrid& gri
       response_columns(motion.dof()), block, States{motion, {}, {}, {}});
 }
 
-CaseRecord response_record(const cases::Case& which) {
-  CaseRecord record;
-  record.problem = summary_of(which);
-  record.plan = no_refinement;
+record::CaseRecord response_record(const cases::Case& which) {
+  record::CaseRecord record;
+  record.problem = study::summary_of(which);
+  record.plan = study::no_refinement;
   record.response = response_curve(which, response_points);
   return record;
 }
 
-Curve response_curve(const cases::Case& which, int n) {
+record::Curve response_curve(const cases::Case& which, int n) {
   const auto grid = grid_of(n, which.motion->end());
   const auto dof = static_cast<std::size_t>(which.motion->dof());
-  Curve curve;
+  record::Curve curve;
   for (long long k = 0; k < grid.size(); ++k) curve.t.push_back(grid.at(k));
   std::vector<double> u(curve.t.size() * dof), v(u.size());
   which.motion->sample(curve.t, model::Side::left, {u, v, {}});
@@ -69,4 +69,4 @@ Curve response_curve(const cases::Case& which, int n) {
   return curve;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

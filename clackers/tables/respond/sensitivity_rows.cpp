@@ -9,7 +9,7 @@
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/tables/respond/timed_rows.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 constexpr std::string_view class_prefix = "class:";
@@ -91,13 +91,13 @@ Choice choose(const cases::Case& which, const exact::ClosedForm& motion, std::st
 
 }  // namespace
 
-std::unique_ptr<RowSource> sensitivity(const cases::Case& which, const TimeGrid& grid,
-                                       std::string_view name) {
+std::unique_ptr<record::RowSource> sensitivity(const cases::Case& which, const TimeGrid& grid,
+                                               std::string_view name) {
   const auto& motion = closed_form(which, "a sensitivity");
   auto choice = choose(which, motion, name);
   require_inside(which, grid);
   const auto [u, v, a] = units_over(choice.unit);
-  std::vector<Column> columns;
+  std::vector<record::Column> columns;
   for (int i = 1; i <= motion.dof(); ++i) {
     const auto add = [&](char symbol, const std::string& unit, std::string_view what) {
       columns.push_back({fmt::format("d{}{}", symbol, i), unit,
@@ -118,4 +118,4 @@ std::unique_ptr<RowSource> sensitivity(const cases::Case& which, const TimeGrid&
       }));
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -7,24 +7,25 @@
 #include "clackers/exact/quantities/spectrum.hpp"
 #include "clackers/tables/respond/timed_rows.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
-class SpectrumRows : public NumberRows {
+class SpectrumRows : public record::NumberRows {
  public:
   SpectrumRows(const exact::ClosedForm& motion, const std::string& name, const TimeGrid& grid)
       : spectrum_(motion), dof_(std::size_t(motion.dof())), name_(name), grid_(grid) {
-    columns_.push_back({"omega", "rad/s", "frequency", ColumnKind::real});
+    columns_.push_back({"omega", "rad/s", "frequency", record::ColumnKind::real});
     for (std::size_t i = 1; i <= dof_; ++i) {
       const auto what = fmt::format("part of the integral of u{} exp(-i omega t) over the run", i);
-      columns_.push_back({fmt::format("re{}", i), "m s", "real " + what, ColumnKind::real});
-      columns_.push_back({fmt::format("im{}", i), "m s", "imaginary " + what, ColumnKind::real});
+      columns_.push_back({fmt::format("re{}", i), "m s", "real " + what, record::ColumnKind::real});
+      columns_.push_back(
+          {fmt::format("im{}", i), "m s", "imaginary " + what, record::ColumnKind::real});
     }
   }
 
   std::string schema() const override { return "clackers/spectrum/1"; }
   std::string title() const override { return "Fourier transform of " + name_ + " over its run"; }
-  const std::vector<Column>& columns() const override { return columns_; }
+  const std::vector<record::Column>& columns() const override { return columns_; }
 
   long long count() const override { return grid_.size(); }
 
@@ -49,13 +50,13 @@ class SpectrumRows : public NumberRows {
   std::size_t dof_;
   std::string name_;
   TimeGrid grid_;
-  std::vector<Column> columns_;
+  std::vector<record::Column> columns_;
   long long done_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<RowSource> spectrum(const cases::Case& which, long long n, double highest) {
+std::unique_ptr<record::RowSource> spectrum(const cases::Case& which, long long n, double highest) {
   const auto& motion = closed_form(which, "the spectrum");
   const double limit = exact::Spectrum::most_radians / motion.end();
   if (!(highest > 0.0 && highest <= limit))
@@ -64,4 +65,4 @@ std::unique_ptr<RowSource> spectrum(const cases::Case& which, long long n, doubl
   return std::make_unique<SpectrumRows>(motion, which.entry->name, grid_of(n, highest));
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

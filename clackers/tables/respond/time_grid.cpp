@@ -7,7 +7,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/tables/respond.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 constexpr long long most_rows = 1'000'000'000;
@@ -55,4 +55,4 @@ TimeGrid grid_every(double step, double end) {
   return {step, count, reaches_end ? end : 0.0, {}};
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -5,7 +5,7 @@
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/tables/respond.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 namespace {
 
 TEST(TimeGrid, OfSamplesIncludesBothEndsExactly) {
@@ -66,4 +66,4 @@ TEST(TimeGrid, RefusesStepsThatAreNotPositiveOrLongerThanTheRun) {
 }
 
 }  // namespace
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -6,7 +6,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 
 const exact::ClosedForm& closed_form(const cases::Case& which, std::string_view wanted) {
   const auto* motion = exact::as_closed_form(*which.motion);
@@ -30,20 +30,20 @@ void require_inside(const cases::Case& which, const TimeGrid& grid) {
 }
 
 TimedRows::TimedRows(const model::Motion& motion, const TimeGrid& grid, std::string schema,
-                     std::string title, const std::vector<Column>& columns, std::size_t block,
-                     Fill fill)
+                     std::string title, const std::vector<record::Column>& columns,
+                     std::size_t block, Fill fill)
     : motion_(motion),
       grid_(grid),
       finder_(motion),
       schema_(std::move(schema)),
       title_(std::move(title)),
-      columns_{
-          {"t", "s", "time", ColumnKind::real},
-          {"side", "", "- and + are the limits before and after a collision", ColumnKind::side}},
+      columns_{{"t", "s", "time", record::ColumnKind::real},
+               {"side", "", "- and + are the limits before and after a collision",
+                record::ColumnKind::side}},
       block_(block),
       fill_(std::move(fill)) {
   for (auto column : columns) {
-    column.kind = ColumnKind::real;
+    column.kind = record::ColumnKind::real;
     columns_.push_back(std::move(column));
   }
 }
@@ -93,4 +93,4 @@ bool TimedRows::next_block(std::vector<double>& values) {
   return true;
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

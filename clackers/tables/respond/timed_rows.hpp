@@ -10,7 +10,7 @@
 #include "clackers/tables/respond.hpp"
 #include "clackers/tables/respond/impact_finder.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 
 /// The closed form of a case. Throws InputError, naming the quantity that needs it, for a motion of
 /// another kind.
@@ -21,7 +21,7 @@ void require_inside(const cases::Case& which, const TimeGrid& grid);
 
 /// Rows t, side and more at the times of a grid; two where a time is the double nearest to a
 /// collision, sides "-" then "+".
-class TimedRows : public NumberRows {
+class TimedRows : public record::NumberRows {
  public:
   /// Writes the values of the columns after t and side at `times` to rows that lie `stride` doubles
   /// apart, the first at `row`.
@@ -31,11 +31,12 @@ class TimedRows : public NumberRows {
   /// `columns` are those after t and side. `block` times are evaluated together. The motion must
   /// outlive the rows.
   TimedRows(const model::Motion& motion, const TimeGrid& grid, std::string schema,
-            std::string title, const std::vector<Column>& columns, std::size_t block, Fill fill);
+            std::string title, const std::vector<record::Column>& columns, std::size_t block,
+            Fill fill);
 
   std::string schema() const override { return schema_; }
   std::string title() const override { return title_; }
-  const std::vector<Column>& columns() const override { return columns_; }
+  const std::vector<record::Column>& columns() const override { return columns_; }
   long long count() const override;
   bool next_block(std::vector<double>& values) override;
 
@@ -44,7 +45,7 @@ class TimedRows : public NumberRows {
   TimeGrid grid_;
   ImpactFinder finder_;
   std::string schema_, title_;
-  std::vector<Column> columns_;
+  std::vector<record::Column> columns_;
   std::size_t block_;
   Fill fill_;
   long long done_ = 0;
@@ -64,4 +65,4 @@ TimedRows::Fill one_by_one(Values values) {
       };
 }
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/base/codes.hpp"
 #include "clackers/judge/convergence/fit/irregular.hpp"
 #include "clackers/judge/convergence/fit/rules.hpp"
 #include "clackers/judge/convergence/fit/two_terms.hpp"
-#include "clackers/base/codes.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // A law of two terms that cancel is believed where it follows the errors within this factor of those
@@ -97,4 +97,4 @@ RuleResult grows_again(const Range& range, const FitContext&) {
   return undecided(range, "error-grows-again");
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

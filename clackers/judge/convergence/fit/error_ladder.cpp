@@ -8,7 +8,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 void validate(const ErrorPoint& point) {
@@ -98,4 +98,4 @@ RawPoints raw_points(std::span<const LevelView> levels, int first, int last) {
   return all;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

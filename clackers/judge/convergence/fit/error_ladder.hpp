@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// One measured error of a run with step h.
 struct ErrorPoint {
@@ -54,4 +54,4 @@ struct RawPoints {
 };
 RawPoints raw_points(std::span<const LevelView> levels, int first, int last);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

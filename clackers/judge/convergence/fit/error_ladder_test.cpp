@@ -6,7 +6,7 @@
 
 #include "clackers/base/error.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 LevelView view_one(const ErrorLevel& level) { return view(std::span(&level, 1)).front(); }
@@ -52,4 +52,4 @@ TEST(ErrorLadder, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

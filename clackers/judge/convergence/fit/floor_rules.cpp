@@ -2,11 +2,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "clackers/base/codes.hpp"
 #include "clackers/judge/convergence/fit/rules.hpp"
 #include "clackers/judge/convergence/fit/two_terms.hpp"
-#include "clackers/base/codes.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // Runs at a floor within this factor of their trend: the limit of smooth convergence. What noise,
@@ -201,4 +201,4 @@ RuleResult line_then_rough_floor(const Range& range, const FitContext& context) 
   return {};
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

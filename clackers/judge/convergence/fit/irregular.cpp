@@ -10,7 +10,7 @@
 #include "clackers/judge/convergence/fit/window.hpp"
 #include "clackers/measure/errors/vectors.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // How far each inner point lies above the chord of its two neighbours.
@@ -42,7 +42,7 @@ bool first_lies_off(std::span<const LevelView> levels, int first, int last) {
   }
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) slopes.push_back((y[i] - y[j]) / (x[i] - x[j]));
-  const double slope = median(slopes);
+  const double slope = measure::median(slopes);
   for (std::size_t i = 0; i < x.size(); ++i) heights.push_back(y[i] - slope * x[i]);
   return std::abs(heights.front() - median(heights)) > std::log(leading_level);
 }
@@ -173,4 +173,4 @@ std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, i
   return found;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -6,7 +6,7 @@
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// A bend of raw points by less than this factor is no zigzag: points within 1.05 of a line, as
 /// methods that locate impacts leave them, bend by at most 1.05^2.
@@ -49,4 +49,4 @@ struct Envelope {
 /// goes to zero, and the spread reaches to the slope. Nothing for fewer than four levels.
 std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, int last);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -7,7 +7,7 @@
 
 #include "clackers/judge/testing/synthetic_ladder.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -131,4 +131,4 @@ TEST(Swings, OnlyTheGivenLevelsCount) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/judge/convergence/fit/rules.hpp"
 #include "clackers/base/codes.hpp"
+#include "clackers/judge/convergence/fit/rules.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // The claimed line, as far towards the rounding floor as it goes, but to level `least` at least.
@@ -69,4 +69,4 @@ RuleResult growth(const Range& range, const FitContext&) {
   return diverges(range.blank);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

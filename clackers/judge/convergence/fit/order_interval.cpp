@@ -6,7 +6,7 @@
 
 #include "clackers/numerics/line_fit.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 constexpr std::size_t fewest_to_bend = 4;
@@ -86,4 +86,4 @@ OrderInterval order_interval(std::span<const double> x, std::span<const double> 
   return found;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

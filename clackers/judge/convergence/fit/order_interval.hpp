@@ -2,7 +2,7 @@
 
 #include <span>
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// The order of errors that follow a line, ln against ln, and what a bend makes of it.
 struct OrderInterval {
@@ -23,4 +23,4 @@ struct OrderInterval {
 /// Fits both to points of at least two different x = ln h. Fewer than five points do not bend.
 OrderInterval order_interval(std::span<const double> x, std::span<const double> y);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

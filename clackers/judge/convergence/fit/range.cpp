@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "clackers/base/codes.hpp"
 #include "clackers/judge/convergence/fit/order_interval.hpp"
 #include "clackers/judge/convergence/fit/two_terms.hpp"
-#include "clackers/base/codes.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // An error this many times as large as the motion is one of an unstable run.
@@ -158,4 +158,4 @@ std::optional<Window> line_up_to(const Range& range, const FitContext& context, 
   return {};
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

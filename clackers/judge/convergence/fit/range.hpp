@@ -5,13 +5,13 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/base/codes.hpp"
 #include "clackers/judge/convergence/assessment.hpp"
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 #include "clackers/judge/convergence/fit/window.hpp"
 #include "clackers/judge/convergence/ladder_fit.hpp"
-#include "clackers/base/codes.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// Where the levels of a ladder lie, from the finest one down: what every rule of fit_ladder reads.
 struct Range {
@@ -67,4 +67,4 @@ inline constexpr double shortest_line = 3.0;
 /// `shortest_line` octaves; of three levels at least.
 std::optional<Window> line_up_to(const Range& range, const FitContext& context, int last);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -6,7 +6,7 @@
 
 // The rules of fit_ladder (ladder_fit.hpp), by what they look at. Each returns nothing where it does
 // not apply.
-namespace clackers::assess {
+namespace clackers::judge {
 
 using Rule = std::optional<LadderFit> (*)(const Range&, const FitContext&);
 using RuleResult = std::optional<LadderFit>;
@@ -44,4 +44,4 @@ RuleResult swinging(const Range& range, const FitContext& context);
 // Tolerances: tolerance_rules.cpp
 RuleResult tolerance_ladder(const Range& range, const FitContext& context);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

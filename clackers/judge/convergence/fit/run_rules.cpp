@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/judge/convergence/fit/rules.hpp"
 #include "clackers/base/codes.hpp"
+#include "clackers/judge/convergence/fit/rules.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 bool rates_grow(const Window& window) {
@@ -85,4 +85,4 @@ RuleResult anything_else(const Range& range, const FitContext& context) {
   return undecided(range, "no-convergence-yet");
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

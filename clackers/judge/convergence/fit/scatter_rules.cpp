@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/base/codes.hpp"
 #include "clackers/judge/convergence/fit/irregular.hpp"
 #include "clackers/judge/convergence/fit/rules.hpp"
-#include "clackers/base/codes.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // Whether rough levels do not fall: no order of 3/4 or more is within the uncertainty of their slope.
@@ -64,4 +64,4 @@ RuleResult swinging(const Range& range, const FitContext& context) {
   return envelope_decides(range, context);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

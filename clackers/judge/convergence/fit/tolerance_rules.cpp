@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/judge/convergence/fit/rules.hpp"
 #include "clackers/base/codes.hpp"
+#include "clackers/judge/convergence/fit/rules.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 // Errors of adaptive solvers lie within this factor of their line: the error of a step is kept below
@@ -70,4 +70,4 @@ RuleResult tolerance_ladder(const Range& range, const FitContext& context) {
   return shows(fit, lower ? Behaviour::reduced : Behaviour::proper, fit.reason);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -8,7 +8,7 @@
 
 #include "clackers/numerics/line_fit.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 struct Point {
@@ -188,4 +188,4 @@ double order_above_floor(std::span<const LevelView> levels, int first, int last)
   return double(x.size()) * std::log(of_line / of_law) > akaike ? law->p + law->p_spread : 0.0;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -5,7 +5,7 @@
 
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// A law of two terms for errors:  error = | a h^p + b h^q |,  q = 0 for a floor.
 struct TwoTerms {
@@ -44,4 +44,4 @@ std::optional<TwoTerms> fit_two_terms(std::span<const LevelView> levels, int fir
 /// which asks for a gain of 2 for the one parameter more); 0 otherwise.
 double order_above_floor(std::span<const LevelView> levels, int first, int last);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

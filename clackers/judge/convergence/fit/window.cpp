@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 std::optional<numerics::LineFit> line_through(const RawPoints& points) {
@@ -122,4 +122,4 @@ double drift(const Window& found) {
                   std::abs(rates.front() - found.line.slope));
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

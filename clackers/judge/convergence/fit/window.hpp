@@ -7,7 +7,7 @@
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 
 /// Consecutive levels [first, last] of a ladder, zero-based, and the line through their raw points
 /// in logarithmic axes. Up to one point in `outlier_share` that lies far below all others, as an
@@ -86,4 +86,4 @@ bool rates_rise(double claimed, const Window& found);
 /// slope knows nothing of such a bend.
 double drift(const Window& found);
 
-}  // namespace clackers::assess
+}  // namespace clackers::judge

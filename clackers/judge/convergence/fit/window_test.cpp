@@ -6,7 +6,7 @@
 
 #include "clackers/judge/testing/synthetic_ladder.hpp"
 
-namespace clackers::assess {
+namespace clackers::judge {
 namespace {
 
 using namespace synthetic;
@@ -146,4 +146,4 @@ TEST(RateTrend, TheErrorsOfRatesAreThoseOfTheirRawPoints) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::judge

@@ -7,7 +7,7 @@
 
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 struct Jump {
@@ -179,4 +179,4 @@ MetricValue measure_filled_graph_of_reference(const Comparison& comparison) {
   return measured_or_not(found, found.of_reference);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

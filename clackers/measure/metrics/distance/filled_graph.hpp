@@ -6,7 +6,7 @@
 #include "clackers/measure/metrics/distance/polyline_distance.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// The filled graph of a velocity: the set of (t/T, v/V) with vertical segments from the left limit
 /// to the right one at jumps. T is Comparison::collision_period(), V the mass's true envelope at t
@@ -39,4 +39,4 @@ MetricValue measure_filled_graph(const Comparison& comparison);
 MetricValue measure_filled_graph_of_history(const Comparison& comparison);
 MetricValue measure_filled_graph_of_reference(const Comparison& comparison);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -8,7 +8,7 @@
 
 #include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -124,4 +124,4 @@ TEST_F(FilledGraph, IsNotMeasuredWhereRowsAreFarFewerThanTrueImpacts) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

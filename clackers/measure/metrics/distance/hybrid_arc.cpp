@@ -8,7 +8,7 @@
 #include "clackers/measure/errors/vectors.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 std::string objection(const Comparison& comparison) {
@@ -130,4 +130,4 @@ MetricValue measure_hybrid_closeness(const Comparison& comparison) {
   return measured(epsilon);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

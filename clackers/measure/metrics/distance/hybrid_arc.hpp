@@ -8,7 +8,7 @@
 #include "clackers/measure/metrics/distance/polyline_distance.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// A motion as a hybrid arc: one line for each flight j = 0, 1, ..., points (t/T, u/U, v/V) of all
 /// masses, T as in Comparison::collision_period(), U and V the true envelopes at t = 0. Flights do
@@ -63,4 +63,4 @@ class HybridArc {
 /// Press (2012), section 5.3.
 MetricValue measure_hybrid_closeness(const Comparison& comparison);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -8,7 +8,7 @@
 
 #include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -165,4 +165,4 @@ TEST_F(HybridCloseness, WithoutKnownLimitsFlightsEndAtRows) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

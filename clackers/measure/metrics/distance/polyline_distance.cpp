@@ -8,10 +8,10 @@
 #include <limits>
 #include <type_traits>
 
-#include "clackers/measure/metrics/distance/segment_distance.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/measure/metrics/distance/segment_distance.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double relative_excess = 1e-6;
@@ -235,4 +235,4 @@ PolylineDistance hausdorff_distance(const Polyline& one, const Polyline& other) 
   return first.complete ? one_sided_distance(other, one, first.value) : first;
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Points joined by straight segments, in a space whose first coordinate is a (scaled) time. Times
 /// do not descend; two points of one time are joined as well, by a vertical segment. All
@@ -60,4 +60,4 @@ PolylineDistance one_sided_distance(const Polyline& from, const Polyline& to,
 /// The larger of both one-sided distances.
 PolylineDistance hausdorff_distance(const Polyline& one, const Polyline& other);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -7,10 +7,10 @@
 #include <initializer_list>
 #include <random>
 
-#include "clackers/measure/metrics/distance/segment_distance.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/measure/metrics/distance/segment_distance.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 Polyline line(std::initializer_list<std::pair<double, double>> points) {
@@ -255,4 +255,4 @@ TEST(PolylineDistance, RefusesLinesThatCannotBeCompared) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Distances max_i |p_i - q_i| from points to segments, for a number of coordinates known at
 /// compile time, or 0 for any. Points are pointers to `dimension` doubles. Extents of a segment of
@@ -150,4 +150,4 @@ class SegmentDistance {
   double negligible_;
 };
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -6,7 +6,7 @@
 
 #include "clackers/measure/errors/mechanics.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 // Both limits carry half a unit of 2^-52 of themselves each; 4 covers two such and their sum.
@@ -124,4 +124,4 @@ MetricValue jump_invariant_distance(const Comparison& comparison) {
   return measured(worst);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

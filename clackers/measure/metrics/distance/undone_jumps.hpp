@@ -4,7 +4,7 @@
 #include "clackers/measure/metrics/metric.hpp"
 
 // Distances after the jumps of both motions are undone.
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// max |(-1)^k v - (-1)^k* v*| [m/s] over the history's output times, mass by mass; k and k* count
 /// the impacts of each motion so far. An impact that reverses every velocity disappears: the
@@ -41,4 +41,4 @@ MetricValue unfolded_velocity_error(const Comparison& comparison);
 /// Source: J. J. B. Biemond, N. van de Wouw, W. P. M. H. Heemels, H. Nijmeijer (2013).
 MetricValue jump_invariant_distance(const Comparison& comparison);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -7,7 +7,7 @@
 
 #include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -135,4 +135,4 @@ TEST(JumpInvariantDistance, SaysWhyItIsNotMeasured) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -5,7 +5,7 @@
 
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 std::vector<double> distance(const std::vector<double>& found, const Eigen::VectorXd& reference) {
@@ -103,4 +103,4 @@ MetricValue late_impacts(const Comparison& comparison) {
   return measured(double(comparison.shared(event_report).late));
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -6,7 +6,7 @@
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// One collision of the history against the true one it belongs to.
 struct CollisionError {
@@ -48,4 +48,4 @@ MetricValue missed_impacts(const Comparison& comparison);
 MetricValue extra_impacts(const Comparison& comparison);
 MetricValue late_impacts(const Comparison& comparison);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -8,7 +8,7 @@
 
 #include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
@@ -99,4 +99,4 @@ TEST(EventReport, SaysWhyThereIsNothingToCompare) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

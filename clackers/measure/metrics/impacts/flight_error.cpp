@@ -6,7 +6,7 @@
 
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -154,4 +154,4 @@ MetricValue flight_v_error(const Comparison& comparison) {
   return worst(comparison, &FlightError::v);
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

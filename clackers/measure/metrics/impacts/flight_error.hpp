@@ -5,7 +5,7 @@
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// The history against the reference in one flight, shifted so that both start together.
 struct FlightError {
@@ -33,4 +33,4 @@ std::vector<FlightError> flight_errors(const Comparison& comparison);
 MetricValue flight_u_error(const Comparison& comparison);  ///< largest of all flights [m]
 MetricValue flight_v_error(const Comparison& comparison);  ///< [m/s]
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -8,7 +8,7 @@
 
 #include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
@@ -130,4 +130,4 @@ TEST(FlightError, TakesAFirstRowAtAnImpactForTheStartOfAFlight) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

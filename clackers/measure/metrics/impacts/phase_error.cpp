@@ -10,7 +10,7 @@
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -160,4 +160,4 @@ MetricValue measure_decay_error(const Comparison& comparison) {
                      });
 }
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

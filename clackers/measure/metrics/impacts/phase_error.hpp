@@ -6,7 +6,7 @@
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 
 /// Instants that come once or twice a period, in the history and in the reference, with the speed
 /// of a mass there.
@@ -40,4 +40,4 @@ MetricValue measure_period_error(const Comparison& comparison);
 MetricValue measure_phase_error(const Comparison& comparison);
 MetricValue measure_decay_error(const Comparison& comparison);
 
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
+#include "clackers/measure/testing/toy_motion.hpp"
 
-namespace clackers::assess {
+namespace clackers::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -138,4 +138,4 @@ TEST(PhaseError, ARowAtZeroIsOneCrossing) {
 }
 
 }  // namespace
-}  // namespace clackers::assess
+}  // namespace clackers::measure

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/measure/errors/comparison.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/measure/errors/comparison.hpp"
 #include "clackers/record/cause_metrics.hpp"
-#include "clackers/study/check/history/history_score.hpp"
 #include "clackers/record/notes.hpp"
 #include "clackers/record/reduced_curve.hpp"
+#include "clackers/study/check/history/history_score.hpp"
 
 namespace clackers::study {
 namespace {
@@ -19,8 +19,9 @@ constexpr double compared_share = 0.5;
 
 class Measurement {
  public:
-  Measurement(PreparedHistory& history, const cases::Case& problem, const CaseSummary& summary,
-              const Progress& progress, const std::atomic<bool>* interrupt)
+  Measurement(PreparedHistory& history, const cases::Case& problem,
+              const record::CaseSummary& summary, const Progress& progress,
+              const std::atomic<bool>* interrupt)
       : history_(history),
         file_(history.file),
         problem_(problem),
@@ -32,13 +33,13 @@ class Measurement {
     report(read_share);
     const double bend = std::numbers::pi * file_.spacing / summary_.fast_period;
     file_.unseen_bend = 1.0 - std::cos(std::min(bend, std::numbers::pi));
-    const assess::Comparison comparison(history_.data.motion, *problem_.motion, problem_.problem);
+    const measure::Comparison comparison(history_.data.motion, *problem_.motion, problem_.problem);
     run_.score = history_score(comparison, history_.data.has_u, step);
     run_.score.rounding_floor = std::max(run_.score.rounding_floor, file_.printed_floor);
     if (history_.has_all_u)
       measure_motion(comparison);
     else
-      file_.notes.push_back(note("displacements-incomplete"));
+      file_.notes.push_back(record::note("displacements-incomplete"));
     add_notes(file_, run_.score, summary_);
     run_.file = std::move(file_);
     return {std::move(run_), std::move(observation_)};
@@ -46,7 +47,7 @@ class Measurement {
 
  private:
   // What needs the displacements of all masses.
-  void measure_motion(const assess::Comparison& comparison) {
+  void measure_motion(const measure::Comparison& comparison) {
     take_collisions(comparison);
     take_curves(comparison);
     observe(comparison);
@@ -63,12 +64,13 @@ class Measurement {
     if (progress_) progress_(share);
   }
 
-  void take_curves(const assess::Comparison& comparison) {
+  void take_curves(const measure::Comparison& comparison) {
     const auto dof = comparison.dof();
     const auto& u = comparison.history().u;
     const auto time = [&](std::size_t row) { return comparison.history().t[row]; };
-    file_.history = reduced(comparison.rows(), dof, time,
-                            [&](std::size_t mass, std::size_t row) { return u[row * dof + mass]; });
+    file_.history =
+        record::reduced(comparison.rows(), dof, time,
+                        [&](std::size_t mass, std::size_t row) { return u[row * dof + mass]; });
     run_.error_history =
         reduced(comparison.rows(), dof, time, [&](std::size_t mass, std::size_t row) {
           const auto at = row * dof + mass;
@@ -76,7 +78,7 @@ class Measurement {
         });
   }
 
-  void observe(const assess::Comparison& comparison) {
+  void observe(const measure::Comparison& comparison) {
     diagnose::FileFacts facts{.step = 0.0,
                               .spacing = file_.spacing,
                               .floor = file_.printed_floor,
@@ -90,7 +92,7 @@ class Measurement {
   }
 
   // A contact of fewer rows than four is an impact whose limits are rows apart.
-  double contact_time(const assess::Comparison& comparison) const {
+  double contact_time(const measure::Comparison& comparison) const {
     std::vector<double> lengths;
     for (std::size_t k = 0; k < comparison.impacts().size(); ++k)
       lengths.push_back(comparison.impact_ends()[k] - comparison.impacts()[k].t);
@@ -100,10 +102,11 @@ class Measurement {
     return *middle >= 4.0 * file_.spacing ? *middle : 0.0;
   }
 
-  void take_collisions(const assess::Comparison& comparison) {
+  void take_collisions(const measure::Comparison& comparison) {
     run_.score.impacts = comparison.impact_score();
-    const bool reported = comparison.impact_source() == assess::ImpactSource::reported;
-    file_.collisions = reported ? CollisionSource::events : CollisionSource::history;
+    const bool reported = comparison.impact_source() == measure::ImpactSource::reported;
+    file_.collisions =
+        reported ? record::CollisionSource::events : record::CollisionSource::history;
     // Between two collisions the faster mass turns round once at least; eight rows show it.
     const auto count = std::max(1LL, summary_.impact_count);
     const double apart = summary_.end / double(count);
@@ -116,19 +119,19 @@ class Measurement {
   }
 
   PreparedHistory& history_;
-  HistoryFile& file_;
+  record::HistoryFile& file_;
   const cases::Case& problem_;
-  const CaseSummary& summary_;
+  const record::CaseSummary& summary_;
   const Progress& progress_;
   const std::atomic<bool>* interrupt_;
-  Run run_;
+  record::Run run_;
   std::optional<diagnose::Observation> observation_;
 };
 
 }  // namespace
 
 ComparedHistory measure(PreparedHistory history, double step, const cases::Case& problem,
-                        const CaseSummary& summary, const Progress& progress,
+                        const record::CaseSummary& summary, const Progress& progress,
                         const std::atomic<bool>* interrupt) {
   return Measurement(history, problem, summary, progress, interrupt).run(step);
 }

@@ -2,10 +2,10 @@
 
 #include <atomic>
 
+#include "clackers/base/jobs/progress.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/study/check/history/history_run.hpp"
 #include "clackers/study/check/history/prepared_history.hpp"
-#include "clackers/base/jobs/progress.hpp"
 
 namespace clackers::study {
 
@@ -17,7 +17,7 @@ inline constexpr double read_share = 0.4;
 /// measured. `step` [s] is the level's. Calls `progress` with shares from read_share on. Throws Error
 /// (interrupted) when asked to stop.
 ComparedHistory measure(PreparedHistory history, double step, const cases::Case& problem,
-                        const CaseSummary& summary, const Progress& progress,
+                        const record::CaseSummary& summary, const Progress& progress,
                         const std::atomic<bool>* interrupt);
 
 }  // namespace clackers::study

@@ -9,19 +9,19 @@
 namespace clackers::study {
 namespace {
 
-exchange::History read(const HistoryTask& task, const std::vector<std::string>& columns, int dof,
-                       const Progress& progress, const std::atomic<bool>* interrupt) {
-  exchange::HistoryOptions options{.dof = dof,
-                                   .columns = columns,
-                                   .step = task.step_is_tolerance ? 0.0 : task.step,
-                                   .until_not_finite = true,
-                                   .interrupt = interrupt};
+input::History read(const HistoryTask& task, const std::vector<std::string>& columns, int dof,
+                    const Progress& progress, const std::atomic<bool>* interrupt) {
+  input::HistoryOptions options{.dof = dof,
+                                .columns = columns,
+                                .step = task.step_is_tolerance ? 0.0 : task.step,
+                                .until_not_finite = true,
+                                .interrupt = interrupt};
   if (progress) options.progress = [&](double share) { progress(read_share * share); };
-  return exchange::read_history(task.file, options);
+  return input::read_history(task.file, options);
 }
 
 ComparedHistory failed(PreparedHistory history, double step) {
-  Run run;
+  record::Run run;
   run.score.step = step;
   run.score.failure_code = Code("not-finite").name();
   run.score.failure = std::move(history.data.not_finite);
@@ -32,14 +32,14 @@ ComparedHistory failed(PreparedHistory history, double step) {
 }  // namespace
 
 ComparedHistory history_run(const HistoryTask& task, const std::vector<std::string>& columns,
-                            const cases::Case& problem, const CaseSummary& summary,
+                            const cases::Case& problem, const record::CaseSummary& summary,
                             const Progress& progress, const std::atomic<bool>* interrupt) {
   auto history = prepare(task, read(task, columns, problem.motion->dof(), progress, interrupt),
                          problem, summary);
   const double step = task.step > 0.0 ? task.step : history.file.spacing;
-  if (task.step > 0.0) history.file.step_source = StepSource::option;
+  if (task.step > 0.0) history.file.step_source = record::StepSource::option;
   if (!history.data.not_finite.empty()) return failed(std::move(history), step);
-  if (exchange::is_given(task.events)) add_events(history, task.events, problem, interrupt);
+  if (input::is_given(task.events)) add_events(history, task.events, problem, interrupt);
   if (!history.has_all_u) complete_u(history, problem);
   return measure(std::move(history), step, problem, summary, progress, interrupt);
 }

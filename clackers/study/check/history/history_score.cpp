@@ -12,8 +12,8 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-void measure_u(const assess::Comparison& comparison, const std::vector<bool>& has_u,
-               assess::RunScore& score) {
+void measure_u(const measure::Comparison& comparison, const std::vector<bool>& has_u,
+               measure::RunScore& score) {
   const auto& u = comparison.history().u;
   const auto reference = comparison.reference_u();
   for (std::size_t mass = 0; mass < comparison.dof(); ++mass) {
@@ -31,15 +31,15 @@ struct Rows {
   std::span<const double> found, reference;
 };
 
-void measure_v(const assess::Comparison& comparison, assess::RunScore& score) {
+void measure_v(const measure::Comparison& comparison, measure::RunScore& score) {
   const auto& history = comparison.history();
   const auto dof = comparison.dof();
   const auto row = [&](std::size_t i) {
     return Rows{std::span(history.v).subspan(i * dof, dof),
                 comparison.reference_v().subspan(i * dof, dof)};
   };
-  assess::VelocityError error(comparison.reference());
-  const bool reported = comparison.impact_source() == assess::ImpactSource::reported;
+  measure::VelocityError error(comparison.reference());
+  const bool reported = comparison.impact_source() == measure::ImpactSource::reported;
   auto impact = comparison.impacts().begin();
   const auto last_impact = reported ? comparison.impacts().end() : impact;
   const auto take_impacts = [&](double before) {
@@ -72,10 +72,10 @@ void measure_v(const assess::Comparison& comparison, assess::RunScore& score) {
                              error.integral(int(mass)) / (length * comparison.v_envelope()[mass]));
 }
 
-void measure_energy(const assess::Comparison& comparison, assess::RunScore& score) {
+void measure_energy(const measure::Comparison& comparison, measure::RunScore& score) {
   const auto& history = comparison.history();
   const auto dof = comparison.dof();
-  const assess::MechanicalEnergy energy(comparison.problem().system);
+  const measure::MechanicalEnergy energy(comparison.problem().system);
   const auto start = comparison.reference().at(0.0, model::Side::right);
   const double scale = energy.total(start.u.data(), start.v.data());
   for (std::size_t i = 0; i < comparison.rows(); ++i) {
@@ -94,9 +94,9 @@ void measure_energy(const assess::Comparison& comparison, assess::RunScore& scor
 
 }  // namespace
 
-assess::RunScore history_score(const assess::Comparison& comparison, const std::vector<bool>& has_u,
-                               double step) {
-  assess::RunScore score;
+measure::RunScore history_score(const measure::Comparison& comparison,
+                                const std::vector<bool>& has_u, double step) {
+  measure::RunScore score;
   score.step = step;
   score.finished = true;
   score.rounding_floor = comparison.rounding_floor();

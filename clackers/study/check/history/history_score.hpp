@@ -11,7 +11,7 @@ namespace clackers::study {
 /// with velocities, are the limits of a jump; they count for u and v and are no states for the
 /// energy. Masses without displacements (`has_u`) do not count; what needs them, or velocities that
 /// the history lacks, is NaN. Impacts are left out. `step` [s] is the level's.
-assess::RunScore history_score(const assess::Comparison& comparison, const std::vector<bool>& has_u,
-                               double step);
+measure::RunScore history_score(const measure::Comparison& comparison,
+                                const std::vector<bool>& has_u, double step);
 
 }  // namespace clackers::study

@@ -33,8 +33,8 @@ model::Trajectory exact_history(const cases::Case& problem, double step, bool wi
   return h;
 }
 
-assess::RunScore score(const model::Trajectory& h, const cases::Case& problem,
-                       const std::vector<bool>& has_u = {true, true}) {
+measure::RunScore score(const model::Trajectory& h, const cases::Case& problem,
+                        const std::vector<bool>& has_u = {true, true}) {
   return history_score({h, *problem.motion, problem.problem}, has_u, 0.01);
 }
 

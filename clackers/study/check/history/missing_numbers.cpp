@@ -24,17 +24,16 @@ void complete_u(model::Impact& impact, const cases::Case& problem) {
 
 }  // namespace
 
-void add_events(PreparedHistory& history, const exchange::Source& events,
-                const cases::Case& problem, const std::atomic<bool>* interrupt) {
+void add_events(PreparedHistory& history, const input::Source& events, const cases::Case& problem,
+                const std::atomic<bool>* interrupt) {
   auto& m = history.data.motion;
-  auto impacts =
-      exchange::read_events(events, m.dof, int(problem.problem.contacts.size()), interrupt);
+  auto impacts = input::read_events(events, m.dof, int(problem.problem.contacts.size()), interrupt);
   const auto outside = [&](const model::Impact& i) {
     return i.t < m.t.front() || i.t > m.t.back();
   };
   if (const auto left_out = std::erase_if(impacts, outside); left_out > 0)
-    history.file.notes.push_back(note("events-outside", {double(left_out), m.t.front(), m.t.back()},
-                                      exchange::given_name(events)));
+    history.file.notes.push_back(record::note(
+        "events-outside", {double(left_out), m.t.front(), m.t.back()}, input::given_name(events)));
   for (auto& impact : impacts) complete_u(impact, problem);
   m.impacts = std::move(impacts);
 }

@@ -9,9 +9,9 @@
 namespace clackers::study {
 
 /// Reads the collisions of a history; those outside it are left out, with a note. Where two masses
-/// touch, the place of one gives that of the other. Throws as exchange::read_events() does.
-void add_events(PreparedHistory& history, const exchange::Source& events,
-                const cases::Case& problem, const std::atomic<bool>* interrupt);
+/// touch, the place of one gives that of the other. Throws as input::read_events() does.
+void add_events(PreparedHistory& history, const input::Source& events, const cases::Case& problem,
+                const std::atomic<bool>* interrupt);
 
 /// Displacements that the history has not are those of the reference, so that they add no error.
 void complete_u(PreparedHistory& history, const cases::Case& problem);

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/judge/convergence/judge.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/judge/convergence/judge.hpp"
+#include "clackers/record/notes.hpp"
 #include "clackers/study/check/initial_state.hpp"
 #include "clackers/study/check/refused_start.hpp"
-#include "clackers/record/notes.hpp"
 
 namespace clackers::study {
 namespace {
@@ -19,10 +19,10 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 class Preparation {
  public:
-  Preparation(const HistoryTask& task, exchange::History history, const cases::Case& problem,
-              const CaseSummary& summary)
+  Preparation(const HistoryTask& task, input::History history, const cases::Case& problem,
+              const record::CaseSummary& summary)
       : task_(task), problem_(problem), summary_(summary), h_(std::move(history)) {
-    file_.file = exchange::given_name(task.file);
+    file_.file = input::given_name(task.file);
     for (auto& read : h_.notes)
       file_.notes.push_back({std::move(read.code), std::move(read.numbers), std::move(read.text)});
     file_.has_velocities = !h_.motion.v.empty();
@@ -59,7 +59,7 @@ class Preparation {
     if (!initial)
       for (std::size_t i = 0; i < h_.motion.t.size(); ++i)
         h_.motion.t[i] = task_.step * double(i + 1);
-    file_.notes.push_back(note("no-times", {task_.step, initial ? 0.0 : task_.step}));
+    file_.notes.push_back(record::note("no-times", {task_.step, initial ? 0.0 : task_.step}));
   }
 
   // What printing may make of a displacement error, relative to the envelope: the rounding of u,
@@ -67,7 +67,7 @@ class Preparation {
   void find_printed_floor() {
     const auto envelope = problem_.motion->peak();
     for (int j = 0; j < h_.motion.dof; ++j) {
-      const auto at = std::ranges::find_if(h_.columns, [&](const exchange::ColumnPrint& c) {
+      const auto at = std::ranges::find_if(h_.columns, [&](const input::ColumnPrint& c) {
         return c.name == fmt::format("u{}", j + 1) || c.name == "u";
       });
       const double rounding = at == h_.columns.end() ? 0.0 : at->half_unit;
@@ -141,22 +141,22 @@ class Preparation {
     file_.start_error = most.relative;
     if (row.t == 0.0 && most.relative > start_tolerance + 2.0 * file_.printed_floor)
       refuse_start(name(), opening, problem_, most);
-    if (row.t > 0.0 && most.relative > assess::far_start) refuse_reading(name(), opening, problem_);
+    if (row.t > 0.0 && most.relative > judge::far_start) refuse_reading(name(), opening, problem_);
   }
 
-  std::string name() const { return exchange::name_of(task_.file); }
+  std::string name() const { return input::name_of(task_.file); }
 
   const HistoryTask& task_;
   const cases::Case& problem_;
-  const CaseSummary& summary_;
-  exchange::History h_;
-  HistoryFile file_;
+  const record::CaseSummary& summary_;
+  input::History h_;
+  record::HistoryFile file_;
 };
 
 }  // namespace
 
-PreparedHistory prepare(const HistoryTask& task, exchange::History data, const cases::Case& problem,
-                        const CaseSummary& summary) {
+PreparedHistory prepare(const HistoryTask& task, input::History data, const cases::Case& problem,
+                        const record::CaseSummary& summary) {
   return Preparation(task, std::move(data), problem, summary).run();
 }
 
