@@ -14,10 +14,16 @@ target_include_directories(clackers_options INTERFACE
 # Contracting a * b + c to one rounding would break the error-free sums of double_double.hpp, and
 # make results depend on the machine.
 target_compile_options(clackers_options INTERFACE -ffp-contract=off)
+option(CLACKERS_UNITY "Compile small sources in batches" ON)
 if(CLACKERS_DEVELOPER)
+  set(shadow -Wshadow)
+  if(CLACKERS_UNITY)
+    # Names of other sources of the batch do not count.
+    set(shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
+  endif()
   # Never in an installed package: the next compiler may know a new warning.
   target_compile_options(clackers_options INTERFACE
-    "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Werror>")
+    "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wconversion;-Werror;${shadow}>")
 endif()
 
 # Hardening of what is built for use: canaries on the stack, checked copies, and tables of addresses
@@ -35,7 +41,6 @@ endif()
 
 # clackers_unity(<target>): the sources of a target are compiled in batches, which halves the time of a
 # clean build; docs/decisions/0008. Names at file scope are therefore unique within a target.
-option(CLACKERS_UNITY "Compile small sources in batches" ON)
 function(clackers_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${CLACKERS_UNITY} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
