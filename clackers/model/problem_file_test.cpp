@@ -125,13 +125,13 @@ TEST(ProblemFile, UnitsThatCannotBeMeantAreRefused) {
 }
 
 TEST(ProblemFile, CaseReadsAFileOrTheExample) {
-  EXPECT_GT(make("piecewise").motion->impact_count(20.0), 3);
+  EXPECT_GT(cases::make("piecewise").motion->impact_count(20.0), 3);
   const auto path = testing::TempDir() + "clackers_problem_file_test.toml";
   std::ofstream(path) << with("end = 20", "end = 3");  // before its impacts accumulate
-  const auto which = make("piecewise", {{"problem", path}});
+  const auto which = cases::make("piecewise", {{"problem", path}});
   EXPECT_EQ(which.problem.system.mass(0, 0), 2.0);
   EXPECT_EQ(which.motion->dof(), 2);
-  EXPECT_REFUSED(make("piecewise", {{"problem", "/no/such.toml"}}), "cannot-read", "/no/such.toml",
+  EXPECT_REFUSED(cases::make("piecewise", {{"problem", "/no/such.toml"}}), "cannot-read", "/no/such.toml",
                  "TOML");
 }
 
