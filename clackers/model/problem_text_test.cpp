@@ -45,6 +45,31 @@ TEST(ProblemText, LinesHaveAFixedOrder) {
             "direction2=0 1\ngap2=-1\nrestitution2=1\n");
 }
 
+TEST(ProblemText, LinesReadBackToTheSameProblem) {
+  const auto text = problem_file_text(two_masses());
+  EXPECT_EQ(problem_file_text(problem_from_text(text)), text);
+  EXPECT_EQ(problem_from_text(text).system.stiffness(0, 1), -1.5);
+}
+
+TEST(ProblemText, RefusesOtherLines) {
+  const auto text = problem_file_text(two_masses());
+  EXPECT_REFUSED(problem_from_text(""), "bad-syntax", "dof= and 1 numbers");
+  EXPECT_REFUSED(problem_from_text(text.substr(0, text.find("gap2"))), "bad-syntax", "gap2");
+  for (const auto* change : {"v=0 -1e-07 3", "v=0", "v=0 x", "w=0 -1e-07"}) {
+    auto other = text;
+    other.replace(other.find("v=0"), std::string_view("v=0 -1e-07").size(), change);
+    EXPECT_REFUSED(problem_from_text(other), "bad-syntax", "v= and 2 numbers");
+  }
+}
+
+TEST(ProblemText, RefusesOtherSizes) {
+  for (const auto* size : {"-1", "1.5", "1e300", "9999"}) {
+    auto other = problem_file_text(two_masses());
+    other.replace(0, std::string_view("dof=2").size(), std::string("dof=") + size);
+    EXPECT_REFUSED(problem_from_text(other), "bad-syntax", "problem: dof = ");
+  }
+}
+
 TEST(ProblemText, HarmonicLoadsAndSpringsAreNumbers) {
   auto problem = two_masses();
   problem.system.add_load = model::HarmonicLoad({{0, 2.0, 3.0, -0.5}, {1, 1.0, 0.0, 0.0}});
@@ -61,6 +86,15 @@ TEST(ProblemText, HarmonicLoadsAndSpringsAreNumbers) {
   EXPECT_TRUE(
       text.ends_with("load1=1 2 3 -0.5\nload2=2 1 0 0\n"
                      "spring1=1 -1 -0.25 400\nspring2=0 1 -1 500\n"));
+  const auto read = problem_from_text(text);
+  EXPECT_EQ(problem_file_text(read), text);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(2);
+  read.system.add_load(0.7, {force.data(), 2});
+  EXPECT_EQ(force, Eigen::Vector2d(2.0 * std::cos(3.0 * 0.7 - 0.5), 1.0));
+  EXPECT_REFUSED(problem_from_text(text.substr(0, text.find("spring2")) + "spring2=0 1 2\n"),
+                 "bad-syntax", "spring2= and 4 numbers");
+  EXPECT_REFUSED(problem_from_text(text.substr(0, text.find("load1")) + "load1=3 1 1 0\n"),
+                 "bad-syntax", "load1 = 3");
 }
 
 TEST(ProblemText, RefusesOtherLoads) {
