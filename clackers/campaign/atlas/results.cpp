@@ -14,9 +14,8 @@ namespace clackers::campaign {
 namespace {
 
 std::string call_of(const MethodEntry& entry, const std::string& name) {
-  auto call = fmt::format("{} {} --name {}",
-                          entry.kind == MethodEntry::Kind::command ? "--exec" : "--plugin",
-                          solvers::shell_quoted(entry.text), solvers::shell_quoted(name));
+  auto call = fmt::format("--exec {} --name {}", solvers::shell_quoted(entry.text),
+                          solvers::shell_quoted(name));
   if (!entry.expect.empty()) call += " --expect " + solvers::shell_quoted(entry.expect);
   return call;
 }
