@@ -36,7 +36,7 @@ Shown shown(const char* method, const char* name, const cases::Settings& setting
   made->prepare(one.problem, h)->advance(sink);
   const measure::Comparison comparison(sink.trajectory(), *one.motion, one.problem);
   const auto contact_time = made->contact_time(one.problem);
-  return {cause_results(comparison, facts_of(summary_of(one), contact_time))};
+  return {cause_results(comparison, facts_of(study::summary_of(one), contact_time))};
 }
 
 TEST(CauseMetrics, AreAllThereInTheirOrder) {

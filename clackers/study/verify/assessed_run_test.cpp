@@ -121,7 +121,7 @@ TEST_F(AssessedRuns, HoldWhereTheyEndedOverTheInitialEnvelope) {
 TEST_F(AssessedRuns, AreMeasuredByAllMetricsWhereThatIsAskedFor) {
   const auto result = assessed([](int) { return true; }, true);
   const auto of_history = measure::metrics().size();
-  ASSERT_EQ(result->run.metrics.size(), of_history + cause_metrics().size());
+  ASSERT_EQ(result->run.metrics.size(), of_history + record::cause_metrics().size());
   EXPECT_EQ(result->run.metrics[0].name, "u-max");
   EXPECT_EQ(result->run.metrics[0].value, 1.0);  // 3 m where the reference is at 4 m
   EXPECT_EQ(result->run.metrics[0].masses, (std::vector<double>{1.0}));

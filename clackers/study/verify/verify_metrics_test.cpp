@@ -24,7 +24,7 @@ TEST(Verify, MeasuresAllMetricsOfTheFirstRunOfTheFinestLevel) {
   const auto record = verify(small({"newmark"}));
   const auto& finest = record.cases[0].subjects[0].levels[4].runs[0];
   ASSERT_EQ(record.cases[0].subjects[0].shown_run(), &finest);
-  ASSERT_EQ(finest.metrics.size(), measure::metrics().size() + cause_metrics().size());
+  ASSERT_EQ(finest.metrics.size(), measure::metrics().size() + record::cause_metrics().size());
   const auto found =
       std::ranges::find(finest.metrics, "u-max-relative", &record::MetricResult::name);
   EXPECT_EQ(found->value, finest.score.u_error);  // the same definition, measured twice

@@ -213,7 +213,7 @@ TEST(Verify, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(Verify, SurvivesItsJson) {
   const auto record = verify(small({"rk4"}));
-  EXPECT_EQ(to_json(record_from_json(to_json(record))), to_json(record));
+  EXPECT_EQ(record::to_json(record::record_from_json(to_json(record))), to_json(record));
 }
 
 TEST(Verify, ReportsProgressUpToOne) {

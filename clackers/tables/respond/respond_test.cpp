@@ -134,7 +134,7 @@ TEST(Respond, RefusesTimesOutsideTheRunBeforeAnyRow) {
   EXPECT_THROW(respond(which, grid_of(3, 8.0)), InputError);
 }
 
-TEST(study::Collisions, ListEveryCollisionWithBothSides) {
+TEST(Collisions, ListEveryCollisionWithBothSides) {
   const auto which = toy(2, 4.0, {1.0, 2.5});
   const auto rows = collisions(which);
   EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "v2-", "v2+",
@@ -146,7 +146,7 @@ TEST(study::Collisions, ListEveryCollisionWithBothSides) {
   EXPECT_EQ(all(*rows), expected);
 }
 
-TEST(study::Collisions, NameTheirContactWhereThereAreSeveral) {
+TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
   // Two contacts that close together.
   struct Several : study::ToyMotion {
     Several() : study::ToyMotion(3, 4.0, {1.0, 1.0}) {}
@@ -172,7 +172,7 @@ TEST(study::Collisions, NameTheirContactWhereThereAreSeveral) {
   EXPECT_EQ(all(*respond(which, grid_of(5, 4.0))).size(), 6u);
 }
 
-TEST(study::Collisions, OfOneMassLeaveOutTheSecond) {
+TEST(Collisions, OfOneMassLeaveOutTheSecond) {
   const auto which = toy(1, 4.0, {1.0});
   const auto rows = collisions(which);
   EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "impulse",

@@ -44,7 +44,7 @@ bool first_lies_off(std::span<const LevelView> levels, int first, int last) {
     for (std::size_t j = 0; j < i; ++j) slopes.push_back((y[i] - y[j]) / (x[i] - x[j]));
   const double slope = measure::median(slopes);
   for (std::size_t i = 0; i < x.size(); ++i) heights.push_back(y[i] - slope * x[i]);
-  return std::abs(heights.front() - median(heights)) > std::log(leading_level);
+  return std::abs(heights.front() - measure::median(heights)) > std::log(leading_level);
 }
 
 // Half the 95 % interval of the slope through the largest errors. What few levels leave of the line

@@ -72,7 +72,7 @@ class Measurement {
         record::reduced(comparison.rows(), dof, time,
                         [&](std::size_t mass, std::size_t row) { return u[row * dof + mass]; });
     run_.error_history =
-        reduced(comparison.rows(), dof, time, [&](std::size_t mass, std::size_t row) {
+        record::reduced(comparison.rows(), dof, time, [&](std::size_t mass, std::size_t row) {
           const auto at = row * dof + mass;
           return std::abs(u[at] - comparison.reference_u()[at]) / comparison.u_envelope()[mass];
         });
