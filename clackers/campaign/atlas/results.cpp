@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "clackers/base/text.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/solvers/command_template.hpp"
 
 namespace clackers::campaign {
 namespace {
@@ -16,8 +16,8 @@ namespace {
 std::string call_of(const MethodEntry& entry, const std::string& name) {
   auto call = fmt::format("{} {} --name {}",
                           entry.kind == MethodEntry::Kind::command ? "--exec" : "--plugin",
-                          solvers::shell_quoted(entry.text), solvers::shell_quoted(name));
-  if (!entry.expect.empty()) call += " --expect " + solvers::shell_quoted(entry.expect);
+                          shell_quoted(entry.text), shell_quoted(name));
+  if (!entry.expect.empty()) call += " --expect " + shell_quoted(entry.expect);
   return call;
 }
 

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
 
 namespace clackers::report {

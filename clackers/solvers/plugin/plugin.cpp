@@ -7,6 +7,7 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/solvers/plugin/plugin_report.hpp"
 #include "clackers/solvers/process.hpp"
 #include "clackers/solvers/program_runner.hpp"

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "clackers/base/error.hpp"
-#include "clackers/model/problem_text.hpp"
+#include "clackers/model/problem_file.hpp"
 #include "clackers/solvers/plugin.hpp"
 #include "clackers/solvers/plugin/plugin_library.hpp"
 #include "clackers/solvers/plugin/plugin_output.hpp"
@@ -122,7 +122,7 @@ bool host_plugin(const std::vector<std::string>& arguments) {
   if (arguments.size() == 2) {
     process.load();
   } else {
-    const auto problem = model::problem_from_text(text_of(arguments[2]));
+    const auto problem = model::problem_from_text(text_of(arguments[2]), arguments[2]);
     PluginOutput output(static_cast<int>(problem.dof()), path(6), path(7));
     const clackers_solver_run run{.step = number_in<double>(arguments[3]),
                                   .steps = number_in<std::int64_t>(arguments[4]),
