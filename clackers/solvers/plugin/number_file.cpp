@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/npy_header.hpp"
+#include "clackers/base/npy_writer.hpp"
 
 namespace clackers::solvers {
 namespace {
