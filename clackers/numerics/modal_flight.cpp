@@ -1,11 +1,11 @@
 #include "clackers/numerics/modal_flight.hpp"
+#include "clackers/base/constants.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 namespace clackers::numerics {
 
@@ -15,7 +15,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double worst_condition = 1e5;
 
 // A and B are seen through modes: those that an entry above rounding of either matrix connects.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/base/suggest.hpp"
@@ -14,7 +15,6 @@
 namespace clackers::record {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr auto forms = "agrees, order:2, error:1e-3, or a behaviour such as proper";
 
 double number_of(std::string_view whole, std::string_view digits, double most) {

@@ -13,7 +13,7 @@
 namespace clackers::exact {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 model::ImpactProblem<> pair(const PairParameters& parameters) {
   return SynchronizedPair(parameters).problem();
