@@ -7,14 +7,13 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
-#include "clackers/solvers/program.hpp"
+#include "clackers/base/text.hpp"
 #include "cli/command.hpp"
 #include "cli/files/output_stream.hpp"
 #include "cli/files/paths.hpp"
 #include "cli/help/completion.hpp"
 #include "cli/help/help.hpp"
 #include "cli/help/shell_files.hpp"
-#include "cli/help/text.hpp"
 
 namespace clackers::cli {
 namespace {

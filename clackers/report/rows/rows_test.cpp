@@ -12,6 +12,7 @@
 
 #include "clackers/base/constants.hpp"
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
 
 namespace clackers::report {
