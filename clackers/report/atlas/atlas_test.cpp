@@ -110,16 +110,5 @@ TEST(Atlas, RefusesMoreCellsThanAReaderTakesIn) {
   EXPECT_REFUSED(page_of(atlas), "too-many-rows", "allowed: 20000", "clackers campaign query");
 }
 
-TEST(Survey, ReadsClaimsBack) {
-  for (const auto& claim :
-       {Claim{}, Claim{Behaviour::proper, 2.0, ""}, Claim{Behaviour::irregular, 1.5, ""},
-        Claim{Behaviour::stagnating, 0.0, "contact-stiffness"}, Claim{Behaviour::exact, 0.0, ""}}) {
-    const auto read = claim_from(claim_text(claim));
-    EXPECT_EQ(read.behaviour, claim.behaviour) << claim_text(claim);
-    EXPECT_EQ(read.order, claim.order) << claim_text(claim);
-    EXPECT_EQ(read.reason, claim.reason) << claim_text(claim);
-  }
-}
-
 }  // namespace
 }  // namespace clackers::report
