@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "clackers/base/constants.hpp"
+#include "clackers/base/json.hpp"
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/report/format.hpp"
 
@@ -118,7 +119,7 @@ TEST(Csv, NumbersReadBackToTheSameDouble) {
 TEST(Json, NumbersReadBackToTheSameDouble) {
   std::mt19937_64 bits(8);
   const auto sheet = random_doubles(bits);
-  const auto read = nlohmann::json::parse(json(sheet));
+  const auto read = parse_json(json(sheet));
   for (std::size_t r = 0; r < sheet.rows.size(); ++r)
     EXPECT_EQ(read["rows"][r][0].get<double>(), std::get<double>(sheet.rows[r][0]));
 }
@@ -129,14 +130,14 @@ TEST(Json, WritesTheShortestOfTheTextsThatReadBack) {
 }
 
 TEST(Json, HoldsSchemaColumnsAndRows) {
-  const auto read = nlohmann::json::parse(json(mixed_sheet()));
+  const auto read = parse_json(json(mixed_sheet()));
   EXPECT_EQ(read["schema"], "clackers/things/1");
   EXPECT_EQ(read["title"], "Things");
   EXPECT_EQ(read["columns"][1],
-            (nlohmann::json{{"name", "value"}, {"unit", "m/s"}, {"meaning", "how much"}}));
+            (nlohmann::ordered_json{{"name", "value"}, {"unit", "m/s"}, {"meaning", "how much"}}));
   ASSERT_EQ(read["rows"].size(), 5u);
   EXPECT_EQ(read["rows"][1],
-            nlohmann::json::array({"with, comma", -1e-300, -9007199254740993LL, nullptr}));
+            nlohmann::ordered_json::array({"with, comma", -1e-300, -9007199254740993LL, nullptr}));
   EXPECT_EQ(read["rows"][2][1], "inf");
   EXPECT_EQ(read["rows"][3][1], "-inf");
   EXPECT_EQ(read["rows"][4][1], "nan");
@@ -147,7 +148,7 @@ TEST(Json, SeveralSheetsAreOneObject) {
   const std::vector<Sheet> sheets{mixed_sheet(), {"clackers/empty/1", "", {{"x", "m", ""}}, {}}};
   std::ostringstream out;
   write(sheets, "clackers/show/1", Format::json, out);
-  const auto read = nlohmann::json::parse(out.str());
+  const auto read = parse_json(out.str());
   EXPECT_EQ(read["schema"], "clackers/show/1");
   ASSERT_EQ(read["sheets"].size(), 2u);
   EXPECT_EQ(read["sheets"][1]["schema"], "clackers/empty/1");
