@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "clackers/base/files.hpp"
 #include "clackers/base/json.hpp"
 #include "clackers/record/provenance.hpp"
-#include "paper/rendering/files.hpp"
 #include "paper/rendering/page.hpp"
 #include "paper/rendering/specification.hpp"
 #include "paper/table.hpp"

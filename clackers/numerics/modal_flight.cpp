@@ -17,8 +17,6 @@ namespace {
 
 constexpr double worst_condition = 1e5;
 
-bool is_diagonal(const MatrixXd& x) { return x == MatrixXd(x.diagonal().asDiagonal()); }
-
 // A and B are seen through modes: those that an entry above rounding of either matrix connects.
 std::vector<std::vector<Index>> coupled_blocks(const MatrixXd& a, const MatrixXd& b) {
   const Index n = a.rows();
@@ -50,6 +48,8 @@ MatrixXd part(const MatrixXd& x, const std::vector<Index>& rows) {
 }
 
 }  // namespace
+
+bool is_diagonal(const MatrixXd& x) { return x == MatrixXd(x.diagonal().asDiagonal()); }
 
 Mode::Mode(double decay, double square)
     : sigma(decay),

@@ -11,6 +11,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/numerics/modal_flight.hpp"
 #include "clackers/numerics/roots.hpp"
 
 namespace clackers::exact {
@@ -22,8 +23,6 @@ namespace {
 
 constexpr const char* penalized_name = "penalized motion";
 constexpr std::size_t most_contacts = 1000000;
-
-bool is_diagonal(const MatrixXd& x) { return x == MatrixXd(x.diagonal().asDiagonal()); }
 
 void require_kind(const model::ImpactProblem<>& problem) {
   validate(problem);
@@ -96,7 +95,8 @@ PenalizedMotion::Regime PenalizedMotion::regime(bool closed) const {
   made.gap_shape = made.shapes.transpose() * b;
   // Eigenvalues of a full matrix have the absolute error of the largest, of which omega has half the
   // relative one.
-  const bool uncoupled = is_diagonal(made.stiffness) && is_diagonal(system_.mass);
+  const bool uncoupled =
+      numerics::is_diagonal(made.stiffness) && numerics::is_diagonal(system_.mass);
   made.omega_error = VectorXd::Constant(dof(), 4.0 * epsilon);
   if (!uncoupled)
     made.omega_error = made.omega_error.array() * squares.maxCoeff() / squares.array();

@@ -13,6 +13,7 @@
 #include "clackers/base/constants.hpp"
 #include "clackers/base/json.hpp"
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
 
 namespace clackers::report {
