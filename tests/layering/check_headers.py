@@ -11,6 +11,7 @@ CACHE is a json file of the headers that passed, each with a digest of its text 
 ours that it includes; only headers with another digest are checked.
 """
 import concurrent.futures
+import functools
 import hashlib
 import json
 import os
@@ -25,8 +26,9 @@ OTHERS = re.compile(r"^\s*#\s*include\s*<([^>]+)>", re.MULTILINE)
 COMMENT = re.compile(r"//.*")
 # Of a name the headers that may be included for it.
 NEEDED = {
-    r"std::(vector|string_view|optional|span|array|map|set|atomic|function|variant|deque|mutex|filesystem)\b": (r"\1",),
+    r"std::(vector|string_view|optional|span|array|map|set|atomic|variant|deque|mutex|filesystem)\b": (r"\1",),
     r"std::string\b": ("string",),
+    r"std::function\b": ("functional",),
     r"std::(?:unique_ptr|shared_ptr|weak_ptr)\b": ("memory",),
     r"std::(?:ostream|istream)\b": ("iosfwd", "ostream", "istream", "iostream", "sstream", "fstream"),
     r"std::ofstream\b": ("fstream",),
@@ -40,6 +42,11 @@ NEEDED = {
 }
 
 
+@functools.cache
+def text_of(path):
+    return path.read_text()
+
+
 def headers_of(root):
     return sorted(path for folder in ("clackers", "cli", "bindings", "paper") for path in (root / folder).rglob("*.h*")
                   if path.suffix in (".h", ".hpp"))
@@ -49,7 +56,7 @@ def closure(header, root, known):
     """The header and all headers of ours that it includes."""
     if header not in known:
         known.add(header)
-        for include in OURS.findall(header.read_text()):
+        for include in OURS.findall(text_of(header)):
             for base in (root, header.parent):
                 if (base / include).is_file():
                     closure((base / include).resolve(), root, known)
@@ -58,14 +65,14 @@ def closure(header, root, known):
 
 
 def digest(header, root, command):
-    text = " ".join(command) + "".join(path.read_text() for path in sorted(closure(header, root, set())))
+    text = " ".join(command) + "".join(text_of(path) for path in sorted(closure(header, root, set())))
     return hashlib.sha256((text + pathlib.Path(__file__).read_text()).encode()).hexdigest()
 
 
 def lacking_others(header, root):
     """A line for each name of the table whose header is included nowhere."""
-    included = {other for path in closure(header, root, set()) for other in OTHERS.findall(path.read_text())}
-    text = COMMENT.sub("", header.read_text())
+    included = {other for path in closure(header, root, set()) for other in OTHERS.findall(text_of(path))}
+    text = COMMENT.sub("", text_of(header))
     lines = []
     for name, needed in NEEDED.items():
         for match in {found[0]: found for found in re.finditer(name, text)}.values():
@@ -83,7 +90,7 @@ def errors_of(header, root, command):
 
 def precompile(headers, folder, root, command):
     """The options that use the headers of others, precompiled."""
-    others = sorted({other for header in headers for other in OTHERS.findall(header.read_text())})
+    others = sorted({other for header in headers for other in OTHERS.findall(text_of(header))})
     # Highway's depend on macros of the file that includes them.
     text = "".join(f"#include <{other}>\n" for other in others if not other.startswith("hwy/"))
     path = pathlib.Path(folder) / "others.hpp"
