@@ -237,7 +237,7 @@ Parameter whole_periods(double standard, const char* meaning) {
 
 }  // namespace
 
-std::vector<Row> orbit_rows() {
+std::vector<CaseRow> orbit_rows() {
   return {
       {{"cradle",
         "Two equal masses of different frequencies, one at rest at each elastic collision.",

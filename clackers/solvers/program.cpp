@@ -36,7 +36,7 @@ std::vector<study::SolverSubject> subjects_of(const ProgramRequest& request) {
     subject.name = program.name.empty() ? command.name() : program.name;
     subject.claim = request.expect.value_or(Claim{});
     if (command.uses("tolerance")) subject.tolerances = tolerances;
-    subject.prepare = ProgramRunner::maker(command, subject.name, request, folder, {});
+    subject.prepare = ProgramRunner::maker(command, subject.name, request, folder);
   }
   return subjects;
 }

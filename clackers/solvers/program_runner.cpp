@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr auto history_name = "history.csv", events_name = "events.csv";
+
 bool is_filled(const fs::path& path) {
   std::error_code error;
   return fs::file_size(path, error) > 0 && !error;
@@ -73,24 +75,21 @@ void take_end(study::SolverOutput& output, const ProcessResult& result, double t
 
 ProgramRunner::ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
                              const model::ImpactProblem<>& problem, double timeout, bool fresh,
-                             std::shared_ptr<WorkFolder> folder, Results results)
+                             std::shared_ptr<WorkFolder> folder)
     : command_(std::move(command)),
       title_(fmt::format("{}-{}", name, case_name)),
       json_(problem_file_json(case_name, problem)),
       text_(problem_file_text(problem)),
       timeout_(timeout),
       fresh_(fresh),
-      folder_(std::move(folder)),
-      results_(std::move(results)),
-      history_name_("history" + results_.extension),
-      events_name_("events" + results_.extension) {}
+      folder_(std::move(folder)) {}
 
 std::function<std::unique_ptr<study::Solver>(const cases::Case&)> ProgramRunner::maker(
     const CommandTemplate& command, const std::string& name, const ProcessOptions& options,
-    const std::shared_ptr<WorkFolder>& folder, const Results& results) {
+    const std::shared_ptr<WorkFolder>& folder) {
   return [=, timeout = options.timeout, fresh = options.fresh](const cases::Case& problem) {
     return std::make_unique<ProgramRunner>(command, name, problem.entry->name, problem.problem,
-                                           timeout, fresh, folder, results);
+                                           timeout, fresh, folder);
   };
 }
 
@@ -100,15 +99,15 @@ std::string ProgramRunner::command_in(const fs::path& folder, const study::Solve
                           {"h", fmt::format("{}", run.step)},
                           {"n", fmt::format("{}", run.steps)},
                           {"tolerance", fmt::format("{}", run.tolerance)},
-                          {"events", (folder / events_name_).string()},
-                          {"out", (folder / history_name_).string()}});
+                          {"events", (folder / events_name).string()},
+                          {"out", (folder / history_name).string()}});
 }
 
 study::SolverOutput ProgramRunner::output_of(const study::SolverRun& run, const fs::path& folder,
                                              const std::atomic<bool>* interrupt) const {
   write_file(folder / "problem.json", json_);
   write_file(folder / "problem.txt", text_);
-  const auto history = folder / history_name_;
+  const auto history = folder / history_name;
   const bool prints_history = !command_.uses("out");
   auto result = run_process({.command = command_in(folder, run),
                              .folder = folder.string(),
@@ -118,7 +117,6 @@ study::SolverOutput ProgramRunner::output_of(const study::SolverRun& run, const 
   study::SolverOutput output;
   output.printed = std::move(result.printed);
   take_end(output, result, timeout_);
-  if (results_.complete && !output.interrupted) results_.complete(folder, output);
   if (output.interrupted || !output.failure.empty()) return output;
   if (!is_filled(history)) {
     set_failure(output, "program-output",
@@ -127,8 +125,8 @@ study::SolverOutput ProgramRunner::output_of(const study::SolverRun& run, const 
     return output;
   }
   output.history = history.string();
-  if (command_.uses("events") && is_filled(folder / events_name_))
-    output.events = (folder / events_name_).string();
+  if (command_.uses("events") && is_filled(folder / events_name))
+    output.events = (folder / events_name).string();
   return output;
 }
 
@@ -142,8 +140,8 @@ study::SolverOutput ProgramRunner::run(const study::SolverRun& run,
     if (const auto found = folder_->find(title, key)) {
       study::SolverOutput output;
       output.reused = true;
-      output.history = (*found / history_name_).string();
-      if (is_filled(*found / events_name_)) output.events = (*found / events_name_).string();
+      output.history = (*found / history_name).string();
+      if (is_filled(*found / events_name)) output.events = (*found / events_name).string();
       return output;
     }
   RunFolder mine(*folder_, title, key);
@@ -154,8 +152,8 @@ study::SolverOutput ProgramRunner::run(const study::SolverRun& run,
   if (folder_->keeps_failures() && !output.printed.empty())
     write_file(mine.path() / "printed.txt", output.printed);
   const auto place = mine.commit(output.history.has_value());
-  if (output.history) output.history = (place / history_name_).string();
-  if (output.events) output.events = (place / events_name_).string();
+  if (output.history) output.history = (place / history_name).string();
+  if (output.events) output.events = (place / events_name).string();
   return output;
 }
 

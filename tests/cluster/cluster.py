@@ -33,7 +33,7 @@ def mpi_command(ranks, *command):
 def mpirun(ranks, *command, **more):
     """The finished process. `mpirun -n 64 true`, too, hangs now and then: then it is started once more."""
     if not MPIRUN:
-        raise unittest.SkipTest("no mpirun: scripts/setup test")
+        raise unittest.SkipTest("no mpirun: scripts/setup all")
     with contextlib.suppress(subprocess.TimeoutExpired):
         return run(*mpi_command(ranks, *command), **more)
     return run(*mpi_command(ranks, *command), **more)

@@ -14,9 +14,8 @@ namespace clackers::campaign {
 namespace {
 
 std::string call_of(const MethodEntry& entry, const std::string& name) {
-  auto call = fmt::format("{} {} --name {}",
-                          entry.kind == MethodEntry::Kind::command ? "--exec" : "--plugin",
-                          shell_quoted(entry.text), shell_quoted(name));
+  auto call = fmt::format("--exec {} --name {}", shell_quoted(entry.text),
+                          shell_quoted(name));
   if (!entry.expect.empty()) call += " --expect " + shell_quoted(entry.expect);
   return call;
 }

@@ -73,17 +73,17 @@ Array read_pipe(const std::string& bytes) {
 }
 
 const std::vector<Numbers> two_columns{{0.0, 0.5, 1.0}, {1.0, -2.0, 3.0}};
-const Numbers by_rows{0.0, 1.0, 0.5, -2.0, 1.0, 3.0}, by_columns{0.0, 0.5, 1.0, 1.0, -2.0, 3.0};
+const Numbers row_values{0.0, 1.0, 0.5, -2.0, 1.0, 3.0}, by_columns{0.0, 0.5, 1.0, 1.0, -2.0, 3.0};
 
 TEST(NpyFile, ReadsPlainArraysInBothOrdersFromFilesAndPipes) {
   for (const char version : {'\1', '\2', '\3'})
-    for (const auto& bytes : {npy("'<f8'", "(3, 2)", bytes_of(by_rows), false, version),
+    for (const auto& bytes : {npy("'<f8'", "(3, 2)", bytes_of(row_values), false, version),
                               npy("'<f8'", "(3, 2)", bytes_of(by_columns), true, version)}) {
       EXPECT_EQ(read_npy(bytes).columns, two_columns);
       EXPECT_EQ(read_pipe(bytes).columns, two_columns);
       EXPECT_EQ(read_npy(bytes).names, (std::vector<std::string>{"", ""}));
     }
-  EXPECT_EQ(read_npy(npy("'<f8'", "(3,)", bytes_of(by_rows).substr(0, 24))).columns,
+  EXPECT_EQ(read_npy(npy("'<f8'", "(3,)", bytes_of(row_values).substr(0, 24))).columns,
             (std::vector<Numbers>{{0.0, 1.0, 0.5}}));
   EXPECT_TRUE(read_npy(npy("'<f8'", "(0, 2)", "")).columns[0].empty());
 }
@@ -152,7 +152,7 @@ TEST(NpyFile, ReadsManyRowsInBlocks) {
 
 TEST(NpyFile, RefusesCutAndLongFilesFromFilesAndPipes) {
   for (const bool order : {false, true}) {
-    const auto whole = npy("'<f8'", "(3, 2)", bytes_of(by_rows), order);
+    const auto whole = npy("'<f8'", "(3, 2)", bytes_of(row_values), order);
     for (const auto& cut :
          {whole.substr(0, whole.size() - 1), whole.substr(0, whole.size() - 48)}) {
       EXPECT_REFUSED(read_npy(cut), "not-an-array", "ends before the last of its 3 rows");
@@ -166,7 +166,7 @@ TEST(NpyFile, RefusesCutAndLongFilesFromFilesAndPipes) {
     }
   }
   // The length says four gigabytes.
-  auto large = npy("'<f8'", "(3, 2)", bytes_of(by_rows), false, 2);
+  auto large = npy("'<f8'", "(3, 2)", bytes_of(row_values), false, 2);
   large.replace(8, 4, 4, '\xff');
   EXPECT_REFUSED(read_npy(large), "not-an-array", "ends within its header");
 }

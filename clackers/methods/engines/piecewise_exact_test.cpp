@@ -1,5 +1,3 @@
-#include "clackers/methods/engines/piecewise_exact.hpp"
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
