@@ -8,6 +8,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/base/text.hpp"
+#include "clackers/solvers/program.hpp"
 #include "cli/command.hpp"
 #include "cli/files/output_stream.hpp"
 #include "cli/files/paths.hpp"
