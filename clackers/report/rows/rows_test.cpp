@@ -360,6 +360,26 @@ TEST(Npy, HasAPaddedHeaderAndTheDoubles) {
   EXPECT_EQ(std::memcmp(text.data() + size, few.data(), few.size() * sizeof(double)), 0);
 }
 
+class Wide : public Numbers {
+ public:
+  Wide() : Numbers({}) {}
+  const std::vector<record::Column>& columns() const override { return columns_; }
+
+ private:
+  std::vector<record::Column> columns_{10000, {"u", "m", "", record::ColumnKind::real}};
+};
+
+TEST(Npy, OfManyColumnsHasALongerLength) {
+  Wide rows;
+  const auto header = written(rows, Format::npy);
+  EXPECT_EQ(header[6], '\x02');
+  EXPECT_EQ(header.size() % 64, 0u);
+  const auto byte = [&](std::size_t i) {
+    return std::size_t(static_cast<unsigned char>(header[i]));
+  };
+  EXPECT_EQ(byte(8) + 256 * byte(9) + 65536 * byte(10), header.size() - 12);
+}
+
 TEST(Npy, IsRefusedForRowsWithText) {
   const auto sheet = mixed_sheet();
   record::SheetRows rows(sheet);
