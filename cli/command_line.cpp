@@ -7,6 +7,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/solvers/program.hpp"
 #include "cli/command.hpp"
 #include "cli/files/output_stream.hpp"
@@ -14,7 +15,6 @@
 #include "cli/help/completion.hpp"
 #include "cli/help/help.hpp"
 #include "cli/help/shell_files.hpp"
-#include "cli/help/text.hpp"
 
 namespace clackers::cli {
 namespace {

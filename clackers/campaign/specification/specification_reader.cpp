@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "clackers/base/suggest.hpp"
+#include "clackers/base/files.hpp"
 #include "clackers/base/toml_reader.hpp"
 #include "clackers/campaign/specification.hpp"
 #include "clackers/campaign/specification/sampling.hpp"
@@ -281,8 +282,7 @@ Specification Specification::from_toml(std::string_view text, const std::string&
 
 Specification Specification::read(const std::string& path) {
   return from_toml(
-      text_of_file(path, "A campaign's specification is a TOML file: clackers campaign --help"),
-      path);
+      read_file(path, "A campaign's specification is a TOML file: clackers campaign --help"), path);
 }
 
 }  // namespace clackers::campaign

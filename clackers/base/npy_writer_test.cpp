@@ -1,4 +1,4 @@
-#include "clackers/base/npy_header.hpp"
+#include "clackers/base/npy_writer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,21 +1,22 @@
-#include "clackers/input/text/number.hpp"
+#include "clackers/base/number.hpp"
 
 #include <gtest/gtest.h>
 
-#include "clackers/input/text/printed_digits.hpp"
+#include <cmath>
+#include <limits>
 
-namespace clackers::input {
+namespace clackers {
 namespace {
 
 Number number(std::string_view text) {
   Number out;
-  EXPECT_EQ(read(text, out), NumberError::none) << text;
+  EXPECT_EQ(read_decimal(text, out), NumberError::none) << text;
   return out;
 }
 
 NumberError error_of(std::string_view text) {
   Number out;
-  return read(text, out);
+  return read_decimal(text, out);
 }
 
 TEST(Number, IsReadAsPrograms) {
@@ -58,40 +59,34 @@ TEST(Number, LooksNumericThoughItIsNotFinite) {
   EXPECT_FALSE(looks_numeric("-"));
 }
 
-PrintedDigits column(std::initializer_list<std::string_view> texts) {
-  PrintedDigits digits;
-  for (const auto text : texts) digits.take(number(text));
-  return digits;
+TEST(Number, MayBeAFraction) {
+  EXPECT_EQ(finite_number("1/4"), 0.25);
+  EXPECT_EQ(finite_number("-1e1/+2.5"), -4.0);
+  EXPECT_EQ(finite_number("0.05"), 0.05);
+  for (const auto* text :
+       {"", "/", "1/", "/2", "1/2/3", "1/x", "1/0", "0/0", "1/nan", "inf", "1 /2"})
+    EXPECT_FALSE(finite_number(text)) << text;
+  double value = 0.0;
+  EXPECT_EQ(read_number("1/0", value), NumberError::not_finite);
+  EXPECT_EQ(read_number("-inf", value), NumberError::not_finite);
+  EXPECT_EQ(value, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(read_number("1/0,5", value), NumberError::decimal_comma);
 }
 
-TEST(PrintedDigits, OfGeneralFormatAreThoseOfTheLongestNumber) {
-  // %g drops the zeros of 0.5 and 1.
-  const auto digits = column({"1", "0.5", "0.123457", "-0.00123457"});
-  EXPECT_EQ(digits.digits(), 6);
-  // The last of six digits of a number between 1 and 10 is 1e-5.
-  EXPECT_DOUBLE_EQ(digits.half_unit(), 0.5e-5);
+TEST(Number, WholeOnesAreAllOfTheirText) {
+  EXPECT_EQ(whole_number("-12"), -12);
+  EXPECT_EQ(whole_number("9223372036854775807"), 9223372036854775807);
+  for (const auto* text : {"", "1.5", "1e3", " 1", "1 ", "9223372036854775808"})
+    EXPECT_FALSE(whole_number(text)) << text;
 }
 
-TEST(PrintedDigits, OfFixedDecimalsHaveTheUnitOfTheLastDecimal) {
-  const auto digits = column({"0.0012", "-12.3456", "1.0000"});
-  EXPECT_EQ(digits.digits(), 6);
-  EXPECT_DOUBLE_EQ(digits.half_unit(), 0.5e-4);
-}
-
-TEST(PrintedDigits, HideNothingOfAWholeDoubleOrOfZeros) {
-  EXPECT_EQ(column({"0.12345678901234567"}).half_unit(), 0.0);
-  EXPECT_GT(column({"0.1234567890123456"}).half_unit(), 0.0);
-  EXPECT_EQ(column({"0", "0.000"}).half_unit(), 0.0);
-}
-
-TEST(PrintedDigits, KnowSinglePrecisionByItsNumbers) {
-  const auto floats = column({"0.10000000149011612", "0.5", "3.1415927410125732"});
-  EXPECT_TRUE(floats.single_precision());
-  EXPECT_DOUBLE_EQ(floats.half_unit(), 3.1415927410125732 * 0x1p-24);
-  EXPECT_FALSE(column({"0.10000000149011612", "0.1"}).single_precision());
-  // Few digits say nothing of precision: all of these are floats.
-  EXPECT_FALSE(column({"0.5", "0.25"}).single_precision());
+TEST(Rounded, AnyDoubleHasSixDigits) {
+  EXPECT_EQ(rounded(1.23456789), 1.23457);
+  EXPECT_EQ(rounded(5e-324), 5e-324);
+  EXPECT_EQ(rounded(-4.247828255331e-311), -4.24783e-311);
+  EXPECT_TRUE(std::isfinite(rounded(std::numeric_limits<double>::max())));
+  EXPECT_EQ(rounded(INFINITY), INFINITY);
 }
 
 }  // namespace
-}  // namespace clackers::input
+}  // namespace clackers

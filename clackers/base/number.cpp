@@ -1,10 +1,12 @@
-#include "clackers/input/text/number.hpp"
+#include "clackers/base/number.hpp"
+
+#include <fmt/format.h>
 
 #include <array>
 #include <charconv>
 #include <cmath>
 
-namespace clackers::input {
+namespace clackers {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -38,7 +40,7 @@ bool has_decimal_comma(std::string_view text) {
 
 }  // namespace
 
-NumberError read(std::string_view text, Number& number) {
+NumberError read_decimal(std::string_view text, Number& number) {
   const auto whole = text;
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto try_read = [&number](std::string_view s) {
@@ -60,9 +62,42 @@ NumberError read(std::string_view text, Number& number) {
   return result;
 }
 
-bool looks_numeric(std::string_view text) {
-  Number number;
-  return read(text, number) != NumberError::no_number;
+NumberError read_number(std::string_view text, double& value) {
+  const auto slash = text.find('/');
+  Number above, below{1.0};
+  auto error = read_decimal(text.substr(0, slash), above);
+  if (error == NumberError::none && slash != std::string_view::npos)
+    error = read_decimal(text.substr(slash + 1), below);
+  value = above.value / below.value;
+  return error == NumberError::none && !std::isfinite(value) ? NumberError::not_finite : error;
 }
 
-}  // namespace clackers::input
+std::optional<double> finite_number(std::string_view text) {
+  double value = 0.0;
+  if (read_number(text, value) != NumberError::none) return {};
+  return value;
+}
+
+std::optional<long long> whole_number(std::string_view text) {
+  long long value = 0;
+  const auto end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) return {};
+  return value;
+}
+
+bool looks_numeric(std::string_view text) {
+  Number number;
+  return read_decimal(text, number) != NumberError::no_number;
+}
+
+double rounded(double value, int digits) {
+  if (!std::isfinite(value)) return value;
+  const auto text = fmt::format("{:.{}e}", value, digits - 1);
+  double out = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), out);
+  // Of the largest doubles six digits may be beyond all doubles.
+  return read.ec == std::errc() ? out : value;
+}
+
+}  // namespace clackers
