@@ -146,7 +146,7 @@ Json survey_data(const Survey& survey, std::span<const AtlasPart> parts) {
     const auto& row = parts[subject.part].subjects->rows[subject.row];
     const auto& read = readers[subject.part];
     const auto claim = claim_json(read, row);
-    Json cell{subject.method, subject.system, claims.place(claim, claim.dump())};
+    Json cell{subject.method, subject.system, claims.place(claim, json_text(claim))};
     for (const auto name : words) cell.push_back(texts.place(read.text(row, std::string(name))));
     for (const auto name : numbers)
       cell.push_back(rounded_number(read.number(row, std::string(name))));
