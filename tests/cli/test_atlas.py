@@ -151,14 +151,14 @@ class Refusals(AtlasTest):
             self.assertFalse(os.path.exists(self.folder_of_atlas))
 
     def test_of_results_that_somebody_changed(self):
-        for change, code, says in (("UPDATE runs SET level = 1000000000000", "", "level"),
+        for change, code, says in (("UPDATE runs SET level = 1000000000000", "out-of-range", "level"),
                                    ("UPDATE subjects SET task = 7 WHERE task = 0", "not-a-campaign", "no task"),
                                    ("ALTER TABLE subjects DROP COLUMN verdict", "not-a-campaign", "no column verdict"),
                                    ("CREATE VIEW seen AS SELECT 1", "not-a-campaign", "views")):
             self.submit("bathe")
             self.change(change)
             self.refused("atlas", "--specification", self.spec, "--out", self.folder_of_atlas, "--merge",
-                         self.path("bathe.db"), code=code or None, says=("bathe.db", says))
+                         self.path("bathe.db"), code=code, says=("bathe.db", says))
             self.assertFalse(os.path.exists(self.path("atlas/results")), change)
 
     def test_that_were_refused_leave_the_atlas_as_it_was(self):
