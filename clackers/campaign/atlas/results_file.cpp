@@ -6,6 +6,7 @@
 #include <set>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/json.hpp"
 #include "clackers/campaign/atlas.hpp"
 
 namespace clackers::campaign {
@@ -68,7 +69,7 @@ void require_different(const record::Sheet& subjects) {
       if (const auto& name = subjects.columns[c].name;
           name == "case" || name == "method" || name.starts_with("set_"))
         key.push_back(cell_json(row[c]));
-    const auto text = key.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const auto text = json_text(key);
     if (!seen.insert(text).second)
       throw InputError(
           fmt::format("two rows of subjects are of the same system and method: {}", text),
@@ -131,15 +132,18 @@ std::string results_text(const AtlasResults& results) {
                   {"specification", results.specification},
                   {"subjects", sheet_json(results.subjects)},
                   {"runs", sheet_json(results.runs)}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(json) + '\n';
 }
 
 AtlasResults results_from(const std::string& text, const std::string& name) {
-  const auto json = Json::parse(text, nullptr, false);
-  if (json.is_discarded())
+  Json json;
+  try {
+    json = parse_json(text);
+  } catch (const Json::exception&) {
     throw InputError(
         fmt::format("{}: this is no json; allowed: what clackers atlas --submit writes.", name),
         "bad-syntax");
+  }
   require_schema(json, name);
   try {
     return results_from(json);

@@ -1,4 +1,5 @@
 #include "clackers/report/atlas.hpp"
+#include "clackers/base/json.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,9 +21,9 @@ std::string page_of(const SampleAtlas& atlas) {
   return atlas_page({&part, 1}, sample_atlas_text());
 }
 
-nlohmann::json atlas_data(const std::string& page) {
+nlohmann::ordered_json atlas_data(const std::string& page) {
   const auto from = page.find('>', page.find("id=\"data\">")) + 1;
-  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from))["atlas"];
+  return parse_json(page.substr(from, page.find("</script>", from) - from))["atlas"];
 }
 
 TEST(Atlas, IsOneFileThatLoadsNothing) {

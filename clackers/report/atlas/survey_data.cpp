@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/json.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
@@ -113,7 +114,7 @@ void add_ladder(Json& cell, const SurveySubject& subject, Shared& ladders) {
       errors.push_back(run.finished ? rounded_number(run.u_error) : nullptr);
   }
   const auto ladder = ladder_json(subject);
-  cell.push_back(ladders.place(ladder, ladder.dump()));
+  cell.push_back(ladders.place(ladder, json_text(ladder)));
   cell.push_back(errors);
   cell.push_back(steps);
   cell.push_back(forces);
