@@ -22,4 +22,8 @@ void report_error(std::string_view message, std::string_view code) {
   put_line(::isatty(STDERR_FILENO) != 0 ? wrapped(line, 80) : line);
 }
 
+void refuse_usage(std::string_view command, std::string_view sentence) {
+  throw InputError(fmt::format("{} {}", command, sentence), "bad-syntax");
+}
+
 }  // namespace clackers::cli

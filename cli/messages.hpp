@@ -13,6 +13,9 @@ void note(std::string_view text);
 /// are escaped.
 void report_error(std::string_view message, std::string_view code);
 
+/// Throws InputError (bad-syntax) for options of a command that do not go together.
+[[noreturn]] void refuse_usage(std::string_view command, std::string_view sentence);
+
 /// Runs `write`, which writes one of several results: a file that fails is reported and does not
 /// stop the others. True when written.
 template <class Write>

@@ -10,11 +10,11 @@
 namespace clackers::cli {
 namespace {
 
-constexpr int width = 79;
+constexpr int line_width = 79;
 
 // Blanks instead of an escape sequence, so that every terminal understands.
 void put(const std::string& text) {
-  std::fputs(fmt::format("\r{:<{}}\r{}", "", width, text).c_str(), stderr);
+  std::fputs(fmt::format("\r{:<{}}\r{}", "", line_width, text).c_str(), stderr);
   std::fflush(stderr);
 }
 

@@ -22,48 +22,45 @@ namespace {
 
 constexpr auto default_folder = "clackers-atlas";
 
-struct Options {
+struct AtlasOptions {
   CommonOptions common;  ///< its `out` is the folder, or the file of --submit
   std::string jobs, specification;
   std::string submit, command, expect, author;
   std::vector<std::string> merge;
 };
 
-[[noreturn]] void refuse_usage(const std::string& sentence) {
-  throw InputError("atlas " + sentence, "bad-syntax");
-}
-
-void require_fitting(const Options& options) {
+void require_fitting(const AtlasOptions& options) {
   const bool submits = !options.submit.empty();
   if (submits && !options.merge.empty())
-    refuse_usage("--merge: --submit writes a file, --merge takes files in; give one of the two.");
+    refuse_usage("atlas",
+                 "--merge: --submit writes a file, --merge takes files in; give one of the two.");
   if (submits && options.common.out.empty())
-    refuse_usage("--submit writes a file: give it with --out FILE.db.");
+    refuse_usage("atlas", "--submit writes a file: give it with --out FILE.db.");
   const bool is_program = !options.command.empty();
   if (!options.expect.empty() && !is_program)
-    refuse_usage("--expect: this is for programs; add --exec 'COMMAND'.");
+    refuse_usage("atlas", "--expect: this is for programs; add --exec 'COMMAND'.");
   if ((is_program || !options.author.empty()) && !submits)
-    refuse_usage("--exec and --author go with --submit NAME --out FILE.db.");
+    refuse_usage("atlas", "--exec and --author go with --submit NAME --out FILE.db.");
 }
 
-std::string specification_text(const Options& options) {
+std::string specification_text(const AtlasOptions& options) {
   return options.specification.empty()
              ? std::string(campaign::atlas_specification())
              : campaign::Specification::read(options.specification).text();
 }
 
-std::string specification_name(const Options& options) {
+std::string specification_name(const AtlasOptions& options) {
   return options.specification.empty() ? "atlas.toml" : options.specification;
 }
 
-campaign::MethodEntry submitted(const Options& options) {
+campaign::MethodEntry submitted(const AtlasOptions& options) {
   using Kind = campaign::MethodEntry::Kind;
   if (!options.command.empty())
     return {Kind::command, options.command, options.submit, options.expect};
   return {Kind::catalogue, options.submit, {}, {}};
 }
 
-int submit(const Options& options, const std::string& line) {
+int submit(const AtlasOptions& options, const std::string& line) {
   const auto entry = submitted(options);
   const auto specification = campaign::Specification::from_toml(
       campaign::with_methods(specification_text(options), {&entry, 1}),
@@ -111,7 +108,7 @@ void print_verdicts(const campaign::Store& store, Results& results) {
   results.finish();
 }
 
-int run(const Options& options, const std::string& line) {
+int run(const AtlasOptions& options, const std::string& line) {
   require_fitting(options);
   if (!options.submit.empty()) return submit(options, line);
   auto common = options.common;
@@ -142,7 +139,7 @@ int run(const Options& options, const std::string& line) {
 }  // namespace
 
 void add_atlas(Grammar& root) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<AtlasOptions>();
   auto* app =
       root.add_subcommand("atlas", "[--out FOLDER]", "every method on many systems, as a map");
   set_help(

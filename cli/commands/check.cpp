@@ -22,7 +22,7 @@
 namespace clackers::cli {
 namespace {
 
-struct Options {
+struct CheckOptions {
   CommonOptions common;
   std::vector<std::string> files, settings, events, requirements;
   std::string case_name, columns, steps, tolerances, expect, tolerance, metrics, report, baseline,
@@ -43,7 +43,7 @@ std::vector<std::string> parts_of(std::string_view option, std::string_view text
   return parts;
 }
 
-study::CheckRequest request_of(const Options& options, const std::string& line) {
+study::CheckRequest request_of(const CheckOptions& options, const std::string& line) {
   study::CheckRequest request;
   request.files.assign(options.files.begin(), options.files.end());
   request.case_name = case_of(options.case_name, options.problem);
@@ -64,12 +64,12 @@ study::CheckRequest request_of(const Options& options, const std::string& line) 
   return request;
 }
 
-record::Record run_check(const Options& options, const study::CheckRequest& request) {
+record::Record run_check(const CheckOptions& options, const study::CheckRequest& request) {
   ProgressLine progress("check", options.common.quiet);
   return study::check(request, progress.callback(), &interrupt_flag());
 }
 
-int run(const Options& options, const std::string& line) {
+int run(const CheckOptions& options, const std::string& line) {
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
   const auto baseline = baseline_of(options.baseline, request);
@@ -91,7 +91,7 @@ int run(const Options& options, const std::string& line) {
 }  // namespace
 
 void add_check(Grammar& root) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckOptions>();
   auto* app = root.add_subcommand("check", "FILE ...", "assess time histories of any program");
   set_help(
       *app,

@@ -9,12 +9,12 @@
 namespace clackers::cli {
 namespace {
 
-struct Options {
+struct ExplainOptions {
   CommonOptions common;
   std::string code;
 };
 
-int run(const Options& options) {
+int run(const ExplainOptions& options) {
   Results results(options.common, OnInterrupt::stop);
   const auto sheet = tables::explain(options.code);
   record::SheetRows rows(sheet);
@@ -26,7 +26,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_explain(Grammar& root) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExplainOptions>();
   auto* app = root.add_subcommand("explain", "[CODE]", "what a code in [brackets] means");
   set_help(*app,
            {.examples = "  clackers explain stagnating\n"

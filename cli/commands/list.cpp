@@ -17,7 +17,7 @@
 namespace clackers::cli {
 namespace {
 
-struct Options {
+struct ListOptions {
   CommonOptions common;
   std::string kind;
 };
@@ -59,7 +59,7 @@ record::Sheet shown(record::Sheet sheet, report::Format format) {
   return is_metrics && format == report::Format::table ? for_people(sheet) : sheet;
 }
 
-int run(const Options& options) {
+int run(const ListOptions& options) {
   Results results(options.common, OnInterrupt::stop);
   if (options.kind.empty()) {
     std::vector<record::Sheet> sheets;
@@ -78,7 +78,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_list(Grammar& root) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ListOptions>();
   auto* app = root.add_subcommand("list", "[KIND]", "what there is: cases, methods, metrics");
   set_help(*app, {.examples = "  clackers list cases\n"
                               "  clackers list pairs --format csv\n",

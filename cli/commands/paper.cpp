@@ -20,18 +20,18 @@
 namespace clackers::cli {
 namespace {
 
-struct Options {
+struct PaperOptions {
   CommonOptions common;  ///< its `out` is the folder
   std::vector<std::string> figures;
 };
 
-paper::Reproduction reproduce(const Options& options, const std::vector<paper::Entry>& chosen,
+paper::Reproduction reproduce(const PaperOptions& options, const std::vector<paper::Entry>& chosen,
                               const OutputFolder& folder, const std::string& line) {
   ProgressLine progress("paper", options.common.quiet);
   return paper::reproduce(chosen, folder.folder(), line, progress.callback(), &interrupt_flag());
 }
 
-int run(const Options& options, const std::string& line) {
+int run(const PaperOptions& options, const std::string& line) {
   const auto chosen = paper::chosen(options.figures);
   if (options.common.out.empty())
     throw InputError("paper writes a folder: give it with --out FOLDER.", "bad-syntax");
@@ -55,7 +55,7 @@ int run(const Options& options, const std::string& line) {
 }  // namespace
 
 void add_paper(Grammar& root) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PaperOptions>();
   auto* app =
       root.add_subcommand("paper", "[FIGURE ...]", "the paper's figures and claims, reproduced");
   set_help(

@@ -17,13 +17,14 @@
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {
 namespace {
 
-struct Options {
+struct RespondOptions {
   CommonOptions common;
   std::vector<std::string> settings;
   std::string name, samples, step, times, digits, sensitivity, highest, report, problem;
@@ -35,7 +36,7 @@ struct Options {
 };
 
 // What the rows are of, where it is not the response; empty when it is.
-std::vector<std::string> other_kinds(const Options& options) {
+std::vector<std::string> other_kinds(const RespondOptions& options) {
   std::vector<std::string> kinds;
   if (options.energy) kinds.push_back("--energy");
   if (options.spectrum) kinds.push_back("--spectrum");
@@ -43,61 +44,67 @@ std::vector<std::string> other_kinds(const Options& options) {
   return kinds;
 }
 
-[[noreturn]] void refuse_usage(const std::string& sentence) {
-  throw InputError("respond " + sentence, "bad-syntax");
-}
-
-void check(const Options& options) {
+void check(const RespondOptions& options) {
   const std::string ways = "one of --samples n, --step h, --times FILE and --collisions";
   if (options.name.empty())
-    refuse_usage("needs a CASE, for example three-parameter. All names: clackers list cases");
-  if (options.ways() > 1) refuse_usage("takes only " + ways + ".");
+    refuse_usage("respond",
+                 "needs a CASE, for example three-parameter. All names: clackers list cases");
+  if (options.ways() > 1) refuse_usage("respond", "takes only " + ways + ".");
   if (options.ways() == 0 && !options.plot && options.report.empty())
-    refuse_usage("needs times: " + ways + ", or --plot or --report for a picture alone.");
+    refuse_usage("respond",
+                 "needs times: " + ways + ", or --plot or --report for a picture alone.");
   if (options.ways() == 0 && !options.common.out.empty())
-    refuse_usage("--out needs rows to write: " + ways + ". The picture goes to standard output.");
+    refuse_usage("respond",
+                 "--out needs rows to write: " + ways + ". The picture goes to standard output.");
   if (!options.digits.empty() && options.plot)
-    refuse_usage("draws --plot with doubles and cannot show --digits. Leave one of the two out.");
+    refuse_usage("respond",
+                 "draws --plot with doubles and cannot show --digits. Leave one of the two out.");
 }
 
-void check_kind(const Options& options) {
+void check_kind(const RespondOptions& options) {
   const auto kinds = other_kinds(options);
   if (!options.highest.empty() && !options.spectrum)
-    refuse_usage("--highest is the highest frequency of --spectrum; add it, or leave it out.");
+    refuse_usage("respond",
+                 "--highest is the highest frequency of --spectrum; add it, or leave it out.");
   if (kinds.empty()) return;
   if (kinds.size() > 1)
-    refuse_usage("takes only one of --energy, --spectrum and --sensitivity; " + kinds[0] + " and " +
-                 kinds[1] + " were given.");
+    refuse_usage("respond", "takes only one of --energy, --spectrum and --sensitivity; " +
+                                kinds[0] + " and " + kinds[1] + " were given.");
   if (options.collisions)
-    refuse_usage(kinds[0] + " has rows of its own and takes no --collisions.");
+    refuse_usage("respond", kinds[0] + " has rows of its own and takes no --collisions.");
   if (!options.digits.empty())
-    refuse_usage(kinds[0] + " is computed in doubles and takes no --digits.");
+    refuse_usage("respond", kinds[0] + " is computed in doubles and takes no --digits.");
   if (options.ways() == 0)
-    refuse_usage(kinds[0] + (options.spectrum
+    refuse_usage("respond",
+                 kinds[0] + (options.spectrum
                                  ? " needs --samples n, the number of frequencies."
                                  : " needs times: one of --samples n, --step h and --times FILE."));
   if (options.spectrum && options.samples.empty())
-    refuse_usage("--spectrum takes frequencies, not times: --samples n of them up to --highest w.");
+    refuse_usage("respond",
+                 "--spectrum takes frequencies, not times: --samples n of them up to --highest w.");
   if (options.spectrum && options.highest.empty())
-    refuse_usage("--spectrum needs --highest w, the highest frequency in rad/s.");
+    refuse_usage("respond", "--spectrum needs --highest w, the highest frequency in rad/s.");
 }
 
 // What cannot be written together or where it is to go.
-void check_format(const Options& options, const Results& results) {
+void check_format(const RespondOptions& options, const Results& results) {
   const bool npy = results.format() == report::Format::npy;
   if (npy && !options.digits.empty())
-    refuse_usage("--digits is text and --format npy holds doubles. Use csv or json.");
+    refuse_usage("respond", "--digits is text and --format npy holds doubles. Use csv or json.");
   if (npy && results.is_terminal())
-    refuse_usage(
-        "--format npy is bytes that a terminal cannot show. Add --out FILE, or send them "
-        "to a program.");
+    refuse_usage("respond",
+                 "--format npy is bytes that a terminal cannot show. Add --out FILE, or send them "
+                 "to a program.");
   if (options.plot && !results.is_file() && results.format() != report::Format::table)
-    refuse_usage("--plot with --format " + options.common.format +
-                 " would draw inside what a program reads. Add --out FILE for the rows, or leave "
-                 "one of the two out.");
+    refuse_usage(
+        "respond",
+        "--plot with --format " + options.common.format +
+            " would draw inside what a program reads. Add --out FILE for the rows, or leave "
+            "one of the two out.");
 }
 
-std::unique_ptr<record::RowSource> rows_of(const Options& options, const cases::Case& which) {
+std::unique_ptr<record::RowSource> rows_of(const RespondOptions& options,
+                                           const cases::Case& which) {
   const double end = which.motion->end();
   const bool digits = !options.digits.empty();
   const auto count = digits ? read_whole("--digits", options.digits, 1, 1000) : 0;
@@ -133,7 +140,8 @@ std::string picture(const cases::Case& which, const report::Style& style) {
   return report::plot(tables::response_curve(which, 8 * style.width), impact_times, style);
 }
 
-std::string page_of(const cases::Case& which, const Options& options, const std::string& line) {
+std::string page_of(const cases::Case& which, const RespondOptions& options,
+                    const std::string& line) {
   const auto motion = tables::response_record(which);
   return report::html(
       tables::show_case(options.name, read_settings(options.settings, options.problem),
@@ -141,7 +149,7 @@ std::string page_of(const cases::Case& which, const Options& options, const std:
       options.name, record::provenance(line), &motion, "respond");
 }
 
-int run(Options options, const std::string& line) {
+int run(RespondOptions options, const std::string& line) {
   options.name = case_of(options.name, options.problem);
   check_kind(options);
   check(options);
@@ -165,7 +173,7 @@ int run(Options options, const std::string& line) {
 }  // namespace
 
 void add_respond(Grammar& root) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RespondOptions>();
   auto* app = root.add_subcommand("respond", "CASE ...", "the exact motion of a case");
   set_help(*app,
            {.examples = "  clackers respond three-parameter --samples 1001 --format csv\n"

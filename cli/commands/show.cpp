@@ -21,7 +21,7 @@
 namespace clackers::cli {
 namespace {
 
-struct Options {
+struct ShowOptions {
   CommonOptions common;
   std::vector<std::string> settings;
   std::string name, threshold, report, problem;
@@ -43,7 +43,7 @@ void require_method(const std::string& specification) {
   refuse_name("case or method", name, known, "clackers list");
 }
 
-std::vector<record::Sheet> sheets_of(const Options& options) {
+std::vector<record::Sheet> sheets_of(const ShowOptions& options) {
   if (options.name.empty())
     throw InputError(
         "show needs a CASE or METHOD, for example three-parameter. All names: clackers list",
@@ -62,7 +62,7 @@ std::vector<record::Sheet> sheets_of(const Options& options) {
   return tables::show_method(options.name);
 }
 
-int run(Options options, const std::string& line) {
+int run(ShowOptions options, const std::string& line) {
   options.name = case_of(options.name, options.problem);
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop);
@@ -90,7 +90,7 @@ int run(Options options, const std::string& line) {
 }  // namespace
 
 void add_show(Grammar& root) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ShowOptions>();
   auto* app = root.add_subcommand("show", "CASE|METHOD", "one case or method in full");
   set_help(
       *app,
