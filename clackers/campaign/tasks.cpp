@@ -64,8 +64,8 @@ std::vector<Cell> run_cells(const Specification& specification, const report::Ro
   return cells;
 }
 
-study::SolverSubject solver_of(const Specification& specification, const MethodEntry& method,
-                               const std::vector<std::string>& plugin_host) {
+solvers::SolverSubject solver_of(const Specification& specification, const MethodEntry& method,
+                                 const std::vector<std::string>& plugin_host) {
   solvers::ProcessOptions options;
   options.tolerances = specification.ladder().tolerances;
   if (!method.expect.empty()) options.expect = study::claim_from(method.expect);
@@ -99,9 +99,9 @@ Tables tables_of(const Specification& specification) {
   return tables;
 }
 
-std::vector<std::optional<study::SolverSubject>> solvers_of(
+std::vector<std::optional<solvers::SolverSubject>> solvers_of(
     const Specification& specification, const std::vector<std::string>& plugin_host) {
-  std::vector<std::optional<study::SolverSubject>> solvers;
+  std::vector<std::optional<solvers::SolverSubject>> solvers;
   for (const auto& method : specification.methods()) {
     auto& added = solvers.emplace_back();
     if (method.kind != MethodEntry::Kind::catalogue)
@@ -111,7 +111,7 @@ std::vector<std::optional<study::SolverSubject>> solvers_of(
 }
 
 TaskRunner::TaskRunner(const Specification& specification,
-                       const std::vector<std::optional<study::SolverSubject>>& solvers)
+                       const std::vector<std::optional<solvers::SolverSubject>>& solvers)
     : specification_(specification), solvers_(solvers) {}
 
 TaskRunner::~TaskRunner() = default;

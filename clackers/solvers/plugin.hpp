@@ -28,8 +28,8 @@ struct PluginRequest : ProcessOptions {
 /// (not-a-plugin) for a library that cannot be loaded or has no solver of a known version, FileError
 /// for one that cannot be read and where the folder of runs cannot be made. A library that crashes
 /// while it is loaded is a subject whose runs fail.
-std::vector<study::SolverSubject> subjects_of(const PluginRequest& request,
-                                              const std::atomic<bool>* interrupt = nullptr);
+std::vector<SolverSubject> subjects_of(const PluginRequest& request,
+                                       const std::atomic<bool>* interrupt = nullptr);
 
 /// The work of the process: loads the library, calls it, and writes what came of it to files that
 /// subjects_of() named in `arguments`. False where something failed, which a file then says. The

@@ -102,7 +102,7 @@ solvers::ProcessOptions process_options_of(const ProgramOptions& options) {
 
 }  // namespace
 
-std::vector<study::SolverSubject> program_subjects(const ProgramOptions& options) {
+std::vector<solvers::SolverSubject> program_subjects(const ProgramOptions& options) {
   require_any(options);
   const auto count = options.commands.size() + options.libraries.size();
   if (!options.names.empty() && options.names.size() != count)
@@ -113,7 +113,7 @@ std::vector<study::SolverSubject> program_subjects(const ProgramOptions& options
     return options.names.empty() ? std::string() : options.names[i];
   };
   const auto process = process_options_of(options);
-  std::vector<study::SolverSubject> subjects;
+  std::vector<solvers::SolverSubject> subjects;
   if (!options.commands.empty()) {
     solvers::ProgramRequest request{process, {}};
     for (const auto& line : options.commands)
@@ -130,21 +130,14 @@ std::vector<study::SolverSubject> program_subjects(const ProgramOptions& options
   return subjects;
 }
 
-study::RefinementRequest program_plan(study::RefinementRequest plan, bool has_neighbours) {
-  if (!plan.levels) plan.levels = study::default_solver_levels;
-  if (!has_neighbours) plan.samples_per_level = study::default_solver_samples;
-  return plan;
-}
-
-int exit_code_of_programs(const record::Record& record, int exit_code) {
-  const auto* failure = study::failure_of_all(record);
-  if (failure == nullptr || record.interrupted) return exit_code;
+void report_failure_of_all(const record::Record& record) {
+  const auto* failure = record::failure_of_all(record);
+  if (failure == nullptr || record.interrupted) return;
   const auto printed = report::printed_text(failure->printed);
   auto sentence = "every run failed; the first one: " + failure->score.failure;
   if (!sentence.ends_with('.')) sentence += '.';
   report_error(sentence + (printed.empty() ? "" : " It printed: " + printed),
                failure->score.failure_code);
-  return 4;
 }
 
 }  // namespace clackers::cli

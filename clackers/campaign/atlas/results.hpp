@@ -7,7 +7,7 @@
 
 namespace clackers::campaign {
 
-/// What `clackers verify` is given for the ladder of a specification: "--levels 5 --neighbours 4".
+/// What `clackers verify` is given for the ladder of a specification: "--levels 5 --samples-per-level 4".
 std::string ladder_options(const Ladder& ladder);
 
 /// How a command line names the programs and plug-ins of a specification, by their names in the rows

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr auto report_name = "report.txt";
 
 // Where the library was when its run ended, and why if that is known.
-void complete(const fs::path& folder, study::SolverOutput& output) {
+void complete(const fs::path& folder, SolverOutput& output) {
   const auto report = read_plugin_report(folder / report_name);
   if (!report.code.empty()) {
     output.failure_code = report.code;
@@ -68,11 +68,11 @@ PluginReport report_of(const std::string& command, double timeout, WorkFolder& w
 
 }  // namespace
 
-std::vector<study::SolverSubject> subjects_of(const PluginRequest& request,
-                                              const std::atomic<bool>* interrupt) {
+std::vector<SolverSubject> subjects_of(const PluginRequest& request,
+                                       const std::atomic<bool>* interrupt) {
   require_positive("verify", "timeout", request.timeout);
   const auto folder = std::make_shared<WorkFolder>(request.work);
-  std::vector<study::SolverSubject> subjects;
+  std::vector<SolverSubject> subjects;
   for (const auto& plugin : request.plugins) {
     const auto library = library_of(plugin);
     const auto load = command_of(request, library);

@@ -1,4 +1,4 @@
-#include "clackers/study/solver.hpp"
+#include "clackers/study/solver_candidate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,23 +7,25 @@
 #include <vector>
 
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/study/verify.hpp"
 
 namespace clackers::study {
 namespace {
 
 // Keeps the runs that it was asked for; each fails.
-struct FailingSolver : Solver {
-  FailingSolver(std::vector<SolverRun>& kept, bool repeats) : runs(kept), would_repeat(repeats) {}
-  SolverOutput run(const SolverRun& run, const std::atomic<bool>*) override {
+struct FailingSolver : solvers::Solver {
+  FailingSolver(std::vector<solvers::SolverRun>& kept, bool repeats)
+      : runs(kept), would_repeat(repeats) {}
+  solvers::SolverOutput run(const solvers::SolverRun& run, const std::atomic<bool>*) override {
     runs.push_back(run);
-    SolverOutput output;
+    solvers::SolverOutput output;
     output.failure_code = "program-failed";
     output.failure = "exit status 1.";
     output.printed = "no licence";
     output.would_repeat = would_repeat;
     return output;
   }
-  std::vector<SolverRun>& runs;
+  std::vector<solvers::SolverRun>& runs;
   bool would_repeat;
 };
 
@@ -37,12 +39,15 @@ class SolversUnderTest : public testing::Test {
       return std::make_unique<FailingSolver>(runs_, would_repeat_);
     };
   }
-  record::Record verify_one() { return verify(request_, {subject_}); }
+  record::Record verify_one() {
+    request_.solvers = {subject_};
+    return verify(request_);
+  }
 
-  std::vector<SolverRun> runs_;
+  std::vector<solvers::SolverRun> runs_;
   bool would_repeat_ = false;
   VerifyRequest request_;
-  SolverSubject subject_;
+  solvers::SolverSubject subject_;
 };
 
 TEST_F(SolversUnderTest, AreRunWithTheStepsOfThePlan) {
@@ -97,7 +102,8 @@ TEST_F(SolversUnderTest, AreNotRunFurtherAfterThreeFailuresThatSmallerStepsShare
 TEST_F(SolversUnderTest, AreRunFurtherWhereAnotherFailureStandsBetween) {
   struct EverySecond : FailingSolver {
     using FailingSolver::FailingSolver;
-    SolverOutput run(const SolverRun& run, const std::atomic<bool>* interrupt) override {
+    solvers::SolverOutput run(const solvers::SolverRun& run,
+                              const std::atomic<bool>* interrupt) override {
       would_repeat = runs.size() % 2 == 0;
       return FailingSolver::run(run, interrupt);
     }
@@ -110,7 +116,8 @@ TEST_F(SolversUnderTest, AreRunFurtherWhereAnotherFailureStandsBetween) {
 }
 
 TEST_F(SolversUnderTest, AreRefusedWithTwoOfOneName) {
-  EXPECT_REFUSED(verify(request_, {subject_, subject_}), "bad-syntax", "mine");
+  request_.solvers = {subject_, subject_};
+  EXPECT_REFUSED(verify(request_), "bad-syntax", "mine");
   request_.methods = {"rk4"};
   subject_.name = "rk4";
   EXPECT_REFUSED(verify_one(), "bad-syntax", "rk4");
@@ -127,9 +134,9 @@ TEST_F(SolversUnderTest, AreRefusedWithStepsThatDoNotDescend) {
 }
 
 // The reference itself, in memory that lives as long as the output says.
-struct ExactSolver : Solver {
+struct ExactSolver : solvers::Solver {
   explicit ExactSolver(const cases::Case& problem) : motion(problem.motion) {}
-  SolverOutput run(const SolverRun& run, const std::atomic<bool>*) override {
+  solvers::SolverOutput run(const solvers::SolverRun& run, const std::atomic<bool>*) override {
     auto numbers = std::make_shared<std::vector<double>>();
     for (long long i = 0; i <= run.steps; ++i) {
       const double t = std::min(double(i) * run.step, motion->end());
@@ -139,7 +146,7 @@ struct ExactSolver : Solver {
     input::NumberColumns columns{"mine", numbers->size() / 3, {}};
     for (std::size_t c = 0; c < 3; ++c)
       columns.columns.push_back({c == 0 ? "t" : c == 1 ? "u1" : "u2", numbers->data() + c, 3});
-    SolverOutput output;
+    solvers::SolverOutput output;
     output.history = columns;
     output.events = input::NumberColumns{"its collisions", 0, {{"t"}}};
     output.memory = numbers;

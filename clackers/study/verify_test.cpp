@@ -70,7 +70,7 @@ TEST(Verify, AssessesAdaptiveMethodsOverTolerances) {
   EXPECT_FALSE(adaptive.refinement);
   EXPECT_EQ(subjects(record).at(1).resolution, record::Resolution::step);
 
-  request.tolerances = {1e-4, 1e-6};
+  request.plan.tolerances = {1e-4, 1e-6};
   EXPECT_EQ(subjects(verify(request)).at(0).levels.size(), 2u);
   request.methods = {"rk4"};
   EXPECT_EQ(
