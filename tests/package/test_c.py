@@ -89,7 +89,7 @@ class CLibrary(unittest.TestCase):
         installed.run(installed.CC, *STRICT, "-shared", "-fPIC", *flags("--cflags"),
                       installed.ROOT / "examples/plugins/newmark.c", "-o", library)
         installed.run(tree.prefix / "bin/clackers", "verify", "--plugin", library, "--expect", "proper:2", "--case", "stop",
-                      "--set", "t_end=8", "--neighbours", "1", "--work", tree.folder / "work")
+                      "--set", "t_end=8", "--samples-per-level", "1", "--work", tree.folder / "work")
 
 
 if __name__ == "__main__":
