@@ -224,7 +224,6 @@ TEST_F(SolversUnderTest, AreToldTheCauseThatTheSameMethodIsTold) {
     ASSERT_FALSE(subjects[i].diagnoses.empty()) << subjects[i].name;
     EXPECT_EQ(subjects[i].diagnoses[0].code, "impact-at-step-end") << subjects[i].name;
   }
-  EXPECT_EQ(subjects[0].assessment.verdict, Verdict::agrees) << "a cause explains the verdict";
   EXPECT_TRUE(subjects[1].diagnoses.empty()) << subjects[1].diagnoses[0].code;
 }
 

@@ -126,7 +126,8 @@ std::vector<RunTask> SubjectStudy::missing(const record::RefinementPlan& plan) c
 std::vector<RunTask> SubjectStudy::to_observe() const {
   std::vector<RunTask> tasks;
   const auto& fit = subject_.assessment.displacement;
-  if (!is_method() || is_as_smooth(fit, facts_.order)) return tasks;
+  // A contact of some length is the method's own model: no impact of it is at a wrong instant.
+  if (!is_method() || is_as_smooth(fit, facts_.order) || subject_.contact_time > 0.0) return tasks;
   for (auto level = levels_.rbegin(); level != levels_.rend() && tasks.size() < most_observed;
        ++level) {
     const auto& [run, measured] = *level->runs.front();

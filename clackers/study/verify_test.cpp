@@ -303,10 +303,10 @@ TEST(Verify, RefusesBadPlansBeforeAnyWork) {
       with([](auto& r) { r.plan.levels = 0; }),
       "verify: levels = 0; allowed: a whole number, 1 or more. A verdict needs at least four. "
       "[out-of-range]");
-  for (const int neighbours : {0, 65})
-    EXPECT_EQ(with([&](auto& r) { r.plan.samples_per_level = neighbours; }),
-              "verify: neighbours = " + std::to_string(neighbours) +
-                  "; allowed: 1 <= neighbours <= 64. [out-of-range]");
+  for (const int samples : {0, 65})
+    EXPECT_EQ(with([&](auto& r) { r.plan.samples_per_level = samples; }),
+              "verify: samples per level = " + std::to_string(samples) +
+                  "; allowed: 1 <= samples per level <= 64. [out-of-range]");
   for (const auto& text :
        {with([](auto& r) { r.plan.coarsest = 1e-12; }), with([](auto& r) { r.plan.levels = 40; }),
         with([](auto& r) { r.plan.levels = 2'000'000'000; }), with([](auto& r) {
