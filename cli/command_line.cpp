@@ -7,14 +7,14 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
+#include "clackers/base/text.hpp"
+#include "clackers/solvers/program.hpp"
 #include "cli/command.hpp"
-#include "cli/commands/plugin_run.hpp"
 #include "cli/files/output_stream.hpp"
 #include "cli/files/paths.hpp"
 #include "cli/help/completion.hpp"
 #include "cli/help/help.hpp"
 #include "cli/help/shell_files.hpp"
-#include "cli/help/text.hpp"
 
 namespace clackers::cli {
 namespace {
@@ -28,6 +28,7 @@ std::string help_of(const Command& command) {
 }
 
 [[noreturn]] void refuse_option(const std::string& name, const Command& command) {
+  if (name == "--plugin") throw InputError(std::string(solvers::instead_of_plugin), "unknown-name");
   std::vector<std::string> known;
   for (const auto& option : command.options) known.push_back(option.name);
   refuse_name("option", name, known, help_of(command));
@@ -176,8 +177,7 @@ int run_command_line(const std::vector<std::string>& arguments) {
     print("clackers " CLACKERS_VERSION "\n");
     return 0;
   }
-  // Unlisted: called by `verify --plugin`, the build and the shells.
-  if (first == plugin_run_flag) return run_plugin({rest.begin(), rest.end()});
+  // Unlisted: called by the build and the shells.
   if (first == "--generate" && rest.size() == 1) {
     write_shell_files(grammar, rest.front());
     return 0;

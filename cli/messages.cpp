@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "clackers/base/text.hpp"
-#include "cli/help/text.hpp"
 
 namespace clackers::cli {
 namespace {
@@ -20,7 +19,7 @@ void note(std::string_view text) { put_line(printable(text)); }
 void report_error(std::string_view message, std::string_view code) {
   const auto* const who = message.starts_with("clackers: ") ? "" : "clackers: ";
   const auto line = fmt::format("{}{} [{}]", who, printable(message), code);
-  put_line(::isatty(STDERR_FILENO) != 0 ? wrap(line, 80) : line);
+  put_line(::isatty(STDERR_FILENO) != 0 ? wrapped(line, 80) : line);
 }
 
 }  // namespace clackers::cli

@@ -31,9 +31,9 @@ void add_problem_option(Command& command, std::string& path) {
       .add_option(
           "--problem", path,
           "Instead of a case, a problem of your own: M, C, K, contacts, start, loads and end in "
-          "a TOML file, SI units (the case piecewise). Its format: the manual's how-to "
-          "\"Solve a problem of your own\".")
-      ->reads_file("FILE.toml");
+          "a TOML file, SI units, or what show CASE --format json writes (the case piecewise). Its "
+          "format: the manual's how-to \"Solve a problem of your own\".")
+      ->reads_file("FILE");
 }
 
 void add_report_option(Command& command, std::string& path) {

@@ -8,37 +8,24 @@
 #include <utility>
 
 #include "clackers/base/error.hpp"
-#include "clackers/input/text/number.hpp"
+#include "clackers/base/number.hpp"
 
 namespace clackers::cli {
-namespace {
-
-// `part` is the whole, or a side of a fraction.
-double read_decimal(std::string_view what, std::string_view whole, std::string_view part) {
-  input::Number number;
-  switch (input::read(part, number)) {
-    case input::NumberError::none:
-      return number.value;
-    case input::NumberError::not_finite:
-      if (!std::isfinite(number.value)) return number.value;  // nan and inf as words
-      refuse("clackers", what, whole, "a number that a double can hold, 5e-324 to 1.8e308 in size",
+double read_number(std::string_view what, std::string_view text) {
+  double value = 0.0;
+  switch (clackers::read_number(text, value)) {
+    case NumberError::none:
+      return value;
+    case NumberError::not_finite:
+      if (!std::isfinite(value)) return value;  // nan and inf as words
+      refuse("clackers", what, text, "a number that a double can hold, 5e-324 to 1.8e308 in size",
              {}, "not-finite");
     default:
-      refuse("clackers", what, fmt::format("\"{}\"", whole),
+      refuse("clackers", what, fmt::format("\"{}\"", text),
              "a number with a decimal point such as 0.05, 5e-2 or 1/20",
-             whole.find(',') != std::string_view::npos ? "Use a point, not a comma." : "",
+             text.find(',') != std::string_view::npos ? "Use a point, not a comma." : "",
              "not-a-number");
   }
-}
-
-}  // namespace
-
-double read_number(std::string_view what, std::string_view text) {
-  const auto slash = text.find('/');
-  if (slash == std::string_view::npos) return read_decimal(what, text, text);
-  const double above = read_decimal(what, text, text.substr(0, slash));
-  const double below = read_decimal(what, text, text.substr(slash + 1));
-  return above / below;
 }
 
 long long read_whole(std::string_view what, std::string_view text, long long lowest,

@@ -33,7 +33,7 @@ endif()
 # For C. Its targets stand in a file of their own: they need neither C++ nor the libraries below it.
 install(TARGETS clackers_c EXPORT clackers-c
   LIBRARY COMPONENT library NAMELINK_COMPONENT development)
-install(FILES bindings/c/clackers.h clackers/solvers/plugin/clackers_solver.h TYPE INCLUDE COMPONENT development)
+install(FILES bindings/c/clackers.h bindings/c/clackers_main.h TYPE INCLUDE COMPONENT development)
 install(EXPORT clackers-c NAMESPACE clackers:: DESTINATION ${package_dir} COMPONENT development
   FILE clackers-c-targets.cmake)
 
@@ -53,7 +53,7 @@ set(test_headers testing/[a-z_]+ test_[a-z_]* toy_motion sample_record record_fi
 list(JOIN test_headers "|" test_headers)
 foreach(module IN LISTS modules)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-    ${PROJECT_SOURCE_DIR}/clackers/${module}/*.hpp ${PROJECT_SOURCE_DIR}/clackers/${module}/*.h)
+    ${PROJECT_SOURCE_DIR}/clackers/${module}/*.hpp)
   list(FILTER headers EXCLUDE REGEX "/(${test_headers})\\.hpp$|/testing/")
   foreach(header IN LISTS headers)
     get_filename_component(folder ${header} DIRECTORY)

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "clackers/base/files.hpp"
 #include "clackers/record/provenance.hpp"
-#include "paper/rendering/files.hpp"
 #include "paper/rendering/page.hpp"
 #include "paper/rendering/specification.hpp"
 #include "paper/table.hpp"

@@ -6,8 +6,6 @@
 
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
-#include "bindings/python/interrupts.hpp"
-#include "bindings/python/rows.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/tables/respond.hpp"

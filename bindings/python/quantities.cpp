@@ -4,7 +4,6 @@
 
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
-#include "bindings/python/rows.hpp"
 #include "clackers/tables/respond.hpp"
 
 namespace clackers::python {

@@ -7,7 +7,6 @@
 
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
-#include "bindings/python/interrupts.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
 

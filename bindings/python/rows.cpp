@@ -1,4 +1,4 @@
-#include "bindings/python/rows.hpp"
+#include "bindings/python/bind.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bindings/python/arguments.hpp"
-#include "bindings/python/interrupts.hpp"
 
 namespace clackers::python {
 namespace {

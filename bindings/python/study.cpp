@@ -10,7 +10,6 @@
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
 #include "bindings/python/caller_thread.hpp"
-#include "bindings/python/study_arrays.hpp"
 #include "bindings/python/study_solver.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"

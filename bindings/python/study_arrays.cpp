@@ -1,4 +1,4 @@
-#include "bindings/python/study_arrays.hpp"
+#include "bindings/python/bind.hpp"
 
 #include <pybind11/numpy.h>
 

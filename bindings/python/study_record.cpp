@@ -6,8 +6,6 @@
 #include <sstream>
 
 #include "bindings/python/bind.hpp"
-#include "bindings/python/interrupts.hpp"
-#include "bindings/python/rows.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/record/record_json.hpp"
 #include "clackers/report/columns.hpp"

@@ -1,7 +1,7 @@
 #include "bindings/python/study_solver.hpp"
 
+#include "bindings/python/bind.hpp"
 #include "bindings/python/problem.hpp"
-#include "bindings/python/study_arrays.hpp"
 #include "clackers/base/codes.hpp"
 #include "clackers/cases/case.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
-#include "bindings/python/rows.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"

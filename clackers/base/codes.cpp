@@ -283,17 +283,11 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "A program of `verify --exec` could not be started, ended with a status other than 0, or was "
      "ended by a signal. Its run is a failed one of its step; what it printed last stands beside it."},
     {"program-timeout", "failure",
-     "A program of `verify --exec` or a plug-in was still running after the time of `--timeout`, and was ended "
+     "A program of `verify --exec` was still running after the time of `--timeout`, and was ended "
      "with all that it had started."},
     {"program-output", "failure",
-     "A program of `verify --exec` or a plug-in ended well without a history: the file is missing or empty, no state "
-     "was delivered, or there was more than can be read."},
-    {"not-a-plugin", "refusal",
-     "The file of `verify --plugin` is no shared library that can be loaded, or has no solver of a version that this Clackers knows. "
-     "clackers_solver.h says what it defines; compile it with -shared -fPIC."},
-    {"plugin-failed", "failure",
-     "A function of a plug-in returned an error or misused one that it was handed, crashed, or ended the process. "
-     "Its run is a failed one of its step; before the reason stands where it was: load, prepare, run, free or end."},
+     "A program of `verify --exec` ended well without a history: the file is missing or empty, or there was "
+     "more than can be read."},
     {"callable-failed", "failure",
      "A callable under test (clackers.verify of Python) raised an exception. Its run is a failed one "
      "of its step; the end of the traceback stands beside it."},

@@ -43,7 +43,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "contact-in-tension", "single-precision", "noise-floor", "commensurate-steps",
     "numerical-damping", "period-error", "unstable-coarse-steps", "ends-early", "output-resampled",
     "cannot-write", "cannot-read", "no-renderer", "render-failed", "program-failed",
-    "program-timeout", "program-output", "not-a-plugin", "plugin-failed", "callable-failed",
+    "program-timeout", "program-output", "callable-failed",
     "callable-output", "foreign-folder", "too-many-runs", "not-a-campaign", "other-campaign",
     "other-version", "database-busy", "shard-missing", "no-mpi", "scheduler-failed", "out-of-memory", "internal-error", "interrupted",
 });

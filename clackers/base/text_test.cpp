@@ -31,5 +31,58 @@ TEST(Printable, BytesThatAreNoUtf8AreEscaped) {
   EXPECT_EQ(printable("\xC3(x"), "\\xc3(x");
 }
 
+TEST(Wrap, WrapsAtSpacesThenAtMarksThenAnywhere) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(wrap("one two three", 7), (Lines{"one two", "three"}));
+  EXPECT_EQ(wrap("generalized-alpha:rho=0.8", 13), (Lines{"generalized-", "alpha:rho=0.8"}));
+  EXPECT_EQ(wrap("newmark+event-driven", 15), (Lines{"newmark+", "event-driven"}));
+  EXPECT_EQ(wrap("abcdefgh", 3), (Lines{"abc", "def", "gh"}));
+  EXPECT_EQ(wrap("±±±±", 3), (Lines{"±±±", "±"}));
+  EXPECT_EQ(wrap("exact", 5), (Lines{"exact"}));
+  EXPECT_EQ(wrap("", 5), (Lines{""}));
+}
+
+TEST(Wrap, KeepsLinesAndTheirIndentation) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(wrap("a\n\n  u1 = u0 + h v0", 80), (Lines{"a", "", "  u1 = u0 + h v0"}));
+  EXPECT_EQ(wrap("  one two", 6), (Lines{"  one", "  two"}));
+  EXPECT_EQ(wrap("Order  2 for all steps", 15),
+            (Lines{"Order  2 for", "       all", "       steps"}));
+  EXPECT_EQ(wrap("Order  2 for all steps", 14), (Lines{"Order  2 for", "all steps"}));
+}
+
+TEST(Wrap, RejoinsTheLinesOfAParagraphAndNoOthers) {
+  EXPECT_EQ(rejoin("one\ntwo\nthree"), "one two three");
+  EXPECT_EQ(rejoin("one\n\ntwo"), "one\n\ntwo");
+  EXPECT_EQ(rejoin("one\n    u = v\n    v = a\ntwo"), "one\n    u = v\n    v = a\ntwo");
+  EXPECT_EQ(rejoin("Order    2\nSource   a book\n(1991)."), "Order    2\nSource   a book (1991).");
+  EXPECT_EQ(rejoin("Order       2\nDissipation none\nMemory      a0"),
+            "Order       2\nDissipation none\nMemory      a0");
+  EXPECT_EQ(rejoin(""), "");
+}
+
+TEST(Wrap, NoLineIsWiderThanAsked) {
+  const std::string text =
+      "A sentence, with words such as generalized-alpha:rho=0.8+event-driven and ±±±±±±±±±±±±±±.";
+  for (std::size_t width = 1; width < 100; ++width)
+    for (const auto& line : wrap(text, width)) EXPECT_LE(display_width(line), width);
+}
+
+TEST(Wrap, LongWordsAreKeptOnRequestAndLinesIndented) {
+  EXPECT_EQ(wrapped("see /a/long/path and more", 12), "see\n/a/long/path\nand more");
+  EXPECT_EQ(wrapped("one two three", 11, 4), "one two\n    three");
+  EXPECT_EQ(wrapped("one\ntwo", 20, 2), "one\n  two");
+  EXPECT_EQ(wrapped("unbreakable", 5), "unbreakable");
+}
+
+TEST(Shell, QuotesWhatAShellWouldReadOtherwise) {
+  EXPECT_EQ(shell_quoted("./a-b_c+d:e=f@g%h,1.5"), "./a-b_c+d:e=f@g%h,1.5");
+  EXPECT_EQ(shell_quoted(""), "''");
+  EXPECT_EQ(shell_quoted("it's"), "'it'\\''s'");
+  for (const auto* word : {"a b", "$x", "~", "*", "a;b", "{h}", "\n"})
+    EXPECT_EQ(shell_quoted(word), "'" + std::string(word) + "'");
+  EXPECT_EQ(shell_line(std::vector<std::string>{"cp", "a b", "c"}), "cp 'a b' c");
+}
+
 }  // namespace
 }  // namespace clackers

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
+#include "clackers/base/number.hpp"
 #include "clackers/base/suggest.hpp"
 
 namespace clackers {
@@ -20,15 +19,6 @@ toml::table toml_from(std::string_view text, const std::string& name) {
                                  std::string(error.description())),
                      "bad-syntax");
   }
-}
-
-std::string text_of_file(const std::string& path, std::string_view hint) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
-    throw FileError(fmt::format("{}: the file cannot be read, or is empty. {}", path, hint),
-                    "cannot-read");
-  return text.str();
 }
 
 std::string TomlReader::place(const toml::node& node) const {
@@ -63,13 +53,21 @@ const toml::node& TomlReader::need(const toml::table& table, const char* key,
 }
 
 double TomlReader::number(const toml::node& node, const std::string& what) const {
-  const auto value = node.value<double>();
-  if (!node.is_number() || !value)
-    fail(node, fmt::format("{} is no number; allowed: a number without quotes.", what),
+  double value = 0.0;
+  const auto* text = node.as_string();
+  const auto error = text == nullptr ? NumberError::none : read_number(text->get(), value);
+  if (!(text == nullptr ? node.is_number()
+                        : error == NumberError::none || error == NumberError::not_finite))
+    fail(node,
+         fmt::format("{} is no number; allowed: a number, or a fraction in quotes: \"1/3\".", what),
          "not-a-number");
-  if (!std::isfinite(*value))
-    fail(node, fmt::format("{} = {}; allowed: a finite number.", what, *value), "not-finite");
-  return *value;
+  if (text == nullptr) value = *node.value<double>();
+  if (error != NumberError::none || !std::isfinite(value))
+    fail(node,
+         fmt::format("{} = {}; allowed: a finite number.", what,
+                     text == nullptr ? fmt::to_string(value) : text->get()),
+         "not-finite");
+  return value;
 }
 
 double TomlReader::number(const toml::table& table, const char* key, double standard) const {
@@ -124,7 +122,7 @@ const toml::array* TomlReader::tables(const toml::table& root, const char* key) 
   const auto* node = root.get(key);
   if (node == nullptr) return nullptr;
   const auto* list = node->as_array();
-  if (list == nullptr || !list->is_homogeneous(toml::node_type::table))
+  if (list == nullptr || (!list->empty() && !list->is_homogeneous(toml::node_type::table)))
     fail(*node, fmt::format("{0} is no list of tables; allowed: [[{0}]] above each.", key),
          "bad-syntax");
   return list;

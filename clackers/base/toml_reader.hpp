@@ -13,10 +13,6 @@ namespace clackers {
 /// Parses TOML; `name` stands in messages, with the line. Throws InputError (bad-syntax).
 toml::table toml_from(std::string_view text, const std::string& name);
 
-/// The text of a file. Throws FileError (cannot-read) for one that cannot be read or is empty, with
-/// `hint` behind.
-std::string text_of_file(const std::string& path, std::string_view hint);
-
 /// Takes values out of parsed TOML, and refuses in the words of a place in the file.
 class TomlReader {
  public:
@@ -33,7 +29,7 @@ class TomlReader {
                      std::string_view where) const;
   const toml::node& need(const toml::table& table, const char* key, const char* meaning) const;
 
-  /// Finite.
+  /// Finite; a number, or a text such as "1/3".
   double number(const toml::node& node, const std::string& what) const;
   double number(const toml::table& table, const char* key, double standard) const;
   double number(const toml::table& table, const char* key, const char* meaning) const;

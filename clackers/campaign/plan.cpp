@@ -53,9 +53,8 @@ CaseCost cost_of(const Specification& specification,
 
 }  // namespace
 
-Plan plan_of(const Specification& specification, const std::vector<std::string>& plugin_host,
-             bool timed) {
-  const auto solvers = solvers_of(specification, plugin_host);
+Plan plan_of(const Specification& specification, bool timed) {
+  const auto solvers = solvers_of(specification);
   const auto until = Clock::now() + (timed ? most_timing : std::chrono::seconds(0));
   Plan plan;
   plan.systems = specification.systems();
@@ -93,12 +92,11 @@ record::Sheet plan_sheet(const Plan& plan) {
   return sheet;
 }
 
-void require_few_runs(const Specification& specification,
-                      const std::vector<std::string>& plugin_host) {
+void require_few_runs(const Specification& specification) {
   // A task has a run at least, or is refused; without work for small campaigns.
-  const auto few = plan_of(specification, plugin_host, false);
+  const auto few = plan_of(specification, false);
   if (few.runs <= most_runs_unasked) return;
-  const auto plan = plan_of(specification, plugin_host, true);
+  const auto plan = plan_of(specification, true);
   throw InputError(
       fmt::format(
           "{}: {:.3g} runs, about {:.3g} hours of one processor and {:.3g} GB; allowed without "

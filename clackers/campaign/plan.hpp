@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "clackers/campaign/specification.hpp"
 #include "clackers/record/sheet.hpp"
 
@@ -18,8 +15,7 @@ struct Plan {
 
 /// Of each case up to eight systems are prepared. With `timed` the shortest run of each method is made
 /// on one of them, for ten seconds at most. Throws as solvers_of() does.
-Plan plan_of(const Specification& specification, const std::vector<std::string>& plugin_host,
-             bool timed);
+Plan plan_of(const Specification& specification, bool timed);
 
 /// A quantity a row: what `clackers campaign plan` prints.
 record::Sheet plan_sheet(const Plan& plan);
@@ -28,7 +24,6 @@ record::Sheet plan_sheet(const Plan& plan);
 inline constexpr double most_runs_unasked = 1e7;
 
 /// Throws InputError (too-many-runs) with the estimate for a campaign of more runs.
-void require_few_runs(const Specification& specification,
-                      const std::vector<std::string>& plugin_host);
+void require_few_runs(const Specification& specification);
 
 }  // namespace clackers::campaign

@@ -62,7 +62,7 @@ class Finished {
 RunSummary run_campaign(const Specification& specification, Store& store, TaskSource& source,
                         const RunOptions& options, const std::atomic<bool>* interrupt) {
   const auto workers = static_cast<std::size_t>(thread_count(options.jobs));
-  const auto solvers = solvers_of(specification, options.plugin_host);
+  const auto solvers = solvers_of(specification);
   Finished finished;
   std::exception_ptr failure;
   const auto serve = [&] {

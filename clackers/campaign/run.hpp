@@ -2,8 +2,6 @@
 
 #include <atomic>
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "clackers/campaign/specification.hpp"
 #include "clackers/campaign/store.hpp"
@@ -19,8 +17,6 @@ struct RunSummary {
 
 struct RunOptions {
   int jobs = 0;  ///< worker threads; 0: one a processor
-  /// The words that call solvers::host_plugin(), for plug-ins.
-  std::vector<std::string> plugin_host{};
   /// Called by the calling thread now and then with what was stored so far.
   std::function<void(const RunSummary&)> progress{};
 };

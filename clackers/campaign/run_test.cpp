@@ -96,7 +96,7 @@ TEST_F(Campaign, TaskIsWhatVerifyMakes) {
   const auto record = study::verify(request);
   const auto sheet = report::run_sheet(record.cases);
 
-  const auto solvers = solvers_of(spec, {});
+  const auto solvers = solvers_of(spec);
   const auto task = TaskRunner(spec, solvers).run(3);
   ASSERT_TRUE(task);
   const auto columns = tables_of(spec).runs;
@@ -120,7 +120,7 @@ TEST_F(Campaign, RefusedSystemsAndMethodsAreFinishedTasks) {
       "methods = [\"newmark+penalty\"]\n[ladder]\nlevels = 1\nneighbours = 1\n[[cases]]\ncase = "
       "\"synchronized-pair\"\nset = { X = [8, 9], eta = 0.5 }",
       "spec.toml");
-  const auto solvers = solvers_of(spec, {});
+  const auto solvers = solvers_of(spec);
   TaskRunner runner(spec, solvers);
   const auto columns = tables_of(spec).subjects;
   const auto value = [&](const TaskRows& rows, std::string_view name) {
@@ -141,7 +141,7 @@ TEST_F(Campaign, RefusedSystemsAndMethodsAreFinishedTasks) {
 }
 
 TEST_F(Campaign, PlanCountsWhatIsRun) {
-  const auto plan = plan_of(small(), {}, true);
+  const auto plan = plan_of(small(), true);
   EXPECT_EQ(plan.tasks, small().tasks());
   EXPECT_EQ(plan.runs, double(run("a.db", 1, 1).runs));
   EXPECT_GT(plan.seconds, 0.0);
@@ -153,8 +153,8 @@ TEST(CampaignPlan, TooManyRunsAreRefusedWithTheirEstimate) {
       "\"three-parameter\"\nset = { xi1 = { from = 0, to = 0.1, points = 1e6 }, a_t = { from = 1, to "
       "= 2, points = 500000 } }",
       "spec.toml");
-  EXPECT_REFUSED(require_few_runs(spec, {}), "too-many-runs", "1e+12 runs", "hours", "GB", "--yes");
-  EXPECT_NO_THROW(require_few_runs(small(), {}));
+  EXPECT_REFUSED(require_few_runs(spec), "too-many-runs", "1e+12 runs", "hours", "GB", "--yes");
+  EXPECT_NO_THROW(require_few_runs(small()));
 }
 
 }  // namespace

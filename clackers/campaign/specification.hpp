@@ -11,13 +11,13 @@
 // What a campaign runs, in TOML: systems, methods and the ladder.
 namespace clackers::campaign {
 
-/// One method: of the catalogue, or a program or plug-in of the user.
+/// One method: of the catalogue, or a program of the user.
 struct MethodEntry {
-  enum class Kind { catalogue, command, plugin };
+  enum class Kind { catalogue, command };
   Kind kind = Kind::catalogue;
-  std::string text;    ///< the specification, the command line, or the path of the library
-  std::string name;    ///< in the results; of a command or plug-in it may be empty
-  std::string expect;  ///< "proper:2"; of a command or plug-in, may be empty
+  std::string text;    ///< the specification, or the command line
+  std::string name;    ///< in the results; of a command it may be empty
+  std::string expect;  ///< "proper:2"; of a command, may be empty
 };
 
 /// The values of one parameter: listed, or points of a range.

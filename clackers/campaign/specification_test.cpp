@@ -121,8 +121,8 @@ TEST(Specification, RefusesInTheWordsOfALine) {
   EXPECT_REFUSED(read(head + "[ladder]\nlevles = 3"), "unknown-name", "\"levels\"");
   EXPECT_REFUSED(read(head + "[ladder]\nlevels = 0"), "out-of-range", "levels = 0");
   EXPECT_REFUSED(read(head + "[ladder]\ntolerances = \"1e-3:x\""), "bad-syntax", "spec.toml:3");
-  EXPECT_REFUSED(read("methods = [{ exec = \"a\", plugin = \"b\" }]"), "bad-syntax",
-                 "one of the two");
+  EXPECT_REFUSED(read("methods = [{ name = \"a\" }]"), "bad-syntax", "no exec");
+  EXPECT_REFUSED(read("methods = [{ plugin = \"b\" }]"), "unknown-name", "clackers_main.h");
   EXPECT_REFUSED(read(with_case("set = { xi1 = { from = 0, to = 0.1, points = 1e15 }, a_t = { from "
                                 "= 1, to = 2, points = 1e15 } }")),
                  "too-many-runs", "1e18");

@@ -1,23 +1,16 @@
 #include "clackers/campaign/task_source.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <string>
 #include <utility>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/number.hpp"
 
 namespace clackers::campaign {
 namespace {
 
 constexpr long long most_shards = 1000000;
-
-// The whole number that is all of `text`; 0 for anything else.
-long long whole(std::string_view text) {
-  long long value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : 0;
-}
 
 }  // namespace
 
@@ -52,8 +45,8 @@ long long TaskSet::size() const {
 
 Shard shard_from(std::string_view text) {
   const auto slash = text.find('/');
-  const Shard shard{whole(text.substr(0, slash)),
-                    slash == text.npos ? 0 : whole(text.substr(slash + 1))};
+  const Shard shard{whole_number(text.substr(0, slash)).value_or(0),
+                    slash == text.npos ? 0 : whole_number(text.substr(slash + 1)).value_or(0)};
   if (!(shard.index >= 1 && shard.index <= shard.count && shard.count <= most_shards))
     refuse("campaign", "shard", text, "i/n with 1 <= i <= n <= 1e6",
            "3/16 is the third of sixteen parts.");

@@ -5,7 +5,7 @@
 
 #include "clackers/campaign/tasks/prepared_system.hpp"
 #include "clackers/report/columns.hpp"
-#include "clackers/solvers/plugin.hpp"
+#include "clackers/solvers/program.hpp"
 #include "clackers/study/check.hpp"
 
 namespace clackers::campaign {
@@ -64,18 +64,12 @@ std::vector<Cell> run_cells(const Specification& specification, const report::Ro
   return cells;
 }
 
-solvers::SolverSubject solver_of(const Specification& specification, const MethodEntry& method,
-                                 const std::vector<std::string>& plugin_host) {
+solvers::SolverSubject solver_of(const Specification& specification, const MethodEntry& method) {
   solvers::ProcessOptions options;
   options.tolerances = specification.ladder().tolerances;
   if (!method.expect.empty()) options.expect = study::claim_from(method.expect);
-  if (method.kind == MethodEntry::Kind::command)
-    return std::move(
-        solvers::subjects_of(solvers::ProgramRequest{options, {{method.text, method.name}}})
-            .front());
-  return std::move(solvers::subjects_of(
-                       solvers::PluginRequest{options, {{method.text, method.name}}, plugin_host})
-                       .front());
+  return std::move(
+      solvers::subjects_of(solvers::ProgramRequest{options, {{method.text, method.name}}}).front());
 }
 
 }  // namespace
@@ -99,13 +93,11 @@ Tables tables_of(const Specification& specification) {
   return tables;
 }
 
-std::vector<std::optional<solvers::SolverSubject>> solvers_of(
-    const Specification& specification, const std::vector<std::string>& plugin_host) {
+std::vector<std::optional<solvers::SolverSubject>> solvers_of(const Specification& specification) {
   std::vector<std::optional<solvers::SolverSubject>> solvers;
   for (const auto& method : specification.methods()) {
     auto& added = solvers.emplace_back();
-    if (method.kind != MethodEntry::Kind::catalogue)
-      added = solver_of(specification, method, plugin_host);
+    if (method.kind != MethodEntry::Kind::catalogue) added = solver_of(specification, method);
   }
   return solvers;
 }

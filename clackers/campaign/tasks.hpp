@@ -38,11 +38,9 @@ struct Tables {
 };
 Tables tables_of(const Specification& specification);
 
-/// The commands and plug-ins of a specification, ready to run; one for each method, nothing for those of
-/// the catalogue. `plugin_host` are the words that call solvers::host_plugin(). Throws as
-/// solvers::subjects_of() does.
-std::vector<std::optional<solvers::SolverSubject>> solvers_of(
-    const Specification& specification, const std::vector<std::string>& plugin_host);
+/// The commands of a specification, ready to run; an entry for each method, empty for those of the
+/// catalogue. Throws as solvers::subjects_of() does.
+std::vector<std::optional<solvers::SolverSubject>> solvers_of(const Specification& specification);
 
 class PreparedSystem;
 

@@ -1,4 +1,4 @@
-#include "clackers/cases/assemblies.hpp"
+#include "clackers/cases/row.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -138,7 +138,7 @@ Parameter sigma() {
 
 }  // namespace
 
-std::vector<Row> assembly_rows() {
+std::vector<CaseRow> assembly_rows() {
   return {
       {{"buildings",
         "Two shear buildings whose roofs pound, from the first impulse on.",

@@ -9,7 +9,6 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
-#include "clackers/cases/assemblies.hpp"
 #include "clackers/cases/constants.hpp"
 #include "clackers/cases/row.hpp"
 #include "clackers/exact/pair/admissibility.hpp"
@@ -72,7 +71,7 @@ void synchronize(Case& which, const exact::PairParameters& parameters, double th
            threshold);
 }
 
-std::vector<Row> pair_rows() {
+std::vector<CaseRow> pair_rows() {
   return {
       {{"three-parameter",
         "Two colliding masses, the second 4N + 1 times as fast; t_end = 20 a_t.",
@@ -178,7 +177,7 @@ std::vector<Row> pair_rows() {
   };
 }
 
-const std::vector<Row>& rows() {
+const std::vector<CaseRow>& rows() {
   static const auto all = [] {
     auto list = pair_rows();
     for (auto& row : assembly_rows()) list.push_back(std::move(row));
@@ -188,7 +187,7 @@ const std::vector<Row>& rows() {
   return all;
 }
 
-const Row& row(std::string_view name) {
+const CaseRow& row(std::string_view name) {
   for (const auto& one : rows())
     if (one.entry.name == name) return one;
   std::vector<std::string> names;

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "clackers/base/files.hpp"
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/model/problem_text.hpp"
 
 namespace clackers::cases {
 namespace {
@@ -432,6 +434,18 @@ TEST(Admissibility, IsRefusedOutsideTheClass) {
     EXPECT_THROW(admissibility(X, 1.0), InputError) << "X = " << X;
   for (const double r : {0.0, -1.0, 1e61, double(NAN), double(INFINITY)})
     EXPECT_THROW(admissibility(3.0, r), InputError) << "r = " << r;
+}
+
+TEST(Piecewise, ReadsTheExampleOrAFileAsShowWritesIt) {
+  const auto example = make("piecewise");
+  EXPECT_GT(example.motion->impact_count(20.0), 3);
+  const auto path = testing::TempDir() + "clackers_case_test.json";
+  write_file(path, model::problem_json(example.problem));
+  const auto again = make("piecewise", {{"problem", path}});
+  EXPECT_EQ(again.problem.system.stiffness, example.problem.system.stiffness);
+  EXPECT_EQ(again.motion->impact_count(20.0), example.motion->impact_count(20.0));
+  EXPECT_REFUSED(make("piecewise", {{"problem", "/no/such.toml"}}), "cannot-read", "/no/such.toml",
+                 "TOML");
 }
 
 }  // namespace

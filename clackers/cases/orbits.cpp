@@ -202,7 +202,7 @@ void build_penalized(Case& which, const Values& value, double) {
 
 void build_piecewise(Case& which, const Values& value, double) {
   const auto file = value("problem").text();
-  which.problem = file == "example" ? model::problem_from_toml(model::example_problem, file)
+  which.problem = file == "example" ? model::problem_from_text(model::example_problem, file)
                                     : model::read_problem(file);
   const auto motion =
       std::make_shared<const exact::PiecewiseMotion>(which.problem, which.entry->name);
@@ -237,7 +237,7 @@ Parameter whole_periods(double standard, const char* meaning) {
 
 }  // namespace
 
-std::vector<Row> orbit_rows() {
+std::vector<CaseRow> orbit_rows() {
   return {
       {{"cradle",
         "Two equal masses of different frequencies, one at rest at each elastic collision.",

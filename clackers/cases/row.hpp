@@ -18,7 +18,7 @@ struct Values {
 /// set. Throws InputError for values outside their range.
 using Builder = void (*)(Case& which, const Values& value, double threshold);
 
-struct Row {
+struct CaseRow {
   CaseEntry entry;
   Builder build;
 };
@@ -26,8 +26,19 @@ struct Row {
 /// Parameters that mean the same in every case.
 Parameter eta();
 Parameter t_end();
+Parameter xi1();
+Parameter whole_N();
+Parameter scale(const char* name, double default_value, const char* unit, const char* allowed,
+                const char* meaning);
+
+/// X = 4N + 1 of Eq. (9), up to the largest ratio that the reference solution takes. Throws
+/// InputError for an N that is no whole number or outside its range.
+double ratio(const Case& which, double N);
 
 /// Periodic motions with impacts, penalty contacts, and problems of files.
-std::vector<Row> orbit_rows();
+std::vector<CaseRow> orbit_rows();
+
+/// Any number of masses whose impacts are synchronized.
+std::vector<CaseRow> assembly_rows();
 
 }  // namespace clackers::cases

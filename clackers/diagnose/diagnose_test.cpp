@@ -11,7 +11,7 @@ TEST(Diagnose, TheSystemThatExplainsALimitReplacesIt) {
   const auto plan = ladder_plan(0);
   auto problem = plan.problem.problem;
   problem.contacts.front().restitution = 0.95;
-  const auto all = diagnose(files_of(plan, {.integrator = Integrator::rk4}, problem).question());
+  const auto all = diagnose(files_of(plan, "method=rk4", problem).question());
   EXPECT_EQ(codes(all), "restitution-differs");
 }
 
@@ -19,7 +19,7 @@ TEST(Diagnose, ExchangedMassesSilenceWhatIsFittedToThem) {
   const auto plan = ladder_plan(0);
   Files files{plan.problem};
   for (const double step : plan.steps) {
-    auto rows = history_of({.integrator = Integrator::rk4}, plan.problem.problem, step);
+    auto rows = history_of("method=rk4", plan.problem.problem, step);
     for (auto* values : {&rows.u, &rows.v})
       for (std::size_t i = 0; i < values->size(); i += 2) std::swap((*values)[i], (*values)[i + 1]);
     files.add(rows, step);
@@ -28,8 +28,8 @@ TEST(Diagnose, ExchangedMassesSilenceWhatIsFittedToThem) {
 }
 
 TEST(Diagnose, CorrectSolversHaveNoCauseButTheirOwnErrors) {
-  for (const auto integrator : {Integrator::rk4, Integrator::newmark}) {
-    const auto all = diagnose(files_of(ladder_plan(3), {.integrator = integrator}).question());
+  for (const auto* method : {"method=rk4", "method=newmark"}) {
+    const auto all = diagnose(files_of(ladder_plan(3), method).question());
     for (const auto& one : all)
       EXPECT_TRUE(one.code == "period-error" || one.code == "numerical-damping") << codes(all);
   }
@@ -37,7 +37,7 @@ TEST(Diagnose, CorrectSolversHaveNoCauseButTheirOwnErrors) {
 
 TEST(Diagnose, CausesComeStrongestFirst) {
   const auto plan = ladder_plan(0);
-  auto files = files_of(plan, {.integrator = Integrator::exact, .location = Location::end_of_step});
+  auto files = files_of(plan, "method=exact contact=end-of-step");
   files.ladder.front().runs.front().finished = false;
   files.ladder.front().runs.front().failure_code = "newton-failed";
   const auto all = diagnose(files.question());

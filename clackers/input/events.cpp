@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/input/table.hpp"
 
@@ -14,8 +14,6 @@ namespace clackers::input {
 namespace {
 
 using Column = std::optional<std::size_t>;
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 Column find(const Table& table, const std::string& name) {
   const auto at = std::ranges::find(table.names(), name);

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/base/number.hpp"
 #include "clackers/input/history.hpp"
-#include "clackers/input/text/number.hpp"
 
 namespace clackers::input {
 

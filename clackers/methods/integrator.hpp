@@ -1,12 +1,51 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <span>
 
+#include "clackers/base/codes.hpp"
 #include "clackers/methods/method.hpp"
-#include "clackers/methods/stepping/any_stepper.hpp"
 #include "clackers/methods/stepping/step_plan.hpp"
+#include "clackers/model/run.hpp"
+#include "clackers/model/system.hpp"
 
 namespace clackers::methods {
+
+/// One trajectory of an integrator, as a contact treatment sees it. Steps are made in blocks, so
+/// that a virtual call costs nothing beside them. After construction nothing is allocated, except
+/// by a nonlinear force or a load.
+template <int Dof>
+class AnyStepper {
+ public:
+  using State = model::State<Dof>;
+
+  static constexpr std::size_t most_steps = 64;  ///< in a block
+
+  virtual ~AnyStepper() = default;
+
+  /// Takes in changed matrices of the system.
+  virtual void rebuild() = 0;
+  /// Starts at `from`, or starts again after a jump in velocity: what the integrator remembers of
+  /// the steps before no longer holds.
+  virtual void restart(const State& from) = 0;
+  /// Fills states[i], i >= 1, from states[0], the state at step `first` of the plan; times are counted,
+  /// or an adaptive one's own. Returns the number of steps: up to one that failed or ends the plan.
+  virtual std::size_t advance(long long first, std::span<State> states) = 0;
+  /// Goes back into the block that advance() has just filled, to states[steps]: the next step or
+  /// partial step is from there. The work is that of one step more, since its end has been seen.
+  virtual void rewind(long long first, std::span<const State> states, std::size_t steps) = 0;
+  /// The state s after `from`, 0 < s <= h, `from` the state before the next step; of an adaptive one
+  /// in the step that rewind() went back before. Valid until the next call. For locating impacts.
+  virtual const State& partial(const State& from, double s) = 0;
+
+  /// True after a step whose equations could not be solved; its state is meaningless.
+  virtual bool failed() const = 0;
+  virtual Code failure() const = 0;
+  /// Forgets failures and counts, for a new run.
+  virtual void reset() = 0;
+  virtual void add_work(model::Work& work) const = 0;
+};
 
 /// A method for smooth motion, with its parameters. A contact treatment makes steppers of it.
 class Integrator {

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <system_error>
 #include <vector>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/number.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -68,16 +67,15 @@ class Parser {
 
   ParameterValue value(std::string_view name, std::string_view text) const {
     double value = 0.0;
-    const auto* end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    if (error == std::errc::invalid_argument || rest != end) {
+    const auto error = read_number(text, value);
+    if (error == NumberError::not_finite && std::isinf(value))
+      refuse(fmt::format("{} = \"{}\" is not finite", name, text), "not-finite");
+    if (error == NumberError::not_finite)
+      refuse(fmt::format("{} = \"{}\" is no number", name, text), "not-a-number");
+    if (error != NumberError::none) {
       if (is_word(text)) return std::string(text);
       refuse(fmt::format("{} = \"{}\" is neither a number nor a word", name, text), "not-a-number");
     }
-    if (error != std::errc() || std::isnan(value))
-      refuse(fmt::format("{} = \"{}\" is no number", name, text), "not-a-number");
-    if (std::isinf(value))
-      refuse(fmt::format("{} = \"{}\" is not finite", name, text), "not-finite");
     return value;
   }
 

@@ -5,8 +5,8 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/methods/integrators/families.hpp"
-#include "clackers/methods/joined_method.hpp"
 #include "clackers/methods/method_specification.hpp"
+#include "clackers/methods/treatment.hpp"
 
 namespace clackers::methods {
 
@@ -30,23 +30,19 @@ namespace {
 
 constexpr auto panel_implicit = "newmark", panel_explicit = "central-difference";
 
+template <class... Types>
+void add(std::vector<Row>& all) {
+  (all.push_back(row<Types>()), ...);
+}
+
 // Families of integrators, contact treatments, methods that stand alone.
 std::vector<Row> all_rows() {
   std::vector<Row> all;
   for (const auto& family : families)
     for (auto& row : family()) all.push_back(std::move(row));
-  all.push_back(row<EventDriven>());
-  all.push_back(row<Reversal>());
-  all.push_back(row<Penalty>());
-  all.push_back(row<MoreauJean>());
-  all.push_back(row<NonsmoothGeneralizedAlpha>());
-  all.push_back(row<D1Minus>());
-  all.push_back(row<PaoliSchatzman>());
-  all.push_back(row<CdLagrange>());
-  all.push_back(row<ForwardIncrementLagrange>());
-  all.push_back(row<AugmentedLagrangian>());
-  all.push_back(row<NewmarkPositionMultiplier>());
-  all.push_back(row<PiecewiseExact>());
+  add<EventDriven, Reversal, Penalty, MoreauJean, NonsmoothGeneralizedAlpha, D1Minus,
+      PaoliSchatzman, CdLagrange, ForwardIncrementLagrange, AugmentedLagrangian,
+      NewmarkPositionMultiplier, PiecewiseExact>(all);
   return all;
 }
 
@@ -91,7 +87,7 @@ std::shared_ptr<const Integrator> integrator(std::string_view text) {
     refuse_name("integrator", first.name, names("integrator"), "clackers list integrators");
   if (contact)
     throw InputError(fmt::format("clackers: integrator \"{}\" with a contact treatment; allowed: "
-                                 "{} alone.",
+                                 "only {}.",
                                  text, first.name),
                      "bad-syntax");
   return row->integrator(first.settings);
@@ -106,7 +102,7 @@ std::shared_ptr<const Method> method(std::string_view text) {
     if (contact)
       throw InputError(
           fmt::format("clackers: method \"{}\": {} brings its own contact treatment; allowed: "
-                      "{} alone.",
+                      "only {}.",
                       text, first.name, first.name),
           "bad-syntax");
     return row->method(first.settings);

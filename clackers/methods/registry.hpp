@@ -20,7 +20,7 @@ struct Entry {
   std::string kind;     ///< "integrator", "contact" or "method" (brings its own integration)
   std::string summary;  ///< one line
   std::vector<Parameter> parameters;
-  std::string card;  ///< the card of its header, as text
+  std::string card;  ///< formula, order, stability, dissipation, memory, cost, source
 };
 
 /// A row of the registry: its entry, and how it is made of its parameters. One of the functions is
@@ -37,8 +37,6 @@ std::span<const Entry> entries();
 
 /// The card of everything registered; empty for another name.
 std::string_view card(std::string_view name);
-/// The comment above a type with this name, taken out of its header at build time.
-std::string_view card_in_header(std::string_view name);
 
 /// The integrator of a specification such as "newmark:beta=0.25", without a contact treatment. Throws
 /// InputError like method().

@@ -3,15 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/testing/refusal.hpp"
 
 namespace clackers::model {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 ImpactProblem<> sound() {
   ImpactProblem<> p;

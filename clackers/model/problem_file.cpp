@@ -6,9 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/files.hpp"
+#include "clackers/base/number.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/base/toml_reader.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
@@ -43,7 +51,125 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+using Json = nlohmann::json;
+
 constexpr std::size_t most_masses = 1000;
+
+[[noreturn]] void refuse_syntax(const std::string& place, std::string_view what) {
+  throw InputError(fmt::format("{}: {}.", place, what), "bad-syntax");
+}
+
+struct ToTable {
+  toml::table& table;
+  const std::string& key;
+  void operator()(auto value) const { table.insert_or_assign(key, std::move(value)); }
+};
+struct ToArray {
+  toml::array& array;
+  void operator()(auto value) const { array.push_back(std::move(value)); }
+};
+
+template <class Put>
+void convert(const Json& value, const std::string& name, int depth, const Put& put) {
+  constexpr int deepest = 8;
+  if (value.is_object() && depth < deepest) {
+    toml::table table;
+    for (const auto& [key, member] : value.items())
+      convert(member, name, depth + 1, ToTable{table, key});
+    put(std::move(table));
+  } else if (value.is_array() && depth < deepest) {
+    toml::array array;
+    for (const auto& member : value) convert(member, name, depth + 1, ToArray{array});
+    put(std::move(array));
+  } else if (value.is_number()) {
+    put(value.get<double>());
+  } else if (value.is_string()) {
+    put(value.get<std::string>());
+  } else {
+    refuse_syntax(name, "null, true, false or deep nesting; allowed: numbers, lists and objects");
+  }
+}
+
+// Of the object itself, or of its member "problem", as files for programs and `show` have it.
+toml::table table_from_json(std::string_view text, const std::string& name) {
+  const auto json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) refuse_syntax(name, "not JSON, though it begins with {");
+  const auto problem = json.find("problem");
+  toml::table root;
+  convert(problem == json.end() ? json : *problem, name, 0, ToTable{root, "problem"});
+  auto* table = root["problem"].as_table();
+  if (table == nullptr) refuse_syntax(name, "problem is no object");
+  return std::move(*table);
+}
+
+toml::array array_of(std::span<const double> numbers) {
+  toml::array array;
+  for (const double number : numbers) array.push_back(number);
+  return array;
+}
+
+// Of lines key=values as problem_file_text() writes them.
+toml::table table_from_lines(std::string_view text, const std::string& name) {
+  toml::table root, start;
+  toml::array contacts, loads, springs;
+  std::map<std::string, toml::array> matrices;
+  for (int number = 1; !text.empty(); ++number) {
+    const auto line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    const auto place = fmt::format("{}:{}", name, number);
+    const auto equals = std::min(line.find('='), line.size());
+    const auto letters = line.substr(0, equals).find_last_not_of("0123456789") + 1;
+    const std::string key(line.substr(0, letters));
+    std::vector<double> values;
+    for (auto rest = line.substr(std::min(equals + 1, line.size())); !rest.empty();) {
+      const auto word = rest.substr(0, rest.find(' '));
+      const auto value = finite_number(word);
+      if (!value) refuse_syntax(place, fmt::format("\"{}\" is no number", printable(word)));
+      values.push_back(*value);
+      rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+    }
+    const std::span all = values;
+    const auto n = all.size();
+    const bool in_contact = key == "gap" || key == "restitution";
+    if (n == 0 || (in_contact && contacts.empty()) || (key == "load" && n != 4) ||
+        (key == "spring" && n < 3))
+      refuse_syntax(
+          place, fmt::format("\"{}\"; allowed: lines as {{case:text}} has them", printable(line)));
+    if (key == "M" || key == "C" || key == "K")
+      matrices[key].push_back(array_of(all));
+    else if (key == "u" || key == "v")
+      start.insert_or_assign(key, array_of(all));
+    else if (key == "t")
+      start.insert_or_assign(key, all[0]);
+    else if (key == "direction")
+      contacts.push_back(toml::table{{key, array_of(all)}});
+    else if (in_contact)
+      contacts.back().as_table()->insert_or_assign(key, all[0]);
+    else if (key == "load")
+      loads.push_back(toml::table{
+          {"dof", all[0]}, {"amplitude", all[1]}, {"frequency", all[2]}, {"phase", all[3]}});
+    else if (key == "spring")
+      springs.push_back(toml::table{{"direction", array_of(all.first(n - 2))},
+                                    {"gap", all[n - 2]},
+                                    {"stiffness", all[n - 1]}});
+    else if (key != "dof" && key != "contacts")
+      root.insert_or_assign(key, all[0]);
+  }
+  for (auto& [key, rows] : matrices) root.insert_or_assign(key, std::move(rows));
+  root.insert_or_assign("start", std::move(start));
+  root.insert_or_assign("contacts", std::move(contacts));
+  root.insert_or_assign("loads", std::move(loads));
+  root.insert_or_assign("springs", std::move(springs));
+  return root;
+}
+
+// What begins with { is JSON, what begins with dof= (no key of TOML) lines.
+toml::table table_from(std::string_view text, const std::string& name) {
+  if (text.starts_with("dof=")) return table_from_lines(text, name);
+  const auto first = text.find_first_not_of(" \t\r\n");
+  const bool is_json = first != std::string_view::npos && text[first] == '{';
+  return is_json ? table_from_json(text, name) : toml_from(text, name);
+}
 
 // Reads vectors and matrices as well.
 class Reader : public TomlReader {
@@ -97,26 +223,46 @@ class Reader : public TomlReader {
   }
 };
 
+// Direction and gap of a contact or a spring.
+model::Contact<> contact_from(const Reader& reader, const toml::table& table, Index dof) {
+  model::Contact<> contact;
+  contact.direction = reader.vector(
+      reader.need(table, "direction", "a number for each degree of freedom"), "direction", dof);
+  contact.gap = reader.number(table, "gap", 0.0);
+  if (contact.direction.isZero(0.0))
+    reader.fail(table, "direction = 0; allowed: a number other than 0 in it.", "out-of-range");
+  return contact;
+}
+
 void add_contacts(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
   const auto* list = reader.tables(root, "contacts");
   if (list == nullptr) return;
   for (const auto& node : *list) {
     const auto& table = *node.as_table();
     reader.require_known(table, {"direction", "gap", "restitution"}, " of a contact");
-    model::Contact<> contact;
-    contact.direction =
-        reader.vector(reader.need(table, "direction", "a number for each degree of freedom"),
-                      "direction", problem.dof());
-    contact.gap = reader.number(table, "gap", 0.0);
+    auto contact = contact_from(reader, table, problem.dof());
     contact.restitution = reader.number(table, "restitution", 1.0);
     if (!(contact.restitution >= 0.0 && contact.restitution <= 1.0))
       reader.fail(*table.get("restitution"),
                   fmt::format("restitution = {}; allowed: 0 to 1.", contact.restitution),
                   "out-of-range");
-    if (contact.direction.isZero(0.0))
-      reader.fail(table, "direction = 0; allowed: a number other than 0 in it.", "out-of-range");
-    problem.contacts.push_back(contact);
+    problem.contacts.push_back(std::move(contact));
   }
+}
+
+void add_springs(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
+  const auto* list = reader.tables(root, "springs");
+  if (list == nullptr || list->empty()) return;
+  std::vector<model::Contact<>> contacts;
+  std::vector<double> stiffnesses;
+  for (const auto& node : *list) {
+    const auto& table = *node.as_table();
+    reader.require_known(table, {"direction", "gap", "stiffness"}, " of a spring");
+    contacts.push_back(contact_from(reader, table, problem.dof()));
+    stiffnesses.push_back(reader.number(table, "stiffness", "in N/m"));
+  }
+  problem.system.nonlinear =
+      std::make_shared<model::OneSidedSprings>(std::move(contacts), std::move(stiffnesses));
 }
 
 void add_loads(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
@@ -171,10 +317,10 @@ void require_plausible(const std::string& name, const model::ImpactProblem<>& pr
 
 }  // namespace
 
-model::ImpactProblem<> problem_from_toml(std::string_view text, const std::string& name) {
-  const auto root = toml_from(text, name);
+model::ImpactProblem<> problem_from_text(std::string_view text, const std::string& name) {
+  const auto root = table_from(text, name);
   const Reader reader(name);
-  reader.require_known(root, {"M", "C", "K", "end", "start", "contacts", "loads"}, "");
+  reader.require_known(root, {"M", "C", "K", "end", "start", "contacts", "loads", "springs"}, "");
   model::ImpactProblem<> problem;
   auto& system = problem.system;
   system.mass = reader.matrix(reader.need(root, "M", "the mass matrix in kg"), "M", -1);
@@ -193,12 +339,14 @@ model::ImpactProblem<> problem_from_toml(std::string_view text, const std::strin
   if (start == nullptr)
     reader.fail(start_node, "start is no table; allowed: [start] with u and v below it.",
                 "bad-syntax");
-  reader.require_known(*start, {"u", "v"}, " of start");
+  reader.require_known(*start, {"t", "u", "v"}, " of start");
+  problem.start.t = reader.number(*start, "t", 0.0);
   problem.start.u = reader.vector(reader.need(*start, "u", "displacements in m"), "u", n);
   const auto* v = start->get("v");
   problem.start.v = v == nullptr ? VectorXd(VectorXd::Zero(n)) : reader.vector(*v, "v", n);
   add_contacts(reader, root, problem);
   add_loads(reader, root, problem);
+  add_springs(reader, root, problem);
   try {
     validate(problem);
   } catch (const InputError& error) {
@@ -209,9 +357,8 @@ model::ImpactProblem<> problem_from_toml(std::string_view text, const std::strin
 }
 
 model::ImpactProblem<> read_problem(const std::string& path) {
-  const auto text =
-      text_of_file(path, "A problem is a TOML file; its format: clackers show piecewise");
-  return problem_from_toml(text, path);
+  constexpr auto hint = "A problem is a TOML or JSON file; its format: clackers show piecewise";
+  return problem_from_text(read_file(path, hint), path);
 }
 
 }  // namespace clackers::model

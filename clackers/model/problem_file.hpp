@@ -5,7 +5,7 @@
 
 #include "clackers/model/impact_problem.hpp"
 
-// Problems of files in TOML: M a + C v + K u = f(t) with contacts, in SI units.
+// Problems that are read: M a + C v + K u = f(t) with contacts, in SI units.
 namespace clackers::model {
 
 /// A problem as an example of the format; what the case `piecewise` is without a file.
@@ -26,11 +26,18 @@ extern const std::string_view example_problem;
 ///     amplitude = 0.5             # N
 ///     frequency = 1.1             # rad/s
 ///     phase = 0                   # rad, optional
+///     [[springs]]                 # any number: + stiffness min(direction . u - gap, 0) direction
+///     direction = [1, -1]
+///     gap = 0                     # m, optional
+///     stiffness = 400             # N/m
 ///
-/// `name` stands in messages, with the line. Throws InputError for text that is no TOML, unknown keys
+/// in TOML, as JSON (this object, or one with it as member "problem"), or as the lines of
+/// problem_file_text(). A number may be a text with a fraction, "1/3".
+///
+/// `name` stands in messages, with the line. Throws InputError for other text, unknown keys
 /// (with did-you-mean), missing ones, wrong kinds and sizes, matrices that are not symmetric, or of
 /// M not positive definite, a start beyond a contact, and numbers that SI units cannot mean.
-model::ImpactProblem<> problem_from_toml(std::string_view text, const std::string& name);
+model::ImpactProblem<> problem_from_text(std::string_view text, const std::string& name);
 
 /// The same of a file. Throws FileError (cannot-read) too.
 model::ImpactProblem<> read_problem(const std::string& path);

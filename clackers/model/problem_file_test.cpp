@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <string>
 
 #include "clackers/base/testing/refusal.hpp"
-#include "clackers/cases/case.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::model {
@@ -36,7 +34,7 @@ std::string with(const std::string& from, const std::string& to) {
   text.replace(text.find(from), from.size(), to);
   return text;
 }
-auto read(const std::string& text) { return problem_from_toml(text, "f.toml"); }
+auto read(const std::string& text) { return problem_from_text(text, "f.toml"); }
 
 TEST(ProblemFile, HasEveryNumberInItsPlace) {
   const auto problem = read(pair);
@@ -71,6 +69,12 @@ TEST(ProblemFile, WhatIsOptionalHasItsDefault) {
   EXPECT_FALSE(problem.system.add_load);
 }
 
+TEST(ProblemFile, NumbersMayBeFractionsInQuotes) {
+  EXPECT_EQ(read(with("gap = -0.125", "gap = \"-1/8\"")).contacts[0].gap, -0.125);
+  EXPECT_EQ(read(with("u = [1, -0.5]", "u = [\"4/3\", -0.5]")).start.u[0], 4.0 / 3.0);
+  EXPECT_REFUSED(read(with("end = 20", "end = \"1/0\"")), "not-finite", "end = 1/0");
+}
+
 TEST(ProblemFile, BadTextIsRefusedWithItsLine) {
   EXPECT_REFUSED(read("M = [[1]\nend = "), "bad-syntax", "f.toml:");
   EXPECT_REFUSED(read(with("end = 20", "ned = 20")), "unknown-name",
@@ -80,7 +84,7 @@ TEST(ProblemFile, BadTextIsRefusedWithItsLine) {
   EXPECT_REFUSED(read(with("end = 20\n", "")), "no-column", "end is missing",
                  "end of the run in s");
   EXPECT_REFUSED(read(with("dof = 2\n", "")), "no-column", "f.toml:12", "dof is missing");
-  EXPECT_REFUSED(read(with("end = 20", "end = \"20\"")), "not-a-number", "f.toml:4",
+  EXPECT_REFUSED(read(with("end = 20", "end = \"late\"")), "not-a-number", "f.toml:4",
                  "end is no number");
   EXPECT_REFUSED(read(with("end = 20", "end = inf")), "not-finite", "f.toml:4", "end = inf");
   EXPECT_REFUSED(read(with("end = 20", "end = -1")), "out-of-range", "end = -1", "above 0 s");
@@ -122,17 +126,6 @@ TEST(ProblemFile, UnitsThatCannotBeMeantAreRefused) {
   EXPECT_REFUSED(read(with("end = 20", "end = 2e-5")), "out-of-range", "nothing moves");
   EXPECT_REFUSED(read(with("v = [0, 0.25]", "v = [4e8, 0.25]")), "out-of-range",
                  "above that of light");
-}
-
-TEST(ProblemFile, CaseReadsAFileOrTheExample) {
-  EXPECT_GT(cases::make("piecewise").motion->impact_count(20.0), 3);
-  const auto path = testing::TempDir() + "clackers_problem_file_test.toml";
-  std::ofstream(path) << with("end = 20", "end = 3");  // before its impacts accumulate
-  const auto which = cases::make("piecewise", {{"problem", path}});
-  EXPECT_EQ(which.problem.system.mass(0, 0), 2.0);
-  EXPECT_EQ(which.motion->dof(), 2);
-  EXPECT_REFUSED(cases::make("piecewise", {{"problem", "/no/such.toml"}}), "cannot-read", "/no/such.toml",
-                 "TOML");
 }
 
 }  // namespace

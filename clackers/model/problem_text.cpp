@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <vector>
 
 #include "clackers/base/error.hpp"
@@ -52,57 +48,6 @@ void add_rows(std::string& text, char name, const Eigen::MatrixXd& matrix) {
   for (const auto& values : rows(matrix))
     text += fmt::format("{}{}={}\n", name, ++row, fmt::join(values, " "));
 }
-
-// Takes the lines of a text one by one.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : rest_(text) {}
-
-  /// The numbers of the next line, which has this name.
-  Eigen::VectorXd numbers(const std::string& name, Eigen::Index count) {
-    const auto end = std::min(rest_.find('\n'), rest_.size());
-    auto line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    if (!line.starts_with(name + '=')) refuse_line(line, name, count);
-    auto values = line.substr(name.size() + 1);
-    Eigen::VectorXd found(count);
-    for (auto& value : found) {
-      const auto [stop, error] =
-          std::from_chars(values.data(), values.data() + values.size(), value);
-      if (error != std::errc()) refuse_line(line, name, count);
-      values.remove_prefix(static_cast<std::size_t>(stop - values.data()));
-      if (values.starts_with(' ')) values.remove_prefix(1);
-    }
-    if (!values.empty()) refuse_line(line, name, count);
-    return found;
-  }
-  double number(const std::string& name) { return numbers(name, 1)(0); }
-  /// Whether the next line has this name.
-  bool has(const std::string& name) const { return rest_.starts_with(name + '='); }
-  Eigen::Index size(const std::string& name) {
-    const double value = number(name);
-    // Each number takes a digit and a blank or the end of its line.
-    if (!(value >= 0.0 && value <= double(rest_.size()) && value == std::floor(value)))
-      refuse("problem", name, value, "a whole number, not above those that follow", {},
-             "bad-syntax");
-    return static_cast<Eigen::Index>(value);
-  }
-  Eigen::MatrixXd matrix(const char* name, Eigen::Index size) {
-    Eigen::MatrixXd matrix(size, size);
-    for (Eigen::Index i = 0; i < size; ++i)
-      matrix.row(i) = numbers(fmt::format("{}{}", name, i + 1), size);
-    return matrix;
-  }
-
- private:
-  [[noreturn]] static void refuse_line(std::string_view line, std::string_view name,
-                                       Eigen::Index count) {
-    refuse("problem", "line", line, fmt::format("{}= and {} numbers", name, count), {},
-           "bad-syntax");
-  }
-
-  std::string_view rest_;
-};
 
 }  // namespace
 
@@ -170,46 +115,6 @@ std::string problem_file_text(const Problem& problem) {
                           fmt::join(numbers(one_sided->contacts()[i].direction), " "),
                           one_sided->contacts()[i].gap, one_sided->stiffnesses()[i]);
   return text;
-}
-
-Problem problem_from_text(std::string_view text) {
-  Lines lines(text);
-  Problem problem;
-  const auto dof = lines.size("dof"), contacts = lines.size("contacts");
-  problem.start.t = lines.number("t");
-  problem.end = lines.number("end");
-  problem.start.u = lines.numbers("u", dof);
-  problem.start.v = lines.numbers("v", dof);
-  problem.system.mass = lines.matrix("M", dof);
-  problem.system.damping = lines.matrix("C", dof);
-  problem.system.stiffness = lines.matrix("K", dof);
-  for (Eigen::Index i = 1; i <= contacts; ++i) {
-    auto& contact = problem.contacts.emplace_back();
-    contact.direction = lines.numbers(fmt::format("direction{}", i), dof);
-    contact.gap = lines.number(fmt::format("gap{}", i));
-    contact.restitution = lines.number(fmt::format("restitution{}", i));
-  }
-  std::vector<model::HarmonicForce> forces;
-  for (std::string name = "load1"; lines.has(name);
-       name = fmt::format("load{}", forces.size() + 1)) {
-    const auto f = lines.numbers(name, 4);
-    if (!(f[0] >= 1.0 && f[0] <= double(dof) && f[0] == std::floor(f[0])))
-      refuse("problem", name, f[0], "a degree of freedom, from 1", {}, "bad-syntax");
-    forces.push_back({int(f[0]) - 1, f[1], f[2], f[3]});
-  }
-  if (!forces.empty()) problem.system.add_load = model::HarmonicLoad(std::move(forces));
-  std::vector<model::Contact<>> rows;
-  std::vector<double> stiffnesses;
-  for (std::string name = "spring1"; lines.has(name);
-       name = fmt::format("spring{}", rows.size() + 1)) {
-    const auto row = lines.numbers(name, dof + 2);
-    rows.push_back({row.head(dof), row[dof], 1.0});
-    stiffnesses.push_back(row[dof + 1]);
-  }
-  if (!rows.empty())
-    problem.system.nonlinear =
-        std::make_shared<model::OneSidedSprings>(std::move(rows), std::move(stiffnesses));
-  return problem;
 }
 
 }  // namespace clackers::model

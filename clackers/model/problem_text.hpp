@@ -45,7 +45,4 @@ std::string problem_file_json(std::string_view case_name, const model::ImpactPro
 /// spring1=direction gap stiffness for each load and spring. Throws as problem_json does.
 std::string problem_file_text(const model::ImpactProblem<>& problem);
 
-/// The problem of problem_file_text(). Throws InputError (bad-syntax) for other text.
-model::ImpactProblem<> problem_from_text(std::string_view text);
-
 }  // namespace clackers::model

@@ -16,7 +16,7 @@ constexpr DoubleDouble exponential(const DoubleDouble& x) {
   return sum;
 }
 
-constexpr std::array<DoubleDouble, 64> make_table() {
+constexpr std::array<DoubleDouble, 64> make_powers() {
   std::array<DoubleDouble, 64> table{};
   for (std::size_t i = 0; i < 64; ++i) table[i] = exponential(ln2 * (double(i) / 64.0));
   return table;
@@ -24,6 +24,6 @@ constexpr std::array<DoubleDouble, 64> make_table() {
 
 }  // namespace
 
-constinit const std::array<DoubleDouble, 64> power_table = make_table();
+constinit const std::array<DoubleDouble, 64> power_table = make_powers();
 
 }  // namespace clackers::numerics::detail

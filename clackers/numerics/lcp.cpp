@@ -1,15 +1,13 @@
 #include "clackers/numerics/lcp.hpp"
+#include "clackers/base/constants.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace clackers::numerics {
 namespace {
 
 using Eigen::Index;
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 Index to_index(std::size_t i) { return static_cast<Index>(i); }
 

@@ -1,11 +1,11 @@
 #include "clackers/numerics/modal_flight.hpp"
+#include "clackers/base/constants.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 namespace clackers::numerics {
 
@@ -15,10 +15,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double worst_condition = 1e5;
-
-bool is_diagonal(const MatrixXd& x) { return x == MatrixXd(x.diagonal().asDiagonal()); }
 
 // A and B are seen through modes: those that an entry above rounding of either matrix connects.
 std::vector<std::vector<Index>> coupled_blocks(const MatrixXd& a, const MatrixXd& b) {
@@ -51,6 +48,8 @@ MatrixXd part(const MatrixXd& x, const std::vector<Index>& rows) {
 }
 
 }  // namespace
+
+bool is_diagonal(const MatrixXd& x) { return x == MatrixXd(x.diagonal().asDiagonal()); }
 
 Mode::Mode(double decay, double square)
     : sigma(decay),

@@ -7,6 +7,9 @@
 
 namespace clackers::numerics {
 
+/// Whether all entries off the diagonal are 0.
+bool is_diagonal(const Eigen::MatrixXd& x);
+
 /// y'' + 2 sigma y' + omega^2 y = 0. Any real sigma and omega^2: underdamped, critical, overdamped,
 /// growing, or free.
 struct Mode {

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/numerics/sine_cosine.hpp"
 
 namespace clackers::numerics {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double size(const Mode& mode, const ModalState& now) {
   return std::sqrt(now.rate * now.rate + mode.omega * mode.omega * now.y * now.y);

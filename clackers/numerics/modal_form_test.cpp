@@ -9,7 +9,7 @@
 namespace clackers::numerics {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Flight {
   ModalSystem system;

@@ -24,7 +24,7 @@ constexpr DoubleDouble sine(const DoubleDouble& x) {
 }
 
 // From the first quarter, so that the symmetries and the zeros are exact.
-constexpr std::array<DoubleDouble, 321> make_table() {
+constexpr std::array<DoubleDouble, 321> make_sines() {
   std::array<DoubleDouble, 321> table{};
   for (std::size_t i = 0; i <= 64; ++i) {
     const auto s = i == 64 ? DoubleDouble{1.0, 0.0} : sine(pi * (double(i) / 128.0));
@@ -37,6 +37,6 @@ constexpr std::array<DoubleDouble, 321> make_table() {
 
 }  // namespace
 
-constinit const std::array<DoubleDouble, 321> sine_table = make_table();
+constinit const std::array<DoubleDouble, 321> sine_table = make_sines();
 
 }  // namespace clackers::numerics::detail

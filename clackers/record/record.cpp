@@ -34,7 +34,7 @@ std::string_view to_string(CollisionSource source) {
 }
 
 std::string_view to_string(SubjectKind kind) {
-  constexpr std::string_view names[] = {"method", "histories", "program", "callable", "plugin"};
+  constexpr std::string_view names[] = {"method", "histories", "program", "callable"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -144,8 +144,8 @@ struct Level {
 };
 
 /// What is assessed: a method of the catalogue, a set of histories, or a solver that makes them: a
-/// program, a callable (of Python), or a plug-in.
-enum class SubjectKind { method, histories, program, callable, plugin };
+/// program, or a callable (of Python).
+enum class SubjectKind { method, histories, program, callable };
 std::string_view to_string(SubjectKind kind);  ///< "method", "histories", "program", ...
 constexpr bool is_solver(SubjectKind kind) { return kind >= SubjectKind::program; }
 

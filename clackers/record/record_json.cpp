@@ -175,9 +175,9 @@ class Reader {
               {CollisionSource::events, CollisionSource::history, CollisionSource::unknown});
   }
   static void read(const Json& json, const std::string& where, SubjectKind& x) {
-    read_word(json, where, x,
-              {SubjectKind::method, SubjectKind::histories, SubjectKind::program,
-               SubjectKind::callable, SubjectKind::plugin});
+    read_word(
+        json, where, x,
+        {SubjectKind::method, SubjectKind::histories, SubjectKind::program, SubjectKind::callable});
   }
   static void read(const Json& json, const std::string& where, RefinementEnd& x) {
     read_word(

@@ -3,29 +3,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <optional>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/base/number.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/judge/convergence/judge.hpp"
 
 namespace clackers::record {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr auto forms = "agrees, order:2, error:1e-3, or a behaviour such as proper";
 
 double number_of(std::string_view whole, std::string_view digits, double most) {
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || stop != digits.data() + digits.size())
+  const auto value = finite_number(digits);
+  if (!value)
     refuse("clackers", "--require", whole, forms, "The number takes a decimal point.",
            "bad-syntax");
-  if (!(value > 0.0 && value <= most))
+  if (!(*value > 0.0 && *value <= most))
     refuse("clackers", "--require", whole, fmt::format("0 < number <= {}", most));
-  return value;
+  return *value;
 }
 
 Behaviour behaviour_required(std::string_view word) {

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace clackers::report {
 
@@ -20,18 +19,6 @@ std::string scientific(double value, int decimals = 1);
 
 /// A whole number in at most five characters: 81920, 164k, 5.2M.
 std::string short_count(long long value);
-
-/// Characters that a UTF-8 text takes on the terminal, one a code point.
-std::size_t display_width(std::string_view text);
-
-/// `text` in lines of at most `width` characters: broken at spaces; in a long word behind "+", else
-/// behind ":" or ",", else behind one of "_/=-", else anywhere. Newlines stay, and so does a line's
-/// indentation; a line such as "Order    2 for gamma = 1/2" goes on below its "2".
-std::vector<std::string> wrap(std::string_view text, std::size_t width);
-
-/// Prose that was broken to the width of its source, with the lines of each paragraph joined again.
-/// An empty or indented line (a formula), and one such as "Order    2", begin anew.
-std::string rejoin(std::string_view text);
 
 /// `text` with spaces before or behind it, `width` characters in all.
 std::string pad(std::string_view text, std::size_t width, bool to_the_right);

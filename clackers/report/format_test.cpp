@@ -63,42 +63,5 @@ TEST(Format, WidthIsCountedInCharactersNotBytes) {
   EXPECT_EQ(pad("long", 3, true), "long");
 }
 
-TEST(Format, WrapsAtSpacesThenAtMarksThenAnywhere) {
-  using Lines = std::vector<std::string>;
-  EXPECT_EQ(wrap("one two three", 7), (Lines{"one two", "three"}));
-  EXPECT_EQ(wrap("generalized-alpha:rho=0.8", 13), (Lines{"generalized-", "alpha:rho=0.8"}));
-  EXPECT_EQ(wrap("newmark+event-driven", 15), (Lines{"newmark+", "event-driven"}));
-  EXPECT_EQ(wrap("abcdefgh", 3), (Lines{"abc", "def", "gh"}));
-  EXPECT_EQ(wrap("±±±±", 3), (Lines{"±±±", "±"}));
-  EXPECT_EQ(wrap("exact", 5), (Lines{"exact"}));
-  EXPECT_EQ(wrap("", 5), (Lines{""}));
-}
-
-TEST(Format, KeepsLinesAndTheirIndentation) {
-  using Lines = std::vector<std::string>;
-  EXPECT_EQ(wrap("a\n\n  u1 = u0 + h v0", 80), (Lines{"a", "", "  u1 = u0 + h v0"}));
-  EXPECT_EQ(wrap("  one two", 6), (Lines{"  one", "  two"}));
-  EXPECT_EQ(wrap("Order  2 for all steps", 15),
-            (Lines{"Order  2 for", "       all", "       steps"}));
-  EXPECT_EQ(wrap("Order  2 for all steps", 14), (Lines{"Order  2 for", "all steps"}));
-}
-
-TEST(Format, RejoinsTheLinesOfAParagraphAndNoOthers) {
-  EXPECT_EQ(rejoin("one\ntwo\nthree"), "one two three");
-  EXPECT_EQ(rejoin("one\n\ntwo"), "one\n\ntwo");
-  EXPECT_EQ(rejoin("one\n    u = v\n    v = a\ntwo"), "one\n    u = v\n    v = a\ntwo");
-  EXPECT_EQ(rejoin("Order    2\nSource   a book\n(1991)."), "Order    2\nSource   a book (1991).");
-  EXPECT_EQ(rejoin("Order       2\nDissipation none\nMemory      a0"),
-            "Order       2\nDissipation none\nMemory      a0");
-  EXPECT_EQ(rejoin(""), "");
-}
-
-TEST(Format, NoLineIsWiderThanAsked) {
-  const std::string text =
-      "A sentence, with words such as generalized-alpha:rho=0.8+event-driven and ±±±±±±±±±±±±±±.";
-  for (std::size_t width = 1; width < 100; ++width)
-    for (const auto& line : wrap(text, width)) EXPECT_LE(display_width(line), width);
-}
-
 }  // namespace
 }  // namespace clackers::report

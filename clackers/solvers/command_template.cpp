@@ -13,6 +13,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
+#include "clackers/base/text.hpp"
 
 namespace clackers::solvers {
 namespace {
@@ -21,11 +22,6 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> placeholders{"case",      "case:text", "h",  "n",
                                             "tolerance", "events",    "out"};
-
-bool is_plain(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-         std::string_view("_./+-:=@%,").find(c) != std::string_view::npos;
-}
 
 // A word of a command: where it stands, and what the shell makes of it; nothing for a word that is
 // expanded.
@@ -120,17 +116,6 @@ std::optional<std::string> in_path(const std::string& name) {
 }
 
 }  // namespace
-
-std::string shell_quoted(std::string_view word) {
-  if (!word.empty() && std::ranges::all_of(word, is_plain)) return std::string(word);
-  std::string result = "'";
-  for (const char c : word)
-    if (c == '\'')
-      result += "'\\''";
-    else
-      result += c;
-  return result + "'";
-}
 
 CommandTemplate::CommandTemplate(const std::string& command) {
   std::string line;

@@ -11,10 +11,6 @@ struct PlaceholderValue {
   std::string name, value;
 };
 
-/// A word as a shell reads it back. What needs no quotes has none, so that it may stand between quotes
-/// of a command's own.
-std::string shell_quoted(std::string_view word);
-
 /// The command of --exec: a line for the shell with {case}, {case:text}, {h}, {n}, {tolerance},
 /// {events} and {out}. "${name}" and braces around anything but letters and ":" stay as they are;
 /// "{{name}}" stands for "{name}".

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/base/text.hpp"
 
 namespace clackers::solvers {
 namespace {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/files.hpp"
 
 namespace clackers::solvers {
 namespace {
@@ -29,29 +30,6 @@ static_assert(std::atomic<pid_t>::is_always_lock_free);
 // Calls of kill_processes(); tells start() of one that came before its process was in the table.
 std::atomic<unsigned> kills = 0;
 static_assert(std::atomic<unsigned>::is_always_lock_free);
-
-// A file descriptor that no child inherits.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-
-  void close() {
-    if (number_ >= 0) ::close(std::exchange(number_, -1));
-  }
-  int number() const { return number_; }
-  bool is_open() const { return number_ >= 0; }
-
- private:
-  int number_;
-};
 
 struct Pipe {
   Descriptor read, write;

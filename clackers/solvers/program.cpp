@@ -3,20 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/base/number.hpp"
 #include "clackers/solvers/program_runner.hpp"
 
 namespace clackers::solvers {
 namespace {
 
 double tolerance_in(std::string_view whole, std::string_view text) {
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size() || !(value > 0.0 && value <= 1.0))
+  const double value = finite_number(text).value_or(0.0);
+  if (!(value > 0.0 && value <= 1.0))
     refuse("verify", "--tolerances", whole,
            "1e-3:1e-12, one a decade, or a list 1e-3,1e-5, above 0 and at most 1", {},
            "bad-syntax");
@@ -37,7 +36,7 @@ std::vector<SolverSubject> subjects_of(const ProgramRequest& request) {
     subject.name = program.name.empty() ? command.name() : program.name;
     subject.claim = request.expect.value_or(Claim{});
     if (command.uses("tolerance")) subject.tolerances = tolerances;
-    subject.prepare = ProgramRunner::maker(command, subject.name, request, folder, {});
+    subject.prepare = ProgramRunner::maker(command, subject.name, request, folder);
   }
   return subjects;
 }

@@ -10,6 +10,11 @@
 // `clackers verify --exec`: methods that are programs of others.
 namespace clackers::solvers {
 
+/// The refusal of shared libraries, which earlier versions loaded.
+inline constexpr std::string_view instead_of_plugin =
+    "plugin: shared libraries are no longer loaded. Compile the solver with clackers_main.h and give "
+    "the program as exec: './solver {case:text} {n} {out}'.";
+
 /// A program to assess.
 struct Program {
   /// For the shell, with placeholders: {case} and {case:text} are files with the problem, {h} the
@@ -20,7 +25,7 @@ struct Program {
   std::string name;  ///< in every output; empty: the program's file without folder and extension
 };
 
-/// How programs and plug-ins are run.
+/// How programs are run.
 struct ProcessOptions {
   std::optional<Claim> expect;  ///< of every one
   /// Each a level for solvers that refine by tolerance, whose step is the coarsest; empty:

@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr auto history_name = "history.csv", events_name = "events.csv";
+
 void write_file(const fs::path& path, std::string_view text) {
   std::ofstream file(path, std::ios::binary);
   if (!(file << text).flush())
@@ -79,24 +81,21 @@ void take_end(SolverOutput& output, const ProcessResult& result, double timeout)
 
 ProgramRunner::ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
                              const model::ImpactProblem<>& problem, double timeout, bool fresh,
-                             std::shared_ptr<WorkFolder> folder, Results results)
+                             std::shared_ptr<WorkFolder> folder)
     : command_(std::move(command)),
       title_(fmt::format("{}-{}", name, case_name)),
       json_(problem_file_json(case_name, problem)),
       text_(problem_file_text(problem)),
       timeout_(timeout),
       fresh_(fresh),
-      folder_(std::move(folder)),
-      results_(std::move(results)),
-      history_name_("history" + results_.extension),
-      events_name_("events" + results_.extension) {}
+      folder_(std::move(folder)) {}
 
 std::function<std::unique_ptr<Solver>(const cases::Case&)> ProgramRunner::maker(
     const CommandTemplate& command, const std::string& name, const ProcessOptions& options,
-    const std::shared_ptr<WorkFolder>& folder, const Results& results) {
+    const std::shared_ptr<WorkFolder>& folder) {
   return [=, timeout = options.timeout, fresh = options.fresh](const cases::Case& problem) {
     return std::make_unique<ProgramRunner>(command, name, problem.entry->name, problem.problem,
-                                           timeout, fresh, folder, results);
+                                           timeout, fresh, folder);
   };
 }
 
@@ -106,15 +105,15 @@ std::string ProgramRunner::command_in(const fs::path& folder, const SolverRun& r
                           {"h", fmt::format("{}", run.step)},
                           {"n", fmt::format("{}", run.steps)},
                           {"tolerance", fmt::format("{}", run.tolerance)},
-                          {"events", (folder / events_name_).string()},
-                          {"out", (folder / history_name_).string()}});
+                          {"events", (folder / events_name).string()},
+                          {"out", (folder / history_name).string()}});
 }
 
 SolverOutput ProgramRunner::output_of(const SolverRun& run, const fs::path& folder,
                                       const std::atomic<bool>* interrupt) const {
   write_file(folder / "problem.json", json_);
   write_file(folder / "problem.txt", text_);
-  const auto history = folder / history_name_;
+  const auto history = folder / history_name;
   const bool prints_history = !command_.uses("out");
   auto result = run_process({.command = command_in(folder, run),
                              .folder = folder.string(),
@@ -124,7 +123,6 @@ SolverOutput ProgramRunner::output_of(const SolverRun& run, const fs::path& fold
   SolverOutput output;
   output.printed = std::move(result.printed);
   take_end(output, result, timeout_);
-  if (results_.complete && !output.interrupted) results_.complete(folder, output);
   if (output.interrupted || !output.failure.empty()) return output;
   if (!is_filled(history)) {
     set_failure(output, "program-output",
@@ -133,8 +131,8 @@ SolverOutput ProgramRunner::output_of(const SolverRun& run, const fs::path& fold
     return output;
   }
   output.history = history.string();
-  if (command_.uses("events") && is_filled(folder / events_name_))
-    output.events = (folder / events_name_).string();
+  if (command_.uses("events") && is_filled(folder / events_name))
+    output.events = (folder / events_name).string();
   return output;
 }
 
@@ -147,8 +145,8 @@ SolverOutput ProgramRunner::run(const SolverRun& run, const std::atomic<bool>* i
     if (const auto found = folder_->find(title, key)) {
       SolverOutput output;
       output.reused = true;
-      output.history = (*found / history_name_).string();
-      if (is_filled(*found / events_name_)) output.events = (*found / events_name_).string();
+      output.history = (*found / history_name).string();
+      if (is_filled(*found / events_name)) output.events = (*found / events_name).string();
       return output;
     }
   RunFolder mine(*folder_, title, key);
@@ -159,8 +157,8 @@ SolverOutput ProgramRunner::run(const SolverRun& run, const std::atomic<bool>* i
   if (folder_->keeps_failures() && !output.printed.empty())
     write_file(mine.path() / "printed.txt", output.printed);
   const auto place = mine.commit(output.history.has_value());
-  if (output.history) output.history = (place / history_name_).string();
-  if (output.events) output.events = (place / events_name_).string();
+  if (output.history) output.history = (place / history_name).string();
+  if (output.events) output.events = (place / events_name).string();
   return output;
 }
 

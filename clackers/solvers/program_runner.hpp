@@ -17,22 +17,15 @@ namespace clackers::solvers {
 /// Runs one program on one case. run() may be called from several threads.
 class ProgramRunner : public Solver {
  public:
-  /// What the runs of a kind of program leave.
-  struct Results {
-    std::string extension = ".csv";  ///< of the files for histories and collisions
-    /// Completes how a run ended by what it left in its folder.
-    std::function<void(const std::filesystem::path& folder, SolverOutput& output)> complete{};
-  };
-
   /// `timeout` of a run [s]; `fresh`: earlier runs are not reused.
   ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
                 const model::ImpactProblem<>& problem, double timeout, bool fresh,
-                std::shared_ptr<WorkFolder> folder, Results results);
+                std::shared_ptr<WorkFolder> folder);
 
   /// What SolverSubject::prepare calls.
   static std::function<std::unique_ptr<Solver>(const cases::Case&)> maker(
       const CommandTemplate& command, const std::string& name, const ProcessOptions& options,
-      const std::shared_ptr<WorkFolder>& folder, const Results& results);
+      const std::shared_ptr<WorkFolder>& folder);
 
   /// The result of an earlier run of the same command, with the same files of the program, problem,
   /// step and tolerance, if there is one; else that of a new run in a folder of its own, which holds
@@ -50,8 +43,6 @@ class ProgramRunner : public Solver {
   double timeout_;
   bool fresh_;
   std::shared_ptr<WorkFolder> folder_;
-  Results results_;
-  std::string history_name_, events_name_;
 };
 
 }  // namespace clackers::solvers

@@ -11,7 +11,7 @@
 #include "clackers/input/source.hpp"
 #include "clackers/record/record.hpp"
 
-// Solvers of others under test: a program, a callable or a plug-in. Each makes a history for each
+// Solvers of others under test: a program or a callable. Each makes a history for each
 // step or tolerance, and is judged by its histories.
 namespace clackers::solvers {
 
@@ -45,7 +45,7 @@ class Solver {
 
 /// A solver to assess, before it is prepared.
 struct SolverSubject {
-  record::SubjectKind kind = record::SubjectKind::program;  ///< program, callable or plugin
+  record::SubjectKind kind = record::SubjectKind::program;  ///< program or callable
   std::string name;                                         ///< in every output
   Claim claim;
   /// Levels of tolerances, descending, instead of steps; {h} is then the coarsest step.

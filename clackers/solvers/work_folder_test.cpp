@@ -10,8 +10,8 @@ namespace fs = std::filesystem;
 TEST(WorkFolder, RunsOfTwoInOneFolderDoNotMeet) {
   const auto path = (fs::path(testing::TempDir()) / "work_folder").string();
   {
-    WorkFolder programs(path), plugins(path);
-    const RunFolder first(programs, "a", "key"), second(plugins, "b", "key");
+    WorkFolder work(path), other_work(path);
+    const RunFolder first(work, "a", "key"), second(other_work, "b", "key");
     EXPECT_NE(first.path(), second.path());
     EXPECT_TRUE(fs::exists(first.path()));
     EXPECT_TRUE(fs::exists(second.path()));

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/base/number.hpp"
 #include "clackers/record/notes.hpp"
 #include "clackers/record/provenance.hpp"
 #include "clackers/record/reduced_curve.hpp"
@@ -190,10 +190,8 @@ Claim claim_from(std::string_view text) {
            {}, "bad-syntax");
   if (!has_line) return claim;
   const auto order = text.substr(colon + 1);
-  const auto [stop, error] =
-      std::from_chars(order.data(), order.data() + order.size(), claim.order);
-  if (error != std::errc() || stop != order.data() + order.size() ||
-      !(claim.order > 0.0 && claim.order <= 20.0))
+  claim.order = finite_number(order).value_or(0.0);
+  if (!(claim.order > 0.0 && claim.order <= 20.0))
     refuse("check", "order of --expect", order, "0 < order <= 20");
   return claim;
 }

@@ -12,8 +12,6 @@
 namespace clackers::study {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // A start costs a solver about as much as this many steps.
 constexpr double start_steps = 5000.0;
 
@@ -51,14 +49,15 @@ double SolverCandidate::cost(const RunTask& task) const {
 std::optional<Measured> SolverCandidate::run(const RunTask& task, TaskShare&,
                                              const std::atomic<bool>* interrupt) {
   if (interrupt != nullptr && *interrupt) return {};
-  const auto start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   const auto output = solver_->run(task.run, interrupt);
   if (output.interrupted) return {};
   try {
     auto measured = compared(task, output, interrupt);
     measured.would_repeat = output.would_repeat;
     if (!output.reused)
-      measured.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      measured.seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return measured;
   } catch (const Error& error) {
     if (error.code() != Code("interrupted")) throw;

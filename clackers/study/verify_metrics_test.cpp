@@ -11,7 +11,7 @@ namespace clackers::study {
 namespace {
 
 // A mass above a stop, five levels of two steps: milliseconds.
-VerifyRequest small(std::vector<std::string> methods) {
+VerifyRequest small_metrics(std::vector<std::string> methods) {
   VerifyRequest request;
   request.methods = std::move(methods);
   request.cases = {"stop"};
@@ -21,7 +21,7 @@ VerifyRequest small(std::vector<std::string> methods) {
 }
 
 TEST(Verify, MeasuresAllMetricsOfTheFirstRunOfTheFinestLevel) {
-  const auto record = verify(small({"newmark"}));
+  const auto record = verify(small_metrics({"newmark"}));
   const auto& finest = record.cases[0].subjects[0].levels[4].runs[0];
   ASSERT_EQ(record.cases[0].subjects[0].shown_run(), &finest);
   ASSERT_EQ(finest.metrics.size(), measure::metrics().size() + record::cause_metrics().size());
@@ -31,7 +31,7 @@ TEST(Verify, MeasuresAllMetricsOfTheFirstRunOfTheFinestLevel) {
 }
 
 TEST(Verify, MeasuresMetricsOfTheFinestLevelThatCanBeStored) {
-  auto request = small({"rk4"});
+  auto request = small_metrics({"rk4"});
   request.plan = {4e-5, 2, 1};  // 200 000 and 400 000 steps
   const auto method = verify(request).cases[0].subjects[0];
   EXPECT_FALSE(method.levels[0].runs[0].metrics.empty());
@@ -41,7 +41,7 @@ TEST(Verify, MeasuresMetricsOfTheFinestLevelThatCanBeStored) {
 }
 
 TEST(Verify, SplitsTheErrorOfALinearContactSpringAlone) {
-  const auto record = verify(small({"newmark+penalty", "newmark+penalty:law=hertz"}));
+  const auto record = verify(small_metrics({"newmark+penalty", "newmark+penalty:law=hertz"}));
   const auto split = [&](std::size_t i) {
     const auto& metrics = record.cases[0].subjects[i].shown_run()->metrics;
     return *std::ranges::find(metrics, "u-penalty-model-max-relative", &record::MetricResult::name);
@@ -51,7 +51,7 @@ TEST(Verify, SplitsTheErrorOfALinearContactSpringAlone) {
 }
 
 TEST(Verify, MeasuresNoMetricsOfARunThatFailed) {
-  auto request = small({"central-difference"});
+  auto request = small_metrics({"central-difference"});
   request.plan = {4.0, 1, 1};  // twice its stability limit
   request.settings = {{"t_end", 4000.0}};
   const auto run = verify(request).cases[0].subjects[0].levels[0].runs[0];
@@ -60,7 +60,7 @@ TEST(Verify, MeasuresNoMetricsOfARunThatFailed) {
 }
 
 TEST(Verify, ComparesSelfConvergenceWithTheReference) {
-  auto request = small({"rk4", "newmark+penalty"});
+  auto request = small_metrics({"rk4", "newmark+penalty"});
   request.plan = {0.005, 6, 2};  // the contact is resolved from the first level on
   request.settings = {{"t_end", 6.0}};
   const auto record = verify(request);
@@ -76,12 +76,12 @@ TEST(Verify, ComparesSelfConvergenceWithTheReference) {
 }
 
 TEST(Verify, HoldsDifferencesToTheClaimThroughImpactsBeforeTheSmoothOrder) {
-  const auto record = verify(small({"newmark+reversal"}));  // order 2 in smooth motion
+  const auto record = verify(small_metrics({"newmark+reversal"}));  // order 2 in smooth motion
   EXPECT_EQ(record.cases[0].subjects[0].self_convergence->order, 1.0);
 }
 
 TEST(Verify, ComparesTheEndsOfRunsWithTheTrueEnd) {
-  const auto record = verify(small({"newmark"}));
+  const auto record = verify(small_metrics({"newmark"}));
   const auto& method = record.cases[0].subjects[0];
   ASSERT_TRUE(method.self_convergence.has_value());
   const auto& errors = method.self_convergence->errors;
@@ -96,7 +96,7 @@ TEST(Verify, ComparesTheEndsOfRunsWithTheTrueEnd) {
 }
 
 TEST(Verify, ProfilesItsMethodsOverTheErrorsTheyReach) {
-  const auto record = verify(small({"rk4", "newmark"}));
+  const auto record = verify(small_metrics({"rk4", "newmark"}));
   ASSERT_FALSE(record.cases[0].profiles.empty());
   EXPECT_EQ(record.cases[0].profiles[0].counter, "steps");
   EXPECT_EQ(record.cases[0].profiles[0].tasks[0], "stop: error in u <= 1e-01");

@@ -7,7 +7,6 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/text.hpp"
-#include "cli/help/text.hpp"
 
 namespace clackers::cli {
 namespace {

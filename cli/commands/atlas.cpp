@@ -24,7 +24,7 @@ constexpr auto default_folder = "clackers-atlas";
 struct Options {
   CommonOptions common;  ///< its `out` is the folder, or the file of --submit
   std::string jobs, specification;
-  std::string submit, command, library, expect, author;
+  std::string submit, command, expect, author;
   std::vector<std::string> merge;
 };
 
@@ -38,15 +38,11 @@ void require_fitting(const Options& options) {
     refuse_usage("--merge: --submit writes a file, --merge takes files in; give one of the two.");
   if (submits && options.common.out.empty())
     refuse_usage("--submit writes a file: give it with --out FILE.json.");
-  if (!options.command.empty() && !options.library.empty())
-    refuse_usage("--plugin: a method is a command or a plug-in; leave --exec or --plugin out.");
-  const bool is_program = !options.command.empty() || !options.library.empty();
+  const bool is_program = !options.command.empty();
   if (!options.expect.empty() && !is_program)
-    refuse_usage(
-        "--expect: this is for programs and plug-ins; add --exec 'COMMAND' or --plugin "
-        "FILE.so.");
+    refuse_usage("--expect: this is for programs; add --exec 'COMMAND'.");
   if ((is_program || !options.author.empty()) && !submits)
-    refuse_usage("--exec, --plugin and --author go with --submit NAME --out FILE.json.");
+    refuse_usage("--exec and --author go with --submit NAME --out FILE.json.");
 }
 
 std::string specification_text(const Options& options) {
@@ -63,8 +59,6 @@ campaign::MethodEntry submitted(const Options& options) {
   using Kind = campaign::MethodEntry::Kind;
   if (!options.command.empty())
     return {Kind::command, options.command, options.submit, options.expect};
-  if (!options.library.empty())
-    return {Kind::plugin, options.library, options.submit, options.expect};
   return {Kind::catalogue, options.submit, {}, {}};
 }
 
@@ -153,7 +147,7 @@ void add_atlas(Grammar& root) {
        .usage = "  clackers atlas [--out FOLDER] [--jobs n] [--specification FILE.toml]\n"
                 "           [--merge FILE.json ...]\n"
                 "  clackers atlas --submit METHOD [--author NAME] --out FILE.json\n"
-                "  clackers atlas --submit NAME --exec COMMAND|--plugin FILE.so\n"
+                "  clackers atlas --submit NAME --exec COMMAND\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--author NAME] --out FILE.json\n"});
   app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
   app->add_option("--specification", options->specification,
@@ -163,15 +157,11 @@ void add_atlas(Grammar& root) {
   app->add_option(
          "--submit", options->submit,
          "Run this method alone on all systems, and write the results with their provenance "
-         "as a file that other atlases take in. With --exec or --plugin it is the name "
-         "of your program.")
+         "as a file that other atlases take in. With --exec it is the name of your program.")
       ->option_text("METHOD");
   app->add_option("--exec", options->command,
                   "Your program, a line for the shell, as `clackers verify --exec` takes it.")
       ->option_text("COMMAND");
-  app->add_option("--plugin", options->library,
-                  "Your solver in a shared library, as `clackers verify --plugin` takes it.")
-      ->reads_file("FILE.so");
   app->add_option("--expect", options->expect,
                   "What your program should show: proper:2, reduced:1, irregular:1, exact, "
                   "stagnating or divergent. Default: nothing is claimed.")

@@ -7,10 +7,9 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/files.hpp"
 #include "cli/files/output_file.hpp"
 
 namespace clackers::cli {
@@ -19,18 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
-  if (!file || text.str().empty())
-    throw FileError(fmt::format("{}: this file cannot be read, or is empty. Give one that clackers "
-                                "atlas --submit wrote.",
-                                path),
-                    "cannot-read");
-  return text.str();
+  return read_file(path, "Give one that clackers atlas --submit wrote.");
 }
 
-void write_file(const std::string& path, const std::string& text) {
+void write_whole(const std::string& path, const std::string& text) {
   OutputFile file(path, OnInterrupt::finish);
   file.stream() << text;
   file.commit();
@@ -76,7 +67,7 @@ void AtlasFolder::begin(const campaign::Specification& specification) const {
                     path_, own, path_),
         "other-campaign");
   }
-  write_file(own, specification.text());
+  write_whole(own, specification.text());
 }
 
 void AtlasFolder::take_in(const std::vector<std::string>& files) const {
@@ -87,7 +78,7 @@ void AtlasFolder::take_in(const std::vector<std::string>& files) const {
   }
   if (!files.empty()) make_folder(others());
   for (std::size_t i = 0; i < files.size(); ++i)
-    write_file(others() + "/" + fs::path(files[i]).stem().string() + ".json", texts[i]);
+    write_whole(others() + "/" + fs::path(files[i]).stem().string() + ".json", texts[i]);
 }
 
 std::vector<campaign::AtlasResults> AtlasFolder::results() const {
@@ -101,6 +92,6 @@ std::vector<campaign::AtlasResults> AtlasFolder::results() const {
   return all;
 }
 
-void AtlasFolder::write_page(const std::string& html) const { write_file(page(), html); }
+void AtlasFolder::write_page(const std::string& html) const { write_whole(page(), html); }
 
 }  // namespace clackers::cli

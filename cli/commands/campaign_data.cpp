@@ -7,11 +7,11 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/suggest.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/campaign/store.hpp"
 #include "clackers/report/write.hpp"
 #include "cli/commands/campaign_actions.hpp"
 #include "cli/files/results.hpp"
-#include "cli/help/text.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 

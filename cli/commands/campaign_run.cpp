@@ -9,7 +9,6 @@
 #include "clackers/report/write.hpp"
 #include "cli/cluster/run_on_ranks.hpp"
 #include "cli/commands/campaign_actions.hpp"
-#include "cli/commands/plugin_run.hpp"
 #include "cli/files/results.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
@@ -33,7 +32,6 @@ campaign::RunSummary run_tasks(campaign::Store& store, const campaign::Shard& sh
   const auto& specification = store.specification();
   campaign::RunOptions how;
   how.jobs = jobs;
-  how.plugin_host = plugin_host_words();
   // The blocks of a shard depend on the number of shards alone.
   const auto block =
       campaign::block_size(specification, shard.is_all() ? thread_count(how.jobs) : shard.count);
@@ -62,7 +60,6 @@ int run_ranks(const CampaignOptions& options, const campaign::Launch& launch,
               const std::string& database) {
   campaign::RunOptions how;
   how.jobs = options.jobs.empty() ? 1 : jobs_from(options.jobs);
-  how.plugin_host = plugin_host_words();
   FirstRank first;
   first.database = database;
   ProgressLine line("campaign", options.common.quiet);
@@ -86,15 +83,14 @@ std::string database_of(const CampaignOptions& options, const campaign::Shard& s
 
 campaign::Specification checked_specification(const CampaignOptions& options) {
   auto specification = campaign::Specification::read(options.files.front());
-  if (!options.yes) campaign::require_few_runs(specification, plugin_host_words());
+  if (!options.yes) campaign::require_few_runs(specification);
   return specification;
 }
 
 int plan_campaign(const CampaignOptions& options, const std::string&) {
   const auto specification = campaign::Specification::read(options.files.front());
   Results results(options.common, OnInterrupt::stop);
-  const auto sheet =
-      campaign::plan_sheet(campaign::plan_of(specification, plugin_host_words(), true));
+  const auto sheet = campaign::plan_sheet(campaign::plan_of(specification, true));
   record::SheetRows rows(sheet);
   report::write(rows, results.format(), results.stream(), results.style());
   results.finish();

@@ -10,7 +10,6 @@
 #include "cli/cluster/batch_script.hpp"
 #include "cli/commands/campaign_actions.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/help/text.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/values.hpp"

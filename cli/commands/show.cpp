@@ -103,7 +103,7 @@ void add_show(Grammar& root) {
                 "and overshoot of its integrator; its parameters and its card.",
        .usage = "  clackers show CASE|METHOD [--set name=value,...] [--threshold x]\n"
                 "                [--report FILE.html]\n"
-                "  clackers show --problem FILE.toml\n"});
+                "  clackers show --problem FILE\n"});
   app->add_option("NAME", options->name, "A case or a method. All names: clackers list.")
       ->option_text("CASE|METHOD");
   add_set_option(*app, options->settings);

@@ -156,20 +156,19 @@ void add_verify(Grammar& root) {
            "  clackers verify --baseline record.json\n"
            "  clackers verify rk4 newmark --case stop --case symmetric-pair\n"
            "  clackers verify --all --only disagrees --only undecided\n"
-           "  clackers verify --exec './solver {case} {h} {out}' --expect proper:2\n"
-           "  clackers verify --plugin ./solver.so --expect proper:2\n",
+           "  clackers verify --exec './solver {case} {h} {out}' --expect proper:2\n",
        .about =
            "Assesses time-integration methods: runs each with a sequence of steps on a case whose "
            "exact motion is known, and compares what was measured with what it claims. A "
            "method is integrator[:name=value,...][+contact[:name=value,...]]; without +contact "
-           "impacts are located as events (event-driven). Programs (--exec) and plug-ins (--plugin) "
-           "of yours are run and compared in the same way. Exit code 0 when all agree, 1 when "
+           "impacts are located as events (event-driven). Programs of yours (--exec) "
+           "are run and compared in the same way. Exit code 0 when all agree, 1 when "
            "one disagrees, 3 when one stays undecided.",
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
                 "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
                 "           [--only VERDICT] [--report FILE.html]\n"
-                "  clackers verify [METHOD ...] --exec COMMAND|--plugin FILE.so ...\n"
+                "  clackers verify [METHOD ...] --exec COMMAND ...\n"
                 "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
                 "           [--timeout TIME] [--work FOLDER] [--fresh] ...\n"});
   app->add_option("METHOD", options->methods,

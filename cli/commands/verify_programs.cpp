@@ -2,15 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-
 #include "clackers/base/error.hpp"
 #include "clackers/report/words/words.hpp"
-#include "clackers/solvers/plugin.hpp"
 #include "clackers/study/check.hpp"
-#include "cli/commands/plugin_run.hpp"
-#include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/values.hpp"
 
@@ -29,45 +23,34 @@ void add_program_options(Command& command, ProgramOptions& options) {
       ->option_text("COMMAND");
   command
       .add_option(
-          "--plugin", options.libraries,
-          "A solver of yours as a method, in a shared library that defines the function of "
-          "clackers_solver.h. Each run is a process of its own, whose crash is a failed run. May be "
-          "repeated, and stand beside METHODs and --exec.")
-      ->reads_file("FILE.so");
-  command
-      .add_option(
           "--name", options.names,
-          "The name of a program or plug-in in the results, one for each --exec and then for each "
-          "--plugin in their order. Default: of a plug-in its own, of a program its file without "
-          "folder and extension.")
+          "The name of a program in the results, one for each --exec in their order. Default: its "
+          "file without folder and extension.")
       ->option_text("NAME");
   command
       .add_option(
           "--expect", options.expect,
-          "What programs and plug-ins should show: proper:2, reduced:1, irregular:1, exact, stagnating or "
+          "What programs should show: proper:2, reduced:1, irregular:1, exact, stagnating or "
           "divergent. Default: nothing is claimed.")
       ->option_text("BEHAVIOUR[:ORDER]");
   command
       .add_option(
           "--tolerances", options.tolerances,
-          "Levels of adaptive METHODs, of commands with {tolerance} and of plug-ins that refine by "
-          "tolerance: one a decade, or a list. Default: 1e-3:1e-10.")
+          "Levels of adaptive METHODs, and of commands with {tolerance}: one a decade, or a "
+          "list. Default: 1e-3:1e-10.")
       ->option_text("a:b|x,y,...");
   command
-      .add_option(
-          "--timeout", options.timeout,
-          "Time of one run of a program or plug-in, in seconds or as 30s, 2min; then it is ended with "
-          "all that it started. Default: 60s.")
+      .add_option("--timeout", options.timeout,
+                  "Time of one run of a program, in seconds or as 30s, 2min; then it is ended with "
+                  "all that it started. Default: 60s.")
       ->option_text("TIME");
   command
-      .add_option(
-          "--work", options.work,
-          "Keep the folders of all runs here. Default: good runs are kept in "
-          "$XDG_CACHE_HOME/clackers for 14 days, and reused while command, program or library, "
-          "problem and step are the same.")
+      .add_option("--work", options.work,
+                  "Keep the folders of all runs here. Default: good runs are kept in "
+                  "$XDG_CACHE_HOME/clackers for 14 days, and reused while command, program, "
+                  "problem and step are the same.")
       ->option_text("FOLDER");
-  command.add_flag("--fresh", options.fresh,
-                   "Make every run of programs and plug-ins anew, reuse none.");
+  command.add_flag("--fresh", options.fresh, "Make every run of programs anew, reuse none.");
 }
 
 namespace {
@@ -77,9 +60,7 @@ void require_any(const ProgramOptions& options) {
   const auto refuse_given = [](const char* option, bool is_given) {
     if (is_given)
       throw InputError(
-          fmt::format("verify {}: this is for programs and plug-ins; add --exec 'COMMAND' or "
-                      "--plugin FILE.so.",
-                      option),
+          fmt::format("verify {}: this is for programs; add --exec 'COMMAND'.", option),
           "bad-syntax");
   };
   refuse_given("--name", !options.names.empty());
@@ -104,30 +85,16 @@ solvers::ProcessOptions process_options_of(const ProgramOptions& options) {
 
 std::vector<solvers::SolverSubject> program_subjects(const ProgramOptions& options) {
   require_any(options);
-  const auto count = options.commands.size() + options.libraries.size();
+  const auto count = options.commands.size();
   if (!options.names.empty() && options.names.size() != count)
     refuse("verify", "--name", fmt::format("{} of them", options.names.size()),
-           fmt::format("none, or one for each --exec and --plugin, {} here", count), {},
-           "wrong-size");
-  const auto name = [&](std::size_t i) {
-    return options.names.empty() ? std::string() : options.names[i];
-  };
-  const auto process = process_options_of(options);
-  std::vector<solvers::SolverSubject> subjects;
-  if (!options.commands.empty()) {
-    solvers::ProgramRequest request{process, {}};
-    for (const auto& line : options.commands)
-      request.programs.push_back({line, name(request.programs.size())});
-    subjects = solvers::subjects_of(request);
-  }
-  if (!options.libraries.empty()) {
-    solvers::PluginRequest request{process, {}, plugin_host_words()};
-    for (const auto& library : options.libraries)
-      request.plugins.push_back({library, name(options.commands.size() + request.plugins.size())});
-    std::ranges::move(solvers::subjects_of(request, &interrupt_flag()),
-                      std::back_inserter(subjects));
-  }
-  return subjects;
+           fmt::format("none, or one for each --exec, {} here", count), {}, "wrong-size");
+  if (!options.any()) return {};
+  solvers::ProgramRequest request{process_options_of(options), {}};
+  for (std::size_t i = 0; i < count; ++i)
+    request.programs.push_back(
+        {options.commands[i], options.names.empty() ? std::string() : options.names[i]});
+  return solvers::subjects_of(request);
 }
 
 void report_failure_of_all(const record::Record& record) {

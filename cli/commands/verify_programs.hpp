@@ -8,20 +8,20 @@
 
 namespace clackers::cli {
 
-/// The options of `verify` for programs and plug-ins of others.
+/// The options of `verify` for programs of others.
 struct ProgramOptions {
-  std::vector<std::string> commands, libraries, names;
+  std::vector<std::string> commands, names;
   std::string tolerances, expect, timeout, work;
   bool fresh = false;
 
-  bool any() const { return !commands.empty() || !libraries.empty(); }
+  bool any() const { return !commands.empty(); }
 };
 
-/// Adds --exec, --plugin and what goes with them. `options` must outlive the parsing.
+/// Adds --exec and what goes with them. `options` must outlive the parsing.
 void add_program_options(Command& command, ProgramOptions& options);
 
-/// The programs and then the plug-ins. Throws InputError for values that cannot be read, and for options
-/// of programs without any, and what subjects_of() throws.
+/// The programs. Throws InputError for values that cannot be read, and for options of programs without
+/// any, and what subjects_of() throws.
 std::vector<solvers::SolverSubject> program_subjects(const ProgramOptions& options);
 
 /// Says why, where every run of all programs failed.

@@ -31,8 +31,6 @@ std::string name_in_proc(int descriptor) { return fmt::format("/proc/self/fd/{}"
 
 }  // namespace
 
-Descriptor::~Descriptor() { ::close(number_); }
-
 OutputFile::OutputFile(std::string path, OnInterrupt on_interrupt)
     : path_(std::move(path)), target_(followed(path_)) {
   struct stat status {};
@@ -42,7 +40,7 @@ OutputFile::OutputFile(std::string path, OnInterrupt on_interrupt)
   if (exists && S_ISDIR(status.st_mode)) fail_to_write(path_, EISDIR);
   is_device_ = named_descriptor(path_) >= 0 || (exists && !S_ISREG(status.st_mode));
   is_device_ ? open_device() : open_temporary();
-  stream_ = std::make_unique<OutputStream>(descriptor_->number(), path_, on_interrupt);
+  stream_ = std::make_unique<OutputStream>(descriptor_.number(), path_, on_interrupt);
 }
 
 OutputFile::~OutputFile() {
@@ -58,7 +56,7 @@ void OutputFile::open_device() {
                                : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
   } while (number < 0 && errno == EINTR);
   if (number < 0) fail_to_write(path_, errno);
-  descriptor_ = std::make_unique<Descriptor>(number);
+  descriptor_ = Descriptor(number);
 }
 
 void OutputFile::open_temporary() {
@@ -72,7 +70,7 @@ void OutputFile::open_temporary() {
     number = -1;
   }
   if (number < 0) number = open_named();
-  descriptor_ = std::make_unique<Descriptor>(number);
+  descriptor_ = Descriptor(number);
   if (replaces) ::fchmod(number, old.st_mode & 0777);
 }
 
@@ -92,7 +90,7 @@ int OutputFile::open_named() {
 void OutputFile::give_name() {
   while (true) {
     temporary_.emplace(temporary_beside(target_));
-    if (::linkat(AT_FDCWD, name_in_proc(descriptor_->number()).c_str(), AT_FDCWD,
+    if (::linkat(AT_FDCWD, name_in_proc(descriptor_.number()).c_str(), AT_FDCWD,
                  temporary_->path().c_str(), AT_SYMLINK_FOLLOW) == 0)
       return;
     const int error = errno;
@@ -104,7 +102,7 @@ void OutputFile::give_name() {
 void OutputFile::commit() {
   stream_->finish();
   if (is_device_) return;
-  if (::fsync(descriptor_->number()) != 0) fail_to_write(path_, errno);
+  if (::fsync(descriptor_.number()) != 0) fail_to_write(path_, errno);
   const SignalsWait signals_wait;
   if (!temporary_) give_name();
   if (::rename(temporary_->path().c_str(), target_.c_str()) != 0) fail_to_write(path_, errno);

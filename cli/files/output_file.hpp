@@ -5,23 +5,11 @@
 #include <optional>
 #include <string>
 
+#include "clackers/base/files.hpp"
 #include "cli/files/output_stream.hpp"
 #include "cli/interrupt.hpp"
 
 namespace clackers::cli {
-
-/// An open file descriptor, closed at the end.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor();
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 /// A file that appears whole or not at all: what is written goes to a temporary file in the same
 /// folder, which replaces `path` in commit(). Without commit() nothing remains, however the process
@@ -52,7 +40,7 @@ class OutputFile {
   std::filesystem::path target_;  ///< with links followed
   bool is_device_ = false;
   std::optional<RemovedOnExit> temporary_;  ///< while the temporary file has a name
-  std::unique_ptr<Descriptor> descriptor_;
+  Descriptor descriptor_;
   std::unique_ptr<OutputStream> stream_;
 };
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <deque>
 
-#include "cli/help/text.hpp"
+#include "clackers/base/text.hpp"
 
 namespace clackers::cli {
 namespace {
@@ -27,7 +27,7 @@ std::string described(const Option& option) {
     line.append("\n").append(column, ' ');
   else
     line.resize(column, ' ');
-  return line + wrap(option.explanation, width, column) + "\n";
+  return line + wrapped(option.explanation, width, column) + "\n";
 }
 
 std::string section(std::string_view title, const std::deque<Option>& options) {
@@ -47,7 +47,7 @@ std::string heading(const Option& option) {
 
 std::string help_text(const Command& command) {
   return fmt::format("Examples\n{}\n{}\n\nUsage\n{}{}{}", command.page.examples,
-                     wrap(command.page.about, width), command.page.usage,
+                     wrapped(command.page.about, width), command.page.usage,
                      section("Arguments", command.arguments), section("Options", command.options));
 }
 

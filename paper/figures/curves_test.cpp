@@ -9,7 +9,7 @@
 namespace clackers::paper {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(FreeFlight, FollowsItsClosedFormula) {
   const auto test_case = cases::make("three-parameter", {{"N", 1.0}, {"xi1", 0.6}});

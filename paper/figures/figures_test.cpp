@@ -12,7 +12,7 @@
 namespace clackers::paper {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Linear between points.
 double at(const Series& series, double x) {

@@ -13,11 +13,11 @@ namespace clackers::paper {
 namespace {
 
 constexpr double X = 21.0;  // N = 5
-constexpr double xi1 = 0.05;
+constexpr double miss_xi1 = 0.05;
 constexpr int points = 2000;
 
 cases::Case pair(double damping) {
-  return cases::make("three-parameter", {{"N", 5.0}, {"xi1", damping}});
+  return cases::make("three-parameter", {{"N", 5.0}, {"miss_xi1", damping}});
 }
 
 struct Nearest {
@@ -25,7 +25,7 @@ struct Nearest {
 };
 
 // Over the first flight, evaluated from the two masses' own m, c, k.
-Nearest nearest(const cases::Case& test_case) {
+Nearest nearest_miss(const cases::Case& test_case) {
   const FreeFlight one(test_case, 1), two(test_case, 2);
   const double t1 = constant(test_case, "t_1");
   Nearest out;
@@ -43,7 +43,7 @@ Claim damping_cancels() {
   double worst = 0.0;
   std::string found;
   for (const double damping : dampings) {
-    const auto share = nearest(pair(damping)).share;
+    const auto share = nearest_miss(pair(damping)).share;
     found += fmt::format("{}{:.6f}", found.empty() ? "" : ", ", share);
     worst = std::max(worst, std::abs(share - proved));
   }
@@ -59,7 +59,7 @@ Claim damping_cancels() {
 }  // namespace
 
 Figure near_miss() {
-  const auto test_case = pair(xi1);
+  const auto test_case = pair(miss_xi1);
   const FreeFlight one(test_case, 1), two(test_case, 2);
   const double t1 = constant(test_case, "t_1"), omega2 = constant(test_case, "omega_D2");
   const double r_star = cases::admissibility(X, 3.0).r_star;
@@ -74,7 +74,7 @@ Figure near_miss() {
     second.y.push_back(two.u(t));
     grazing.y.push_back(two.u(t) * r_star / 3.0);
   }
-  const auto near = nearest(test_case);
+  const auto near = nearest_miss(test_case);
   Panel panel;
   panel.x = time_axis(from, to);
   panel.y = displacement_axis();

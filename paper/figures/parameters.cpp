@@ -31,7 +31,7 @@ struct Sequence {
   }
 };
 
-constexpr std::array letters{"a", "b", "c"};
+constexpr std::array panel_letters{"a", "b", "c"};
 constexpr std::array Ns{2, 5, 20};
 
 struct Member {
@@ -67,7 +67,7 @@ Figure effect_of_N() {
   Sequence frequency{{}, "rad/s"}, amplitude{{}, "m"}, stiffness;
   for (std::size_t i = 0; i < Ns.size(); ++i) {
     const auto test_case = cases::make("one-parameter", {{"N", double(Ns[i])}});
-    figure.panels.push_back(response_panel(test_case, Quantity::displacement, letters[i],
+    figure.panels.push_back(response_panel(test_case, Quantity::displacement, panel_letters[i],
                                            fmt::format("N = {}", Ns[i]), {-0.4, 1.0}));
     frequency.values.push_back(constant(test_case, "omega_D2"));
     amplitude.values.push_back(std::abs(constant(test_case, "d2")));
@@ -94,7 +94,7 @@ Figure effect_of_damping() {
   for (std::size_t i = 0; i < Ns.size(); ++i)
     for (const double xi1 : damping) {
       const auto test_case = cases::make("two-parameter", {{"N", double(Ns[i])}, {"xi1", xi1}});
-      figure.panels.push_back(response_panel(test_case, Quantity::displacement, letters[i],
+      figure.panels.push_back(response_panel(test_case, Quantity::displacement, panel_letters[i],
                                              fmt::format("N = {}, ξ1 = {:.2f}", Ns[i], xi1),
                                              {-0.4, 1.0}));
       if (i == 0) {
@@ -130,7 +130,7 @@ Figure effect_of_duration() {
   for (std::size_t i = 0; i < factors.size(); ++i) {
     const auto test_case =
         cases::make("three-parameter", {{"N", 5.0}, {"xi1", 0.10}, {"a_t", factors[i]}});
-    figure.panels.push_back(response_panel(test_case, Quantity::displacement, letters[i],
+    figure.panels.push_back(response_panel(test_case, Quantity::displacement, panel_letters[i],
                                            fmt::format("a_t = {}", factors[i]), {-0.2, 1.0}));
     oscillations.values.push_back(constant(test_case, "I_OC"));
     collisions.values.push_back(constant(test_case, "collisions"));

@@ -17,11 +17,9 @@ struct Ended {
   std::string messages;  ///< what it wrote to standard error
 };
 
-/// Runs `arguments.front()`, looked up on the PATH, without input and output; its standard error
-/// goes through the file `messages`. It is killed when `interrupt` becomes true and after `limit`.
+/// Runs `arguments.front()`, looked up on the PATH, without input and output. It is killed when `interrupt` becomes true and after `limit`.
 /// Nothing when there is no such program. Throws FileError when no process can be started.
 std::optional<Ended> run_program(const std::vector<std::string>& arguments,
-                                 const std::string& messages,
                                  const std::atomic<bool>* interrupt = nullptr,
                                  std::chrono::seconds limit = std::chrono::minutes(10));
 

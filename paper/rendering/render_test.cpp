@@ -15,8 +15,6 @@ namespace fs = std::filesystem;
 
 class Programs : public FolderTest {
  protected:
-  std::string messages() const { return (folder_ / "messages").string(); }
-
   // A program of this name, the only one of our PATH besides the shell's own.
   void pretend(const std::string& name, const std::string& script) {
     fs::create_directory(folder_ / "bin");
@@ -28,27 +26,26 @@ class Programs : public FolderTest {
 };
 
 TEST_F(Programs, ExitCodeAndStandardErrorAreReturned) {
-  const auto ended = run_program({"sh", "-c", "echo out; echo wrong >&2; exit 3"}, messages());
+  const auto ended = run_program({"sh", "-c", "echo out; echo wrong >&2; exit 3"});
   ASSERT_TRUE(ended);
   EXPECT_EQ(ended->code, 3);
   EXPECT_EQ(ended->messages, "wrong\n");
-  EXPECT_EQ(run_program({"sh", "-c", "kill -9 $$"}, messages())->code, 137);
+  EXPECT_EQ(run_program({"sh", "-c", "kill -9 $$"})->code, 137);
 }
 
 TEST_F(Programs, ArgumentsArePassedUnchanged) {
-  EXPECT_EQ(run_program({"sh", "-c", "printf %s \"$1\" >&2", "sh", "a b'c"}, messages())->messages,
-            "a b'c");
+  EXPECT_EQ(run_program({"sh", "-c", "printf %s \"$1\" >&2", "sh", "a b'c"})->messages, "a b'c");
 }
 
 TEST_F(Programs, UnknownProgramGivesNothing) {
-  EXPECT_FALSE(run_program({"clackers-has-no-such-program"}, messages()));
+  EXPECT_FALSE(run_program({"clackers-has-no-such-program"}));
 }
 
 TEST_F(Programs, InterruptAndTimeLimitKillTheProgram) {
   const auto begin = std::chrono::steady_clock::now();
   const std::atomic<bool> interrupt{true};
-  EXPECT_EQ(run_program({"sleep", "20"}, messages(), &interrupt)->code, 137);
-  EXPECT_EQ(run_program({"sleep", "20"}, messages(), nullptr, std::chrono::seconds(0))->code, 137);
+  EXPECT_EQ(run_program({"sleep", "20"}, &interrupt)->code, 137);
+  EXPECT_EQ(run_program({"sleep", "20"}, nullptr, std::chrono::seconds(0))->code, 137);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 

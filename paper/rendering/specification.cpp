@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/number.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/report/markup.hpp"
 #include "paper/rendering/assets.hpp"
@@ -37,12 +37,7 @@ const Json& look(const char* part) {
 
 Json rounded(const std::vector<double>& values) {
   Json out = Json::array();
-  for (const double value : values) {
-    const auto text = fmt::format("{:.6g}", value);
-    double number = value;  // std::stod would throw for subnormal numbers
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    out.push_back(number);
-  }
+  for (const double value : values) out.push_back(clackers::rounded(value));
   return out;
 }
 

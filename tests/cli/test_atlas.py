@@ -140,8 +140,6 @@ class Refusals(AtlasTest):
                                 (("--exec", "./a {h}"), "--submit NAME"),
                                 (("--author", "A"), "--submit NAME"),
                                 (("--submit", "rk4", "--out", "x", "--merge", "y"), "give one of the two"),
-                                (("--submit", "a", "--out", "x", "--exec", "./a {h}", "--plugin", "b"),
-                                 "leave --exec or --plugin out"),
                                 (("--submit", "rk4", "--out", "x", "--expect", "exact"), "--exec")):
             self.refused("atlas", *arguments, code="bad-syntax", says=says)
 

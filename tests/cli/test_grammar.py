@@ -29,12 +29,12 @@ class Help(CommandTest):
                "paper": [],
                "campaign": ["--database", "--shard", "--jobs", "--yes", "--slurm", "--shards", "--sbatch", "--dry-run",
                             "--table", "--times"],
-               "atlas": ["--jobs", "--specification", "--submit", "--exec", "--plugin", "--expect", "--author",
+               "atlas": ["--jobs", "--specification", "--submit", "--exec", "--expect", "--author",
                          "--merge"],
                "respond": ["--problem", "--report", "--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--samples-per-level", "--neighbours",
-                          "--budget", "--exec", "--plugin", "--name", "--expect", "--tolerances", "--timeout",
+                          "--budget", "--exec", "--name", "--expect", "--tolerances", "--timeout",
                           "--work", "--fresh", "--jobs", "--require", "--baseline", "--only",
                           "--report"]}
         for command, options in own.items():

@@ -1,6 +1,7 @@
 """--problem: the problems of files, and cases whose problems have loads and springs."""
 import csv
 import io
+import json
 import math
 import os
 import tempfile
@@ -56,6 +57,15 @@ class Problem(CommandTest):
                 ("direction = [1, -1]", "direction = [1, -1", "bad-syntax", "pair.toml:")):
             self.write(PAIR.replace(old, new))
             self.refused("show", "--problem", self.file, code=code, says=says)
+
+    def test_may_be_what_show_writes(self):
+        shown = self.json_of("show", "--problem", self.file)["problem"]
+        self.write(self.good("show", "--problem", self.file, "--format", "json"))
+        self.assertEqual(self.json_of("show", "--problem", self.file)["problem"], shown)
+        self.write(json.dumps(shown).replace("-0.1", '"-1/10"'))
+        self.assertEqual(self.json_of("show", "--problem", self.file)["problem"], shown)
+        self.write(self.good("show", "penalized-pair", "--format", "json"))
+        self.refused("show", "--problem", self.file, code="linear-only", says="nonlinear force")
 
     def test_another_case_beside_it_is_refused(self):
         self.refused("show", "stop", "--problem", self.file, code="bad-syntax", says="leave stop out")

@@ -5,11 +5,13 @@ import os
 import shutil
 import sqlite3
 import subprocess
+import sys
 import tempfile
-import time
 import unittest
 
-PROGRAM = os.environ["CLACKERS"]
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
+from command import PROGRAM, CommandTest  # noqa: E402
+
 MPIRUN = shutil.which("mpirun")
 # More ranks than cores, and tests run as root.
 MPIRUN_OPTIONS = ("--allow-run-as-root", "--oversubscribe", "--bind-to", "none")
@@ -31,30 +33,10 @@ def mpi_command(ranks, *command):
 def mpirun(ranks, *command, **more):
     """The finished process. `mpirun -n 64 true`, too, hangs now and then: then it is started once more."""
     if not MPIRUN:
-        raise unittest.SkipTest("no mpirun: scripts/setup test")
+        raise unittest.SkipTest("no mpirun: scripts/setup all")
     with contextlib.suppress(subprocess.TimeoutExpired):
         return run(*mpi_command(ranks, *command), **more)
     return run(*mpi_command(ranks, *command), **more)
-
-
-class ClusterTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def text_of(self, name):
-        with open(self.path(name), encoding="utf-8") as file:
-            return file.read()
-
-    def wait_for(self, condition, seconds=30):
-        end = time.monotonic() + seconds
-        while not condition():
-            self.assertLess(time.monotonic(), end, "waited in vain")
-            time.sleep(0.02)
 
 
 SPECIFICATION = """\
@@ -70,7 +52,7 @@ set = { N = [0, 1, 2], xi1 = { from = 0.01, to = 0.2, points = %d } }
 """
 
 
-class CampaignTest(ClusterTest):
+class CampaignTest(CommandTest):
     """A campaign of a moment, one of seconds, and one that is always interrupted."""
 
     @classmethod

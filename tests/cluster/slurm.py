@@ -48,7 +48,7 @@ def skip_unless_possible():
     path = os.environ["PATH"] + ":/usr/sbin:/sbin"
     missing = [program for program in PROGRAMS if not shutil.which(program, path=path)]
     if missing:
-        raise unittest.SkipTest(f"not installed: {', '.join(missing)}; scripts/setup test")
+        raise unittest.SkipTest(f"not installed: {', '.join(missing)}; scripts/setup all")
 
 
 def free_ports(count):

@@ -2,13 +2,13 @@
 import os
 import unittest
 
-from cluster import ClusterTest, mpirun
+from cluster import CommandTest, mpirun
 
 PROGRAM = os.environ["CLACKERS_DISPATCH"]
 TASKS = 10000
 
 
-class Dispatch(ClusterTest):
+class Dispatch(CommandTest):
     def blocks(self):
         found = []
         for name in os.listdir(self.folder):

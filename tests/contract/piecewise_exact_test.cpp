@@ -11,12 +11,12 @@
 namespace clackers {
 namespace {
 
-struct Task {
+struct ExactTask {
   std::string name;
   cases::Settings settings;
 };
 
-class PiecewiseExactBeside : public testing::TestWithParam<Task> {};
+class PiecewiseExactBeside : public testing::TestWithParam<ExactTask> {};
 
 TEST_P(PiecewiseExactBeside, TheClosedFormCollidesAtTheSameTimes) {
   const auto which = cases::make(GetParam().name, GetParam().settings);
@@ -52,12 +52,12 @@ TEST_P(PiecewiseExactBeside, TheClosedFormCollidesAtTheSameTimes) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, PiecewiseExactBeside,
-    testing::Values(Task{"three-parameter", {{"N", 2.0}}}, Task{"three-parameter", {{"N", 5.0}}},
-                    Task{"three-parameter", {{"N", 100.0}, {"xi1", 0.0}, {"a_t", 1.0}}},
-                    Task{"synchronized-pair", {{"eta", 0.7}}},
-                    Task{"synchronized-pair", {{"X", 81.0}, {"r", 4.5}, {"eta", 0.97}}},
-                    Task{"synchronized-pair", {{"X", 3.0}, {"r", 0.5}, {"eta", 0.0}}},
-                    Task{"stop", {{"eta", 0.7}}}, Task{"symmetric-pair", {{"eta", 0.9}}}),
+    testing::Values(ExactTask{"three-parameter", {{"N", 2.0}}}, ExactTask{"three-parameter", {{"N", 5.0}}},
+                    ExactTask{"three-parameter", {{"N", 100.0}, {"xi1", 0.0}, {"a_t", 1.0}}},
+                    ExactTask{"synchronized-pair", {{"eta", 0.7}}},
+                    ExactTask{"synchronized-pair", {{"X", 81.0}, {"r", 4.5}, {"eta", 0.97}}},
+                    ExactTask{"synchronized-pair", {{"X", 3.0}, {"r", 0.5}, {"eta", 0.0}}},
+                    ExactTask{"stop", {{"eta", 0.7}}}, ExactTask{"symmetric-pair", {{"eta", 0.9}}}),
     [](const auto& which) {
       std::string name = which.param.name + std::to_string(which.index);
       std::replace(name.begin(), name.end(), '-', '_');

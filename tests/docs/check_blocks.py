@@ -40,7 +40,7 @@ ELSEWHERE = {
     r"clackers paper .*": "cli.test_paper",
     r"clackers atlas\b.*": "cli.test_atlas",
     r"clackers verify --exec '\./solver .*": "cli.test_exec",
-    r"(cc -O2 -shared|gdb --args clackers --plugin-run|clackers verify --plugin) .*": "cli.test_plugin",
+    r"(cc|gfortran) -O2 .*|\./newmark .*": "cli.test_step_functions",
     r"find_package\(.*": "package.test_cpp",
     r"target_link_libraries\(.*": "package.test_cpp",
 }

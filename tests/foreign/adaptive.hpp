@@ -3,6 +3,7 @@
 #include "simulate.hpp"
 
 // Steps that error control chooses.
+namespace foreign {
 
 /// Dormand-Prince with a tolerance; rows every `spacing`, impacts located on the step map.
 inline History run_adaptive(System s, const Options& o, double tolerance, double spacing) {
@@ -76,3 +77,5 @@ inline History run_adaptive(System s, const Options& o, double tolerance, double
   out.nodes = out.rows;
   return out;
 }
+
+}  // namespace foreign

@@ -6,6 +6,7 @@
 #include "system.hpp"
 
 // One-step maps from the textbooks. A step is pure, so that events are located on the step map.
+namespace foreign {
 
 struct State {
   double t = 0.0;
@@ -231,3 +232,5 @@ inline Step make_step(const Options& o) {
   if (name == "dopri5") return tableau(7, dopri_a, dopri_b);
   throw std::runtime_error("no method " + name);
 }
+
+}  // namespace foreign

@@ -6,6 +6,7 @@
 #include "integrators.hpp"
 
 // Runs of a solver with impacts: the ways in which programs of others treat contact.
+namespace foreign {
 
 struct History {
   std::vector<State> rows;     ///< at the times that are printed
@@ -24,7 +25,7 @@ inline void apply_impact(System& s, const Options& o, State& x, int number) {
   } else {
     x.v = x.v + impulse * w;
   }
-  if (o.has("c-after")) s.C = o.number("c-after", 1.0) * make_system(o).C;
+  if (o.has("c-after") && number == 1) s.C = o.number("c-after", 1.0) * s.C;
   x.h_before = 0.0;
   if (!o.has("stale")) x.a = s.acceleration(x.u, x.v, false);
 }
@@ -38,16 +39,17 @@ inline Vec hermite(Vec y0, Vec d0, Vec y1, Vec d1, double h, double tau) {
   return {hermite(y0.x, d0.x, y1.x, d1.x, h, tau), hermite(y0.y, d0.y, y1.y, d1.y, h, tau)};
 }
 
-/// Bisection of a function that is positive at 0 and negative at h, to a bracket of `width`.
+/// Bisection of a function that is positive at 0 and negative at h, to a bracket of `width`, whose
+/// `share` is returned: 1/2 its middle, 1 its end.
 template <class Function>
-double bisect(Function f, double h, double width) {
+double bisect(Function f, double h, double width, double share = 0.5) {
   double low = 0.0, high = h;
   while (high - low > width) {
     const double middle = 0.5 * (low + high);
     if (middle == low || middle == high) break;
     (f(middle) > 0.0 ? low : high) = middle;
   }
-  return 0.5 * (low + high);
+  return low + share * (high - low);
 }
 
 /// The state at the impact inside a step of `h` from x to y, located as the solver does it.
@@ -71,7 +73,7 @@ inline State locate(const System& s, const Options& o, const Step& step, const S
         hermite(x.v, s.acceleration(x.u, x.v, false), y.v, s.acceleration(y.u, y.v, false), h, tau);
   } else {  // on the step map
     tau = bisect([&](double at) { return guard(step(s, x, at).u); }, h,
-                 o.number("event-tolerance", 0.0));
+                 o.number("event-tolerance", 0.0), o.number("event-share", 0.5));
     z = step(s, x, tau);
   }
   return z;
@@ -188,3 +190,5 @@ inline History run_restarted(System s, const Options& o, double h) {
   out.nodes = out.rows;
   return out;
 }
+
+}  // namespace foreign

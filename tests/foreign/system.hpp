@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <string>
 
 // Linear algebra of two masses, options as key=value, and the systems of the paper from its formulas.
 // Nothing here comes from the library under test.
+namespace foreign {
 
 struct Vec {
   double x = 0.0, y = 0.0;
@@ -30,6 +32,13 @@ inline Vec solve(Mat p, Vec r) {
 /// key=value words of one line.
 struct Options {
   std::map<std::string, std::string> values;
+  explicit Options(const std::string& line) {
+    std::istringstream words(line);
+    for (std::string word; words >> word;) {
+      const auto cut = word.find('=');
+      values[word.substr(0, cut)] = cut == std::string::npos ? "1" : word.substr(cut + 1);
+    }
+  }
   bool has(const std::string& key) const { return values.count(key) != 0; }
   std::string text(const std::string& key, const std::string& otherwise) const {
     const auto found = values.find(key);
@@ -68,6 +77,24 @@ struct System {
   Mat stiffness(bool closed) const { return closed ? K + spring * outer(normal) : K; }
 };
 
+/// Makes it another system, as `o` says.
+inline void change(System& s, const Options& o) {
+  s.M.a *= o.number("m1*", 1.0);
+  s.M.d *= o.number("m2*", 1.0);
+  s.K.a *= o.number("k1*", 1.0);
+  s.K.d *= o.number("k2*", 1.0);
+  s.C.a *= o.number("c1*", 1.0) * o.number("c*", 1.0);
+  s.C.d *= o.number("c2*", 1.0) * o.number("c*", 1.0);
+  s.eta = o.number("solver-eta", s.eta);
+  if (o.has("rest")) s.v0 = {};
+  if (o.has("no-contact")) s.contact = false;
+  s.clearance = o.number("clearance", 0.0);
+  s.spring = o.number("spring", 0.0);
+  s.dashpot = o.number("dashpot", 0.0);
+  s.release = o.number("release", 0.0);
+  s.clip = o.has("clip");
+}
+
 /// The system that the solver should solve, section 2.2 of the paper, then the changes of `o`.
 inline System make_system(const Options& o) {
   System s;
@@ -91,20 +118,8 @@ inline System make_system(const Options& o) {
   s.v0 = -sigma * s.u0;
   s.eta = o.number("eta", 1.0);
   s.end = o.number("t_end", 20.0);
-  // Changes that make the solver a solver of another system.
-  s.M.a *= o.number("m1*", 1.0);
-  s.M.d *= o.number("m2*", 1.0);
-  s.K.a *= o.number("k1*", 1.0);
-  s.K.d *= o.number("k2*", 1.0);
-  s.C.a *= o.number("c1*", 1.0) * o.number("c*", 1.0);
-  s.C.d *= o.number("c2*", 1.0) * o.number("c*", 1.0);
-  s.eta = o.number("solver-eta", s.eta);
-  if (o.has("rest")) s.v0 = {};
-  if (o.has("no-contact")) s.contact = false;
-  s.clearance = o.number("clearance", 0.0);
-  s.spring = o.number("spring", 0.0);
-  s.dashpot = o.number("dashpot", 0.0);
-  s.release = o.number("release", 0.0);
-  s.clip = o.has("clip");
+  change(s, o);
   return s;
 }
+
+}  // namespace foreign

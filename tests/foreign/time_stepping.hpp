@@ -3,6 +3,7 @@
 #include "simulate.hpp"
 
 // Time stepping: impacts at velocity or position level, without their instants.
+namespace foreign {
 
 /// Moreau-Jean theta method, contact predicted at half a step.
 inline History run_moreau(const System& s, const Options& o, double h, long n) {
@@ -56,3 +57,5 @@ inline History run_paoli(const System& s, const Options&, double h, long n) {
   out.nodes = out.rows;
   return out;
 }
+
+}  // namespace foreign

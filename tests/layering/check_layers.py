@@ -5,7 +5,7 @@
 
 A module may include itself and the modules that its row names. A row names modules of earlier rows only,
 so the table has no cycles. Tests (*_test.cpp and testing/) may include any module; other files never
-include testing/. No file of methods/, tests included, may include exact/, certified/ or cases/: methods
+include testing/. No file of methods/, tests included, may include exact/ or cases/: methods
 never include the reference. The CMake target of a module links only modules that its row names.
 """
 import pathlib
@@ -14,7 +14,7 @@ import sys
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 SOURCES = {".cpp", ".hpp", ".h", ".hh", ".cc", ".cxx", ".hxx", ".inl", ".ipp", ".c", ".in"}
-REFERENCE = {"exact", "certified", "cases"}
+REFERENCE = {"exact", "cases"}
 
 
 def read_table(text):

@@ -80,16 +80,16 @@ class CLibrary(unittest.TestCase):
 
     def test_header_is_c99_and_cxx98(self):
         for language in (["-x", "c", "-std=c99"], ["-x", "c++", "-std=c++98", "-Wno-long-long"]):
-            for header in ("clackers.h", "clackers_solver.h"):
+            for header in ("clackers.h", "clackers_main.h"):
                 installed.run(installed.CC, "-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only", *language,
                               tree.prefix / "include" / header)
 
-    def test_plugin_is_built_with_pkg_config(self):
-        library = tree.folder / "newmark.so"
-        installed.run(installed.CC, *STRICT, "-shared", "-fPIC", *flags("--cflags"),
-                      installed.ROOT / "examples/plugins/newmark.c", "-o", library)
-        installed.run(tree.prefix / "bin/clackers", "verify", "--plugin", library, "--expect", "proper:2", "--case", "stop",
-                      "--set", "t_end=8", "--samples-per-level", "1", "--work", tree.folder / "work")
+    def test_step_function_is_built_with_pkg_config(self):
+        program = tree.folder / "newmark"
+        installed.run(installed.CC, *STRICT, *flags("--cflags"), installed.ROOT / "examples/step_functions/newmark.c", "-lm",
+                      "-o", program)
+        installed.run(tree.prefix / "bin/clackers", "verify", "--exec", f"{program} {{case:text}} {{n}} {{out}}", "--expect",
+                      "proper:2", "--case", "stop", "--set", "t_end=8", "--samples-per-level", "1", "--work", tree.folder / "work")
 
 
 if __name__ == "__main__":

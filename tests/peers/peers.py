@@ -1,23 +1,17 @@
 """What the tests beside this file share: the pair's numbers, a folder, and the command."""
 import json
 import os
-import subprocess
-import tempfile
-import unittest
+import sys
 
-PROGRAM = os.environ["CLACKERS"]
 HERE = os.path.dirname(os.path.abspath(__file__))
-
-
-def clackers(*arguments):
-    """The finished process, with its texts."""
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120)
+sys.path.append(os.path.join(HERE, "..", "cli"))
+from command import CommandTest, run  # noqa: E402
 
 
 def pair(*settings):
     """All constants of the default case by name: m1, k1, c1, "u1(0)", "d2", "v1(0)", eta, t_end, ..."""
     options = ["--set", ",".join(settings)] if settings else []
-    shown = clackers("show", "three-parameter", *options, "--format", "json")
+    shown = run("show", "three-parameter", *options, "--format", "json")
     constants = {}
     for sheet in json.loads(shown.stdout)["sheets"]:
         names = [column["name"] for column in sheet["columns"]]
@@ -32,20 +26,12 @@ def runs(subject):
     return [run for level in subject["levels"] for run in level["runs"]]
 
 
-class PeerTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class PeerTest(CommandTest):
     def checked(self, *arguments, exit_code=0):
         """The subject of the record of a check that must end with that exit code."""
-        done = clackers("check", *arguments, "--format", "json")
+        done = run("check", *arguments, "--format", "json")
         self.assertEqual((done.returncode, done.stderr), (exit_code, ""),
-                         clackers("check", *arguments).stdout)
+                         run("check", *arguments).stdout)
         return json.loads(done.stdout)["cases"][0]["subjects"][0]
 
     def assert_six_collisions(self, run, time_error):

@@ -48,7 +48,7 @@ class Subject:
 
     name: str
     kind: str
-    """``method``, ``callable``, ``program``, ``plugin`` or ``histories``."""
+    """``method``, ``callable``, ``program`` or ``histories``."""
     case: str
     """The name of the case."""
     verdict: str

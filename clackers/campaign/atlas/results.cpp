@@ -6,18 +6,17 @@
 #include <algorithm>
 #include <utility>
 
+#include "clackers/base/text.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/solvers/command_template.hpp"
 
 namespace clackers::campaign {
 namespace {
 
 std::string call_of(const MethodEntry& entry, const std::string& name) {
-  auto call = fmt::format("{} {} --name {}",
-                          entry.kind == MethodEntry::Kind::command ? "--exec" : "--plugin",
-                          solvers::shell_quoted(entry.text), solvers::shell_quoted(name));
-  if (!entry.expect.empty()) call += " --expect " + solvers::shell_quoted(entry.expect);
+  auto call = fmt::format("--exec {} --name {}", shell_quoted(entry.text),
+                          shell_quoted(name));
+  if (!entry.expect.empty()) call += " --expect " + shell_quoted(entry.expect);
   return call;
 }
 

@@ -12,7 +12,7 @@ void add(toml::array& list, const MethodEntry& entry) {
     return;
   }
   toml::table values;
-  values.insert(entry.kind == MethodEntry::Kind::command ? "exec" : "plugin", entry.text);
+  values.insert("exec", entry.text);
   if (!entry.name.empty()) values.insert("name", entry.name);
   if (!entry.expect.empty()) values.insert("expect", entry.expect);
   list.push_back(std::move(values));

@@ -1,19 +1,16 @@
 #include "clackers/campaign/ranks/launch.hpp"
 
-#include <charconv>
 #include <cstdlib>
-#include <string_view>
+#include <limits>
+
+#include "clackers/base/number.hpp"
 
 namespace clackers::campaign {
 namespace {
 
 int whole(const char* text) {
-  if (!text) return 1;
-  const std::string_view digits = text;
-  int number = 1;
-  const auto end = digits.data() + digits.size();
-  const auto read = std::from_chars(digits.data(), end, number);
-  return read.ec == std::errc() && read.ptr == end && number > 0 ? number : 1;
+  const auto number = text ? whole_number(text).value_or(1) : 1;
+  return number > 0 && number <= std::numeric_limits<int>::max() ? int(number) : 1;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "clackers/base/suggest.hpp"
+#include "clackers/base/files.hpp"
 #include "clackers/base/toml_reader.hpp"
 #include "clackers/campaign/specification.hpp"
 #include "clackers/campaign/specification/sampling.hpp"
@@ -68,15 +69,16 @@ class SpecificationReader : public TomlReader {
     out_.methods_.push_back(std::move(entry));
   }
   void add_solver(const toml::node& node, const toml::table& values) {
-    require_known(values, {"exec", "plugin", "name", "expect"}, " of a method");
+    if (values.contains("plugin"))
+      fail(node, std::string(solvers::instead_of_plugin), "unknown-name");
+    require_known(values, {"exec", "name", "expect"}, " of a method");
     const auto* exec = values.get("exec");
-    const auto* plugin = values.get("plugin");
-    if ((exec == nullptr) == (plugin == nullptr))
-      fail(node, "a table among methods has either exec or plugin; allowed: one of the two.",
+    if (exec == nullptr)
+      fail(node, "a table among methods has no exec; allowed: { exec = \"COMMAND\" }.",
            "bad-syntax");
     MethodEntry entry;
-    entry.kind = exec != nullptr ? MethodEntry::Kind::command : MethodEntry::Kind::plugin;
-    entry.text = exec != nullptr ? word(*exec, "exec") : word(*plugin, "plugin");
+    entry.kind = MethodEntry::Kind::command;
+    entry.text = word(*exec, "exec");
     if (const auto* name = values.get("name")) entry.name = word(*name, "name");
     if (const auto* expect = values.get("expect")) {
       entry.expect = word(*expect, "expect");
@@ -282,8 +284,7 @@ Specification Specification::from_toml(std::string_view text, const std::string&
 
 Specification Specification::read(const std::string& path) {
   return from_toml(
-      text_of_file(path, "A campaign's specification is a TOML file: clackers campaign --help"),
-      path);
+      read_file(path, "A campaign's specification is a TOML file: clackers campaign --help"), path);
 }
 
 }  // namespace clackers::campaign

@@ -1,4 +1,5 @@
 #include "clackers/diagnose/file/first_row.hpp"
+#include "clackers/base/constants.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 namespace clackers::diagnose {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double exact_tolerance = 1e-6;
 
 std::vector<double> numbers_of(const model::Trajectory& rows, std::size_t row) {

@@ -41,7 +41,7 @@ model::Trajectory written(const Reading& reading, const model::Trajectory& rows)
   return file;
 }
 
-bool symmetric(const cases::Case& problem) { return problem.entry->name == "symmetric-pair"; }
+bool symmetric_start(const cases::Case& problem) { return problem.entry->name == "symmetric_start-pair"; }
 
 TEST(StartCause, SaysNothingOfARightStart) {
   for (const auto& problem : assorted_cases())
@@ -123,7 +123,7 @@ TEST(StartCause, NamesExchangedMassesAndColumns) {
                    masses == 2 ? std::vector<std::string>{"t", "u1", "u2", "v1", "v2"}
                                : std::vector<std::string>{"t", "u", "v"});
       // Equal masses with opposite motions: exchanges and signs are one thing.
-      if (symmetric(problem)) {
+      if (symmetric_start(problem)) {
         EXPECT_TRUE(cause.has_value());
         continue;
       }
@@ -152,7 +152,7 @@ TEST(StartCause, NamesReversedSigns) {
   for (const auto& problem : assorted_cases())
     for (const auto& reading : reversals(std::size_t(problem.motion->dof()), true)) {
       const auto cause = cause_of(problem, written(reading, exact_rows(problem, 0.01)), 0.01);
-      if (symmetric(problem)) continue;
+      if (symmetric_start(problem)) continue;
       ASSERT_EQ(code_of(cause), "sign-reversed") << problem.entry->name;
       EXPECT_EQ(cause->text, reversed_columns(reading, std::size_t(problem.motion->dof())));
     }

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -34,8 +35,7 @@ TEST(CompliantContact, IsNamedWithItsDurationAndStiffness) {
       ++all;
       const double duration = steps * plan.steps.back();
       const double spring = spring_for(plan.problem.problem, duration);
-      const auto files = files_of(
-          plan, {.integrator = Integrator::rk4, .location = Location::spring, .spring = spring});
+      const auto files = files_of(plan, fmt::format("method=rk4 spring={}", spring));
       const auto causes = diagnose(files.question());
       ASSERT_FALSE(causes.empty());
       // Others may be true as well, as a frequency that a coarse method changes.
@@ -51,8 +51,7 @@ TEST(CompliantContact, IsNamedWithItsDurationAndStiffness) {
 TEST(CompliantContact, ThatNoStepResolvesIsNotNamed) {
   for (const auto& plan : elastic_plans()) {
     const double spring = spring_for(plan.problem.problem, 0.5 * plan.steps.back());
-    const auto files = files_of(
-        plan, {.integrator = Integrator::rk4, .location = Location::spring, .spring = spring});
+    const auto files = files_of(plan, fmt::format("method=rk4 spring={}", spring));
     EXPECT_FALSE(find(ladder_causes(files.question()), "contact-compliant"));
   }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "clackers/diagnose/system/hypotheses.hpp"
+#include "clackers/numerics/modal_flight.hpp"
 
 namespace clackers::diagnose {
 
@@ -11,14 +12,11 @@ namespace {
 constexpr double least_ratio = 1.8;
 constexpr double floors_above = 30.0;
 
-bool is_diagonal(const Eigen::MatrixXd& x) {
-  return x == Eigen::MatrixXd(x.diagonal().asDiagonal());
-}
-
 bool is_served(const model::ImpactProblem<>& problem) {
   const auto& s = problem.system;
-  return !s.add_load && !s.nonlinear && is_diagonal(s.mass) && is_diagonal(s.damping) &&
-         is_diagonal(s.stiffness) && s.stiffness.diagonal().minCoeff() > 0.0;
+  return !s.add_load && !s.nonlinear && numerics::is_diagonal(s.mass) &&
+         numerics::is_diagonal(s.damping) && numerics::is_diagonal(s.stiffness) &&
+         s.stiffness.diagonal().minCoeff() > 0.0;
 }
 
 }  // namespace

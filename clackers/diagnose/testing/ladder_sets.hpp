@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "clackers/diagnose/testing/foreign_solver.hpp"
@@ -40,14 +41,14 @@ inline LadderPlan ladder_plan(int number) {
 }
 
 /// The histories of a solver that was given `problem` instead of the plan's.
-inline Files files_of(const LadderPlan& plan, const ForeignSolver& solver,
+inline Files files_of(const LadderPlan& plan, const std::string& solver,
                       const model::ImpactProblem<>& problem) {
   Files files{plan.problem};
   for (const double step : plan.steps) files.add(history_of(solver, problem, step), step);
   return files;
 }
 
-inline Files files_of(const LadderPlan& plan, const ForeignSolver& solver) {
+inline Files files_of(const LadderPlan& plan, const std::string& solver) {
   return files_of(plan, solver, plan.problem.problem);
 }
 

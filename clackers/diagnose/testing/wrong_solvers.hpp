@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/diagnose/testing/foreign_solver.hpp"
 #include "clackers/diagnose/testing/histories.hpp"
-#include "clackers/diagnose/testing/integrators.hpp"
 
 namespace clackers::diagnose::testing {
 
@@ -18,8 +18,8 @@ struct Fault {
   const char* name;
   const char* code;
   double value;
-  /// Changes problem or solver; false where the case cannot have the fault.
-  std::function<bool(model::ImpactProblem<>&, Solver&)> put;
+  /// Changes problem or the words of the solver; false where the case cannot have the fault.
+  std::function<bool(model::ImpactProblem<>&, std::string&)> put;
 
   /// Half width in which the value must be found: a file of two equal masses cannot tell a sum from
   /// its parts better than this, and a method of order two errs by (w h)^2/12 = 2e-4.
@@ -30,7 +30,7 @@ struct Fault {
 
 inline std::vector<Fault> faults() {
   using P = model::ImpactProblem<>&;
-  using S = Solver&;
+  using S = std::string&;
   const auto collides = [](P p) { return !p.contacts.empty(); };
   const auto restitution = [](double d) {
     return [d](P p, S) {
@@ -70,7 +70,7 @@ inline std::vector<Fault> faults() {
   };
   const auto damping_after = [collides](double factor) {
     return [=](P p, S s) {
-      s.damping_after = factor;
+      s += " c-after=" + std::to_string(factor);
       return collides(p) && p.system.damping.norm() > 0.0;
     };
   };
@@ -101,9 +101,9 @@ inline std::vector<Fault> faults() {
        }},
       {"contacts close 50 mm late", "gap-differs", -0.05, gap(-0.05)},
       {"second impact missed", "impact-missed", 2.0,
-       [collides](P p, S s) { return s.missed = 2, collides(p); }},
+       [collides](P p, S s) { return s += " miss=2", collides(p); }},
       {"third impact missed", "impact-missed", 3.0,
-       [collides](P p, S s) { return s.missed = 3, collides(p); }},
+       [collides](P p, S s) { return s += " miss=3", collides(p); }},
       {"no contact", "impact-missed", NAN,
        [](P p, S) {
          const bool had = !p.contacts.empty();
@@ -111,47 +111,40 @@ inline std::vector<Fault> faults() {
          return had;
        }},
       {"first impact doubled", "impact-doubled", 1.0,
-       [collides](P p, S s) { return s.doubled = 1, collides(p); }},
+       [collides](P p, S s) { return s += " at=1 impulse-at=2", collides(p); }},
       {"third impact doubled", "impact-doubled", 3.0,
-       [collides](P p, S s) { return s.doubled = 3, collides(p); }},
+       [collides](P p, S s) { return s += " at=3 impulse-at=2", collides(p); }},
       {"impulses larger by 2 % of elastic ones", "impact-impulse-wrong", 1.02,
        [collides](P p, S s) {
-         s.impulse = 1.02;
+         s += " impulse=1.02";
          return collides(p) && p.contacts[0].restitution == 1.0;
        }},
-      {"rows late by a step", "time-shifted", 1.0, [](P, S s) { return s.late_steps = 1, true; }},
+      {"rows late by a step", "time-shifted", 1.0,
+       [](P, S s) { return s += " late-steps=1", true; }},
       {"rows late by two steps", "time-shifted", 2.0,
-       [](P, S s) { return s.late_steps = 2, true; }},
+       [](P, S s) { return s += " late-steps=2", true; }},
       // Without damping, or by less than the method errs, a frequency explains as much.
       {"clock slow by 5 %", "time-unit", 0.95,
-       [](P p, S s) { return s.clock = 0.95, p.system.damping.norm() > 0.0; }},
-      {"rows late by 5 ms", "time-shifted", 0.005, [](P, S s) { return s.late = 0.005, true; }},
+       [](P p, S s) { return s += " time-unit=0.95", p.system.damping.norm() > 0.0; }},
+      {"rows late by 5 ms", "time-shifted", 0.005,
+       [](P, S s) { return s += " late-seconds=0.005", true; }},
   };
 }
 
-struct RightSolver {
-  const char* name;
-  Solver solver;
-};
-
-inline std::vector<RightSolver> right_solvers() {
-  std::vector<RightSolver> all;
-  for (const auto& [name, step] : {std::pair<const char*, Step>{"Runge-Kutta 4", rk4},
-                                   {"Newmark", newmark(0.25, 0.5)},
-                                   {"linear acceleration", newmark(1.0 / 6.0, 0.5)},
-                                   {"HHT", hht(-0.2)},
-                                   {"Newmark, gamma 0.6", newmark(0.3025, 0.6)},
-                                   {"Verlet", verlet},
-                                   {"implicit Euler", implicit_euler},
-                                   {"symplectic Euler", symplectic_euler},
-                                   {"TR-BDF2", tr_bdf2}})
-    all.push_back({name, {.step = step}});
-  for (const auto location : {Location::linear, Location::end_of_step})
-    for (const auto& [name, step] : {std::pair<const char*, Step>{"Runge-Kutta 4", rk4},
-                                     {"Newmark", newmark(0.25, 0.5)},
-                                     {"Verlet", verlet}})
-      all.push_back({name, {.step = step, .location = location}});
-  all.push_back({"Runge-Kutta 4, event tolerance", {.tolerance = 1e-3}});
+inline std::vector<std::string> right_solvers() {
+  std::vector<std::string> all{"method=rk4",
+                               "method=newmark",
+                               "method=newmark beta=0.16666666666666666",
+                               "method=newmark beta=0",
+                               "method=newmark beta=0.3025 gamma=0.6",
+                               "method=hht alpha=-0.2",
+                               "method=implicit-euler",
+                               "method=symplectic-euler",
+                               "method=bathe",
+                               "method=rk4 event-tolerance=1e-5"};
+  for (const auto* contact : {" contact=linear-time", " contact=end-of-step"})
+    for (const std::string method : {"method=rk4", "method=newmark", "method=newmark beta=0"})
+      all.push_back(method + contact);
   return all;
 }
 
@@ -181,13 +174,13 @@ inline std::string name_of(const cases::Case& which) {
 /// Files of a solver for a problem that may be another than the case's, steps halved, the first
 /// `turn` radians of the fastest frequency. `digits` of the printed numbers.
 inline Files solved(const cases::Case& which, const model::ImpactProblem<>& problem,
-                    const Solver& solver, double turn, int count, int digits = 17) {
+                    const std::string& solver, double turn, int count, int digits = 17) {
   Files files{which};
   const double end = which.problem.end;
   double h = turn / fastest(which);
   for (int i = 0; i < count; ++i, h /= 2.0) {
     const double step = end / std::ceil(end / h);
-    auto rows = solve(solver, problem, step, end);
+    auto rows = history_of(solver, problem, step);
     if (digits < 17) print(rows, digits);
     files.add(rows, facts_of(which, rows, step, digits));
   }

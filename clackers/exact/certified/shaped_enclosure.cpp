@@ -18,8 +18,6 @@ using exact::RowParameters;
 namespace {
 
 // sin(odd pi / 2)
-double quarter_sine(double odd) { return std::fmod(odd, 4.0) == 1.0 ? 1.0 : -1.0; }
-
 // first, first f(1), first f(1) f(2), ... of the ratios f of numerator and denominator.
 template <class Numerator, class Denominator>
 std::vector<Ball> products(const Ball& first, int count, Numerator numerator,

@@ -17,7 +17,7 @@ using numerics::ModalSystem;
 
 namespace {
 
-constexpr const char* who = "event-driven motion";
+constexpr const char* event_driven_name = "event-driven motion";
 constexpr int most_root_steps = 100000;
 /// Gaps and rates below this share of their sizes are those of a contact without speed.
 constexpr double rounding_share = 1e-12;
@@ -217,7 +217,8 @@ void EventDrivenMotion::sample(std::span<const double> times, std::span<double> 
   std::size_t flight = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const double t = times[i];
-    if (!(t >= start() && t <= until_)) refuse(who, "t", t, "within the simulated time");
+    if (!(t >= start() && t <= until_))
+      refuse(event_driven_name, "t", t, "within the simulated time");
     if (t < flights_[flight].t) flight = 0;
     if (flight + 1 < flights_.size() && flights_[flight + 1].t <= t) {
       const auto after = std::upper_bound(flights_.begin() + std::ptrdiff_t(flight), flights_.end(),

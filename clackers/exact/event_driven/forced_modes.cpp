@@ -9,6 +9,7 @@
 #include <complex>
 #include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
@@ -20,8 +21,6 @@ using Vector = ForcedModes::Vector;
 using Complex = std::complex<double>;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // Symmetric; a product such as S' K S leaves 1e-12 of the largest eigenvalue.
 void require_no_negative_eigenvalue(std::string_view who, const char* name, const Matrix& x,

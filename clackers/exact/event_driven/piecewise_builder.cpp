@@ -7,6 +7,7 @@
 #include <complex>
 #include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/event_driven/piecewise_motion.hpp"
 #include "clackers/numerics/first_root.hpp"
@@ -21,12 +22,11 @@ using numerics::FirstRoot;
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int most_root_steps = 1000000;
+constexpr int most_search_steps = 1000000;
 constexpr std::size_t most_flights = 100000;
 constexpr double most_bytes = 2e9;
 /// Speeds below this share of their sizes are those of masses that stay together.
-constexpr double rounding_share = 1e-12;
+constexpr double touching_share = 1e-12;
 
 }  // namespace
 
@@ -131,7 +131,7 @@ class PiecewiseMotion::Builder {
       returned_ = false;
       const double fastest = std::max({modes().system().fastest(), highest_force(), 1e-3 / span});
       const double until = first ? std::min(span, *first * (1.0 + 4.0 * epsilon)) : span;
-      const auto root = numerics::first_root(watched, 0.0, until, 1e-7 / fastest, most_root_steps);
+      const auto root = numerics::first_root(watched, 0.0, until, 1e-7 / fastest, most_search_steps);
       if (root.status == FirstRoot::Status::undecided)
         throw InputError(
             fmt::format("{}: the flight from t = {:.6g} s is too long to be searched for "
@@ -234,12 +234,12 @@ class PiecewiseMotion::Builder {
 
   // A gap rate that is rounding of velocities of this size.
   double no_rate(std::size_t i, const VectorXd& velocities) const {
-    return rounding_share * problem_.contacts[i].direction.norm() * velocities.norm();
+    return touching_share * problem_.contacts[i].direction.norm() * velocities.norm();
   }
 
   // Nothing but rounding of the speed before the impact is left: a plastic impact at equilibrium.
   bool at_rest(const VectorXd& after, const VectorXd& before, const VectorXd& z) const {
-    const double small = rounding_share * before.cwiseAbs().maxCoeff();
+    const double small = touching_share * before.cwiseAbs().maxCoeff();
     const VectorXd u = modes().derivative(0) * z;
     return modes().forces().empty() && after.cwiseAbs().maxCoeff() <= small &&
            u.cwiseAbs().maxCoeff() * modes().system().fastest() <= small;

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 
 namespace clackers::exact {
@@ -16,12 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using model::Kinematics;
 using model::Side;
-
-namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 VectorXd PiecewiseMotion::total(const Flight& flight, double t) const {
   return modes_.steady(t) + modes_.advanced(flight.free, t - flight.t);

@@ -28,7 +28,7 @@ using testing_oracle::Real;
 using testing_oracle::trials;
 
 // The doubles of the problem, as they stand.
-RawPair raw(const model::ImpactProblem<>& problem) {
+RawPair raw_pair_of(const model::ImpactProblem<>& problem) {
   const auto& s = problem.system;
   RawPair pair{s.mass(0, 0),
                s.mass(1, 1),
@@ -140,7 +140,7 @@ TEST(PiecewiseMotion, IsTheSimulationWithNinetyDigitsWithinItsBound) {
     const auto text = test::refusal_of([&] { PiecewiseMotion{problem}; });
     if (text != "accepted") continue;
     ++members;
-    expect_simulated(PiecewiseMotion(problem), testing_oracle::ImpactSimulator(raw(problem)), 0.497,
+    expect_simulated(PiecewiseMotion(problem), testing_oracle::ImpactSimulator(raw_pair_of(problem)), 0.497,
                      seen);
   }
   EXPECT_GE(members, trials(50));

@@ -14,7 +14,7 @@ using numerics::Bounded;
 
 namespace {
 
-constexpr double largest_phase = 1e12;
+constexpr double largest_cradle_phase = 1e12;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ Cradle::Cradle(const CradleParameters& p, std::string_view who) {
   };
   masses_ = {mass("omega1", p.omega1, "xi1", p.xi1), mass("omega2", p.omega2, "xi2", p.xi2)};
   require_positive(who, "t_end", p.t_end);
-  if (const double fastest = std::max(p.omega1, p.omega2); p.t_end * fastest > largest_phase)
+  if (const double fastest = std::max(p.omega1, p.omega2); p.t_end * fastest > largest_cradle_phase)
     refuse(who, "t_end", p.t_end, "omega1 t_end <= 1e12 and omega2 t_end <= 1e12",
            "Beyond, phases are not known to the digits of a double.");
 

@@ -13,17 +13,17 @@ namespace clackers::exact {
 namespace {
 
 using std::numbers::pi_v;
-constexpr long double pi = pi_v<long double>;
+constexpr long double long_pi = pi_v<long double>;
 
 // -1/min of sin(X theta)/(X sin theta) by looking everywhere: 40 points a half wave of the fast
 // mass, then the lowest of them refined by golden section.
 double minimised_r_star(double X) {
   const auto ratio = [X](long double theta) { return std::sin(X * theta) / (X * std::sin(theta)); };
-  const long double step = pi / (40.0L * X);
+  const long double step = long_pi / (40.0L * X);
   long double best = step;
-  for (long double theta = step; theta <= pi / 2; theta += step)
+  for (long double theta = step; theta <= long_pi / 2; theta += step)
     if (ratio(theta) < ratio(best)) best = theta;
-  long double low = best - step, high = std::min(best + step, pi / 2 + step);
+  long double low = best - step, high = std::min(best + step, long_pi / 2 + step);
   for (int i = 0; i < 80; ++i) {
     const long double a = low + 0.381966L * (high - low), b = low + 0.618034L * (high - low);
     (ratio(a) < ratio(b) ? high : low) = ratio(a) < ratio(b) ? b : a;
@@ -71,7 +71,7 @@ long double searched_contact(long double X, long double r, long double s) {
     return std::cos(angle) + s * r / X * std::cos(X * angle);
   };
   if (gap(0.0L) <= 0.0L) return 0.0L;
-  const long double step = pi / (400.0L * X);
+  const long double step = long_pi / (400.0L * X);
   long double from = 0.0L;
   while (gap(from + step) > 0.0L) from += step;
   long double to = from + step;

@@ -6,11 +6,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "clackers/base/check.hpp"
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/numerics/modal_flight.hpp"
 #include "clackers/numerics/roots.hpp"
 
 namespace clackers::exact {
@@ -20,21 +21,19 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr const char* who = "penalized motion";
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr const char* penalized_name = "penalized motion";
 constexpr std::size_t most_contacts = 1000000;
-
-bool is_diagonal(const MatrixXd& x) { return x == MatrixXd(x.diagonal().asDiagonal()); }
 
 void require_kind(const model::ImpactProblem<>& problem) {
   validate(problem);
   if (problem.system.add_load || problem.system.nonlinear)
-    refuse(who, "system", "with a load or a nonlinear force", "linear, without a load", {},
-           "linear-only");
-  if (problem.start.t != 0.0) refuse(who, "start", problem.start.t, "0 s");
-  if (problem.contacts.size() != 1) refuse(who, "contacts", double(problem.contacts.size()), "one");
+    refuse(penalized_name, "system", "with a load or a nonlinear force", "linear, without a load",
+           {}, "linear-only");
+  if (problem.start.t != 0.0) refuse(penalized_name, "start", problem.start.t, "0 s");
+  if (problem.contacts.size() != 1)
+    refuse(penalized_name, "contacts", double(problem.contacts.size()), "one");
   if (problem.contacts[0].restitution != 1.0)
-    refuse(who, "restitution", problem.contacts[0].restitution,
+    refuse(penalized_name, "restitution", problem.contacts[0].restitution,
            "1, since a linear spring gives back what it takes", {}, "penalty-needs-elastic");
 }
 
@@ -44,14 +43,14 @@ PenalizedMotion::PenalizedMotion(const model::ImpactProblem<>& problem, double s
     : system_(problem.system),
       start_(problem.start),
       end_(problem.end),
-      stiffness_(require_positive(who, "stiffness", stiffness)) {
+      stiffness_(require_positive(penalized_name, "stiffness", stiffness)) {
   require_kind(problem);
   contact_ = problem.contacts[0];
   sigma_ = 0.5 * system_.damping(0, 0) / system_.mass(0, 0);
   const MatrixXd other = system_.damping - 2.0 * sigma_ * system_.mass;
   // c and m are each rounded once where the caller means the same sigma.
   if (!(other.cwiseAbs().maxCoeff() <= 8.0 * epsilon * system_.damping.cwiseAbs().maxCoeff()))
-    refuse(who, "damping", "not proportional to the mass", "C = 2 sigma M");
+    refuse(penalized_name, "damping", "not proportional to the mass", "C = 2 sigma M");
   regimes_[0] = regime(false);
   regimes_[1] = regime(true);
   shortest_step_ = 1e-6 / std::max(regimes_[0].omega.maxCoeff(), regimes_[1].omega.maxCoeff());
@@ -64,7 +63,7 @@ PenalizedMotion::PenalizedMotion(const model::ImpactProblem<>& problem, double s
     const double t = now.t + *s;
     if (t > end_) break;
     if (phases_.size() > 2 * most_contacts)
-      refuse(who, "end", end_, "as many seconds as 1e6 contacts take");
+      refuse(penalized_name, "end", end_, "as many seconds as 1e6 contacts take");
     modes(now, t - now.t, y, rate);
     const auto& regime = of(now);
     auto next =
@@ -89,14 +88,15 @@ PenalizedMotion::Regime PenalizedMotion::regime(bool closed) const {
   const VectorXd squares = solver.eigenvalues();
   const double slowest = squares.minCoeff() - sigma_ * sigma_;
   if (!(slowest > 0.0))
-    refuse(who, "square of the slowest damped frequency", slowest, "more than 0",
+    refuse(penalized_name, "square of the slowest damped frequency", slowest, "more than 0",
            "Every mode must be underdamped.");
   made.omega = squares.cwiseSqrt();
   made.w = (squares.array() - sigma_ * sigma_).sqrt();
   made.gap_shape = made.shapes.transpose() * b;
   // Eigenvalues of a full matrix have the absolute error of the largest, of which omega has half the
   // relative one.
-  const bool uncoupled = is_diagonal(made.stiffness) && is_diagonal(system_.mass);
+  const bool uncoupled =
+      numerics::is_diagonal(made.stiffness) && numerics::is_diagonal(system_.mass);
   made.omega_error = VectorXd::Constant(dof(), 4.0 * epsilon);
   if (!uncoupled)
     made.omega_error = made.omega_error.array() * squares.maxCoeff() / squares.array();
@@ -164,7 +164,7 @@ std::optional<double> PenalizedMotion::phase_end(const Phase& phase) const {
 }
 
 std::size_t PenalizedMotion::phase_at(double t) const {
-  model::require_inside(who, t, end_);
+  model::require_inside(penalized_name, t, end_);
   const auto after = std::ranges::upper_bound(phases_, t, {}, &Phase::t);
   return after == phases_.begin() ? 0 : static_cast<std::size_t>(after - phases_.begin()) - 1;
 }
@@ -172,7 +172,7 @@ std::size_t PenalizedMotion::phase_at(double t) const {
 void PenalizedMotion::sample(std::span<const double> times, model::Side,
                              model::SampleBuffers out) const {
   const auto n = static_cast<std::size_t>(dof());
-  model::require_buffers(who, out, times.size(), n);
+  model::require_buffers(penalized_name, out, times.size(), n);
   VectorXd y, rate;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Phase& phase = phases_[phase_at(times[i])];

@@ -3,8 +3,8 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/penalized/penalized_motion.hpp"
 
@@ -13,12 +13,6 @@ namespace clackers::exact {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using model::Side;
-
-namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 model::Kinematics PenalizedMotion::envelope(double t) const {
   const Phase& phase = phases_[phase_at(t)];

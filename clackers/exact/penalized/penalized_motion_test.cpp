@@ -13,8 +13,6 @@
 namespace clackers::exact {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 model::ImpactProblem<> pair(const PairParameters& parameters) {
   return SynchronizedPair(parameters).problem();
 }
@@ -102,7 +100,8 @@ TEST(PenalizedMotion, OfEqualFrequenciesTouchesWhenTheClosedFormSays) {
     const auto problem = pair({.xi1 = xi1, .X = 1.0, .r = r, .t_end = 40.0});
     const PenalizedMotion motion(problem, k);
     const double m2 = 1.0 / r, reduced = m2 / (1.0 + m2), Omega = std::sqrt(1.0 - xi1 * xi1);
-    const double flight = pi / Omega, contact = pi / std::sqrt(1.0 + k / reduced - xi1 * xi1);
+    const double flight = std::numbers::pi / Omega,
+                 contact = std::numbers::pi / std::sqrt(1.0 + k / reduced - xi1 * xi1);
     const auto count = motion.impact_count(40.0);
     EXPECT_EQ(count, 1 + static_cast<int>((40.0 - 0.5 * flight) / (flight + contact)));
     for (long long i = 1; i <= count; ++i) {

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 
 namespace clackers::exact {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double slow_over_fast(const FrequencyRatio& ratio, double r) {
   return ratio.is_inverse ? 1.0 / r : r;

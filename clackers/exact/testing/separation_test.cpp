@@ -10,7 +10,7 @@
 namespace clackers::exact {
 namespace {
 
-constexpr long double pi = std::numbers::pi_v<long double>;
+constexpr long double pi_long = std::numbers::pi_v<long double>;
 
 // Eq. (A.13) and (A.17), one function.
 long double D_prime(int N, long double angle) {
@@ -34,11 +34,12 @@ void at_instants(int first_flight, Visit visit) {
       const long double omega = std::sqrt(1.0L - static_cast<long double>(xi1) * xi1);
       for (int j = first_flight; j <= first_flight + 4; j += 2)
         for (const long double wish : {-1.5L, -0.9L, -0.31L, 0.0L, 0.2L, 0.77L, 1.56L}) {
-          const double t = double((j * pi + wish) / omega);
+          const double t = double((j * pi_long + wish) / omega);
           if (t < 0.0) continue;
           SCOPED_TRACE(testing::Message() << "N = " << N << " xi1 = " << xi1 << " t = " << t);
           const auto now = pair.at(t, model::Side::right);
-          visit(N, xi1, Instant{t, j * pi, omega * t - j * pi, omega}, now.u[0] - now.u[1]);
+          visit(N, xi1, Instant{t, j * pi_long, omega * t - j * pi_long, omega},
+                now.u[0] - now.u[1]);
         }
     }
 }
@@ -75,10 +76,10 @@ TEST(Separation, IsNotEqA12AsPrinted) {
 TEST(Separation, OfTheSecondCaseIsNotThatOfEqA16AsPrinted) {
   // 2 k pi for (2k + 1) pi in the exponent: too large by exp(xi1 pi / sqrt(1 - xi1^2)).
   at_instants(1, [](int N, double xi1, const Instant& at, double gap) {
-    const long double printed = std::exp(-xi1 * (at.shift - pi + at.angle) / at.omega);
+    const long double printed = std::exp(-xi1 * (at.shift - pi_long + at.angle) / at.omega);
     const long double factor = printed * D_prime(N, at.angle) / gap;
     // The smallest gap here is 2e-3 of the envelope, known to 2e-15 of it: bound().
-    EXPECT_NEAR(double(factor / std::exp(xi1 * pi / at.omega)), 1.0, 1e-12);
+    EXPECT_NEAR(double(factor / std::exp(xi1 * pi_long / at.omega)), 1.0, 1e-12);
   });
 }
 

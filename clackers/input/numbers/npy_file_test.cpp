@@ -37,7 +37,7 @@ Array all_of(NpyFile file) {
   return array;
 }
 
-Array read(const std::string& bytes) {
+Array read_npy(const std::string& bytes) {
   const TestFile file(bytes);
   return all_of(NpyFile(InputFile(file.path(), nullptr)));
 }
@@ -73,19 +73,19 @@ Array read_pipe(const std::string& bytes) {
 }
 
 const std::vector<Numbers> two_columns{{0.0, 0.5, 1.0}, {1.0, -2.0, 3.0}};
-const Numbers by_rows{0.0, 1.0, 0.5, -2.0, 1.0, 3.0}, by_columns{0.0, 0.5, 1.0, 1.0, -2.0, 3.0};
+const Numbers row_values{0.0, 1.0, 0.5, -2.0, 1.0, 3.0}, by_columns{0.0, 0.5, 1.0, 1.0, -2.0, 3.0};
 
 TEST(NpyFile, ReadsPlainArraysInBothOrdersFromFilesAndPipes) {
   for (const char version : {'\1', '\2', '\3'})
-    for (const auto& bytes : {npy("'<f8'", "(3, 2)", bytes_of(by_rows), false, version),
+    for (const auto& bytes : {npy("'<f8'", "(3, 2)", bytes_of(row_values), false, version),
                               npy("'<f8'", "(3, 2)", bytes_of(by_columns), true, version)}) {
-      EXPECT_EQ(read(bytes).columns, two_columns);
+      EXPECT_EQ(read_npy(bytes).columns, two_columns);
       EXPECT_EQ(read_pipe(bytes).columns, two_columns);
-      EXPECT_EQ(read(bytes).names, (std::vector<std::string>{"", ""}));
+      EXPECT_EQ(read_npy(bytes).names, (std::vector<std::string>{"", ""}));
     }
-  EXPECT_EQ(read(npy("'<f8'", "(3,)", bytes_of(by_rows).substr(0, 24))).columns,
+  EXPECT_EQ(read_npy(npy("'<f8'", "(3,)", bytes_of(row_values).substr(0, 24))).columns,
             (std::vector<Numbers>{{0.0, 1.0, 0.5}}));
-  EXPECT_TRUE(read(npy("'<f8'", "(0, 2)", "")).columns[0].empty());
+  EXPECT_TRUE(read_npy(npy("'<f8'", "(0, 2)", "")).columns[0].empty());
 }
 
 template <class Number>
@@ -93,7 +93,7 @@ void expect_read(const std::string& type) {
   const std::vector<Number> numbers{Number(1), Number(100), Number(-7)};
   for (const bool swapped : {false, true}) {
     SCOPED_TRACE(type);
-    const auto array = read(
+    const auto array = read_npy(
         npy(fmt::format("'{}{}'", swapped ? '>' : '<', type), "(3,)", bytes_of(numbers, swapped)));
     EXPECT_EQ(array.columns[0], (Numbers{1.0, 100.0, double(numbers[2])}));
   }
@@ -110,7 +110,7 @@ TEST(NpyFile, ReadsEveryNumberInBothByteOrders) {
   expect_read<std::uint16_t>("u2");
   expect_read<std::uint32_t>("u4");
   expect_read<std::uint64_t>("u8");
-  EXPECT_EQ(read(npy("'|i1'", "(1,)", "\x05")).columns[0], Numbers{5.0});
+  EXPECT_EQ(read_npy(npy("'|i1'", "(1,)", "\x05")).columns[0], Numbers{5.0});
 }
 
 TEST(NpyFile, ReadsFieldsOfStructuredArrays) {
@@ -121,7 +121,7 @@ TEST(NpyFile, ReadsFieldsOfStructuredArrays) {
   std::string row = bytes_of(std::vector<float>{0.5f}, true) + "????" +
                     bytes_of(Numbers{1.0, 2.0}) + std::string(4 + 32, 'x') +
                     bytes_of(std::vector<std::int16_t>{-3});
-  const auto array = read(npy(type, "(2,)", row + row));
+  const auto array = read_npy(npy(type, "(2,)", row + row));
   EXPECT_EQ(array.names, (std::vector<std::string>{"t", "u1", "u2", "label", "m", "n"}));
   EXPECT_EQ(array.columns[0], (Numbers{0.5, 0.5}));
   EXPECT_EQ(array.columns[1], (Numbers{1.0, 1.0}));
@@ -140,7 +140,7 @@ TEST(NpyFile, ReadsManyRowsInBlocks) {
   const auto shape = fmt::format("({}, 2)", rows);
   const auto given = npy("'<f8'", shape, bytes_of(numbers)),
              other = npy("'<f8'", shape, bytes_of(transposed), true);
-  for (const auto& array : {read(given), read_pipe(given), read(other), read_pipe(other)}) {
+  for (const auto& array : {read_npy(given), read_pipe(given), read_npy(other), read_pipe(other)}) {
     EXPECT_GT(array.blocks, 2u);
     ASSERT_EQ(array.columns[1].size(), rows);
     for (std::size_t i = 0; i < rows; ++i) {
@@ -152,35 +152,35 @@ TEST(NpyFile, ReadsManyRowsInBlocks) {
 
 TEST(NpyFile, RefusesCutAndLongFilesFromFilesAndPipes) {
   for (const bool order : {false, true}) {
-    const auto whole = npy("'<f8'", "(3, 2)", bytes_of(by_rows), order);
+    const auto whole = npy("'<f8'", "(3, 2)", bytes_of(row_values), order);
     for (const auto& cut :
          {whole.substr(0, whole.size() - 1), whole.substr(0, whole.size() - 48)}) {
-      EXPECT_REFUSED(read(cut), "not-an-array", "ends before the last of its 3 rows");
+      EXPECT_REFUSED(read_npy(cut), "not-an-array", "ends before the last of its 3 rows");
       EXPECT_REFUSED(read_pipe(cut), "not-an-array", "ends before the last of its 3 rows");
     }
-    EXPECT_REFUSED(read(whole + whole), "not-an-array", "goes on behind the 3 rows");
+    EXPECT_REFUSED(read_npy(whole + whole), "not-an-array", "goes on behind the 3 rows");
     EXPECT_REFUSED(read_pipe(whole + whole), "not-an-array", "goes on behind the 3 rows");
     for (const std::size_t size : {6u, 8u, 9u, 10u, 40u}) {
-      EXPECT_REFUSED(read(whole.substr(0, size)), "not-an-array", "ends within its header");
+      EXPECT_REFUSED(read_npy(whole.substr(0, size)), "not-an-array", "ends within its header");
       EXPECT_REFUSED(read_pipe(whole.substr(0, size)), "not-an-array", "ends within its header");
     }
   }
   // The length says four gigabytes.
-  auto large = npy("'<f8'", "(3, 2)", bytes_of(by_rows), false, 2);
+  auto large = npy("'<f8'", "(3, 2)", bytes_of(row_values), false, 2);
   large.replace(8, 4, 4, '\xff');
-  EXPECT_REFUSED(read(large), "not-an-array", "ends within its header");
+  EXPECT_REFUSED(read_npy(large), "not-an-array", "ends within its header");
 }
 
 TEST(NpyFile, ReadsHeadersLongerThanVersion1Holds) {
   const auto header =
       "{'descr': '<f8', 'fortran_order': False, 'shape': (1,)}" + std::string(300'000, ' ') + "\n";
-  EXPECT_EQ(read(npy_with_header(header, bytes_of(Numbers{7.0}), 2)).columns[0], Numbers{7.0});
+  EXPECT_EQ(read_npy(npy_with_header(header, bytes_of(Numbers{7.0}), 2)).columns[0], Numbers{7.0});
 }
 
 TEST(NpyFile, RefusesOtherVersions) {
-  EXPECT_REFUSED(read(npy("'<f8'", "(1,)", bytes_of(Numbers{1.0}), false, 4)), "not-an-array",
+  EXPECT_REFUSED(read_npy(npy("'<f8'", "(1,)", bytes_of(Numbers{1.0}), false, 4)), "not-an-array",
                  "version 4.0 of NumPy's format; allowed: 1 to 3");
-  EXPECT_REFUSED(read(npy("'<f8'", "(1,)", bytes_of(Numbers{1.0}), false, 0)), "not-an-array",
+  EXPECT_REFUSED(read_npy(npy("'<f8'", "(1,)", bytes_of(Numbers{1.0}), false, 0)), "not-an-array",
                  "version 0.0");
 }
 

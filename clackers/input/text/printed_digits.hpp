@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "clackers/input/text/number.hpp"
+#include "clackers/base/number.hpp"
 
 namespace clackers::input {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "clackers/base/error.hpp"
-#include "clackers/input/text/number.hpp"
+#include "clackers/base/number.hpp"
 
 namespace clackers::input {
 namespace {
@@ -123,7 +123,7 @@ bool TextTable::next() {
 
 void TextTable::read_number(std::size_t column, Number& number) {
   const auto text = fields_[column];
-  const auto error = read(text, number);
+  const auto error = read_decimal(text, number);
   if (error == NumberError::none) return;
   const auto who = place();
   const auto quoted = fmt::format("\"{}\"", text);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "clackers/base/number.hpp"
 #include "clackers/input/testing/test_file.hpp"
-#include "clackers/input/text/number.hpp"
 
 namespace clackers::input {
 namespace {

@@ -8,14 +8,13 @@
 #include <utility>
 
 #include "clackers/base/codes.hpp"
+#include "clackers/base/constants.hpp"
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 #include "clackers/judge/convergence/judge_evidence.hpp"
 #include "clackers/judge/convergence/ladder_fit.hpp"
 
 namespace clackers::judge {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 template <class Measure>
 LadderFit fit(const measure::Ladder& ladder, const FitContext& context, const Measure& measure) {

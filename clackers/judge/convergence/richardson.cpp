@@ -10,7 +10,7 @@
 namespace clackers::judge {
 namespace {
 
-constexpr auto who = "Richardson extrapolation";
+constexpr auto richardson_name = "Richardson extrapolation";
 
 using Values = std::vector<double>;
 
@@ -73,9 +73,9 @@ Richardson unbounded(std::string_view reason) {
 
 Richardson extrapolate(std::span<const Response> runs, const SelfContext& context,
                        std::optional<double> next_order) {
-  const double q = require_positive(who, "claimed order", context.claimed_order);
+  const double q = require_positive(richardson_name, "claimed order", context.claimed_order);
   if (next_order && !(*next_order > q))
-    refuse(who, "order of the next term", *next_order, "above the claimed order");
+    refuse(richardson_name, "order of the next term", *next_order, "above the claimed order");
   std::vector<ResponseLevel> levels;
   for (const auto& run : runs) levels.push_back({run});
   const auto self = self_convergence(levels, context);

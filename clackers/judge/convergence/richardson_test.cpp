@@ -16,7 +16,7 @@ using namespace synthetic;
 using std::pow;
 using Values = std::vector<double>;
 
-constexpr SelfContext second{.claimed_order = 2.0};
+constexpr SelfContext second_order{.claimed_order = 2.0};
 
 std::vector<Response> sequence(const std::function<Values(double)>& at, int levels = 8) {
   return chain(runs(at, levels));
@@ -26,7 +26,7 @@ TEST(Richardson, APurePowerIsExtrapolatedToItsLimit) {
   const auto found = extrapolate(sequence([](double h) {
                                    return Values{5.0 + h * h, -h * h};
                                  }),
-                                 second, 3.0);
+                                 second_order, 3.0);
   ASSERT_TRUE(found.bounded);
   EXPECT_NEAR(found.value[0], 5.0, 1e-14);
   EXPECT_NEAR(found.value[1], 0.0, 1e-14);
@@ -46,7 +46,7 @@ TEST(Richardson, TheBoundHoldsAndTheEstimateIsCloseForRandomExpansions) {
         sequence([&](double h) {
           return Values{1.0 + a * h * h + c * h * h * h, 2.0 + b * h * h + d * h * h * h};
         }),
-        second, 3.0);
+        second_order, 3.0);
     if (!found.bounded) continue;
     ++bounded;
     const double off = std::max(std::abs(found.value[0] - 1.0), std::abs(found.value[1] - 2.0));
@@ -59,7 +59,7 @@ TEST(Richardson, TheBoundHoldsAndTheEstimateIsCloseForRandomExpansions) {
 
 TEST(Richardson, TheMidpointRuleGainsTwoOrders) {
   const auto found = extrapolate(
-      chain(runs([](double h) { return Values{midpoint(h)}; }, 7, 1, 0.2)), second, 4.0);
+      chain(runs([](double h) { return Values{midpoint(h)}; }, 7, 1, 0.2)), second_order, 4.0);
   ASSERT_TRUE(found.bounded);
   const double off = std::abs(found.value[0] - std::cos(3.0));
   EXPECT_LT(off, 1e-3 * found.bound);
@@ -70,7 +70,7 @@ TEST(Richardson, UnevenRatiosAreTakenAsTheyAre) {
   std::vector<Response> made;
   for (const double h : {0.1, 0.07, 0.03, 0.02, 0.008, 0.003})
     made.push_back({h, {1.0 - 2.0 * h * h, 0.5 + h * h}, 0.0});
-  const auto found = extrapolate(made, second);
+  const auto found = extrapolate(made, second_order);
   ASSERT_TRUE(found.bounded);
   EXPECT_NEAR(found.value[0], 1.0, 1e-14);
   EXPECT_NEAR(found.bound, 2.0 * 0.003 * 0.003, 1e-14);
@@ -82,8 +82,8 @@ TEST(Richardson, AnErrorWhoseSignFlipsIsRefusedAlthoughItsDifferencesAreProper) 
   const auto made = sequence([&](double h) { return Values{(++level % 2 ? 1 : -1) * h * h}; });
   std::vector<ResponseLevel> levels;
   for (const auto& run : made) levels.push_back({run});
-  EXPECT_TRUE(self_convergence(levels, second).proper);
-  const auto found = extrapolate(made, second);
+  EXPECT_TRUE(self_convergence(levels, second_order).proper);
+  const auto found = extrapolate(made, second_order);
   EXPECT_FALSE(found.bounded);
   EXPECT_EQ(found.reason, "differences-turn");
   // Rightly: extrapolation would leave 2/3 of h^2 of the coarser run, the bound says 5/12.
@@ -95,7 +95,7 @@ TEST(Richardson, DifferencesThatTurnInDirectionAreRefused) {
     ++level;
     return Values{level % 2 ? h * h : 0.0, level % 2 ? 0.0 : h * h};
   });
-  EXPECT_EQ(extrapolate(turning, second).reason, "differences-turn");
+  EXPECT_EQ(extrapolate(turning, second_order).reason, "differences-turn");
 }
 
 TEST(Richardson, TheDepartureAllowedIsTheOneOfTheProof) {
@@ -112,13 +112,13 @@ TEST(Richardson, TheDepartureAllowedIsTheOneOfTheProof) {
       // Flips each time: departs by 2 of its own size, theta / 2 of the whole.
       u[1] += 0.5 * theta * other;
     }
-    EXPECT_EQ(extrapolate(made, second).bounded, theta < 0.6);
+    EXPECT_EQ(extrapolate(made, second_order).bounded, theta < 0.6);
   }
 }
 
 TEST(Richardson, AnImproperSequenceIsRefusedWithItsReason) {
   const auto reason = [](const std::function<Values(double)>& at, int levels = 8) {
-    const auto found = extrapolate(sequence(at, levels), second);
+    const auto found = extrapolate(sequence(at, levels), second_order);
     EXPECT_FALSE(found.bounded);
     EXPECT_TRUE(found.value.empty());
     return found.reason;
@@ -132,9 +132,9 @@ TEST(Richardson, AnImproperSequenceIsRefusedWithItsReason) {
 
 TEST(Richardson, RoundingEndsTheRangeAndIsPartOfTheBound) {
   auto made = sequence([](double h) { return Values{1.0 + h * h}; }, 10);
-  const auto clean = extrapolate(made, second);
+  const auto clean = extrapolate(made, second_order);
   for (auto& run : made) run.floor = 1e-9;
-  const auto rough = extrapolate(made, second);
+  const auto rough = extrapolate(made, second_order);
   ASSERT_TRUE(rough.bounded);
   EXPECT_NEAR(rough.bound - clean.bound, 5.0 / 3.0 * 1e-9, 1e-12);
 }
@@ -142,7 +142,7 @@ TEST(Richardson, RoundingEndsTheRangeAndIsPartOfTheBound) {
 TEST(Richardson, RefusesToWorkWithoutAnOrder) {
   const auto made = sequence([](double h) { return Values{h * h}; });
   EXPECT_THROW(extrapolate(made, {}), InputError);
-  EXPECT_THROW(extrapolate(made, second, 2.0), InputError);
+  EXPECT_THROW(extrapolate(made, second_order, 2.0), InputError);
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "clackers/base/check.hpp"
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/judge/convergence/judge.hpp"
 #include "clackers/judge/convergence/ladder_fit.hpp"
@@ -12,33 +12,33 @@
 namespace clackers::judge {
 namespace {
 
-constexpr auto who = "self-convergence";
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr auto self_convergence_name = "self-convergence";
 
 void validate(std::span<const ResponseLevel> runs, const SelfContext& context) {
-  require_positive(who, "size of the motion", context.size);
+  require_positive(self_convergence_name, "size of the motion", context.size);
   std::size_t values = 0;
   double ratio = 0.0;
   for (std::size_t j = 0; j < runs.size(); ++j) {
     if (runs[j].size() != runs.front().size())
-      refuse(who, "number of runs in a level", double(runs[j].size()), "as many as in the first",
-             {}, "wrong-size");
+      refuse(self_convergence_name, "number of runs in a level", double(runs[j].size()),
+             "as many as in the first", {}, "wrong-size");
     for (std::size_t k = 0; k < runs[j].size(); ++k) {
       const auto& run = runs[j][k];
-      require_step(who, run.step);
-      if (!(run.floor >= 0.0)) refuse(who, "rounding floor", run.floor, "0 or more");
+      require_step(self_convergence_name, run.step);
+      if (!(run.floor >= 0.0))
+        refuse(self_convergence_name, "rounding floor", run.floor, "0 or more");
       if (values == 0) values = run.values.size();
       if (!run.values.empty() && run.values.size() != values)
-        refuse(who, "number of values of a run", double(run.values.size()),
+        refuse(self_convergence_name, "number of values of a run", double(run.values.size()),
                "as many as of the others", "Compare runs at equal times.", "wrong-size");
       if (j == 0) continue;
       const double here = runs[j - 1][k].step / run.step;
       if (!(here > 1.0))
-        refuse(who, "a step", run.step, "below that of the level before it",
+        refuse(self_convergence_name, "a step", run.step, "below that of the level before it",
                "Give the levels coarsest first.");
       if (ratio == 0.0) ratio = here;
       if (!(context.claimed_order > 0.0) && std::abs(here / ratio - 1.0) > 0.01)
-        refuse(who, "ratio of successive steps", here, "one ratio within 1 %",
+        refuse(self_convergence_name, "ratio of successive steps", here, "one ratio within 1 %",
                "Uneven steps need the order that the method claims.");
     }
   }
@@ -98,8 +98,8 @@ LadderFit true_convergence(std::span<const ResponseLevel> runs, std::span<const 
     errors.emplace_back();
     for (const auto& run : level) {
       if (!run.values.empty() && run.values.size() != exact.size())
-        refuse(who, "number of exact values", double(exact.size()), "as many as of the runs", {},
-               "wrong-size");
+        refuse(self_convergence_name, "number of exact values", double(exact.size()),
+               "as many as of the runs", {}, "wrong-size");
       errors.back().push_back(
           {run.step, distance(run.values, exact) / context.size, run.floor / context.size});
     }

@@ -14,18 +14,18 @@ using namespace synthetic;
 using std::pow;
 using Values = std::vector<double>;
 
-constexpr SelfContext second{.claimed_order = 2.0};
+constexpr SelfContext claims_second{.claimed_order = 2.0};
 
 SelfAgainstReference against(const std::vector<ResponseLevel>& made, double exact,
-                             const SelfContext& context = second) {
+                             const SelfContext& context = claims_second) {
   return compare(self_convergence(made, context), true_convergence(made, Values{exact}, context));
 }
 
 TEST(SelfAgainstReference, ARightModelIsToldTruly) {
   const auto made = runs([](double h) { return Values{midpoint(h)}; }, 7, 1, 0.2);
-  const auto reference = true_convergence(made, Values{std::cos(3.0)}, second);
+  const auto reference = true_convergence(made, Values{std::cos(3.0)}, claims_second);
   EXPECT_BEHAVIOUR(reference, Behaviour::proper, "");
-  const auto both = compare(self_convergence(made, second), reference);
+  const auto both = compare(self_convergence(made, claims_second), reference);
   EXPECT_FALSE(both.false_convergence);
   EXPECT_EQ(both.reason, "");
   EXPECT_NEAR(both.error_ratio, 1.0, 0.01);
@@ -33,9 +33,9 @@ TEST(SelfAgainstReference, ARightModelIsToldTruly) {
 
 TEST(SelfAgainstReference, AModelOnePercentTooStiffConvergesProperlyToAWrongLimit) {
   const auto made = runs([](double h) { return Values{midpoint(h, 1.01)}; }, 8, 1, 0.2);
-  const auto self = self_convergence(made, second);
+  const auto self = self_convergence(made, claims_second);
   EXPECT_TRUE(self.proper);
-  const auto both = compare(self, true_convergence(made, Values{std::cos(3.0)}, second));
+  const auto both = compare(self, true_convergence(made, Values{std::cos(3.0)}, claims_second));
   EXPECT_TRUE(both.false_convergence);
   EXPECT_EQ(both.reason, "wrong-limit");
   // cos(3 sqrt(1.01)) - cos 3 = -0.0020.
@@ -44,9 +44,9 @@ TEST(SelfAgainstReference, AModelOnePercentTooStiffConvergesProperlyToAWrongLimi
 TEST(SelfAgainstReference, AnErrorThatHidesFromTheDifferencesIsFound) {
   // A part that falls like h^0.02 changes by 1.4 % a level: its differences stay below the others.
   const auto made = runs([](double h) { return Values{h * h + 2e-6 * pow(h, 0.02)}; }, 6, 1, 0.1);
-  const auto self = self_convergence(made, second);
+  const auto self = self_convergence(made, claims_second);
   EXPECT_TRUE(self.proper);
-  const auto both = compare(self, true_convergence(made, Values{-5e-5}, second));
+  const auto both = compare(self, true_convergence(made, Values{-5e-5}, claims_second));
   EXPECT_TRUE(both.false_convergence);
   EXPECT_GT(both.error_ratio, 2.0);
 }
@@ -68,7 +68,7 @@ TEST(SelfAgainstReference, RunsThatAgreeOnSomethingTheReferenceDecidesNothingOfA
 TEST(SelfAgainstReference, GrowingErrorsUnderShrinkingDifferencesWouldHaveLied) {
   // U = h^2 around a reference that every refinement leaves further behind.
   auto made = runs([](double h) { return Values{h * h}; }, 8);
-  const auto self = self_convergence(made, second);
+  const auto self = self_convergence(made, claims_second);
   LadderFit reference;
   reference.behaviour = Behaviour::divergent;
   EXPECT_TRUE(compare(self, reference).false_convergence);

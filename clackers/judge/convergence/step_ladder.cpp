@@ -11,16 +11,16 @@
 namespace clackers::judge {
 namespace {
 
-constexpr auto who = "step ladder";
+constexpr auto step_ladder_name = "step ladder";
 
 void validate(const RefinementPlan& plan, double end) {
-  require_positive(who, "end", end);
-  require_step(who, plan.coarsest);
+  require_positive(step_ladder_name, "end", end);
+  require_step(step_ladder_name, plan.coarsest);
   if (plan.coarsest > end)
-    refuse(who, "coarsest", plan.coarsest, fmt::format("at most the length of the run, {} s", end),
-           {}, "step-not-positive");
-  if (plan.levels < 1) refuse(who, "levels", plan.levels, "1 or more");
-  require_within(who, "samples per level", plan.samples_per_level, 1, 64);
+    refuse(step_ladder_name, "coarsest", plan.coarsest,
+           fmt::format("at most the length of the run, {} s", end), {}, "step-not-positive");
+  if (plan.levels < 1) refuse(step_ladder_name, "levels", plan.levels, "1 or more");
+  require_within(step_ladder_name, "samples per level", plan.samples_per_level, 1, 64);
   const double share = double(plan.samples_per_level - 1) / plan.samples_per_level;
   const double finest = plan.coarsest * std::exp2(-(plan.levels - 1 + share));
   if (!(end / finest <= most_steps))
@@ -28,7 +28,8 @@ void validate(const RefinementPlan& plan, double end) {
         fmt::format("{}: the finest step of {} levels from coarsest = {} s is {:.3g} s "
                     "and a run to {} s would need {:.3g} steps; allowed: at most {:g}. "
                     "Use fewer levels or a larger coarsest step.",
-                    who, plan.levels, plan.coarsest, finest, end, end / finest, most_steps),
+                    step_ladder_name, plan.levels, plan.coarsest, finest, end, end / finest,
+                    most_steps),
         "too-many-steps");
 }
 

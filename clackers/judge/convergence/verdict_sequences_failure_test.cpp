@@ -26,7 +26,7 @@ auto at_the_end(void (*change)(measure::RunScore&)) {
 }
 
 // clang-format off
-const VerdictSequence rows[] = {
+const VerdictSequence failure_rows[] = {
     {.name = "a stability limit at coarse steps leaves the rest proper",
      .make = [] { return without({0, 1, 2}, nan); },
      .claim = claims(2), .behaviour = proper, .verdict = Verdict::agrees, .order = 2.0,
@@ -140,7 +140,7 @@ const VerdictSequence rows[] = {
 };
 // clang-format on
 
-INSTANTIATE_TEST_SUITE_P(Failure, VerdictSequences, testing::ValuesIn(rows), name_of_row);
+INSTANTIATE_TEST_SUITE_P(Failure, VerdictSequences, testing::ValuesIn(failure_rows), name_of_row);
 
 }  // namespace
 }  // namespace clackers::judge

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/judge/testing/verdict_sequence.hpp"
 
 namespace clackers::judge {
@@ -8,8 +9,6 @@ namespace {
 using namespace synthetic;
 using enum Behaviour;
 using std::exp, std::pow;
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // Rounding of a run to 20 s that adds up, every step one way, or at random.
 double adds_up(double h) { return 2.0 * epsilon * 20.0 / h; }
@@ -29,7 +28,7 @@ std::vector<ErrorLevel> without_floors(std::vector<ErrorLevel> made) {
 }
 
 // clang-format off
-const VerdictSequence rows[] = {
+const VerdictSequence floor_rows[] = {
     {.name = "order two above a rounding floor is proper",
      .make = [] { return ladder([](double h) { return 3e-6 * h * h + adds_up(h); }); },
      .claim = claims(2), .behaviour = proper, .verdict = Verdict::agrees, .order = 2.0,
@@ -141,7 +140,7 @@ const VerdictSequence rows[] = {
 };
 // clang-format on
 
-INSTANTIATE_TEST_SUITE_P(Floor, VerdictSequences, testing::ValuesIn(rows), name_of_row);
+INSTANTIATE_TEST_SUITE_P(Floor, VerdictSequences, testing::ValuesIn(floor_rows), name_of_row);
 
 }  // namespace
 }  // namespace clackers::judge

@@ -92,7 +92,7 @@ std::vector<Kind> smooth_kinds() {
   return all;
 }
 
-std::vector<KindOfShape> smooth_rows() {
+std::vector<KindOfShape> smooth_shapes() {
   std::vector<KindOfShape> rows;
   for (const auto& kind : smooth_kinds())
     for (const Shape& shape :
@@ -150,7 +150,7 @@ auto name_of_kind = [](const testing::TestParamInfo<KindOfShape>& row) {
          std::to_string(row.param.shape.neighbours) + "Neighbours";
 };
 
-INSTANTIATE_TEST_SUITE_P(AnyShape, VerdictKinds, testing::ValuesIn(smooth_rows()), name_of_kind);
+INSTANTIATE_TEST_SUITE_P(AnyShape, VerdictKinds, testing::ValuesIn(smooth_shapes()), name_of_kind);
 INSTANTIATE_TEST_SUITE_P(LongLadder, VerdictKinds, testing::ValuesIn(long_rows()), name_of_kind);
 
 }  // namespace

@@ -40,7 +40,7 @@ std::vector<ErrorLevel> uncertain() {
 }
 
 // clang-format off
-const VerdictSequence rows[] = {
+const VerdictSequence scatter_rows[] = {
     {.name = "scatter by ten under an envelope of order one agrees with such a claim",
      .make = [] { return scattered(1.0, 10.0, 5); },
      .claim = claims_envelope(1), .behaviour = irregular, .verdict = Verdict::agrees, .order = 1.0,
@@ -138,7 +138,7 @@ const VerdictSequence rows[] = {
 };
 // clang-format on
 
-INSTANTIATE_TEST_SUITE_P(Scatter, VerdictSequences, testing::ValuesIn(rows), name_of_row);
+INSTANTIATE_TEST_SUITE_P(Scatter, VerdictSequences, testing::ValuesIn(scatter_rows), name_of_row);
 
 }  // namespace
 }  // namespace clackers::judge

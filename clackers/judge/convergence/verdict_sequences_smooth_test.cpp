@@ -23,7 +23,7 @@ std::function<double(double)> breaks(double from, double order) {
 }
 
 // clang-format off
-const VerdictSequence rows[] = {
+const VerdictSequence smooth_rows[] = {
     {.name = "order two at every step is proper",
      .make = [] { return ladder([](double h) { return 3.0 * h * h; }); },
      .claim = claims(2), .behaviour = proper, .verdict = Verdict::agrees, .order = 2.0,
@@ -162,7 +162,7 @@ const VerdictSequence rows[] = {
 };
 // clang-format on
 
-INSTANTIATE_TEST_SUITE_P(Smooth, VerdictSequences, testing::ValuesIn(rows), name_of_row);
+INSTANTIATE_TEST_SUITE_P(Smooth, VerdictSequences, testing::ValuesIn(smooth_rows), name_of_row);
 
 }  // namespace
 }  // namespace clackers::judge

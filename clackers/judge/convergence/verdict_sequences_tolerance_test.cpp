@@ -20,7 +20,7 @@ std::vector<ErrorLevel> decades(const std::function<double(double)>& error, int 
 }
 
 // clang-format off
-const VerdictSequence rows[] = {
+const VerdictSequence tolerance_rows[] = {
     {.name = "an error a hundred times the tolerance is proportional to it",
      .make = [] { return decades([](double tol) { return 100.0 * tol; }, 8); },
      .claim = claims(1), .behaviour = proper, .verdict = Verdict::agrees, .order = 1.0,
@@ -82,7 +82,7 @@ const VerdictSequence rows[] = {
 };
 // clang-format on
 
-INSTANTIATE_TEST_SUITE_P(Tolerance, VerdictSequences, testing::ValuesIn(rows), name_of_row);
+INSTANTIATE_TEST_SUITE_P(Tolerance, VerdictSequences, testing::ValuesIn(tolerance_rows), name_of_row);
 
 }  // namespace
 }  // namespace clackers::judge

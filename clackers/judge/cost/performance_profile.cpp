@@ -9,19 +9,22 @@
 namespace clackers::judge {
 namespace {
 
-constexpr auto who = "performance profile";
+constexpr auto profile_name = "performance profile";
 constexpr double failure = std::numeric_limits<double>::infinity();
 
 void validate(const CostTable& table) {
-  if (table.tasks.empty()) refuse(who, "number of tasks", 0.0, "at least 1", {}, "wrong-size");
+  if (table.tasks.empty())
+    refuse(profile_name, "number of tasks", 0.0, "at least 1", {}, "wrong-size");
   if (table.costs.size() != table.methods.size())
-    refuse(who, "number of rows", double(table.costs.size()), "one a method", {}, "wrong-size");
+    refuse(profile_name, "number of rows", double(table.costs.size()), "one a method", {},
+           "wrong-size");
   for (const auto& row : table.costs) {
     if (row.size() != table.tasks.size())
-      refuse(who, "number of costs in a row", double(row.size()), "one a task", {}, "wrong-size");
+      refuse(profile_name, "number of costs in a row", double(row.size()), "one a task", {},
+             "wrong-size");
     for (const double cost : row)
       if (cost <= 0.0)
-        refuse(who, "cost", cost, "above 0; NaN or infinite for a failure",
+        refuse(profile_name, "cost", cost, "above 0; NaN or infinite for a failure",
                "Choose a counter that every method has.");
   }
 }
@@ -67,7 +70,7 @@ std::vector<MethodProfile> performance_profile(const CostTable& table) {
 }
 
 double share_within(const MethodProfile& profile, double ratio) {
-  if (!(ratio >= 1.0)) refuse(who, "ratio", ratio, "1 or more");
+  if (!(ratio >= 1.0)) refuse(profile_name, "ratio", ratio, "1 or more");
   double share = 0.0;
   for (const auto& step : profile.steps)
     if (step.ratio <= ratio) share = step.share;

@@ -10,7 +10,7 @@
 namespace clackers::judge {
 namespace {
 
-constexpr auto who = "work and precision";
+constexpr auto work_precision_name = "work and precision";
 
 // `runs` ascend by work, then by error: a run is dominated by any before it with as small an error,
 // unless both numbers are equal.
@@ -67,7 +67,7 @@ WorkCurve work_curve(const measure::Ladder& ladder, Counter counter) {
     if (level.runs.empty()) continue;
     auto runs = level.runs;
     for (auto& run : runs) {
-      if (run.u_error < 0.0) refuse(who, "error", run.u_error, "0 or more");
+      if (run.u_error < 0.0) refuse(work_precision_name, "error", run.u_error, "0 or more");
       run.finished = run.finished && std::isfinite(run.u_error);
       if (run.finished) curve.runs.push_back({run.step, cost(run, counter), run.u_error});
     }
@@ -85,7 +85,7 @@ WorkCurve work_curve(const measure::Ladder& ladder, Counter counter) {
 }
 
 std::optional<double> work_for(const WorkCurve& curve, double error) {
-  require_positive(who, "error to reach", error);
+  require_positive(work_precision_name, "error to reach", error);
   std::optional<double> least;
   for (auto level = curve.envelope.rbegin(); level != curve.envelope.rend(); ++level) {
     if (level->failed > 0 || !(level->error <= error)) break;

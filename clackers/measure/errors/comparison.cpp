@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/measure/errors/history_check.hpp"
 #include "clackers/measure/errors/vectors.hpp"
 #include "clackers/measure/impacts/collision_finder.hpp"
@@ -15,7 +16,6 @@
 namespace clackers::measure {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t block_size = 4096;  // rows of reference that fit a cache
 
 double median_difference(const std::vector<double>& t) {

@@ -6,12 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/measure/testing/toy_motion.hpp"
 
 namespace clackers::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
+using std::numbers::pi;
 
 TEST(Comparison, AsksForBothLimitsWhereATimeStandsTwice) {
   const ToyMotion reference(5.0);

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "clackers/base/check.hpp"
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/measure/errors/comparison.hpp"
 
 namespace clackers::measure {
 namespace {
 
-constexpr auto who = "error sink";
+constexpr auto sink_name = "error sink";
 constexpr std::size_t block_size = 256;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The largest of the reference over the run: that at the start, unless it has none there or a load
 // brings some; then the largest at 1024 equal parts.
@@ -26,7 +26,7 @@ double energy_scale(const MechanicalEnergy& energy, const model::Motion& referen
   constexpr int parts = 1024;
   if (is_loaded || !(scale > 0.0))
     for (int i = 1; i <= parts; ++i) scale = std::max(scale, at(reference.end() * i / parts));
-  return require_positive(who, "energy of the reference", scale);
+  return require_positive(sink_name, "energy of the reference", scale);
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
                      double step, const ErrorSinkOptions& options)
     : reference_(reference),
       dof_(std::size_t(reference.dof())),
-      step_(require_step(who, step)),
+      step_(require_step(sink_name, step)),
       options_(options),
       contacts_(problem.contacts),
       energy_(problem.system),
@@ -51,10 +51,10 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
       impacts_(reference, step, 0.0, int(problem.contacts.size())),
       history_(options.history_bins, reference.dof(), problem.start.t, problem.end) {
   if (problem.dof() != reference.dof())
-    refuse(who, "masses of the problem", double(problem.dof()), "as many as the reference has", {},
-           "wrong-size");
-  for (const double scale : scale_.u) require_positive(who, "envelope of u", scale);
-  for (const double scale : scale_.v) require_positive(who, "envelope of v", scale);
+    refuse(sink_name, "masses of the problem", double(problem.dof()),
+           "as many as the reference has", {}, "wrong-size");
+  for (const double scale : scale_.u) require_positive(sink_name, "envelope of u", scale);
+  for (const double scale : scale_.v) require_positive(sink_name, "envelope of v", scale);
   energy_scale_ = energy_scale(energy_, reference, start_, bool(problem.system.add_load));
 }
 
@@ -70,7 +70,7 @@ void ErrorSink::sample_reference(std::span<const double> times) {
 
 bool ErrorSink::take(const model::SampleBlock& block) {
   if (std::size_t(block.dof) != dof_)
-    refuse(who, "masses of the block", double(block.dof), "as many as the reference has", {},
+    refuse(sink_name, "masses of the block", double(block.dof), "as many as the reference has", {},
            "wrong-size");
   for (std::size_t from = 0; from < block.t.size(); from += block_size)
     take_part(block, from, std::min(block_size, block.t.size() - from));

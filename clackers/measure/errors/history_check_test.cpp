@@ -3,15 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/measure/testing/toy_motion.hpp"
 
 namespace clackers::measure {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Refusal {
   const char* code;

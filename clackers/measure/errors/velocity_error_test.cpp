@@ -11,7 +11,7 @@
 namespace clackers::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const double first = 0.5 * pi;  // of the true impacts
 
 // One report: at what time, and the velocity of mass 1 on both sides.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/measure/errors/vectors.hpp"
 #include "clackers/measure/impacts/gap_history.hpp"
@@ -13,8 +13,6 @@ namespace clackers::measure {
 namespace {
 
 using Eigen::VectorXd;
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // The collisions of one contact.
 class ContactScan {

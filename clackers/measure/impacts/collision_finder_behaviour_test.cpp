@@ -9,7 +9,7 @@
 namespace clackers::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(CollisionFinder, InventsNothingInFreeMotion) {
   for (const double w2 : {1.0, 1.4, 5.0, 9.0, 40.0})

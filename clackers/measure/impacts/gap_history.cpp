@@ -5,12 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/measure/errors/vectors.hpp"
 
 namespace clackers::measure {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 using Eigen::Index;
 using Eigen::VectorXd;

@@ -1,14 +1,12 @@
 #include "clackers/measure/impacts/jump_limits.hpp"
+#include "clackers/base/constants.hpp"
 
 #include <gtest/gtest.h>
-
-#include <limits>
 
 namespace clackers::measure {
 namespace {
 
 using List = std::vector<double>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // One mass; u is 10 t, v is 100 t.
 model::Trajectory history(List times, std::vector<model::Impact> impacts) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "clackers/base/error.hpp"
+#include "clackers/numerics/modal_flight.hpp"
 
 namespace clackers::measure {
 namespace {
@@ -14,13 +15,6 @@ struct Spiral {
 
   double angle(double u, double v) const { return std::atan2(-(v + sigma * u) / omega, u); }
 };
-
-bool is_diagonal(const Eigen::MatrixXd& matrix) {
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-      if (i != j && matrix(i, j) != 0.0) return false;
-  return true;
-}
 
 Spiral spiral(const Comparison& comparison, std::size_t mass) {
   const auto& system = comparison.problem().system;
@@ -33,7 +27,8 @@ std::string objection(const Comparison& comparison) {
   const auto& system = comparison.problem().system;
   if (!comparison.has_velocities()) return "The history has no velocities.";
   if (system.add_load || system.nonlinear) return "The system has a load or a nonlinear force.";
-  if (!is_diagonal(system.mass) || !is_diagonal(system.damping) || !is_diagonal(system.stiffness))
+  if (!numerics::is_diagonal(system.mass) || !numerics::is_diagonal(system.damping) ||
+      !numerics::is_diagonal(system.stiffness))
     return "The masses are coupled in flight.";
   for (std::size_t mass = 0; mass < comparison.dof(); ++mass) {
     const double omega = spiral(comparison, mass).omega;

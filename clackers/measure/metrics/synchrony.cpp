@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "clackers/base/check.hpp"
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/numerics/line_fit.hpp"
@@ -13,7 +14,6 @@
 namespace clackers::measure {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double visible = 0.025;  // relative momentum from which on growth is fitted
 constexpr std::size_t fewest = 3;  // points of a fit
 

@@ -13,7 +13,7 @@
 namespace clackers::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Stops the run when synchrony is lost.
 class WatchingSink : public model::Sink {

@@ -22,7 +22,7 @@ struct ContactForce {
 /// elastic part k d^n. It acts from first touch (d = 0, w = w0) until d <= 0 and w <= 0.
 struct CompliantLaw {
   enum class Restitution {
-    elastic,   ///< eta = 1 alone
+    elastic,   ///< only eta = 1
     positive,  ///< 0 < eta <= 1
     any
   };

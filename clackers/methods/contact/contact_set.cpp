@@ -1,15 +1,13 @@
 #include "clackers/methods/contact/contact_set.hpp"
+#include "clackers/base/constants.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace clackers::methods {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 Eigen::Index to_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 

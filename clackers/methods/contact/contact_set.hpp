@@ -48,10 +48,10 @@ class ContactSet {
   double gap(std::size_t i, const Vector& u) const { return contacts_[i].gap_at(u); }
   /// U = dg/dt [m/s]: closing where negative.
   double gap_rate(std::size_t i, const Vector& v) const { return contacts_[i].gap_rate(v); }
-  /// How far from 0 the gap can be by rounding alone [m]: n products and the gap, and as much
+  /// How far from 0 the gap can be by rounding only [m]: n products and the gap, and as much
   /// again for u itself being rounded, twice.
   double rounding(std::size_t i, const Vector& u) const;
-  /// How far from 0 the gap rate can be by rounding alone [m/s].
+  /// How far from 0 the gap rate can be by rounding only [m/s].
   double rate_rounding(std::size_t i, const Vector& v) const;
 
   /// Of the mass matrix.

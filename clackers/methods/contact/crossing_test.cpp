@@ -8,14 +8,14 @@
 namespace clackers::methods {
 namespace {
 
-constexpr double rounding = 1e-15;
+constexpr double crossing_rounding = 1e-15;
 
 // The first crossing of g in [0, end]; the rate by its own formula.
 std::optional<double> find(const std::function<double(double)>& g,
                            const std::function<double(double)>& rate, double end,
                            int budget = 200) {
   const auto at = [&](double s) { return GapSample{s, g(s), rate(s)}; };
-  return first_crossing(at, at(0.0), at(end), rounding, budget);
+  return first_crossing(at, at(0.0), at(end), crossing_rounding, budget);
 }
 
 TEST(Crossing, IsFoundToTheLastPlaceOnTheOpenSide) {
@@ -50,7 +50,7 @@ TEST(Crossing, IsNoneWhereTheGapComesNearOnly) {
   for (const double depth : {1e-1, 1e-6, 1e-12})
     EXPECT_FALSE(find([&](double s) { return (s - 0.37) * (s - 0.37) + depth; }, rate, 1.0))
         << depth;
-  EXPECT_FALSE(find([&](double s) { return (s - 0.37) * (s - 0.37) - 0.1 * rounding; }, rate, 1.0));
+  EXPECT_FALSE(find([&](double s) { return (s - 0.37) * (s - 0.37) - 0.1 * crossing_rounding; }, rate, 1.0));
 }
 
 TEST(Crossing, IsFoundHoweverShallowTheDipAboveRounding) {
@@ -58,14 +58,14 @@ TEST(Crossing, IsFoundHoweverShallowTheDipAboveRounding) {
     const auto s = find([&](double x) { return (x - 0.37) * (x - 0.37) - depth; },
                         [](double x) { return 2 * (x - 0.37); }, 1.0);
     ASSERT_TRUE(s) << depth;
-    // Flat there: a rounding 1e-16 of g moves the root by 1e-16 / (2 sqrt(depth)).
+    // Flat there: a crossing_rounding 1e-16 of g moves the root by 1e-16 / (2 sqrt(depth)).
     EXPECT_NEAR(*s, 0.37 - std::sqrt(depth), 1e-16 + 2e-16 / std::sqrt(depth)) << depth;
   }
 }
 
 TEST(Crossing, IsNoneForAContactThatLeaves) {
   EXPECT_FALSE(find([](double s) { return s; }, [](double) { return 1.0; }, 1.0));
-  // Left with rate 0 and a rounding of the wrong sign in both.
+  // Left with rate 0 and a crossing_rounding of the wrong sign in both.
   EXPECT_FALSE(find([](double s) { return 5 * s * s - 1e-17; },
                     [](double s) { return 10 * s - 1e-17; }, 1.0));
 }

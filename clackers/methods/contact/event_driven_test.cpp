@@ -1,5 +1,3 @@
-#include "clackers/methods/contact/event_driven.hpp"
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <functional>

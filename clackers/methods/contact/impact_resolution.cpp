@@ -79,7 +79,7 @@ void ImpactResolution<Dof>::estimate(const State& now, AnyStepper<Dof>& stepper)
   }
 }
 
-// The largest so far. Multistep methods start with another one, and make these steps with it alone.
+// The largest so far. Multistep methods start with another one, and make these steps only with it.
 template <int Dof>
 void ImpactResolution<Dof>::step_errors(const State& from, AnyStepper<Dof>& stepper) {
   const auto k = std::llround((from.t - plan_.start) / plan_.h);

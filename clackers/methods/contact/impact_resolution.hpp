@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "clackers/methods/contact/contact_set.hpp"
-#include "clackers/methods/stepping/any_stepper.hpp"
+#include "clackers/methods/integrator.hpp"
 #include "clackers/methods/stepping/step_plan.hpp"
 
 namespace clackers::methods {
@@ -19,7 +19,7 @@ namespace clackers::methods {
 /// of a gap: n steps so far with the errors d_k and w_k of one step in u_k and v_k; T_k is the time in
 /// which the one becomes the other, |u_k| over |v_k| or the length of the flight. The errors of a step
 /// are the differences from two half steps, over eight steps, the largest from three states of the last
-/// flight: at one phase alone the leading error may vanish. Of an adaptive integrator they are its
+/// flight: at a single phase the leading error may vanish. Of an adaptive integrator they are its
 /// tolerance.
 ///
 /// The time tends to 0 with the errors of the integrator: impacts that are apart stay so for small steps.

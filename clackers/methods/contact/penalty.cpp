@@ -107,7 +107,7 @@ std::optional<Objection> Penalty::objection_to(const Facts& method) const {
   if (!method.is_linear_only) return std::nullopt;
   return Objection{method.name +
                        ": the force of a compliant contact is nonlinear, and the step is exact for "
-                       "linear ones alone. Use event-driven.",
+                       "linear ones only. Use event-driven.",
                    "linear-only"};
 }
 

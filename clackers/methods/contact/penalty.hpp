@@ -8,57 +8,59 @@
 
 #include "clackers/methods/contact/compliant_law.hpp"
 #include "clackers/methods/method.hpp"
-#include "clackers/methods/parameters.hpp"
+#include "clackers/methods/rows.hpp"
 
 namespace clackers::methods {
 
-/// A one-sided compliant law in place of each contact, in the integrator's own equilibrium:
-///
-///     M a + C v + K u + p(u, v) = f(t),   p = -sum_j F(d_j, w_j) b_j,   d_j = gap_j - b_j . u,
-///     w_j = -b_j . v
-///
-/// solved by Newton's iteration where the integrator is implicit. The law is one of
-///
-///     linear                   F = k d
-///     hertz                    F = k d^1.5
-///     kelvin-voigt             F = k d + 2 xi sqrt(k m_e) w,  xi = -ln(eta)/sqrt(pi^2 + ln(eta)^2)
-///     kelvin-voigt-no-tension  the same where it is positive, otherwise 0
-///     hunt-crossley            F = k d^1.5 (1 + 3 (1 - eta)/2 w/w0)
-///     lankarani-nikravesh      F = k d^1.5 (1 + 3 (1 - eta^2)/4 w/w0)
-///     ye                       F = k d^1.5 (1 + 8 (1 - eta)/(5 eta) w/w0)
-///     jankowski                F = k d^1.5, for w > 0 with 2 xi sqrt(k m_e sqrt(d)) w more,
-///                              xi = 9 sqrt(5)/2 (1 - eta^2)/(eta (eta (9 pi - 16) + 16))
-///
-/// with 1/m_e = b . M^-1 b and the approach speed w0 at first touch. The elastic laws, linear and
-/// hertz, model eta = 1 alone, ye and jankowski eta > 0; for eta = 1 all are elastic. kelvin-voigt
-/// rebounds with eta itself; with the others, other than 1, the masses rebound with another
-/// restitution (nominal 0.5: 0.550, 0.663, 0.725, 0.470, 0.495 in the order above), so that their
-/// limit for stiff contacts is another motion. A contact that closes at rest has w0 = 0 and then no
-/// hysteretic damping.
-///
-/// An impact is reported at the first touch of each contact, located on the step map, with equal
-/// velocities before and after and no impulse: the force acts later, over the contact time,
-/// pi sqrt(m_e/k) of a linear law and 3.2180 (m_e^2/(k^2 w0))^(1/5) of the others, without damping.
-/// The default stiffness of a contact is, for a linear law, 1e4 times the diagonal stiffness of the
-/// first degree of freedom in its row, or more: so much that a contact lasts at most a fortieth of
-/// the shortest period of a mass in its row, alone on its springs. A softer contact lets the fast
-/// mass bounce where the true masses do not collide. For the other laws it is the one with the same
-/// contact time at the approach speed sqrt(2 E/m_e), the largest that the energy E at the start
-/// allows.
-///
-/// Order       none: the error comes to stand at the contact time, of order k^(-1/2) for linear
-///             laws and k^(-2/5) for the others.
-/// Stability   that of the integrator with the stiffness of the closed contact.
-/// Dissipation that of integrator and law; energy is created or lost where a contact lasts few
-///             steps.
-/// Memory      that of the integrator; w0 of each closed contact.
-/// Cost        one to three factorizations a step.
-/// Source      P. Wriggers, Computational Contact Mechanics, 2nd ed., Springer (2006); of each law:
-///             clackers show penalty:law=NAME.
 struct Penalty {
   static constexpr std::string_view name = "penalty";
   static constexpr std::string_view summary =
       "a one-sided spring or spring and damper in place of each contact, as in finite-element codes";
+  static constexpr std::string_view card =
+      R"(A one-sided compliant law in place of each contact, in the integrator's own equilibrium:
+
+    M a + C v + K u + p(u, v) = f(t),   p = -sum_j F(d_j, w_j) b_j,   d_j = gap_j - b_j . u,
+    w_j = -b_j . v
+
+solved by Newton's iteration where the integrator is implicit. The law is one of
+
+    linear                   F = k d
+    hertz                    F = k d^1.5
+    kelvin-voigt             F = k d + 2 xi sqrt(k m_e) w,  xi = -ln(eta)/sqrt(pi^2 + ln(eta)^2)
+    kelvin-voigt-no-tension  the same where it is positive, otherwise 0
+    hunt-crossley            F = k d^1.5 (1 + 3 (1 - eta)/2 w/w0)
+    lankarani-nikravesh      F = k d^1.5 (1 + 3 (1 - eta^2)/4 w/w0)
+    ye                       F = k d^1.5 (1 + 8 (1 - eta)/(5 eta) w/w0)
+    jankowski                F = k d^1.5, for w > 0 with 2 xi sqrt(k m_e sqrt(d)) w more,
+                             xi = 9 sqrt(5)/2 (1 - eta^2)/(eta (eta (9 pi - 16) + 16))
+
+with 1/m_e = b . M^-1 b and the approach speed w0 at first touch. The elastic laws, linear and
+hertz, model only eta = 1, ye and jankowski eta > 0; for eta = 1 all are elastic. kelvin-voigt
+rebounds with eta itself; with the others, other than 1, the masses rebound with another
+restitution (nominal 0.5: 0.550, 0.663, 0.725, 0.470, 0.495 in the order above), so that their
+limit for stiff contacts is another motion. A contact that closes at rest has w0 = 0 and then no
+hysteretic damping.
+
+An impact is reported at the first touch of each contact, located on the step map, with equal
+velocities before and after and no impulse: the force acts later, over the contact time,
+pi sqrt(m_e/k) of a linear law and 3.2180 (m_e^2/(k^2 w0))^(1/5) of the others, without damping.
+The default stiffness of a contact is, for a linear law, 1e4 times the diagonal stiffness of the
+first degree of freedom in its row, or more: so much that a contact lasts at most a fortieth of
+the shortest period of a mass in its row, alone on its springs. A softer contact lets the fast
+mass bounce where the true masses do not collide. For the other laws it is the one with the same
+contact time at the approach speed sqrt(2 E/m_e), the largest that the energy E at the start
+allows.
+
+Order       none: the error comes to stand at the contact time, of order k^(-1/2) for linear
+            laws and k^(-2/5) for the others.
+Stability   that of the integrator with the stiffness of the closed contact.
+Dissipation that of integrator and law; energy is created or lost where a contact lasts few
+            steps.
+Memory      that of the integrator; w0 of each closed contact.
+Cost        one to three factorizations a step.
+Source      P. Wriggers, Computational Contact Mechanics, 2nd ed., Springer (2006); of each law:
+            clackers show penalty:law=NAME.
+)";
   static const std::vector<Field<Penalty>>& fields();
 
   std::string law{compliant_laws().front().name};
@@ -69,7 +71,7 @@ struct Penalty {
   void validate() const;
   Claim claim(const Facts& integrator) const;
   double model_order() const;
-  /// To those of linear motion alone.
+  /// To those of linear motion only.
   std::optional<Objection> objection_to(const Facts& method) const;
   std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const;

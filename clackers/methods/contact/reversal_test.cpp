@@ -1,5 +1,3 @@
-#include "clackers/methods/contact/reversal.hpp"
-
 #include "clackers/methods/testing/runs.hpp"
 
 namespace clackers::methods {

@@ -1,5 +1,3 @@
-#include "clackers/methods/engines/piecewise_exact.hpp"
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
@@ -14,7 +12,7 @@ using runs::mass_on_stop;
 using runs::RattlingMass;
 using runs::run;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(PiecewiseExact, RattlesAsTheClosedFormAtEveryStep) {
   for (const auto& mass : {RattlingMass{.sigma = 0.05, .eta = 1.0, .w = 1.0},

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "clackers/methods/integrators/acceleration_memory.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 
@@ -20,7 +19,7 @@ struct AlphaMethod {
 
   Facts facts() const;
 
-  // Not a base, so that members alone are initialised.
+  // An alias instead of a base class: the struct stays an aggregate.
   template <int Dof>
   using Memory = AccelerationMemory::Memory<Dof>;
 
@@ -53,7 +52,7 @@ struct AlphaMethod {
   }
 
  private:
-  // Out of the way of Newmark's steps, which are twice as short.
+  // Not inlined: inlined it doubles the time of a plain Newmark step.
   template <int Dof>
   [[gnu::noinline]] void solve_weighted(MotionEquation<Dof>& equation, double h,
                                         model::State<Dof>& x, model::Vector<Dof>& a) const {

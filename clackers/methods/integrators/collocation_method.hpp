@@ -1,6 +1,5 @@
 #pragma once
 
-#include "clackers/methods/integrators/acceleration_memory.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 
@@ -18,7 +17,7 @@ struct CollocationMethod {
 
   Facts facts() const;
 
-  // Not a base, so that members alone are initialised.
+  // An alias instead of a base class: the struct stays an aggregate.
   template <int Dof>
   using Memory = AccelerationMemory::Memory<Dof>;
 

@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "clackers/methods/integrators/acceleration_memory.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 
@@ -26,7 +25,7 @@ struct DiagonallyImplicit {
 
   Facts facts() const;
 
-  // Not a base, so that members alone are initialised.
+  // An alias instead of a base class: the struct stays an aggregate.
   template <int Dof>
   using Memory = AccelerationMemory::Memory<Dof>;
 

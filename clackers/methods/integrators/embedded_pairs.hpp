@@ -1,7 +1,7 @@
 #pragma once
 
 #include "clackers/methods/integrators/runge_kutta.hpp"
-#include "clackers/methods/stepping/embedded_pair.hpp"
+#include "clackers/methods/stepping/adaptive_stepper.hpp"
 
 namespace clackers::methods {
 

@@ -10,19 +10,19 @@
 namespace clackers::methods {
 namespace {
 
-using Row = EmbeddedPair::Row;
+using PairRow = EmbeddedPair::PairRow;
 
 // A rooted tree with what a table makes of it: sum_i b_i phi_i = 1/gamma is its condition.
 struct Tree {
   int order;
   double gamma;
-  Row phi;
+  PairRow phi;
 };
 
 class Trees {
  public:
   Trees(const EmbeddedPair& pair, int order) {
-    Row ones;
+    PairRow ones;
     ones.fill(1.0);
     all.push_back({1, 1.0, ones});
     for (int n = 2; n <= order; ++n) add(pair, n - 1, all.size(), 1.0, ones, n);
@@ -31,7 +31,7 @@ class Trees {
 
  private:
   // Roots with branches among the first `below` trees, in descending order, `left` nodes to give.
-  void add(const EmbeddedPair& pair, int left, std::size_t below, double gamma, const Row& phi,
+  void add(const EmbeddedPair& pair, int left, std::size_t below, double gamma, const PairRow& phi,
            int order) {
     if (left == 0) {
       all.push_back({order, gamma * order, phi});
@@ -40,7 +40,7 @@ class Trees {
     for (std::size_t k = 0; k < below; ++k) {
       if (all[k].order > left) continue;
       const Tree branch = all[k];
-      Row product{};
+      PairRow product{};
       for (std::size_t i = 0; i < product.size(); ++i) {
         double sum = 0.0;
         for (std::size_t j = 0; j < product.size(); ++j) sum += pair.a[i][j] * branch.phi[j];
@@ -52,7 +52,7 @@ class Trees {
 };
 
 // The largest difference from r^order/gamma over the trees of these orders.
-double largest(const Trees& trees, const Row& b, double r, int first, int last) {
+double largest(const Trees& trees, const PairRow& b, double r, int first, int last) {
   double worst = 0.0;
   for (const auto& tree : trees.all) {
     if (tree.order < first || tree.order > last) continue;
@@ -64,10 +64,10 @@ double largest(const Trees& trees, const Row& b, double r, int first, int last) 
 }
 
 // The weights of the dense output at r, as its definition has them.
-Row dense_weights(const EmbeddedPair& pair, double r) {
+PairRow dense_weights(const EmbeddedPair& pair, double r) {
   const auto last = std::size_t(pair.stages);
   const auto& b = pair.a[last];
-  Row weights{};
+  PairRow weights{};
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const double begin = k == 0 ? 1.0 : 0.0, end = k == last ? 1.0 : 0.0;
     const double d[] = {b[k],

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "clackers/methods/integrators/acceleration_memory.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 

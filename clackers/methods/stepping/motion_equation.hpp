@@ -26,7 +26,7 @@ struct LoadTime {
   double t, other = 0.0, weight = 0.0;
 
   LoadTime(double at) : t(at) {}
-  LoadTime(double one, double two, double of_two) : t(one), other(two), weight(of_two) {}
+  LoadTime(double at, double second, double of_second) : t(at), other(second), weight(of_second) {}
 };
 
 /// What integrators ask of M a + C v + K u + p(u, v) = f(t): its acceleration, and its solution
@@ -226,5 +226,20 @@ extern template class MotionEquation<model::any_dof>;
 
 /// Throws InputError if `failed`: the implicit matrix of a step of h is not positive definite.
 void require_definite(std::string_view who, double h, bool failed);
+
+/// What integrators share whose steps begin with the acceleration of the state before them.
+struct AccelerationMemory {
+  template <int Dof>
+  struct Memory {
+    explicit Memory(Eigen::Index dof) : a(model::Vector<Dof>::Zero(dof)) {}
+    model::Vector<Dof> a;  ///< acceleration at the start of the step
+  };
+
+  template <int Dof>
+  void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
+             Memory<Dof>& memory) const {
+    equation.accelerate(from.t, from.u, from.v, memory.a);
+  }
+};
 
 }  // namespace clackers::methods

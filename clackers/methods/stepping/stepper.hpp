@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "clackers/base/check.hpp"
-#include "clackers/methods/stepping/any_stepper.hpp"
+#include "clackers/methods/integrator.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 #include "clackers/methods/stepping/step_plan.hpp"
 

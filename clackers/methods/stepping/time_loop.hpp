@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "clackers/methods/stepping/any_stepper.hpp"
+#include "clackers/methods/integrator.hpp"
 #include "clackers/methods/stepping/recorder.hpp"
 #include "clackers/methods/stepping/step_plan.hpp"
 

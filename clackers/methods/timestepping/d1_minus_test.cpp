@@ -1,5 +1,3 @@
-#include "clackers/methods/timestepping/d1_minus.hpp"
-
 #include <gtest/gtest.h>
 
 #include "clackers/methods/testing/runs.hpp"

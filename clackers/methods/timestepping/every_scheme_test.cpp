@@ -138,14 +138,14 @@ TEST_P(EveryScheme, LosesEnergyOfAFreeMotionOnlyWhereItDissipates) {
     EXPECT_NEAR(ratio, 1.0, 1e-5);
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& which) {
+std::string scheme_test_name(const testing::TestParamInfo<std::string>& which) {
   std::string name = which.param;
   std::ranges::replace_if(
       name, [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryScheme, testing::ValuesIn(schemes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Registry, EveryScheme, testing::ValuesIn(schemes()), scheme_test_name);
 
 }  // namespace
 }  // namespace clackers::methods

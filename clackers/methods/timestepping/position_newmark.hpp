@@ -27,7 +27,7 @@ inline std::optional<Objection> position_newmark_objection(const std::string& wh
     if (contact.restitution != 1.0)
       return Objection{
           fmt::format("{} with eta = {}: it has no law of restitution, and is run with "
-                      "eta = 1 alone, which it misses. Use moreau-jean.",
+                      "eta = 1 only, which it misses. Use moreau-jean.",
                       who, contact.restitution),
           "law-needs-restitution"};
   return std::nullopt;

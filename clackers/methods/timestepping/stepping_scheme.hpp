@@ -40,7 +40,7 @@ class SteppingScheme {
   /// scheme calls prepare() of the plan's step in its constructor.
   SteppingScheme(model::ImpactProblem<Dof> problem, const StepPlan& plan, int impact_steps = 1);
 
-  /// Does what depends on the system and the step alone, and fills `response_`.
+  /// Does what depends only on the system and the step, and fills `response_`.
   virtual void prepare(double h) = 0;
   /// Fills the memory of the scheme from x0_.
   virtual void start() = 0;

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/number.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/solvers/command_template.hpp"
 
 namespace clackers::report {
 namespace {
@@ -16,7 +17,7 @@ using Json = nlohmann::ordered_json;
 // Four digits are finer than any screen.
 Json rounded_number(double value) {
   if (!std::isfinite(value)) return nullptr;
-  return std::stod(fmt::format("{:.3e}", value));
+  return rounded(value, 4);
 }
 
 // Values that repeat, each once.
@@ -46,9 +47,8 @@ Json settings_json(const SurveySystem& system) {
 }
 
 Json system_json(const SurveySystem& system) {
-  auto command = "--case " + solvers::shell_quoted(system.name);
-  if (!system.settings.empty())
-    command += " --set " + solvers::shell_quoted(system.settings_text());
+  auto command = "--case " + shell_quoted(system.name);
+  if (!system.settings.empty()) command += " --set " + shell_quoted(system.settings_text());
   return {{"case", valid_utf8(system.name)},
           {"set", settings_json(system)},
           {"command", valid_utf8(command)}};
@@ -58,8 +58,7 @@ Json method_json(const SurveyMethod& method, const AtlasPart& part) {
   const auto call = part.calls.find(method.name);
   return {{"name", valid_utf8(method.name)},
           {"treatment", method.treatment},
-          {"call", valid_utf8(call == part.calls.end() ? solvers::shell_quoted(method.name)
-                                                       : call->second)},
+          {"call", valid_utf8(call == part.calls.end() ? shell_quoted(method.name) : call->second)},
           {"part", method.part}};
 }
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/number.hpp"
 #include "clackers/judge/cost/work_precision.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/report/columns.hpp"
@@ -190,15 +190,6 @@ bool is_refused(std::span<const record::CaseRecord> cases, const std::string& na
 }
 
 }  // namespace
-
-double rounded(double value) {
-  if (!std::isfinite(value)) return value;
-  const auto text = fmt::format("{:.5e}", value);
-  double out = 0.0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), out);
-  // Of the largest doubles six digits may be beyond all doubles.
-  return read.ec == std::errc() ? out : value;
-}
 
 // Lines from ratio 1 to a common end, so that the height at which a line stays can be seen.
 Json profile_data(const std::vector<record::Profile>& profiles,

@@ -39,7 +39,4 @@ bool has_convergence(const record::CaseRecord& problem);
 /// The subject whose shown run is a history with displacements of all masses; nullptr without one.
 const record::Subject* drawn_subject(const record::CaseRecord& problem);
 
-/// Six digits, which are finer than any screen; any double, subnormal or not finite too.
-double rounded(double value);
-
 }  // namespace clackers::report

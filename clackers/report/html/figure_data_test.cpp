@@ -19,14 +19,6 @@ namespace {
 
 record::CaseRecord sample() { return sample_record().cases[0]; }
 
-TEST(Rounded, AnyDoubleHasSixDigits) {
-  EXPECT_EQ(rounded(1.23456789), 1.23457);
-  EXPECT_EQ(rounded(5e-324), 5e-324);
-  EXPECT_EQ(rounded(-4.247828255331e-311), -4.24783e-311);
-  EXPECT_TRUE(std::isfinite(rounded(std::numeric_limits<double>::max())));
-  EXPECT_EQ(rounded(INFINITY), INFINITY);
-}
-
 TEST(FigureData, SubnormalNumbersAreDrawn) {
   auto problem = sample();
   for (auto& y : problem.response.y) y.assign(y.size(), 4.2e-311);

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "clackers/base/number.hpp"
 #include "clackers/report/html/figure_data.hpp"
 #include "clackers/report/html/figure_specifications.hpp"
 #include "clackers/report/html/figures.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/npy_header.hpp"
+#include "clackers/base/npy_writer.hpp"
 #include "clackers/report/rows/rows.hpp"
 
 namespace clackers::report {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/rows/rows.hpp"
 #include "clackers/report/text/table.hpp"

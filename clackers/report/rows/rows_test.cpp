@@ -6,20 +6,19 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
 
 namespace clackers::report {
 namespace {
 
 using record::Sheet;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Sheet mixed_sheet() {
   return {"clackers/things/1",
@@ -53,7 +52,7 @@ std::string table(const Sheet& sheet, const Style& style = {}) {
   return out.str();
 }
 
-std::vector<std::string> lines(const std::string& text) {
+std::vector<std::string> row_lines(const std::string& text) {
   std::vector<std::string> out;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) out.push_back(line);
@@ -193,7 +192,7 @@ TEST(Table, IsNeverWiderThanAskedAndNeverEndsALineWithSpace) {
   for (const int width : {40, 80, 132})
     for (const auto& sheet :
          {wide_sheet(1), wide_sheet(6), wide_sheet(9), wide_sheet(12), wide_sheet(40), wordy})
-      for (const auto& line : lines(table(sheet, {.color = false, .width = width}))) {
+      for (const auto& line : row_lines(table(sheet, {.color = false, .width = width}))) {
         EXPECT_LE(display_width(line), std::size_t(width)) << line;
         EXPECT_FALSE(line.ends_with(' ')) << line;
       }
@@ -210,7 +209,7 @@ TEST(Table, WrapsLongTextInItsColumn) {
       "",
       {{"name", "", ""}, {"meaning", "", ""}},
       {{"m1", "the mass that stands to the left of the other one and is heavier than it is"}}};
-  const auto out = lines(table(sheet, {.color = false, .width = 40}));
+  const auto out = row_lines(table(sheet, {.color = false, .width = 40}));
   ASSERT_EQ(out.size(), 5u);
   EXPECT_EQ(out[2], "m1    the mass that stands to the left");
   EXPECT_EQ(out[3], "      of the other one and is heavier");
@@ -222,13 +221,13 @@ TEST(Table, TakesTheWidthFromTheWidestColumn) {
       "",
       {{"name", "", ""}, {"meaning", "", ""}},
       {{"generalized-alpha", "a sentence that is much longer than the name before it"}}};
-  EXPECT_EQ(lines(table(sheet, {.color = false, .width = 40}))[2],
+  EXPECT_EQ(row_lines(table(sheet, {.color = false, .width = 40}))[2],
             "generalized-alpha  a sentence that is");
 }
 
 TEST(Table, PutsAColumnOfNumbersAndTextToTheLeft) {
   const Sheet sheet{"x/1", "", {{"value", "", ""}, {"n", "", ""}}, {{2.0, 1LL}, {"proper", 2LL}}};
-  EXPECT_EQ(lines(table(sheet))[2], "2       1");
+  EXPECT_EQ(row_lines(table(sheet))[2], "2       1");
 }
 
 TEST(Table, ATextAloneStandsAsItIs) {
@@ -246,7 +245,7 @@ TEST(Table, LaterRowsKeepTheWidthsOfTheFirst) {
   Sheet sheet{"x/1", "", {{"t", "s", ""}, {"u", "m", ""}}, {}};
   for (int i = 0; i < 2000; ++i)
     sheet.rows.push_back({0.5 * i, i < 1000 ? 0.25 : -1.23456789e-300});
-  const auto out = lines(table(sheet));
+  const auto out = row_lines(table(sheet));
   ASSERT_EQ(out.size(), 2003u);
   EXPECT_EQ(out[3], "       0      0.25");
   EXPECT_EQ(out.back(), "   999.5   -1e-300");

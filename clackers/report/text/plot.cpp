@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/text/plot.hpp"
 #include "clackers/report/text/table.hpp"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/testing/sample_record.hpp"
 #include "clackers/report/testing/written.hpp"

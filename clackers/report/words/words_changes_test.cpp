@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/testing/sample_record.hpp"
 #include "clackers/report/testing/written.hpp"

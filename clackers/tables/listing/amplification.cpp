@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <optional>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/numerics/realization.hpp"
 
 namespace clackers::tables {
@@ -17,7 +17,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // A multistep method starts with others' steps, six at most.
 constexpr std::size_t start_up = 6, samples = 15, overshoot_steps = 10;
 // Rounding of a double eigenvalue on the unit circle.

@@ -12,7 +12,7 @@
 namespace clackers::tables {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<Amplification> of(const std::string& name, const std::vector<double>& steps) {
   return amplification(*methods::integrator(name), steps);

@@ -20,14 +20,14 @@ cases::Case toy(int dof, double end, std::vector<double> impacts) {
   return which;
 }
 
-std::vector<std::vector<record::Cell>> all(record::RowSource& rows) {
+std::vector<std::vector<record::Cell>> all_rows(record::RowSource& rows) {
   std::vector<std::vector<record::Cell>> list;
   std::vector<record::Cell> row;
   while (rows.next(row)) list.push_back(row);
   return list;
 }
 
-std::vector<std::string> names(const record::RowSource& rows) {
+std::vector<std::string> column_names(const record::RowSource& rows) {
   std::vector<std::string> list;
   for (const auto& column : rows.columns()) list.push_back(column.name);
   return list;
@@ -36,11 +36,11 @@ std::vector<std::string> names(const record::RowSource& rows) {
 const record::Cell nothing{}, minus{std::string("-")}, plus{std::string("+")};
 
 TEST(Respond, NamesItsColumnsByTheNumberOfMasses) {
-  EXPECT_EQ(names(*respond(toy(1, 4.0, {}), grid_of(2, 4.0))),
+  EXPECT_EQ(column_names(*respond(toy(1, 4.0, {}), grid_of(2, 4.0))),
             (std::vector<std::string>{"t", "side", "u1", "v1", "a1"}));
   const auto two = toy(2, 4.0, {});
   const auto rows = respond(two, grid_of(2, 4.0));
-  EXPECT_EQ(names(*rows),
+  EXPECT_EQ(column_names(*rows),
             (std::vector<std::string>{"t", "side", "u1", "v1", "a1", "u2", "v2", "a2"}));
   EXPECT_EQ(rows->schema(), "clackers/response/1");
   const std::vector<std::string> units{"s", "", "m", "m/s", "m/s^2", "m", "m/s", "m/s^2"};
@@ -49,7 +49,7 @@ TEST(Respond, NamesItsColumnsByTheNumberOfMasses) {
 
 TEST(Respond, ShowsBothSidesWhereATimeIsACollision) {
   const auto which = toy(2, 4.0, {1.0, 4.0});
-  const auto list = all(*respond(which, {1.0, 5, 0.0, {}}));
+  const auto list = all_rows(*respond(which, {1.0, 5, 0.0, {}}));
   const std::vector<std::vector<record::Cell>> expected{
       {0.0, nothing, 0.0, 1.0, 100.0, 0.0, 2.0, 200.0},
       {1.0, minus, 1.0, 1.0, 101.0, 2.0, 2.0, 201.0},
@@ -64,7 +64,7 @@ TEST(Respond, ShowsBothSidesWhereATimeIsACollision) {
 TEST(Respond, ShowsOneSideBesideACollision) {
   const auto which = toy(1, 4.0, {1.0});
   const double before = std::nextafter(1.0, 0.0), after = std::nextafter(1.0, 2.0);
-  const auto list = all(*respond(which, {0.0, 0, 0.0, {after, before}}));
+  const auto list = all_rows(*respond(which, {0.0, 0, 0.0, {after, before}}));
   const std::vector<std::vector<record::Cell>> expected{
       {after, nothing, after, -1.0, 100.0 + after}, {before, nothing, before, 1.0, 100.0 + before}};
   EXPECT_EQ(list, expected);
@@ -137,13 +137,13 @@ TEST(Respond, RefusesTimesOutsideTheRunBeforeAnyRow) {
 TEST(Collisions, ListEveryCollisionWithBothSides) {
   const auto which = toy(2, 4.0, {1.0, 2.5});
   const auto rows = collisions(which);
-  EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "v2-", "v2+",
+  EXPECT_EQ(column_names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "v2-", "v2+",
                                                     "impulse", "energy_before", "energy_after"}));
   EXPECT_EQ(rows->schema(), "clackers/collisions/1");
   const std::vector<std::vector<record::Cell>> expected{
       {1LL, 1.0, 1.0, 1.0, -1.0, 2.0, -2.0, 0.5, 3.0, 2.0},
       {2LL, 2.5, 2.5, -1.0, 1.0, -2.0, 2.0, 1.0, 6.0, 4.0}};
-  EXPECT_EQ(all(*rows), expected);
+  EXPECT_EQ(all_rows(*rows), expected);
 }
 
 TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
@@ -160,26 +160,26 @@ TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
   which.motion = std::make_shared<Several>();
   which.problem.contacts.resize(2);
   const auto rows = collisions(which);
-  EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "contact", "u1", "v1-", "v1+", "u2",
+  EXPECT_EQ(column_names(*rows), (std::vector<std::string>{"k", "t", "contact", "u1", "v1-", "v1+", "u2",
                                                     "v2-", "v2+", "u3", "v3-", "v3+", "impulse",
                                                     "energy_before", "energy_after"}));
   // Both together turn the velocities around twice.
   const std::vector<std::vector<record::Cell>> expected{
       {1LL, 1.0, 1LL, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 0.5, 3.0, 2.0},
       {2LL, 1.0, 0LL, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 1.0, 6.0, 4.0}};
-  EXPECT_EQ(all(*rows), expected);
+  EXPECT_EQ(all_rows(*rows), expected);
   // Rows of the response have two limits there, not four.
-  EXPECT_EQ(all(*respond(which, grid_of(5, 4.0))).size(), 6u);
+  EXPECT_EQ(all_rows(*respond(which, grid_of(5, 4.0))).size(), 6u);
 }
 
 TEST(Collisions, OfOneMassLeaveOutTheSecond) {
   const auto which = toy(1, 4.0, {1.0});
   const auto rows = collisions(which);
-  EXPECT_EQ(names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "impulse",
+  EXPECT_EQ(column_names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "impulse",
                                                     "energy_before", "energy_after"}));
-  EXPECT_EQ(all(*rows).size(), 1u);
+  EXPECT_EQ(all_rows(*rows).size(), 1u);
   const auto none = toy(1, 4.0, {});
-  EXPECT_TRUE(all(*collisions(none)).empty());
+  EXPECT_TRUE(all_rows(*collisions(none)).empty());
 }
 
 TEST(ResponseCurve, HoldsOneRowAMassOverTheWholeRun) {

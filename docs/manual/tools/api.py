@@ -13,7 +13,7 @@ MODULES = {
     "methods": ("Methods", "Time integrators and contact treatments, and the interface of a new method.",
                 ["method", "registry"]),
 }
-C_HEADERS = ["bindings/c/clackers.h", "clackers/solvers/plugin/clackers_solver.h"]
+C_HEADERS = ["bindings/c/clackers.h", "bindings/c/clackers_main.h"]
 
 
 def header(module, stem):
@@ -40,10 +40,10 @@ def pages():
     texts["reference/api/c.md"] = (
         "# The C library\n\nC99, for every language that can call C. pkg-config knows `clackers.h` as `clackers`.\n\n"
         f"```{{doxygenfile}} clackers.h\n:sections: {sections}\n```\n")
-    texts["reference/api/plugin.md"] = (
-        "# Plug-ins\n\nThe header of solvers that `clackers verify --plugin` assesses: "
-        "[write a plug-in](../../how-to/write-a-plug-in.md).\n\n"
-        f"```{{doxygenfile}} clackers_solver.h\n:sections: {sections}\n```\n")
+    texts["reference/api/main.md"] = (
+        "# Programs of step functions\n\nThe header that makes a program for `clackers verify --exec` of a "
+        "[step function](../../how-to/judge-a-step-function.md).\n\n"
+        f"```{{doxygenfile}} clackers_main.h\n:sections: {sections}\n```\n")
     return texts
 
 

@@ -84,7 +84,7 @@ def method_page(command, row, record):
         out.append("## Free vibration\n")
         out += [f"![{cell(sheet['title'])}]({name}-{sheet['schema'].split('/')[1]}.svg)\n" for sheet in curves]
     out.append("## Measured through impacts\n\nOn the default case, by `clackers verify --all`.\n\n" + measured(record, name))
-    out.append(f"`{shown}` prints the same, from the card in the method's header.\n")
+    out.append(f"`{shown}` prints the same, from the method's card.\n")
     return "\n".join(out)
 
 

@@ -11,7 +11,7 @@
 namespace clackers::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 class HybridCloseness : public testing::Test {
  protected:

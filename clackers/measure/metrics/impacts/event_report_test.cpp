@@ -3,22 +3,22 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/measure/testing/toy_motion.hpp"
 
 namespace clackers::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
-const ToyMotion reference(12.0);  // impacts at pi/2, 3pi/2, 5pi/2, 7pi/2
-const auto problem = toy_problem(12.0);
+using std::numbers::pi;
+const ToyMotion report_reference(12.0);  // impacts at pi/2, 3pi/2, 5pi/2, 7pi/2
+const auto report_problem = toy_problem(12.0);
 
 model::Trajectory history(std::vector<model::Impact> reports) {
   std::vector<double> times;
   for (int i = 0; i <= 150; ++i) times.push_back(0.08 * i);
-  auto rows = history_of(reference, times);
+  auto rows = history_of(report_reference, times);
   rows.impacts = std::move(reports);
   return rows;
 }
@@ -29,7 +29,7 @@ const auto spoilt = history({{pi / 2 + 0.05, 0, {}, {-1.1, 0.5}, {0.9, -0.6}, 2.
                              {7 * pi / 2 + 0.1, 0, {}, {-1.0, 0.7}, {}, 1.9}});
 
 TEST(EventReport, StandsCollisionBesideCollision) {
-  const Comparison comparison(spoilt, reference, problem);
+  const Comparison comparison(spoilt, report_reference, report_problem);
   const auto report = event_report(comparison);
   EXPECT_EQ(report.source, ImpactSource::reported);
   EXPECT_EQ(report.expected, 4);
@@ -62,7 +62,7 @@ TEST(EventReport, StandsCollisionBesideCollision) {
 }
 
 TEST(EventReport, GivesTheWorstOfWhatIsKnown) {
-  const Comparison comparison(spoilt, reference, problem);
+  const Comparison comparison(spoilt, report_reference, report_problem);
   EXPECT_NEAR(impact_time_error(comparison).value, 0.1, 1e-14);
   const auto before = velocity_before_error(comparison), after = velocity_after_error(comparison);
   EXPECT_NEAR(before.masses[0], 0.1, 1e-15);
@@ -78,13 +78,13 @@ TEST(EventReport, GivesTheWorstOfWhatIsKnown) {
 
 TEST(EventReport, TheWorstTimeMayBeAnEarlyOne) {
   const auto early = history({{pi / 2 - 0.3, 0, {}, {}, {}, nan}});
-  EXPECT_NEAR(impact_time_error({early, reference, problem}).value, 0.3, 1e-15);
-  EXPECT_EQ(late_impacts({early, reference, problem}).value, 0.0);
+  EXPECT_NEAR(impact_time_error({early, report_reference, report_problem}).value, 0.3, 1e-15);
+  EXPECT_EQ(late_impacts({early, report_reference, report_problem}).value, 0.0);
 }
 
 TEST(EventReport, SaysWhyThereIsNothingToCompare) {
   const auto none = history({}), bare = history({{pi / 2, 0, {}, {}, {}, nan}});
-  const Comparison no_match(none, reference, problem), nothing_known(bare, reference, problem);
+  const Comparison no_match(none, report_reference, report_problem), nothing_known(bare, report_reference, report_problem);
   for (const auto measure :
        {impact_time_error, velocity_before_error, velocity_after_error, impulse_error})
     EXPECT_EQ(measure(no_match).reason, "No collision of the history belongs to a true one.");
@@ -93,9 +93,9 @@ TEST(EventReport, SaysWhyThereIsNothingToCompare) {
   EXPECT_NE(velocity_before_error(nothing_known).reason.find("before"), std::string::npos);
   EXPECT_NE(velocity_after_error(nothing_known).reason.find("after"), std::string::npos);
   EXPECT_NE(impulse_error(nothing_known).reason.find("impulse"), std::string::npos);
-  auto early = history_of(reference, {0.0, 0.1, 1.0});
-  EXPECT_EQ(impact_time_error({early, reference, problem}).reason,
-            "The reference has no collision by then.");
+  auto early = history_of(report_reference, {0.0, 0.1, 1.0});
+  EXPECT_EQ(impact_time_error({early, report_reference, report_problem}).reason,
+            "The report_reference has no collision by then.");
 }
 
 }  // namespace

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
 namespace clackers::measure {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // From when to when a flight of the history lasts, and the true flight beside it.
 struct Flight {

@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
 namespace clackers::measure {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Crossing {
   double t, speed;

@@ -11,7 +11,7 @@
 namespace clackers::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 MetricValue of_toy(const ToyFlaws& flaws, MetricValue (*metric)(const Comparison&)) {
   const ToyMotion reference;

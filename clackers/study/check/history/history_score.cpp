@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/measure/errors/velocity_error.hpp"
 
 namespace clackers::study {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 void measure_u(const measure::Comparison& comparison, const std::vector<bool>& has_u,
                measure::RunScore& score) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/judge/convergence/judge.hpp"
 #include "clackers/record/notes.hpp"
@@ -14,8 +15,6 @@
 
 namespace clackers::study {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 class Preparation {
  public:

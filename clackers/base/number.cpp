@@ -1,0 +1,103 @@
+#include "clackers/base/number.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace clackers {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+int significant_digits(std::string_view text) {
+  int count = 0;
+  for (const char c : text) {
+    if (is_digit(c))
+      count += count > 0 || c != '0';
+    else if (c != '.' && c != '-')
+      break;
+  }
+  return count;
+}
+
+// "1.5D-3" as "1.5E-3" in `copy`; the text itself when there is no such exponent.
+std::string_view without_d(std::string_view text, std::array<char, 64>& copy) {
+  const auto at = text.find_first_of("dD");
+  if (at == std::string_view::npos || at == 0 || text.size() > copy.size()) return text;
+  if (!is_digit(text[at - 1]) && text[at - 1] != '.') return text;
+  text.copy(copy.data(), text.size());
+  copy[at] = 'e';
+  return {copy.data(), text.size()};
+}
+
+bool has_decimal_comma(std::string_view text) {
+  const auto comma = text.find(',');
+  return comma != std::string_view::npos && comma > 0 && is_digit(text[comma - 1]) &&
+         text.find_first_not_of("0123456789+-eEdD,") == std::string_view::npos;
+}
+
+}  // namespace
+
+NumberError read_decimal(std::string_view text, Number& number) {
+  const auto whole = text;
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const auto try_read = [&number](std::string_view s) {
+    const auto [stop, error] = std::from_chars(s.data(), s.data() + s.size(), number.value);
+    if (stop != s.data() + s.size() || error == std::errc::invalid_argument)
+      return NumberError::no_number;
+    if (error == std::errc::result_out_of_range || !std::isfinite(number.value))
+      return NumberError::not_finite;
+    return NumberError::none;
+  };
+  auto result = try_read(text);
+  if (result == NumberError::no_number) {
+    std::array<char, 64> copy;
+    result = try_read(without_d(text, copy));
+  }
+  if (result == NumberError::no_number && has_decimal_comma(whole))
+    return NumberError::decimal_comma;
+  if (result == NumberError::none) number.digits = significant_digits(text);
+  return result;
+}
+
+NumberError read_number(std::string_view text, double& value) {
+  const auto slash = text.find('/');
+  Number above, below{1.0};
+  auto error = read_decimal(text.substr(0, slash), above);
+  if (error == NumberError::none && slash != std::string_view::npos)
+    error = read_decimal(text.substr(slash + 1), below);
+  value = above.value / below.value;
+  return error == NumberError::none && !std::isfinite(value) ? NumberError::not_finite : error;
+}
+
+std::optional<double> finite_number(std::string_view text) {
+  double value = 0.0;
+  if (read_number(text, value) != NumberError::none) return {};
+  return value;
+}
+
+std::optional<long long> whole_number(std::string_view text) {
+  long long value = 0;
+  const auto end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) return {};
+  return value;
+}
+
+bool looks_numeric(std::string_view text) {
+  Number number;
+  return read_decimal(text, number) != NumberError::no_number;
+}
+
+double rounded(double value, int digits) {
+  if (!std::isfinite(value)) return value;
+  const auto text = fmt::format("{:.{}e}", value, digits - 1);
+  double out = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), out);
+  // Of the largest doubles six digits may be beyond all doubles.
+  return read.ec == std::errc() ? out : value;
+}
+
+}  // namespace clackers

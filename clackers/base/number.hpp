@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+// The grammar of numbers that people write.
+namespace clackers {
+
+/// A number as it is printed.
+struct Number {
+  double value = 0.0;
+  int digits = 0;  ///< printed significant digits, trailing zeros included; 0 for zero
+};
+
+/// Why a text is no number that can be used.
+enum class NumberError { none, no_number, not_finite, decimal_comma };
+
+/// Reads a decimal number with a point: "1.5", "-1.5e-3", "+.5", and Fortran's "1.5D-3". Returns
+/// what is wrong with any other text; NaN, infinities and what a double cannot hold are not_finite.
+NumberError read_decimal(std::string_view text, Number& number);
+
+/// The same, and a fraction of two such numbers: "1/9". Sets `value` also to the NaN or infinity that
+/// the text names.
+NumberError read_number(std::string_view text, double& value);
+
+/// The finite number of read_number(); nothing for any other text.
+std::optional<double> finite_number(std::string_view text);
+
+/// The whole number that is all of `text`, in digits and perhaps a minus sign; nothing for any other
+/// text.
+std::optional<long long> whole_number(std::string_view text);
+
+/// Whether the text is a decimal number, NaN and infinity included. A header has none.
+bool looks_numeric(std::string_view text);
+
+/// The nearest number of so many significant decimal digits.
+double rounded(double value, int digits = 6);
+
+}  // namespace clackers

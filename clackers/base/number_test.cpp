@@ -1,0 +1,92 @@
+#include "clackers/base/number.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace clackers {
+namespace {
+
+Number number(std::string_view text) {
+  Number out;
+  EXPECT_EQ(read_decimal(text, out), NumberError::none) << text;
+  return out;
+}
+
+NumberError error_of(std::string_view text) {
+  Number out;
+  return read_decimal(text, out);
+}
+
+TEST(Number, IsReadAsPrograms) {
+  EXPECT_EQ(number("1.5").value, 1.5);
+  EXPECT_EQ(number("+1.5e-3").value, 1.5e-3);
+  EXPECT_EQ(number("-.5").value, -0.5);
+  EXPECT_EQ(number("7.").value, 7.0);
+  EXPECT_EQ(number("-1.25D-03").value, -1.25e-3);
+  EXPECT_EQ(number("1.d2").value, 100.0);
+}
+
+TEST(Number, CountsItsSignificantDigits) {
+  EXPECT_EQ(number("0.00123").digits, 3);
+  EXPECT_EQ(number("-1.230").digits, 4);
+  EXPECT_EQ(number("1.2345E-10").digits, 5);
+  EXPECT_EQ(number("6.02d23").digits, 3);
+  EXPECT_EQ(number("100").digits, 3);
+  EXPECT_EQ(number("0.000").digits, 0);
+  EXPECT_EQ(number("0.10000000000000001").digits, 17);
+}
+
+TEST(Number, SaysWhatIsWrongWithOtherText) {
+  EXPECT_EQ(error_of("abc"), NumberError::no_number);
+  EXPECT_EQ(error_of(""), NumberError::no_number);
+  EXPECT_EQ(error_of("1.5x"), NumberError::no_number);
+  EXPECT_EQ(error_of("+-1"), NumberError::no_number);
+  EXPECT_EQ(error_of("d2"), NumberError::no_number);
+  EXPECT_EQ(error_of("1d"), NumberError::no_number);
+  EXPECT_EQ(error_of("nan"), NumberError::not_finite);
+  EXPECT_EQ(error_of("-Inf"), NumberError::not_finite);
+  EXPECT_EQ(error_of("1e999"), NumberError::not_finite);
+  EXPECT_EQ(error_of("0,05"), NumberError::decimal_comma);
+  EXPECT_EQ(error_of("u,v"), NumberError::no_number);
+}
+
+TEST(Number, LooksNumericThoughItIsNotFinite) {
+  EXPECT_TRUE(looks_numeric("nan"));
+  EXPECT_TRUE(looks_numeric("0,5"));
+  EXPECT_FALSE(looks_numeric("time"));
+  EXPECT_FALSE(looks_numeric("-"));
+}
+
+TEST(Number, MayBeAFraction) {
+  EXPECT_EQ(finite_number("1/4"), 0.25);
+  EXPECT_EQ(finite_number("-1e1/+2.5"), -4.0);
+  EXPECT_EQ(finite_number("0.05"), 0.05);
+  for (const auto* text :
+       {"", "/", "1/", "/2", "1/2/3", "1/x", "1/0", "0/0", "1/nan", "inf", "1 /2"})
+    EXPECT_FALSE(finite_number(text)) << text;
+  double value = 0.0;
+  EXPECT_EQ(read_number("1/0", value), NumberError::not_finite);
+  EXPECT_EQ(read_number("-inf", value), NumberError::not_finite);
+  EXPECT_EQ(value, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(read_number("1/0,5", value), NumberError::decimal_comma);
+}
+
+TEST(Number, WholeOnesAreAllOfTheirText) {
+  EXPECT_EQ(whole_number("-12"), -12);
+  EXPECT_EQ(whole_number("9223372036854775807"), 9223372036854775807);
+  for (const auto* text : {"", "1.5", "1e3", " 1", "1 ", "9223372036854775808"})
+    EXPECT_FALSE(whole_number(text)) << text;
+}
+
+TEST(Rounded, AnyDoubleHasSixDigits) {
+  EXPECT_EQ(rounded(1.23456789), 1.23457);
+  EXPECT_EQ(rounded(5e-324), 5e-324);
+  EXPECT_EQ(rounded(-4.247828255331e-311), -4.24783e-311);
+  EXPECT_TRUE(std::isfinite(rounded(std::numeric_limits<double>::max())));
+  EXPECT_EQ(rounded(INFINITY), INFINITY);
+}
+
+}  // namespace
+}  // namespace clackers
