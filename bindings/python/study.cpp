@@ -14,8 +14,8 @@
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/solvers/program.hpp"
+#include "clackers/solvers/solver.hpp"
 #include "clackers/study/check.hpp"
-#include "clackers/study/solver.hpp"
 #include "clackers/study/verify.hpp"
 
 namespace clackers::python {
@@ -45,8 +45,8 @@ py::tuple result_of(CallerThread& caller, const py::object& progress,
 py::tuple verify(const std::vector<std::string>& methods, const std::vector<Callable>& callables,
                  const std::vector<CaseChoice>& chosen, const std::optional<std::string>& expect,
                  std::optional<int> levels, std::optional<double> coarsest,
-                 std::optional<int> neighbours, double budget, int jobs, const std::string& command,
-                 const py::object& progress) {
+                 std::optional<int> samples_per_level, double budget, int jobs,
+                 const std::string& command, const py::object& progress) {
   study::VerifyRequest request;
   request.methods = methods;
   for (const auto& one : chosen) {
@@ -55,7 +55,7 @@ py::tuple verify(const std::vector<std::string>& methods, const std::vector<Call
   }
   request.plan.levels = levels;
   request.plan.coarsest = coarsest;
-  if (neighbours) request.plan.samples_per_level = *neighbours;
+  request.plan.samples_per_level = samples_per_level;
   request.budget = budget;
   request.jobs = jobs;
   request.command = command;
@@ -64,16 +64,10 @@ py::tuple verify(const std::vector<std::string>& methods, const std::vector<Call
   std::vector<CallableSubject> subjects;
   for (const auto& [name, run, steps, tolerances] : callables)
     subjects.push_back({name, run, claim, steps, tolerances});
-  if (!subjects.empty()) {
-    if (!levels) request.plan.levels = study::default_solver_levels;
-    if (!neighbours) request.plan.samples_per_level = study::default_solver_samples;
-  }
   CallerThread caller;
   return result_of(caller, progress, [&](const Progress& report) {
-    if (subjects.empty()) return study::verify(request, report, caller.interrupt());
-    std::vector<study::SolverSubject> solvers;
-    for (const auto& subject : subjects) solvers.push_back(solver_subject(subject, caller));
-    return study::verify(request, std::move(solvers), report, caller.interrupt());
+    for (const auto& subject : subjects) request.solvers.push_back(solver_subject(subject, caller));
+    return study::verify(request, report, caller.interrupt());
   });
 }
 
@@ -103,7 +97,7 @@ py::tuple check(const py::list& histories, const py::list& events, const CaseCho
 
 void bind_study(py::module_& core) {
   core.def("verify", &verify, py::arg("methods"), py::arg("callables"), py::arg("cases"),
-           py::arg("expect"), py::arg("levels"), py::arg("coarsest"), py::arg("neighbours"),
+           py::arg("expect"), py::arg("levels"), py::arg("coarsest"), py::arg("samples_per_level"),
            py::arg("budget"), py::arg("jobs"), py::arg("command"), py::arg("progress"));
   core.def("check", &check, py::arg("histories"), py::arg("events"), py::arg("case"),
            py::arg("steps"), py::arg("tolerances"), py::arg("columns"), py::arg("expect"),

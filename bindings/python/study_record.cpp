@@ -12,7 +12,7 @@
 #include "clackers/report/html/notebook.hpp"
 #include "clackers/report/words/words.hpp"
 #include "clackers/report/write.hpp"
-#include "clackers/study/solver.hpp"
+#include "clackers/solvers/solver.hpp"
 
 namespace clackers::python {
 namespace {
@@ -105,7 +105,7 @@ py::dict subject_of(const record::CaseRecord& problem, const Subject& subject) {
 
 // The first failed run where all failed: (sentence, code, printed), else None.
 py::object failure_of_all(const Record& record) {
-  const auto* run = study::failure_of_all(record);
+  const auto* run = record::failure_of_all(record);
   if (run == nullptr) return py::none();
   return py::make_tuple(run->score.failure, run->score.failure_code, run->printed);
 }

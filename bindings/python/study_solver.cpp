@@ -12,7 +12,7 @@ namespace {
 // smaller steps fail likewise.
 using Failure = std::tuple<bool, std::string, std::string, bool>;
 
-class CallableSolver : public study::Solver {
+class CallableSolver : public solvers::Solver {
  public:
   CallableSolver(const CallableSubject& callable, cases::Case problem, CallerThread& caller)
       : callable_(callable),
@@ -24,8 +24,8 @@ class CallableSolver : public study::Solver {
   CallableSolver(const CallableSolver&) = delete;
   CallableSolver& operator=(const CallableSolver&) = delete;
 
-  study::SolverOutput run(const study::SolverRun& run, const std::atomic<bool>*) override {
-    study::SolverOutput output;
+  solvers::SolverOutput run(const solvers::SolverRun& run, const std::atomic<bool>*) override {
+    solvers::SolverOutput output;
     const double resolution = run.tolerance > 0.0 ? run.tolerance : run.step;
     output.interrupted = !caller_.call([&] { take(result_of(resolution), output); });
     return output;
@@ -37,7 +37,7 @@ class CallableSolver : public study::Solver {
     return callable_.run(problem_, resolution);
   }
 
-  void take(py::tuple result, study::SolverOutput& output) {
+  void take(py::tuple result, solvers::SolverOutput& output) {
     if (py::len(result) == 4) {
       const auto [has_returned, sentence, printed, would_repeat] = result.cast<Failure>();
       output.failure_code =
@@ -63,8 +63,8 @@ class CallableSolver : public study::Solver {
 
 }  // namespace
 
-study::SolverSubject solver_subject(const CallableSubject& callable, CallerThread& caller) {
-  study::SolverSubject subject;
+solvers::SolverSubject solver_subject(const CallableSubject& callable, CallerThread& caller) {
+  solvers::SolverSubject subject;
   subject.kind = record::SubjectKind::callable;
   subject.name = callable.name;
   subject.claim = callable.expect.value_or(Claim{});

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bindings/python/caller_thread.hpp"
-#include "clackers/study/solver.hpp"
+#include "clackers/solvers/solver.hpp"
 
 namespace clackers::python {
 
@@ -24,6 +24,6 @@ struct CallableSubject {
 
 /// The callable as study::verify takes solvers. Its runs are calls in the thread of `caller`; both must
 /// outlive the study.
-study::SolverSubject solver_subject(const CallableSubject& callable, CallerThread& caller);
+solvers::SolverSubject solver_subject(const CallableSubject& callable, CallerThread& caller);
 
 }  // namespace clackers::python

@@ -29,7 +29,7 @@ struct CaseCost {
 };
 
 CaseCost cost_of(const Specification& specification,
-                 const std::vector<std::optional<study::SolverSubject>>& solvers, long long first,
+                 const std::vector<std::optional<solvers::SolverSubject>>& solvers, long long first,
                  long long count, Clock::time_point until) {
   const auto samples = std::min(count, most_samples);
   std::vector<double> runs(solvers.size()), seconds_a_run(solvers.size());

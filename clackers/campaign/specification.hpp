@@ -58,11 +58,7 @@ struct CaseSystems {
 };
 
 /// The ladder of every task; what is not given follows the system, as in `verify`.
-struct Ladder {
-  std::optional<double> coarsest{};  ///< [s]
-  std::optional<int> levels{}, neighbours{};
-  std::vector<double> tolerances{};  ///< of adaptive methods; empty: the default ones
-};
+using Ladder = study::RefinementRequest;
 
 /// One system: a case with the values of its parameters.
 struct System {

@@ -64,7 +64,7 @@ std::vector<Cell> run_cells(const Specification& specification, const report::Ro
   return cells;
 }
 
-study::SolverSubject solver_of(const Specification& specification, const MethodEntry& method) {
+solvers::SolverSubject solver_of(const Specification& specification, const MethodEntry& method) {
   solvers::ProcessOptions options;
   options.tolerances = specification.ladder().tolerances;
   if (!method.expect.empty()) options.expect = study::claim_from(method.expect);
@@ -93,8 +93,8 @@ Tables tables_of(const Specification& specification) {
   return tables;
 }
 
-std::vector<std::optional<study::SolverSubject>> solvers_of(const Specification& specification) {
-  std::vector<std::optional<study::SolverSubject>> solvers;
+std::vector<std::optional<solvers::SolverSubject>> solvers_of(const Specification& specification) {
+  std::vector<std::optional<solvers::SolverSubject>> solvers;
   for (const auto& method : specification.methods()) {
     auto& added = solvers.emplace_back();
     if (method.kind != MethodEntry::Kind::catalogue) added = solver_of(specification, method);
@@ -103,7 +103,7 @@ std::vector<std::optional<study::SolverSubject>> solvers_of(const Specification&
 }
 
 TaskRunner::TaskRunner(const Specification& specification,
-                       const std::vector<std::optional<study::SolverSubject>>& solvers)
+                       const std::vector<std::optional<solvers::SolverSubject>>& solvers)
     : specification_(specification), solvers_(solvers) {}
 
 TaskRunner::~TaskRunner() = default;

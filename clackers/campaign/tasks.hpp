@@ -8,7 +8,7 @@
 
 #include "clackers/campaign/specification.hpp"
 #include "clackers/record/sheet.hpp"
-#include "clackers/study/solver.hpp"
+#include "clackers/solvers/solver.hpp"
 
 // The unit of work: one system with one method over its ladder.
 namespace clackers::campaign {
@@ -40,7 +40,7 @@ Tables tables_of(const Specification& specification);
 
 /// The commands of a specification, ready to run; an entry for each method, empty for those of the
 /// catalogue. Throws as solvers::subjects_of() does.
-std::vector<std::optional<study::SolverSubject>> solvers_of(const Specification& specification);
+std::vector<std::optional<solvers::SolverSubject>> solvers_of(const Specification& specification);
 
 class PreparedSystem;
 
@@ -49,7 +49,7 @@ class TaskRunner {
  public:
   /// Both must outlive the runner.
   TaskRunner(const Specification& specification,
-             const std::vector<std::optional<study::SolverSubject>>& solvers);
+             const std::vector<std::optional<solvers::SolverSubject>>& solvers);
   ~TaskRunner();
   TaskRunner(const TaskRunner&) = delete;
   TaskRunner& operator=(const TaskRunner&) = delete;
@@ -60,7 +60,7 @@ class TaskRunner {
 
  private:
   const Specification& specification_;
-  const std::vector<std::optional<study::SolverSubject>>& solvers_;
+  const std::vector<std::optional<solvers::SolverSubject>>& solvers_;
   std::unique_ptr<PreparedSystem> prepared_;
 };
 

@@ -114,11 +114,11 @@ void add(std::vector<Diagnosis>& all, std::vector<Diagnosis> more) {
 
 std::vector<Diagnosis> diagnose(const Question& question) {
   std::vector<Diagnosis> found;
-  add(found, file_causes(question));
+  if (!question.is_this_system) add(found, file_causes(question));
   const bool is_readable = std::ranges::none_of(
       found, [](const Diagnosis& one) { return contains(unreadable, one.code); });
   if (is_readable) {
-    add(found, system_causes(question));
+    if (!question.is_this_system) add(found, system_causes(question));
     add(found, ladder_causes(question));
   }
   std::vector<Diagnosis> kept;

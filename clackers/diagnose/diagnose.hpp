@@ -23,6 +23,8 @@ struct Question {
   const judge::LadderFit& velocity;
   Limit limit{};              ///< limit_of() the histories
   bool by_tolerance = false;  ///< the ladder is of tolerances, not of steps
+  /// The histories are runs of a method on this very system: only what refinement shows is looked for.
+  bool is_this_system = false;
 };
 
 /// The causes that explain the histories, strongest first, each at most once; empty for a correct

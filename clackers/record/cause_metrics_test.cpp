@@ -12,7 +12,7 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/model/trajectory.hpp"
-#include "clackers/study/verify/verify_plan.hpp"
+#include "clackers/tables/case_summary.hpp"
 
 namespace clackers::record {
 namespace {
@@ -36,7 +36,7 @@ Shown shown(const char* method, const char* name, const cases::Settings& setting
   made->prepare(one.problem, h)->advance(sink);
   const measure::Comparison comparison(sink.trajectory(), *one.motion, one.problem);
   const auto contact_time = made->contact_time(one.problem);
-  return {cause_results(comparison, facts_of(study::summary_of(one), contact_time))};
+  return {cause_results(comparison, facts_of(tables::summary_of(one), contact_time))};
 }
 
 TEST(CauseMetrics, AreAllThereInTheirOrder) {

@@ -21,14 +21,6 @@ void add(Counts& to, const Counts& more) {
     to.*count += more.*count;
 }
 
-bool any(const Record& record, Verdict verdict) {
-  return std::ranges::any_of(record.cases, [&](const CaseRecord& one) {
-    return std::ranges::any_of(one.subjects, [&](const Subject& subject) {
-      return subject.refusal.empty() && subject.assessment.verdict == verdict;
-    });
-  });
-}
-
 }  // namespace
 
 std::string_view to_string(StepSource source) {
@@ -126,10 +118,31 @@ std::string_view verdict_word(const Subject& subject) {
   return to_string(subject.assessment.verdict);
 }
 
+const Run* failure_of_all(const Record& record) {
+  const Run* first = nullptr;
+  for (const auto& problem : record.cases)
+    for (const auto& subject : problem.subjects)
+      for (const auto& level : subject.levels)
+        for (const auto& run : level.runs) {
+          if (run.score.finished) return nullptr;
+          if (first == nullptr && is_solver(subject.kind)) first = &run;
+        }
+  return first;
+}
+
+std::string_view verdict_word(const Record& record) {
+  const auto all = counts(record);
+  if (record.interrupted) return "interrupted";
+  if (all.disagrees > 0) return to_string(Verdict::disagrees);
+  if (all.undecided > 0) return to_string(Verdict::undecided);
+  return to_string(all.agrees > 0 ? Verdict::agrees : Verdict::not_claimed);
+}
+
 int exit_code(const Record& record) {
+  const auto word = verdict_word(record);
   if (record.interrupted) return 130;
-  if (any(record, Verdict::disagrees)) return 1;
-  return any(record, Verdict::undecided) ? 3 : 0;
+  if (failure_of_all(record) != nullptr) return 4;
+  return word == to_string(Verdict::disagrees) ? 1 : word == to_string(Verdict::undecided) ? 3 : 0;
 }
 
 }  // namespace clackers::record

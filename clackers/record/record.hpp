@@ -11,6 +11,7 @@
 #include "clackers/base/judgement.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/judge/convergence/assessment.hpp"
+#include "clackers/judge/convergence/step_ladder.hpp"
 #include "clackers/measure/errors/score.hpp"
 #include "clackers/record/metric_result.hpp"
 #include "clackers/record/profile.hpp"
@@ -54,12 +55,7 @@ struct CaseSummary {
   long long impact_count = 0;
 };
 
-/// Steps of a refinement study.
-struct RefinementPlan {
-  double coarsest = 0.05;     ///< [s]
-  int levels = 8;             ///< each half the one before
-  int samples_per_level = 8;  ///< steps a level, ratio 2^(1/samples_per_level)
-};
+using judge::RefinementPlan;
 
 /// Why refinement beyond the plan ended.
 enum class RefinementEnd {
@@ -230,8 +226,15 @@ Counts counts(const Record& record);
 /// The word for the verdict: the verdict's, or "refused" or "interrupted".
 std::string_view verdict_word(const Subject& subject);
 
-/// 0 agrees or nothing claimed, 1 disagrees, 3 undecided; of several 1, else 3, else 0. A method
-/// that refused the case counts for nothing. 130 for an interrupted record.
+/// The failure of the first run, where every run of every subject failed and some subject is a
+/// solver; nullptr otherwise.
+const Run* failure_of_all(const Record& record);
+
+/// The word of a whole record, the first that holds of: interrupted, disagrees, undecided, agrees, not
+/// claimed. A method that refused the case counts for nothing.
+std::string_view verdict_word(const Record& record);
+/// Of that word: interrupted 130, disagrees 1, undecided 3, else 0; 4 where every run of all solvers
+/// failed.
 int exit_code(const Record& record);
 
 }  // namespace clackers::record

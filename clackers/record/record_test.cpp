@@ -109,5 +109,30 @@ TEST(Subject, ShowsTheFinestRunWithMetricsOrHistory) {
   EXPECT_EQ(subject.shown_run(), &subject.levels[0].runs[1]);
 }
 
+Record with_runs(SubjectKind kind, const std::vector<bool>& finished) {
+  Subject subject;
+  subject.kind = kind;
+  subject.levels.emplace_back();
+  for (const bool good : finished) {
+    auto& added = subject.levels[0].runs.emplace_back();
+    added.score.step = double(subject.levels[0].runs.size());
+    added.score.finished = good;
+  }
+  Record whole;
+  whole.cases.emplace_back();
+  whole.cases[0].subjects.push_back(subject);
+  return whole;
+}
+
+TEST(FailureOfAll, IsTheFirstRunOfASolverWhereAllFailed) {
+  const auto failed = with_runs(SubjectKind::program, {false, false});
+  ASSERT_NE(failure_of_all(failed), nullptr);
+  EXPECT_EQ(failure_of_all(failed)->score.step, 1.0);
+  EXPECT_EQ(failure_of_all(with_runs(SubjectKind::program, {false, true})), nullptr);
+  EXPECT_EQ(failure_of_all(with_runs(SubjectKind::method, {false})), nullptr);
+  EXPECT_EQ(failure_of_all(Record{}), nullptr);
+  EXPECT_EQ(exit_code(failed), 4);
+}
+
 }  // namespace
 }  // namespace clackers::record

@@ -115,7 +115,7 @@ int exit_code(const Record& record, const std::vector<Requirement>& requirements
   const bool is_met = std::ranges::all_of(requirements, [&](const Requirement& requirement) {
     return unmet(record, requirement).empty();
   });
-  return is_met || code == 130 ? code : 1;
+  return is_met || code == 130 || code == 4 ? code : 1;
 }
 
 }  // namespace clackers::record

@@ -24,11 +24,11 @@ double tolerance_in(std::string_view whole, std::string_view text) {
 
 }  // namespace
 
-std::vector<study::SolverSubject> subjects_of(const ProgramRequest& request) {
+std::vector<SolverSubject> subjects_of(const ProgramRequest& request) {
   require_positive("verify", "timeout", request.timeout);
   const auto tolerances = tolerances_of(request);
   const auto folder = std::make_shared<WorkFolder>(request.work);
-  std::vector<study::SolverSubject> subjects;
+  std::vector<SolverSubject> subjects;
   for (const auto& program : request.programs) {
     CommandTemplate command(program.command);
     auto& subject = subjects.emplace_back();

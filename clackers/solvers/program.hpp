@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/study/solver.hpp"
+#include "clackers/solvers/solver.hpp"
 
 // `clackers verify --exec`: methods that are programs of others.
 namespace clackers::solvers {
@@ -44,7 +44,7 @@ struct ProgramRequest : ProcessOptions {
 /// The programs as verify() takes solvers. A run fails by a crash, the time limit, an exit status
 /// other than 0, no history, or one that cannot be read. Throws InputError for commands that
 /// CommandTemplate refuses, FileError where the folder of runs cannot be made.
-std::vector<study::SolverSubject> subjects_of(const ProgramRequest& request);
+std::vector<SolverSubject> subjects_of(const ProgramRequest& request);
 
 /// The tolerances of adaptive solvers and methods where none are asked for.
 inline constexpr std::string_view default_tolerances = "1e-3:1e-10";

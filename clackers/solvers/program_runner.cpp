@@ -36,12 +36,12 @@ std::string exit_text(int status) {
   return fmt::format("exit status {}", status);
 }
 
-void set_failure(study::SolverOutput& output, Code code, std::string sentence) {
+void set_failure(SolverOutput& output, Code code, std::string sentence) {
   output.failure_code = code.name();
   output.failure = std::move(sentence) + ".";
 }
 
-void take_end(study::SolverOutput& output, const ProcessResult& result, double timeout) {
+void take_end(SolverOutput& output, const ProcessResult& result, double timeout) {
   switch (result.end) {
     case ProcessResult::End::exited:
       if (result.status != 0) set_failure(output, "program-failed", exit_text(result.status));
@@ -84,7 +84,7 @@ ProgramRunner::ProgramRunner(CommandTemplate command, std::string name, std::str
       fresh_(fresh),
       folder_(std::move(folder)) {}
 
-std::function<std::unique_ptr<study::Solver>(const cases::Case&)> ProgramRunner::maker(
+std::function<std::unique_ptr<Solver>(const cases::Case&)> ProgramRunner::maker(
     const CommandTemplate& command, const std::string& name, const ProcessOptions& options,
     const std::shared_ptr<WorkFolder>& folder) {
   return [=, timeout = options.timeout, fresh = options.fresh](const cases::Case& problem) {
@@ -93,7 +93,7 @@ std::function<std::unique_ptr<study::Solver>(const cases::Case&)> ProgramRunner:
   };
 }
 
-std::string ProgramRunner::command_in(const fs::path& folder, const study::SolverRun& run) const {
+std::string ProgramRunner::command_in(const fs::path& folder, const SolverRun& run) const {
   return command_.filled({{"case", (folder / "problem.json").string()},
                           {"case:text", (folder / "problem.txt").string()},
                           {"h", fmt::format("{}", run.step)},
@@ -103,8 +103,8 @@ std::string ProgramRunner::command_in(const fs::path& folder, const study::Solve
                           {"out", (folder / history_name).string()}});
 }
 
-study::SolverOutput ProgramRunner::output_of(const study::SolverRun& run, const fs::path& folder,
-                                             const std::atomic<bool>* interrupt) const {
+SolverOutput ProgramRunner::output_of(const SolverRun& run, const fs::path& folder,
+                                      const std::atomic<bool>* interrupt) const {
   write_file(folder / "problem.json", json_);
   write_file(folder / "problem.txt", text_);
   const auto history = folder / history_name;
@@ -114,7 +114,7 @@ study::SolverOutput ProgramRunner::output_of(const study::SolverRun& run, const 
                              .timeout = timeout_,
                              .output = prints_history ? history.string() : std::string()},
                             interrupt);
-  study::SolverOutput output;
+  SolverOutput output;
   output.printed = std::move(result.printed);
   take_end(output, result, timeout_);
   if (output.interrupted || !output.failure.empty()) return output;
@@ -130,15 +130,14 @@ study::SolverOutput ProgramRunner::output_of(const study::SolverRun& run, const 
   return output;
 }
 
-study::SolverOutput ProgramRunner::run(const study::SolverRun& run,
-                                       const std::atomic<bool>* interrupt) {
+SolverOutput ProgramRunner::run(const SolverRun& run, const std::atomic<bool>* interrupt) {
   // The paths of a run's own folder are no part of what it does.
   const auto key = command_in({}, run) + '\n' + command_.identity() + json_;
   const auto title = run.tolerance > 0.0 ? fmt::format("{}-rtol{}", title_, run.tolerance)
                                          : fmt::format("{}-h{}", title_, run.step);
   if (!fresh_)
     if (const auto found = folder_->find(title, key)) {
-      study::SolverOutput output;
+      SolverOutput output;
       output.reused = true;
       output.history = (*found / history_name).string();
       if (is_filled(*found / events_name)) output.events = (*found / events_name).string();

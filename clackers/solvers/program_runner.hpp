@@ -15,7 +15,7 @@
 namespace clackers::solvers {
 
 /// Runs one program on one case. run() may be called from several threads.
-class ProgramRunner : public study::Solver {
+class ProgramRunner : public Solver {
  public:
   /// `timeout` of a run [s]; `fresh`: earlier runs are not reused.
   ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
@@ -23,19 +23,19 @@ class ProgramRunner : public study::Solver {
                 std::shared_ptr<WorkFolder> folder);
 
   /// What SolverSubject::prepare calls.
-  static std::function<std::unique_ptr<study::Solver>(const cases::Case&)> maker(
+  static std::function<std::unique_ptr<Solver>(const cases::Case&)> maker(
       const CommandTemplate& command, const std::string& name, const ProcessOptions& options,
       const std::shared_ptr<WorkFolder>& folder);
 
   /// The result of an earlier run of the same command, with the same files of the program, problem,
   /// step and tolerance, if there is one; else that of a new run in a folder of its own, which holds
   /// problem.json and problem.txt. Throws FileError where the folder cannot be written.
-  study::SolverOutput run(const study::SolverRun& run, const std::atomic<bool>* interrupt) override;
+  SolverOutput run(const SolverRun& run, const std::atomic<bool>* interrupt) override;
 
  private:
-  std::string command_in(const std::filesystem::path& folder, const study::SolverRun& run) const;
-  study::SolverOutput output_of(const study::SolverRun& run, const std::filesystem::path& folder,
-                                const std::atomic<bool>* interrupt) const;
+  std::string command_in(const std::filesystem::path& folder, const SolverRun& run) const;
+  SolverOutput output_of(const SolverRun& run, const std::filesystem::path& folder,
+                         const std::atomic<bool>* interrupt) const;
 
   CommandTemplate command_;
   std::string title_;  ///< of the folders: name and case

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "clackers/record/record.hpp"
 
@@ -11,9 +12,15 @@ namespace clackers::study {
 /// The steps that a study is asked for; what is not given follows the case.
 struct RefinementRequest {
   std::optional<double> coarsest{};  ///< [s]; nothing: default_coarsest()
-  std::optional<int> levels{};       ///< nothing: default_levels()
-  int samples_per_level = 8;
+  std::optional<int> levels{};  ///< nothing: default_levels(), of solvers default_solver_levels
+  std::optional<int> samples_per_level{};  ///< nothing: 8, of solvers 4
+  std::vector<double> tolerances{};  ///< of adaptive methods, descending; empty: 1e-3 to 1e-10
 };
+
+/// Whose default steps: runs of solvers cost more than those of methods.
+enum class LadderKind { methods, solvers };
+inline constexpr int default_samples_per_level = 8;
+inline constexpr int default_solver_levels = 6, default_solver_samples_per_level = 4;
 
 /// The default coarsest step: this many a fast period.
 inline constexpr double default_steps_per_period = 14.0;
@@ -25,9 +32,10 @@ double default_coarsest(double fast_period, double end);
 /// end / 2^20.
 int default_levels(double coarsest, double end);
 
-/// The plan of a request on a case.
+/// The plan of a request on a case; the one place of defaults.
 record::RefinementPlan plan_for(const RefinementRequest& request,
-                                const record::CaseSummary& problem);
+                                const record::CaseSummary& problem,
+                                LadderKind kind = LadderKind::methods);
 
 /// Largest number of steps a level that refinement chooses.
 inline constexpr int most_samples_per_level = 32;
@@ -49,7 +57,7 @@ std::optional<record::Refinement> refinement_of(const record::RefinementPlan& as
                                                 record::RefinementEnd end,
                                                 double next_seconds = 0.0);
 
-/// The next ladder of a subject whose levels are those of `plan`; depends on nothing else, so that
+/// The next ladder of a subject, whose levels `ladder` are those of `plan`; depends on nothing else, so that
 /// it is the same on every machine. The first rule that applies decides:
 ///
 ///  1 refused, incomplete, or decided: nothing. Undecided are the verdict `undecided` and an
@@ -62,7 +70,7 @@ std::optional<record::Refinement> refinement_of(const record::RefinementPlan& as
 ///  5 the finest level is at the rounding floor: a coarser first level, while it has two steps a
 ///    fast period or more
 ///  6 anything else: one finer level, while it needs at most 1e9 steps
-NextPlan next_plan(const record::Subject& subject, const record::RefinementPlan& plan,
-                   const record::CaseSummary& problem);
+NextPlan next_plan(const record::Subject& subject, const measure::Ladder& ladder,
+                   const record::RefinementPlan& plan, const record::CaseSummary& problem);
 
 }  // namespace clackers::study

@@ -36,7 +36,7 @@ constexpr double default_budget = 20.0;  // [s]
 struct Options {
   CommonOptions common;
   std::vector<std::string> methods, cases, settings, requirements, only;
-  std::string levels, coarsest, neighbours, budget, jobs, report, baseline, problem;
+  std::string levels, coarsest, samples, budget, jobs, report, baseline, problem;
   bool all = false;
   ProgramOptions programs;
 };
@@ -58,7 +58,8 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
       case_of(name, options.problem);
   auto& plan = request.plan;
   if (!options.levels.empty()) plan.levels = whole("--levels", options.levels, 1, 1);
-  plan.samples_per_level = whole("--neighbours", options.neighbours, 1, plan.samples_per_level);
+  if (!options.samples.empty())
+    plan.samples_per_level = whole("--samples-per-level", options.samples, 1, 1);
   if (!options.coarsest.empty()) plan.coarsest = read_number("--coarsest", options.coarsest);
   // Levels that were asked for are those that are run.
   if (!options.budget.empty())
@@ -66,10 +67,10 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
   else if (options.levels.empty())
     request.budget = default_budget;
   const auto& tolerances = options.programs.tolerances;
-  if (!tolerances.empty()) request.tolerances = solvers::tolerances_from(tolerances);
+  if (!tolerances.empty()) plan.tolerances = solvers::tolerances_from(tolerances);
   request.jobs = whole("--jobs", options.jobs, 1, request.jobs);
   request.command = line;
-  if (options.programs.any()) plan = program_plan(plan, !options.neighbours.empty());
+  request.solvers = program_subjects(options.programs);
   return request;
 }
 
@@ -104,9 +105,6 @@ void check(const Options& options) {
 
 record::Record run_study(const Options& options, const study::VerifyRequest& request) {
   ProgressLine progress("verify", options.common.quiet);
-  auto programs = program_subjects(options.programs);
-  if (!programs.empty())
-    return study::verify(request, std::move(programs), progress.callback(), &interrupt_flag());
   return study::verify(request, progress.callback(), &interrupt_flag());
 }
 
@@ -139,7 +137,8 @@ int run(const Options& options, const std::string& line) {
   }
   output.note_changes(results.format());
   if (record.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
-  const int code = exit_code_of_programs(record, required_exit_code(record, requirements));
+  report_failure_of_all(record);
+  const int code = required_exit_code(record, requirements);
   return written ? code : 4;
 }
 
@@ -166,7 +165,7 @@ void add_verify(Grammar& root) {
            "are run and compared in the same way. Exit code 0 when all agree, 1 when "
            "one disagrees, 3 when one stays undecided.",
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
-                "           [--levels n] [--coarsest h] [--neighbours n] [--budget TIME]\n"
+                "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
                 "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
                 "           [--only VERDICT] [--report FILE.html]\n"
                 "  clackers verify [METHOD ...] --exec COMMAND ...\n"
@@ -195,8 +194,10 @@ void add_verify(Grammar& root) {
                   "rounded to two digits (0.05 for the default case).")
       ->option_text("h");
   app->add_option(
-         "--neighbours", options->neighbours,
-         "Neighbouring steps a level, in the ratio 2^(1/n); they show scatter. Default: 8.")
+         "--samples-per-level", options->samples,
+         "Steps a level, in the ratio 2^(1/n); they show scatter. Default: 8, with programs 4.")
+      ->option_text("n");
+  app->add_option("--neighbours", options->samples, "The former name of --samples-per-level.")
       ->option_text("n");
   app->add_option("--budget", options->budget,
                   "Time for further levels and steps of methods that these leave undecided, in "

@@ -83,7 +83,7 @@ solvers::ProcessOptions process_options_of(const ProgramOptions& options) {
 
 }  // namespace
 
-std::vector<study::SolverSubject> program_subjects(const ProgramOptions& options) {
+std::vector<solvers::SolverSubject> program_subjects(const ProgramOptions& options) {
   require_any(options);
   const auto count = options.commands.size();
   if (!options.names.empty() && options.names.size() != count)
@@ -97,21 +97,14 @@ std::vector<study::SolverSubject> program_subjects(const ProgramOptions& options
   return solvers::subjects_of(request);
 }
 
-study::RefinementRequest program_plan(study::RefinementRequest plan, bool has_neighbours) {
-  if (!plan.levels) plan.levels = study::default_solver_levels;
-  if (!has_neighbours) plan.samples_per_level = study::default_solver_samples;
-  return plan;
-}
-
-int exit_code_of_programs(const record::Record& record, int exit_code) {
-  const auto* failure = study::failure_of_all(record);
-  if (failure == nullptr || record.interrupted) return exit_code;
+void report_failure_of_all(const record::Record& record) {
+  const auto* failure = record::failure_of_all(record);
+  if (failure == nullptr || record.interrupted) return;
   const auto printed = report::printed_text(failure->printed);
   auto sentence = "every run failed; the first one: " + failure->score.failure;
   if (!sentence.ends_with('.')) sentence += '.';
   report_error(sentence + (printed.empty() ? "" : " It printed: " + printed),
                failure->score.failure_code);
-  return 4;
 }
 
 }  // namespace clackers::cli

@@ -22,12 +22,9 @@ void add_program_options(Command& command, ProgramOptions& options);
 
 /// The programs. Throws InputError for values that cannot be read, and for options of programs without
 /// any, and what subjects_of() throws.
-std::vector<study::SolverSubject> program_subjects(const ProgramOptions& options);
+std::vector<solvers::SolverSubject> program_subjects(const ProgramOptions& options);
 
-/// The ladder of a study with programs: shorter where nothing else is asked for.
-study::RefinementRequest program_plan(study::RefinementRequest plan, bool has_neighbours);
-
-/// 4, with a message, where every run of all programs failed; else `exit_code`.
-int exit_code_of_programs(const record::Record& record, int exit_code);
+/// Says why, where every run of all programs failed.
+void report_failure_of_all(const record::Record& record);
 
 }  // namespace clackers::cli

@@ -17,7 +17,7 @@ PANEL = ("newmark", "central-difference", "rk4", "generalized-alpha:rho=0.8", "n
          "newmark+penalty", "moreau-jean")
 
 # A ladder that takes a moment: enough rows to print, too few to judge.
-SHORT_LADDER = ("--coarsest", "0.05", "--levels", "2", "--neighbours", "1")
+SHORT_LADDER = ("--coarsest", "0.05", "--levels", "2", "--samples-per-level", "1")
 # A ladder that takes minutes, to be interrupted.
 LONG_LADDER = ("--coarsest", "2e-5", "--levels", "5", "--set", "a_t=20")
 

@@ -117,7 +117,7 @@ class Use(Campaign):
         self.assertEqual([(row["task"], row["run"]) for row in table[:5]],
                          [("0", "1"), ("0", "2"), ("0", "3"), ("0", "4"), ("1", "1")])
         verify = rows(run("verify", "rk4", "--case", "stop", "--set", "eta=0.5,t_end=2", "--levels", "2",
-                          "--neighbours", "2", "--format", "csv").stdout)
+                          "--samples-per-level", "2", "--format", "csv").stdout)
         for ours, theirs in zip([row for row in table if row["task"] == "1"], verify, strict=True):
             for name in theirs:
                 # Metrics of verify are those of the specification here.

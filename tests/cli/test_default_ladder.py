@@ -34,9 +34,9 @@ class Refinement(CommandTest):
         self.assertGreaterEqual(len(resolved), 1)
 
     def test_levels_that_are_asked_for_are_those_that_are_run(self):
-        subject, = self.subjects("rk4", "--levels", "2", "--neighbours", "1")
+        subject, = self.subjects("rk4", "--levels", "2", "--samples-per-level", "1")
         self.assertEqual((len(subject["levels"]), subject["refinement"]), (2, None))
-        subject, = self.subjects("rk4", "--levels", "2", "--neighbours", "1", *AMPLE)
+        subject, = self.subjects("rk4", "--levels", "2", "--samples-per-level", "1", *AMPLE)
         self.assertEqual(subject["assessment"]["verdict"], "agrees")
         self.assertGreater(len(subject["levels"]), 2)
 

@@ -14,7 +14,7 @@ SOLVERS = os.path.join(ROOT, "examples", "solvers")
 # A mass above a stop, for some collisions.
 STOP = ("--case", "stop", "--set", "t_end=8")
 # Enough runs to be failed.
-SHORT = (*STOP, "--levels", "2", "--neighbours", "1")
+SHORT = (*STOP, "--levels", "2", "--samples-per-level", "1")
 MIDPOINT = f"python3 {SOLVERS}/midpoint.py {{case}} {{h}} {{out}}"
 
 
@@ -73,7 +73,7 @@ class Examples(ExecTest):
                cases=(("stop",), ("three-parameter", "--set", "N=1"))):
         for case in cases:
             subject = self.subject("--exec", command, "--expect", expected, "--case", *case,
-                                   "--levels", "6", "--neighbours", neighbours, exit_code=0)
+                                   "--levels", "6", "--samples-per-level", neighbours, exit_code=0)
             self.assertEqual((subject["kind"], subject["assessment"]["verdict"]),
                              ("program", "agrees"))
 
@@ -186,7 +186,7 @@ class Bad(ExecTest):
 
     def test_hang_is_not_tried_at_every_step(self):
         runs = self.runs(self.subject("--exec", "sleep 1000; : {h}", *STOP, "--levels", "8",
-                                      "--neighbours", "2", "--timeout", "0.2", "--jobs", "1",
+                                      "--samples-per-level", "2", "--timeout", "0.2", "--jobs", "1",
                                       exit_code=4))
         self.assertEqual(sum("not made" in run["failure"] for run in runs), 13)
 
@@ -213,7 +213,7 @@ class Bad(ExecTest):
     def test_one_step_is_a_row_and_not_the_end(self):
         self.script(f"[ $2 -lt 150 ] || {{ echo no memory; exit 7; }}\nexec python3 {SOLVERS}/midpoint.py $1 $3 $4")
         arguments = ("--exec", f"{self.path('solver')} {{case}} {{n}} {{h}} {{out}}", *STOP,
-                     "--coarsest", "0.1", "--levels", "3", "--neighbours", "1")
+                     "--coarsest", "0.1", "--levels", "3", "--samples-per-level", "1")
         runs = self.runs(self.subject(*arguments))
         text = " ".join(run("verify", *arguments).stdout.split())
         self.assertIn("solver: 2 of 3 runs failed, the first at h = 0.05", text)
@@ -223,7 +223,7 @@ class Bad(ExecTest):
 
     def test_ignored_step_is_no_agreement(self):
         subject = self.subject("--exec", MIDPOINT.replace("{h}", "0.01") + " # {h}", *STOP,
-                               "--levels", "4", "--neighbours", "1", "--expect", "proper:2",
+                               "--levels", "4", "--samples-per-level", "1", "--expect", "proper:2",
                                "--budget", "0")
         self.assertNotEqual(subject["assessment"]["verdict"], "agrees")
 
@@ -246,7 +246,7 @@ class Interrupted(ExecTest):
         solver = self.script(f"[ $3 -lt 100 ] || {{ echo $$ >> {log}; sleep 1000; }}\n"
                              f"exec python3 {SOLVERS}/midpoint.py $1 $2 $4")
         with start("verify", "--exec", f"{solver} {{case}} {{h}} {{n}} {{out}}", *STOP, "--coarsest",
-                   "0.1", "--levels", "3", "--neighbours", "2", "--jobs", "1", "--format", "json",
+                   "0.1", "--levels", "3", "--samples-per-level", "2", "--jobs", "1", "--format", "json",
                    stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
             self.wait_for(lambda: os.path.exists(log) and self.text_of("log"))
             process.send_signal(signal.SIGINT)

@@ -59,7 +59,7 @@ class Corners(CommandTest):
         self.assertGreater(checked, len(CORNERS) // 2)
 
     def test_methods_are_assessed_in_every_format(self):
-        short = ("--levels", "4", "--neighbours", "1", "--jobs", "1")
+        short = ("--levels", "4", "--samples-per-level", "1", "--jobs", "1")
         for case, settings in CORNERS:
             if "1e15" in settings or "1e60" in settings or "1e6" in settings:
                 continue  # more steps than a test should take

@@ -33,7 +33,7 @@ class Help(CommandTest):
                          "--merge"],
                "respond": ["--problem", "--report", "--set", "--samples", "--step", "--times", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
-               "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--neighbours",
+               "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--samples-per-level", "--neighbours",
                           "--budget", "--exec", "--name", "--expect", "--tolerances", "--timeout",
                           "--work", "--fresh", "--jobs", "--require", "--baseline", "--only",
                           "--report"]}

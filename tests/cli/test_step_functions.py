@@ -85,7 +85,7 @@ class Examples(StepFunctions):
         for case in (("stop",), ("three-parameter", "--set", "N=1")):
             # Events behind the command: they belong to the run that follows.
             subject = self.subject("--exec", program + " {case:text} events={events} {n} {out}", "--expect",
-                                   "proper:2", "--case", *case, "--levels", "6", "--neighbours", "2", exit_code=0)
+                                   "proper:2", "--case", *case, "--levels", "6", "--samples-per-level", "2", exit_code=0)
             self.assertEqual(subject["assessment"]["verdict"], "agrees")
             self.assertAlmostEqual(subject["assessment"]["displacement"]["order"], 2.0, delta=0.1)
             for level in self.runs(subject):  # impacts were read, too

@@ -8,7 +8,7 @@ import unittest
 from command import LONG_LADDER, PANEL, SHORT_LADDER, CommandTest, environment, run, start
 
 # Enough levels for a judgement on RK4, and quick.
-SHORT = ("--levels", "6", "--neighbours", "2")
+SHORT = ("--levels", "6", "--samples-per-level", "2")
 
 
 class Verdicts(CommandTest):
@@ -21,10 +21,10 @@ class Verdicts(CommandTest):
     def test_a_contradiction_is_exit_code_1(self):
         # A spring this soft bounces where the true masses do not collide.
         soft = "newmark+penalty:stiffness=100"
-        done = run("verify", soft, "--levels", "8", "--neighbours", "1")
+        done = run("verify", soft, "--levels", "8", "--samples-per-level", "1")
         self.assertEqual((done.returncode, done.stderr), (1, ""))
         self.assertIn("disagrees", done.stdout)
-        self.assertEqual(run("verify", soft, "rk4", "--levels", "8", "--neighbours", "1").returncode, 1)
+        self.assertEqual(run("verify", soft, "rk4", "--levels", "8", "--samples-per-level", "1").returncode, 1)
 
     def test_a_ladder_that_is_too_short_is_undecided_with_exit_code_3(self):
         done = run("verify", "rk4", *SHORT_LADDER)
@@ -39,7 +39,7 @@ class Verdicts(CommandTest):
 
     def test_all_is_every_pair(self):
         record = json.loads(run("verify", "--all", "--coarsest", "0.5", "--levels", "1",
-                                "--neighbours", "1", "--format", "json").stdout)
+                                "--samples-per-level", "1", "--format", "json").stdout)
         names = [subject["name"] for subject in record["cases"][0]["subjects"]]
         self.assertEqual(len(names), len(self.json_of("list", "pairs")["rows"]))
         self.refused("verify", "--all", "rk4", code="bad-syntax", says="--all")
@@ -83,7 +83,7 @@ class Record(CommandTest):
 
     def test_holds_the_request(self):
         record = self.record("rk4", "newmark", "--case", "two-parameter", "--set", "N=1,xi1=0.1",
-                             "--coarsest", "0.04", "--levels", "2", "--neighbours", "3", "--jobs", "1")
+                             "--coarsest", "0.04", "--levels", "2", "--samples-per-level", "3", "--jobs", "1")
         self.assertEqual((record["schema"], record["command"]), ("clackers/record/1", "verify"))
         case, = record["cases"]
         self.assertEqual(case["plan"], {"coarsest": 0.04, "levels": 2, "samples_per_level": 3})
@@ -106,7 +106,7 @@ class Record(CommandTest):
         self.assertEqual(words, ["verify", *arguments, "--format", "json"])
 
     def test_csv_has_a_row_a_run(self):
-        text = run("verify", "rk4", "--levels", "2", "--neighbours", "3", "--format", "csv").stdout
+        text = run("verify", "rk4", "--levels", "2", "--samples-per-level", "3", "--format", "csv").stdout
         self.assertEqual(len(text.splitlines()), 1 + 6)
 
     def test_without_arguments_is_the_default_panel_on_the_default_case(self):
@@ -160,7 +160,7 @@ class Refusals(CommandTest):
                               (("--levels", "2.5"), "out-of-range"),
                               (("--levels", "nan"), "not-a-number"),
                               (("--levels", "1e12"), "out-of-range"),
-                              (("--neighbours", "0"), "out-of-range"),
+                              (("--samples-per-level", "0"), "out-of-range"),
                               (("--jobs", "0"), "out-of-range"),
                               (("--jobs", "x"), "not-a-number"),
                               (("--coarsest", "0"), "step-not-positive"),

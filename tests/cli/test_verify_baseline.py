@@ -7,7 +7,7 @@ import unittest
 from command import LONG_LADDER, CommandTest, run
 from histories import CheckTest
 
-QUICK = ("--coarsest", "0.05", "--levels", "5", "--neighbours", "2", "--jobs", "1")
+QUICK = ("--coarsest", "0.05", "--levels", "5", "--samples-per-level", "2", "--jobs", "1")
 
 
 class Baseline(CommandTest):

@@ -10,7 +10,7 @@ from command import CommandTest, rows, run
 
 SCHEMA = os.path.join(os.path.dirname(__file__), "../../docs/schemas/record-1.json")
 CASES = ("--case", "stop", "--case", "symmetric-pair", "--coarsest", "0.1", "--levels", "4",
-         "--neighbours", "1", "--set", "t_end=8")
+         "--samples-per-level", "1", "--set", "t_end=8")
 
 
 class Cases(CommandTest):

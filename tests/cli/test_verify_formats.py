@@ -7,9 +7,9 @@ import xml.etree.ElementTree as ElementTree
 from command import LONG_LADDER, SHORT_LADDER, CommandTest, run
 
 MIXED = ("verify", "rk4", "newmark+penalty", "--case", "symmetric-pair", "--set", "eta=0.5",
-         "--levels", "6", "--neighbours", "2")
+         "--levels", "6", "--samples-per-level", "2")
 # A spring this soft bounces where the true masses do not collide.
-SOFT = ("verify", "newmark+penalty:stiffness=100", "--levels", "8", "--neighbours", "1")
+SOFT = ("verify", "newmark+penalty:stiffness=100", "--levels", "8", "--samples-per-level", "1")
 
 
 def suite(*arguments):

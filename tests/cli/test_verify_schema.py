@@ -46,7 +46,7 @@ class Schema(CommandTest):
         # A method that refuses the case, one that does not finish its coarse runs, one that reports
         # no collisions in full.
         done = run("verify", "rk4", "newmark+penalty", "moreau-jean", "--case", "symmetric-pair",
-                   "--set", "eta=0.5", "--levels", "2", "--neighbours", "2", "--format", "json")
+                   "--set", "eta=0.5", "--levels", "2", "--samples-per-level", "2", "--format", "json")
         cls.record = json.loads(done.stdout)
         # Small, so that it can be bent in every place: one method that ran, one that refused.
         cls.whole = copy.deepcopy(cls.record)
@@ -77,7 +77,7 @@ class Schema(CommandTest):
 
     def test_takes_the_default_panel_and_every_pair(self):
         for methods in ((), ("--all",)):
-            done = run("verify", *methods, "--coarsest", "0.5", "--levels", "1", "--neighbours", "1",
+            done = run("verify", *methods, "--coarsest", "0.5", "--levels", "1", "--samples-per-level", "1",
                        "--format", "json")
             self.validator.validate(json.loads(done.stdout))
 

@@ -18,7 +18,7 @@ ERRORS = {"malloc": (errno.ENOMEM,), "open": (errno.EMFILE, errno.EACCES, errno.
           "read": (errno.EIO, errno.EINTR), "write": (errno.ENOSPC, errno.EIO, errno.EINTR),
           "rename": (errno.EACCES, errno.EEXIST, errno.EINVAL), "fsync": (errno.EIO,), "thread": (errno.EAGAIN,)}
 OLD = "old\n"
-SHORT = ("--coarsest", "0.05", "--levels", "2", "--neighbours", "1")
+SHORT = ("--coarsest", "0.05", "--levels", "2", "--samples-per-level", "1")
 # Arguments without outputs, and the outputs: names of files, or one folder.
 COMMANDS = (
     (("respond", "three-parameter", "--samples", "3000", "--format", "csv", "--out", "out.csv"), ("out.csv",)),

@@ -89,7 +89,7 @@ class CLibrary(unittest.TestCase):
         installed.run(installed.CC, *STRICT, *flags("--cflags"), installed.ROOT / "examples/step_functions/newmark.c", "-lm",
                       "-o", program)
         installed.run(tree.prefix / "bin/clackers", "verify", "--exec", f"{program} {{case:text}} {{n}} {{out}}", "--expect",
-                      "proper:2", "--case", "stop", "--set", "t_end=8", "--neighbours", "1", "--work", tree.folder / "work")
+                      "proper:2", "--case", "stop", "--set", "t_end=8", "--samples-per-level", "1", "--work", tree.folder / "work")
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ import numpy as np
 import clackers
 
 CASE = clackers.case("three-parameter", N=2, xi1=0.05)
-RECORD = clackers.verify("rk4", "newmark+reversal", case=CASE, levels=4, neighbours=3)
+RECORD = clackers.verify("rk4", "newmark+reversal", case=CASE, levels=4, samples_per_level=3)
 
 
 def lines(axes):
@@ -153,7 +153,7 @@ class OfARecord(Plots):
 
     def test_the_floor_is_drawn_where_errors_come_near(self):
         self.assertNotIn("rounding", lines(clackers.plot.convergence(RECORD)))
-        near = clackers.verify("rk4", case=CASE, levels=9, neighbours=2)
+        near = clackers.verify("rk4", case=CASE, levels=9, samples_per_level=2)
         line = lines(clackers.plot.convergence(near))["rounding"]
         table = near.table()
         order = np.argsort(table["step"])
@@ -173,7 +173,7 @@ class OfARecord(Plots):
                          ("time $t$ [s]", "|error in $u_2$| / largest envelope"))
 
     def test_a_case_is_chosen_by_name(self):
-        record = clackers.verify("rk4", case=["stop", "three-parameter"], levels=2, neighbours=1)
+        record = clackers.verify("rk4", case=["stop", "three-parameter"], levels=2, samples_per_level=1)
         table = record.table()
         for case in ("stop", "three-parameter"):
             points = lines(clackers.plot.convergence(record, case))["_runs of rk4"]
@@ -193,7 +193,7 @@ class Refusals(Plots):
             raise RuntimeError("no run")
 
         with self.assertRaises(clackers.SolverError) as caught:
-            clackers.verify(failing, levels=2, neighbours=1)
+            clackers.verify(failing, levels=2, samples_per_level=1)
         failed = caught.exception.record
         for record in (failed, with_errors(lambda value: 0.0)):
             with self.assertRaisesRegex(clackers.InputError, "nothing to draw"):
@@ -255,8 +255,8 @@ class Files(Plots):
             return axes.get_window_extent(), axes.get_legend().get_window_extent(), axes.figure.get_window_extent()
 
         methods = ("rk4", "newmark", "newmark+reversal", "generalized-alpha", "newmark+penalty")
-        short, _, _ = measured(clackers.verify("rk4", case=CASE, levels=3, neighbours=2))
-        box, legend, inside = measured(clackers.verify(*methods, case=CASE, levels=3, neighbours=2))
+        short, _, _ = measured(clackers.verify("rk4", case=CASE, levels=3, samples_per_level=2))
+        box, legend, inside = measured(clackers.verify(*methods, case=CASE, levels=3, samples_per_level=2))
         self.assertGreater(box.height, 0.95 * short.height)
         self.assertGreater(box.width, 0.9 * short.width)
         self.assertLessEqual(legend.x1, inside.x1)

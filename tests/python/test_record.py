@@ -17,9 +17,9 @@ def wrong(problem, h):
     return event_driven(problem, h, restitution=0.9)
 
 
-METHODS = clackers.verify("rk4", "newmark", levels=5, neighbours=4)
+METHODS = clackers.verify("rk4", "newmark", levels=5, samples_per_level=4)
 CALLABLE = clackers.verify(wrong, steps=[0.1, 0.07, 0.05], expect="exact")
-CASES = clackers.verify("rk4", case=["stop", "three-parameter"], levels=3, neighbours=2)
+CASES = clackers.verify("rk4", case=["stop", "three-parameter"], levels=3, samples_per_level=2)
 
 
 class Subjects(unittest.TestCase):
@@ -74,7 +74,7 @@ class Texts(unittest.TestCase):
         command = os.environ.get("CLACKERS")
         if not command:
             self.skipTest("CLACKERS names no command")
-        shown = subprocess.run([command, "verify", "rk4", "newmark", "--levels", "5", "--neighbours", "4"],
+        shown = subprocess.run([command, "verify", "rk4", "newmark", "--levels", "5", "--samples-per-level", "4"],
                                capture_output=True, text=True).stdout.rstrip("\n").splitlines()
         self.assertEqual(str(METHODS).splitlines()[:-1], shown[:-1])
 
@@ -214,7 +214,7 @@ class Files(unittest.TestCase):
             self.skipTest("CLACKERS names no command")
         path = self.folder / "record.json"
         METHODS.save(path)
-        done = subprocess.run([command, "verify", "rk4", "newmark", "--levels", "5", "--neighbours", "4",
+        done = subprocess.run([command, "verify", "rk4", "newmark", "--levels", "5", "--samples-per-level", "4",
                                "--baseline", str(path)], capture_output=True, text=True)
         self.assertIn("nothing changed in 2 methods", done.stdout.replace("\n", " "))
 

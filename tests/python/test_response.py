@@ -36,7 +36,7 @@ class Response(unittest.TestCase):
         self.assertIn("coupling=dense", repr(dense))
         chain = clackers.case("assembly", pairs=2)
         self.assertFalse(np.array_equal(dense.problem.M, chain.problem.M))
-        record = clackers.verify("piecewise-exact", case=dense, levels=4, neighbours=1)
+        record = clackers.verify("piecewise-exact", case=dense, levels=4, samples_per_level=1)
         self.assertIn("coupling", str(record))
         with self.assertRaisesRegex(clackers.InputError, 'Did you mean "dense"'):
             clackers.case("assembly", coupling="dens")

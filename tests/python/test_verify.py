@@ -12,7 +12,7 @@ import numpy as np
 import clackers
 from solvers import event_driven, leapfrog, scipy_flights
 
-FAST = dict(case="stop", levels=3, neighbours=1)
+FAST = dict(case="stop", levels=3, samples_per_level=1)
 
 
 def codes(record):
@@ -21,7 +21,7 @@ def codes(record):
 
 class Methods(unittest.TestCase):
     def test_without_subjects_the_default_panel_is_judged(self):
-        record = clackers.verify(levels=2, neighbours=1)
+        record = clackers.verify(levels=2, samples_per_level=1)
         self.assertIn("rk4", record)
         self.assertGreater(len(record), 5)
 
@@ -33,7 +33,7 @@ class Methods(unittest.TestCase):
 
     def test_cases_have_parameters_of_their_own(self):
         record = clackers.verify("rk4", case=[clackers.case("stop", eta=0.5), clackers.case("three-parameter", N=3)],
-                                 levels=2, neighbours=1)
+                                 levels=2, samples_per_level=1)
         self.assertEqual(record.cases, ("stop", "three-parameter"))
         self.assertEqual(record["stop", "rk4"].case, "stop")
         self.assertIn("N = 3", str(record))
@@ -44,9 +44,9 @@ class Methods(unittest.TestCase):
         self.assertEqual(shares[-1], 1.0)
 
     def test_the_line_that_reproduces_it(self):
-        record = clackers.verify("rk4", case="stop", levels=2, neighbours=1, eta=0.5)
+        record = clackers.verify("rk4", case="stop", levels=2, samples_per_level=1, eta=0.5)
         self.assertEqual(record.provenance["command"],
-                         "clackers.verify('rk4', case='stop', levels=2, neighbours=1, eta=0.5)")
+                         "clackers.verify('rk4', case='stop', levels=2, samples_per_level=1, eta=0.5)")
         again = eval(record.provenance["command"])
         np.testing.assert_array_equal(again.table()["u_error"], record.table()["u_error"])
 
@@ -288,7 +288,7 @@ class Failures(unittest.TestCase):
         for what, (solver, code, words) in self.BAD.items():
             with self.subTest(what):
                 with self.assertRaises(clackers.SolverError) as caught:
-                    clackers.verify(solver, case="three-parameter", levels=2, neighbours=1)
+                    clackers.verify(solver, case="three-parameter", levels=2, samples_per_level=1)
                 self.assertEqual(caught.exception.code, code)
                 self.assertIn(words, str(caught.exception))
                 self.assertIsInstance(caught.exception, ValueError)
@@ -306,7 +306,7 @@ class Failures(unittest.TestCase):
         self.assertIn("in solver / raise error", str(caught.exception.record).replace("\n", " "))
 
     def test_runs_that_fail_at_small_steps_alone_are_failed_rows(self):
-        record = clackers.verify(at_small_steps, case="stop", levels=4, neighbours=1)
+        record = clackers.verify(at_small_steps, case="stop", levels=4, samples_per_level=1)
         self.assertEqual(list(record.table()["finished"]).count("no"), 3)
         self.assertEqual(list(record.table()["finished"]).count("yes"), 1)
         self.assertIn("OverflowError: too many", str(record).replace("\n", " "))
@@ -325,7 +325,7 @@ class Failures(unittest.TestCase):
     def test_what_a_callable_prints_goes_where_it_printed(self):
         script = ("import clackers\nfrom solvers import leapfrog\n"
                   "def solver(problem, h):\n    print('step', h)\n    return leapfrog(problem, h)\n"
-                  "clackers.verify(solver, case='stop', levels=2, neighbours=1)\n")
+                  "clackers.verify(solver, case='stop', levels=2, samples_per_level=1)\n")
         done = run(script)
         self.assertEqual(done.stdout.count("step"), 2)
         self.assertEqual(done.returncode, 0)
@@ -423,7 +423,7 @@ class Interrupts(unittest.TestCase):
             return leapfrog(problem, h)
 
         with self.assertRaises(clackers.Interrupted) as caught:
-            clackers.verify(solver, case="stop", levels=4, neighbours=1, jobs=1)
+            clackers.verify(solver, case="stop", levels=4, samples_per_level=1, jobs=1)
         self.assertEqual(len(calls), 3)
         self.assertTrue(caught.exception.record.interrupted)
         self.assertEqual(list(caught.exception.record.table()["finished"]), ["yes", "yes"])

@@ -117,7 +117,7 @@ def verify(
     expect: str | None,
     levels: int | None,
     coarsest: float | None,
-    neighbours: int | None,
+    samples_per_level: int | None,
     budget: float,
     jobs: int,
     command: str,

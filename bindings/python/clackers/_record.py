@@ -85,7 +85,7 @@ class Figure:
     """A figure as a Vega-Lite specification, which notebooks draw.
 
     >>> import clackers
-    >>> figure = clackers.verify("rk4", levels=3, neighbours=2).figure("convergence")
+    >>> figure = clackers.verify("rk4", levels=3, samples_per_level=2).figure("convergence")
     >>> figure.spec["$schema"]
     'https://vega.github.io/schema/vega-lite/v5.json'
     """
@@ -102,7 +102,7 @@ class Figure:
         """Writes the specification as json, for example to ``convergence.vl.json``.
 
         >>> import clackers, os
-        >>> clackers.verify("rk4", levels=3, neighbours=2).figure("convergence").save(os.devnull)
+        >>> clackers.verify("rk4", levels=3, samples_per_level=2).figure("convergence").save(os.devnull)
         """
         with open(path, "w", encoding="utf-8") as file:
             json.dump(self.spec, file, ensure_ascii=False)
@@ -122,7 +122,7 @@ class Record:
     ``record["rk4"]`` is one of its subjects, ``record["stop", "rk4"]`` one of several cases.
 
     >>> import clackers
-    >>> record = clackers.verify("rk4", "newmark", levels=3, neighbours=2)
+    >>> record = clackers.verify("rk4", "newmark", levels=3, samples_per_level=2)
     >>> list(record)
     ['rk4', 'newmark']
     >>> record["rk4"].kind
@@ -187,7 +187,7 @@ class Record:
         """What ``record[...]`` takes: names, or (case, name) where there are several cases.
 
         >>> import clackers
-        >>> clackers.verify("rk4", case=["stop", "sdof"], levels=2, neighbours=1).keys()
+        >>> clackers.verify("rk4", case=["stop", "sdof"], levels=2, samples_per_level=1).keys()
         (('stop', 'rk4'), ('sdof', 'rk4'))
         """
         if len(self._cases) == 1:
@@ -270,7 +270,7 @@ class Record:
         """Every run of every subject as a row, the columns of ``clackers.catalogue("columns")``.
 
         >>> import clackers
-        >>> record = clackers.verify("rk4", levels=2, neighbours=1)
+        >>> record = clackers.verify("rk4", levels=2, samples_per_level=1)
         >>> record.table()["step"].round(2)
         array([0.05, 0.03])
         """
@@ -280,7 +280,7 @@ class Record:
         """The text of ``clackers verify --format json``; every number reads back to the same double.
 
         >>> import clackers, json
-        >>> json.loads(clackers.verify("rk4", levels=2, neighbours=1).to_json())["schema"]
+        >>> json.loads(clackers.verify("rk4", levels=2, samples_per_level=1).to_json())["schema"]
         'clackers/record/1'
         """
         return self._core.to_json()
@@ -293,7 +293,7 @@ class Record:
         another ending, OSError where the file cannot be written.
 
         >>> import clackers, pathlib, tempfile
-        >>> record = clackers.verify("rk4", levels=2, neighbours=1)
+        >>> record = clackers.verify("rk4", levels=2, samples_per_level=1)
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     record.save(pathlib.Path(folder, "record.json"))
         ...     str(clackers.load(pathlib.Path(folder, "record.json"))) == str(record)
@@ -318,7 +318,7 @@ class Record:
         of the case of that name, or of the first. Raises InputError for another name.
 
         >>> import clackers
-        >>> clackers.verify("rk4", levels=3, neighbours=2).figure("response", case="three-parameter")
+        >>> clackers.verify("rk4", levels=3, samples_per_level=2).figure("response", case="three-parameter")
         <clackers.Figure response>
         """
         if case is not None and case not in self.cases:

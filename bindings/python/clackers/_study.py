@@ -33,12 +33,13 @@ def verify(
     tolerances: Sequence[float] | str | Literal[True] | None = None,
     levels: int | None = None,
     coarsest: float | None = None,
-    neighbours: int | None = None,
+    samples_per_level: int | None = None,
     expect: str | None = None,
     name: str | Sequence[str] | None = None,
     budget: float | None = None,
     jobs: int | None = None,
     progress: Progress = None,
+    neighbours: int | None = None,
     **parameters: float | str,
 ) -> Record:
     """Assesses methods and callables over a range of steps on a case whose exact motion is known.
@@ -58,7 +59,7 @@ def verify(
         tolerances  callables are solver(problem, tolerance): a list, "1e-3:1e-10" (one a decade), or True
         levels      number of levels, each half the step of the one before; default 8, 6 with callables
         coarsest    largest step [s]; default a fourteenth of the fast period of the case
-        neighbours  steps a level; default 8, 4 with callables
+        samples_per_level  steps a level; default 8, 4 with callables; its former name is neighbours
         expect      what callables should show: "proper:2", "irregular:1", "exact", ...; default nothing
         name        names of callables in the record; default those of the functions
         budget      time for further steps of what is undecided [s]; default 20, 0 with levels or steps
@@ -86,6 +87,8 @@ def verify(
     >>> record.subject.kind
     'callable'
     """
+    if samples_per_level is None:
+        samples_per_level = neighbours
     names = [subject for subject in subjects if isinstance(subject, str)]
     solvers = [subject for subject in subjects if not isinstance(subject, str)]
     for solver in solvers:
@@ -109,13 +112,13 @@ def verify(
             expect=None if expect is None else _core.read_text("verify", "expect", expect),
             levels=None if levels is None else _positive_whole("levels", levels),
             coarsest=None if coarsest is None else _core.read_number("verify", "coarsest", coarsest),
-            neighbours=None if neighbours is None else _positive_whole("neighbours", neighbours),
+            samples_per_level=None if samples_per_level is None else _positive_whole("samples_per_level", samples_per_level),
             budget=_core.read_number("verify", "budget", budget),
             jobs=0 if jobs is None else _positive_whole("jobs", jobs),
             command=_line(
                 "verify", [repr(each) if isinstance(each, str) else name_of(each) for each in subjects], parameters,
                 case=case, steps=steps, tolerances=tolerances, levels=levels, coarsest=coarsest,
-                neighbours=neighbours, expect=expect, name=name,
+                samples_per_level=samples_per_level, expect=expect, name=name,
             ),
             progress=report,
         )

@@ -147,7 +147,7 @@ def convergence(
     not drawn. Raises InputError where no run has one.
 
     >>> import clackers
-    >>> record = clackers.verify("rk4", "newmark+reversal", case="three-parameter", levels=3, neighbours=4)
+    >>> record = clackers.verify("rk4", "newmark+reversal", case="three-parameter", levels=3, samples_per_level=4)
     >>> axes = clackers.plot.convergence(record)
     >>> [text.get_text() for text in axes.get_legend().get_texts()]
     ['rk4', 'newmark+reversal']
@@ -184,7 +184,7 @@ def history(
     one of several cases, by default the first. Raises InputError where there is no history, or no such mass.
 
     >>> import clackers
-    >>> record = clackers.verify("rk4", "newmark", case="three-parameter", levels=3, neighbours=4)
+    >>> record = clackers.verify("rk4", "newmark", case="three-parameter", levels=3, samples_per_level=4)
     >>> clackers.plot.history(record, mass=2).get_ylabel()
     '|error in $u_2$| / largest envelope'
     """

@@ -57,11 +57,11 @@ TEST(LadderOptions, AreThoseOfVerify) {
   EXPECT_EQ(ladder_options({}), "--budget 0");
   Ladder ladder;
   ladder.levels = 5;
-  ladder.neighbours = 4;
+  ladder.samples_per_level = 4;
   ladder.coarsest = 0.1;
   ladder.tolerances = {1e-3, 1e-5};
   EXPECT_EQ(ladder_options(ladder),
-            "--levels 5 --neighbours 4 --coarsest 0.1 --tolerances 0.001,1e-05");
+            "--levels 5 --samples-per-level 4 --coarsest 0.1 --tolerances 0.001,1e-05");
 }
 
 }  // namespace

@@ -89,12 +89,14 @@ class SpecificationReader : public TomlReader {
 
   void read_ladder(const toml::node& node) {
     const auto& values = table(node, "ladder", "[ladder] with levels and more below it");
-    require_known(values, {"levels", "neighbours", "coarsest", "tolerances"}, " of ladder");
+    require_known(values, {"levels", "samples_per_level", "neighbours", "coarsest", "tolerances"},
+                  " of ladder");
     auto& ladder = out_.ladder_;
     if (const auto* found = values.get("levels"))
       ladder.levels = static_cast<int>(whole(*found, "levels", 1, 64));
-    if (const auto* found = values.get("neighbours"))
-      ladder.neighbours = static_cast<int>(whole(*found, "neighbours", 1, 64));
+    for (const auto* name : {"neighbours", "samples_per_level"})  // the first is the former name
+      if (const auto* found = values.get(name))
+        ladder.samples_per_level = static_cast<int>(whole(*found, name, 1, 64));
     if (const auto* found = values.get("coarsest")) {
       ladder.coarsest = number(*found, "coarsest");
       if (!(*ladder.coarsest > 0.0))

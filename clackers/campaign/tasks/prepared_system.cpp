@@ -7,13 +7,10 @@
 namespace clackers::campaign {
 namespace {
 
-study::RefinementRequest ladder_of(const Ladder& asked, bool is_solver) {
-  study::RefinementRequest ladder{asked.coarsest, asked.levels};
-  if (is_solver && !ladder.levels) ladder.levels = study::default_solver_levels;
-  const int samples =
-      is_solver ? study::default_solver_samples : study::RefinementRequest{}.samples_per_level;
-  ladder.samples_per_level = asked.neighbours.value_or(samples);
-  return ladder;
+study::SystemStudy::Subject subject_of(const MethodEntry& method,
+                                       const std::optional<solvers::SolverSubject>& solver) {
+  if (solver) return &*solver;
+  return method.text;
 }
 
 }  // namespace
@@ -21,8 +18,7 @@ study::RefinementRequest ladder_of(const Ladder& asked, bool is_solver) {
 PreparedSystem::PreparedSystem(const Specification& specification, System system)
     : specification_(specification), system_(std::move(system)) {
   study::SystemRequest request;
-  request.plan = ladder_of(specification.ladder(), false);
-  request.tolerances = specification.ladder().tolerances;
+  request.plan = specification.ladder();
   request.metrics = !specification.metrics().empty();
   request.times = specification.times_runs();
   try {
@@ -32,26 +28,24 @@ PreparedSystem::PreparedSystem(const Specification& specification, System system
   }
 }
 
-const record::CaseRecord* PreparedSystem::assess(const MethodEntry& method,
-                                                 const std::optional<study::SolverSubject>& solver,
-                                                 const std::atomic<bool>* interrupt) {
+const record::CaseRecord* PreparedSystem::assess(
+    const MethodEntry& method, const std::optional<solvers::SolverSubject>& solver,
+    const std::atomic<bool>* interrupt) {
   const auto& name = solver ? solver->name : method.name;
   if (!study_) return refused(name, *refusal_);
   try {
-    return solver ? study_->assess(*solver, ladder_of(specification_.ladder(), true), interrupt)
-                  : study_->assess(method.text, interrupt);
+    return study_->assess(subject_of(method, solver), interrupt);
   } catch (const InputError& error) {
     return refused(name, error);
   }
 }
 
 study::CostEstimate PreparedSystem::estimate(const MethodEntry& method,
-                                             const std::optional<study::SolverSubject>& solver,
+                                             const std::optional<solvers::SolverSubject>& solver,
                                              bool timed) {
   if (!study_) return {};
   try {
-    return solver ? study_->estimate(*solver, ladder_of(specification_.ladder(), true), timed)
-                  : study_->estimate(method.text, timed);
+    return study_->estimate(subject_of(method, solver), timed);
   } catch (const InputError&) {
     return {};
   }

@@ -6,7 +6,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/campaign/specification.hpp"
-#include "clackers/study/solver.hpp"
+#include "clackers/solvers/solver.hpp"
 #include "clackers/study/system_study.hpp"
 
 namespace clackers::campaign {
@@ -23,10 +23,10 @@ class PreparedSystem {
   /// A record with one subject, valid until the next call; nullptr when interrupted. `solver` is there
   /// for a method that is none of the catalogue.
   const record::CaseRecord* assess(const MethodEntry& method,
-                                   const std::optional<study::SolverSubject>& solver,
+                                   const std::optional<solvers::SolverSubject>& solver,
                                    const std::atomic<bool>* interrupt);
   study::CostEstimate estimate(const MethodEntry& method,
-                               const std::optional<study::SolverSubject>& solver, bool timed);
+                               const std::optional<solvers::SolverSubject>& solver, bool timed);
 
  private:
   const record::CaseRecord* refused(std::string name, const InputError& why);

@@ -13,15 +13,15 @@ namespace {
 
 constexpr auto step_ladder_name = "step ladder";
 
-void validate(const StepPlan& plan, double end) {
+void validate(const RefinementPlan& plan, double end) {
   require_positive(step_ladder_name, "end", end);
   require_step(step_ladder_name, plan.coarsest);
   if (plan.coarsest > end)
     refuse(step_ladder_name, "coarsest", plan.coarsest,
            fmt::format("at most the length of the run, {} s", end), {}, "step-not-positive");
   if (plan.levels < 1) refuse(step_ladder_name, "levels", plan.levels, "1 or more");
-  require_within(step_ladder_name, "neighbours", plan.neighbours, 1, 64);
-  const double share = double(plan.neighbours - 1) / plan.neighbours;
+  require_within(step_ladder_name, "samples per level", plan.samples_per_level, 1, 64);
+  const double share = double(plan.samples_per_level - 1) / plan.samples_per_level;
   const double finest = plan.coarsest * std::exp2(-(plan.levels - 1 + share));
   if (!(end / finest <= most_steps))
     throw InputError(
@@ -45,15 +45,15 @@ double clearance(long long n, double end, std::span<const double> impact_times) 
 
 }  // namespace
 
-std::vector<StepLevel> step_ladder(const StepPlan& plan, double end,
+std::vector<StepLevel> step_ladder(const RefinementPlan& plan, double end,
                                    std::span<const double> impact_times) {
   validate(plan, end);
   std::vector<double> inside;
   for (const double t : impact_times)
     if (t > 0.0 && t < end) inside.push_back(t);
   const double wanted_clearance = std::min(0.05, 0.25 / std::max(1.0, double(inside.size())));
-  // A quarter of the way to the next neighbour, so that neighbours keep their order and ratio.
-  const double reach = 0.25 * (std::exp2(1.0 / plan.neighbours) - 1.0);
+  // A quarter of the way to the next step, so that steps keep their order and ratio.
+  const double reach = 0.25 * (std::exp2(1.0 / plan.samples_per_level) - 1.0);
   // Far more numbers than are needed to find one that keeps away.
   constexpr long long most_tries = 1000;
   std::vector<StepLevel> ladder;
@@ -61,8 +61,8 @@ std::vector<StepLevel> step_ladder(const StepPlan& plan, double end,
   for (int i = 0; i < plan.levels; ++i) {
     StepLevel level;
     level.nominal = plan.coarsest * std::exp2(-i);
-    for (int j = 0; j < plan.neighbours; ++j) {
-      const double wanted = end / level.nominal * std::exp2(double(j) / plan.neighbours);
+    for (int j = 0; j < plan.samples_per_level; ++j) {
+      const double wanted = end / level.nominal * std::exp2(double(j) / plan.samples_per_level);
       const auto nearest = std::max(1LL, std::llround(wanted));
       const auto width = std::min(most_tries, (long long)(reach * wanted));
       long long best = 0;

@@ -7,11 +7,11 @@
 
 namespace clackers::judge {
 
-/// What a ladder of steps is asked for.
-struct StepPlan {
-  double coarsest = 0.05;  ///< [s], 0 < coarsest <= end
-  int levels = 8;          ///< 1 or more; each level halves the step of the one before
-  int neighbours = 8;      ///< steps a level, 1 to 64, of ratio 2^(1/neighbours)
+/// The steps of a refinement study.
+struct RefinementPlan {
+  double coarsest = 0.05;     ///< [s], 0 < coarsest <= end
+  int levels = 8;             ///< 1 or more; each level halves the step of the one before
+  int samples_per_level = 8;  ///< 1 to 64 steps, of ratio 2^(1/samples_per_level)
 };
 
 /// The steps of one level.
@@ -26,16 +26,16 @@ using model::most_steps;
 /// The steps end / n of a study, n whole, so that every run ends on `end`.
 ///
 /// n is the whole number nearest to the wanted end / h; then, among the numbers at most a quarter
-/// of the way to the neighbouring steps, the nearest one for which every t / h, t an impact time,
+/// of the way to the steps before and behind, the nearest one for which every t / h, t an impact time,
 /// stays at least min(0.05, 1/(4 K)) away from whole numbers (K impact times; four in ten numbers
 /// or more allow that), or the one that stays away furthest where none allows it.
-/// Numbers are strictly ascending through the ladder: where the steps are so long that neighbours
+/// Numbers are strictly ascending through the ladder: where the steps are so long that two
 /// coincide, a level has fewer of them, but at least one.
 ///
 /// Only impact times within (0, end) count. Throws InputError for coarsest <= 0, above end or not
-/// finite, for levels or neighbours outside their range, and with code too-many-steps when the
+/// finite, for levels or samples outside their range, and with code too-many-steps when the
 /// finest run would need more than 1e9 steps.
-std::vector<StepLevel> step_ladder(const StepPlan& plan, double end,
+std::vector<StepLevel> step_ladder(const RefinementPlan& plan, double end,
                                    std::span<const double> impact_times);
 
 }  // namespace clackers::judge

@@ -83,7 +83,8 @@ TEST(StepLadder, OfNumbersThatAllComeTooNearTheFurthestIsTaken) {
   // 8 to 12 are within reach of 10. Impacts lie 0.001 steps behind a whole one for each, 0.004
   // for 11.
   const std::vector<double> impacts{3.001 / 10, 3.004 / 11, 2.001 / 9, 5.001 / 12, 5.001 / 8};
-  const auto ladder = step_ladder({.coarsest = 0.1, .levels = 1, .neighbours = 1}, 1.0, impacts);
+  const auto ladder =
+      step_ladder({.coarsest = 0.1, .levels = 1, .samples_per_level = 1}, 1.0, impacts);
   EXPECT_EQ(ladder[0].counts, std::vector<long long>{11});
 }
 
@@ -93,8 +94,8 @@ TEST(StepLadder, NoStepLeavesItsPlaceFurtherThanAQuarterOfTheWayToTheNext) {
     for (int k = 1; k < n; ++k) everywhere.push_back(double(k) / n);
   for (int neighbours : {1, 2, 5}) {
     const double reach = 0.25 * (std::exp2(1.0 / neighbours) - 1.0);
-    const auto ladder =
-        step_ladder({.coarsest = 0.025, .levels = 2, .neighbours = neighbours}, 1.0, everywhere);
+    const auto ladder = step_ladder(
+        {.coarsest = 0.025, .levels = 2, .samples_per_level = neighbours}, 1.0, everywhere);
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < neighbours; ++j) {
         const double wanted = 40.0 * std::exp2(i + double(j) / neighbours);
@@ -122,16 +123,16 @@ TEST(StepLadder, AtRandomNumbersAscendAndNoLevelIsEmpty) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> share(0.0, 3.0);
   for (int trial = 0; trial < 300; ++trial) {
-    const StepPlan plan{.coarsest = 20.0 * std::pow(10.0, -share(random)),
-                        .levels = 1 + trial % 6,
-                        .neighbours = 1 + trial % 17};
+    const RefinementPlan plan{.coarsest = 20.0 * std::pow(10.0, -share(random)),
+                              .levels = 1 + trial % 6,
+                              .samples_per_level = 1 + trial % 17};
     SCOPED_TRACE(testing::Message() << "seed 7 trial " << trial << " coarsest " << plan.coarsest);
     long long previous = 0;
     const auto ladder = step_ladder(plan, 20.0, default_impacts());
     EXPECT_EQ(ladder.size(), std::size_t(plan.levels));
     for (const auto& level : ladder) {
       EXPECT_FALSE(level.counts.empty());
-      EXPECT_LE(level.counts.size(), std::size_t(plan.neighbours));
+      EXPECT_LE(level.counts.size(), std::size_t(plan.samples_per_level));
       for (const auto n : level.counts) {
         EXPECT_GT(n, previous);
         previous = n;
@@ -140,7 +141,7 @@ TEST(StepLadder, AtRandomNumbersAscendAndNoLevelIsEmpty) {
   }
 }
 
-std::string code_of(const StepPlan& plan, double end = 20.0) {
+std::string code_of(const RefinementPlan& plan, double end = 20.0) {
   try {
     step_ladder(plan, end, {});
   } catch (const InputError& error) {
@@ -161,14 +162,14 @@ TEST(StepLadder, RefusesStepsThatAreNotPositiveAndFinite) {
 
 TEST(StepLadder, RefusesLevelsAndNeighboursOutsideTheirRange) {
   EXPECT_EQ(code_of({.levels = 0}), "out-of-range");
-  EXPECT_EQ(code_of({.neighbours = 0}), "out-of-range");
-  EXPECT_EQ(code_of({.neighbours = 65}), "out-of-range");
-  EXPECT_EQ(code_of({.levels = 1, .neighbours = 64}), "nothing");
+  EXPECT_EQ(code_of({.samples_per_level = 0}), "out-of-range");
+  EXPECT_EQ(code_of({.samples_per_level = 65}), "out-of-range");
+  EXPECT_EQ(code_of({.levels = 1, .samples_per_level = 64}), "nothing");
 }
 
 TEST(StepLadder, RefusesMoreStepsThanCanEnd) {
-  EXPECT_EQ(code_of({.coarsest = 2.1e-8, .levels = 1, .neighbours = 1}), "nothing");
-  EXPECT_EQ(code_of({.coarsest = 1.9e-8, .levels = 1, .neighbours = 1}), "too-many-steps");
+  EXPECT_EQ(code_of({.coarsest = 2.1e-8, .levels = 1, .samples_per_level = 1}), "nothing");
+  EXPECT_EQ(code_of({.coarsest = 1.9e-8, .levels = 1, .samples_per_level = 1}), "too-many-steps");
   EXPECT_EQ(code_of({.levels = 1000000000}), "too-many-steps");
   EXPECT_EQ(code_of({.coarsest = 5e-324}), "too-many-steps");
   try {

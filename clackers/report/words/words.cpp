@@ -167,11 +167,7 @@ std::string plan_text(const record::CaseRecord& problem) {
 VerdictLine verdict_line(const record::Record& record) {
   const auto all = record::counts(record);
   VerdictLine line;
-  line.word = record.interrupted  ? "interrupted"
-              : all.disagrees > 0 ? "disagrees"
-              : all.undecided > 0 ? "undecided"
-              : all.agrees > 0    ? "agrees"
-                                  : "not claimed";
+  line.word = record::verdict_word(record);
   const bool is_check = record.command == "check";
   struct Part {
     int count;

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "clackers/study/verify/verify_plan.hpp"
+#include "clackers/tables/case_summary.hpp"
 #include "clackers/tables/respond.hpp"
 #include "clackers/tables/respond/timed_rows.hpp"
 
@@ -50,8 +50,8 @@ std::unique_ptr<record::RowSource> respond(const cases::Case& which, const TimeG
 
 record::CaseRecord response_record(const cases::Case& which) {
   record::CaseRecord record;
-  record.problem = study::summary_of(which);
-  record.plan = study::no_refinement;
+  record.problem = summary_of(which);
+  record.plan = {0.0, 0, 0};
   record.response = response_curve(which, response_points);
   return record;
 }

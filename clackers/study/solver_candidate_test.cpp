@@ -1,5 +1,6 @@
-#include "clackers/study/solver.hpp"
+#include "clackers/study/solver_candidate.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,23 +8,27 @@
 #include <vector>
 
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/methods/registry.hpp"
+#include "clackers/model/trajectory.hpp"
+#include "clackers/study/verify.hpp"
 
 namespace clackers::study {
 namespace {
 
 // Keeps the runs that it was asked for; each fails.
-struct FailingSolver : Solver {
-  FailingSolver(std::vector<SolverRun>& kept, bool repeats) : runs(kept), would_repeat(repeats) {}
-  SolverOutput run(const SolverRun& run, const std::atomic<bool>*) override {
+struct FailingSolver : solvers::Solver {
+  FailingSolver(std::vector<solvers::SolverRun>& kept, bool repeats)
+      : runs(kept), would_repeat(repeats) {}
+  solvers::SolverOutput run(const solvers::SolverRun& run, const std::atomic<bool>*) override {
     runs.push_back(run);
-    SolverOutput output;
+    solvers::SolverOutput output;
     output.failure_code = "program-failed";
     output.failure = "exit status 1.";
     output.printed = "no licence";
     output.would_repeat = would_repeat;
     return output;
   }
-  std::vector<SolverRun>& runs;
+  std::vector<solvers::SolverRun>& runs;
   bool would_repeat;
 };
 
@@ -37,12 +42,15 @@ class SolversUnderTest : public testing::Test {
       return std::make_unique<FailingSolver>(runs_, would_repeat_);
     };
   }
-  record::Record verify_one() { return verify(request_, {subject_}); }
+  record::Record verify_one() {
+    request_.solvers = {subject_};
+    return verify(request_);
+  }
 
-  std::vector<SolverRun> runs_;
+  std::vector<solvers::SolverRun> runs_;
   bool would_repeat_ = false;
   VerifyRequest request_;
-  SolverSubject subject_;
+  solvers::SolverSubject subject_;
 };
 
 TEST_F(SolversUnderTest, AreRunWithTheStepsOfThePlan) {
@@ -83,7 +91,7 @@ TEST_F(SolversUnderTest, KeepTheFailuresOfTheirRuns) {
   const auto& run = subject.levels[0].runs[0];
   EXPECT_EQ(run.score.failure_code, "program-failed");
   EXPECT_EQ(run.printed, "no licence");
-  EXPECT_EQ(failure_of_all(record)->score.failure, "exit status 1.");
+  EXPECT_EQ(record::failure_of_all(record)->score.failure, "exit status 1.");
 }
 
 TEST_F(SolversUnderTest, AreNotRunFurtherAfterThreeFailuresThatSmallerStepsShare) {
@@ -97,7 +105,8 @@ TEST_F(SolversUnderTest, AreNotRunFurtherAfterThreeFailuresThatSmallerStepsShare
 TEST_F(SolversUnderTest, AreRunFurtherWhereAnotherFailureStandsBetween) {
   struct EverySecond : FailingSolver {
     using FailingSolver::FailingSolver;
-    SolverOutput run(const SolverRun& run, const std::atomic<bool>* interrupt) override {
+    solvers::SolverOutput run(const solvers::SolverRun& run,
+                              const std::atomic<bool>* interrupt) override {
       would_repeat = runs.size() % 2 == 0;
       return FailingSolver::run(run, interrupt);
     }
@@ -110,7 +119,8 @@ TEST_F(SolversUnderTest, AreRunFurtherWhereAnotherFailureStandsBetween) {
 }
 
 TEST_F(SolversUnderTest, AreRefusedWithTwoOfOneName) {
-  EXPECT_REFUSED(verify(request_, {subject_, subject_}), "bad-syntax", "mine");
+  request_.solvers = {subject_, subject_};
+  EXPECT_REFUSED(verify(request_), "bad-syntax", "mine");
   request_.methods = {"rk4"};
   subject_.name = "rk4";
   EXPECT_REFUSED(verify_one(), "bad-syntax", "rk4");
@@ -127,9 +137,9 @@ TEST_F(SolversUnderTest, AreRefusedWithStepsThatDoNotDescend) {
 }
 
 // The reference itself, in memory that lives as long as the output says.
-struct ExactSolver : Solver {
+struct ExactSolver : solvers::Solver {
   explicit ExactSolver(const cases::Case& problem) : motion(problem.motion) {}
-  SolverOutput run(const SolverRun& run, const std::atomic<bool>*) override {
+  solvers::SolverOutput run(const solvers::SolverRun& run, const std::atomic<bool>*) override {
     auto numbers = std::make_shared<std::vector<double>>();
     for (long long i = 0; i <= run.steps; ++i) {
       const double t = std::min(double(i) * run.step, motion->end());
@@ -139,7 +149,7 @@ struct ExactSolver : Solver {
     input::NumberColumns columns{"mine", numbers->size() / 3, {}};
     for (std::size_t c = 0; c < 3; ++c)
       columns.columns.push_back({c == 0 ? "t" : c == 1 ? "u1" : "u2", numbers->data() + c, 3});
-    SolverOutput output;
+    solvers::SolverOutput output;
     output.history = columns;
     output.events = input::NumberColumns{"its collisions", 0, {{"t"}}};
     output.memory = numbers;
@@ -178,29 +188,43 @@ TEST_F(SolversUnderTest, TakeEachCaseWithItsOwnSettings) {
   EXPECT_EQ(value(1, "N"), 3.0);
 }
 
-record::Record with(record::SubjectKind kind, std::vector<bool> finished) {
-  record::Subject subject;
-  subject.kind = kind;
-  subject.levels.emplace_back();
-  for (const bool good : finished) {
-    record::Run run;
-    run.score.finished = good;
-    run.score.step = double(subject.levels[0].runs.size());
-    subject.levels[0].runs.push_back(run);
+// The rows of a method of the catalogue, as a program with the same steps would print them.
+struct RowsOfMethod : solvers::Solver {
+  RowsOfMethod(const char* specification, const cases::Case& studied)
+      : method(methods::method(specification)), problem(studied.problem) {}
+  solvers::SolverOutput run(const solvers::SolverRun& run, const std::atomic<bool>*) override {
+    auto rows = std::make_shared<model::TrajectorySink>(false);
+    method->prepare(problem, methods::Resolution(run.step))->advance(*rows);
+    const auto& motion = rows->trajectory();
+    input::NumberColumns columns{"twin", motion.t.size(), {{"t", motion.t.data(), 1}}};
+    for (int i = 0; i < motion.dof; ++i) {
+      columns.columns.push_back({fmt::format("u{}", i + 1), motion.u.data() + i, motion.dof});
+      columns.columns.push_back({fmt::format("v{}", i + 1), motion.v.data() + i, motion.dof});
+    }
+    solvers::SolverOutput output;
+    output.history = columns;
+    output.memory = rows;
+    return output;
   }
-  record::Record record;
-  record.cases.emplace_back();
-  record.cases[0].subjects.push_back(subject);
-  return record;
-}
+  std::shared_ptr<const methods::Method> method;
+  model::ImpactProblem<> problem;
+};
 
-TEST(FailureOfAll, IsTheFirstRunOfASolverWhereAllFailed) {
-  const auto failed = with(record::SubjectKind::program, {false, false});
-  ASSERT_NE(failure_of_all(failed), nullptr);
-  EXPECT_EQ(failure_of_all(failed)->score.step, 0.0);
-  EXPECT_EQ(failure_of_all(with(record::SubjectKind::program, {false, true})), nullptr);
-  EXPECT_EQ(failure_of_all(with(record::SubjectKind::method, {false})), nullptr);
-  EXPECT_EQ(failure_of_all(record::Record{}), nullptr);
+TEST_F(SolversUnderTest, AreToldTheCauseThatTheSameMethodIsTold) {
+  subject_.kind = record::SubjectKind::callable;
+  subject_.prepare = [](const cases::Case& problem) {
+    return std::make_unique<RowsOfMethod>("newmark+reversal", problem);
+  };
+  request_.methods = {"newmark+reversal", "rk4"};
+  request_.plan = {.coarsest = 0.05, .levels = 6, .samples_per_level = 4};
+  const auto record = verify_one();
+  const auto& subjects = record.cases[0].subjects;
+  ASSERT_EQ(subjects.size(), 3u);
+  for (const auto i : {0u, 2u}) {
+    ASSERT_FALSE(subjects[i].diagnoses.empty()) << subjects[i].name;
+    EXPECT_EQ(subjects[i].diagnoses[0].code, "impact-at-step-end") << subjects[i].name;
+  }
+  EXPECT_TRUE(subjects[1].diagnoses.empty()) << subjects[1].diagnoses[0].code;
 }
 
 }  // namespace

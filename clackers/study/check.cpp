@@ -8,10 +8,13 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/base/number.hpp"
+#include "clackers/record/notes.hpp"
 #include "clackers/record/provenance.hpp"
 #include "clackers/record/reduced_curve.hpp"
-#include "clackers/study/check/history_set.hpp"
-#include "clackers/study/verify/verify_plan.hpp"
+#include "clackers/study/check/history/history_run.hpp"
+#include "clackers/study/check/named_resolution.hpp"
+#include "clackers/study/subject_study.hpp"
+#include "clackers/study/verify.hpp"
 #include "clackers/tables/respond.hpp"
 
 namespace clackers::study {
@@ -52,10 +55,19 @@ double cost_of(const input::Source& source) {
   return error ? 1.0 : 1.0 + double(bytes);
 }
 
-void read_all(const CheckRequest& request, HistorySet& histories, const Progress& progress) {
+// A history that was read, before its step is chosen.
+struct Entry {
+  Measured measured;
+  NamedResolution named;
+  bool step_is_given = false;
+};
+
+std::vector<Entry> read_all(const CheckRequest& request, const StudyCase& problem,
+                            const Progress& progress, const std::atomic<bool>* interrupt) {
   double total = 0.0;
   for (const auto& file : request.files) total += cost_of(file);
   ProgressMeter meter(total, progress);
+  std::vector<Entry> entries;
   for (std::size_t i = 0; i < request.files.size(); ++i) {
     HistoryTask task;
     task.file = request.files[i];
@@ -66,12 +78,63 @@ void read_all(const CheckRequest& request, HistorySet& histories, const Progress
     const double cost = cost_of(task.file);
     TaskShare share(meter, cost);
     double done = 0.0;
-    histories.read(task, [&](double part) {
+    const auto report = [&](double part) {
       share.add(cost * (part - done));
       done = part;
-    });
+    };
+    auto found =
+        history_run(task, request.columns, problem.problem, problem.summary, report, interrupt);
+    auto& entry = entries.emplace_back();
+    entry.measured.run = std::move(found.run);
+    entry.measured.observation = std::move(found.observation);
+    entry.named = named_resolution(input::name_of(task.file));
+    entry.step_is_given = task.step > 0.0;
   }
   meter.finish();
+  return entries;
+}
+
+// Steps or tolerances of all runs; those that were given count before names and rows. True for
+// tolerances that are found in the names.
+bool choose_steps(std::vector<Entry>& entries, const StudyCase& problem) {
+  std::vector<NamedHistory> set;
+  for (const auto& entry : entries)
+    if (!entry.step_is_given) set.push_back({entry.named, entry.measured.run.file->spacing});
+  const auto names = named_steps(set, problem.summary.fast_period, problem.summary.end);
+  const bool by_tolerance = names.by_tolerance && set.size() == entries.size();
+  std::size_t next = 0;
+  for (auto& entry : entries) {
+    if (entry.step_is_given) continue;
+    const auto& step = names.steps[next++];
+    auto& run = entry.measured.run;
+    auto& file = *run.file;
+    const double spacing = file.spacing, named = entry.named.step.value_or(spacing);
+    file.step_source = step ? record::StepSource::name : record::StepSource::data;
+    run.score.step = step.value_or(spacing);
+    if (!step && named > spacing)
+      file.notes.push_back(record::note("step-in-name-ignored", {named, spacing}));
+    if (step && !by_tolerance && *step > 1.01 * spacing)
+      file.notes.push_back(record::note("rows-closer-than-step", {*step, spacing}));
+  }
+  return by_tolerance;
+}
+
+void require_different_steps(const std::vector<Entry>& entries) {
+  const auto step = [](const Entry& entry) { return entry.measured.run.score.step; };
+  const auto [least, most] = std::ranges::minmax_element(entries, {}, step);
+  if (entries.size() < 2 || step(*most) > 1.001 * step(*least)) return;
+  refuse("check", "step of every history", step(*most),
+         "different steps, since several histories are levels of one method",
+         "Name the steps with --steps h1,h2,... in the order of the files.");
+}
+
+// Not one of the histories is finite: the finest says why.
+void require_finite(const std::vector<Entry>& entries) {
+  const auto is_finished = [](const Entry& entry) { return entry.measured.run.score.finished; };
+  if (std::ranges::any_of(entries, is_finished)) return;
+  const auto finest = std::ranges::min_element(
+      entries, {}, [](const Entry& entry) { return entry.measured.run.score.step; });
+  throw InputError(finest->measured.run.score.failure, "not-finite");
 }
 
 }  // namespace
@@ -79,17 +142,30 @@ void read_all(const CheckRequest& request, HistorySet& histories, const Progress
 record::Record check(const CheckRequest& request, const Progress& progress,
                      const std::atomic<bool>* interrupt) {
   validate(request);
-  const auto problem = cases::make(
-      request.case_name.empty() ? cases::default_case() : request.case_name, request.settings);
+  const auto problem = study_case(cases::make(
+      request.case_name.empty() ? cases::default_case() : request.case_name, request.settings));
+  auto entries = read_all(request, problem, progress, interrupt);
+  record::Subject subject;
+  subject.kind = record::SubjectKind::histories;
+  subject.name = "histories";
+  subject.claim = request.expect.value_or(Claim{});
+  subject.tolerance = request.tolerance;
+  const bool by_tolerance = choose_steps(entries, problem) || !request.tolerances.empty();
+  if (by_tolerance) subject.resolution = record::Resolution::tolerance;
+  require_finite(entries);
+  require_different_steps(entries);
+  SubjectStudy study(problem, std::move(subject));
+  for (auto& entry : entries) {
+    const double step = entry.measured.run.score.step;
+    study.take({{step, 0, by_tolerance ? step : 0.0}}, std::move(entry.measured));
+  }
+  study.assess(no_refinement);
+
   record::CaseRecord one;
-  one.problem = summary_of(problem);
+  one.problem = problem.summary;
   one.plan = no_refinement;
-  one.response = reduced(tables::response_curve(problem, tables::response_points));
-  HistorySet histories(problem, one.problem, request.columns, interrupt);
-  read_all(request, histories, progress);
-  one.subjects.push_back(histories.assess(record::SubjectKind::histories, "histories",
-                                          request.expect.value_or(Claim{}), request.tolerance,
-                                          !request.tolerances.empty()));
+  one.response = reduced(tables::response_curve(problem.problem, tables::response_points));
+  one.subjects.push_back(study.finish());
   record::Record record;
   record.command = "check";
   record.provenance = record::provenance(request.command);

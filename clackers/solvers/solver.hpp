@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "clackers/base/jobs/progress.hpp"
+#include "clackers/cases/case.hpp"
 #include "clackers/input/source.hpp"
 #include "clackers/record/record.hpp"
-#include "clackers/study/verify.hpp"
 
 // Solvers of others under test: a program or a callable. Each makes a history for each
 // step or tolerance, and is judged by its histories.
-namespace clackers::study {
+namespace clackers::solvers {
 
 /// One run of a solver.
 struct SolverRun {
@@ -56,17 +55,4 @@ struct SolverSubject {
   std::function<std::unique_ptr<Solver>(const cases::Case& problem)> prepare;
 };
 
-/// The default ladder of solvers, whose runs cost more than those of methods.
-inline constexpr int default_solver_levels = 6, default_solver_samples = 4;
-
-/// As verify(), with solvers behind the methods; no methods means none. A run that fails is a failed
-/// run of its step with what was printed. After three failures in a row that smaller steps would
-/// share, those are not made. Throws as verify() does, and InputError for two subjects of one name.
-record::Record verify(const VerifyRequest& request, std::vector<SolverSubject> solvers,
-                      const Progress& progress = {}, const std::atomic<bool>* interrupt = nullptr);
-
-/// The failure of the first run, where every run of every subject failed and some subject is a
-/// solver; nullptr otherwise.
-const record::Run* failure_of_all(const record::Record& record);
-
-}  // namespace clackers::study
+}  // namespace clackers::solvers

@@ -70,7 +70,7 @@ TEST(Verify, AssessesAdaptiveMethodsOverTolerances) {
   EXPECT_FALSE(adaptive.refinement);
   EXPECT_EQ(subjects(record).at(1).resolution, record::Resolution::step);
 
-  request.tolerances = {1e-4, 1e-6};
+  request.plan.tolerances = {1e-4, 1e-6};
   EXPECT_EQ(subjects(verify(request)).at(0).levels.size(), 2u);
   request.methods = {"rk4"};
   EXPECT_EQ(
@@ -303,10 +303,10 @@ TEST(Verify, RefusesBadPlansBeforeAnyWork) {
       with([](auto& r) { r.plan.levels = 0; }),
       "verify: levels = 0; allowed: a whole number, 1 or more. A verdict needs at least four. "
       "[out-of-range]");
-  for (const int neighbours : {0, 65})
-    EXPECT_EQ(with([&](auto& r) { r.plan.samples_per_level = neighbours; }),
-              "verify: neighbours = " + std::to_string(neighbours) +
-                  "; allowed: 1 <= neighbours <= 64. [out-of-range]");
+  for (const int samples : {0, 65})
+    EXPECT_EQ(with([&](auto& r) { r.plan.samples_per_level = samples; }),
+              "verify: samples per level = " + std::to_string(samples) +
+                  "; allowed: 1 <= samples per level <= 64. [out-of-range]");
   for (const auto& text :
        {with([](auto& r) { r.plan.coarsest = 1e-12; }), with([](auto& r) { r.plan.levels = 40; }),
         with([](auto& r) { r.plan.levels = 2'000'000'000; }), with([](auto& r) {

@@ -1,4 +1,4 @@
-#include "clackers/study/verify/run_sinks.hpp"
+#include "clackers/study/run_sinks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -242,8 +242,8 @@ TEST(Baseline, OfAnotherCaseOrLadderIsRefusedWithTheOptionsOfBoth) {
             }).find("another motion"),
             std::string::npos);
   EXPECT_NE(refused([](record::Record& r) { r.cases[0].plan.levels = 4; })
-                .find("another ladder: --coarsest 0.04 --levels 4 --neighbours 2; this run: "
-                      "--coarsest 0.04 --levels 3 --neighbours 2"),
+                .find("another ladder: --coarsest 0.04 --levels 4 --samples-per-level 2; this run: "
+                      "--coarsest 0.04 --levels 3 --samples-per-level 2"),
             std::string::npos);
   EXPECT_NE(refused([](record::Record& r) { r.cases[0].plan.coarsest = 0.05; }).find("ladder"),
             std::string::npos);

@@ -51,8 +51,12 @@ std::ostream& operator<<(std::ostream& out, const Steps& x) {
   return out << x.coarsest << " s, " << x.levels << " levels of " << x.samples;
 }
 
+NextPlan of(const record::Subject& subject, const record::RefinementPlan& plan) {
+  return next_plan(subject, ladder_of(subject), plan, problem());
+}
+
 Steps next(const record::Subject& subject, const record::RefinementPlan& plan) {
-  const auto found = next_plan(subject, plan, problem());
+  const auto found = of(subject, plan);
   if (!found.plan) return {};
   return {found.plan->coarsest, found.plan->levels, found.plan->samples_per_level};
 }
@@ -142,7 +146,7 @@ TEST(NextPlan, StartsCoarserAtTheRoundingFloor) {
   EXPECT_EQ(next(undecided(plan, 1.0), plan), (Steps{0.1, 5, 8}));
   // Two steps a period of 0.7 s: no coarser than 0.35 s.
   const record::RefinementPlan coarse{0.2, 6, 8};
-  const auto found = next_plan(undecided(coarse, 1.0), coarse, problem());
+  const auto found = of(undecided(coarse, 1.0), coarse);
   EXPECT_FALSE(found.plan);
   EXPECT_EQ(found.end, record::RefinementEnd::rounding_floor);
 }
@@ -151,11 +155,11 @@ TEST(NextPlan, EndsAtFailedRunsAndAtTheMostSteps) {
   const record::RefinementPlan plan{0.05, 4, 8};
   auto failed = undecided(plan);
   failed.levels.back().runs[0].score.finished = false;
-  EXPECT_EQ(next_plan(failed, plan, problem()).end, record::RefinementEnd::run_failed);
+  EXPECT_EQ(of(failed, plan).end, record::RefinementEnd::run_failed);
   // 20 s / 2e-8 s is the limit of 1e9 steps; the next level has a finest step of nearly half its
   // nominal one.
   const record::RefinementPlan long_one{1.5e-7, 2, 8};
-  const auto found = next_plan(undecided(long_one), long_one, problem());
+  const auto found = of(undecided(long_one), long_one);
   EXPECT_FALSE(found.plan);
   EXPECT_EQ(found.end, record::RefinementEnd::too_many_steps);
 }

@@ -7,7 +7,8 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/study/check.hpp"
-#include "clackers/study/verify/verify_plan.hpp"
+#include "clackers/study/verify.hpp"
+#include "clackers/tables/case_summary.hpp"
 
 namespace clackers::study {
 namespace {
@@ -22,7 +23,7 @@ std::string case_options(const record::CaseSummary& problem) {
 }
 
 std::string plan_options(const record::RefinementPlan& plan) {
-  return fmt::format("--coarsest {} --levels {} --neighbours {}", plan.coarsest, plan.levels,
+  return fmt::format("--coarsest {} --levels {} --samples-per-level {}", plan.coarsest, plan.levels,
                      plan.samples_per_level);
 }
 
@@ -68,20 +69,14 @@ const record::Subject* find(const record::CaseRecord* record, const std::string&
   return found == record->subjects.end() ? nullptr : &*found;
 }
 
-// What is asked for of one case.
-struct CaseStudy {
-  record::CaseSummary problem;
-  record::RefinementPlan plan;
-};
-
-void require_same(const std::string& command, const std::vector<CaseStudy>& cases,
+void require_same(const std::string& command, const std::vector<PlannedCase>& cases,
                   const record::Record& baseline) {
   if (baseline.command != command)
     refuse_other("another command", "clackers " + baseline.command, "clackers " + command);
   bool common = false;
   for (const auto& one : cases)
     if (const auto* before = find(baseline, one.problem.name)) {
-      require_same_case(one.problem, one.plan, *before);
+      require_same_case(one.problem, one.steps, *before);
       common = true;
     }
   if (common || cases.empty()) return;
@@ -208,19 +203,17 @@ bool SubjectChange::any() const {
 bool BaselineComparison::any() const { return std::ranges::any_of(subjects, &SubjectChange::any); }
 
 void require_same_study(const VerifyRequest& request, const record::Record& baseline) {
-  std::vector<CaseStudy> cases;
-  for (auto& plan : plans_of(request)) cases.push_back({std::move(plan.summary), plan.steps});
-  require_same("verify", cases, baseline);
+  require_same("verify", planned_cases(request), baseline);
 }
 
 void require_same_study(const CheckRequest& request, const record::Record& baseline) {
   const auto problem = cases::make(
       request.case_name.empty() ? cases::default_case() : request.case_name, request.settings);
-  require_same("check", {{summary_of(problem), no_refinement}}, baseline);
+  require_same("check", {{tables::summary_of(problem), no_refinement}}, baseline);
 }
 
 BaselineComparison compare(const record::Record& now, const record::Record& before) {
-  std::vector<CaseStudy> cases;
+  std::vector<PlannedCase> cases;
   for (const auto& one : now.cases) cases.push_back({one.problem, one.plan});
   require_same(now.command, cases, before);
   BaselineComparison all;

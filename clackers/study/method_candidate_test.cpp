@@ -1,4 +1,4 @@
-#include "clackers/study/verify/assessed_run.hpp"
+#include "clackers/study/method_candidate.hpp"
 
 #include <gtest/gtest.h>
 #include <time.h>
@@ -62,29 +62,29 @@ double processor_time() {
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-class AssessedRuns : public testing::Test {
+class RunsOfMethods : public testing::Test {
  protected:
-  std::optional<AssessedRun> assessed(ScriptedMethod::Script script, bool metrics = false) {
+  std::optional<Measured> assessed(ScriptedMethod::Script script, bool metrics = false) {
     method_ = std::make_shared<ScriptedMethod>(std::move(script));
-    CasePlan plan;
-    plan.problem.motion = std::make_shared<ToyMotion>(1, 8.0, std::vector<double>{});
-    auto& problem = plan.problem.problem;
+    study_ = {};
+    study_.problem.motion = std::make_shared<ToyMotion>(1, 8.0, std::vector<double>{});
+    auto& problem = study_.problem.problem;
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(1, 1);
     problem.system = {unit, unit, unit};
     problem.start = {0.0, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)};
     problem.end = 8.0;
-    plan.methods.emplace_back();
-    plan.methods[0].method = method_;
     ProgressMeter meter(1.0, {});
     TaskShare share(meter, 1.0);
-    return assess_run(plan, {0, 4.0, 2, 0, metrics}, share, &interrupt_);
+    MethodCandidate candidate(method_, study_, {}, {});
+    return candidate.run({{4.0, 2, 0.0}, {.metrics = metrics}}, share, &interrupt_);
   }
 
+  StudyCase study_;
   std::shared_ptr<ScriptedMethod> method_;
   std::atomic<bool> interrupt_ = false;
 };
 
-TEST_F(AssessedRuns, AreTimedUntilTheClockResolvesThem) {
+TEST_F(RunsOfMethods, AreTimedUntilTheClockResolvesThem) {
   int runs = 0;
   const auto result = assessed([&](int count) {
     runs = count;
@@ -100,7 +100,7 @@ TEST_F(AssessedRuns, AreTimedUntilTheClockResolvesThem) {
   EXPECT_LT(result->run.score.seconds, 1e-3);
 }
 
-TEST_F(AssessedRuns, AreNotTimedWhenTheyFailed) {
+TEST_F(RunsOfMethods, AreNotTimedWhenTheyFailed) {
   int runs = 0;
   const auto result = assessed([&](int count) {
     runs = count;
@@ -112,13 +112,13 @@ TEST_F(AssessedRuns, AreNotTimedWhenTheyFailed) {
   EXPECT_EQ(runs, 1);
 }
 
-TEST_F(AssessedRuns, HoldWhereTheyEndedOverTheInitialEnvelope) {
+TEST_F(RunsOfMethods, HoldWhereTheyEndedOverTheInitialEnvelope) {
   // The envelope of the toy's mass 1 is 4 m.
   EXPECT_EQ(assessed([](int) { return true; })->end_u, (std::vector<double>{0.75}));
   EXPECT_TRUE(assessed([](int) { return false; })->end_u.empty());
 }
 
-TEST_F(AssessedRuns, AreMeasuredByAllMetricsWhereThatIsAskedFor) {
+TEST_F(RunsOfMethods, AreMeasuredByAllMetricsWhereThatIsAskedFor) {
   const auto result = assessed([](int) { return true; }, true);
   const auto of_history = measure::metrics().size();
   ASSERT_EQ(result->run.metrics.size(), of_history + record::cause_metrics().size());
@@ -135,14 +135,15 @@ TEST_F(AssessedRuns, AreMeasuredByAllMetricsWhereThatIsAskedFor) {
   EXPECT_TRUE(assessed([](int) { return false; }, true)->run.metrics.empty());
 }
 
-TEST_F(AssessedRuns, CostMoreWhereMetricsAreMeasured) {
-  RunTask task{0, 0.1, 100, 0, false};
-  const double plain = task.cost();
-  task.metrics = true;
-  EXPECT_GT(task.cost(), plain);
+TEST_F(RunsOfMethods, CostMoreWhereMetricsAreMeasured) {
+  method_ = std::make_shared<ScriptedMethod>([](int) { return true; });
+  study_.problem.motion = std::make_shared<ToyMotion>(1, 8.0, std::vector<double>{});
+  const MethodCandidate candidate(method_, study_, {}, {});
+  EXPECT_GT(candidate.cost({{0.1, 100, 0.0}, {.metrics = true}}),
+            candidate.cost({{0.1, 100, 0.0}}));
 }
 
-TEST_F(AssessedRuns, AreNothingWhenInterruptedInEitherRun) {
+TEST_F(RunsOfMethods, AreNothingWhenInterruptedInEitherRun) {
   for (const int when : {1, 2}) {
     interrupt_ = false;
     EXPECT_FALSE(assessed([&](int count) {
@@ -152,7 +153,7 @@ TEST_F(AssessedRuns, AreNothingWhenInterruptedInEitherRun) {
   }
 }
 
-TEST_F(AssessedRuns, AreNotEvenPreparedAfterAnInterrupt) {
+TEST_F(RunsOfMethods, AreNotEvenPreparedAfterAnInterrupt) {
   interrupt_ = true;
   EXPECT_FALSE(assessed([](int) { return true; }));
   EXPECT_EQ(method_->prepared, 0);

@@ -34,9 +34,9 @@ bool is_decided(const record::Subject& subject) {
          !(verdict == Verdict::agrees && has_weak_envelope(subject));
 }
 
-bool is_at_floor(const record::Level& level) {
-  return std::ranges::all_of(level.runs, [](const record::Run& run) {
-    return run.score.u_error <= judge::rounding_slack * run.score.rounding_floor;
+bool is_at_floor(const measure::Level& level) {
+  return std::ranges::all_of(level.runs, [](const measure::RunScore& run) {
+    return run.u_error <= judge::rounding_slack * run.rounding_floor;
   });
 }
 
@@ -72,11 +72,13 @@ int default_levels(double coarsest, double end) {
 }
 
 record::RefinementPlan plan_for(const RefinementRequest& request,
-                                const record::CaseSummary& problem) {
+                                const record::CaseSummary& problem, LadderKind kind) {
+  const bool of_solvers = kind == LadderKind::solvers;
   const double coarsest =
       request.coarsest.value_or(default_coarsest(problem.fast_period, problem.end));
-  return {coarsest, request.levels.value_or(default_levels(coarsest, problem.end)),
-          request.samples_per_level};
+  const int levels = of_solvers ? default_solver_levels : default_levels(coarsest, problem.end);
+  const int samples = of_solvers ? default_solver_samples_per_level : default_samples_per_level;
+  return {coarsest, request.levels.value_or(levels), request.samples_per_level.value_or(samples)};
 }
 
 std::optional<record::Refinement> refinement_of(const record::RefinementPlan& asked,
@@ -91,15 +93,16 @@ std::optional<record::Refinement> refinement_of(const record::RefinementPlan& as
   return found;
 }
 
-NextPlan next_plan(const record::Subject& subject, const record::RefinementPlan& plan,
-                   const record::CaseSummary& problem) {
-  if (!subject.refusal.empty() || !subject.complete || subject.levels.empty()) return {};
+NextPlan next_plan(const record::Subject& subject, const measure::Ladder& ladder,
+                   const record::RefinementPlan& plan, const record::CaseSummary& problem) {
+  if (!subject.refusal.empty() || !subject.complete || ladder.empty()) return {};
   if (const int missing = next_contact_levels(subject, plan);
       missing > 0 && subject.assessment.verdict != Verdict::agrees)
     return with_finer(plan, missing, problem.end);
   if (is_decided(subject)) return {};
-  const auto& finest = subject.levels.back();
-  if (worst(finest).failed > 0) return {{}, record::RefinementEnd::run_failed};
+  const auto& finest = ladder.back();
+  if (!std::ranges::all_of(finest.runs, &measure::RunScore::finished))
+    return {{}, record::RefinementEnd::run_failed};
   if (has_weak_envelope(subject) && 2 * plan.samples_per_level <= most_samples_per_level)
     return {record::RefinementPlan{plan.coarsest, plan.levels, 2 * plan.samples_per_level}};
   if (!is_at_floor(finest)) return with_finer(plan, 1, problem.end);

@@ -1,0 +1,190 @@
+#include "clackers/study/method_candidate.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/diagnose/observation.hpp"
+#include "clackers/measure/errors/comparison.hpp"
+#include "clackers/measure/errors/error_sink.hpp"
+#include "clackers/model/trajectory.hpp"
+#include "clackers/record/cause_metrics.hpp"
+#include "clackers/record/reduced_curve.hpp"
+#include "clackers/study/run_sinks.hpp"
+
+namespace clackers::study {
+namespace {
+
+// Costs of a state, relative: with errors, for timing only, with metrics.
+constexpr double error_state = 1.0, timed_state = 0.5, measured_state = 10.0;
+
+// The clock of a thread costs and errs by less than a microsecond: a thousandth of this.
+constexpr double shortest_timing = 1e-3;  // [s]
+constexpr int most_repetitions = 1000;
+
+record::Curve curve_of(const measure::ErrorHistory& history, int dof) {
+  record::Curve curve;
+  curve.t = history.times();
+  for (int i = 0; i < dof; ++i) curve.y.push_back(history.largest(i));
+  return curve;
+}
+
+// The points of a run that an animation needs; the whole run would fill memory.
+record::Curve motion_of(const model::Trajectory& history) {
+  constexpr std::size_t most = 500;
+  const auto dof = std::size_t(history.dof);
+  return record::reduced(
+      history.t.size(), dof, [&](std::size_t row) { return history.t[row]; },
+      [&](std::size_t mass, std::size_t row) { return history.u[row * dof + mass]; }, most);
+}
+
+// Displacements over the largest envelopes.
+std::vector<double> relative(std::vector<double> u, const model::Motion& motion) {
+  const auto envelope = motion.peak().u;
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] /= envelope[Eigen::Index(i)];
+  return u;
+}
+
+// Of this thread [s].
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+// Processor time of one run [s]; nothing when interrupted.
+std::optional<double> time_of(model::Run& run, model::Sink& sink) {
+  const double start = processor_time();
+  double used = 0.0;
+  int runs = 0;
+  while (used < shortest_timing && runs < most_repetitions) {
+    if (run.advance(sink).stopped_by_sink) return {};
+    used = processor_time() - start;
+    ++runs;
+  }
+  return used / runs;
+}
+
+record::Subject subject_of(const methods::Method& method, const StudyCase& problem) {
+  const auto facts = method.facts();
+  const bool collides = problem.summary.impact_count > 0;
+  record::Subject subject;
+  subject.name = short_name(facts.name);
+  subject.claim =
+      methods::claim_on(facts, problem.problem.problem, collides, problem.shared.has_value());
+  if (facts.is_adaptive) {
+    subject.resolution = record::Resolution::tolerance;
+    // The estimate falls with the power of the step that the error over a run does.
+    if (subject.claim.order > 0.0) subject.claim.order = 1.0;
+  }
+  if (const auto objection = method.objection(problem.problem.problem)) {
+    subject.refusal = objection->sentence;
+    subject.refusal_code = objection->code.name();
+  } else if (collides) {
+    subject.contact_time = method.contact_time(problem.problem.problem);
+  }
+  return subject;
+}
+
+}  // namespace
+
+std::string short_name(const std::string& name) {
+  constexpr std::string_view default_treatment = "+event-driven";
+  return name.ends_with(default_treatment) ? name.substr(0, name.size() - default_treatment.size())
+                                           : name;
+}
+
+MethodCandidate::MethodCandidate(std::shared_ptr<const methods::Method> method,
+                                 const StudyCase& problem, const std::vector<double>& tolerances,
+                                 const Extras& extras)
+    : problem_(problem), method_(std::move(method)), extras_(extras) {
+  const auto facts = method_->facts();
+  facts_.subject = subject_of(*method_, problem);
+  facts_.order = facts.smooth_order;
+  if (facts.is_adaptive) facts_.levels = tolerances;
+  facts_.has_ends = extras.record && !facts.is_adaptive;
+  reports_impacts_ = facts.reports_impacts;
+  constexpr double of_linear_spring = 0.5;
+  if (facts.model_order == of_linear_spring) spring_time_ = facts_.subject.contact_time;
+}
+
+double MethodCandidate::cost(const RunTask& task) const {
+  const double state = task.wanted.metrics || task.wanted.observation
+                           ? error_state + timed_state + measured_state
+                           : error_state + timed_state;
+  return state * double(task.run.steps);
+}
+
+std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& share,
+                                             const std::atomic<bool>* interrupt) {
+  if (interrupt != nullptr && *interrupt) return {};
+  const double start = processor_time();
+  const auto& problem = problem_.problem.problem;
+  const auto& motion = *problem_.problem.motion;
+  const bool by_tolerance = task.run.tolerance > 0.0;
+  const auto run =
+      method_->prepare(problem, by_tolerance ? methods::Resolution::by_tolerance(task.run.tolerance)
+                                             : methods::Resolution(task.run.step));
+  if (task.wanted.observation) return observed(*run, task, share, interrupt);
+  measure::ErrorSink errors(
+      motion, problem, task.run.step,
+      {.impacts_are_reported = reports_impacts_, .history_bins = task.wanted.history_bins});
+  model::TrajectorySink stored(reports_impacts_);
+  RunRecorder recorder(errors, task.wanted.metrics ? &stored : nullptr);
+  WatchedSink watched(&recorder, share, error_state, interrupt);
+  const auto outcome = run->advance(watched);
+  if (outcome.stopped_by_sink) return {};
+  Measured result;
+  result.run.score = errors.score(outcome);
+  result.run.score.step = task.resolution();
+  if (task.wanted.history_bins > 0)
+    result.run.error_history = curve_of(errors.history(), motion.dof());
+  result.seconds = processor_time() - start;
+  if (!outcome.finished) return result;
+  if (facts_.has_ends) result.end_u = relative(recorder.last_u(), motion);
+  // A state that is not finite is no row of a history.
+  if (task.wanted.metrics && std::isfinite(result.run.score.u_error)) {
+    auto metrics = all_metrics({stored.trajectory(), motion, problem},
+                               facts_of(problem_.summary, spring_time_), {}, interrupt);
+    if (!metrics) return {};
+    result.run.metrics = std::move(*metrics);
+    if (extras_.record && motion.dof() <= record::most_blocks)
+      result.run.motion = motion_of(stored.trajectory());
+  }
+  if (!extras_.times) {
+    result.run.score.seconds = result.seconds;
+    return result;
+  }
+  WatchedSink timed(nullptr, share, timed_state, interrupt);
+  const auto seconds = time_of(*run, timed);
+  if (!seconds) return {};
+  result.run.score.seconds = *seconds;
+  result.seconds = processor_time() - start;
+  return result;
+}
+
+std::optional<Measured> MethodCandidate::observed(model::Run& run, const RunTask& task,
+                                                  TaskShare& share,
+                                                  const std::atomic<bool>* interrupt) const {
+  model::TrajectorySink stored(reports_impacts_);
+  WatchedSink watched(&stored, share, error_state, interrupt);
+  const auto outcome = run.advance(watched);
+  if (outcome.stopped_by_sink) return {};
+  Measured result;
+  const auto& u = stored.trajectory().u;
+  if (!outcome.finished || !std::ranges::all_of(u, [](double x) { return std::isfinite(x); }))
+    return result;
+  const measure::Comparison comparison(stored.trajectory(), *problem_.problem.motion,
+                                       problem_.problem.problem);
+  result.observation = diagnose::observe(
+      comparison, {.step = task.resolution(),
+                   .spacing = problem_.summary.end / double(task.run.steps),
+                   .floor = 0.0,
+                   .time_half_unit = 0.0,
+                   .columns = {},
+                   .contact_time = reports_impacts_ ? 0.0 : facts_.subject.contact_time});
+  return result;
+}
+
+}  // namespace clackers::study

@@ -1,0 +1,332 @@
+#include "clackers/study/subject_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "clackers/base/codes.hpp"
+#include "clackers/diagnose/diagnose.hpp"
+#include "clackers/judge/convergence/judge.hpp"
+#include "clackers/judge/convergence/step_levels.hpp"
+
+namespace clackers::study {
+namespace {
+
+// The longest run that is stored whole; a stored row takes some 50 bytes.
+constexpr long long most_stored_rows = 262144;
+// Failures in a row after which smaller steps are not tried.
+constexpr int most_repeated = 3;
+// Runs of a method that diagnosis sees: the first of each of the finest levels.
+constexpr std::size_t most_observed = 5;
+
+// The number of steps that reach the end; only rounding parts some ends from a whole number.
+long long steps_to(double end, double step) {
+  return static_cast<long long>(std::ceil(end / step * (1.0 - 1e-12)));
+}
+
+// The reference displacements at the end over the largest envelopes.
+std::vector<double> reference_end(const model::Motion& motion) {
+  const auto end = motion.at(motion.end(), model::Side::right).u;
+  const auto envelope = motion.peak().u;
+  std::vector<double> u;
+  for (Eigen::Index i = 0; i < end.size(); ++i) u.push_back(end[i] / envelope[i]);
+  return u;
+}
+
+// Behaviour that needs no cause: an order of smooth motion that is not lower than the method's.
+bool is_as_smooth(const judge::LadderFit& fit, double smooth_order) {
+  return fit.behaviour == Behaviour::exact ||
+         (fit.behaviour == Behaviour::proper &&
+          fit.order >= (1.0 - judge::order_tolerance) * smooth_order);
+}
+
+judge::HistoryFacts facts_of(const record::HistoryFile& file, const model::Motion& motion) {
+  return {.rows = file.rows,
+          .printed_floor = file.printed_floor,
+          .first = file.first,
+          .start_error = file.start_error,
+          .rows_resolve_collisions = file.rows_resolve_collisions,
+          .last = file.last,
+          .end = motion.end(),
+          .expected_to_last = motion.impact_count(file.last),
+          .expected = motion.impact_count(motion.end())};
+}
+
+}  // namespace
+
+SubjectStudy::SubjectStudy(const StudyCase& problem, std::unique_ptr<Candidate> candidate,
+                           const record::RefinementPlan& plan, const Wanted& of_shown_run)
+    : problem_(problem),
+      candidate_(std::move(candidate)),
+      facts_(candidate_->facts()),
+      subject_(facts_.subject),
+      first_(plan),
+      plan_(plan),
+      of_shown_run_(of_shown_run),
+      is_closed_(!subject_.refusal.empty()) {}
+
+SubjectStudy::SubjectStudy(const StudyCase& problem, record::Subject subject)
+    : problem_(problem), subject_(std::move(subject)) {}
+
+std::vector<SubjectStudy::PlannedLevel> SubjectStudy::planned(
+    const record::RefinementPlan& plan) const {
+  std::vector<PlannedLevel> levels;
+  const auto& summary = problem_.summary;
+  if (!facts_.levels.empty() && !by_tolerance()) {
+    for (const double step : facts_.levels)
+      levels.push_back({step, {{step, steps_to(summary.end, step), 0.0}}});
+    return levels;
+  }
+  const auto steps = judge::step_ladder(plan, summary.end, summary.impact_times);
+  if (by_tolerance()) {
+    solvers::SolverRun run{steps[0].steps[0], steps[0].counts[0], 0.0};
+    long long count = 0;
+    for (const double tolerance : facts_.levels) {
+      run.tolerance = tolerance;
+      if (is_method()) {
+        const double per_period = 2.5 * std::pow(tolerance, -1.0 / facts_.order);
+        count = std::max(count + 1, std::llround(per_period * summary.end / summary.fast_period));
+        run.steps = count;
+        run.step = summary.end / double(count);
+      }
+      levels.push_back({tolerance, {run}});
+    }
+    return levels;
+  }
+  for (const auto& level : steps) {
+    auto& added = levels.emplace_back(PlannedLevel{level.nominal, {}});
+    for (std::size_t i = 0; i < level.counts.size(); ++i)
+      added.runs.push_back({level.steps[i], level.counts[i], 0.0});
+  }
+  return levels;
+}
+
+std::vector<RunTask> SubjectStudy::missing(const record::RefinementPlan& plan) const {
+  std::vector<RunTask> tasks;
+  if (!subject_.refusal.empty()) return tasks;
+  const auto levels = planned(plan);
+  const auto shown =
+      std::ranges::find_if(levels.rbegin(), levels.rend(), [](const PlannedLevel& level) {
+        return !level.runs.empty() && level.runs[0].steps < most_stored_rows;
+      });
+  for (const auto& level : levels)
+    for (const auto& run : level.runs) {
+      RunTask task{run};
+      if (runs_.contains(task.resolution())) continue;
+      if (is_method() && shown != levels.rend() && &run == shown->runs.data())
+        task.wanted = of_shown_run_;
+      tasks.push_back(task);
+    }
+  if (is_method()) std::ranges::reverse(tasks);
+  return tasks;
+}
+
+std::vector<RunTask> SubjectStudy::to_observe() const {
+  std::vector<RunTask> tasks;
+  const auto& fit = subject_.assessment.displacement;
+  // A contact of some length is the method's own model: no impact of it is at a wrong instant.
+  if (!is_method() || is_as_smooth(fit, facts_.order) || subject_.contact_time > 0.0) return tasks;
+  for (auto level = levels_.rbegin(); level != levels_.rend() && tasks.size() < most_observed;
+       ++level) {
+    const auto& [run, measured] = *level->runs.front();
+    if (run.steps < most_stored_rows && measured.run.score.finished)
+      tasks.push_back({run, {.observation = true}});
+  }
+  return tasks;
+}
+
+double SubjectStudy::expected_seconds(std::span<const RunTask> tasks, int threads) const {
+  long long longest = 0;
+  for (const auto& [resolution, made] : runs_)
+    if (made.measured.seconds > 0.0) longest = std::max(longest, made.run.steps);
+  // Those of at least half the steps of the longest run; short ones are timed several times.
+  double seconds = 0.0, steps = 0.0;
+  for (const auto& [resolution, made] : runs_)
+    if (made.measured.seconds > 0.0 && 2 * made.run.steps > longest) {
+      seconds += made.measured.seconds;
+      steps += double(made.run.steps);
+    }
+  if (!(steps > 0.0)) return 0.0;
+  double wanted = 0.0, most = 0.0;
+  for (const auto& task : tasks) {
+    wanted += double(task.run.steps);
+    most = std::max(most, double(task.run.steps));
+  }
+  return std::max(most, wanted / (is_serial() ? 1 : threads)) * seconds / steps;
+}
+
+void SubjectStudy::make(const RunTask& task, TaskShare& share, const std::atomic<bool>* interrupt) {
+  {
+    const std::lock_guard lock(guard_);
+    if (repeated_ >= most_repeated) {
+      Measured skipped{last_repeated_};
+      skipped.run.score.step = task.resolution();
+      skipped.run.score.failure = fmt::format("not made after {} runs in a row: {}", repeated_,
+                                              last_repeated_.score.failure);
+      runs_.emplace(task.resolution(), Made{task.run, std::move(skipped)});
+      return;
+    }
+  }
+  auto measured = candidate_->run(task, share, interrupt);
+  if (measured) take(task, std::move(*measured));
+}
+
+void SubjectStudy::take(const RunTask& task, Measured measured) {
+  const std::lock_guard lock(guard_);
+  if (measured.observation) {
+    measured.observation->facts.step = task.resolution();
+    observations_.push_back(std::move(*measured.observation));
+    measured.observation.reset();
+  }
+  if (task.wanted.observation) return;
+  repeated_ = measured.would_repeat ? repeated_ + 1 : 0;
+  if (measured.would_repeat) last_repeated_ = measured.run;
+  runs_.emplace(task.resolution(), Made{task.run, std::move(measured)});
+}
+
+// The levels of the plan for methods, which are comparable then with each other; of others those that
+// their steps form.
+void SubjectStudy::group() {
+  levels_.clear();
+  subject_.complete = candidate_ == nullptr || missing(plan_).empty();
+  if (is_method()) {
+    for (const auto& level : planned(plan_)) {
+      Level added{level.nominal, {}};
+      for (const auto& run : level.runs)
+        if (const auto made = runs_.find(RunTask{run}.resolution()); made != runs_.end())
+          added.runs.push_back(&made->second);
+      if (added.runs.size() == level.runs.size()) levels_.push_back(std::move(added));
+    }
+  } else {
+    std::vector<double> steps;
+    std::vector<Made*> runs;
+    for (auto& [step, made] : runs_) {
+      steps.push_back(step);
+      runs.push_back(&made);
+    }
+    for (const auto& indices : judge::levels_of_steps(steps)) {
+      auto& added = levels_.emplace_back(Level{steps[indices.front()], {}});
+      for (const auto i : indices) added.runs.push_back(runs[i]);
+    }
+  }
+  ladder_.clear();
+  for (const auto& level : levels_) {
+    auto& added = ladder_.emplace_back(measure::Level{level.nominal, {}});
+    for (const auto* made : level.runs) added.runs.push_back(made->measured.run.score);
+  }
+}
+
+void SubjectStudy::assess(const record::RefinementPlan& plan) {
+  plan_ = plan;
+  if (!subject_.refusal.empty()) return;
+  group();
+  auto& assessment = subject_.assessment;
+  if (levels_.empty())
+    assessment.reason = assessment.displacement.reason = Code("interrupted").name();
+  else
+    decide();
+}
+
+std::optional<measure::SharedImpacts> SubjectStudy::shared_impacts() const {
+  if (!problem_.shared) return {};
+  for (auto level = levels_.rbegin(); level != levels_.rend(); ++level)
+    for (auto made = level->runs.rbegin(); made != level->runs.rend(); ++made) {
+      const auto& run = (*made)->measured.run;
+      if (run.metrics.empty() && run.error_history.t.empty()) continue;
+      return measure::at_shared_instant(*problem_.shared, problem_.problem.problem.start.t,
+                                        run.error_history.t, run.error_history.y);
+    }
+  return {};
+}
+
+// The one place of the verdict. It follows the first of these findings that there is: another system,
+// as the rows or the limit of histories show it; noise in them, which is no floor; the ladder of
+// errors with the evidence of the finest run. Causes of a method's errors explain its verdict and do
+// not change it: a method moves this very system.
+void SubjectStudy::decide() {
+  judge::Facts facts{.contact_time = subject_.contact_time,
+                     .tolerance = subject_.tolerance,
+                     .shared = shared_impacts(),
+                     .by_tolerance = by_tolerance()};
+  const auto& motion = *problem_.problem.motion;
+  for (const auto& [step, made] : runs_) {
+    const auto& run = made.measured.run;
+    if (!run.score.finished || !run.file) continue;
+    facts.contact_time = subject_.contact_time = run.file->contact_time;
+    facts.finest = facts_of(*run.file, motion);
+  }
+  std::ranges::stable_sort(observations_, std::greater{},
+                           [](const diagnose::Observation& history) { return history.facts.step; });
+  const auto limit = diagnose::limit_of(observations_, problem_.problem.problem, motion);
+  facts.wrong_limit = !is_method() && limit.wrong;
+  auto& assessment = subject_.assessment;
+  assessment = judge::judge(ladder_, subject_.claim, facts);
+  if (is_method() && observations_.empty()) return;
+  subject_.diagnoses = diagnose::diagnose({.problem = problem_.problem.problem,
+                                           .motion = motion,
+                                           .histories = observations_,
+                                           .ladder = ladder_,
+                                           .displacement = assessment.displacement,
+                                           .velocity = assessment.velocity,
+                                           .limit = limit,
+                                           .by_tolerance = by_tolerance(),
+                                           .is_this_system = is_method()});
+  if (is_method()) return;
+  // Files of another system converge to another motion, also where too few of them show it; what
+  // diagnosis finds in the rows of files, their errors may not show.
+  const bool other =
+      facts.wrong_limit || std::ranges::any_of(subject_.diagnoses, diagnose::is_other_system);
+  const bool noise = std::ranges::any_of(subject_.diagnoses, diagnose::is_noise);
+  if (other == facts.wrong_limit && !noise) return;
+  facts.wrong_limit = other;
+  facts.noise = noise;
+  assessment = judge::judge(ladder_, subject_.claim, facts);
+}
+
+void SubjectStudy::explain() {
+  if (!observations_.empty()) decide();
+  observations_.clear();
+}
+
+NextPlan SubjectStudy::next() const {
+  if (by_tolerance() || !facts_.levels.empty() || repeated_ >= most_repeated) return {};
+  auto open = subject_;
+  if (!is_method() && open.assessment.displacement.behaviour == Behaviour::undecided)
+    open.assessment.verdict = Verdict::undecided;
+  return next_plan(open, ladder_, plan_, problem_.summary);
+}
+
+void SubjectStudy::close(record::RefinementEnd end, double next_seconds) {
+  is_closed_ = true;
+  subject_.refinement = refinement_of(first_, plan_, end, next_seconds);
+}
+
+// Without a claim through impacts a user expects the order of smooth motion.
+std::optional<record::SelfResult> SubjectStudy::self_convergence() const {
+  const double order = subject_.claim.order > 0.0 ? subject_.claim.order : facts_.order;
+  if (!facts_.has_ends || levels_.empty() || !(order > 0.0) || !std::isfinite(order)) return {};
+  std::vector<judge::ResponseLevel> ends;
+  for (const auto& level : levels_) {
+    ends.emplace_back();
+    for (const auto* made : level.runs) {
+      const auto& score = made->measured.run.score;
+      ends.back().push_back({score.step, made->measured.end_u, score.rounding_floor});
+    }
+  }
+  return record::self_result(
+      std::move(ends), reference_end(*problem_.problem.motion),
+      {.claimed_order = order, .size = 1.0, .contact_time = subject_.contact_time});
+}
+
+record::Subject SubjectStudy::finish() {
+  subject_.self_convergence = self_convergence();
+  for (const auto& level : levels_) {
+    auto& added = subject_.levels.emplace_back(record::Level{level.nominal, {}});
+    for (auto* made : level.runs) added.runs.push_back(std::move(made->measured.run));
+  }
+  return std::move(subject_);
+}
+
+}  // namespace clackers::study

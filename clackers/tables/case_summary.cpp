@@ -1,0 +1,57 @@
+#include "clackers/tables/case_summary.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace clackers::tables {
+namespace {
+
+constexpr long long most_impact_times = 1000;
+
+// The shortest period of the free masses: of the case where it has damped ones, else of the undamped
+// modes of M and K.
+double fast_period(const cases::Case& problem) {
+  if (!problem.damped_periods.empty()) return *std::ranges::min_element(problem.damped_periods);
+  const auto& system = problem.problem.system;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+      system.stiffness, system.mass, Eigen::EigenvaluesOnly);
+  const double largest = modes.eigenvalues().maxCoeff();
+  return largest > 0.0 ? 2.0 * std::numbers::pi / std::sqrt(largest) : problem.motion->end();
+}
+
+record::Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
+
+}  // namespace
+
+record::CaseSummary summary_of(const cases::Case& problem) {
+  record::CaseSummary summary;
+  summary.name = problem.entry->name;
+  summary.summary = problem.entry->summary;
+  summary.equations = problem.entry->equations;
+  for (std::size_t i = 0; i < problem.values.size(); ++i) {
+    const auto& parameter = problem.entry->parameters[i];
+    const auto& value = problem.values[i].second;
+    auto& added = summary.parameters.emplace_back(
+        record::Quantity{parameter.name, NAN, parameter.unit, parameter.meaning});
+    if (value.is_word())
+      added.text = value.text();
+    else
+      added.value = value;
+  }
+  for (const auto& c : problem.constants) summary.constants.push_back(quantity(c));
+  for (const auto& c : problem.indicators) summary.constants.push_back(quantity(c));
+  summary.end = problem.motion->end();
+  summary.fast_period = fast_period(problem);
+  summary.impact_count = problem.motion->impact_count(summary.end);
+  for (long long k = 1; k <= std::min(summary.impact_count, most_impact_times); ++k) {
+    const auto impact = problem.motion->impact(k);
+    summary.impact_times.push_back(impact.t);
+    summary.impact_contacts.push_back(impact.contact);
+  }
+  summary.drawing = record::schematic(problem.problem);
+  return summary;
+}
+
+}  // namespace clackers::tables
