@@ -7,7 +7,7 @@
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/model/trajectory.hpp"
-#include "clackers/record/cause_metrics.hpp"
+#include "clackers/record/all_metrics.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/study/verify/run_sinks.hpp"
 
@@ -98,8 +98,9 @@ std::optional<AssessedRun> assess_run(const CasePlan& plan, const RunTask& task,
   result.end_u = relative(recorder.last_u(), motion);
   // A state that is not finite is no row of a history.
   if (task.metrics && std::isfinite(result.run.score.u_error)) {
-    auto metrics = all_metrics({stored.trajectory(), motion, plan.problem.problem},
-                               facts_of(plan.summary, method.spring_time), {}, interrupt);
+    auto metrics = all_metrics({stored.trajectory(), motion, plan.problem.problem,
+                                facts_of(plan.summary, plan.problem.problem, method.spring_time)},
+                               {}, interrupt);
     if (!metrics) return {};
     result.run.metrics = std::move(*metrics);
     if (plan.extras.record && motion.dof() <= record::most_blocks)
