@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "clackers/base/files.hpp"
+#include "clackers/base/json.hpp"
 #include "clackers/record/provenance.hpp"
 #include "paper/rendering/page.hpp"
 #include "paper/rendering/specification.hpp"
@@ -22,7 +23,7 @@ void write_numbers(const Figure& figure, const fs::path& folder) {
   std::ostringstream csv;
   write_csv(figure, csv);
   write_file(folder / (figure.name + ".csv"), csv.str());
-  write_file(folder / (figure.name + ".vl.json"), specification(figure).dump() + "\n");
+  write_file(folder / (figure.name + ".vl.json"), json_text(specification(figure)) + "\n");
 }
 
 // What of a figure lies in the folder.
@@ -52,7 +53,7 @@ void write_manifest(const std::vector<Drawn>& drawn, const std::string& command,
   }
   const Json json{{"schema", schema},  {"version", from.version}, {"command", from.command},
                   {"date", from.date}, {"files", files},          {"figures", figures}};
-  write_file(folder / manifest, json.dump(1) + "\n");
+  write_file(folder / manifest, json_text(json, 1) + "\n");
 }
 
 }  // namespace
@@ -88,9 +89,9 @@ Reproduction reproduce(const std::vector<Entry>& chosen, const fs::path& folder,
   return out;
 }
 
-std::vector<std::string> listed_files(const fs::path& folder) {
+std::vector<std::string> listed_files(const fs::path& folder) try {
   if (!fs::exists(folder / manifest)) return {};
-  const auto json = Json::parse(read_file(folder / manifest), nullptr, false);
+  const auto json = parse_json(read_file(folder / manifest));
   if (!json.is_object() || json.value("schema", Json()) != schema) return {};
   const auto files = json.find("files");
   if (files == json.end() || !files->is_array()) return {};
@@ -98,6 +99,8 @@ std::vector<std::string> listed_files(const fs::path& folder) {
   for (const auto& file : *files)
     if (file.is_string()) out.push_back(file.get<std::string>());
   return out;
+} catch (const Json::parse_error&) {
+  return {};
 }
 
 }  // namespace clackers::paper

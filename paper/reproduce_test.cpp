@@ -8,6 +8,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/files.hpp"
+#include "clackers/base/json.hpp"
 #include "paper/testing/test_folder.hpp"
 
 namespace clackers::paper {
@@ -44,7 +45,7 @@ TEST_F(Reproduced, FolderWithoutRenderersHasNumbersSpecificationsAndPage) {
 
 TEST_F(Reproduced, ManifestHasClaimsAndVerdicts) {
   const auto made = reproduce(chosen({"fig12"}), folder_, "clackers paper fig12");
-  const auto json = nlohmann::json::parse(read_file(folder_ / "paper.json"));
+  const auto json = parse_json(read_file(folder_ / "paper.json"));
   EXPECT_EQ(json.at("schema"), "clackers/paper-folder/1");
   EXPECT_EQ(json.at("command"), "clackers paper fig12");
   const auto& claims = json.at("figures").at(0).at("claims");

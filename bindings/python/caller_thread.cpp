@@ -1,7 +1,7 @@
 #include "bindings/python/caller_thread.hpp"
 
 #include <chrono>
-#include <set>
+#include <map>
 #include <thread>
 #include <utility>
 
@@ -16,11 +16,12 @@ constexpr auto longest_wait = 50ms;
 // How long the end of the interpreter waits for studies in other threads.
 constexpr auto longest_farewell = 5s;
 
-// The studies that run, of all threads.
+// The studies that run, with their callers' threads, and the thread that ends the interpreter.
 struct Running {
   std::mutex guard;
   std::condition_variable changed;
-  std::set<CallerThread*> all;
+  std::map<const CallerThread*, unsigned long> all;
+  std::optional<unsigned long> ended_by;
 };
 
 // Never destroyed: threads may outlive the objects of the process.
@@ -29,11 +30,29 @@ Running& running() {
   return *studies;
 }
 
+// Whether the interpreter is ended by another thread: Python is not to be touched from here any more.
+bool has_python_ended() {
+  const std::lock_guard lock(running().guard);
+  return running().ended_by && *running().ended_by != PyThread_get_thread_ident();
+}
+
+// Sleeps until the process ends. A thread that returned to an interpreter that ends could print its
+// exception meanwhile, and the interpreter aborts where a thread holds its standard error.
+[[noreturn]] void park() {
+  {
+    const std::lock_guard lock(running().guard);
+    const auto self = PyThread_get_thread_ident();
+    std::erase_if(running().all, [&](const auto& study) { return study.second == self; });
+    running().changed.notify_all();
+  }
+  for (;;) std::this_thread::sleep_for(1h);
+}
+
 }  // namespace
 
 CallerThread::CallerThread() {
   const std::lock_guard lock(running().guard);
-  running().all.insert(this);
+  running().all.emplace(this, PyThread_get_thread_ident());
 }
 
 CallerThread::~CallerThread() {
@@ -44,9 +63,15 @@ CallerThread::~CallerThread() {
 }
 
 void CallerThread::stop_all() {
+  {
+    const std::lock_guard lock(running().guard);
+    running().ended_by = PyThread_get_thread_ident();
+    // A callable ends at its next instruction.
+    for (const auto& [study, thread] : running().all)
+      PyThreadState_SetAsyncExc(thread, PyExc_SystemExit);
+  }
   const py::gil_scoped_release without_gil;
   std::unique_lock lock(running().guard);
-  for (auto* study : running().all) study->interrupt_ = true;
   running().changed.wait_for(lock, longest_farewell, [] { return running().all.empty(); });
 }
 
@@ -89,6 +114,7 @@ CallerThread::Events CallerThread::wait() {
   const py::gil_scoped_release without_gil;
   std::unique_lock lock(guard_);
   wake_.wait_for(lock, longest_wait, [&] { return !jobs_.empty() || has_ended_; });
+  if (has_python_ended()) end_without_python(lock);
   Events events;
   events.has_ended = has_ended_;
   events.share = std::exchange(share_, {});
@@ -98,6 +124,16 @@ CallerThread::Events CallerThread::wait() {
     jobs_.pop_front();
   }
   return events;
+}
+
+void CallerThread::end_without_python(std::unique_lock<std::mutex>& lock) {
+  interrupt_ = true;
+  while (!has_ended_) {
+    for (auto* job : std::exchange(jobs_, {})) job->is_done = true;
+    done_.notify_all();
+    wake_.wait(lock, [&] { return !jobs_.empty() || has_ended_; });
+  }
+  park();
 }
 
 void CallerThread::serve(const py::object& progress) {

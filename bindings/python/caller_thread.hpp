@@ -48,7 +48,8 @@ class CallerThread {
   /// From any thread: the caller's thread will release a reference.
   void release(PyObject* object);
 
-  /// At the end of the interpreter: stops the studies of all threads and waits for them, for a while.
+  /// At the end of the interpreter: stops the studies of all other threads and waits for them, for a
+  /// while. These threads do not return to Python.
   static void stop_all();
 
  private:
@@ -65,6 +66,7 @@ class CallerThread {
   };
 
   Events wait();
+  [[noreturn]] void end_without_python(std::unique_lock<std::mutex>& lock);
   void serve(const py::object& progress);
   void make(Job& job);
   void stop(py::error_already_set& error);

@@ -136,6 +136,27 @@ std::string shell_line(std::span<const std::string> arguments) {
   return line;
 }
 
+std::vector<std::string> shell_words(std::string_view line) {
+  std::vector<std::string> words;
+  bool is_quoted = false, is_word = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (!is_quoted && c == ' ') {
+      is_word = false;
+      continue;
+    }
+    if (!is_word) words.emplace_back();
+    is_word = true;
+    if (c == '\'')
+      is_quoted = !is_quoted;
+    else if (!is_quoted && c == '\\' && i + 1 < line.size())
+      words.back() += line[++i];
+    else
+      words.back() += c;
+  }
+  return words;
+}
+
 std::size_t display_width(std::string_view text) {
   return std::size_t(std::ranges::count_if(text, [](char c) { return !is_continuation(c); }));
 }

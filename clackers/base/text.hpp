@@ -18,6 +18,8 @@ std::string printable(std::string_view text);
 std::string shell_quoted(std::string_view word);
 /// The arguments as a line that a POSIX shell reads back to the same arguments.
 std::string shell_line(std::span<const std::string> arguments);
+/// The arguments of a line that shell_line() wrote.
+std::vector<std::string> shell_words(std::string_view line);
 
 /// Characters that a UTF-8 text takes on the terminal, one a code point.
 std::size_t display_width(std::string_view text);

@@ -84,5 +84,11 @@ TEST(Shell, QuotesWhatAShellWouldReadOtherwise) {
   EXPECT_EQ(shell_line(std::vector<std::string>{"cp", "a b", "c"}), "cp 'a b' c");
 }
 
+TEST(ShellWords, AreTheArgumentsOfALine) {
+  const std::vector<std::string> arguments{"a", "", "it's", "two words", "--x=1", "\\ \"$y\""};
+  EXPECT_EQ(shell_words(shell_line(arguments)), arguments);
+  EXPECT_TRUE(shell_words("").empty());
+}
+
 }  // namespace
 }  // namespace clackers

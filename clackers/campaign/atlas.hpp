@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,27 +19,17 @@ std::string_view atlas_specification();
 /// The text of a specification with other methods on the same systems and ladder.
 std::string with_methods(const std::string& text, std::span<const MethodEntry> methods);
 
-/// Results that another atlas can take in: the finished tasks of a campaign with what is needed to
-/// compute them again.
-struct AtlasResults {
-  std::string origin;                        ///< who computed them
-  record::Provenance from;                   ///< with what, where and when
-  std::string options;                       ///< of `clackers verify`, for the same steps
-  std::map<std::string, std::string> calls;  ///< see report::AtlasPart
-  std::string specification;
-  record::Sheet subjects, runs;
-};
-AtlasResults results_of(const Store& store, const std::string& origin,
-                        const record::Provenance& from);
+/// Throws InputError, with the file's name, for a database whose rows no page can show: bad-syntax,
+/// unknown-name, not-a-campaign.
+void require_results(const Store& store);
 
-/// Results as the text of a json file, schema "clackers/atlas-results/1", and back; `name` stands in
-/// messages. Throws InputError for what is no such file: bad-syntax, not-a-campaign, other-version.
-std::string results_text(const AtlasResults& results);
-AtlasResults results_from(const std::string& text, const std::string& name);
-
-/// The page of a campaign, with the results of others beside it. `command` is what writes it, "atlas";
-/// `from` has the whole line. Throws InputError where no task is finished.
-std::string campaign_page(const Store& store, std::span<const AtlasResults> others,
+/// The page of a campaign, with the databases of others beside it. `command` is what writes it,
+/// "atlas"; `from` has the whole line. Throws InputError where no task is finished.
+std::string campaign_page(const Store& store, std::span<const Store> others,
                           const std::string& command, const record::Provenance& from);
+
+/// What `clackers verify` is given for the ladder of a specification: "--levels 5
+/// --samples-per-level 4".
+std::string ladder_options(const Ladder& ladder);
 
 }  // namespace clackers::campaign

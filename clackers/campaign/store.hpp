@@ -8,6 +8,7 @@
 #include "clackers/campaign/specification.hpp"
 #include "clackers/campaign/task_source.hpp"
 #include "clackers/campaign/tasks.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/record/sheet.hpp"
 
 // The database of a campaign: one SQLite file, documented in docs/manual/reference/campaign-database.md.
@@ -20,6 +21,12 @@ inline constexpr int application_id = 0x636c6b72;
 /// The tables that are written as sheets.
 enum class TableName { subjects, runs };
 
+/// Who computed the rows of a database, with what, where and when.
+struct Origin {
+  std::string author;  ///< empty: nobody was named
+  record::Provenance from;
+};
+
 /// A database open for writing (one writer at a time, any number of readers) or for reading. Not
 /// thread-safe. A task is finished when its row stands in `subjects`.
 class Store {
@@ -31,6 +38,8 @@ class Store {
   static Store create_or_open(const std::string& path, const Specification& specification,
                               const std::string& shard = {});
   /// Opens an existing database for reading. Throws as above; cannot-read where there is none.
+  /// Its tables are checked: one of a stranger may have views, triggers or other columns
+  /// (not-a-campaign).
   static Store open(const std::string& path);
 
   Store(Store&&) noexcept;
@@ -41,6 +50,9 @@ class Store {
   const Specification& specification() const;
   const std::string& shard() const;
   TaskSet finished() const;
+  Origin origin() const;
+  /// Keeps the origin in the database.
+  void sign(const Origin& origin);
 
   /// Adds the rows of tasks in one transaction; a task that is finished already stays as it is. Throws
   /// FileError (cannot-write), and the database is as before.

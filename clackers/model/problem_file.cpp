@@ -15,6 +15,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/files.hpp"
+#include "clackers/base/json.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/base/toml_reader.hpp"
@@ -51,7 +52,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_masses = 1000;
 
@@ -92,7 +93,11 @@ void convert(const Json& value, const std::string& name, int depth, const Put& p
 
 // Of the object itself, or of its member "problem", as files for programs and `show` have it.
 toml::table table_from_json(std::string_view text, const std::string& name) {
-  const auto json = Json::parse(text, nullptr, false);
+  Json json;
+  try {
+    json = parse_json(text);
+  } catch (const Json::parse_error&) {
+  }  // stays null
   if (!json.is_object()) refuse_syntax(name, "not JSON, though it begins with {");
   const auto problem = json.find("problem");
   toml::table root;

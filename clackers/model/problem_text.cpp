@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/json.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::model {
@@ -84,7 +84,7 @@ std::string problem_json(const Problem& problem) {
 
 std::string problem_file_json(std::string_view case_name, const Problem& problem) {
   return fmt::format("{{\"schema\": \"clackers/problem/1\", \"case\": {},\n\"problem\": {}}}\n",
-                     nlohmann::json(case_name).dump(), problem_json(problem));
+                     json_quoted(case_name), problem_json(problem));
 }
 
 std::string problem_file_text(const Problem& problem) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "clackers/base/json.hpp"
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/model/problem_file.hpp"
@@ -27,10 +28,10 @@ model::ImpactProblem<> two_masses() {
 }
 
 TEST(ProblemText, JsonHasMatricesContactsStartAndEnd) {
-  const auto file = nlohmann::json::parse(problem_file_json("a \"b\"", two_masses()));
+  const auto file = parse_json(problem_file_json("a \"b\"", two_masses()));
   EXPECT_EQ(file["schema"], "clackers/problem/1");
   EXPECT_EQ(file["case"], "a \"b\"");
-  const auto expected = nlohmann::json::parse(R"({
+  const auto expected = parse_json(R"({
     "M": [[1, 0], [0, 2]], "C": [[0.1, -0.1], [-0.1, 0.3]], "K": [[4, -1.5], [-1.5, 5]],
     "contacts": [{"direction": [1, -1], "gap": -0.25, "restitution": 0.5},
                  {"direction": [0, 1], "gap": -1, "restitution": 1}],
@@ -87,11 +88,11 @@ TEST(ProblemText, HarmonicLoadsAndSpringsAreNumbers) {
   problem.system.add_load = model::HarmonicLoad({{0, 2.0, 3.0, -0.5}, {1, 1.0, 0.0, 0.0}});
   problem.system.nonlinear = std::make_shared<model::OneSidedSprings>(
       std::exchange(problem.contacts, {}), std::vector<double>{400.0, 500.0});
-  const auto json = nlohmann::json::parse(problem_json(problem));
-  EXPECT_EQ(json["loads"], nlohmann::json::parse(R"([
+  const auto json = parse_json(problem_json(problem));
+  EXPECT_EQ(json["loads"], parse_json(R"([
     {"dof": 1, "amplitude": 2, "frequency": 3, "phase": -0.5},
     {"dof": 2, "amplitude": 1, "frequency": 0, "phase": 0}])"));
-  EXPECT_EQ(json["springs"], nlohmann::json::parse(R"([
+  EXPECT_EQ(json["springs"], parse_json(R"([
     {"direction": [1, -1], "gap": -0.25, "stiffness": 400},
     {"direction": [0, 1], "gap": -1, "stiffness": 500}])"));
   const auto text = problem_file_text(problem);

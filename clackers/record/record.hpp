@@ -163,6 +163,8 @@ struct Subject {
   /// The one name in every output. A method as one would type it, without "+event-driven", which is
   /// what a name without "+contact" means; "histories" for histories.
   std::string name;
+  /// Of a method that joins them, with their parameters; empty for a scheme and for others.
+  std::string integrator{}, treatment{};
   Claim claim;                        ///< of the method, or what --expect says of the histories
   std::optional<double> tolerance;    ///< largest allowed u_error, where one was asked for
   double contact_time = 0.0;          ///< [s], 0 for rigid contact

@@ -287,6 +287,8 @@ template <class Archive>
 void fields(Archive& archive, Like<Subject> auto& x) {
   archive("kind", x.kind);
   archive("name", x.name);
+  archive.added("integrator", x.integrator);
+  archive.added("treatment", x.treatment);
   archive("claim", x.claim);
   archive("tolerance", x.tolerance);
   archive("contact_time", x.contact_time);

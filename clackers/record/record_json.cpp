@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/json.hpp"
 #include "clackers/record/record_fields.hpp"
 
 namespace clackers::record {
@@ -244,14 +245,13 @@ constexpr int deepest = 32;
 Json parsed(const std::string& text, const std::atomic<bool>* interrupt) {
   if (text.size() > longest_record)
     refuse_record({}, fmt::format("more than {} bytes", longest_record));
-  const auto watch = [&](int depth, Json::parse_event_t event, const Json&) {
+  const auto watch = [&](int depth, bool starts_array) {
     if (interrupt != nullptr && *interrupt) throw Error("interrupted", "interrupted");
     if (depth > deepest) refuse_record({}, fmt::format("more than {} levels", deepest));
-    if (depth == 0 && event == Json::parse_event_t::array_start) refuse_record({}, "no object");
-    return true;
+    if (depth == 0 && starts_array) refuse_record({}, "no object");
   };
   try {
-    return Json::parse(text, watch);
+    return parse_json(text, watch);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("record: no json: {}", error.what()), "not-a-record");
   }
@@ -262,7 +262,7 @@ Json parsed(const std::string& text, const std::atomic<bool>* interrupt) {
 std::string to_json(const Record& record) {
   Json json{{"schema", Record::schema}};
   json.update(Writer::written(record));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json, 1);
 }
 
 Record record_from_json(const std::string& text, const std::atomic<bool>* interrupt) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/json.hpp"
 #include "clackers/record/record_fields.hpp"
 #include "clackers/record/testing/sample_record.hpp"
 
@@ -103,7 +104,7 @@ TEST(RecordJson, ReadsEveryDoubleBack) {
 
 TEST(RecordJson, NamesEveryNumberOfARun) {
   // Of six numbers in a row none may take the place of another.
-  const auto json = Json::parse(to_json(sample_record()));
+  const auto json = parse_json(to_json(sample_record()));
   const auto& run = json["cases"][0]["subjects"][0]["levels"][0]["runs"][0];
   EXPECT_EQ(run["u_error"].get<double>(), 1.0 / 3.0);
   EXPECT_EQ(run["v_error"].get<double>(), std::numeric_limits<double>::max());
@@ -115,27 +116,28 @@ TEST(RecordJson, NamesEveryNumberOfARun) {
 TEST(RecordJson, WritesWhatJsonHasNoNumberForAsText) {
   Record record;
   record.cases.emplace_back().problem.impact_times = {NAN, INFINITY, -INFINITY};
-  const auto json = nlohmann::json::parse(to_json(record));
-  EXPECT_EQ(json["cases"][0]["problem"]["impact_times"], (nlohmann::json{"nan", "inf", "-inf"}));
+  const auto json = parse_json(to_json(record));
+  EXPECT_EQ(json["cases"][0]["problem"]["impact_times"],
+            (nlohmann::ordered_json{"nan", "inf", "-inf"}));
   const auto back = record_from_json(to_json(record));
   EXPECT_TRUE(std::isnan(back.cases[0].problem.impact_times[0]));
 }
 
 TEST(RecordJson, ReadsRecordsOfEarlierVersions) {
-  auto json = Json::parse(to_json(sample_record()));
+  auto json = parse_json(to_json(sample_record()));
   auto& subject = json["cases"][0]["subjects"][0];
   EXPECT_EQ(subject["resolution"], "tolerance");
   subject.erase("resolution");
   subject.erase("diagnoses");
   subject["levels"][0]["runs"][1].erase("printed");
-  const auto read = record_from_json(json.dump()).cases[0].subjects[0];
+  const auto read = record_from_json(json_text(json)).cases[0].subjects[0];
   EXPECT_EQ(read.resolution, Resolution::step);
   EXPECT_TRUE(read.diagnoses.empty());
   EXPECT_EQ(read.levels[0].runs[1].printed, "");
 }
 
 TEST(RecordJson, WritesTheEvidenceOfADiagnosisAsOneObject) {
-  const auto json = Json::parse(to_json(sample_record()));
+  const auto json = parse_json(to_json(sample_record()));
   const auto& cause = json["cases"][0]["subjects"][0]["diagnoses"][0];
   EXPECT_EQ(cause["code"], "restitution-differs");
   EXPECT_EQ(cause["value"].get<double>(), 0.99);
@@ -151,13 +153,13 @@ TEST(RecordJson, BeginsWithItsSchema) {
 }
 
 TEST(RecordJson, RefusesWhatIsNoRecordAndSaysWhere) {
-  const auto json = Json::parse(to_json(sample_record()));
+  const auto json = parse_json(to_json(sample_record()));
   const auto changed = [&](const std::string& pointer, const Json& value) {
     auto copy = json;
     copy[Json::json_pointer(pointer)] = value;
-    return refusal_of(copy.dump());
+    return refusal_of(json_text(copy));
   };
-  EXPECT_EQ(refusal_of(json.dump()), "accepted");
+  EXPECT_EQ(refusal_of(json_text(json)), "accepted");
   const std::string hint =
       "; allowed: json of schema clackers/record/1, as written by clackers verify or check with "
       "--format json.";
@@ -188,7 +190,7 @@ TEST(RecordJson, RefusesWhatIsNoRecordAndSaysWhere) {
                   word + hint);
   auto lacking = json;
   lacking["cases"][0]["plan"].erase("coarsest");
-  EXPECT_EQ(refusal_of(lacking.dump()),
+  EXPECT_EQ(refusal_of(json_text(lacking)),
             "not-a-record: record: no field \"coarsest\" at /cases/0/plan" + hint);
   for (const auto* text : {"", "{", "null", "[]", "3", "{}", "clackers"})
     EXPECT_EQ(refusal_of(text).substr(0, 13), "not-a-record:") << text;

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
+#include "clackers/base/json.hpp"
 #include "clackers/base/text.hpp"
 
 namespace clackers::report {
@@ -56,13 +56,6 @@ std::string pad(std::string_view text, std::size_t width, bool to_the_right) {
   const auto used = display_width(text);
   const std::string space(width > used ? width - used : 0, ' ');
   return to_the_right ? space + std::string(text) : std::string(text) + space;
-}
-
-std::string valid_utf8(std::string_view text) {
-  // The writer of json replaces them.
-  const nlohmann::json json(text);
-  const auto valid = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return nlohmann::json::parse(valid).get<std::string>();
 }
 
 std::string xml_text(std::string_view text) {

@@ -23,10 +23,7 @@ std::string short_count(long long value);
 /// `text` with spaces before or behind it, `width` characters in all.
 std::string pad(std::string_view text, std::size_t width, bool to_the_right);
 
-/// The text with U+FFFD for every byte that belongs to no character of UTF-8.
-std::string valid_utf8(std::string_view text);
-
-/// The same as XML 1.0 can hold it: U+FFFD also for control characters and the two code points that
+/// valid_utf8() as XML 1.0 can hold it: U+FFFD also for control characters and the two code points that
 /// it excludes.
 std::string xml_text(std::string_view text);
 

@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "clackers/base/text.hpp"
+
 namespace clackers::report {
 namespace {
 

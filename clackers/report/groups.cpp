@@ -8,8 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "clackers/tables/listing.hpp"
-
 namespace clackers::report {
 namespace {
 
@@ -33,9 +31,7 @@ std::vector<SubjectGroup> groups_of(const record::CaseRecord& problem,
   for (const auto& subject : problem.subjects) {
     if (!only.empty() && std::ranges::find(only, record::verdict_word(subject)) == only.end())
       continue;
-    const auto treatment = is_grouped && subject.kind == record::SubjectKind::method
-                               ? tables::treatment_of(subject.name)
-                               : std::string();
+    const auto treatment = is_grouped ? subject.treatment : std::string();
     auto group = std::ranges::find(groups, treatment, &SubjectGroup::treatment);
     if (group == groups.end()) group = groups.insert(groups.end(), {treatment, {}, is_grouped});
     group->subjects.push_back(&subject);

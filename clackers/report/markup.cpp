@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "clackers/base/json.hpp"
 #include "clackers/report/format.hpp"
 
 namespace clackers::report {
@@ -61,7 +61,7 @@ std::string breakable(const std::string& escaped) {
 }
 
 std::string script_json(const nlohmann::ordered_json& json) {
-  const auto text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  const auto text = json_text(json);
   std::string out;
   out.reserve(text.size());
   // "<" occurs inside texts only, where json allows this escape.

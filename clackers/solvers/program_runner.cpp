@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/files.hpp"
 #include "clackers/model/problem_text.hpp"
 #include "clackers/solvers/process.hpp"
 
@@ -17,12 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto history_name = "history.csv", events_name = "events.csv";
-
-void write_file(const fs::path& path, std::string_view text) {
-  std::ofstream file(path, std::ios::binary);
-  if (!(file << text).flush())
-    throw FileError(path.string() + ": cannot be written.", "cannot-write");
-}
 
 bool is_filled(const fs::path& path) {
   std::error_code error;

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/files.hpp"
 
 namespace clackers::solvers {
 namespace {
@@ -105,8 +106,7 @@ RunFolder::~RunFolder() {
 
 fs::path RunFolder::commit(bool good) {
   if (!good && !work_.keeps_failures()) return place_;
-  if (good && !(std::ofstream(path_ / key_name, std::ios::binary) << key_).flush())
-    throw FileError(path_.string() + ": cannot be written.", "cannot-write");
+  if (good) write_file(path_ / key_name, key_);
   std::error_code error;
   // Another process may put its own there meanwhile.
   for (int attempt = 0; attempt < 3; ++attempt) {

@@ -29,10 +29,6 @@ std::string show_problem(std::string_view name, const cases::Settings& settings)
 /// sheet of one text column.
 std::vector<record::Sheet> show_method(std::string_view specification);
 
-/// The contact treatment of a method as typed: "penalty:law=hertz", "event-driven" where an integrator
-/// stands alone; empty for a method that brings its own, and for what is no method.
-std::string treatment_of(std::string_view specification);
-
 /// What `clackers explain [CODE]` shows; an empty code lists all.
 record::Sheet explain(std::string_view code);
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "clackers/base/files.hpp"
 #include "clackers/campaign/run.hpp"
 #include "clackers/record/provenance.hpp"
 #include "clackers/report/write.hpp"
@@ -37,12 +38,12 @@ void require_fitting(const Options& options) {
   if (submits && !options.merge.empty())
     refuse_usage("--merge: --submit writes a file, --merge takes files in; give one of the two.");
   if (submits && options.common.out.empty())
-    refuse_usage("--submit writes a file: give it with --out FILE.json.");
+    refuse_usage("--submit writes a file: give it with --out FILE.db.");
   const bool is_program = !options.command.empty();
   if (!options.expect.empty() && !is_program)
     refuse_usage("--expect: this is for programs; add --exec 'COMMAND'.");
   if ((is_program || !options.author.empty()) && !submits)
-    refuse_usage("--exec and --author go with --submit NAME --out FILE.json.");
+    refuse_usage("--exec and --author go with --submit NAME --out FILE.db.");
 }
 
 std::string specification_text(const Options& options) {
@@ -69,19 +70,34 @@ int submit(const Options& options, const std::string& line) {
       specification_name(options));
   OutputFile file(options.common.out, OnInterrupt::stop);
   const TemporaryFolder folder;
-  auto store = campaign::Store::create_or_open(folder.path() + "/runs.db", specification);
-  const auto done = run_tasks(store, {}, jobs_from(options.jobs), options.common.quiet);
-  if (done.interrupted) throw Interrupted();
-  const auto results = campaign::results_of(
-      store, options.author.empty() ? options.submit : options.author, record::provenance(line));
-  file.stream() << campaign::results_text(results);
+  const auto database = folder.path() + "/runs.db";
+  {
+    auto store = campaign::Store::create_or_open(database, specification);
+    const auto done = run_tasks(store, {}, jobs_from(options.jobs), options.common.quiet);
+    if (done.interrupted) throw Interrupted();
+    store.sign(
+        {options.author.empty() ? options.submit : options.author, record::provenance(line)});
+  }
+  file.stream() << read_file(database);
   file.commit();
   if (!options.common.quiet)
     note(fmt::format(
-        "Wrote {}: {} tasks. Who has an atlas takes them in with: clackers atlas --merge "
-        "{}",
-        options.common.out, results.subjects.rows.size(), options.common.out));
+        "Wrote {}: {} tasks. Who has an atlas takes them in with: clackers atlas --merge {}",
+        options.common.out, specification.tasks(), options.common.out));
   return 0;
+}
+
+// The databases of others that the page shows: those of the folder, but for the ones that are
+// replaced, and the new ones. Each is checked before anything is written.
+std::vector<campaign::Store> others_of(const AtlasFolder& folder,
+                                       const std::vector<std::string>& added) {
+  auto files = folder.others();
+  for (const auto& file : added) std::erase(files, folder.place_of(file));
+  files.insert(files.end(), added.begin(), added.end());
+  std::vector<campaign::Store> others;
+  for (const auto& file : files)
+    campaign::require_results(others.emplace_back(campaign::Store::open(file)));
+  return others;
 }
 
 // How many methods got which verdict, a row a case.
@@ -105,14 +121,14 @@ int run(const Options& options, const std::string& line) {
   const auto specification =
       campaign::Specification::from_toml(specification_text(options), specification_name(options));
   const AtlasFolder folder(options.common.out.empty() ? default_folder : options.common.out);
+  const auto others = others_of(folder, options.merge);
   folder.begin(specification);
-  folder.take_in(options.merge);
 
   auto store = campaign::Store::create_or_open(folder.database(), specification);
   const auto done = run_tasks(store, {}, jobs, options.common.quiet);
   if (store.finished().size() > 0)
-    folder.write_page(
-        campaign::campaign_page(store, folder.results(), "atlas", record::provenance(line)));
+    folder.write_page(campaign::campaign_page(store, others, "atlas", record::provenance(line)));
+  folder.take_in(options.merge);
   print_verdicts(store, results);
   if (done.interrupted) {
     report_error("interrupted; what was finished is stored. The same command goes on.",
@@ -134,21 +150,21 @@ void add_atlas(Grammar& root) {
       {.examples =
            "  clackers atlas\n"
            "  clackers atlas --out atlas --jobs 2\n"
-           "  clackers atlas --submit newmark:beta=0.3+penalty --out newmark.json\n"
-           "  clackers atlas --submit ours --exec './solver {case} {h} {out}' --out our.json\n"
-           "  clackers atlas --merge our.json\n",
+           "  clackers atlas --submit newmark:beta=0.3+penalty --out newmark.db\n"
+           "  clackers atlas --submit ours --exec './solver {case} {h} {out}' --out our.db\n"
+           "  clackers atlas --merge our.db\n",
        .about =
            "Runs the campaign that ships with clackers: every method on pairs over a grid of their "
            "parameters and on the systems beyond the pair. FOLDER receives index.html, a page that "
            "opens without a network: a matrix of verdicts, convergence plots, maps of order and error, "
            "Pareto fronts and performance profiles; atlas.db, the database of the campaign; atlas.toml, "
-           "its specification; and results/, files of others that were taken in. An atlas that was "
+           "its specification; and results/, databases of others that were taken in. An atlas that was "
            "interrupted goes on when the same command is given again.",
        .usage = "  clackers atlas [--out FOLDER] [--jobs n] [--specification FILE.toml]\n"
-                "           [--merge FILE.json ...]\n"
-                "  clackers atlas --submit METHOD [--author NAME] --out FILE.json\n"
+                "           [--merge FILE.db ...]\n"
+                "  clackers atlas --submit METHOD [--author NAME] --out FILE.db\n"
                 "  clackers atlas --submit NAME --exec COMMAND\n"
-                "           [--expect BEHAVIOUR[:ORDER]] [--author NAME] --out FILE.json\n"});
+                "           [--expect BEHAVIOUR[:ORDER]] [--author NAME] --out FILE.db\n"});
   app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
   app->add_option("--specification", options->specification,
                   "Systems, methods and ladder as `clackers campaign` takes them, instead of those "
@@ -157,7 +173,7 @@ void add_atlas(Grammar& root) {
   app->add_option(
          "--submit", options->submit,
          "Run this method alone on all systems, and write the results with their provenance "
-         "as a file that other atlases take in. With --exec it is the name of your program.")
+         "as a database that other atlases take in. With --exec it is the name of your program.")
       ->option_text("METHOD");
   app->add_option("--exec", options->command,
                   "Your program, a line for the shell, as `clackers verify --exec` takes it.")
@@ -169,16 +185,17 @@ void add_atlas(Grammar& root) {
   app->add_option("--author", options->author,
                   "Whose results they are; the page shows it. Default: METHOD.")
       ->option_text("NAME");
-  app->add_option("--merge", options->merge,
-                  "Take in the results of a file that --submit wrote; they stand in the page with "
-                  "their author. May be repeated. A file of the same name is replaced.")
-      ->reads_file("FILE.json");
+  app->add_option(
+         "--merge", options->merge,
+         "Take in a database that --submit wrote; the page shows its rows with their author. "
+         "May be repeated. A file of the same name is replaced.")
+      ->reads_file("FILE.db");
   add_common_options(*app, options->common);
   app->get_option("--out")
       ->description(
           "The folder of the atlas; one of another command is refused. Default: "
           "clackers-atlas. With --submit the file.")
-      ->option_text("FOLDER|FILE.json");
+      ->option_text("FOLDER|FILE.db");
   app->get_option("--out")->kind = ValueKind::text;
   app->run = [options](const std::string& line) { return run(*options, line); };
 }

@@ -70,26 +70,29 @@ void AtlasFolder::begin(const campaign::Specification& specification) const {
   write_whole(own, specification.text());
 }
 
-void AtlasFolder::take_in(const std::vector<std::string>& files) const {
-  std::vector<std::string> texts;
-  for (const auto& file : files) {
-    texts.push_back(text_of(file));
-    campaign::results_from(texts.back(), file);
-  }
-  if (!files.empty()) make_folder(others());
-  for (std::size_t i = 0; i < files.size(); ++i)
-    write_whole(others() + "/" + fs::path(files[i]).stem().string() + ".json", texts[i]);
+std::vector<std::string> AtlasFolder::others() const {
+  std::vector<std::string> files;
+  if (fs::is_directory(results()))
+    for (const auto& entry : fs::directory_iterator(results())) {
+      if (entry.path().extension() == ".json")
+        throw InputError(fmt::format("{}: results of an earlier version; delete the file, and ask "
+                                     "its author for a new one: clackers atlas --submit METHOD "
+                                     "--out FILE.db",
+                                     entry.path().string()),
+                         "other-version");
+      if (entry.path().extension() == ".db") files.push_back(entry.path().string());
+    }
+  std::ranges::sort(files);
+  return files;
 }
 
-std::vector<campaign::AtlasResults> AtlasFolder::results() const {
-  std::vector<std::string> files;
-  if (fs::is_directory(others()))
-    for (const auto& entry : fs::directory_iterator(others()))
-      if (entry.path().extension() == ".json") files.push_back(entry.path().string());
-  std::ranges::sort(files);
-  std::vector<campaign::AtlasResults> all;
-  for (const auto& file : files) all.push_back(campaign::results_from(text_of(file), file));
-  return all;
+std::string AtlasFolder::place_of(const std::string& file) const {
+  return results() + "/" + fs::path(file).stem().string() + ".db";
+}
+
+void AtlasFolder::take_in(const std::vector<std::string>& files) const {
+  if (!files.empty()) make_folder(results());
+  for (const auto& file : files) write_whole(place_of(file), read_file(file));
 }
 
 void AtlasFolder::write_page(const std::string& html) const { write_whole(page(), html); }

@@ -23,7 +23,7 @@ class TemporaryFolder {
 };
 
 /// The folder that `clackers atlas` writes and goes on with: index.html, atlas.db, atlas.toml, and
-/// results/ with files of others.
+/// results/ with databases of others.
 class AtlasFolder {
  public:
   explicit AtlasFolder(std::string path) : path_(std::move(path)) {}
@@ -31,11 +31,12 @@ class AtlasFolder {
   /// Makes the folder and writes the specification. Throws InputError for a folder that holds other
   /// things (foreign-folder) and for an atlas of another specification (other-campaign); FileError.
   void begin(const campaign::Specification& specification) const;
-  /// Copies files of results into the folder, after reading all of them. Throws FileError for one that
-  /// cannot be read, and as campaign::results_from().
+  /// The databases of others that were taken in, by name. Throws InputError (other-version).
+  std::vector<std::string> others() const;
+  /// Where a database of others is kept.
+  std::string place_of(const std::string& file) const;
+  /// Copies databases of others into the folder. Throws FileError.
   void take_in(const std::vector<std::string>& files) const;
-  /// All files that were taken in, by name.
-  std::vector<campaign::AtlasResults> results() const;
   void write_page(const std::string& html) const;
 
   std::string database() const { return path_ + "/atlas.db"; }
@@ -43,7 +44,7 @@ class AtlasFolder {
 
  private:
   std::string specification() const { return path_ + "/atlas.toml"; }
-  std::string others() const { return path_ + "/results"; }
+  std::string results() const { return path_ + "/results"; }
 
   std::string path_;
 };

@@ -33,7 +33,7 @@ Series part(const Series& whole, double from, double to) {
 
 // Phases of plain double precision are off by X t ulp; X = 5, t <= 20 s, and the velocity of mass 2
 // has five times the slope that the formula of the flight is compared in.
-constexpr double plain_precision = 0x1p-52 * 5.0 * 20.0;
+constexpr double pair_precision = 0x1p-52 * 5.0 * 20.0;
 
 }  // namespace
 
@@ -67,7 +67,7 @@ Figure mirrored_response() {
        fmt::format(
            "In t_C1 ≤ t ≤ t_C2, u with and u without the collision add up to {} m at most, for both masses.",
            number(difference)),
-       difference <= plain_precision}};
+       difference <= pair_precision}};
   figure.choices = {
       "Figure 11 is a typical sketch without parameters; those of Fig. 12 are taken."};
   figure.panels = {panel};
@@ -114,7 +114,7 @@ Figure coincidence() {
          fmt::format(
              "t_C*** = 2π/√(1 − ξ1²) = {:.6f} s; at {} multiples the displacements differ by {} and the velocities by {} of the amplitude then.",
              period, moments.size(), number(u), number(v)),
-         u <= plain_precision && v <= plain_precision});
+         u <= pair_precision && v <= pair_precision});
   }
   return figure;
 }

@@ -17,7 +17,7 @@ constexpr double miss_xi1 = 0.05;
 constexpr int points = 2000;
 
 cases::Case pair(double damping) {
-  return cases::make("three-parameter", {{"N", 5.0}, {"miss_xi1", damping}});
+  return cases::make("three-parameter", {{"N", 5.0}, {"xi1", damping}});
 }
 
 struct Nearest {

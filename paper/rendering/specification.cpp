@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/json.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/report/markup.hpp"
@@ -26,12 +27,12 @@ constexpr auto disc = "M0.27,0A0.27,0.27,0,1,1,-0.27,0A0.27,0.27,0,1,1,0.27,0";
 
 // A part of page/look.json: fonts, colours and spacing.
 const Json& look(const char* part) {
-  static const Json all = Json::parse(report::fill(assets::look_json, {{"paper", light::paper},
-                                                                       {"ink", light::ink},
-                                                                       {"muted", light::muted},
-                                                                       {"faint", light::faint},
-                                                                       {"line", light::line},
-                                                                       {"grid", light::grid}}));
+  static const Json all = parse_json(report::fill(assets::look_json, {{"paper", light::paper},
+                                                                      {"ink", light::ink},
+                                                                      {"muted", light::muted},
+                                                                      {"faint", light::faint},
+                                                                      {"line", light::line},
+                                                                      {"grid", light::grid}}));
   return all.at(part);
 }
 

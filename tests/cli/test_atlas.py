@@ -136,7 +136,7 @@ class Refusals(AtlasTest):
                      says="clackers atlas --specification")
 
     def test_of_options_that_do_not_go_together(self):
-        for arguments, says in ((("--submit", "rk4"), "--out FILE.json"),
+        for arguments, says in ((("--submit", "rk4"), "--out FILE.db"),
                                 (("--exec", "./a {h}"), "--submit NAME"),
                                 (("--author", "A"), "--submit NAME"),
                                 (("--submit", "rk4", "--out", "x", "--merge", "y"), "give one of the two"),
@@ -144,41 +144,54 @@ class Refusals(AtlasTest):
             self.refused("atlas", *arguments, code="bad-syntax", says=says)
 
     def test_of_files_that_are_no_results(self):
-        for text, code, says in (("", "cannot-read", "is empty"), ("{", "bad-syntax", "no json"),
-                                 ("[]", "not-a-campaign", "--submit METHOD"),
-                                 ('{"schema": "clackers/atlas-results/7"}', "other-version", "results/1"),
-                                 ('{"schema": "clackers/atlas-results/1"}', "bad-syntax", "damaged")):
-            self.write("bad.json", text)
+        for text, code in (("", "not-a-campaign"), ("{", "not-a-campaign"), ("x" * 5000, "not-a-campaign")):
+            self.write("bad.db", text)
             self.refused("atlas", "--specification", self.spec, "--out", self.folder_of_atlas, "--merge",
-                         self.path("bad.json"), code=code, says=says, exit_code=4 if code == "cannot-read" else 2)
-            self.assertFalse(os.path.exists(self.path("atlas/results")))
+                         self.path("bad.db"), code=code, says="bad.db")
+            self.assertFalse(os.path.exists(self.folder_of_atlas))
+
+    def test_of_results_that_somebody_changed(self):
+        for change, code, says in (("UPDATE runs SET level = 1000000000000", "out-of-range", "level"),
+                                   ("UPDATE subjects SET task = 7 WHERE task = 0", "not-a-campaign", "no task"),
+                                   ("ALTER TABLE subjects DROP COLUMN verdict", "not-a-campaign", "no column verdict"),
+                                   ("CREATE VIEW seen AS SELECT 1", "not-a-campaign", "views")):
+            self.submit("bathe")
+            self.change(change)
+            self.refused("atlas", "--specification", self.spec, "--out", self.folder_of_atlas, "--merge",
+                         self.path("bathe.db"), code=code, says=("bathe.db", says))
+            self.assertFalse(os.path.exists(self.path("atlas/results")), change)
+
+    def test_that_were_refused_leave_the_atlas_as_it_was(self):
+        self.atlas()
+        self.submit("bathe")
+        self.change("UPDATE subjects SET task = 7 WHERE task = 0")
+        self.refused("atlas", "--specification", self.spec, "--out", self.folder_of_atlas, "--merge",
+                     self.path("bathe.db"), code="not-a-campaign", says="bathe.db")
+        self.atlas()
+
+    def change(self, statement):
+        database = sqlite3.connect(self.path("bathe.db"))
+        with database:
+            database.execute(statement)
+        database.close()
 
     def test_of_a_method_that_there_is_not(self):
-        self.refused("atlas", "--specification", self.spec, "--submit", "newmrak", "--out", self.path("x.json"),
+        self.refused("atlas", "--specification", self.spec, "--submit", "newmrak", "--out", self.path("x.db"),
                      code="unknown-name", says='Did you mean "newmark"?')
-        self.assertFalse(os.path.exists(self.path("x.json")))
-
-    def test_of_results_with_a_row_too_short(self):
-        self.submit("bathe")
-        with open(self.path("bathe.json"), encoding="utf-8") as file:
-            results = json.load(file)
-        results["runs"]["rows"][3].pop()
-        self.write("bathe.json", json.dumps(results))
-        self.refused("atlas", "--specification", self.spec, "--out", self.folder_of_atlas, "--merge",
-                     self.path("bathe.json"), code="ragged-row", says="row 4")
+        self.assertFalse(os.path.exists(self.path("x.db")))
 
     def submit(self, method):
         self.good("atlas", "--specification", self.spec, "--submit", method, "--out",
-                  self.path(f"{method}.json"), "--quiet")
+                  self.path(f"{method}.db"), "--quiet")
 
 
 class Submissions(AtlasTest):
     def test_of_a_method_stand_in_another_atlas_with_their_author(self):
         self.good("atlas", "--specification", self.spec, "--submit", "bathe", "--author", "B. Author", "--out",
-                  self.path("bathe.json"), "--quiet")
+                  self.path("bathe.db"), "--quiet")
         self.atlas()
-        self.atlas("--merge", self.path("bathe.json"))
-        self.assertEqual(os.listdir(self.path("atlas/results")), ["bathe.json"])
+        self.atlas("--merge", self.path("bathe.db"))
+        self.assertEqual(os.listdir(self.path("atlas/results")), ["bathe.db"])
         page = self.page()
         data = data_of(page)
         self.assertEqual(len(data["systems"]), 4, "the systems are the same")
@@ -189,14 +202,23 @@ class Submissions(AtlasTest):
         self.atlas()
         self.assertEqual(len(data_of(self.page())["cells"]), 16, "they stay in the atlas")
 
+    def test_with_numbers_below_the_normal_ones_are_shown(self):
+        self.good("atlas", "--specification", self.spec, "--submit", "bathe", "--out", self.path("bathe.db"), "--quiet")
+        database = sqlite3.connect(self.path("bathe.db"))
+        with database:
+            database.execute("UPDATE runs SET u_error = 1e-310")
+        database.close()
+        self.atlas("--merge", self.path("bathe.db"))
+        self.assertIn("1e-310", self.page())
+
     def test_of_a_program_claim_what_their_author_says(self):
         self.write("solver", SOLVER)
         os.chmod(self.path("solver"), stat.S_IRWXU)
         self.write("spec.toml", SPEC.replace(", 1], xi1 = [0.05, 0.1]", "], xi1 = [0.05]"))
         command = f"{self.path('solver')} {{h}} 0.5"
         self.good("atlas", "--specification", self.spec, "--submit", "ours", "--exec", command, "--expect", "exact",
-                  "--out", self.path("ours.json"), "--quiet")
-        self.atlas("--merge", self.path("ours.json"))
+                  "--out", self.path("ours.db"), "--quiet")
+        self.atlas("--merge", self.path("ours.db"))
         data = data_of(self.page())
         place = {name: i for i, name in enumerate(data["fields"])}
         cell = data["cells"][-1]
@@ -207,13 +229,13 @@ class Submissions(AtlasTest):
     def test_that_were_interrupted_leave_no_file(self):
         self.write("long.toml", LONG)
         with start("atlas", "--specification", self.path("long.toml"), "--submit", "rk4", "--out",
-                   self.path("rk4.json"), stdout=-1, stderr=-1, text=True) as process:
+                   self.path("rk4.db"), stdout=-1, stderr=-1, text=True) as process:
             with self.assertRaises(Exception):
                 process.wait(1)
             process.send_signal(signal.SIGINT)
             _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)
-        self.assertFalse(os.path.exists(self.path("rk4.json")))
+        self.assertFalse(os.path.exists(self.path("rk4.db")))
 
 
 class Report(AtlasTest):

@@ -148,7 +148,7 @@ class Good(StepFunctions):
     def test_ladder_in_a_process(self):
         program = self.compiled("if (run->tolerance != (run->steps < 4 ? 0 : 0.5)) abort(); "
                                 "if (run->memory) ++*(int*)run->memory; else run->memory = calloc(1, sizeof(int)); "
-                                "if (run->steps == 2) clackers_add_impact(run, t1, 2.0, v, v);")
+                                "clackers_add_impact(run, t1, 2.0, v, v);")
         self.by_hand(program, self.problem(), "1", "a.csv", "events=e.csv", "2", "b=c.csv", "tolerance=0.5", "4", "d.csv")
         self.assertEqual([row["t"] for row in self.rows("b=c.csv")], ["0.5", "1", "1.5"])
         self.assertEqual([len(self.rows(name)) for name in ("a.csv", "d.csv", "e.csv")], [2, 5, 2])

@@ -1,10 +1,10 @@
 // What reads and writes records: `check` with every output, and the record of --baseline.
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/json.hpp"
 #include "clackers/record/record_json.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/baseline.hpp"
@@ -71,7 +71,7 @@ void write_all(const record::Record& record) {
     report::write(record, format, out);
     const auto text = out.str();
     require(!text.empty(), "every format writes something");
-    if (format == report::Format::json) require(nlohmann::json::accept(text), "json can be read");
+    if (format == report::Format::json) (void)parse_json(text);  // it can be read
     if (format == report::Format::csv) {
       auto lines = split(text, "\n");
       lines.pop_back();

@@ -449,7 +449,12 @@ class Interrupts(unittest.TestCase):
     def test_the_interpreter_ends_well_while_a_daemon_thread_studies(self):
         done = run("import clackers, threading, time\nfrom solvers import leapfrog\n"
                    "threading.Thread(target=lambda: clackers.verify(leapfrog), daemon=True).start()\ntime.sleep(0.5)\n")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_the_interpreter_ends_well_while_a_callable_of_a_daemon_thread_does_not_end(self):
+        done = run("import clackers, threading, time\ndef endless(problem, h):\n    while True:\n        pass\n"
+                   "threading.Thread(target=lambda: clackers.verify(endless), daemon=True).start()\ntime.sleep(0.5)\n")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 if __name__ == "__main__":

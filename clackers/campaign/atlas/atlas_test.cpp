@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "clackers/base/testing/refusal.hpp"
-#include "clackers/campaign/atlas/results.hpp"
-
 namespace clackers::campaign {
 namespace {
 
@@ -24,22 +21,6 @@ levels = 3
 case = "three-parameter"
 set = { xi1 = [0.1], N = { from = 1, to = 3, points = 3 } }
 )";
-
-AtlasResults sample() {
-  AtlasResults results;
-  results.origin = "A. \"Author\" \xC3\xA9";
-  results.from = {"clackers atlas", "0.1.0", "GCC", "Linux", "a processor", "2026-01-01T00:00:00Z"};
-  results.options = "--levels 3";
-  results.calls = {{"ours", "--exec './a {h}' --name ours"}};
-  results.specification = small;
-  results.subjects.columns = {{"task", "", ""},   {"set_N", "", ""},   {"case", "", ""},
-                              {"method", "", ""}, {"verdict", "", ""}, {"order", "", ""}};
-  results.subjects.rows = {{0LL, 1.0, "stop", "ours", "agrees", 0.1},
-                           {1LL, {}, "stop", "ours", "refused", {}}};
-  results.runs.columns = {{"task", "", ""}, {"level", "", ""}, {"u_error", "", ""}};
-  results.runs.rows = {{0LL, 1LL, 1e-300}, {0LL, 2LL, {}}};
-  return results;
-}
 
 TEST(AtlasSpecification, HasEveryMethodAndSystemsBeyondThePair) {
   const auto shipped = specification(std::string(atlas_specification()));
@@ -81,41 +62,6 @@ TEST(LadderOptions, AreThoseOfVerify) {
   ladder.tolerances = {1e-3, 1e-5};
   EXPECT_EQ(ladder_options(ladder),
             "--levels 5 --neighbours 4 --coarsest 0.1 --tolerances 0.001,1e-05");
-}
-
-TEST(AtlasResults, ReadBackAsTheyWere) {
-  const auto results = sample();
-  const auto read = results_from(results_text(results), "a.json");
-  EXPECT_EQ(read.origin, results.origin);
-  EXPECT_EQ(read.from.command, results.from.command);
-  EXPECT_EQ(read.from.date, results.from.date);
-  EXPECT_EQ(read.options, results.options);
-  EXPECT_EQ(read.calls, results.calls);
-  EXPECT_EQ(read.specification, results.specification);
-  EXPECT_EQ(read.subjects.rows, results.subjects.rows);
-  EXPECT_EQ(read.runs.rows, results.runs.rows);
-}
-
-TEST(AtlasResults, AreRefusedWithWhatIsWrong) {
-  const auto text = results_text(sample());
-  const auto with = [&](const std::string& from, const std::string& to) {
-    auto changed = text;
-    return changed.replace(changed.find(from), from.size(), to);
-  };
-  EXPECT_REFUSED(results_from("no", "a.json"), "bad-syntax", "a.json: this is no json");
-  EXPECT_REFUSED(results_from("[1]", "a.json"), "not-a-campaign", "--submit METHOD");
-  EXPECT_REFUSED(results_from(with("results/1", "results/2"), "a.json"), "other-version",
-                 "clackers/atlas-results/1");
-  EXPECT_REFUSED(results_from(with("\"verdict\"", "\"werdict\""), "a.json"), "no-column",
-                 "there is no column verdict");
-  EXPECT_REFUSED(results_from(with("[0,1,1e-300]", "[0,1]"), "a.json"), "ragged-row",
-                 "row 1 has 2 values for 3 columns");
-  EXPECT_REFUSED(results_from(with("[0,1,1e-300]", "[0,1,[2]]"), "a.json"), "bad-syntax",
-                 "damaged");
-  EXPECT_REFUSED(results_from(with("[1,null,\"stop\"", "[1,1.0,\"stop\""), "a.json"), "bad-syntax",
-                 "the same system and method");
-  EXPECT_REFUSED(results_from(with("\"options\"", "\"opinions\""), "a.json"), "bad-syntax",
-                 "options");
 }
 
 }  // namespace

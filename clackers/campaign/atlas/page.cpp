@@ -1,11 +1,16 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <deque>
 #include <filesystem>
 
+#include "clackers/base/error.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/campaign/atlas.hpp"
-#include "clackers/campaign/atlas/results.hpp"
 #include "clackers/report/atlas.hpp"
+#include "clackers/report/atlas/survey.hpp"
+#include "clackers/report/format.hpp"
 #include "clackers/report/words/words.hpp"
 
 namespace clackers::campaign {
@@ -30,29 +35,99 @@ std::string lead_of(const Store& store, std::size_t others) {
   return lead;
 }
 
-report::AtlasPart part_of(const AtlasResults& results, record::RowSource& runs) {
-  return {&results.subjects, &runs, results.origin, results.from, results.options, results.calls};
+std::string call_of(const MethodEntry& entry, const std::string& name) {
+  auto call = fmt::format("--exec {} --name {}", shell_quoted(entry.text), shell_quoted(name));
+  if (!entry.expect.empty()) call += " --expect " + shell_quoted(entry.expect);
+  return call;
 }
+
+std::size_t place_of(const std::vector<record::Column>& columns, const std::string& name) {
+  return std::size_t(std::ranges::find(columns, name, &record::Column::name) - columns.begin());
+}
+
+// How a command line names the programs of a specification, by their names in the rows of `subjects`.
+std::map<std::string, std::string> calls_of(const Specification& specification,
+                                            const record::Sheet& subjects) {
+  std::map<std::string, std::string> calls;
+  const auto& methods = specification.methods();
+  const auto task = place_of(subjects.columns, "task");
+  const auto method = place_of(subjects.columns, "method");
+  for (const auto& row : subjects.rows) {
+    const auto* number = std::get_if<long long>(&row.at(task));
+    if (number == nullptr || *number < 0 || *number >= specification.tasks())
+      throw InputError("a row of subjects has no task of the specification", "not-a-campaign");
+    const auto& entry = methods[std::size_t(*number) % methods.size()];
+    const auto* name = std::get_if<std::string>(&row.at(method));
+    if (entry.kind == MethodEntry::Kind::catalogue || name == nullptr) continue;
+    calls.try_emplace(*name, call_of(entry, *name));
+  }
+  return calls;
+}
+
+record::Sheet sheet_of(record::RowSource& rows) {
+  record::Sheet sheet{rows.schema(), rows.title(), rows.columns(), {}};
+  for (std::vector<record::Cell> row; rows.next(row);) sheet.rows.push_back(row);
+  return sheet;
+}
+
+// A database with what the page reads of it.
+struct Part {
+  explicit Part(const Store& store)
+      : subjects(sheet_of(*store.rows(TableName::subjects))), runs(store.rows(TableName::runs)) {
+    const auto& specification = store.specification();
+    auto [author, from] = store.origin();
+    part = {&subjects,
+            runs.get(),
+            author,
+            std::move(from),
+            ladder_options(specification.ladder()),
+            calls_of(specification, subjects)};
+  }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  record::Sheet subjects;
+  std::unique_ptr<record::RowSource> runs;
+  report::AtlasPart part;
+};
 
 }  // namespace
 
-std::string campaign_page(const Store& store, std::span<const AtlasResults> others,
+std::string ladder_options(const Ladder& ladder) {
+  std::string options;
+  const auto add = [&](const std::string& text) { options += (options.empty() ? "" : " ") + text; };
+  if (ladder.levels) add(fmt::format("--levels {}", *ladder.levels));
+  if (ladder.neighbours) add(fmt::format("--neighbours {}", *ladder.neighbours));
+  if (ladder.coarsest) add("--coarsest " + report::exact_number(*ladder.coarsest));
+  if (!ladder.tolerances.empty()) {
+    std::vector<std::string> list;
+    for (const double one : ladder.tolerances) list.push_back(report::exact_number(one));
+    add(fmt::format("--tolerances {}", fmt::join(list, ",")));
+  }
+  if (!ladder.levels) add("--budget 0");  // a campaign never refines beyond its ladder
+  return options;
+}
+
+void require_results(const Store& store) {
+  try {
+    const Part other(store);
+    report::survey_of({&other.part, 1});
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", store.path(), error.what()), error.code());
+  }
+}
+
+std::string campaign_page(const Store& store, std::span<const Store> others,
                           const std::string& command, const record::Provenance& from) {
-  const auto& specification = store.specification();
   report::require_few_cells(store.finished().size());  // before they are read
-  const auto subjects = sheet_of(*store.rows(TableName::subjects));
-  const auto runs = store.rows(TableName::runs);
-  std::vector<report::AtlasPart> parts{{&subjects,
-                                        runs.get(),
-                                        {},
-                                        from,
-                                        ladder_options(specification.ladder()),
-                                        calls_of(specification, subjects)}};
-  std::deque<record::SheetRows> sheets;
-  for (const auto& results : others)
-    parts.push_back(part_of(results, sheets.emplace_back(results.runs)));
-  return report::atlas_page(parts, {command, heading_of(store, command),
-                                    lead_of(store, others.size()), specification.text(), from});
+  std::deque<Part> read;
+  read.emplace_back(store).part.from = from;
+  for (const auto& other : others) read.emplace_back(other);
+  std::vector<report::AtlasPart> parts;
+  for (const auto& [subjects, runs, part] : read) parts.push_back(part);
+  return report::atlas_page(parts,
+                            {command, heading_of(store, command), lead_of(store, others.size()),
+                             store.specification().text(), from});
 }
 
 }  // namespace clackers::campaign

@@ -78,6 +78,32 @@ void require_campaign(const Sqlite& database) {
         "other-version");
 }
 
+void require_tables(const Sqlite& database, const Tables& tables) {
+  const auto damaged = [&](const std::string& what) {
+    throw InputError(
+        fmt::format("{}: the database of the campaign is damaged: {}. Make it anew, or "
+                    "take another file.",
+                    database.path(), what),
+        "not-a-campaign");
+  };
+  if (database.whole("SELECT count(*) FROM sqlite_master WHERE type NOT IN ('table', 'index')") > 0)
+    damaged("it has views or triggers");
+  const auto names_of = [&](std::string_view table) {
+    std::vector<std::string> names;
+    auto statement =
+        database.prepare(fmt::format("SELECT name FROM pragma_table_info('{}')", table));
+    while (statement.step()) names.push_back(statement.text(0));
+    return names;
+  };
+  for (const auto& [table, columns] :
+       {std::pair{"subjects", &tables.subjects}, {"runs", &tables.runs}}) {
+    const auto names = names_of(table);
+    for (const auto& column : *columns)
+      if (std::ranges::find(names, column.name) == names.end())
+        damaged(fmt::format("{} has no column {}", table, column.name));
+  }
+}
+
 void require_same(const Sqlite& database, const Specification& specification) {
   if (value_of(database, "specification") != specification.text())
     throw InputError(

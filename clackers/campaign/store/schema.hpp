@@ -16,6 +16,8 @@ bool is_blank(const Sqlite& database);
 /// Throws InputError unless this is a database of a campaign (not-a-campaign) in our version of the
 /// schema (other-version).
 void require_campaign(const Sqlite& database);
+/// Throws InputError (not-a-campaign) for views, triggers, and tables with other columns.
+void require_tables(const Sqlite& database, const Tables& tables);
 /// Throws InputError unless it is of this specification (other-campaign), written by this version of
 /// clackers (other-version).
 void require_same(const Sqlite& database, const Specification& specification);

@@ -119,6 +119,7 @@ Store Store::open(const std::string& path) {
       Specification::from_toml(value_of(database, "specification"), value_of(database, "file"));
   connection.shard = value_of(database, "shard");
   connection.tables = tables_of(connection.specification);
+  require_tables(database, connection.tables);
   return Store(std::move(made));
 }
 
@@ -192,6 +193,31 @@ long long Store::merge(const std::string& path) {
   }
   database.execute("DETACH other");
   return added;
+}
+
+Origin Store::origin() const {
+  const auto value = [&](const char* key) { return value_of(connection_->database, key); };
+  return {value("author"),
+          {value("command"), value("version"), value("compiler"), value("machine"),
+           value("processor"), value("date")}};
+}
+
+void Store::sign(const Origin& origin) {
+  const auto& [command, version, compiler, machine, processor, date] = origin.from;
+  auto statement = connection_->database.prepare("INSERT OR REPLACE INTO campaign VALUES (?, ?)");
+  Transaction transaction(connection_->database);
+  for (const auto& [key, value] : {std::pair{"author", origin.author},
+                                   {"command", command},
+                                   {"compiler", compiler},
+                                   {"machine", machine},
+                                   {"processor", processor},
+                                   {"date", date}}) {
+    const record::Cell cells[] = {std::string(key), value};
+    statement.bind(1, cells[0]);
+    statement.bind(2, cells[1]);
+    statement.run();
+  }
+  transaction.commit();
 }
 
 std::unique_ptr<record::RowSource> Store::rows(TableName table, bool with_times) const {

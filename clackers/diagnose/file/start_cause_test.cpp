@@ -41,7 +41,7 @@ model::Trajectory written(const Reading& reading, const model::Trajectory& rows)
   return file;
 }
 
-bool symmetric_start(const cases::Case& problem) { return problem.entry->name == "symmetric_start-pair"; }
+bool symmetric_start(const cases::Case& problem) { return problem.entry->name == "symmetric-pair"; }
 
 TEST(StartCause, SaysNothingOfARightStart) {
   for (const auto& problem : assorted_cases())

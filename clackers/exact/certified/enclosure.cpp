@@ -11,8 +11,6 @@ namespace clackers::certified {
 namespace {
 
 // sin(odd pi / 2)
-double quarter_sine(double odd) { return std::fmod(odd, 4.0) == 1.0 ? 1.0 : -1.0; }
-
 bool is_certain(const Ball& value, long bits) {
   return value.is_zero() || value.accuracy() >= bits;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct ImpactBalls {
   Ball impulse;                  ///< [N s]
   Ball energy_before, energy_after;
 };
+
+/// sin(odd pi / 2) of an odd number.
+inline double quarter_sine(double odd) { return std::fmod(odd, 4.0) == 1.0 ? 1.0 : -1.0; }
 
 /// One motion of the module exact, as balls that certainly hold it for the binary64 values of its
 /// free parameters. Between instants t_k, pi/Omega apart, it flies freely; at each the velocities that

@@ -37,33 +37,18 @@ auto call_again(const std::atomic<bool>* interrupt, const Call& call) {
 
 InputFile::InputFile(const std::string& path, const std::atomic<bool>* interrupt)
     : name_(name_of(path)), interrupt_(interrupt) {
-  descriptor_ = call_again(interrupt_, [&] {
+  descriptor_ = Descriptor(call_again(interrupt_, [&] {
     // A copy of standard input, so that closing it at the end is right in both cases.
     return path == "-" ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3)
                        : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
-  });
-  if (descriptor_ < 0) fail_to_read(name_, errno);
+  }));
+  if (!descriptor_.is_open()) fail_to_read(name_, errno);
   struct stat facts {};
-  if (::fstat(descriptor_, &facts) != 0 || S_ISDIR(facts.st_mode)) {
-    const int error = S_ISDIR(facts.st_mode) ? EISDIR : errno;
-    ::close(descriptor_);
-    fail_to_read(name_, error);
-  }
+  if (::fstat(descriptor_.number(), &facts) != 0 || S_ISDIR(facts.st_mode))
+    fail_to_read(name_, S_ISDIR(facts.st_mode) ? EISDIR : errno);
   if (!S_ISREG(facts.st_mode)) return;
-  start_ = ::lseek(descriptor_, 0, SEEK_CUR);
+  start_ = ::lseek(descriptor_.number(), 0, SEEK_CUR);
   size_ = std::max(0LL, static_cast<long long>(facts.st_size) - start_);
-}
-
-InputFile::InputFile(InputFile&& other) noexcept
-    : name_(std::move(other.name_)),
-      interrupt_(other.interrupt_),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      size_(other.size_),
-      start_(other.start_),
-      first_(std::move(other.first_)) {}
-
-InputFile::~InputFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 std::string_view InputFile::first_bytes(std::size_t count) {
@@ -79,7 +64,8 @@ std::size_t InputFile::read(char* bytes, std::size_t capacity) {
     first_.erase(0, taken);
     return taken;
   }
-  const auto count = call_again(interrupt_, [&] { return ::read(descriptor_, bytes, capacity); });
+  const auto count =
+      call_again(interrupt_, [&] { return ::read(descriptor_.number(), bytes, capacity); });
   if (count < 0) fail_to_read(name_, errno);
   return static_cast<std::size_t>(count);
 }
@@ -95,8 +81,9 @@ std::size_t InputFile::read_all_at(std::size_t place, char* bytes, std::size_t c
   std::size_t have = 0;
   while (have < count) {
     const auto from = start_ + static_cast<long long>(place + have);
-    const auto last = call_again(
-        interrupt_, [&] { return ::pread(descriptor_, bytes + have, count - have, from); });
+    const auto last = call_again(interrupt_, [&] {
+      return ::pread(descriptor_.number(), bytes + have, count - have, from);
+    });
     if (last < 0) fail_to_read(name_, errno);
     if (last == 0) break;
     have += static_cast<std::size_t>(last);

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "clackers/base/files.hpp"
+
 namespace clackers::input {
 
 /// A file that is read once, from its beginning to its end; "-" is standard input.
@@ -16,9 +18,6 @@ class InputFile {
   /// Throws FileError (cannot-read) with the system's reason for a file that cannot be opened, a
   /// folder among them.
   InputFile(const std::string& path, const std::atomic<bool>* interrupt);
-  ~InputFile();
-  InputFile(InputFile&& other) noexcept;
-  InputFile& operator=(InputFile&&) = delete;
 
   /// The first bytes, as many as there are up to `count`, before anything is read; they will be
   /// read again. Throws FileError.
@@ -38,7 +37,7 @@ class InputFile {
  private:
   std::string name_;
   const std::atomic<bool>* interrupt_;
-  int descriptor_ = -1;
+  Descriptor descriptor_;
   long long size_ = 0;
   long long start_ = 0;  ///< standard input may have been read from before
   std::string first_;    ///< bytes that read() returns before those of the descriptor

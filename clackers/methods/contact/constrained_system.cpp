@@ -6,8 +6,6 @@
 namespace clackers::methods {
 namespace {
 
-Eigen::Index to_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 // The part of a step after which vanishing forces are looked at: enough for their trend to stand
 // out from rounding, and too little for others to change.
 constexpr double instant = 0x1p-20;

@@ -9,8 +9,6 @@
 namespace clackers::methods {
 namespace {
 
-Eigen::Index to_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 // "contacts 1, 2 and 3", the numbers of `rows` and of `last`.
 std::string contacts_named(std::vector<std::size_t> rows, std::size_t last) {
   rows.push_back(last);

@@ -13,6 +13,8 @@
 
 namespace clackers::methods {
 
+inline Eigen::Index to_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
 /// What impulses P along the rows of the contacts do through an effective matrix A, symmetric
 /// positive definite: the mass matrix, or M + theta h C + theta^2 h^2 K of a time-stepping scheme.
 template <int Dof>

@@ -14,7 +14,7 @@ using runs::mass_on_stop;
 using runs::RattlingMass;
 using runs::Result;
 
-std::vector<std::string> integrators(bool (*is_one)(const Facts&)) {
+std::vector<std::string> integrators_that(bool (*is_one)(const Facts&)) {
   std::vector<std::string> all;
   for (const auto& entry : entries())
     if (entry.kind == "integrator" && is_one(integrator(entry.name)->facts()))
@@ -22,8 +22,8 @@ std::vector<std::string> integrators(bool (*is_one)(const Facts&)) {
   return all;
 }
 
-const auto adaptive = integrators([](const Facts& facts) { return facts.is_adaptive; });
-const auto exact = integrators([](const Facts& facts) { return facts.is_exact_without_load; });
+const auto adaptive = integrators_that([](const Facts& facts) { return facts.is_adaptive; });
+const auto exact = integrators_that([](const Facts& facts) { return facts.is_exact_without_load; });
 
 Result run_by(const std::string& name, const model::ImpactProblem<>& problem, double tolerance) {
   model::TrajectorySink sink(true);

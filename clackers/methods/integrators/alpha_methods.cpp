@@ -2,14 +2,13 @@
 #include <cmath>
 #include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/methods/integrators/alpha_method.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
 
 namespace clackers::methods {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // At infinite omega h the equilibrium leaves u1 = -alpha_f/(1 - alpha_f) u0, and a1 from the update
 // of u leaves  x² - [2 - (gamma + 1/2)/beta] x + (beta + 1/2 - gamma)/beta = 0  for v and a.
@@ -40,7 +39,7 @@ Facts AlphaMethod::facts() const {
   const bool is_stable = !is_plain(*this) || 2.0 * beta >= gamma;
   return {.smooth_order = std::abs(excess) < 1e-15 ? 2.0 : 1.0,
           .stability_limit = is_stable ? always : 1.0 / std::sqrt(0.5 * gamma - beta),
-          .radius_at_infinity = is_stable ? radius_at_infinity(*this) : none};
+          .radius_at_infinity = is_stable ? radius_at_infinity(*this) : nan};
 }
 
 std::vector<Row> alpha_methods() {

@@ -10,7 +10,7 @@
 namespace clackers::methods {
 namespace {
 
-using PairRow = EmbeddedPair::PairRow;
+using PairRow = EmbeddedPair::Row;
 
 // A rooted tree with what a table makes of it: sum_i b_i phi_i = 1/gamma is its condition.
 struct Tree {

@@ -1,13 +1,12 @@
 #include <limits>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
 #include "clackers/methods/integrators/multistep.hpp"
 
 namespace clackers::methods {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // The backward difference formula of k steps and order k.
 Multistep backward(std::size_t k, const Multistep::Coefficients& d, double limit, double radius) {
@@ -105,7 +104,7 @@ Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.
        "backward difference formula of order three",
        {},
        [](Values) {
-         return backward(3, {11.0 / 6, -3.0, 1.5, -1.0 / 3}, 0.0, none);
+         return backward(3, {11.0 / 6, -3.0, 1.5, -1.0 / 3}, 0.0, nan);
        },
        R"(The backward difference formula of order 3 for x = (u, v), x' = (v, a(t, u, v)):
 
@@ -122,7 +121,7 @@ Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.
        "backward difference formula of order four",
        {},
        [](Values) {
-         return backward(4, {25.0 / 12, -4.0, 3.0, -4.0 / 3, 0.25}, 0.0, none);
+         return backward(4, {25.0 / 12, -4.0, 3.0, -4.0 / 3, 0.25}, 0.0, nan);
        },
        R"(The backward difference formula of order 4 for x = (u, v), x' = (v, a(t, u, v)):
 
@@ -139,7 +138,7 @@ Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.
        "backward difference formula of order five",
        {},
        [](Values) {
-         return backward(5, {137.0 / 60, -5.0, 5.0, -10.0 / 3, 1.25, -0.2}, 0.710807671015, none);
+         return backward(5, {137.0 / 60, -5.0, 5.0, -10.0 / 3, 1.25, -0.2}, 0.710807671015, nan);
        },
        R"(The backward difference formula of order 5 for x = (u, v), x' = (v, a(t, u, v)):
 
@@ -157,7 +156,7 @@ Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.
        {},
        [](Values) {
          return backward(6, {147.0 / 60, -6.0, 7.5, -20.0 / 3, 3.75, -1.2, 1.0 / 6}, 0.843138162097,
-                         none);
+                         nan);
        },
        R"(The backward difference formula of order 6 for x = (u, v), x' = (v, a(t, u, v)):
 

@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "clackers/base/error.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/tables/listing.hpp"
 
 namespace clackers::report {
 namespace {
 
 constexpr std::string_view set_prefix = "set_";
+constexpr long long most_levels = 1000;
 
 std::string cell_text(const record::Cell& cell) {
   if (const auto* real = std::get_if<double>(&cell)) return exact_number(*real);
@@ -65,6 +64,7 @@ void read_runs(const AtlasPart& part, const std::map<long long, std::size_t>& pl
     const auto level = cells.whole(row, "level");
     const auto found = place_of_task.find(cells.whole(row, "task"));
     if (found == place_of_task.end() || level < 1) continue;  // a refusal is a row without a level
+    if (level > most_levels) refuse("atlas", "level", level, fmt::format("1 to {}", most_levels));
     auto& subject = subjects[found->second];
     subject.by_tolerance = !cells.text(row, "tolerance").empty();
     if (subject.ladder.size() < std::size_t(level)) subject.ladder.resize(std::size_t(level));
@@ -127,7 +127,7 @@ Survey survey_of(std::span<const AtlasPart> parts) {
       SurveySubject subject;
       subject.system = place_of(survey.systems, systems, key_of(system), system);
       subject.method = place_of(survey.methods, methods, fmt::format("{} {}", p, name),
-                                SurveyMethod{name, tables::treatment_of(name), p});
+                                SurveyMethod{name, cells.text(row, "treatment"), p});
       subject.part = p;
       subject.row = r;
       if (!seen.try_emplace({subject.method, subject.system}, true).second)
@@ -146,19 +146,6 @@ Survey survey_of(std::span<const AtlasPart> parts) {
         "Run the campaign first: clackers campaign run SPEC.toml",
         "not-a-campaign");
   return survey;
-}
-
-Claim claim_from(const std::string& text) {
-  Claim claim;
-  const auto end = text.find_first_of(", [");
-  if (text.empty() || text == "nothing") return claim;
-  claim.behaviour = behaviour_from(text.substr(0, end));
-  constexpr std::string_view order = ", order ";
-  if (const auto at = text.find(order); at != std::string::npos)
-    std::from_chars(text.data() + at + order.size(), text.data() + text.size(), claim.order);
-  if (const auto at = text.find('['); at != std::string::npos)
-    claim.reason = text.substr(at + 1, text.find(']') - at - 1);
-  return claim;
 }
 
 }  // namespace clackers::report

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "clackers/base/judgement.hpp"
 #include "clackers/measure/errors/score.hpp"
 #include "clackers/report/atlas.hpp"
 
@@ -62,8 +61,5 @@ class NamedCells {
 
   std::map<std::string, std::size_t, std::less<>> places_;
 };
-
-/// The reverse of claim_text(): "proper, order 2".
-Claim claim_from(const std::string& text);
 
 }  // namespace clackers::report

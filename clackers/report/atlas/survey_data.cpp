@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/json.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
@@ -72,11 +73,12 @@ Json part_json(const AtlasPart& part) {
           {"command", valid_utf8(part.from.command)}};
 }
 
-Json claim_json(const std::string& text) {
-  const auto claim = claim_from(text);
-  return {{"text", text},
-          {"behaviour", std::string(to_string(claim.behaviour))},
-          {"order", claim.order}};
+Json claim_json(const NamedCells& cells, const std::vector<record::Cell>& row) {
+  const auto behaviour = cells.text(row, "claim_behaviour");
+  const double order = cells.number(row, "claim_order");
+  return {{"text", valid_utf8(cells.text(row, "claim"))},
+          {"behaviour", behaviour.empty() ? "undecided" : valid_utf8(behaviour)},
+          {"order", std::isfinite(order) ? order : 0.0}};
 }
 
 Json ladder_json(const SurveySubject& subject) {
@@ -113,7 +115,7 @@ void add_ladder(Json& cell, const SurveySubject& subject, Shared& ladders) {
       errors.push_back(run.finished ? rounded_number(run.u_error) : nullptr);
   }
   const auto ladder = ladder_json(subject);
-  cell.push_back(ladders.place(ladder, ladder.dump()));
+  cell.push_back(ladders.place(ladder, json_text(ladder)));
   cell.push_back(errors);
   cell.push_back(steps);
   cell.push_back(forces);
@@ -143,8 +145,8 @@ Json survey_data(const Survey& survey, std::span<const AtlasPart> parts) {
   for (const auto& subject : survey.subjects) {
     const auto& row = parts[subject.part].subjects->rows[subject.row];
     const auto& read = readers[subject.part];
-    const auto claim = read.text(row, "claim");
-    Json cell{subject.method, subject.system, claims.place(claim_json(claim), claim)};
+    const auto claim = claim_json(read, row);
+    Json cell{subject.method, subject.system, claims.place(claim, json_text(claim))};
     for (const auto name : words) cell.push_back(texts.place(read.text(row, std::string(name))));
     for (const auto name : numbers)
       cell.push_back(rounded_number(read.number(row, std::string(name))));

@@ -29,7 +29,7 @@ judge::CostTable cost_table(const Survey& survey, judge::Counter counter) {
 Json line_json(const judge::MethodProfile& line, double tasks) {
   Json ratios = Json::array(), solved = Json::array();
   for (const auto& step : line.steps) {
-    const Json ratio = std::stod(fmt::format("{:.2e}", step.ratio));  // finer than any screen
+    const Json ratio = rounded(step.ratio, 3);  // finer than any screen
     const auto count = std::lround(step.share * tasks);
     if (!ratios.empty() && ratios.back() == ratio) {
       solved.back() = count;

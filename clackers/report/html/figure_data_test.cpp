@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 
+#include "clackers/base/json.hpp"
 #include "clackers/judge/cost/work_precision.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/report/html/figure_specifications.hpp"
@@ -162,7 +163,7 @@ TEST(FigureSpecifications, NoPlaceholderIsLeftAndTheirDataIsThere) {
     const auto data = figure_data(problem);
     const auto all = figure_specifications(problem);
     for (const auto& [name, specification] : all.items()) {
-      const auto text = specification.dump();
+      const auto text = json_text(specification);
       EXPECT_FALSE(std::regex_search(text, std::regex("\"\\$(?!schema)"))) << name << text;
       const std::regex named("\"data\":\\{\"name\":\"([a-z_]+)\"\\}");
       for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at)
@@ -186,7 +187,7 @@ TEST(FigureSpecifications, ThereIsOneForWhatCanBeDrawn) {
 TEST(FigureSpecifications, DataOfSeveralCasesIsToldApart) {
   auto specification = figure_specifications(sample())["work"];
   rename_data(specification, "-2");
-  const auto text = specification.dump();
+  const auto text = json_text(specification);
   EXPECT_NE(text.find("{\"name\":\"front-2\"}"), std::string::npos);
   EXPECT_EQ(text.find("{\"name\":\"runs\"}"), std::string::npos);
   EXPECT_NE(text.find("\"name\":\"zoom\""), std::string::npos) << "names of others stay";

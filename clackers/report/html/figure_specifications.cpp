@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/json.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/counters.hpp"
 #include "clackers/report/html/figure_data.hpp"
@@ -63,7 +64,7 @@ void erase_field(Json& json, std::string_view field) {
 
 // Of a long curve a marker at every sixtieth point, at other points for every method.
 std::string marker_rows(const Json& names) {
-  const auto list = names.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const auto list = json_text(names);
   return "datum.row % 60 === (7 * indexof(" + list + ", datum.method) + 15) % 60";
 }
 
@@ -115,7 +116,7 @@ Json mass_scales(const record::CaseRecord& problem) {
 }  // namespace
 
 Json specification_of(std::string_view text, const std::vector<std::string>& methods, Json values) {
-  auto specification = Json::parse(text);
+  auto specification = parse_json(text);
   values.update(method_scales(methods));
   substitute(specification, values);
   return specification;

@@ -4,16 +4,17 @@
 #include <regex>
 #include <set>
 
+#include "clackers/base/json.hpp"
 #include "clackers/report/testing/sample_record.hpp"
 #include "clackers/report/testing/written.hpp"
 
 namespace clackers::report {
 namespace {
 
-nlohmann::json block(const std::string& page, const std::string& id) {
+nlohmann::ordered_json block(const std::string& page, const std::string& id) {
   const auto open = page.find("id=\"" + id + "\">");
   const auto from = page.find('>', open) + 1;
-  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+  return parse_json(page.substr(from, page.find("</script>", from) - from));
 }
 
 TEST(Html, IsOneFileThatLoadsNothing) {
@@ -71,7 +72,7 @@ TEST(Html, EverySpecificationHasItsDataAndItsFrame) {
   EXPECT_TRUE(specifications.contains("convergence-1") && specifications.contains("response-2"));
   for (const auto& [name, specification] : specifications.items()) {
     EXPECT_EQ(occurrences(page, "data-plot=\"" + name + "\""), 1u);
-    const auto text = specification.dump();
+    const auto text = json_text(specification);
     const std::regex named("\"data\":\\{\"name\":\"([^\"]+)\"\\}");
     for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at)
       EXPECT_TRUE(data.contains((*at)[1].str())) << name << (*at)[1];

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/json.hpp"
 #include "clackers/base/suggest.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/figure_data.hpp"
@@ -23,7 +24,7 @@ constexpr int figure_width = 620;  // pixels
 
 // A part of page/notebook.json: "colors" or "config".
 const Json& look(const char* part) {
-  static const Json all = Json::parse(assets::notebook_json);
+  static const Json all = parse_json(assets::notebook_json);
   return all.at(part);
 }
 
@@ -95,7 +96,7 @@ std::string notebook_figure(const record::CaseRecord& problem, std::string_view 
   add_data_names(figure, used);
   const auto data = figure_data(problem);
   for (const auto& one : used) figure["datasets"][one] = rows_of(data.at(one));
-  return figure.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(figure);
 }
 
 }  // namespace clackers::report

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/json.hpp"
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/report/testing/sample_record.hpp"
 
@@ -42,7 +43,7 @@ TEST(Notebook, NoTextOfTheRecordBecomesMarkup) {
 
 TEST(NotebookFigure, HoldsTheDataThatItDrawsAndNoMore) {
   const auto record = sample_record();
-  const auto figure = Json::parse(notebook_figure(record.cases[0], "convergence"));
+  const auto figure = parse_json(notebook_figure(record.cases[0], "convergence"));
   std::vector<std::string> names;
   for (const auto& [name, rows] : figure.at("datasets").items()) names.push_back(name);
   EXPECT_EQ(names, (std::vector<std::string>{"slopes", "runs", "levels"}));

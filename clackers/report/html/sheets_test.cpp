@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "clackers/base/json.hpp"
 #include "clackers/report/markup.hpp"
 #include "clackers/report/write.hpp"
 
@@ -25,7 +26,7 @@ std::vector<record::Sheet> sheets() {
 Json embedded(const std::string& page, const std::string& id) {
   const auto head = "<script type=\"application/json\" id=\"" + id + "\">";
   const auto from = page.find(head) + head.size();
-  return Json::parse(page.substr(from, page.find("</script>", from) - from));
+  return parse_json(page.substr(from, page.find("</script>", from) - from));
 }
 
 TEST(SheetsPage, HasTablesTextsAndTheCommand) {
@@ -39,14 +40,15 @@ TEST(SheetsPage, HasTablesTextsAndTheCommand) {
 TEST(SheetsPage, DrawsThePointsThatHaveAValueAndAreNotCutOff) {
   const auto page = html(sheets(), "newmark", {});
   EXPECT_EQ(embedded(page, "data")["decay"],
-            Json::parse(R"([{"series":"slow","x":0.1,"y":1.0},{"series":"slow","x":1.0,"y":2.0},
+            parse_json(R"([{"series":"slow","x":0.1,"y":1.0},{"series":"slow","x":1.0,"y":2.0},
                             {"series":"fast","x":0.1,"y":0.5},{"series":"fast","x":10.0,"y":0.25}])"));
   const auto drawn = embedded(page, "specifications")["decay"];
   EXPECT_EQ(drawn["data"]["name"], "decay");
   EXPECT_EQ(drawn["encoding"]["x"]["scale"]["type"], "log");
   EXPECT_EQ(drawn["encoding"]["y"]["scale"]["type"], "linear");
   EXPECT_EQ(drawn["encoding"]["color"]["scale"]["domain"], Json({"slow", "fast"}));
-  EXPECT_EQ(drawn.dump().find("\"$"), drawn.dump().find("\"$schema"));  // no placeholder is left
+  EXPECT_EQ(json_text(drawn).find("\"$"),
+            json_text(drawn).find("\"$schema"));  // no placeholder is left
 }
 
 TEST(SheetsPage, HasALegendForSeveralCurvesOnly) {

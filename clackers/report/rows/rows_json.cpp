@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "clackers/base/json.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/rows/rows.hpp"
 #include "clackers/report/rows/rows_numbers.hpp"
@@ -11,18 +11,14 @@
 namespace clackers::report {
 namespace {
 
-std::string json_text(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 struct JsonText {
   std::string operator()(std::monostate) const { return "null"; }
   std::string operator()(double value) const {
     return std::isfinite(value) ? exact_number(value + 0.0)  // no -0
-                                : json_text(exact_number(value));
+                                : json_quoted(exact_number(value));
   }
   std::string operator()(long long value) const { return fmt::format("{}", value); }
-  std::string operator()(const std::string& text) const { return json_text(text); }
+  std::string operator()(const std::string& text) const { return json_quoted(text); }
 };
 
 void write_rows(record::RowSource& rows, std::ostream& out) {
@@ -53,13 +49,13 @@ void write_rows(record::RowSource& rows, std::ostream& out) {
 }  // namespace
 
 void write_json(record::RowSource& rows, std::ostream& out) {
-  out << "{\n\"schema\": " << json_text(rows.schema())
-      << ",\n\"title\": " << json_text(rows.title()) << ",\n\"columns\": [";
+  out << "{\n\"schema\": " << json_quoted(rows.schema())
+      << ",\n\"title\": " << json_quoted(rows.title()) << ",\n\"columns\": [";
   const char* comma = "\n";
   for (const auto& column : rows.columns()) {
-    out << comma << "  {\"name\": " << json_text(column.name)
-        << ", \"unit\": " << json_text(column.unit)
-        << ", \"meaning\": " << json_text(column.meaning) << '}';
+    out << comma << "  {\"name\": " << json_quoted(column.name)
+        << ", \"unit\": " << json_quoted(column.unit)
+        << ", \"meaning\": " << json_quoted(column.meaning) << '}';
     comma = ",\n";
   }
   out << "\n],\n\"rows\": [";
@@ -69,7 +65,7 @@ void write_json(record::RowSource& rows, std::ostream& out) {
 
 void write_json(std::span<const record::Sheet> sheets, std::string_view schema,
                 std::string_view problem, std::ostream& out) {
-  out << "{\n\"schema\": " << json_text(schema);
+  out << "{\n\"schema\": " << json_quoted(schema);
   if (!problem.empty()) out << ",\n\"problem\": " << problem;
   out << ",\n\"sheets\": [";
   const char* comma = "\n";

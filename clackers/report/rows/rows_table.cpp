@@ -11,7 +11,7 @@
 namespace clackers::report {
 namespace {
 
-using Row = std::vector<record::Cell>;
+using CellRow = std::vector<record::Cell>;
 
 constexpr std::size_t rows_measured = 1000;
 constexpr int most_digits = 6, fewest_digits = 3;
@@ -51,7 +51,7 @@ std::size_t longest_word(std::string_view text) {
 
 // The columns as wide as the measured rows need them when numbers have `digits` digits.
 std::vector<TextColumn> measure(const std::vector<record::Column>& columns,
-                                const std::vector<Row>& rows, int digits) {
+                                const std::vector<CellRow>& rows, int digits) {
   std::vector<TextColumn> out;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     TextColumn column;
@@ -78,7 +78,7 @@ std::vector<TextColumn> measure(const std::vector<record::Column>& columns,
 }
 
 // The most digits that fit; first with two spaces between columns, then with one.
-bool choose_layout(const std::vector<record::Column>& columns, const std::vector<Row>& rows,
+bool choose_layout(const std::vector<record::Column>& columns, const std::vector<CellRow>& rows,
                    std::size_t width, std::vector<TextColumn>& layout, int& digits,
                    std::size_t& gap) {
   for (digits = most_digits; digits >= fewest_digits; --digits)
@@ -89,7 +89,7 @@ bool choose_layout(const std::vector<record::Column>& columns, const std::vector
   return false;
 }
 
-void print_block(const std::vector<record::Column>& columns, const Row& row, std::size_t width,
+void print_block(const std::vector<record::Column>& columns, const CellRow& row, std::size_t width,
                  std::ostream& out) {
   for (std::size_t c = 0; c < row.size(); ++c) {
     auto text = columns[c].name + ": " + text_of(row[c], most_digits, 32);
@@ -109,8 +109,8 @@ void write_table(record::RowSource& rows, std::ostream& out, const Style& style)
       out << colored(line, TextColor::bold, style) << '\n';
 
   const auto& columns = rows.columns();
-  std::vector<Row> first;
-  Row row;
+  std::vector<CellRow> first;
+  CellRow row;
   while (first.size() < rows_measured && rows.next(row)) first.push_back(row);
   if (first.empty() && !rows.title().empty()) return;  // names of columns above nothing say nothing
 
@@ -118,7 +118,7 @@ void write_table(record::RowSource& rows, std::ostream& out, const Style& style)
   int digits = most_digits;
   std::size_t gap = 2;
   const bool fits = choose_layout(columns, first, width, layout, digits, gap);
-  const auto print = [&](const Row& cells) {
+  const auto print = [&](const CellRow& cells) {
     if (!fits) return print_block(columns, cells, width, out);
     std::vector<TextCell> texts;
     for (std::size_t c = 0; c < cells.size(); ++c)

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "clackers/base/constants.hpp"
+#include "clackers/base/json.hpp"
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
@@ -119,7 +120,7 @@ TEST(Csv, NumbersReadBackToTheSameDouble) {
 TEST(Json, NumbersReadBackToTheSameDouble) {
   std::mt19937_64 bits(8);
   const auto sheet = random_doubles(bits);
-  const auto read = nlohmann::json::parse(json(sheet));
+  const auto read = parse_json(json(sheet));
   for (std::size_t r = 0; r < sheet.rows.size(); ++r)
     EXPECT_EQ(read["rows"][r][0].get<double>(), std::get<double>(sheet.rows[r][0]));
 }
@@ -130,14 +131,14 @@ TEST(Json, WritesTheShortestOfTheTextsThatReadBack) {
 }
 
 TEST(Json, HoldsSchemaColumnsAndRows) {
-  const auto read = nlohmann::json::parse(json(mixed_sheet()));
+  const auto read = parse_json(json(mixed_sheet()));
   EXPECT_EQ(read["schema"], "clackers/things/1");
   EXPECT_EQ(read["title"], "Things");
   EXPECT_EQ(read["columns"][1],
-            (nlohmann::json{{"name", "value"}, {"unit", "m/s"}, {"meaning", "how much"}}));
+            (nlohmann::ordered_json{{"name", "value"}, {"unit", "m/s"}, {"meaning", "how much"}}));
   ASSERT_EQ(read["rows"].size(), 5u);
   EXPECT_EQ(read["rows"][1],
-            nlohmann::json::array({"with, comma", -1e-300, -9007199254740993LL, nullptr}));
+            nlohmann::ordered_json::array({"with, comma", -1e-300, -9007199254740993LL, nullptr}));
   EXPECT_EQ(read["rows"][2][1], "inf");
   EXPECT_EQ(read["rows"][3][1], "-inf");
   EXPECT_EQ(read["rows"][4][1], "nan");
@@ -148,7 +149,7 @@ TEST(Json, SeveralSheetsAreOneObject) {
   const std::vector<Sheet> sheets{mixed_sheet(), {"clackers/empty/1", "", {{"x", "m", ""}}, {}}};
   std::ostringstream out;
   write(sheets, "clackers/show/1", Format::json, out);
-  const auto read = nlohmann::json::parse(out.str());
+  const auto read = parse_json(out.str());
   EXPECT_EQ(read["schema"], "clackers/show/1");
   ASSERT_EQ(read["sheets"].size(), 2u);
   EXPECT_EQ(read["sheets"][1]["schema"], "clackers/empty/1");
@@ -357,6 +358,26 @@ TEST(Npy, HasAPaddedHeaderAndTheDoubles) {
   EXPECT_EQ(header.back(), '\n');
   ASSERT_EQ(text.size(), size + few.size() * sizeof(double));
   EXPECT_EQ(std::memcmp(text.data() + size, few.data(), few.size() * sizeof(double)), 0);
+}
+
+class Wide : public Numbers {
+ public:
+  Wide() : Numbers({}) {}
+  const std::vector<record::Column>& columns() const override { return columns_; }
+
+ private:
+  std::vector<record::Column> columns_{10000, {"u", "m", "", record::ColumnKind::real}};
+};
+
+TEST(Npy, OfManyColumnsHasALongerLength) {
+  Wide rows;
+  const auto header = written(rows, Format::npy);
+  EXPECT_EQ(header[6], '\x02');
+  EXPECT_EQ(header.size() % 64, 0u);
+  const auto byte = [&](std::size_t i) {
+    return std::size_t(static_cast<unsigned char>(header[i]));
+  };
+  EXPECT_EQ(byte(8) + 256 * byte(9) + 65536 * byte(10), header.size() - 12);
 }
 
 TEST(Npy, IsRefusedForRowsWithText) {

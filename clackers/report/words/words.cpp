@@ -6,33 +6,34 @@
 #include <cmath>
 #include <optional>
 
+#include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/study/refinement.hpp"
 
 namespace clackers::report {
 namespace {
 
-// Whether a word of a command line is the option, with or without "=value".
-bool has_option(std::string_view command, std::string_view option) {
-  for (std::size_t from = 0; from < command.size();) {
-    const auto to = std::min(command.find(' ', from), command.size());
-    const auto word = command.substr(from, to - from);
-    if (word.substr(0, word.find('=')) == option) return true;
-    from = to + 1;
-  }
-  return false;
+bool is_option(std::string_view word, std::string_view option) {
+  return word.substr(0, word.find('=')) == option;
+}
+
+bool has_option(const std::string& command, std::string_view option) {
+  return std::ranges::any_of(shell_words(command),
+                             [&](const auto& word) { return is_option(word, option); });
 }
 
 // The command with an option set anew.
-std::string with_option(std::string command, const std::string& option, const std::string& value) {
-  for (auto at = command.find(" " + option); at != std::string::npos;
-       at = command.find(" " + option, at + 1)) {
-    auto end = at + 1 + option.size();
-    if (end < command.size() && command[end] != ' ' && command[end] != '=') continue;
-    end = std::min(command.find(' ', std::min(end + 1, command.size())), command.size());
-    command.erase(at, end - at);
-  }
-  return fmt::format("{} {} {}", command, option, value);
+std::string with_option(const std::string& command, const std::string& option,
+                        const std::string& value) {
+  std::vector<std::string> kept;
+  const auto words = shell_words(command);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (!is_option(words[i], option))
+      kept.push_back(words[i]);
+    else if (words[i] == option)
+      ++i;  // its value
+  kept.insert(kept.end(), {option, value});
+  return shell_line(kept);
 }
 
 // A study of Python has the call as its command, "clackers.verify(solver, case='stop')".

@@ -396,6 +396,10 @@ TEST(VerdictLine, AnUndecidedMethodGetsTheNumberToType) {
   // A fast period of 1.4 s has 14 steps of 0.1 s.
   problem.problem.fast_period = 1.4;
   problem.plan.coarsest = 0.4;
+  record.provenance.command =
+      "clackers verify --exec './s.sh {h} --coarsest 3 -q' --coarsest 3 --name s";
+  EXPECT_EQ(verdict_line(record).next,
+            "clackers verify --exec './s.sh {h} --coarsest 3 -q' --name s --coarsest 0.1");
   record.provenance.command = "clackers verify rk4 --coarsest=0.4";
   EXPECT_EQ(verdict_line(record).next, "clackers verify rk4 --coarsest 0.1");
   EXPECT_EQ(verdict_line(record).next_in_words,

@@ -188,16 +188,6 @@ TEST(ShowMethod, ShowsATreatmentWithItsWordsAndTheirSources) {
             record::Cell{0.4});
 }
 
-TEST(TreatmentOf, IsWhatFollowsTheIntegrator) {
-  EXPECT_EQ(treatment_of("newmark"), "event-driven");
-  EXPECT_EQ(treatment_of("newmark:beta=1e-1"), "event-driven");
-  EXPECT_EQ(treatment_of("newmark+penalty:law=hertz"), "penalty:law=hertz");
-  EXPECT_EQ(treatment_of("generalized-alpha:rho=1e+0+penalty:stiffness=1e+6"),
-            "penalty:stiffness=1e+6");
-  EXPECT_EQ(treatment_of("moreau-jean:theta=1"), "");
-  EXPECT_EQ(treatment_of("a program"), "");
-}
-
 TEST(ShowMethod, RefusesUnknownNames) {
   EXPECT_NE(refusal([] { show_method("penalty:law=yo"); }).find("Did you mean \"ye\"?"),
             std::string::npos);

@@ -185,10 +185,4 @@ std::vector<record::Sheet> show_method(std::string_view specification) {
   return sheets;
 }
 
-std::string treatment_of(std::string_view specification) {
-  const auto terms = methods::terms_of(specification);
-  if (!is_integrator(terms[0])) return {};
-  return std::string(terms.size() > 1 ? terms[1] : "event-driven");
-}
-
 }  // namespace clackers::tables

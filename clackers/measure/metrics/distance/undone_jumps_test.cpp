@@ -128,7 +128,7 @@ TEST(JumpInvariantDistance, SaysWhyItIsNotMeasured) {
   auto free = jump_problem;
   free.contacts.clear();
   EXPECT_EQ(jump_invariant_distance({history, jump_reference, free}).reason,
-            "The jump_problem has no contact.");
+            "The problem has no contact.");
   history.v.clear();
   EXPECT_EQ(jump_invariant_distance({history, jump_reference, jump_problem}).reason,
             "The history has no velocities.");

@@ -95,7 +95,7 @@ TEST(EventReport, SaysWhyThereIsNothingToCompare) {
   EXPECT_NE(impulse_error(nothing_known).reason.find("impulse"), std::string::npos);
   auto early = history_of(report_reference, {0.0, 0.1, 1.0});
   EXPECT_EQ(impact_time_error({early, report_reference, report_problem}).reason,
-            "The report_reference has no collision by then.");
+            "The reference has no collision by then.");
 }
 
 }  // namespace
