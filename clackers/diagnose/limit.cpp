@@ -9,6 +9,7 @@
 #include "clackers/diagnose/ladder/error_curve.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/measure/errors/comparison.hpp"
+#include "clackers/measure/errors/meter.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
 namespace clackers::diagnose {

@@ -8,8 +8,9 @@
 #include "clackers/diagnose/observation.hpp"
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/measure/errors/error_sink.hpp"
+#include "clackers/methods/method_specification.hpp"
 #include "clackers/model/trajectory.hpp"
-#include "clackers/record/cause_metrics.hpp"
+#include "clackers/record/all_metrics.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/study/run_sinks.hpp"
 
@@ -71,6 +72,10 @@ record::Subject subject_of(const methods::Method& method, const StudyCase& probl
   const bool collides = problem.summary.impact_count > 0;
   record::Subject subject;
   subject.name = short_name(facts.name);
+  if (const auto terms = methods::terms_of(facts.name); terms.size() == 2) {
+    subject.integrator = terms[0];
+    subject.treatment = terms[1];
+  }
   subject.claim =
       methods::claim_on(facts, problem.problem.problem, collides, problem.shared.has_value());
   if (facts.is_adaptive) {
@@ -145,8 +150,9 @@ std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& sha
   if (facts_.has_ends) result.end_u = relative(recorder.last_u(), motion);
   // A state that is not finite is no row of a history.
   if (task.wanted.metrics && std::isfinite(result.run.score.u_error)) {
-    auto metrics = all_metrics({stored.trajectory(), motion, problem},
-                               facts_of(problem_.summary, spring_time_), {}, interrupt);
+    auto metrics = all_metrics(
+        {stored.trajectory(), motion, problem, facts_of(problem_.summary, problem, spring_time_)},
+        {}, interrupt);
     if (!metrics) return {};
     result.run.metrics = std::move(*metrics);
     if (extras_.record && motion.dof() <= record::most_blocks)

@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "clackers/measure/metrics/metric.hpp"
-#include "clackers/record/cause_metrics.hpp"
 #include "clackers/study/testing/toy_motion.hpp"
 
 namespace clackers::study {
@@ -120,15 +119,14 @@ TEST_F(RunsOfMethods, HoldWhereTheyEndedOverTheInitialEnvelope) {
 
 TEST_F(RunsOfMethods, AreMeasuredByAllMetricsWhereThatIsAskedFor) {
   const auto result = assessed([](int) { return true; }, true);
-  const auto of_history = measure::metrics().size();
-  ASSERT_EQ(result->run.metrics.size(), of_history + record::cause_metrics().size());
+  ASSERT_EQ(result->run.metrics.size(), measure::metrics().size());
   EXPECT_EQ(result->run.metrics[0].name, "u-max");
   EXPECT_EQ(result->run.metrics[0].value, 1.0);  // 3 m where the reference is at 4 m
   EXPECT_EQ(result->run.metrics[0].masses, (std::vector<double>{1.0}));
   EXPECT_EQ(result->run.metrics[0].unit, "m");
   for (std::size_t i = 0; i < result->run.metrics.size(); ++i) {
     const auto& metric = result->run.metrics[i];
-    EXPECT_EQ(metric.across_jumps, i >= of_history || measure::metrics()[i].across_jumps);
+    EXPECT_EQ(metric.across_jumps, measure::metrics()[i].across_jumps);
     EXPECT_EQ(std::isnan(metric.value), !metric.reason.empty()) << metric.name;
   }
   EXPECT_TRUE(assessed([](int) { return true; }, false)->run.metrics.empty());

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "clackers/measure/metrics/metric.hpp"
-#include "clackers/record/cause_metrics.hpp"
 #include "clackers/study/verify.hpp"
 
 // What a study measures beside its levels: metrics, and what the runs say without the reference.
@@ -24,10 +23,10 @@ TEST(Verify, MeasuresAllMetricsOfTheFirstRunOfTheFinestLevel) {
   const auto record = verify(small_metrics({"newmark"}));
   const auto& finest = record.cases[0].subjects[0].levels[4].runs[0];
   ASSERT_EQ(record.cases[0].subjects[0].shown_run(), &finest);
-  ASSERT_EQ(finest.metrics.size(), measure::metrics().size() + record::cause_metrics().size());
+  ASSERT_EQ(finest.metrics.size(), measure::metrics().size());
   const auto found =
       std::ranges::find(finest.metrics, "u-max-relative", &record::MetricResult::name);
-  EXPECT_EQ(found->value, finest.score.u_error);  // the same definition, measured twice
+  EXPECT_EQ(found->value, finest.score.u_error);
 }
 
 TEST(Verify, MeasuresMetricsOfTheFinestLevelThatCanBeStored) {

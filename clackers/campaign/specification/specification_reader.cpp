@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/base/suggest.hpp"
 #include "clackers/base/files.hpp"
+#include "clackers/base/suggest.hpp"
 #include "clackers/base/toml_reader.hpp"
 #include "clackers/campaign/specification.hpp"
 #include "clackers/campaign/specification/sampling.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"
-#include "clackers/record/cause_metrics.hpp"
 #include "clackers/solvers/program.hpp"
 #include "clackers/study/check.hpp"
 #include "clackers/study/system_study.hpp"
@@ -24,7 +23,6 @@ constexpr double most_tasks = 1e18;
 std::vector<std::string> metric_names() {
   std::vector<std::string> names;
   for (const auto& metric : measure::metrics()) names.emplace_back(metric.name);
-  for (const auto& metric : record::cause_metrics()) names.emplace_back(metric.name);
   return names;
 }
 

@@ -11,7 +11,7 @@ namespace {
 // A file that is read wrongly is off by about the motion itself; read rightly it has the error of its
 // method. Below `visible` nothing is read wrongly, above `acceptable` no reading is right. A gain of
 // 10 is far from the 1.4 that the best of 40 wrong readings of a wrong history has.
-constexpr double visible = 0.05, acceptable = 0.1, least_gain = 10.0;
+constexpr double visible = 0.05, acceptable = 0.1, least_reading_gain = 10.0;
 
 double whole(const RowDistance& distance) { return std::max(distance.u, distance.v); }
 
@@ -25,14 +25,14 @@ double factor_of(const std::vector<double>& numbers, const std::vector<double>& 
   return square > 0.0 ? product / square : 1.0;
 }
 
-struct Candidate {
+struct ReadingCandidate {
   Reading reading;
   Diagnosis cause;
 };
 
-class Search {
+class ReadingSearch {
  public:
-  explicit Search(const std::vector<FileSample>& files)
+  explicit ReadingSearch(const std::vector<FileSample>& files)
       : files_(files), finest_(files.front()), plain_(whole(finest_.distance_of(finest_.rows()))) {}
 
   std::vector<Diagnosis> run() {
@@ -47,7 +47,7 @@ class Search {
     if (!best_) return {};
     auto& cause = best_->cause;
     const double gain = plain_ / least_;
-    if (!(least_ < acceptable) || !(gain > least_gain)) return {};
+    if (!(least_ < acceptable) || !(gain > least_reading_gain)) return {};
     double same = 0.0;
     for (const auto& file : files_)
       same += whole(file.distance_of(read_as(best_->reading, file.rows()))) * 3.0 <
@@ -65,7 +65,7 @@ class Search {
     if (left < 0.5 * least_) {
       second_ = least_;
       least_ = left;
-      best_ = Candidate{reading, {}};
+      best_ = ReadingCandidate{reading, {}};
       best_->cause.code = reading.code;
       best_->cause.text = std::move(text);
       best_->cause.value = value;
@@ -106,13 +106,13 @@ class Search {
   const FileSample& finest_;
   double plain_;
   double least_ = INFINITY, second_ = INFINITY;
-  std::optional<Candidate> best_;
+  std::optional<ReadingCandidate> best_;
 };
 
 }  // namespace
 
 std::vector<Diagnosis> reading_causes(const std::vector<FileSample>& files) {
-  return Search(files).run();
+  return ReadingSearch(files).run();
 }
 
 }  // namespace clackers::diagnose

@@ -37,9 +37,9 @@ Factor factor_of(const FirstRow& row, const std::vector<double>& numbers, std::s
   return factor;
 }
 
-class Search {
+class ShapeSearch {
  public:
-  explicit Search(const FirstRow& row)
+  explicit ShapeSearch(const FirstRow& row)
       : row_(row), plain_flight_(row.flight_distance(Reading::plain(row.given().size()))) {}
 
   std::optional<Diagnosis> run() {
@@ -200,6 +200,6 @@ class Search {
 
 }  // namespace
 
-std::optional<Diagnosis> start_as_reading(const FirstRow& row) { return Search(row).run(); }
+std::optional<Diagnosis> start_as_reading(const FirstRow& row) { return ShapeSearch(row).run(); }
 
 }  // namespace clackers::diagnose

@@ -14,7 +14,6 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/diagnose.hpp"
 #include "clackers/judge/convergence/judge.hpp"
-#include "clackers/measure/errors/velocity_error.hpp"
 
 namespace clackers::diagnose::testing {
 
@@ -93,17 +92,6 @@ inline Observation observed(const cases::Case& problem, const model::Trajectory&
   return observed(problem, rows, facts_of(problem, rows, step));
 }
 
-/// RunScore::v_error of rows without reported impacts.
-inline double velocity_error(const model::Trajectory& rows, const measure::Comparison& comparison) {
-  measure::VelocityError error(comparison.reference());
-  error.take(rows.t, rows.v, comparison.reference_v());
-  const auto scale = comparison.reference().peak().v;
-  double largest = 0.0;
-  for (int mass = 0; mass < rows.dof; ++mass)
-    largest = std::max(largest, error.integral(mass) / scale[mass] / rows.t.back());
-  return largest;
-}
-
 /// Histories of one case and the question that they make. Coarsest first; each is a level.
 struct Files {
   cases::Case problem;
@@ -114,17 +102,7 @@ struct Files {
   void add(const model::Trajectory& rows, const FileFacts& facts) {
     const measure::Comparison comparison(rows, *problem.motion, problem.problem);
     histories.push_back(observe(comparison, facts));
-    measure::RunScore score;
-    score.step = facts.step;
-    score.finished = true;
-    for (std::size_t i = 0; i < rows.u.size(); ++i)
-      score.u_error =
-          std::max(score.u_error, std::abs(rows.u[i] - comparison.reference_u()[i]) /
-                                      comparison.u_envelope()[i % std::size_t(rows.dof)]);
-    score.v_error = velocity_error(rows, comparison);
-    score.rounding_floor = comparison.rounding_floor();
-    score.impacts = comparison.impact_score();
-    ladder.push_back({score.step, {score}});
+    ladder.push_back({facts.step, {comparison.score(facts.step)}});
   }
   void add(const model::Trajectory& rows, double step) { add(rows, facts_of(problem, rows, step)); }
 

@@ -8,6 +8,7 @@
 
 #include "clackers/base/constants.hpp"
 #include "clackers/measure/errors/history_check.hpp"
+#include "clackers/measure/errors/meter.hpp"
 #include "clackers/measure/errors/vectors.hpp"
 #include "clackers/measure/impacts/collision_finder.hpp"
 #include "clackers/measure/impacts/impact_matcher.hpp"
@@ -35,18 +36,9 @@ void forget_what_is_not_finite(model::Impact& impact) {
 
 }  // namespace
 
-double relative_bound(const model::Motion& reference, const model::Kinematics& scale, double t) {
-  const auto bound = reference.error_bound(std::clamp(t, 0.0, reference.end()));
-  double largest = 0.0;
-  for (const auto part : {&model::Kinematics::u, &model::Kinematics::v})
-    for (Eigen::Index i = 0; i < (scale.*part).size(); ++i)
-      if ((scale.*part)[i] > 0.0) largest = std::max(largest, (bound.*part)[i] / (scale.*part)[i]);
-  return largest;
-}
-
 Comparison::Comparison(const model::Trajectory& history, const model::Motion& reference,
-                       const model::ImpactProblem<>& problem)
-    : given_(history), reference_(reference), problem_(problem) {
+                       const model::ImpactProblem<>& problem, RunFacts facts)
+    : given_(history), reference_(reference), problem_(problem), facts_(std::move(facts)) {
   require_comparable(history, reference, problem);
   step_ = median_difference(history.t);
   widened_ = with_jump_limits(history);
@@ -83,12 +75,73 @@ void Comparison::sample_reference() {
   }
 }
 
-double Comparison::rounding_floor() const {
-  double floor = std::numeric_limits<double>::epsilon() * double(rows());
-  const auto scale = reference_.peak();
-  for (const double t : {given_.t.front(), given_.t.back()})
-    floor = std::max(floor, relative_bound(reference_, scale, t));
-  return floor;
+Meter Comparison::fill_meter(const Comparison& comparison) {
+  const auto& given = comparison.given_;
+  const auto& reference_rows = comparison.history().t;
+  const auto dof = comparison.dof(), count = given.t.size();
+  const bool has_v = comparison.has_velocities();
+  std::vector<const model::Impact*> impacts;
+  for (const auto& impact : comparison.reports_)
+    if (has_v && impact.v_before.size() == dof && impact.v_after.size() == dof &&
+        impact.t >= given.t.front())
+      impacts.push_back(&impact);
+  auto next = impacts.begin();
+  Meter meter(comparison.reference_, comparison.problem_);
+  std::size_t reference_row = 0;
+  const auto part = [dof](std::span<const double> all, std::size_t row) {
+    return all.empty() ? all : all.subspan(row * dof, dof);
+  };
+  const auto take_state = [&](std::size_t row, std::size_t reference) {
+    meter.take(
+        {&given.t[row], 1}, {part(given.u, row), part(given.v, row)},
+        {part(comparison.reference_u_, reference), part(comparison.reference_v_, reference)});
+  };
+  const auto take_limit = [&](std::size_t row, std::size_t reference) {
+    meter.take_displacements(&given.u[row * dof], &comparison.reference_u_[reference * dof]);
+  };
+  // As a run does: an impact comes after the state at its time.
+  const auto take_impacts = [&](double before) {
+    for (; next != impacts.end() && (*next)->t < before; ++next)
+      meter.take(model::ReportedImpact{(*next)->t, (*next)->contact, (*next)->u, (*next)->v_before,
+                                       (*next)->v_after, (*next)->impulse});
+  };
+  for (std::size_t row = 0; row < count; ++row) {
+    const double t = given.t[row];
+    // The last row of this time: where limits of an impact were added, the right one.
+    while (reference_row + 1 < reference_rows.size() && reference_rows[reference_row + 1] <= t)
+      ++reference_row;
+    const bool is_jump = row + 1 < count && given.t[row + 1] == t;
+    take_impacts(t);
+    if (!is_jump) {
+      take_state(row, reference_row);
+      continue;
+    }
+    while (next != impacts.end() && (*next)->t == t) ++next;  // the rows stand for them
+    if (row == 0)
+      take_state(row, reference_row - 1);
+    else
+      take_limit(row, reference_row - 1);
+    if (has_v)
+      meter.take(
+          model::ReportedImpact{t, 0, {}, part(given.v, row), part(given.v, row + 1), unknown});
+    ++row;
+    if (row + 1 == count)
+      take_state(row, reference_row);
+    else
+      take_limit(row, reference_row);
+  }
+  take_impacts(std::nextafter(given.t.back(), infinity));
+  return meter;
+}
+
+const Meter& Comparison::meter() const { return shared(fill_meter); }
+
+RunScore Comparison::score(double step) const {
+  auto score = meter().score();
+  score.step = step;
+  score.finished = true;
+  score.impacts = score_;
+  return score;
 }
 
 double Comparison::collision_period() const {
@@ -127,20 +180,20 @@ void Comparison::collect_impacts() {
     match_impacts(step);
     return;
   }
-  auto reports = *given_.impacts;
-  std::ranges::stable_sort(reports, {}, &model::Impact::t);
+  reports_ = *given_.impacts;
+  std::ranges::stable_sort(reports_, {}, &model::Impact::t);
   std::vector<std::optional<std::size_t>> last(contacts);  // impact of each contact
-  for (auto& report : reports) {
+  for (auto& report : reports_) {
     forget_what_is_not_finite(report);
     auto& same = last[std::size_t(report.contact)];
     if (same && report.t - impact_ends_[*same] < one_collision * step) {
-      impacts_[*same].v_after = std::move(report.v_after);
+      impacts_[*same].v_after = report.v_after;
       impacts_[*same].impulse += report.impulse;
       impact_ends_[*same] = report.t;
     } else {
       same = impacts_.size();
       impact_ends_.push_back(report.t);
-      impacts_.push_back(std::move(report));
+      impacts_.push_back(report);
     }
   }
   match_impacts(step);
@@ -154,7 +207,7 @@ void Comparison::match_impacts(double step) {
     matcher.take(impact.t,
                  rests_in_contact(reference_, problem_.contacts, impact.contact, impact.t),
                  impact.contact);
-  score_ = matcher.score(t.back(), rounding_floor());
+  score_ = matcher.score(t.back(), rounding_floor(reference_, std::ssize(t), t.front(), t.back()));
   for (const auto& pair : matcher.pairs(t.back()))
     matches_.push_back({pair.report, reference_.impact(pair.reference)});
 }

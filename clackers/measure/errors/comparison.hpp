@@ -14,9 +14,7 @@
 
 namespace clackers::measure {
 
-/// The largest proved error of the reference at time t over `scale`, its peak(), of u and v of all
-/// masses; components without a scale are left out.
-double relative_bound(const model::Motion& reference, const model::Kinematics& scale, double t);
+class Meter;
 
 /// A collision of the history and the true one it belongs to.
 struct MatchedImpact {
@@ -27,6 +25,15 @@ struct MatchedImpact {
 /// Where the impacts of a comparison come from.
 enum class ImpactSource { reported, found_in_history };
 
+/// What is known of a run beside its history: for the metrics that give a cause of its error.
+struct RunFacts {
+  /// Growth of a disturbance per impact and unit of detuning; 0 where none grows or the case is no
+  /// pair. The constant "detuning_rate" of the case.
+  double detuning_rate = 0.0;
+  std::shared_ptr<const model::Motion> penalized{};  ///< exact, with the run's contact spring
+  std::string no_penalized = "No contact spring of the run is known.";  ///< why it is not known
+};
+
 /// A stored history and the reference at its times: what several metrics need, computed once.
 /// History, motion and problem must outlive it. Not for several threads at once.
 class Comparison {
@@ -35,13 +42,14 @@ class Comparison {
   /// finite numbers, times that do not descend and lie within [0, reference.end()] (or beyond it by
   /// a rounding), and at most two rows a time. `history.v` may be empty: velocities are not known.
   Comparison(const model::Trajectory& history, const model::Motion& reference,
-             const model::ImpactProblem<>& problem);
+             const model::ImpactProblem<>& problem, RunFacts facts = {});
 
   /// The history; where its rows lack the limits of jumps that it reports whole, with these rows
   /// (see with_jump_limits()).
   const model::Trajectory& history() const { return widened_ ? *widened_ : given_; }
   const model::Motion& reference() const { return reference_; }
   const model::ImpactProblem<>& problem() const { return problem_; }
+  const RunFacts& facts() const { return facts_; }
   std::size_t dof() const { return static_cast<std::size_t>(given_.dof); }
   std::size_t rows() const { return history().t.size(); }
   bool has_velocities() const { return !given_.v.empty(); }
@@ -61,9 +69,11 @@ class Comparison {
   /// Why a history is too sparse to be compared flight by flight: far fewer rows than true impacts
   /// in its time, each of which needs several rows. A sentence, or empty.
   std::string objection_to_sparse_rows() const;
-  /// What errors relative to their scale may be by rounding, a unit of each row, or by the error
-  /// bound of the reference at both ends of the history, whichever is larger.
-  double rounding_floor() const;
+  /// The given rows and the impacts that they report with both velocities, taken as a run delivers
+  /// them. Two rows of one time are the limits of a jump, at the ends of the history a state as well.
+  const Meter& meter() const;
+  /// The score that a run with these states and impacts has. `step` [s] is the level's.
+  RunScore score(double step) const;
   /// First row of two with one time: the left limit of a jump.
   bool is_left_limit(std::size_t row) const {
     return row + 1 < rows() && history().t[row + 1] == history().t[row];
@@ -101,6 +111,7 @@ class Comparison {
   long long expected() const { return score_.expected; }
 
  private:
+  static Meter fill_meter(const Comparison& comparison);
   void sample_reference();
   void collect_impacts();
   void match_impacts(double step);
@@ -109,10 +120,12 @@ class Comparison {
   std::optional<model::Trajectory> widened_;
   const model::Motion& reference_;
   const model::ImpactProblem<>& problem_;
+  RunFacts facts_;
   double step_ = 0.0;
   mutable double collision_period_ = 0.0;  ///< 0 until asked for
   std::vector<double> reference_u_, reference_v_, reference_a_, u_envelope_, v_envelope_,
       a_envelope_;
+  std::vector<model::Impact> reports_;  ///< in order of time
   std::vector<model::Impact> impacts_;
   std::vector<double> impact_ends_;
   ImpactSource source_ = ImpactSource::reported;

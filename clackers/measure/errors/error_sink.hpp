@@ -1,12 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "clackers/measure/errors/error_history.hpp"
-#include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/measure/errors/meter.hpp"
 #include "clackers/measure/errors/score.hpp"
-#include "clackers/measure/errors/velocity_error.hpp"
 #include "clackers/measure/impacts/impact_matcher.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
@@ -22,8 +20,7 @@ struct ErrorSinkOptions {
 };
 
 /// Measures one run while it happens: takes its states and impacts, samples the reference at the
-/// same times in blocks, and keeps sums and maxima alone. The energy is that of the problem's mass
-/// and stiffness, v' M v / 2 + u' K u / 2.
+/// same times in blocks, and gives them to a Meter.
 class ErrorSink : public model::Sink {
  public:
   /// Motion and problem must outlive the sink. Throws InputError unless both have the same number
@@ -35,8 +32,7 @@ class ErrorSink : public model::Sink {
   bool take(const model::SampleBlock& block) override;
   bool take(const model::ReportedImpact& impact) override;
 
-  /// The score so far; how the run ended and what it cost come from `outcome`. A state that was not
-  /// finite makes the errors infinite. `seconds` is left 0.
+  /// The score so far; how the run ended and what it cost come from `outcome`. `seconds` is left 0.
   RunScore score(const model::Outcome& outcome) const;
   /// |error in u| over its scale against time.
   const ErrorHistory& history() const { return history_; }
@@ -50,18 +46,9 @@ class ErrorSink : public model::Sink {
   double step_;
   ErrorSinkOptions options_;
   std::vector<model::Contact<>> contacts_;
-  MechanicalEnergy energy_;
-  model::Kinematics scale_;
-  double start_, energy_scale_;
+  Eigen::VectorXd envelope_;
   std::vector<double> times_, u_reference_, v_reference_, relative_;  ///< of one block
-  std::vector<double> u_error_;                                       ///< largest of each mass [m]
-  double energy_error_ = 0.0;
-  double energy_ratio_ = std::numeric_limits<double>::quiet_NaN();
-  double bound_ = 0.0;  ///< largest relative_bound() of the reference
-  double last_;         ///< time of the last state
-  long long states_ = 0;
-  double finite_ = 0.0;  ///< 0 while every state is finite, then NaN
-  VelocityError velocity_;
+  Meter meter_;
   ImpactMatcher impacts_;
   ErrorHistory history_;
 };

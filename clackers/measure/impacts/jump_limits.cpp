@@ -11,13 +11,13 @@ bool is_known(const std::vector<double>& entries, int dof) {
          std::ranges::all_of(entries, [](double x) { return std::isfinite(x); });
 }
 
-struct Jump {
+struct ReportedJump {
   const model::Impact* first;
   const model::Impact* last;
 };
 
 // Complete impacts within the history, in order of time, those of one time together.
-std::vector<Jump> jumps(const model::Trajectory& history) {
+std::vector<ReportedJump> jumps(const model::Trajectory& history) {
   std::vector<const model::Impact*> known;
   for (const auto& impact : *history.impacts)
     if (impact.t >= history.t.front() && impact.t <= history.t.back() &&
@@ -25,7 +25,7 @@ std::vector<Jump> jumps(const model::Trajectory& history) {
         is_known(impact.v_after, history.dof))
       known.push_back(&impact);
   std::ranges::stable_sort(known, {}, &model::Impact::t);
-  std::vector<Jump> found;
+  std::vector<ReportedJump> found;
   for (const auto* impact : known) {
     if (!found.empty() && found.back().last->t == impact->t)
       found.back().last = impact;
@@ -35,9 +35,10 @@ std::vector<Jump> jumps(const model::Trajectory& history) {
   return found;
 }
 
-class Rows {
+class WidenedRows {
  public:
-  Rows(const model::Trajectory& from, std::size_t more) : from_(from), dof_(std::size_t(from.dof)) {
+  WidenedRows(const model::Trajectory& from, std::size_t more)
+      : from_(from), dof_(std::size_t(from.dof)) {
     to_.dof = from.dof;
     to_.t.reserve(from.t.size() + more);
     to_.u.reserve(from.u.size() + more * dof_);
@@ -74,7 +75,7 @@ std::optional<model::Trajectory> with_jump_limits(const model::Trajectory& histo
   if (!history.impacts || history.v.empty() || !history.a.empty() || history.t.empty()) return {};
   const auto all = jumps(history);
   if (all.empty()) return {};
-  Rows rows(history, 2 * all.size());
+  WidenedRows rows(history, 2 * all.size());
   std::size_t done = 0;
   bool added = false;
   for (const auto& [first, last] : all) {

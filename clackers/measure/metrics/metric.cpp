@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "clackers/base/suggest.hpp"
+#include "clackers/measure/metrics/causes.hpp"
 #include "clackers/measure/metrics/distance/filled_graph.hpp"
 #include "clackers/measure/metrics/distance/hybrid_arc.hpp"
 #include "clackers/measure/metrics/distance/undone_jumps.hpp"
@@ -55,7 +56,8 @@ void add_norms(std::vector<Metric>& table) {
         if (relative) {
           row.name += "-relative";
           row.unit = "1";
-          row.definition = fmt::format("{} / envelope of {}* at t = 0", absolute, symbol);
+          row.definition =
+              fmt::format("{} / largest envelope of {}* over the run", absolute, symbol);
         }
         row.in_reports = std::ranges::count(norms_in_reports, row.name) > 0;
         row.measure = [quantity = quantity, norm = norm, relative](const Comparison& comparison) {
@@ -70,6 +72,16 @@ auto energy(Energy part) {
   return [part](const Comparison& comparison) { return energy_error(comparison, part); };
 }
 
+template <MetricValue Synchrony::*part>
+MetricValue synchrony(const Comparison& comparison) {
+  return comparison.shared(explain_synchrony).*part;
+}
+
+template <MetricValue PenaltySplit::*part>
+MetricValue penalty(const Comparison& comparison) {
+  return comparison.shared(split_known_penalty).*part;
+}
+
 // clang-format off
 std::vector<Metric> all_metrics() {
   constexpr bool across = true, not_across = false, shown = true, on_request = false;
@@ -77,11 +89,11 @@ std::vector<Metric> all_metrics() {
   add_norms(table);
   table.insert(table.end(), {
     // Of the whole structure.
-    {"energy-max-relative", "1", "max |E - E*| / E0, E = v'Mv/2 + u'Ku/2",
+    {"energy-max-relative", "1", "max |E - E*| / max E*, E = v'Mv/2 + u'Ku/2",
      not_across, "common", shown, energy(Energy::total)},
-    {"kinetic-energy-max-relative", "1", "the same of v'Mv/2 alone, over the same E0",
+    {"kinetic-energy-max-relative", "1", "the same of v'Mv/2 alone, over the same max E*",
      not_across, "common", on_request, energy(Energy::kinetic)},
-    {"potential-energy-max-relative", "1", "the same of u'Ku/2 alone, over the same E0",
+    {"potential-energy-max-relative", "1", "the same of u'Ku/2 alone, over the same max E*",
      across, "common", on_request, energy(Energy::potential)},
     {"momentum-max-relative", "1", "max |p - p*| / sum of m V, p = sum of (M v)_i",
      not_across, "common", on_request, momentum_error},
@@ -133,7 +145,35 @@ std::vector<Metric> all_metrics() {
     {"phase-end-relative", "1", "lag of the last collision on that line, over T*",
      across, "common", shown, measure_phase_error},
     {"decay-fit-relative", "1", "error of the share that speed loses in a period",
-     across, "Bathe, Wilson (1973), on a history", on_request, measure_decay_error}});
+     across, "Bathe, Wilson (1973), on a history", on_request, measure_decay_error},
+    // Causes of a run's error.
+    {"synchrony-loss-index", "1",
+     "the first collision, by number, whose time since the one before is wrong by more than 0.1 T",
+     across, "ours", on_request, synchrony<&Synchrony::lost>},
+    {"momentum-growth-fit", "1",
+     "growth per collision of ln|p|, p = sum m v / sum |m v| after impacts, up to the loss",
+     across, "ours", on_request, synchrony<&Synchrony::growth>},
+    {"detuning-fit", "1",
+     "eps: the method's own damped frequencies in flight are in the ratio X (1 + eps)",
+     across, "ours", on_request, synchrony<&Synchrony::detuning>},
+    {"detuning-loss-index", "1",
+     "ln(0.1/|eps|)/growth: where eps alone loses synchrony if the first disturbance is as large",
+     across, "saltation matrices of the pair", on_request, synchrony<&Synchrony::predicted>},
+    {"detuning-share", "1",
+     "growth that eps alone predicts over momentum-growth-fit: 1 where it explains all of the loss",
+     across, "saltation matrices of the pair", on_request, synchrony<&Synchrony::share>},
+    {"u-penalty-model-max-relative", "1",
+     "max |u of the exact motion with the run's contact spring - u*| / U: no step makes it smaller",
+     across, "common; the exact penalized motion is ours", on_request, penalty<&PenaltySplit::model_u>},
+    {"u-penalty-integration-max-relative", "1",
+     "max |u - u of the exact motion with the run's contact spring| / U: the part caused by the step",
+     across, "common; the exact penalized motion is ours", on_request, penalty<&PenaltySplit::integration_u>},
+    {"v-penalty-model-l1-relative", "1",
+     "the same for v, integral over time / length / V",
+     across, "common", on_request, penalty<&PenaltySplit::model_v>},
+    {"v-penalty-integration-l1-relative", "1",
+     "the same for v, integral over time / length / V",
+     across, "common", on_request, penalty<&PenaltySplit::integration_v>}});
   return table;
 }
 // clang-format on

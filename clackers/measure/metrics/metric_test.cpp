@@ -60,19 +60,28 @@ std::vector<Scenario> scenarios() {
           {"rigid stop",
            std::make_shared<const exact::RigidStop>(
                exact::RigidStopParameters{.eta = 0.5, .t_end = 9.0}),
-           falling_delays()}};
+           falling_delays()},
+          {"rigid stop, late by steps",
+           std::make_shared<const exact::RigidStop>(
+               exact::RigidStopParameters{.eta = 0.5, .t_end = 9.0}),
+           falling_steps()}};
+}
+
+// The metrics that are errors; causes of errors follow them in the table.
+std::span<const Metric> errors() {
+  return metrics().first(std::size_t(&metric("synchrony-loss-index") - metrics().data()));
 }
 
 // The value of each metric at each level; empty where it is not measured.
 std::vector<Values> measured_values(const Scenario& scenario) {
   const auto problem = scenario.motion->problem();
-  std::vector<Values> values(metrics().size());
+  std::vector<Values> values(errors().size());
   for (const auto& level : scenario.levels) {
     const auto history = shifted(*scenario.motion, level);
     const Comparison comparison(history, *scenario.motion, problem);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto found = metrics()[i].measure(comparison);
-      EXPECT_EQ(found.reason.empty(), !std::isnan(found.value)) << metrics()[i].name;
+      const auto found = errors()[i].measure(comparison);
+      EXPECT_EQ(found.reason.empty(), !std::isnan(found.value)) << errors()[i].name;
       if (found.reason.empty()) values[i].push_back(found.value);
     }
   }
@@ -94,24 +103,24 @@ bool stays(const Values& values) {
 
 TEST(Metrics, ConvergeThroughShiftedJumpsExactlyWhenTheyClaimTo) {
   const auto all = scenarios();
-  std::vector<bool> is_measured(metrics().size()), floors(metrics().size());
+  std::vector<bool> is_measured(errors().size()), floors(errors().size());
   for (const auto& scenario : all) {
     const auto values = measured_values(scenario);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (values[i].empty()) continue;
-      ASSERT_EQ(values[i].size(), scenario.levels.size()) << metrics()[i].name;
+      ASSERT_EQ(values[i].size(), scenario.levels.size()) << errors()[i].name;
       is_measured[i] = true;
-      if (std::ranges::count(scenario.excepted, metrics()[i].name)) continue;
+      if (std::ranges::count(scenario.excepted, errors()[i].name)) continue;
       floors[i] = floors[i] || stays(values[i]);
-      if (metrics()[i].across_jumps) {
-        EXPECT_TRUE(vanishes(values[i], scenario)) << metrics()[i].name << ", " << scenario.name
+      if (errors()[i].across_jumps) {
+        EXPECT_TRUE(vanishes(values[i], scenario)) << errors()[i].name << ", " << scenario.name
                                                    << ": " << testing::PrintToString(values[i]);
       }
     }
   }
-  for (std::size_t i = 0; i < metrics().size(); ++i) {
-    EXPECT_TRUE(is_measured[i]) << metrics()[i].name;
-    EXPECT_EQ(floors[i], !metrics()[i].across_jumps) << metrics()[i].name;
+  for (std::size_t i = 0; i < errors().size(); ++i) {
+    EXPECT_TRUE(is_measured[i]) << errors()[i].name;
+    EXPECT_EQ(floors[i], !errors()[i].across_jumps) << errors()[i].name;
   }
 }
 
@@ -120,7 +129,7 @@ TEST(Metrics, AreAllAtRoundingForTheReferenceItself) {
     const auto problem = scenario.motion->problem();
     const auto history = shifted(*scenario.motion, {.accelerations = true});
     const Comparison comparison(history, *scenario.motion, problem);
-    for (const auto& metric : metrics()) {
+    for (const auto& metric : errors()) {
       const auto found = metric.measure(comparison);
       if (found.reason.empty()) {
         EXPECT_LE(found.value, 1e-13) << metric.name << ", " << scenario.name;
@@ -151,7 +160,7 @@ TEST(Metrics, HaveNamesUnitsAndDefinitions) {
     EXPECT_EQ(&metric(row.name), &row);
     EXPECT_EQ(row.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz12-"), std::string::npos)
         << row.name;
-    EXPECT_LE(row.definition.size(), 80u) << row.name;
+    EXPECT_LE(row.definition.size(), 100u) << row.name;
     if (row.name.ends_with("-relative")) {
       EXPECT_EQ(row.unit, "1") << row.name;
     }

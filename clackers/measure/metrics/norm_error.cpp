@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "clackers/measure/errors/meter.hpp"
 #include "clackers/measure/errors/velocity_error.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
@@ -49,58 +50,54 @@ void integrate(const Comparison& comparison, const Columns& columns, Norms& norm
   }
 }
 
-// The same of one that jumps.
-void integrate_across_jumps(const Comparison& comparison, const Columns& columns,
-                            JumpingQuantity quantity, Norms& norms) {
+// The same of accelerations: a history with them has the limits of its jumps as rows. A jump is an
+// instant between output times; at the ends of the history it is an output time as well.
+VelocityError integrate_accelerations(const Comparison& comparison, const Columns& columns) {
   const auto& t = comparison.history().t;
   const auto dof = comparison.dof();
-  VelocityError error(comparison.reference(), quantity);
-  const auto take = [&](std::size_t from, std::size_t to) {
-    error.take(std::span(t).subspan(from, to - from),
-               columns.found.subspan(from * dof, (to - from) * dof),
-               columns.reference.subspan(from * dof, (to - from) * dof));
+  VelocityError error(comparison.reference(), JumpingQuantity::acceleration);
+  const auto row = [dof](std::span<const double> all, std::size_t i) {
+    return all.subspan(i * dof, dof);
   };
-  std::size_t done = 0;
   for (std::size_t i = 0; i < t.size(); ++i) {
-    if (!comparison.is_left_limit(i)) continue;
-    // A jump is an instant of its own between output times. At the ends of the history there is
-    // nothing beyond, so that it is an output time as well.
-    take(done, i == 0 ? 1 : i);
-    error.take(model::ReportedImpact{t[i],
-                                     0,
-                                     {},
-                                     columns.found.subspan(i * dof, dof),
-                                     columns.found.subspan((i + 1) * dof, dof),
-                                     0.0});
-    ++i;
-    done = i + 1 == t.size() ? i : i + 1;
+    const bool left = comparison.is_left_limit(i), right = comparison.is_right_limit(i);
+    if ((!left && !right) || (left && i == 0) || (right && i + 1 == t.size()))
+      error.take(t[i], row(columns.found, i), row(columns.reference, i));
+    if (left)
+      error.take(model::ReportedImpact{
+          t[i], 0, {}, row(columns.found, i), row(columns.found, i + 1), 0.0});
   }
-  take(done, t.size());
-  for (std::size_t j = 0; j < dof; ++j) {
+  return error;
+}
+
+void integrate(const VelocityError& error, Norms& norms) {
+  for (std::size_t j = 0; j < norms.l1.size(); ++j) {
     norms.l1[j] = error.integral(int(j));
     norms.l2[j] = error.integral_of_square(int(j));
   }
 }
 
 template <Quantity quantity>
-Norms norms(const Comparison& comparison) {
+Norms norms_of(const Comparison& comparison) {
   const auto columns = columns_of(comparison, quantity);
   const auto dof = comparison.dof();
   const std::vector<double> zeros(dof);
   Norms norms{zeros, zeros, zeros, zeros};
-  for (std::size_t i = 0; i < columns.found.size(); i += dof)
-    for (std::size_t j = 0; j < dof; ++j)
-      norms.max[j] =
-          std::max(norms.max[j], std::abs(columns.found[i + j] - columns.reference[i + j]));
+  if constexpr (quantity == Quantity::u)
+    norms.max.assign(comparison.meter().u_errors().begin(), comparison.meter().u_errors().end());
+  else
+    for (std::size_t i = 0; i < columns.found.size(); ++i)
+      norms.max[i % dof] =
+          std::max(norms.max[i % dof], std::abs(columns.found[i] - columns.reference[i]));
   const auto last = columns.found.size() - dof;
   for (std::size_t j = 0; j < dof; ++j)
     norms.end[j] = std::abs(columns.found[last + j] - columns.reference[last + j]);
   if constexpr (quantity == Quantity::u)
     integrate(comparison, columns, norms);
+  else if constexpr (quantity == Quantity::v)
+    integrate(comparison.meter().velocity(), norms);
   else
-    integrate_across_jumps(
-        comparison, columns,
-        quantity == Quantity::v ? JumpingQuantity::velocity : JumpingQuantity::acceleration, norms);
+    integrate(integrate_accelerations(comparison, columns), norms);
   const double length = comparison.history().t.back() - comparison.history().t.front();
   for (double& mean : norms.l1) mean /= length;
   for (double& mean : norms.l2) mean = std::sqrt(mean / length);
@@ -112,15 +109,15 @@ Norms norms(const Comparison& comparison) {
 MetricValue norm_error(const Comparison& comparison, Quantity quantity, Norm norm) {
   switch (quantity) {
     case Quantity::u:
-      return measured(comparison.shared(norms<Quantity::u>).of(norm));
+      return measured(comparison.shared(norms_of<Quantity::u>).of(norm));
     case Quantity::v:
       if (!comparison.has_velocities()) return not_measured("The history has no velocities.");
-      return measured(comparison.shared(norms<Quantity::v>).of(norm));
+      return measured(comparison.shared(norms_of<Quantity::v>).of(norm));
     case Quantity::a:
       break;
   }
   if (!comparison.has_accelerations()) return not_measured("The history has no accelerations.");
-  return measured(comparison.shared(norms<Quantity::a>).of(norm));
+  return measured(comparison.shared(norms_of<Quantity::a>).of(norm));
 }
 
 MetricValue relative_norm_error(const Comparison& comparison, Quantity quantity, Norm norm) {

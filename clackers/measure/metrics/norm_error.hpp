@@ -28,7 +28,7 @@ enum class Norm { max, l1, l2, end };
 
 /// The error of each mass; not measured where the history lacks the quantity.
 MetricValue norm_error(const Comparison& comparison, Quantity quantity, Norm norm);
-/// The same relative to the envelope of the reference at t = 0.
+/// The same relative to the largest envelope of the reference over the run.
 MetricValue relative_norm_error(const Comparison& comparison, Quantity quantity, Norm norm);
 
 }  // namespace clackers::measure

@@ -9,9 +9,9 @@ namespace clackers::measure {
 /// The error of a run with compliant contacts in two parts: what its model is wrong by, and what
 /// its integration is. `penalized` is the exact motion with the run's own contact springs.
 ///
-/// - u: max over the history's times of the distance / envelope of the true u at t = 0
+/// - u: max over the history's times of the distance / largest envelope of the true u
 /// - v: integral over time of the distance, by the trapezoidal rule over the history's rows, over
-///   the length of the history and the envelope of the true v at t = 0
+///   the length of the history and the largest envelope of the true v
 ///
 /// mass by mass. Total error <= model + integration, by the triangle inequality. Valid across
 /// jumps: u and the integral of v are; the history and the penalized motion do not jump at all.

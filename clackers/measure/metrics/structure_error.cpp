@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/measure/errors/meter.hpp"
 
 namespace clackers::measure {
 
@@ -13,20 +14,19 @@ MetricValue energy_error(const Comparison& comparison, Energy energy) {
     return not_measured("The structure has a nonlinear force, whose potential is not known.");
   if (energy != Energy::potential && !comparison.has_velocities())
     return not_measured("The history has no velocities.");
-  const MechanicalEnergy of(system);
-  const auto start = comparison.reference().at(0.0, model::Side::right);
-  const double scale = of.total(start.u.data(), start.v.data());
-  if (!(scale > 0.0)) return not_measured("The reference starts without energy.");
+  const double scale = comparison.meter().energy_scale();
+  if (!(scale > 0.0)) return not_measured("The reference has no energy.");
+  if (energy == Energy::total) return measured(comparison.meter().score().energy_error);
 
+  const MechanicalEnergy of(system);
   const auto& history = comparison.history();
   const auto dof = comparison.dof();
   double worst = 0.0;
   for (std::size_t i = 0; i < history.u.size(); i += dof) {
-    double error = 0.0;
-    if (energy != Energy::kinetic)
-      error += of.potential(&history.u[i]) - of.potential(&comparison.reference_u()[i]);
-    if (energy != Energy::potential)
-      error += of.kinetic(&history.v[i]) - of.kinetic(&comparison.reference_v()[i]);
+    const double error =
+        energy == Energy::potential
+            ? of.potential(&history.u[i]) - of.potential(&comparison.reference_u()[i])
+            : of.kinetic(&history.v[i]) - of.kinetic(&comparison.reference_v()[i]);
     worst = std::max(worst, std::abs(error));
   }
   return measured(worst / scale);
@@ -41,8 +41,7 @@ MetricValue momentum_error(const Comparison& comparison) {
   for (std::size_t j = 0; j < dof; ++j)
     scale += mass.col(Eigen::Index(j)).cwiseAbs().sum() * comparison.v_envelope()[j];
   if (!(scale > 0.0))
-    return not_measured(
-        "The true velocities have no extent at t = 0, so nothing is relative to them.");
+    return not_measured("The true velocities have no extent, so nothing is relative to them.");
 
   const auto& v = comparison.history().v;
   const auto v_reference = comparison.reference_v();

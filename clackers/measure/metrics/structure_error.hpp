@@ -9,9 +9,9 @@ namespace clackers::measure {
 /// v' M v / 2, u' K u / 2 or their sum.
 enum class Energy { kinetic, potential, total };
 
-/// max |E - E*| / H, H the total energy of the reference at t = 0; dimensionless. Not measured
-/// without velocities (the potential part is), with a nonlinear force, whose potential is not
-/// known, or where H is not positive.
+/// max |E - E*| / H, H the largest total energy of the reference over the run; dimensionless; the
+/// total is RunScore::energy_error. Not measured without velocities (the potential part is), with a
+/// nonlinear force, whose potential is not known, or where H is not positive.
 ///
 /// Valid across jumps: the potential part. The others jump where restitution is below 1, or where
 /// an impact shifts kinetic energy between times at which the motions have and have not collided.

@@ -58,7 +58,7 @@ TEST(EnergyError, SaysWhyItIsNotMeasured) {
   auto empty = toy_problem();
   empty.system.stiffness.setZero();
   EXPECT_NE(
-      energy_error({history, reference, empty}, Energy::potential).reason.find("without energy"),
+      energy_error({history, reference, empty}, Energy::potential).reason.find("has no energy"),
       std::string::npos);
 }
 

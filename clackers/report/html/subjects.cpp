@@ -7,7 +7,6 @@
 
 #include "clackers/base/codes.hpp"
 #include "clackers/measure/metrics/metric.hpp"
-#include "clackers/record/cause_metrics.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/markup.hpp"
@@ -98,14 +97,10 @@ std::string self_html(const record::Subject& subject) {
 
 // A record of another version may have metrics that this one does not know.
 std::string definition_html(std::string_view name) {
-  const auto text = [](const auto& row) {
-    return escape(row.definition) +
-           (row.source == "common" ? "" : fmt::format(" <small>{}</small>", escape(row.source)));
-  };
   for (const auto& row : measure::metrics())
-    if (row.name == name) return text(row);
-  for (const auto& row : record::cause_metrics())
-    if (row.name == name) return text(row);
+    if (row.name == name)
+      return escape(row.definition) +
+             (row.source == "common" ? "" : fmt::format(" <small>{}</small>", escape(row.source)));
   return "–";
 }
 
@@ -157,7 +152,7 @@ std::string metrics_html(const record::Subject& subject) {
                      escape(resolution_text(subject, run->score.step, 4)),
                      run->file ? " of " + escape(source) : "") +
          html_table("Metrics of " + source,
-                    "In definitions an asterisk marks the exact motion; U and V are the initial "
+                    "In definitions an asterisk marks the exact motion; U and V are the largest "
                     "envelopes. A metric marked * need not vanish as a method converges, since "
                     "velocities jump.",
                     columns, rows) +

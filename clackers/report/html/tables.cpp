@@ -173,8 +173,10 @@ std::string verdicts_html(const record::CaseRecord& problem, const Place& place)
   if (!methods.rows.empty())
     out += html_table(
         "Verdict table",
-        "Of each method the worst of the finest level's steps. Errors relative to the initial "
-        "envelope and energy; order ± 95 %; collisions matched / exact. A dash: not measured.",
+        fmt::format(
+            "Of each method the worst of the finest level's steps. Errors {}; order ± 95 %; "
+            "collisions matched / exact. A dash: not measured.",
+            error_scale_text),
         methods,
         [&](const Row& row) {
           const auto index = std::size_t(row.subject - problem.subjects.data());

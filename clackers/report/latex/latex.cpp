@@ -96,10 +96,10 @@ void write_table(const Table& table, const std::vector<std::string>& marks, cons
 void write_methods(const record::CaseRecord& problem, bool interrupted, std::ostream& out) {
   const auto table = summary_table(problem, record::SubjectKind::method);
   if (table.rows.empty()) return;
-  Frame frame{fmt::format("{}: {}. Of each method the worst run of the finest level; errors "
-                          "relative to the largest envelope and energy, order with its 95\\,\\% "
-                          "interval, collisions matched/exact.{}",
+  Frame frame{fmt::format("{}: {}. Of each method the worst run of the finest level; errors {}, "
+                          "order with its 95\\,\\% interval, collisions matched/exact.{}",
                           tex_text(case_text(problem.problem)), tex_text(plan_text(problem)),
+                          error_scale_text,
                           interrupted ? " Interrupted: only what was finished is shown." : ""),
               problem.problem.name,
               {}};

@@ -128,8 +128,9 @@ void print_methods(const record::CaseRecord& problem, std::ostream& out, const S
   print(table, out, style);
   out << '\n';
   print_wrapped(
-      "Worst of the finest level's steps; errors relative to the largest envelope and energy; "
-      "order ± 95 %; collisions matched/exact.",
+      fmt::format("Worst of the finest level's steps; errors {}; order ± 95 %; collisions "
+                  "matched/exact.",
+                  error_scale_text),
       out, style);
 }
 

@@ -71,6 +71,9 @@ std::vector<std::string> failure_texts(const record::Subject& subject);
 /// The end of what a program printed on one line, lines separated by " / "; 400 characters at most.
 std::string printed_text(std::string_view printed);
 
+/// What errors are relative to, in every caption of errors in u, v and energy.
+inline constexpr auto error_scale_text = "relative to the largest envelope and energy";
+
 /// The last line of a report.
 struct VerdictLine {
   std::string word;           ///< "agrees", "disagrees", "undecided", "not claimed", "interrupted"

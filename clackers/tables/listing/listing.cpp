@@ -9,7 +9,6 @@
 #include "clackers/base/suggest.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"
-#include "clackers/record/cause_metrics.hpp"
 #include "clackers/tables/listing/list_diagnoses.hpp"
 
 namespace clackers::tables {
@@ -111,9 +110,6 @@ record::Sheet list_metrics() {
     sheet.rows.push_back({std::string(metric.name),
                           std::string(metric.unit == "1" ? "" : metric.unit),
                           metric.across_jumps ? "yes" : "no", std::string(metric.definition),
-                          std::string(metric.source)});
-  for (const auto& metric : record::cause_metrics())
-    sheet.rows.push_back({std::string(metric.name), "", "yes", std::string(metric.definition),
                           std::string(metric.source)});
   return sheet;
 }

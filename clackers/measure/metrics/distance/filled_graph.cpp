@@ -120,10 +120,10 @@ Polyline reference_graph(const Comparison& comparison, std::size_t mass) {
   return std::move(graph).finish();
 }
 
-std::string objection(const Comparison& comparison) {
+std::string graph_objection(const Comparison& comparison) {
   if (!comparison.has_velocities()) return "The history has no velocities.";
   for (const double scale : comparison.v_envelope())
-    if (!(scale > 0.0)) return "A mass has no velocity envelope at t = 0 to divide by.";
+    if (!(scale > 0.0)) return "A mass has no velocity envelope to divide by.";
   return comparison.objection_to_sparse_rows();
 }
 
@@ -135,7 +135,7 @@ struct GraphDistances {
 
 GraphDistances graph_distances(const Comparison& comparison) {
   GraphDistances found;
-  found.reason = objection(comparison);
+  found.reason = graph_objection(comparison);
   if (!found.reason.empty()) return found;
   for (std::size_t mass = 0; mass < comparison.dof(); ++mass) {
     const auto [history, reference] = filled_graphs(comparison, mass);

@@ -15,8 +15,7 @@ std::string objection(const Comparison& comparison) {
   if (!comparison.has_velocities()) return "The history has no velocities.";
   for (std::size_t i = 0; i < comparison.dof(); ++i)
     if (!(comparison.u_envelope()[i] > 0.0 && comparison.v_envelope()[i] > 0.0))
-      return fmt::format("The reference motion of mass {} has no extent at t = 0 to divide by.",
-                         i + 1);
+      return fmt::format("The reference motion of mass {} has no extent to divide by.", i + 1);
   const auto& t = comparison.history().t;
   const auto& reference = comparison.reference();
   const auto found = static_cast<long long>(comparison.impacts().size());

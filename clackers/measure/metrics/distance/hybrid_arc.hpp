@@ -11,7 +11,7 @@
 namespace clackers::measure {
 
 /// A motion as a hybrid arc: one line for each flight j = 0, 1, ..., points (t/T, u/U, v/V) of all
-/// masses, T as in Comparison::collision_period(), U and V the true envelopes at t = 0. Flights do
+/// masses, T as in Comparison::collision_period(), U and V the largest true envelopes. Flights do
 /// not share their ends: the first ends with the left limits of an impact, the next starts with the
 /// right ones. Flights are made one after another, so that one alone is in memory.
 class HybridArc {

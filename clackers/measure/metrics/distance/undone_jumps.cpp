@@ -98,7 +98,7 @@ MetricValue jump_invariant_distance(const Comparison& comparison) {
   if (comparison.problem().contacts.empty()) return not_measured("The problem has no contact.");
   const auto u_scale = comparison.u_envelope(), v_scale = comparison.v_envelope();
   if (!all_positive(u_scale) || !all_positive(v_scale))
-    return not_measured("A mass of the reference has no extent at t = 0 to divide by.");
+    return not_measured("A mass of the reference has no extent to divide by.");
 
   const FreeMotion motion(comparison.problem().system);
   std::vector<ImpactMap> maps;

@@ -30,7 +30,7 @@ MetricValue unfolded_velocity_error(const Comparison& comparison);
 ///     u -> u,   v -> v - (1 + eta) M^-1 b (b . v) / (b . M^-1 b),
 ///
 /// tried for every contact; |.| is the largest difference of any mass in u / U and v / V, with U
-/// and V the envelopes of the reference at t = 0. Dimensionless, of the whole structure.
+/// and V the largest envelopes of the reference over the run. Dimensionless, of the whole structure.
 ///
 /// J is tried at every time and not at impacts alone, so that it is never more than the plain
 /// distance and forgives two states that differ by a whole impact wherever they are. Not measured

@@ -16,7 +16,7 @@ const auto jump_problem = toy_problem(12.0);
 
 // The reference until pi/2, then on through the contact until it turns 0.1 s later: its
 // displacement is -cos t until then, and that of the reference 0.1 s ago from there on.
-model::Trajectory late_impacts() {
+model::Trajectory history_with_late_impacts() {
   auto history = history_of(jump_reference, {0.0, 1.0, 1.6, pi / 2, pi / 2, 3.0});
   history.t[3] = history.t[4] = pi / 2 + 0.1;
   const double v = -std::sin(history.t[3]), turned = std::cos(0.1);
@@ -31,14 +31,14 @@ model::Trajectory late_impacts() {
 }
 
 TEST(UnfoldedVelocity, ForgetsOnWhichSideOfAJumpAMotionIs) {
-  const auto found = unfolded_velocity_error({late_impacts(), jump_reference, jump_problem});
+  const auto found = unfolded_velocity_error({history_with_late_impacts(), jump_reference, jump_problem});
   ASSERT_EQ(found.reason, "");
   EXPECT_NEAR(found.masses[0], std::abs(std::sin(3.0) - std::sin(2.9)), 1e-14);
   EXPECT_NEAR(found.masses[1], 0.5 * std::abs(std::sin(3.0) - std::sin(2.9)), 1e-14);
 }
 
 TEST(UnfoldedVelocity, CountsAMissedCollisionForGood) {
-  auto history = late_impacts();
+  auto history = history_with_late_impacts();
   history.impacts->clear();
   // Both limits in two rows: the left one is right now, the right one off by both.
   EXPECT_NEAR(unfolded_velocity_error({history, jump_reference, jump_problem}).value, 2.0 * std::cos(0.1),
@@ -82,7 +82,7 @@ TEST(UnfoldedVelocity, IsDefinedWhereAnImpactReversesAll) {
 TEST(JumpInvariantDistance, LaysOneSideOfAJumpOntoTheOther) {
   // Displacements differ by cos(pi/2 + 0.1) and its like, relative to (1, 1/2); velocities by no
   // more once J has been applied.
-  const auto history = late_impacts();
+  const auto history = history_with_late_impacts();
   double expected = std::abs(2.0 * std::cos(1.6));  // row 2, on the wrong side
   expected = std::max(expected, std::sin(0.1));     // at the jump
   expected = std::max(expected, std::abs(std::sin(3.0) - std::sin(2.9)));

@@ -1,15 +1,14 @@
-#include "clackers/study/check/history/history_measures.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/measure/errors/comparison.hpp"
-#include "clackers/record/cause_metrics.hpp"
+#include "clackers/record/all_metrics.hpp"
 #include "clackers/record/notes.hpp"
 #include "clackers/record/reduced_curve.hpp"
-#include "clackers/study/check/history/history_score.hpp"
+#include "clackers/study/check/history/prepared_history.hpp"
 
 namespace clackers::study {
 namespace {
@@ -33,19 +32,26 @@ class Measurement {
     report(read_share);
     const double bend = std::numbers::pi * file_.spacing / summary_.fast_period;
     file_.unseen_bend = 1.0 - std::cos(std::min(bend, std::numbers::pi));
-    const measure::Comparison comparison(history_.data.motion, *problem_.motion, problem_.problem);
-    run_.score = history_score(comparison, history_.data.has_u, step);
+    const measure::Comparison comparison(history_.data.motion, *problem_.motion, problem_.problem,
+                                         facts_of(summary_, problem_.problem, 0.0));
+    run_.score = comparison.score(step);
     run_.score.rounding_floor = std::max(run_.score.rounding_floor, file_.printed_floor);
     if (history_.has_all_u)
       measure_motion(comparison);
     else
-      file_.notes.push_back(record::note("displacements-incomplete"));
+      forget_what_needs_all_u();
     add_notes(file_, run_.score, summary_);
     run_.file = std::move(file_);
     return {std::move(run_), std::move(observation_)};
   }
 
  private:
+  void forget_what_needs_all_u() {
+    run_.score.energy_error = run_.score.energy_ratio = unknown;
+    run_.score.impacts.reset();
+    file_.notes.push_back(record::note("displacements-incomplete"));
+  }
+
   // What needs the displacements of all masses.
   void measure_motion(const measure::Comparison& comparison) {
     take_collisions(comparison);
@@ -53,8 +59,8 @@ class Measurement {
     observe(comparison);
     report(compared_share);
     auto metrics = all_metrics(
-        comparison, facts_of(summary_, 0.0),
-        [&](double share) { report(compared_share + (1.0 - compared_share) * share); }, interrupt_);
+        comparison, [&](double share) { report(compared_share + (1.0 - compared_share) * share); },
+        interrupt_);
     if (!metrics) throw Error("interrupted", "interrupted");
     run_.metrics = std::move(*metrics);
   }
@@ -103,7 +109,6 @@ class Measurement {
   }
 
   void take_collisions(const measure::Comparison& comparison) {
-    run_.score.impacts = comparison.impact_score();
     const bool reported = comparison.impact_source() == measure::ImpactSource::reported;
     file_.collisions =
         reported ? record::CollisionSource::events : record::CollisionSource::history;

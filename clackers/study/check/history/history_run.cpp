@@ -2,8 +2,6 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/input/history.hpp"
-#include "clackers/study/check/history/history_measures.hpp"
-#include "clackers/study/check/history/missing_numbers.hpp"
 #include "clackers/study/check/history/prepared_history.hpp"
 
 namespace clackers::study {

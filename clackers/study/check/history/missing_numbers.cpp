@@ -1,11 +1,10 @@
-#include "clackers/study/check/history/missing_numbers.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "clackers/input/events.hpp"
 #include "clackers/record/notes.hpp"
+#include "clackers/study/check/history/prepared_history.hpp"
 
 namespace clackers::study {
 namespace {

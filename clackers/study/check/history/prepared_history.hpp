@@ -1,10 +1,12 @@
 #pragma once
 
-#include <optional>
+#include <atomic>
 
+#include "clackers/base/jobs/progress.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/diagnose.hpp"
 #include "clackers/input/history.hpp"
+#include "clackers/input/source.hpp"
 #include "clackers/record/record.hpp"
 #include "clackers/study/check/history/history_run.hpp"
 
@@ -22,5 +24,24 @@ struct PreparedHistory {
 /// another start.
 PreparedHistory prepare(const HistoryTask& task, input::History data, const cases::Case& problem,
                         const record::CaseSummary& summary);
+
+/// Reads the collisions of a history; those outside it are left out, with a note. Where two masses
+/// touch, the place of one gives that of the other. Throws as input::read_events() does.
+void add_events(PreparedHistory& history, const input::Source& events, const cases::Case& problem,
+                const std::atomic<bool>* interrupt);
+
+/// Displacements that the history has not are those of the reference, so that they add no error.
+void complete_u(PreparedHistory& history, const cases::Case& problem);
+
+/// The share of a history's work that reading it is, for progress.
+inline constexpr double read_share = 0.4;
+
+/// Compares a history with the reference: score, collisions, curves, what diagnosis needs, all
+/// metrics and the notes that follow. Without the displacements of all masses only the score is
+/// measured. `step` [s] is the level's. Calls `progress` with shares from read_share on. Throws Error
+/// (interrupted) when asked to stop.
+ComparedHistory measure(PreparedHistory history, double step, const cases::Case& problem,
+                        const record::CaseSummary& summary, const Progress& progress,
+                        const std::atomic<bool>* interrupt);
 
 }  // namespace clackers::study

@@ -1,4 +1,4 @@
-#include "clackers/record/cause_metrics.hpp"
+#include "clackers/record/all_metrics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/model/trajectory.hpp"
 #include "clackers/tables/case_summary.hpp"
@@ -34,16 +35,18 @@ Shown shown(const char* method, const char* name, const cases::Settings& setting
   const auto made = methods::method(method);
   model::TrajectorySink sink(true);
   made->prepare(one.problem, h)->advance(sink);
-  const measure::Comparison comparison(sink.trajectory(), *one.motion, one.problem);
   const auto contact_time = made->contact_time(one.problem);
-  return {cause_results(comparison, facts_of(tables::summary_of(one), contact_time))};
+  const measure::Comparison comparison(
+      sink.trajectory(), *one.motion, one.problem,
+      facts_of(tables::summary_of(one), one.problem, contact_time));
+  return {*all_metrics(comparison)};
 }
 
 TEST(CauseMetrics, AreAllThereInTheirOrder) {
   const auto run = shown("rk4", "three-parameter", {}, 0.01);
-  ASSERT_EQ(run.all.size(), cause_metrics().size());
+  ASSERT_EQ(run.all.size(), measure::metrics().size());
   for (std::size_t i = 0; i < run.all.size(); ++i) {
-    EXPECT_EQ(run.all[i].name, cause_metrics()[i].name);
+    EXPECT_EQ(run.all[i].name, measure::metrics()[i].name);
     EXPECT_EQ(std::isnan(run.all[i].value), !run.all[i].reason.empty()) << run.all[i].name;
   }
 }
@@ -95,9 +98,11 @@ TEST(CauseMetrics, TellWhyThePenalizedMotionIsNotKnown) {
   problem.contacts[0].restitution = 0.5;
   model::TrajectorySink sink(true);
   methods::method("rk4")->prepare(pair.problem, 0.01)->advance(sink);
-  const measure::Comparison comparison(sink.trajectory(), *pair.motion, problem);
-  const auto all = cause_results(comparison, {.detuning_rate = 0.0, .contact_time = 0.01});
-  EXPECT_NE(all[5].reason.find("restitution"), std::string::npos) << all[5].reason;
+  const measure::Comparison comparison(sink.trajectory(), *pair.motion, problem,
+                                       facts_of(study::summary_of(pair), problem, 0.01));
+  const Shown run{*all_metrics(comparison)};
+  const auto reason = run.reason("u-penalty-model-max-relative");
+  EXPECT_NE(reason.find("restitution"), std::string::npos) << reason;
 }
 
 }  // namespace

@@ -1,0 +1,106 @@
+#include "clackers/measure/errors/meter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/base/constants.hpp"
+
+namespace clackers::measure {
+namespace {
+
+double largest_energy(const MechanicalEnergy& energy, const model::Motion& reference,
+                      const model::ImpactProblem<>& problem) {
+  const auto at = [&](double t) {
+    const auto now = reference.at(t, model::Side::right);
+    return energy.total(now.u.data(), now.v.data());
+  };
+  double scale = at(problem.start.t);
+  constexpr int parts = 1024;
+  if (problem.system.add_load || !(scale > 0.0))
+    for (int i = 1; i <= parts; ++i) scale = std::max(scale, at(reference.end() * i / parts));
+  return scale;
+}
+
+}  // namespace
+
+double relative_bound(const model::Motion& reference, const model::Kinematics& scale, double t) {
+  const auto bound = reference.error_bound(std::clamp(t, 0.0, reference.end()));
+  double largest = 0.0;
+  for (const auto part : {&model::Kinematics::u, &model::Kinematics::v})
+    for (Eigen::Index i = 0; i < (scale.*part).size(); ++i)
+      if ((scale.*part)[i] > 0.0) largest = std::max(largest, (bound.*part)[i] / (scale.*part)[i]);
+  return largest;
+}
+
+double rounding_floor(const model::Motion& reference, long long states, double first, double last) {
+  // Each step rounds the state by about one unit; at worst they all add up.
+  double floor = std::numeric_limits<double>::epsilon() * double(states);
+  const auto scale = reference.peak();
+  constexpr int parts = 16;
+  for (int i = 0; i < parts; ++i)
+    floor = std::max(floor, relative_bound(reference, scale, first + (last - first) * i / parts));
+  return std::max(floor, relative_bound(reference, scale, last));
+}
+
+Meter::Meter(const model::Motion& reference, const model::ImpactProblem<>& problem)
+    : reference_(reference),
+      dof_(std::size_t(reference.dof())),
+      scale_(reference.peak()),
+      energy_(problem.system),
+      energy_scale_(largest_energy(energy_, reference, problem)),
+      first_(problem.start.t),
+      last_(first_),
+      u_error_(dof_),
+      velocity_(reference) {}
+
+void Meter::take(std::span<const double> t, const StateRows& found, const StateRows& reference) {
+  if (t.empty()) return;
+  if (states_ == 0) first_ = t.front();
+  last_ = t.back();
+  states_ += std::ssize(t);
+  has_velocities_ = !found.v.empty();
+  if (has_velocities_) velocity_.take(t, found.v, reference.v);
+  for (std::size_t row = 0; row < found.u.size(); row += dof_) {
+    for (std::size_t j = 0; j < dof_; ++j) {
+      const double error = std::abs(found.u[row + j] - reference.u[row + j]);
+      u_error_[j] = std::max(u_error_[j], error);
+      // The difference of a number that is not finite and itself is NaN.
+      finite_ += error - error;
+    }
+    if (!has_velocities_) continue;
+    for (std::size_t j = 0; j < dof_; ++j) finite_ += found.v[row + j] - found.v[row + j];
+    const double energy = energy_.total(&found.u[row], &found.v[row]);
+    const double expected = energy_.total(&reference.u[row], &reference.v[row]);
+    energy_error_ = std::max(energy_error_, std::abs(energy - expected));
+    energy_ratio_ = expected > 0.0 ? energy / expected : unknown;
+  }
+}
+
+void Meter::take_displacements(const double* found, const double* reference) {
+  ++states_;
+  for (std::size_t j = 0; j < dof_; ++j)
+    u_error_[j] = std::max(u_error_[j], std::abs(found[j] - reference[j]));
+}
+
+RunScore Meter::score() const {
+  RunScore score;
+  score.energy_error =
+      has_velocities_ && energy_scale_ > 0.0 ? energy_error_ / energy_scale_ : unknown;
+  score.energy_ratio = energy_ratio_;
+  score.v_error = has_velocities_ ? 0.0 : unknown;
+  score.rounding_floor = rounding_floor(reference_, states_, first_, last_);
+  const double length = last_ - first_;
+  for (std::size_t j = 0; j < dof_; ++j) {
+    const auto mass = Eigen::Index(j);
+    score.u_error_absolute = std::max(score.u_error_absolute, u_error_[j]);
+    score.u_error = std::max(score.u_error, u_error_[j] / scale_.u[mass]);
+    if (has_velocities_ && length > 0.0)
+      score.v_error =
+          std::max(score.v_error, velocity_.integral(int(j)) / (length * scale_.v[mass]));
+  }
+  if (finite_ != 0.0)
+    score.u_error = score.u_error_absolute = score.v_error = score.energy_error = infinity;
+  return score;
+}
+
+}  // namespace clackers::measure
