@@ -14,7 +14,7 @@ namespace {
 using record::Cell;
 using record::ColumnKind;
 
-py::list columns_of(const record::RowSource& rows) {
+py::list columns_of_source(const record::RowSource& rows) {
   py::list columns;
   for (const auto& column : rows.columns())
     columns.append(py::make_tuple(column.name, column.unit, column.meaning));
@@ -22,7 +22,7 @@ py::list columns_of(const record::RowSource& rows) {
 }
 
 py::tuple table(const record::RowSource& rows, const py::list& arrays) {
-  return py::make_tuple(rows.schema(), rows.title(), columns_of(rows), arrays);
+  return py::make_tuple(rows.schema(), rows.title(), columns_of_source(rows), arrays);
 }
 
 // Numbers come in blocks, row by row; each column gets an array of its own.

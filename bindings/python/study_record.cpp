@@ -33,7 +33,7 @@ std::string written(const Record& record, const std::string& format, int width) 
 }
 
 // Numbers that no run has are NaN, not None.
-py::tuple read_sheet(record::Sheet sheet) {
+py::tuple read_run_sheet(record::Sheet sheet) {
   for (auto& column : sheet.columns) {
     const auto known = std::ranges::find(report::columns(), column.name, &report::Column::name);
     const bool is_metric = known == report::columns().end();
@@ -75,14 +75,14 @@ py::tuple level_rows(const record::CaseRecord& problem, const Subject& subject) 
     auto& cells = sheet.rows.emplace_back();
     for (const auto* column : table.columns) cells.push_back(column->get(row));
   }
-  return read_sheet(sheet);
+  return read_run_sheet(sheet);
 }
 
 // Every run of one subject.
 py::tuple run_rows(const record::CaseRecord& problem, const Subject& subject) {
   auto alone = problem;
   alone.subjects = {subject};
-  return read_sheet(report::run_sheet({&alone, 1}));
+  return read_run_sheet(report::run_sheet({&alone, 1}));
 }
 
 py::dict subject_of(const record::CaseRecord& problem, const Subject& subject) {
@@ -168,7 +168,7 @@ void bind_record(py::module_& core) {
            [](const Record& record, std::size_t which, std::size_t subject) {
              return run_rows(case_at(record, which), case_at(record, which).subjects.at(subject));
            })
-      .def("runs", [](const Record& record) { return read_sheet(report::run_sheet(record.cases)); })
+      .def("runs", [](const Record& record) { return read_run_sheet(report::run_sheet(record.cases)); })
       .def("failure_of_all", &failure_of_all)
       .def_property_readonly(
           "cases",

@@ -19,6 +19,8 @@ struct Claim {
   double order = 0.0;
   /// Code of the reason when the behaviour needs one ("contact-stiffness"), otherwise empty.
   std::string reason;
+
+  bool is_made() const { return behaviour != Behaviour::undecided; }
 };
 
 std::string_view to_string(Behaviour behaviour);

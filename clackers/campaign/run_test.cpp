@@ -12,7 +12,6 @@ namespace clackers::campaign {
 namespace {
 
 using test::DatabaseTest;
-using test::small;
 
 // Ends after some blocks, as a process that is interrupted there.
 class FirstBlocks : public TaskSource {
@@ -32,7 +31,7 @@ class Campaign : public DatabaseTest {
  protected:
   RunSummary run(const std::string& name, int jobs, long long block, Shard shard = {},
                  int blocks = 1000) {
-    const auto spec = small();
+    const auto spec = test::small();
     auto store = Store::create_or_open(path(name), spec);
     LocalTasks all(spec.tasks(), store.finished(), block, shard);
     FirstBlocks source(all, blocks);
@@ -44,7 +43,7 @@ TEST_F(Campaign, RowsDoNotDependOnJobsOrderOrInterruptions) {
   run("one.db", 1, 3);
   const auto expected = rows("one.db");
   ASSERT_EQ(expected.size(), 2u);
-  EXPECT_EQ(expected[0].size(), std::size_t(small().tasks()));
+  EXPECT_EQ(expected[0].size(), std::size_t(test::small().tasks()));
   run("four.db", 4, 1);
   EXPECT_EQ(rows("four.db"), expected);
   for (int i = 0; i < 20; ++i) run("resumed.db", 2, 2, {}, 1);
@@ -55,23 +54,23 @@ TEST_F(Campaign, MergedShardsAreTheWhole) {
   run("one.db", 1, 3);
   for (long long i = 1; i <= 3; ++i) run("part" + std::to_string(i), 1, 2, {i, 3});
   {
-    auto store = Store::create_or_open(path("merged.db"), small());
+    auto store = Store::create_or_open(path("merged.db"), test::small());
     long long added = 0;
     for (const auto* part : {"part3", "part1", "part2", "part1"}) added += store.merge(path(part));
-    EXPECT_EQ(added, small().tasks());
+    EXPECT_EQ(added, test::small().tasks());
   }
   EXPECT_EQ(rows("merged.db"), rows("one.db"));
 }
 
 TEST_F(Campaign, FinishedTasksAreNotRunAgain) {
-  EXPECT_EQ(run("a.db", 2, 2).tasks, small().tasks());
+  EXPECT_EQ(run("a.db", 2, 2).tasks, test::small().tasks());
   const auto again = run("a.db", 2, 2);
   EXPECT_EQ(again.tasks, 0);
   EXPECT_EQ(again.runs, 0);
 }
 
 TEST_F(Campaign, InterruptStoresWhatIsFinished) {
-  const auto spec = small();
+  const auto spec = test::small();
   std::atomic<bool> interrupt{true};
   RunSummary summary;
   {
@@ -141,8 +140,8 @@ TEST_F(Campaign, RefusedSystemsAndMethodsAreFinishedTasks) {
 }
 
 TEST_F(Campaign, PlanCountsWhatIsRun) {
-  const auto plan = plan_of(small(), true);
-  EXPECT_EQ(plan.tasks, small().tasks());
+  const auto plan = plan_of(test::small(), true);
+  EXPECT_EQ(plan.tasks, test::small().tasks());
   EXPECT_EQ(plan.runs, double(run("a.db", 1, 1).runs));
   EXPECT_GT(plan.seconds, 0.0);
 }
@@ -154,7 +153,7 @@ TEST(CampaignPlan, TooManyRunsAreRefusedWithTheirEstimate) {
       "= 2, points = 500000 } }",
       "spec.toml");
   EXPECT_REFUSED(require_few_runs(spec), "too-many-runs", "1e+12 runs", "hours", "GB", "--yes");
-  EXPECT_NO_THROW(require_few_runs(small()));
+  EXPECT_NO_THROW(require_few_runs(test::small()));
 }
 
 }  // namespace

@@ -12,13 +12,11 @@
 namespace clackers::campaign {
 namespace {
 
-using test::small;
-
 class StoreTest : public test::DatabaseTest {
  protected:
   // A task with made-up rows.
   static TaskRows rows_of(long long task, std::size_t runs = 2) {
-    const auto tables = tables_of(small());
+    const auto tables = tables_of(test::small());
     TaskRows rows;
     rows.task = task;
     for (std::size_t i = 1; i < tables.subjects.size(); ++i)
@@ -30,7 +28,7 @@ class StoreTest : public test::DatabaseTest {
     return rows;
   }
   static void fill(const std::string& file, std::initializer_list<long long> tasks) {
-    auto store = Store::create_or_open(file, small());
+    auto store = Store::create_or_open(file, test::small());
     for (const auto task : tasks) store.write(std::vector{rows_of(task)});
   }
 };
@@ -42,7 +40,7 @@ TEST_F(StoreTest, KeepsTasksOnceAndKnowsThemAgain) {
   EXPECT_TRUE(store.finished().contains(7));
   EXPECT_EQ(read(*store.rows(TableName::subjects)).size(), 4u);
   EXPECT_EQ(read(*store.rows(TableName::runs)).size(), 8u);
-  EXPECT_EQ(store.specification().text(), small().text());
+  EXPECT_EQ(store.specification().text(), test::small().text());
 }
 
 TEST_F(StoreTest, RowsComeInOrderAndTimesOnRequest) {
@@ -84,13 +82,13 @@ TEST_F(StoreTest, DatabaseIsOneFileAfterItsWriter) {
 
 TEST_F(StoreTest, ShardsAreWrittenWithoutSharedMemory) {
   for (const auto& part : {shard_path(path("a.db"), {1, 2}), rank_path(path("a.db"), 7)}) {
-    auto store = Store::create_or_open(part, small());
+    auto store = Store::create_or_open(part, test::small());
     store.write(std::vector{rows_of(1)});
     EXPECT_TRUE(std::filesystem::exists(part + "-wal"));
     EXPECT_FALSE(std::filesystem::exists(part + "-shm"));
   }
   fill(path("a.db"), {0});
-  auto store = Store::create_or_open(path("a.db"), small());
+  auto store = Store::create_or_open(path("a.db"), test::small());
   for (const auto& part : shard_files(path("a.db"))) store.merge(part);
   EXPECT_EQ(store.finished().size(), 2);
   for (const auto* name : {"runs.db", "a.rank-x", "rank-3", "a.shard-1-of-", "a.db.rank-3.db"})
@@ -99,19 +97,19 @@ TEST_F(StoreTest, ShardsAreWrittenWithoutSharedMemory) {
 
 TEST_F(StoreTest, SecondWriterIsRefusedWhileTheFirstLives) {
   {
-    const auto first = Store::create_or_open(path("a.db"), small());
-    EXPECT_REFUSED(Store::create_or_open(path("a.db"), small()), "database-busy", "a.db",
+    const auto first = Store::create_or_open(path("a.db"), test::small());
+    EXPECT_REFUSED(Store::create_or_open(path("a.db"), test::small()), "database-busy", "a.db",
                    "another process");
     EXPECT_NO_THROW(Store::open(path("a.db")));  // readers are welcome
-    auto other = Store::create_or_open(path("b.db"), small());
+    auto other = Store::create_or_open(path("b.db"), test::small());
     EXPECT_REFUSED(other.merge(path("a.db")), "database-busy");
   }
-  EXPECT_NO_THROW(Store::create_or_open(path("a.db"), small()));
+  EXPECT_NO_THROW(Store::create_or_open(path("a.db"), test::small()));
 }
 
 TEST_F(StoreTest, RefusesWhatIsNoDatabaseOfThisCampaign) {
   const auto open = [&](const std::string& name) {
-    return Store::create_or_open(path(name), small());
+    return Store::create_or_open(path(name), test::small());
   };
   std::ofstream(path("text.db")) << "methods = [\"rk4\"] and some more text, as long as a header\n";
   EXPECT_REFUSED(open("text.db"), "not-a-campaign", "text.db");
@@ -132,20 +130,20 @@ TEST_F(StoreTest, RefusesWhatIsNoDatabaseOfThisCampaign) {
   EXPECT_NO_THROW(Store::open(path("old.db")));
 
   fill(path("a.db"), {0});
-  const auto another = Specification::from_toml(small().text() + "# more\n", "spec.toml");
+  const auto another = Specification::from_toml(test::small().text() + "# more\n", "spec.toml");
   EXPECT_REFUSED(Store::create_or_open(path("a.db"), another), "other-campaign", "a.db");
   auto store = Store::create_or_open(path("b.db"), another);
   EXPECT_REFUSED(store.merge(path("a.db")), "other-campaign");
   EXPECT_REFUSED(store.merge(path("none.db")), "cannot-read", "none.db");
 
   EXPECT_REFUSED(Store::open(path("none.db")), "cannot-read", "campaign run");
-  EXPECT_REFUSED(Store::create_or_open(path("no/folder.db"), small()), "cannot-write");
+  EXPECT_REFUSED(Store::create_or_open(path("no/folder.db"), test::small()), "cannot-write");
 }
 
 TEST_F(StoreTest, HalfWrittenDatabaseIsRefused) {
   fill(path("a.db"), {0, 1, 2});
   std::filesystem::resize_file(path("a.db"), std::filesystem::file_size(path("a.db")) / 2);
-  EXPECT_REFUSED(Store::create_or_open(path("a.db"), small()), "not-a-campaign", "damaged");
+  EXPECT_REFUSED(Store::create_or_open(path("a.db"), test::small()), "not-a-campaign", "damaged");
 }
 
 TEST_F(StoreTest, FileWithoutTablesIsANewDatabase) {
@@ -156,7 +154,7 @@ TEST_F(StoreTest, FileWithoutTablesIsANewDatabase) {
     EXPECT_EQ(Store::open(path(name)).finished().size(), 1);
   }
   std::ofstream(path("shard.db")).close();
-  EXPECT_EQ(Store::create_or_open(path("empty.db"), small()).merge(path("shard.db")), 0);
+  EXPECT_EQ(Store::create_or_open(path("empty.db"), test::small()).merge(path("shard.db")), 0);
 }
 
 TEST_F(StoreTest, QueriesOnlyRead) {
@@ -180,7 +178,7 @@ TEST_F(StoreTest, RanksLeftBehindAreAdopted) {
   fill(shard_path(path("a.db"), {1, 2}), {4});
   EXPECT_EQ(shard_files(path("a.db")).size(), 3u);
   {
-    auto store = Store::create_or_open(path("a.db"), small());
+    auto store = Store::create_or_open(path("a.db"), test::small());
     EXPECT_EQ(adopt_ranks(store), 3);
   }
   EXPECT_EQ(Store::open(path("a.db")).finished().size(), 4);

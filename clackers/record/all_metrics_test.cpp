@@ -99,7 +99,7 @@ TEST(CauseMetrics, TellWhyThePenalizedMotionIsNotKnown) {
   model::TrajectorySink sink(true);
   methods::method("rk4")->prepare(pair.problem, 0.01)->advance(sink);
   const measure::Comparison comparison(sink.trajectory(), *pair.motion, problem,
-                                       facts_of(study::summary_of(pair), problem, 0.01));
+                                       facts_of(tables::summary_of(pair), problem, 0.01));
   const Shown run{*all_metrics(comparison)};
   const auto reason = run.reason("u-penalty-model-max-relative");
   EXPECT_NE(reason.find("restitution"), std::string::npos) << reason;

@@ -180,7 +180,7 @@ Claim claim_from(std::string_view text) {
   const bool has_line = claim.behaviour == Behaviour::proper ||
                         claim.behaviour == Behaviour::reduced ||
                         claim.behaviour == Behaviour::irregular;
-  if (claim.behaviour == Behaviour::undecided)
+  if (!claim.is_made())
     refuse("check", "--expect", text, "proper, reduced, irregular, exact, stagnating or divergent",
            "Nothing to expect: leave --expect out.", "bad-syntax");
   if (has_line != (colon != std::string_view::npos))

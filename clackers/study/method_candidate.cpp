@@ -150,7 +150,7 @@ std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& sha
   if (facts_.has_ends) result.end_u = relative(recorder.last_u(), motion);
   // A state that is not finite is no row of a history.
   if (task.wanted.metrics && std::isfinite(result.run.score.u_error)) {
-    auto metrics = all_metrics(
+    auto metrics = record::all_metrics(
         {stored.trajectory(), motion, problem, facts_of(problem_.summary, problem, spring_time_)},
         {}, interrupt);
     if (!metrics) return {};

@@ -14,7 +14,8 @@
 #include "clackers/methods/registry.hpp"
 #include "clackers/model/trajectory.hpp"
 #include "clackers/study/check.hpp"
-#include "clackers/study/solver.hpp"
+#include "clackers/study/verify.hpp"
+#include "clackers/solvers/solver.hpp"
 
 namespace clackers {
 namespace {
@@ -132,13 +133,13 @@ struct Columns {
   }
 };
 
-struct Callable : study::Solver {
+struct Callable : solvers::Solver {
   Callable(std::string method_name, cases::Case made)
       : name(std::move(method_name)), test_case(std::move(made)) {}
-  study::SolverOutput run(const study::SolverRun& run, const std::atomic<bool>*) override {
+  solvers::SolverOutput run(const solvers::SolverRun& run, const std::atomic<bool>*) override {
     const auto columns =
         std::make_shared<const Columns>(*methods::method(name), test_case, run.step);
-    study::SolverOutput output;
+    solvers::SolverOutput output;
     output.history = columns->history;
     output.events = columns->events;
     output.memory = columns;
@@ -161,13 +162,14 @@ TEST(OneScore, IsThatOfTheMethodTheCallableAndTheFile) {
       request.methods = {name};
       request.cases = {case_name};
       request.plan = {.coarsest = step_of(test_case), .levels = 1, .samples_per_level = 1};
-      study::SolverSubject callable;
+      solvers::SolverSubject callable;
       callable.kind = record::SubjectKind::callable;
       callable.name = "callable";
       callable.prepare = [&](const cases::Case& made) {
         return std::make_unique<Callable>(name, made);
       };
-      const auto verified = study::verify(request, {callable});
+      request.solvers = {callable};
+      const auto verified = study::verify(request);
       const auto& subjects = verified.cases.at(0).subjects;
       const auto& expected = only_run(subjects.at(0)).score;
       expect_equal(only_run(subjects.at(1)).score, expected, where + ", callable");

@@ -1,6 +1,7 @@
 // What reads and writes records: `check` with every output, and the record of --baseline.
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "clackers/base/error.hpp"

@@ -97,7 +97,8 @@ std::string ladder_options(const Ladder& ladder) {
   std::string options;
   const auto add = [&](const std::string& text) { options += (options.empty() ? "" : " ") + text; };
   if (ladder.levels) add(fmt::format("--levels {}", *ladder.levels));
-  if (ladder.neighbours) add(fmt::format("--neighbours {}", *ladder.neighbours));
+  if (ladder.samples_per_level)
+    add(fmt::format("--samples-per-level {}", *ladder.samples_per_level));
   if (ladder.coarsest) add("--coarsest " + report::exact_number(*ladder.coarsest));
   if (!ladder.tolerances.empty()) {
     std::vector<std::string> list;

@@ -15,8 +15,6 @@
 namespace clackers::campaign {
 namespace {
 
-using test::small;
-
 class Ranks : public test::DatabaseTest {
  protected:
   /// A campaign on so many ranks, which are threads.
@@ -25,9 +23,9 @@ class Ranks : public test::DatabaseTest {
     std::vector<std::thread> others;
     for (int rank = 1; rank < size; ++rank)
       others.emplace_back([&, rank] { run_other_rank(ranks[rank], {.jobs = 1}, interrupt_); });
-    auto store = Store::create_or_open(path(name), small());
+    auto store = Store::create_or_open(path(name), test::small());
     adopt_ranks(store);
-    const auto summary = run_first_rank(ranks[0], small(), store, {.jobs = 1}, interrupt_,
+    const auto summary = run_first_rank(ranks[0], test::small(), store, {.jobs = 1}, interrupt_,
                                         [&](long long done, long long all) {
                                           EXPECT_LE(done, all);
                                           all_ = all;
@@ -47,14 +45,14 @@ class Ranks : public test::DatabaseTest {
 
 TEST_F(Ranks, RowsDoNotDependOnTheirNumber) {
   const auto single = expected();
-  ASSERT_EQ(single[0].size(), std::size_t(small().tasks()));
+  ASSERT_EQ(single[0].size(), std::size_t(test::small().tasks()));
   for (const int size : {2, 5}) {
     const auto name = std::to_string(size) + ".db";
     const auto summary = run(name, size);
-    EXPECT_EQ(summary.tasks, small().tasks());
+    EXPECT_EQ(summary.tasks, test::small().tasks());
     EXPECT_FALSE(summary.interrupted);
     EXPECT_TRUE(summary.failures.empty());
-    EXPECT_EQ(all_, small().tasks());
+    EXPECT_EQ(all_, test::small().tasks());
     EXPECT_EQ(rows(name), single);
     EXPECT_TRUE(shard_files(path(name)).empty());
   }
@@ -63,13 +61,13 @@ TEST_F(Ranks, RowsDoNotDependOnTheirNumber) {
 TEST_F(Ranks, WhatLostRanksLeftIsNotComputedAgain) {
   const auto single = expected();
   {
-    auto shard = Store::create_or_open(rank_path(path("a.db"), 9), small());
-    LocalTasks first(small().tasks(), {}, 1, {1, 2});
-    run_campaign(small(), shard, first, {.jobs = 1});
+    auto shard = Store::create_or_open(rank_path(path("a.db"), 9), test::small());
+    LocalTasks first(test::small().tasks(), {}, 1, {1, 2});
+    run_campaign(test::small(), shard, first, {.jobs = 1});
   }
   const auto summary = run("a.db", 3);
-  EXPECT_EQ(summary.tasks, small().tasks() / 2);
-  EXPECT_EQ(all_, small().tasks() / 2);
+  EXPECT_EQ(summary.tasks, test::small().tasks() / 2);
+  EXPECT_EQ(all_, test::small().tasks() / 2);
   EXPECT_EQ(rows("a.db"), single);
 }
 
@@ -81,13 +79,13 @@ TEST_F(Ranks, TasksOfAFailedRankAreLeftForTheNextStart) {
     client.leave({}, client.next() ? "disk full" : "no block", "cannot-write");
   });
   {
-    auto store = Store::create_or_open(path("a.db"), small());
-    const auto summary = run_first_rank(ranks[0], small(), store, {.jobs = 1}, interrupt_);
+    auto store = Store::create_or_open(path("a.db"), test::small());
+    const auto summary = run_first_rank(ranks[0], test::small(), store, {.jobs = 1}, interrupt_);
     ASSERT_EQ(summary.failures.size(), 1u);
     EXPECT_EQ(summary.failures[0].rank, 1);
     EXPECT_EQ(summary.failures[0].code, "cannot-write");
     if (summary.failures[0].failure == "disk full") {
-      EXPECT_LT(summary.tasks, small().tasks());
+      EXPECT_LT(summary.tasks, test::small().tasks());
     }
   }
   other.join();
@@ -96,8 +94,8 @@ TEST_F(Ranks, TasksOfAFailedRankAreLeftForTheNextStart) {
 }
 
 TEST_F(Ranks, ShardInUseIsRefused) {
-  const auto busy = Store::create_or_open(rank_path(path("a.db"), 1), small());
-  auto store = Store::create_or_open(path("a.db"), small());
+  const auto busy = Store::create_or_open(rank_path(path("a.db"), 1), test::small());
+  auto store = Store::create_or_open(path("a.db"), test::small());
   EXPECT_REFUSED(adopt_ranks(store), "database-busy", ".rank-1");
 }
 

@@ -22,7 +22,8 @@ std::string type_of(const record::Column& column) {
 std::string definitions(const std::vector<record::Column>& columns) {
   std::string text;
   for (const auto& column : columns)
-    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", quoted(column.name), type_of(column));
+    text +=
+        fmt::format("{}{}{}", text.empty() ? "" : ", ", quoted_name(column.name), type_of(column));
   return text;
 }
 
@@ -138,7 +139,7 @@ Selection subjects_selection(const Tables& tables, bool with_times) {
   std::string names;
   for (const auto& column : tables.subjects) {
     out.columns.push_back(column);
-    names += fmt::format("{}s.{}", names.empty() ? "" : ", ", quoted(column.name));
+    names += fmt::format("{}s.{}", names.empty() ? "" : ", ", quoted_name(column.name));
   }
   if (with_times) {
     out.columns.push_back(seconds_column);
@@ -153,7 +154,7 @@ Selection runs_selection(const Tables& tables, bool with_times) {
   std::string names;
   const auto add = [&](const record::Column& column, char table) {
     out.columns.push_back(column);
-    names += fmt::format("{}{}.{}", names.empty() ? "" : ", ", table, quoted(column.name));
+    names += fmt::format("{}{}.{}", names.empty() ? "" : ", ", table, quoted_name(column.name));
   };
   const auto is_of_run = [&](const record::Column& column) {
     return std::ranges::find(tables.runs, column.name, &record::Column::name) != tables.runs.end();

@@ -154,7 +154,7 @@ void Sqlite::only_read() const {
   execute("PRAGMA query_only = 1");
 }
 
-std::string quoted(std::string_view name) {
+std::string quoted_name(std::string_view name) {
   std::string text = "\"";
   for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
   return text + '"';

@@ -76,6 +76,6 @@ class Sqlite {
 };
 
 /// A name as SQL writes it: "set_N", "metric:u-maximum".
-std::string quoted(std::string_view name);
+std::string quoted_name(std::string_view name);
 
 }  // namespace clackers::campaign

@@ -40,11 +40,6 @@ class Transaction {
   bool committed_ = false;
 };
 
-// The statements that add rows.
-struct Inserts {
-  Statement subject, run, timing;
-};
-
 void require_file(const std::string& path) {
   if (std::filesystem::is_regular_file(path)) return;
   throw FileError(fmt::format("{}: there is no such file. A database is made by: clackers campaign "
@@ -57,6 +52,11 @@ void require_file(const std::string& path) {
 
 // The members are closed in the reverse order: the lock last.
 struct Store::Connection {
+  // The statements that add rows.
+  struct Inserts {
+    Statement subject, run, timing;
+  };
+
   // After the last writer the database is one file, unless somebody reads it.
   ~Connection() {
     if (!inserts) return;
@@ -102,7 +102,7 @@ Store Store::create_or_open(const std::string& path, const Specification& specif
   database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
   if (is_new) database.execute(schema_of(specification, shard));
   connection.inserts.emplace(
-      Inserts{database.prepare(insert_into("subjects", connection.tables.subjects.size())),
+      Connection::Inserts{database.prepare(insert_into("subjects", connection.tables.subjects.size())),
               database.prepare(insert_into("runs", connection.tables.runs.size())),
               database.prepare(insert_into("timings", 3))});
   return Store(std::move(made));

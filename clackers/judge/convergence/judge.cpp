@@ -153,7 +153,7 @@ Verdict compare_floor(const LadderFit& fit, const Claim& claim) {
 }
 
 Verdict compare(const LadderFit& fit, const Claim& claim, const Facts& facts) {
-  if (claim.behaviour == Behaviour::undecided) return Verdict::not_claimed;
+  if (!claim.is_made()) return Verdict::not_claimed;
   if (fit.behaviour == Behaviour::undecided) return Verdict::undecided;
   if (claim.behaviour == Behaviour::stagnating && fit.behaviour != Behaviour::exact)
     return compare_floor(fit, claim);
@@ -199,8 +199,8 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
   const auto& fit = found.displacement;
   found.verdict = compare(fit, claim, facts);
   // One history without a claim was not fitted for its order.
-  const bool one_history = facts.finest && claim.behaviour == Behaviour::undecided &&
-                           ladder.size() == 1 && ladder.front().runs.size() == 1;
+  const bool one_history =
+      facts.finest && !claim.is_made() && ladder.size() == 1 && ladder.front().runs.size() == 1;
   if (!one_history) found.reason = fit.reason;
   if (found.verdict == Verdict::undecided && fit.on_envelope)
     found.reason = Code("more-neighbours").name();

@@ -164,7 +164,7 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   const auto& fit = fits.displacement;
   const auto& finest = finest_run(ladder);
   const double printed = facts.finest ? facts.finest->printed_floor : 0.0;
-  const bool claimed = claim.behaviour != Behaviour::undecided;
+  const bool claimed = claim.is_made();
   if (fit.reason == Code("printed-digits").name())
     all.push_back({fit.reason, of_behaviour, {finest.u_error, printed}});
   if (claimed) add(miscounted(ladder, fit, claim));

@@ -64,7 +64,8 @@ void read_runs(const AtlasPart& part, const std::map<long long, std::size_t>& pl
     const auto level = cells.whole(row, "level");
     const auto found = place_of_task.find(cells.whole(row, "task"));
     if (found == place_of_task.end() || level < 1) continue;  // a refusal is a row without a level
-    if (level > most_levels) refuse("atlas", "level", level, fmt::format("1 to {}", most_levels));
+    if (level > most_levels)
+      refuse("atlas", "level", double(level), fmt::format("1 to {}", most_levels));
     auto& subject = subjects[found->second];
     subject.by_tolerance = !cells.text(row, "tolerance").empty();
     if (subject.ladder.size() < std::size_t(level)) subject.ladder.resize(std::size_t(level));

@@ -117,7 +117,7 @@ std::string fit_text(const judge::LadderFit& fit) {
 }
 
 std::string claim_text(const Claim& claim) {
-  if (claim.behaviour == Behaviour::undecided) return "nothing";
+  if (!claim.is_made()) return "nothing";
   auto text = std::string(to_string(claim.behaviour));
   if (claim.order > 0.0) text += fmt::format(", order {}", short_number(claim.order));
   if (!claim.reason.empty()) text += fmt::format(" [{}]", claim.reason);

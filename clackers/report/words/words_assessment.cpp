@@ -208,8 +208,7 @@ const record::Run* first_failure(const record::Subject& subject) {
 
 std::string claim_sentence(const record::Subject& subject) {
   const auto& [claim, assessment] = std::tie(subject.claim, subject.assessment);
-  if (claim.behaviour == Behaviour::undecided)
-    return subject.tolerance ? std::string() : "Nothing is claimed.";
+  if (!claim.is_made()) return subject.tolerance ? std::string() : "Nothing is claimed.";
   const auto& fit = assessment.displacement;
   using judge::Mismatch;
   const auto claimed =
@@ -241,7 +240,7 @@ std::string assessment_text(const record::Subject& subject) {
     if (remark(subject, evidence).empty() && !is_shown_cause(subject, evidence.code))
       add(text, evidence_sentence(subject, evidence));
   const bool is_method = subject.kind == record::SubjectKind::method;
-  const bool has_claim = subject.claim.behaviour != Behaviour::undecided;
+  const bool has_claim = subject.claim.is_made();
   const bool in_evidence = fit.reason == Code("printed-digits").name() && !text.empty();
   // One history without a claim has no levels to compare.
   if ((is_method || has_claim || run_count(subject) > 1) && !in_evidence)

@@ -48,30 +48,30 @@ NamedSteps steps_of(std::initializer_list<std::pair<const char*, double>> files)
   for (const auto& [name, spacing] : files) set.push_back({named_resolution(name), spacing});
   return named_steps(set, 0.7, 20.0);
 }
-using Steps = std::vector<std::optional<double>>;
+using Named = std::vector<std::optional<double>>;
 
 TEST(NamedSteps, OfASetArePreferredToRowsOfDenseOutput) {
-  EXPECT_EQ(steps_of({{"h0.02", 0.001}, {"h0.01", 0.001}}).steps, (Steps{0.02, 0.01}));
-  EXPECT_EQ(steps_of({{"h0.02", 0.005}, {"h0.01", 0.0025}}).steps, (Steps{0.02, 0.01}));
-  EXPECT_EQ(steps_of({{"n1000", 0.001}, {"n2000", 0.001}}).steps, (Steps{0.02, 0.01}));
+  EXPECT_EQ(steps_of({{"h0.02", 0.001}, {"h0.01", 0.001}}).steps, (Named{0.02, 0.01}));
+  EXPECT_EQ(steps_of({{"h0.02", 0.005}, {"h0.01", 0.0025}}).steps, (Named{0.02, 0.01}));
+  EXPECT_EQ(steps_of({{"n1000", 0.001}, {"n2000", 0.001}}).steps, (Named{0.02, 0.01}));
 }
 
 TEST(NamedSteps, ThatAreCountersAreNotTaken) {
-  EXPECT_EQ(steps_of({{"h1", 0.02}, {"h2", 0.01}, {"h3", 0.005}}).steps, Steps(3));
-  EXPECT_EQ(steps_of({{"h0.1", 0.02}, {"h0.2", 0.01}}).steps, Steps(2)) << "longer, closer rows";
-  EXPECT_EQ(steps_of({{"h0.02", 0.02}, {"h0.02b", 0.01}}).steps, (Steps{0.02, {}}));
+  EXPECT_EQ(steps_of({{"h1", 0.02}, {"h2", 0.01}, {"h3", 0.005}}).steps, Named(3));
+  EXPECT_EQ(steps_of({{"h0.1", 0.02}, {"h0.2", 0.01}}).steps, Named(2)) << "longer, closer rows";
+  EXPECT_EQ(steps_of({{"h0.02", 0.02}, {"h0.02b", 0.01}}).steps, (Named{0.02, {}}));
 }
 
 TEST(NamedSteps, OfOneFileAreAtMostTheTimeBetweenRows) {
-  EXPECT_EQ(steps_of({{"h0.01", 0.01}}).steps, Steps{0.01});
-  EXPECT_EQ(steps_of({{"h0.001", 0.01}}).steps, Steps{0.001}) << "every tenth step";
-  EXPECT_EQ(steps_of({{"h0.02", 0.01}}).steps, Steps{std::nullopt});
+  EXPECT_EQ(steps_of({{"h0.01", 0.01}}).steps, Named{0.01});
+  EXPECT_EQ(steps_of({{"h0.001", 0.01}}).steps, Named{0.001}) << "every tenth step";
+  EXPECT_EQ(steps_of({{"h0.02", 0.01}}).steps, Named{std::nullopt});
 }
 
 TEST(NamedSteps, TolerancesMakeALadderWhereStepsDoNotDiffer) {
   const auto found = steps_of({{"rtol1e-3", 0.01}, {"rtol1e-6", 0.01}});
   EXPECT_TRUE(found.by_tolerance);
-  EXPECT_EQ(found.steps, (Steps{1e-3, 1e-6}));
+  EXPECT_EQ(found.steps, (Named{1e-3, 1e-6}));
   EXPECT_TRUE(steps_of({{"h0.01_tol1e-3", 0.01}, {"h0.01_tol1e-6", 0.01}}).by_tolerance);
   EXPECT_FALSE(steps_of({{"h0.02_tol1e-3", 0.01}, {"h0.01_tol1e-4", 0.01}}).by_tolerance);
   EXPECT_FALSE(steps_of({{"tol1e-3", 0.01}}).by_tolerance);

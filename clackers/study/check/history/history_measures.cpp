@@ -58,7 +58,7 @@ class Measurement {
     take_curves(comparison);
     observe(comparison);
     report(compared_share);
-    auto metrics = all_metrics(
+    auto metrics = record::all_metrics(
         comparison, [&](double share) { report(compared_share + (1.0 - compared_share) * share); },
         interrupt_);
     if (!metrics) throw Error("interrupted", "interrupted");
