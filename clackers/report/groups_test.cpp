@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "clackers/record/testing/sample_record.hpp"
+
 namespace clackers::report {
 namespace {
 
 record::Subject subject(const std::string& name, Verdict verdict, double error) {
   record::Subject made;
-  made.name = name;
+  record::name_method(made, name);
   made.assessment.verdict = verdict;
   record::Run run;
   run.score.finished = true;

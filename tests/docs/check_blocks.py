@@ -163,7 +163,7 @@ class Document:
                 self.problem(block, f"no libraries in CLACKERS_BUILD, {self.build}")
                 return
             self.compile(block, "", ["c++", "-std=c++20", path, "-Wl,--start-group", *modules, "-Wl,--end-group", "-lfmt",
-                                     "-lhwy", "-o", path.with_suffix("")])
+                                     "-lhwy", "-lflint-arb", "-lflint", "-o", path.with_suffix("")])
 
     def compile(self, block, text, command):
         words = [str(word) for word in command]

@@ -14,7 +14,7 @@ TABLE = pathlib.PurePosixPath("clackers/base/codes.cpp")
 NAMES = pathlib.PurePosixPath("clackers/base/codes.hpp")
 ROW = re.compile(r'\{"([^"]+)",\s*"(refusal|failure|behaviour|reason|diagnosis|verdict)",')
 LITERAL = re.compile(r'"([^"\\\n]*)"')
-FOLDERS = ["clackers", "cli", "bindings"]
+FOLDERS = ["clackers", "cli", "bindings", "paper"]
 
 
 def rows(text):

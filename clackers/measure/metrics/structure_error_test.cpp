@@ -57,6 +57,7 @@ TEST(EnergyError, SaysWhyItIsNotMeasured) {
             std::string::npos);
   auto empty = toy_problem();
   empty.system.stiffness.setZero();
+  empty.system.mass.setZero();
   EXPECT_NE(
       energy_error({history, reference, empty}, Energy::potential).reason.find("has no energy"),
       std::string::npos);

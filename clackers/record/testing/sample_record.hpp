@@ -1,10 +1,20 @@
 #pragma once
 
 #include <limits>
+#include <string>
 
 #include "clackers/record/record.hpp"
 
 namespace clackers::record {
+
+/// For tests: names a method as a study does. All but moreau-jean join an integrator and a treatment.
+inline void name_method(Subject& subject, const std::string& name) {
+  subject.name = name;
+  if (name == "moreau-jean") return;
+  const auto plus = name.find('+');
+  subject.integrator = name.substr(0, plus);
+  subject.treatment = plus == std::string::npos ? "event-driven" : name.substr(plus + 1);
+}
 
 /// For tests: a record in which every member differs from its default and from its neighbours,
 /// with doubles that a careless printer would change.
@@ -53,6 +63,8 @@ inline Record sample_record() {
   third.behaviour = Behaviour::divergent;
   Subject method;
   method.name = "newmark";
+  method.integrator = "newmark:beta=0.25";
+  method.treatment = "event-driven:tolerance=1e-9";
   method.claim = {Behaviour::proper, 2.0, "why"};
   method.tolerance = 1e-3;
   method.contact_time = 0.0157;

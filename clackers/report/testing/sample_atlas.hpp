@@ -56,7 +56,7 @@ inline AtlasPart sample_part(const SampleAtlas& atlas, record::RowSource& runs,
   part.runs = &runs;
   part.origin = origin;
   part.from = sample_provenance("clackers atlas");
-  part.options = "--levels 4 --neighbours 2";
+  part.options = "--levels 4 --samples-per-level 2";
   return part;
 }
 

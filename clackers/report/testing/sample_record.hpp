@@ -8,6 +8,7 @@
 
 #include "clackers/record/notes.hpp"
 #include "clackers/record/record.hpp"
+#include "clackers/record/testing/sample_record.hpp"
 
 // Made-up numbers in the shape of real records, for tests of what shows records.
 namespace clackers::report {
@@ -126,7 +127,7 @@ inline record::Curve sample_error_history(const SampleMethod& method, double ste
 
 inline record::Subject sample_method(const SampleMethod& method, const SampleSize& size) {
   record::Subject subject;
-  subject.name = method.name;
+  record::name_method(subject, method.name);
   subject.claim = method.claim;
   auto& fit = subject.assessment.displacement;
   for (int level = 0; level < size.levels; ++level) {
@@ -165,7 +166,7 @@ inline record::Subject sample_method(const SampleMethod& method, const SampleSiz
 
 inline record::Subject sample_refusal() {
   record::Subject refused;
-  refused.name = "newmark+penalty:stiffness=1e6";
+  record::name_method(refused, "newmark+penalty:stiffness=1e6");
   refused.claim = {Behaviour::stagnating, 0, "contact-stiffness"};
   refused.refusal =
       "newmark+penalty with eta = 0.5: a linear penalty spring gives back what it takes, "

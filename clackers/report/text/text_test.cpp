@@ -56,7 +56,7 @@ record::Record record_of_many() {
     for (const char* name : {"explicit-generalized-alpha", "linear-acceleration", "newmark", "rk4",
                              "chang", "kr-alpha:rho=0.9"}) {
       subjects.push_back(sound);
-      subjects.back().name = std::string(name) + treatment;
+      record::name_method(subjects.back(), std::string(name) + treatment);
     }
   for (const std::size_t i : {8u, 9u}) {
     subjects[i].assessment.verdict = Verdict::disagrees;
