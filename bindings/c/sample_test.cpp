@@ -35,7 +35,8 @@ TEST(CSample, StatesAreThoseOfTheLibraryOnBothSidesOfAnImpact) {
   const std::array times{3.0, reference().impact(2).t, 0.0};
   for (const auto side : {CLACKERS_LEFT, CLACKERS_RIGHT}) {
     Arrays arrays(6);
-    ASSERT_EQ(clackers_motion_sample(sample_pair().get(), times.data(), 3, side, &arrays.out), CLACKERS_OK)
+    ASSERT_EQ(clackers_motion_sample(sample_pair().get(), times.data(), 3, side, &arrays.out),
+              CLACKERS_OK)
         << clackers_last_error();
     for (std::size_t i = 0; i < 3; ++i) {
       const auto now =
@@ -54,7 +55,8 @@ TEST(CSample, AccelerationMayBeLeftOut) {
   const double t = 1.0;
   Arrays arrays(2);
   arrays.out.a = nullptr;
-  EXPECT_EQ(clackers_motion_sample(sample_pair().get(), &t, 1, CLACKERS_LEFT, &arrays.out), CLACKERS_OK);
+  EXPECT_EQ(clackers_motion_sample(sample_pair().get(), &t, 1, CLACKERS_LEFT, &arrays.out),
+            CLACKERS_OK);
   EXPECT_EQ(arrays.v[1], reference().at(t, model::Side::left).v[1]);
   EXPECT_EQ(clackers_motion_envelope(sample_pair().get(), t, &arrays.out), CLACKERS_OK);
   EXPECT_EQ(arrays.a[0], 7.0);
@@ -63,7 +65,8 @@ TEST(CSample, AccelerationMayBeLeftOut) {
 TEST(CSample, OnlyWhatWasAskedForIsWritten) {
   const double t = 1.0;
   Arrays arrays(4);
-  EXPECT_EQ(clackers_motion_sample(sample_pair().get(), &t, 1, CLACKERS_LEFT, &arrays.out), CLACKERS_OK);
+  EXPECT_EQ(clackers_motion_sample(sample_pair().get(), &t, 1, CLACKERS_LEFT, &arrays.out),
+            CLACKERS_OK);
   EXPECT_NE(arrays.u[1], 7.0);
   for (const auto* x : {&arrays.u, &arrays.v, &arrays.a}) {
     EXPECT_EQ((*x)[2], 7.0);
@@ -73,7 +76,8 @@ TEST(CSample, OnlyWhatWasAskedForIsWritten) {
 
 TEST(CSample, NoTimesNeedNoArrays) {
   const clackers_buffers none{sizeof none, 0, nullptr, nullptr, nullptr};
-  EXPECT_EQ(clackers_motion_sample(sample_pair().get(), nullptr, 0, CLACKERS_LEFT, &none), CLACKERS_OK);
+  EXPECT_EQ(clackers_motion_sample(sample_pair().get(), nullptr, 0, CLACKERS_LEFT, &none),
+            CLACKERS_OK);
 }
 
 TEST(CSample, EnvelopeAndBoundAreThoseOfTheLibrary) {
@@ -91,7 +95,8 @@ TEST(CSample, EnvelopeAndBoundAreThoseOfTheLibrary) {
   }
 }
 
-void expect_sample_refused(clackers_status status, const std::string& text, const std::string& code) {
+void expect_sample_refused(clackers_status status, const std::string& text,
+                           const std::string& code) {
   EXPECT_EQ(status, CLACKERS_REFUSED);
   EXPECT_EQ(clackers_last_error(), text);
   EXPECT_EQ(clackers_last_error_code(), code);
@@ -113,8 +118,8 @@ TEST(CSample, TimesOutsideTheMotionAreRefused) {
     EXPECT_EQ(arrays.u[0], 7.0);
   }
   expect_sample_refused(clackers_motion_envelope(motion.get(), NAN, &arrays.out),
-                 "motion: t = nan; allowed: 0 <= t <= 20 (the end of the motion, in s).",
-                 "not-a-number");
+                        "motion: t = nan; allowed: 0 <= t <= 20 (the end of the motion, in s).",
+                        "not-a-number");
 }
 
 TEST(CSample, ArraysThatAreTooSmallAreRefused) {
@@ -128,8 +133,9 @@ TEST(CSample, ArraysThatAreTooSmallAreRefused) {
       "wrong-size");
   // A count whose product with the number of masses would wrap around.
   const auto huge = std::numeric_limits<std::size_t>::max() / 2 + 2;
-  EXPECT_EQ(clackers_motion_sample(sample_pair().get(), times.data(), huge, CLACKERS_LEFT, &arrays.out),
-            CLACKERS_REFUSED);
+  EXPECT_EQ(
+      clackers_motion_sample(sample_pair().get(), times.data(), huge, CLACKERS_LEFT, &arrays.out),
+      CLACKERS_REFUSED);
   EXPECT_STREQ(clackers_last_error_code(), "wrong-size");
   arrays.out.capacity = 1;
   EXPECT_EQ(clackers_motion_envelope(sample_pair().get(), 1.0, &arrays.out), CLACKERS_REFUSED);
@@ -141,9 +147,9 @@ TEST(CSample, SidesAreLeftOrRight) {
   const double t = 1.0;
   Arrays arrays(2);
   expect_sample_refused(clackers_motion_sample(sample_pair().get(), &t, 1, 2, &arrays.out),
-                 "clackers_motion_sample: side = 2; allowed: 0 (CLACKERS_LEFT) or 1 "
-                 "(CLACKERS_RIGHT).",
-                 "out-of-range");
+                        "clackers_motion_sample: side = 2; allowed: 0 (CLACKERS_LEFT) or 1 "
+                        "(CLACKERS_RIGHT).",
+                        "out-of-range");
 }
 
 TEST(CSample, NullPointersAreNamed) {

@@ -168,7 +168,8 @@ void bind_record(py::module_& core) {
            [](const Record& record, std::size_t which, std::size_t subject) {
              return run_rows(case_at(record, which), case_at(record, which).subjects.at(subject));
            })
-      .def("runs", [](const Record& record) { return read_run_sheet(report::run_sheet(record.cases)); })
+      .def("runs",
+           [](const Record& record) { return read_run_sheet(report::run_sheet(record.cases)); })
       .def("failure_of_all", &failure_of_all)
       .def_property_readonly(
           "cases",

@@ -13,9 +13,9 @@
 #include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/model/trajectory.hpp"
+#include "clackers/solvers/solver.hpp"
 #include "clackers/study/check.hpp"
 #include "clackers/study/verify.hpp"
-#include "clackers/solvers/solver.hpp"
 
 namespace clackers {
 namespace {

@@ -52,7 +52,8 @@ TEST_P(PiecewiseExactBeside, TheClosedFormCollidesAtTheSameTimes) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, PiecewiseExactBeside,
-    testing::Values(ExactTask{"three-parameter", {{"N", 2.0}}}, ExactTask{"three-parameter", {{"N", 5.0}}},
+    testing::Values(ExactTask{"three-parameter", {{"N", 2.0}}},
+                    ExactTask{"three-parameter", {{"N", 5.0}}},
                     ExactTask{"three-parameter", {{"N", 100.0}, {"xi1", 0.0}, {"a_t", 1.0}}},
                     ExactTask{"synchronized-pair", {{"eta", 0.7}}},
                     ExactTask{"synchronized-pair", {{"X", 81.0}, {"r", 4.5}, {"eta", 0.97}}},

@@ -101,10 +101,10 @@ Store Store::create_or_open(const std::string& path, const Specification& specif
   if (is_shard_file(path)) database.execute("PRAGMA locking_mode = EXCLUSIVE");
   database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
   if (is_new) database.execute(schema_of(specification, shard));
-  connection.inserts.emplace(
-      Connection::Inserts{database.prepare(insert_into("subjects", connection.tables.subjects.size())),
-              database.prepare(insert_into("runs", connection.tables.runs.size())),
-              database.prepare(insert_into("timings", 3))});
+  connection.inserts.emplace(Connection::Inserts{
+      database.prepare(insert_into("subjects", connection.tables.subjects.size())),
+      database.prepare(insert_into("runs", connection.tables.runs.size())),
+      database.prepare(insert_into("timings", 3))});
   return Store(std::move(made));
 }
 

@@ -131,7 +131,8 @@ class PiecewiseMotion::Builder {
       returned_ = false;
       const double fastest = std::max({modes().system().fastest(), highest_force(), 1e-3 / span});
       const double until = first ? std::min(span, *first * (1.0 + 4.0 * epsilon)) : span;
-      const auto root = numerics::first_root(watched, 0.0, until, 1e-7 / fastest, most_search_steps);
+      const auto root =
+          numerics::first_root(watched, 0.0, until, 1e-7 / fastest, most_search_steps);
       if (root.status == FirstRoot::Status::undecided)
         throw InputError(
             fmt::format("{}: the flight from t = {:.6g} s is too long to be searched for "

@@ -140,8 +140,8 @@ TEST(PiecewiseMotion, IsTheSimulationWithNinetyDigitsWithinItsBound) {
     const auto text = test::refusal_of([&] { PiecewiseMotion{problem}; });
     if (text != "accepted") continue;
     ++members;
-    expect_simulated(PiecewiseMotion(problem), testing_oracle::ImpactSimulator(raw_pair_of(problem)), 0.497,
-                     seen);
+    expect_simulated(PiecewiseMotion(problem),
+                     testing_oracle::ImpactSimulator(raw_pair_of(problem)), 0.497, seen);
   }
   EXPECT_GE(members, trials(50));
   EXPECT_GT(seen.impacts, 2 * members);

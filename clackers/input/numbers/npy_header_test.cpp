@@ -17,18 +17,20 @@ NpyFile read_header(const std::string& bytes) {
 TEST(NpyHeader, RefusesPythonObjectsUnread) {
   EXPECT_REFUSED(read_header(npy("'|O'", "(1,)", "cos\nsystem\n(S'true'\ntR.")), "not-an-array",
                  "never unpickled");
-  EXPECT_REFUSED(read_header(npy("[('t', '<f8'), ('x', '|O')]", "(1,)", "cos\nsystem\n")), "not-an-array",
-                 "never unpickled");
+  EXPECT_REFUSED(read_header(npy("[('t', '<f8'), ('x', '|O')]", "(1,)", "cos\nsystem\n")),
+                 "not-an-array", "never unpickled");
 }
 
 TEST(NpyHeader, RefusesOtherTypesAndShapes) {
   for (const std::string type : {"'<f2'", "'<f16'", "'<c16'", "'|b1'", "'|S8'", "'<U3'", "'<M8[s]'",
                                  "'<f3'", "'<i3'", "'|V8'"})
-    EXPECT_REFUSED(read_header(npy(type, "(1,)", "")), "not-an-array", "allowed: floating-point numbers");
+    EXPECT_REFUSED(read_header(npy(type, "(1,)", "")), "not-an-array",
+                   "allowed: floating-point numbers");
   for (const std::string type : {"'f8'", "'=f8'", "'<f'", "''", "8", "'<f99999999999999999999'"})
     EXPECT_REFUSED(read_header(npy(type, "(1,)", "")), "not-an-array", "dtype");
   for (const std::string shape : {"()", "(2, 2, 2)"})
-    EXPECT_REFUSED(read_header(npy("'<f8'", shape, "")), "not-an-array", "allowed: (rows, columns)");
+    EXPECT_REFUSED(read_header(npy("'<f8'", shape, "")), "not-an-array",
+                   "allowed: (rows, columns)");
   EXPECT_REFUSED(read_header(npy("[('t', '<f8')]", "(1, 1)", "")), "not-an-array",
                  "allowed: (rows,) of a structured array");
   for (const std::string shape : {"3", "('3',)", "(3, True)"})
@@ -47,11 +49,12 @@ TEST(NpyHeader, RefusesSizesThatNoMemoryHolds) {
                  "999999999999999999 rows");
   EXPECT_REFUSED(read_header(npy("'<f8'", "(2, 999999999999999999)", "")), "not-an-array",
                  "rows are times");
-  EXPECT_REFUSED(read_header(npy("'<f8'", "(500000000000, 100000)", "")), "not-an-array", "ends before");
+  EXPECT_REFUSED(read_header(npy("'<f8'", "(500000000000, 100000)", "")), "not-an-array",
+                 "ends before");
   EXPECT_REFUSED(read_header(npy("[('u', '<f8', (1000000, 1000000))]", "(2,)", "")), "not-an-array",
                  "numbers");
-  EXPECT_REFUSED(read_header(npy("[('u', '<f8', (999999999999999999, 0))]", "(2,)", "")), "not-an-array",
-                 "");
+  EXPECT_REFUSED(read_header(npy("[('u', '<f8', (999999999999999999, 0))]", "(2,)", "")),
+                 "not-an-array", "");
   EXPECT_REFUSED(read_header(npy("[('u', '<f8', (65536, 65536, 65536, 65536))]", "(2,)", "")),
                  "not-an-array", "131072 numbers");
   // Their bytes are 2^64.

@@ -82,7 +82,8 @@ const VerdictSequence tolerance_rows[] = {
 };
 // clang-format on
 
-INSTANTIATE_TEST_SUITE_P(Tolerance, VerdictSequences, testing::ValuesIn(tolerance_rows), name_of_row);
+INSTANTIATE_TEST_SUITE_P(Tolerance, VerdictSequences, testing::ValuesIn(tolerance_rows),
+                         name_of_row);
 
 }  // namespace
 }  // namespace clackers::judge

@@ -50,7 +50,8 @@ TEST(Crossing, IsNoneWhereTheGapComesNearOnly) {
   for (const double depth : {1e-1, 1e-6, 1e-12})
     EXPECT_FALSE(find([&](double s) { return (s - 0.37) * (s - 0.37) + depth; }, rate, 1.0))
         << depth;
-  EXPECT_FALSE(find([&](double s) { return (s - 0.37) * (s - 0.37) - 0.1 * crossing_rounding; }, rate, 1.0));
+  EXPECT_FALSE(
+      find([&](double s) { return (s - 0.37) * (s - 0.37) - 0.1 * crossing_rounding; }, rate, 1.0));
 }
 
 TEST(Crossing, IsFoundHoweverShallowTheDipAboveRounding) {

@@ -137,8 +137,9 @@ TEST(Respond, RefusesTimesOutsideTheRunBeforeAnyRow) {
 TEST(Collisions, ListEveryCollisionWithBothSides) {
   const auto which = toy(2, 4.0, {1.0, 2.5});
   const auto rows = collisions(which);
-  EXPECT_EQ(column_names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "v2-", "v2+",
-                                                    "impulse", "energy_before", "energy_after"}));
+  EXPECT_EQ(column_names(*rows),
+            (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "v2-", "v2+", "impulse",
+                                      "energy_before", "energy_after"}));
   EXPECT_EQ(rows->schema(), "clackers/collisions/1");
   const std::vector<std::vector<record::Cell>> expected{
       {1LL, 1.0, 1.0, 1.0, -1.0, 2.0, -2.0, 0.5, 3.0, 2.0},
@@ -160,9 +161,10 @@ TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
   which.motion = std::make_shared<Several>();
   which.problem.contacts.resize(2);
   const auto rows = collisions(which);
-  EXPECT_EQ(column_names(*rows), (std::vector<std::string>{"k", "t", "contact", "u1", "v1-", "v1+", "u2",
-                                                    "v2-", "v2+", "u3", "v3-", "v3+", "impulse",
-                                                    "energy_before", "energy_after"}));
+  EXPECT_EQ(
+      column_names(*rows),
+      (std::vector<std::string>{"k", "t", "contact", "u1", "v1-", "v1+", "u2", "v2-", "v2+", "u3",
+                                "v3-", "v3+", "impulse", "energy_before", "energy_after"}));
   // Both together turn the velocities around twice.
   const std::vector<std::vector<record::Cell>> expected{
       {1LL, 1.0, 1LL, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 0.5, 3.0, 2.0},
@@ -176,7 +178,7 @@ TEST(Collisions, OfOneMassLeaveOutTheSecond) {
   const auto which = toy(1, 4.0, {1.0});
   const auto rows = collisions(which);
   EXPECT_EQ(column_names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "impulse",
-                                                    "energy_before", "energy_after"}));
+                                                           "energy_before", "energy_after"}));
   EXPECT_EQ(all_rows(*rows).size(), 1u);
   const auto none = toy(1, 4.0, {});
   EXPECT_TRUE(all_rows(*collisions(none)).empty());

@@ -31,7 +31,8 @@ model::Trajectory history_with_late_impacts() {
 }
 
 TEST(UnfoldedVelocity, ForgetsOnWhichSideOfAJumpAMotionIs) {
-  const auto found = unfolded_velocity_error({history_with_late_impacts(), jump_reference, jump_problem});
+  const auto found =
+      unfolded_velocity_error({history_with_late_impacts(), jump_reference, jump_problem});
   ASSERT_EQ(found.reason, "");
   EXPECT_NEAR(found.masses[0], std::abs(std::sin(3.0) - std::sin(2.9)), 1e-14);
   EXPECT_NEAR(found.masses[1], 0.5 * std::abs(std::sin(3.0) - std::sin(2.9)), 1e-14);
@@ -41,8 +42,8 @@ TEST(UnfoldedVelocity, CountsAMissedCollisionForGood) {
   auto history = history_with_late_impacts();
   history.impacts->clear();
   // Both limits in two rows: the left one is right now, the right one off by both.
-  EXPECT_NEAR(unfolded_velocity_error({history, jump_reference, jump_problem}).value, 2.0 * std::cos(0.1),
-              1e-14);
+  EXPECT_NEAR(unfolded_velocity_error({history, jump_reference, jump_problem}).value,
+              2.0 * std::cos(0.1), 1e-14);
 }
 
 TEST(UnfoldedVelocity, TakesARowAloneAtAnImpactForTheSideBehindIt) {
@@ -86,7 +87,8 @@ TEST(JumpInvariantDistance, LaysOneSideOfAJumpOntoTheOther) {
   double expected = std::abs(2.0 * std::cos(1.6));  // row 2, on the wrong side
   expected = std::max(expected, std::sin(0.1));     // at the jump
   expected = std::max(expected, std::abs(std::sin(3.0) - std::sin(2.9)));
-  EXPECT_NEAR(jump_invariant_distance({history, jump_reference, jump_problem}).value, expected, 1e-14);
+  EXPECT_NEAR(jump_invariant_distance({history, jump_reference, jump_problem}).value, expected,
+              1e-14);
 }
 
 // Restitution 1/2, relative velocity r* = -3 sin(1) / 2: states without momentum with r = -2 r* are
@@ -100,7 +102,8 @@ TEST(JumpInvariantDistance, KnowsWhichSideIsWhich) {
     history.v[2] = v;
     history.v[3] = -0.5 * v;
     EXPECT_NEAR(jump_invariant_distance({history, jump_reference, lossy}).value, 0.0, 1e-15) << v;
-    EXPECT_GT(jump_invariant_distance({history, jump_reference, jump_problem}).value, v < 0.0 ? -1.0 : 0.4);
+    EXPECT_GT(jump_invariant_distance({history, jump_reference, jump_problem}).value,
+              v < 0.0 ? -1.0 : 0.4);
   }
 }
 

@@ -84,7 +84,8 @@ TEST(EventReport, TheWorstTimeMayBeAnEarlyOne) {
 
 TEST(EventReport, SaysWhyThereIsNothingToCompare) {
   const auto none = history({}), bare = history({{pi / 2, 0, {}, {}, {}, nan}});
-  const Comparison no_match(none, report_reference, report_problem), nothing_known(bare, report_reference, report_problem);
+  const Comparison no_match(none, report_reference, report_problem),
+      nothing_known(bare, report_reference, report_problem);
   for (const auto measure :
        {impact_time_error, velocity_before_error, velocity_after_error, impulse_error})
     EXPECT_EQ(measure(no_match).reason, "No collision of the history belongs to a true one.");

@@ -18,8 +18,8 @@ const auto flight_problem = toy_problem(12.0);
 // The reference up to its first impact, and from there 0.1 s late: rows 0 and 1 before, two at the
 // impact, 5 and 6 in the flight after it, two at the next, 9 behind.
 model::Trajectory late() {
-  auto history =
-      history_of(flight_reference, {0.0, 1.0, pi / 2, pi / 2, 2.0, 4.0, 3 * pi / 2, 3 * pi / 2, 6.0});
+  auto history = history_of(flight_reference,
+                            {0.0, 1.0, pi / 2, pi / 2, 2.0, 4.0, 3 * pi / 2, 3 * pi / 2, 6.0});
   for (std::size_t i = 2; i < history.t.size(); ++i) history.t[i] += 0.1;
   history.impacts = {{history.t[2], 0, {}, {}, {}, nan}, {history.t[6], 0, {}, {}, {}, nan}};
   return history;
@@ -63,7 +63,8 @@ TEST(FlightError, ComparesTheLimitsThatOpenAndCloseAFlight) {
   for (const std::size_t row : {3u, 6u, 7u}) {
     auto history = late();
     history.v[2 * row] += 0.5;
-    EXPECT_NEAR(flight_v_error({history, flight_reference, flight_problem}).value, 0.5, 1e-14) << row;
+    EXPECT_NEAR(flight_v_error({history, flight_reference, flight_problem}).value, 0.5, 1e-14)
+        << row;
   }
 }
 
