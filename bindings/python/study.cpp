@@ -1,6 +1,9 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +19,7 @@
 #include "clackers/solvers/program.hpp"
 #include "clackers/solvers/solver.hpp"
 #include "clackers/study/check.hpp"
+#include "clackers/study/options.hpp"
 #include "clackers/study/verify.hpp"
 
 namespace clackers::python {
@@ -42,22 +46,34 @@ py::tuple result_of(CallerThread& caller, const py::object& progress,
   return py::make_tuple(record, caller.stopped_by());
 }
 
+// Numbers by the names of study::verify_options(); None is not given.
+std::map<std::string, double> read_options(const py::dict& given) {
+  std::map<std::string, double> numbers;
+  for (const auto& option : study::verify_options())
+    for (auto name : {std::string(option.former), std::string(option.name)}) {
+      std::ranges::replace(name, '-', '_');
+      if (!given.contains(name) || given[name.c_str()].is_none()) continue;
+      const py::object value = given[name.c_str()];
+      const bool is_whole = option.kind == study::VerifyOption::Kind::whole;
+      const double number =
+          is_whole ? double(read_whole("verify", name, value)) : read_number("verify", name, value);
+      if (is_whole && !(number >= 1.0 && number <= std::numeric_limits<int>::max()))
+        refuse("verify", name, number, "1 or more");
+      numbers[std::string(option.name)] = number;
+    }
+  return numbers;
+}
+
 py::tuple verify(const std::vector<std::string>& methods, const std::vector<Callable>& callables,
                  const std::vector<CaseChoice>& chosen, const std::optional<std::string>& expect,
-                 std::optional<int> levels, std::optional<double> coarsest,
-                 std::optional<int> samples_per_level, double budget, int jobs,
-                 const std::string& command, const py::object& progress) {
+                 const py::dict& options, const std::string& command, const py::object& progress) {
   study::VerifyRequest request;
   request.methods = methods;
   for (const auto& one : chosen) {
     request.cases.push_back(one.first.empty() ? std::string(cases::default_case()) : one.first);
     request.case_settings.push_back(read_settings("case", one.second));
   }
-  request.plan.levels = levels;
-  request.plan.coarsest = coarsest;
-  request.plan.samples_per_level = samples_per_level;
-  request.budget = budget;
-  request.jobs = jobs;
+  study::set_options(request, read_options(options));
   request.command = command;
   std::optional<Claim> claim;
   if (expect) claim = study::claim_from(*expect);
@@ -97,8 +113,7 @@ py::tuple check(const py::list& histories, const py::list& events, const CaseCho
 
 void bind_study(py::module_& core) {
   core.def("verify", &verify, py::arg("methods"), py::arg("callables"), py::arg("cases"),
-           py::arg("expect"), py::arg("levels"), py::arg("coarsest"), py::arg("samples_per_level"),
-           py::arg("budget"), py::arg("jobs"), py::arg("command"), py::arg("progress"));
+           py::arg("expect"), py::arg("options"), py::arg("command"), py::arg("progress"));
   core.def("check", &check, py::arg("histories"), py::arg("events"), py::arg("case"),
            py::arg("steps"), py::arg("tolerances"), py::arg("columns"), py::arg("expect"),
            py::arg("tolerance"), py::arg("command"), py::arg("progress"));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "clackers/base/suggest.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/solvers/program.hpp"
+#include "clackers/study/options.hpp"
 #include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/verify_programs.hpp"
@@ -31,21 +33,31 @@
 namespace clackers::cli {
 namespace {
 
-constexpr double default_budget = 20.0;  // [s]
-
 struct Options {
   CommonOptions common;
   std::vector<std::string> methods, cases, settings, requirements, only;
-  std::string levels, coarsest, samples, budget, jobs, report, baseline, problem;
+  std::map<std::string, std::string> numbers;  ///< by the names of study::verify_options()
+  std::string report, baseline, problem;
   bool all = false;
   ProgramOptions programs;
 };
 
+std::map<std::string, double> numbers_of(const Options& options) {
+  using Kind = study::VerifyOption::Kind;
+  std::map<std::string, double> numbers;
+  for (const auto& option : study::verify_options()) {
+    const std::string key(option.name), name = "--" + key;
+    const auto& text = options.numbers.at(key);
+    if (text.empty()) continue;
+    numbers[key] = option.kind == Kind::whole
+                       ? double(read_whole(name, text, 1, std::numeric_limits<int>::max()))
+                   : option.kind == Kind::duration ? read_duration(name, text)
+                                                   : read_number(name, text);
+  }
+  return numbers;
+}
+
 study::VerifyRequest request_of(const Options& options, const std::string& line) {
-  constexpr auto any = std::numeric_limits<int>::max();
-  const auto whole = [](const char* name, const std::string& text, int lowest, int standard) {
-    return text.empty() ? standard : static_cast<int>(read_whole(name, text, lowest, any));
-  };
   study::VerifyRequest request;
   request.methods = options.methods;
   if (options.all)
@@ -56,19 +68,9 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
   if (!options.problem.empty())
     for (request.cases = {case_of({}, options.problem)}; const auto& name : options.cases)
       case_of(name, options.problem);
-  auto& plan = request.plan;
-  if (!options.levels.empty()) plan.levels = whole("--levels", options.levels, 1, 1);
-  if (!options.samples.empty())
-    plan.samples_per_level = whole("--samples-per-level", options.samples, 1, 1);
-  if (!options.coarsest.empty()) plan.coarsest = read_number("--coarsest", options.coarsest);
-  // Levels that were asked for are those that are run.
-  if (!options.budget.empty())
-    request.budget = read_duration("--budget", options.budget);
-  else if (options.levels.empty())
-    request.budget = default_budget;
+  study::set_options(request, numbers_of(options));
   const auto& tolerances = options.programs.tolerances;
-  if (!tolerances.empty()) plan.tolerances = solvers::tolerances_from(tolerances);
-  request.jobs = whole("--jobs", options.jobs, 1, request.jobs);
+  if (!tolerances.empty()) request.plan.tolerances = solvers::tolerances_from(tolerances);
   request.command = line;
   request.solvers = program_subjects(options.programs);
   return request;
@@ -185,26 +187,16 @@ void add_verify(Grammar& root) {
       ->option_text("CASE");
   add_set_option(*app, options->settings);
   add_problem_option(*app, options->problem);
-  app->add_option("--levels", options->levels,
-                  "Number of levels, each with half the step of the one before. "
-                  "Default: 8 (5 to 8 where the finest would need more than 2^20 steps).")
-      ->option_text("n");
-  app->add_option("--coarsest", options->coarsest,
-                  "Largest step, in seconds. Default: a fourteenth of the fast period of the case, "
-                  "rounded to two digits (0.05 for the default case).")
-      ->option_text("h");
-  app->add_option(
-         "--samples-per-level", options->samples,
-         "Steps a level, in the ratio 2^(1/n); they show scatter. Default: 8, with programs 4.")
-      ->option_text("n");
-  app->add_option("--neighbours", options->samples, "The former name of --samples-per-level.")
-      ->option_text("n");
-  app->add_option("--budget", options->budget,
-                  "Time for further levels and steps of methods that these leave undecided, in "
-                  "seconds or as 30s, 2min; 0: none. Default: 20s, and 0 with --levels.")
-      ->option_text("TIME");
+  for (const auto& option : study::verify_options()) {
+    const auto name = "--" + std::string(option.name);
+    auto& value = options->numbers[std::string(option.name)];
+    app->add_option(name, value, std::string(option.meaning))
+        ->option_text(std::string(option.placeholder));
+    if (!option.former.empty())
+      app->add_option("--" + std::string(option.former), value, "The former name of " + name + ".")
+          ->option_text(std::string(option.placeholder));
+  }
   add_program_options(*app, options->programs);
-  app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
   add_require_option(*app, options->requirements);
   app->add_option(
          "--only", options->only,

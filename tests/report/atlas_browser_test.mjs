@@ -104,7 +104,7 @@ async function panels(page) {
     await marks(page, "ladder", "g.mark-symbol path"));
   check("with the slope that is claimed", (await panel.locator("svg").last().innerHTML()).includes("claimed order 2"));
   const command = await panel.locator("#panel-command").innerText();
-  check("and the command that computes it again", command === "clackers verify newmark --case three-parameter --set N=1,xi1=0.05 --levels 4 --neighbours 2", command);
+  check("and the command that computes it again", command === "clackers verify newmark --case three-parameter --set N=1,xi1=0.05 --levels 4 --samples-per-level 2", command);
   await page.evaluate(() => { navigator.clipboard.writeText = async (text) => { window.copied = text; }; });
   await panel.locator("[data-copy]").click();
   check("which a button copies", await page.evaluate(() => window.copied) === command);

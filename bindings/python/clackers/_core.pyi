@@ -1,5 +1,5 @@
 """The extension module: private, called by the other files of this package."""
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NoReturn
 
 import numpy as np
@@ -115,11 +115,7 @@ def verify(
     callables: Sequence[tuple[str, Runs, Sequence[float], Sequence[float]]],
     cases: Sequence[tuple[str, dict[str, float | str]]],
     expect: str | None,
-    levels: int | None,
-    coarsest: float | None,
-    samples_per_level: int | None,
-    budget: float,
-    jobs: int,
+    options: Mapping[str, float | None],
     command: str,
     progress: Callable[[float], object] | None,
 ) -> tuple[Record | None, BaseException | None]: ...

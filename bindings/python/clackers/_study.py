@@ -20,8 +20,6 @@ Progress = Union[Callable[[float], object], bool, None]
 CaseChoice = Union[str, Case, Sequence[Union[str, Case]]]
 Path = Union[str, "os.PathLike[str]"]
 
-BUDGET = 20.0
-"""Seconds for further levels and steps of what the first ones leave undecided."""
 TOLERANCES = "1e-3:1e-10"
 """Those of a callable that is given tolerances, one a decade."""
 
@@ -87,8 +85,6 @@ def verify(
     >>> record.subject.kind
     'callable'
     """
-    if samples_per_level is None:
-        samples_per_level = neighbours
     names = [subject for subject in subjects if isinstance(subject, str)]
     solvers = [subject for subject in subjects if not isinstance(subject, str)]
     for solver in solvers:
@@ -102,23 +98,20 @@ def verify(
     own_steps = [] if steps is None else _descending("steps", _core.read_vector("verify", "steps", steps).tolist())
     own_tolerances = [] if tolerances is None else _tolerances(tolerances)
     runs = [Runs(solver, title) for solver, title in zip(solvers, _names(solvers, name))]
-    if budget is None:
-        budget = BUDGET if levels is None else 0.0
     with _ProgressLine("verify", progress) as report:
         core, stop = _core.verify(
             methods=names,
             callables=[(each.name, each, own_steps, own_tolerances) for each in runs],
             cases=chosen,
             expect=None if expect is None else _core.read_text("verify", "expect", expect),
-            levels=None if levels is None else _positive_whole("levels", levels),
-            coarsest=None if coarsest is None else _core.read_number("verify", "coarsest", coarsest),
-            samples_per_level=None if samples_per_level is None else _positive_whole("samples_per_level", samples_per_level),
-            budget=_core.read_number("verify", "budget", budget),
-            jobs=0 if jobs is None else _positive_whole("jobs", jobs),
+            options={
+                "levels": levels, "coarsest": coarsest, "samples_per_level": samples_per_level, "neighbours": neighbours,
+                "budget": budget, "jobs": jobs,
+            },
             command=_line(
                 "verify", [repr(each) if isinstance(each, str) else name_of(each) for each in subjects], parameters,
                 case=case, steps=steps, tolerances=tolerances, levels=levels, coarsest=coarsest,
-                samples_per_level=samples_per_level, expect=expect, name=name,
+                samples_per_level=neighbours if samples_per_level is None else samples_per_level, expect=expect, name=name,
             ),
             progress=report,
         )
@@ -293,13 +286,6 @@ def _tolerances(given: Sequence[float] | str | Literal[True]) -> list[float]:
     if isinstance(given, str):
         return _core.tolerances_from(given)
     return _descending("tolerances", _core.read_vector("verify", "tolerances", given).tolist())
-
-
-def _positive_whole(option: str, value: int) -> int:
-    number = _core.read_whole("verify", option, value)
-    if not 1 <= number < 2**31:
-        _core.refuse("verify", option, str(number), "1 or more")
-    return number
 
 
 def _names(solvers: Sequence[Solver], name: str | Sequence[str] | None) -> list[str]:
