@@ -98,7 +98,7 @@ void measure(const char* kind, const input::Source& source, double most_memory) 
   if (expected != rows || run.file->rows != static_cast<long long>(rows) || run.metrics.empty() ||
       run.score.u_error > 0.0)
     fmt::print("{}: the history is not the exact one: {} rows, error in u {}\n", kind,
-               run.file->rows, report::scientific(run.score.u_error));
+               run.file->rows, scientific(run.score.u_error));
   std::fflush(nullptr);
   ::_exit(0);
 }

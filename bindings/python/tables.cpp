@@ -48,7 +48,7 @@ std::string table_text(const std::string& title,
 // A cell as the command prints it.
 std::string cell_text(py::handle value) {
   const auto cell = cell_of(value);
-  if (const auto* real = std::get_if<double>(&cell)) return report::short_number(*real + 0.0);
+  if (const auto* real = std::get_if<double>(&cell)) return short_number(*real + 0.0);
   return cell.index() == 0 ? "" : py::str(value).cast<std::string>();
 }
 

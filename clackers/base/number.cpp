@@ -38,6 +38,17 @@ bool has_decimal_comma(std::string_view text) {
          text.find_first_not_of("0123456789+-eEdD,") == std::string_view::npos;
 }
 
+// "1.2e-07" as "1.2e-7": the zero and the plus sign carry nothing and cost the width of a column.
+std::string without_padding(std::string text) {
+  const auto e = text.find('e');
+  if (e == std::string::npos) return text;
+  std::size_t digits = e + 1;
+  if (text[digits] == '+') text.erase(digits, 1);
+  if (text[digits] == '-') ++digits;
+  while (text[digits] == '0' && digits + 1 < text.size()) text.erase(digits, 1);
+  return text;
+}
+
 }  // namespace
 
 NumberError read_decimal(std::string_view text, Number& number) {
@@ -98,6 +109,34 @@ double rounded(double value, int digits) {
   const auto read = std::from_chars(text.data(), text.data() + text.size(), out);
   // Of the largest doubles six digits may be beyond all doubles.
   return read.ec == std::errc() ? out : value;
+}
+
+std::string exact_number(double value) { return fmt::format("{}", value); }
+
+std::string short_number(double value, int digits, std::size_t width) {
+  std::string text;
+  for (int kept = digits; kept >= 1; --kept) {
+    text = without_padding(fmt::format("{:.{}g}", value, kept));
+    if (text.size() <= width) break;
+  }
+  return text;
+}
+
+std::string scientific(double value, int decimals) {
+  if (std::isnan(value)) return "-";
+  if (value == 0.0) return "0";
+  return without_padding(fmt::format("{:.{}e}", value, decimals));
+}
+
+std::string short_count(long long value) {
+  if (std::llabs(value) < 100000) return fmt::format("{}", value);
+  constexpr std::string_view prefixes = "kMGTPE";
+  double scaled = double(value);
+  std::size_t prefix = 0;
+  // 999.5 would be rounded up to four digits.
+  for (scaled /= 1000.0; std::abs(scaled) >= 999.5; scaled /= 1000.0) ++prefix;
+  const bool whole = std::abs(scaled) >= 99.95;
+  return fmt::format("{:.{}f}{}", scaled, whole ? 0 : 1, prefixes[prefix]);
 }
 
 }  // namespace clackers

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
-// The grammar of numbers that people write.
+// The grammar of numbers that people write, and numbers as text.
 namespace clackers {
 
 /// A number as it is printed.
@@ -35,5 +37,19 @@ bool looks_numeric(std::string_view text);
 
 /// The nearest number of so many significant decimal digits.
 double rounded(double value, int digits = 6);
+
+/// The shortest text that reads back to the same double; "inf", "-inf", "nan" where there is none.
+std::string exact_number(double value);
+
+/// For a person: at most `digits` significant digits, fewer where the text would be longer than
+/// `width` characters. One digit with its exponent is the least, so 7 characters are always enough.
+std::string short_number(double value, int digits = 6, std::size_t width = 32);
+
+/// For a person who compares columns: one digit before the point and `decimals` after it, as in
+/// "1.2e-7". "-" for NaN, which stands for "not measured".
+std::string scientific(double value, int decimals = 1);
+
+/// A whole number in at most five characters: 81920, 164k, 5.2M.
+std::string short_count(long long value);
 
 }  // namespace clackers

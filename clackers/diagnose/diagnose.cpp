@@ -11,18 +11,12 @@ namespace {
 
 using Codes = std::vector<Code>;
 
-// Numbers that are not those of the case, so that nothing fitted to them means anything.
-const Codes unreadable{"unit-scaled",   "columns-exchanged", "masses-exchanged",
-                       "sign-reversed", "time-unit",         "starts-at-rest"};
-const Codes of_system{"restitution-differs", "mass-ratio-differs", "frequency-differs",
-                      "damping-differs", "damping-changes-at-impact"};
-const Codes of_gap{"gap-differs"};
-const Codes of_impacts{"impact-missed",      "impact-doubled",      "impact-impulse-wrong",
-                       "impact-at-step-end", "impact-interpolated", "impact-tolerance",
-                       "contact-compliant",  "contact-in-tension"};
-const Codes of_time{"time-shifted", "time-drifts"};
-const Codes of_method{"numerical-damping", "period-error"};
-const Codes of_ladder{"wrong-limit", "noise-floor", "commensurate-steps"};
+Codes of_group(CauseGroup group) {
+  Codes codes;
+  for (const auto& cause : causes())
+    if (cause.group == group) codes.push_back(cause.code);
+  return codes;
+}
 
 Codes all(std::initializer_list<Codes> groups) {
   Codes joined;
@@ -40,7 +34,13 @@ struct Implication {
 };
 
 const std::vector<Implication>& implications() {
+  static const auto unreadable = of_group(CauseGroup::reading),
+                    of_system = of_group(CauseGroup::system), of_gap = of_group(CauseGroup::gap),
+                    of_impacts = of_group(CauseGroup::impacts),
+                    of_time = of_group(CauseGroup::time), of_method = of_group(CauseGroup::method),
+                    of_ladder = of_group(CauseGroup::ladder);
   static const std::vector<Implication> table{
+      // Numbers that are not those of the case: nothing fitted to them means anything.
       {unreadable, all({of_system,
                         of_gap,
                         of_impacts,
@@ -89,6 +89,10 @@ bool contains(const Codes& codes, const std::string& code) {
   return std::ranges::find(codes, code, &Code::name) != codes.end();
 }
 
+bool is_unreadable(const Diagnosis& found) {
+  return find_cause(found.code)->group == CauseGroup::reading;
+}
+
 bool is_implied(const Diagnosis& one, const std::vector<Diagnosis>& found) {
   return std::ranges::any_of(implications(), [&](const Implication& rule) {
     return contains(rule.implied, one.code) &&
@@ -115,8 +119,7 @@ void add(std::vector<Diagnosis>& all, std::vector<Diagnosis> more) {
 std::vector<Diagnosis> diagnose(const Question& question) {
   std::vector<Diagnosis> found;
   if (!question.is_this_system) add(found, file_causes(question));
-  const bool is_readable = std::ranges::none_of(
-      found, [](const Diagnosis& one) { return contains(unreadable, one.code); });
+  const bool is_readable = std::ranges::none_of(found, is_unreadable);
   if (is_readable) {
     if (!question.is_this_system) add(found, system_causes(question));
     add(found, ladder_causes(question));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,9 +40,9 @@ inline constexpr auto fact_names = std::to_array<std::string_view>(
 
 /// One cause.
 struct Diagnosis {
-  std::string code;  ///< one of `diagnosis_codes`
-  /// The parameter of the cause, in `unit`; NaN where the code has none. Its meaning by code stands
-  /// in the table of docs/manual/reference/diagnoses.md.
+  std::string code;  ///< of one of causes()
+  /// The parameter of the cause, in `unit`; NaN where the code has none. Cause::value
+  /// is its meaning.
   double value = std::numeric_limits<double>::quiet_NaN();
   std::string unit;
   double confidence = 0.0;     ///< 0 to 1; only what reaches `least_confidence` is reported
@@ -61,42 +62,42 @@ struct Diagnosis {
 /// Below it a cause is not reported.
 inline constexpr double least_confidence = 0.5;
 
-// clang-format off
-/// Every cause that is looked for. The first block describes files, the second time, the third the
-/// system, the fourth impacts, the fifth what refinement shows.
-inline constexpr auto diagnosis_codes = std::to_array<Code>({
-    "unit-scaled", "columns-exchanged", "masses-exchanged", "sign-reversed", "starts-at-rest",
-    "velocity-at-half-steps", "velocity-order-lower", "printed-digits", "single-precision",
-    "output-resampled", "ends-early",
-    "time-shifted", "time-unit", "time-drifts",
-    "restitution-differs", "mass-ratio-differs", "frequency-differs", "damping-differs",
-    "damping-changes-at-impact", "gap-differs",
-    "impact-missed", "impact-doubled", "impact-impulse-wrong", "impact-at-step-end",
-    "impact-interpolated", "impact-tolerance", "contact-compliant", "contact-in-tension",
-    "wrong-limit", "noise-floor", "commensurate-steps", "numerical-damping", "period-error",
-    "unstable-coarse-steps",
-});
-// clang-format on
+/// What a cause is found in, for the rules of which cause brings about another.
+enum class CauseGroup { reading, system, gap, impacts, time, method, ladder, other };
+
+/// What a cause says of the system that was solved.
+enum class CauseEffect {
+  open,
+  other_system,  ///< it is another one: no refinement leads to the motion of the case
+  method         ///< nothing: it lies in the method, its steps or its output
+};
+
+/// All that is said of one cause beside its detection. {name} in a sentence is the value, a fact or the
+/// text of a diagnosis; a part in brackets is left out where a number or a text in it is not known.
+struct Cause {
+  Code code;  ///< code.meaning() is what `clackers explain` prints
+  CauseGroup group;
+  CauseEffect effect;
+  std::string_view unit,
+      value;  ///< of the value, and what it is; empty for a cause without a number
+  std::string_view what, cure;
+};
+
+/// Every cause that is looked for: of files, time, the system, impacts, and what refinement shows.
+std::span<const Cause> causes();
+/// The row of a code, or nullptr for one that is no cause.
+const Cause* find_cause(std::string_view code);
+
+/// What was found and what to do about it, in one sentence.
+std::string sentence_of(const Diagnosis& found);
 
 /// Confidence from which a cause changes the verdict.
 inline constexpr double sure = 0.9;
 
-/// Whether a cause that is sure means another system than the case: no refinement leads to its motion.
-inline bool is_other_system(const Diagnosis& found) {
-  // clang-format off
-  constexpr auto codes = std::to_array<Code>({
-      "restitution-differs", "mass-ratio-differs", "frequency-differs", "damping-differs",
-      "damping-changes-at-impact", "gap-differs", "impact-missed", "impact-doubled",
-      "impact-impulse-wrong"});
-  // clang-format on
-  for (const auto& code : codes)
-    if (found.code == code.name()) return found.confidence >= sure;
-  return false;
-}
+/// Whether a cause that is sure means another system than the case.
+bool is_other_system(const Diagnosis& found);
 
 /// Whether a cause that is sure means that a floor is noise, not another motion.
-inline bool is_noise(const Diagnosis& found) {
-  return found.code == Code("noise-floor").name() && found.confidence >= sure;
-}
+bool is_noise(const Diagnosis& found);
 
 }  // namespace clackers::diagnose

@@ -99,10 +99,10 @@ std::string ladder_options(const Ladder& ladder) {
   if (ladder.levels) add(fmt::format("--levels {}", *ladder.levels));
   if (ladder.samples_per_level)
     add(fmt::format("--samples-per-level {}", *ladder.samples_per_level));
-  if (ladder.coarsest) add("--coarsest " + report::exact_number(*ladder.coarsest));
+  if (ladder.coarsest) add("--coarsest " + exact_number(*ladder.coarsest));
   if (!ladder.tolerances.empty()) {
     std::vector<std::string> list;
-    for (const double one : ladder.tolerances) list.push_back(report::exact_number(one));
+    for (const double one : ladder.tolerances) list.push_back(exact_number(one));
     add(fmt::format("--tolerances {}", fmt::join(list, ",")));
   }
   if (!ladder.levels) add("--budget 0");  // a campaign never refines beyond its ladder

@@ -7,7 +7,7 @@ namespace clackers::diagnose {
 namespace {
 
 // The numbers of the first row lie this many times nearer to the state at another time.
-constexpr double least_gain = 100.0;
+constexpr double least_shift_gain = 100.0;
 
 Diagnosis shift_by(const FirstRow& row, double shift, double left) {
   Diagnosis cause;
@@ -80,7 +80,7 @@ std::optional<Diagnosis> start_as_shift(const FirstRow& row) {
     const double t = start - steps * h;
     if (h == 0.0 || t < -1e-9 * h || t > row.motion().end()) continue;
     const double left = left_at(t);
-    if (row.distance() > least_gain * left && row.distance() > 3.0 * row.tolerance())
+    if (row.distance() > least_shift_gain * left && row.distance() > 3.0 * row.tolerance())
       return shift_by(row, steps * h, left);
   }
   if (start > 0.0 && left_at(0.0) <= row.tolerance()) return shift_by(row, start, left_at(0.0));
@@ -88,7 +88,7 @@ std::optional<Diagnosis> start_as_shift(const FirstRow& row) {
   double least = row.tolerance();
   for (const double near : candidates(row)) {
     const double t = refine(row, near), left = left_at(t);
-    if (left >= least || row.distance() < least_gain * left) continue;
+    if (left >= least || row.distance() < least_shift_gain * left) continue;
     least = left;
     best = shift_by(row, start - t, left);
   }

@@ -43,7 +43,7 @@ model::Trajectory early_rows(const FileSample& file) {
 // is half a step, and displacements fit no better with it. Velocities of the semi-implicit Euler
 // method, which start from the true one, keep the distance a(0) h/2 under the delay: a gain of about
 // 1.
-constexpr double least_gain = 8.0, sure_gain = 30.0, delay_tolerance = 0.05;
+constexpr double least_velocity_gain = 8.0, sure_gain = 30.0, delay_tolerance = 0.05;
 
 std::optional<Delay> delay_of(const FileSample& file) {
   constexpr std::size_t least_rows = 6;
@@ -72,7 +72,8 @@ std::optional<Delay> delay_of(const FileSample& file) {
   if (!(bend > 0.0)) return {};
   delay.steps = sign * (1.0 + d * 0.5 * (a - c) / bend);
   delay.gain = plain.v / std::max(best.v, 1e-300);
-  if (!(delay.gain > least_gain) || std::abs(delay.steps - sign) > delay_tolerance) return {};
+  if (!(delay.gain > least_velocity_gain) || std::abs(delay.steps - sign) > delay_tolerance)
+    return {};
   return delay;
 }
 

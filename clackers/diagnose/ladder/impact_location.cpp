@@ -13,7 +13,7 @@ namespace {
 
 using measure::FreeState;
 
-constexpr std::size_t most_impacts = 60, most_flights = 40;
+constexpr std::size_t most_located_impacts = 60, most_flights = 40;
 // Rows beside an impact that may still be closed, as after an impact noticed late.
 constexpr std::size_t most_closed_rows = 8;
 
@@ -150,7 +150,7 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
   const auto alone = [&](double from, double to) {
     return std::ranges::upper_bound(times, to) - std::ranges::lower_bound(times, from);
   };
-  for (std::size_t k = 0; k < times.size() && found.impacts.size() < most_impacts; ++k) {
+  for (std::size_t k = 0; k < times.size() && found.impacts.size() < most_located_impacts; ++k) {
     const auto& impact = (*sample.impacts)[k];
     const auto& rows =
         !seen.opening.v.empty() && seen.opening.t.back() > impact.t + 20.0 * seen.facts.spacing

@@ -7,11 +7,11 @@
 namespace clackers::diagnose {
 namespace {
 
-constexpr long long most_impacts = 50;
+constexpr long long most_step_impacts = 50;
 
 // Largest distance of t / h from a whole number over the first impacts.
 double off_grid(const model::Motion& motion, double step) {
-  const auto known = std::min(most_impacts, motion.impact_count(motion.end()));
+  const auto known = std::min(most_step_impacts, motion.impact_count(motion.end()));
   double largest = 0.0;
   for (long long k = 1; k <= known; ++k) {
     const double steps = motion.impact(k).t / step;

@@ -15,17 +15,17 @@ namespace clackers::diagnose {
 namespace {
 
 /// Errors of right methods look like other systems with gains of up to 22.
-constexpr double least_gain = 30.0, least_lead = 10.0;
+constexpr double least_system_gain = 30.0, least_lead = 10.0;
 /// One file alone cannot tell a model from a method below this; what methods do not change, as
 /// restitution, shows earlier.
 constexpr double least_gain_alone = 100.0, least_impact_gain_alone = 50.0;
 /// A coarser file must show the cause as well, if less clearly: the method's error grows.
 constexpr double least_gain_beside = 3.0;
 /// Where it does not, the distance from the reference must not fall with the step as a method's does.
-constexpr double least_fall = 1.3;
+constexpr double least_file_fall = 1.3;
 /// A value that a method's error makes moves by 40 % at least from one file to the next, whose step
 /// is 1.8 times as large, where it falls with the power 0.6 or more.
-constexpr double constant_share = 0.15;
+constexpr double constant_change = 0.15;
 /// A shift this near to a whole number of steps is one.
 constexpr double whole_share = 0.03;
 
@@ -196,10 +196,10 @@ bool may_be_numerical(const Trial& trial, const FitFile& file, const FitQuestion
     case Change::mass:
       return std::abs(trial.d) < 0.5 * turn * turn;
     case Change::damping:
-      return std::abs(trial.d) < turn && trial.gain * turn < least_gain;
+      return std::abs(trial.d) < turn && trial.gain * turn < least_system_gain;
     case Change::damping_share:
       return std::abs(trial.d) * largest_damping_ratio(question.problem) < turn &&
-             trial.gain * turn < least_gain;
+             trial.gain * turn < least_system_gain;
     case Change::time_scale:
       return std::abs(trial.d) < turn;
     default:
@@ -232,9 +232,9 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
   const auto& best = found.best;
   const auto& finest = question.files.front();
   const double lead = best.gain / std::max(found.second.gain, 1.0);
-  if (!(best.gain >= least_gain && lead >= least_lead)) return std::nullopt;
+  if (!(best.gain >= least_system_gain && lead >= least_lead)) return std::nullopt;
   const auto& hypothesis = *best.hypothesis;
-  double confidence = confidence_of(best.gain, least_gain), spread = best.uncertainty;
+  double confidence = confidence_of(best.gain, least_system_gain), spread = best.uncertainty;
   int files = 1;
   const bool in_steps = is_shift(best) && !question.by_tolerance && finest.step > 0.0;
   const double steps = in_steps ? best.d / finest.step : 0.0;
@@ -245,12 +245,13 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
     const auto& other = question.files[i];
     const auto trial = attempt(other, hypothesis, question);
     if (trial.gain < least_gain_beside) {
-      if (i == 1 && other.rows.distance > least_fall * finest.rows.distance) return std::nullopt;
+      if (i == 1 && other.rows.distance > least_file_fall * finest.rows.distance)
+        return std::nullopt;
       break;
     }
     if (hypothesis.parameter) {
       const double factor = other.step / finest.step;
-      const bool constant = std::abs(trial.d - best.d) <= constant_share * std::abs(best.d);
+      const bool constant = std::abs(trial.d - best.d) <= constant_change * std::abs(best.d);
       const bool with_step = whole && std::abs(trial.d / best.d - factor) <= 0.1 * factor;
       if (!constant && !with_step) {
         if (i == 1) return std::nullopt;

@@ -23,7 +23,7 @@ Spiral spiral(const Comparison& comparison, std::size_t mass) {
   return {sigma, std::sqrt(system.stiffness(i, i) / m - sigma * sigma)};
 }
 
-std::string objection(const Comparison& comparison) {
+std::string objection_to_detuning(const Comparison& comparison) {
   const auto& system = comparison.problem().system;
   if (!comparison.has_velocities()) return "The history has no velocities.";
   if (system.add_load || system.nonlinear) return "The system has a load or a nonlinear force.";
@@ -42,7 +42,7 @@ std::string objection(const Comparison& comparison) {
 }  // namespace
 
 FlightFrequencies flight_frequencies(const Comparison& comparison) {
-  FlightFrequencies result{.errors = {}, .reason = objection(comparison)};
+  FlightFrequencies result{.errors = {}, .reason = objection_to_detuning(comparison)};
   if (!result.reason.empty()) return result;
   const auto n = comparison.dof();
   const auto& history = comparison.history();

@@ -10,7 +10,7 @@
 namespace clackers::measure {
 namespace {
 
-const ToyMotion reference;
+const ToyMotion structure_reference;
 
 struct Load : model::NonlinearForce<model::any_dof> {
   using Vector = model::Vector<model::any_dof>;
@@ -23,11 +23,11 @@ struct Load : model::NonlinearForce<model::any_dof> {
 TEST(EnergyError, SplitsIntoKineticAndPotential) {
   const auto problem = toy_problem();
   for (const double u1 : {1.2, 0.8}) {
-    auto history = history_of(reference, {0.0, 1.0});
+    auto history = history_of(structure_reference, {0.0, 1.0});
     history.u[0] = u1;
     history.v[1] = 0.3;
     const double potential = 0.5 * (u1 * u1 - 1.0), kinetic = 0.09;
-    const Comparison comparison(history, reference, problem);
+    const Comparison comparison(history, structure_reference, problem);
     EXPECT_NEAR(energy_error(comparison, Energy::potential).value, std::abs(potential) / 0.75,
                 1e-15);
     EXPECT_NEAR(energy_error(comparison, Energy::kinetic).value, kinetic / 0.75, 1e-15);
@@ -38,17 +38,17 @@ TEST(EnergyError, SplitsIntoKineticAndPotential) {
 }
 
 TEST(EnergyError, IsTheWorstOfAllTimes) {
-  auto history = history_of(reference, {0.0, 1.0, 2.0});
+  auto history = history_of(structure_reference, {0.0, 1.0, 2.0});
   history.v[2] = 0.0;  // sin(1)^2 / 2 missing
-  EXPECT_NEAR(energy_error({history, reference, toy_problem()}, Energy::total).value,
+  EXPECT_NEAR(energy_error({history, structure_reference, toy_problem()}, Energy::total).value,
               0.5 * std::pow(std::sin(1.0), 2) / 0.75, 1e-15);
 }
 
 TEST(EnergyError, SaysWhyItIsNotMeasured) {
-  auto history = history_of(reference, {0.0, 1.0});
+  auto history = history_of(structure_reference, {0.0, 1.0});
   history.v.clear();
   auto problem = toy_problem();
-  const Comparison comparison(history, reference, problem);
+  const Comparison comparison(history, structure_reference, problem);
   EXPECT_EQ(energy_error(comparison, Energy::potential).value, 0.0);
   for (const auto part : {Energy::kinetic, Energy::total})
     EXPECT_EQ(energy_error(comparison, part).reason, "The history has no velocities.");
@@ -58,9 +58,9 @@ TEST(EnergyError, SaysWhyItIsNotMeasured) {
   auto empty = toy_problem();
   empty.system.stiffness.setZero();
   empty.system.mass.setZero();
-  EXPECT_NE(
-      energy_error({history, reference, empty}, Energy::potential).reason.find("has no energy"),
-      std::string::npos);
+  EXPECT_NE(energy_error({history, structure_reference, empty}, Energy::potential)
+                .reason.find("has no energy"),
+            std::string::npos);
 }
 
 TEST(MechanicalEnergy, TakesFullMatrices) {
@@ -76,31 +76,34 @@ TEST(MechanicalEnergy, TakesFullMatrices) {
 
 // 0.3 m1 - 0.05 m2 = 0.2 of m1 V1 + m2 V2 = 1 + 2 / 2.
 TEST(MomentumError, IsThatOfTheSumOfAllMasses) {
-  auto history = history_of(reference, {0.0, 1.0});
+  auto history = history_of(structure_reference, {0.0, 1.0});
   history.v[2] -= 0.3;
   history.v[3] += 0.05;
   auto problem = toy_problem();
-  EXPECT_NEAR(momentum_error({history, reference, problem}).value, 0.1, 1e-15);
+  EXPECT_NEAR(momentum_error({history, structure_reference, problem}).value, 0.1, 1e-15);
   problem.system.mass << 1.0, 0.5, 0.5, 2.0;
-  EXPECT_NEAR(momentum_error({history, reference, problem}).value, (0.45 - 0.125) / 2.75, 1e-15);
+  EXPECT_NEAR(momentum_error({history, structure_reference, problem}).value, (0.45 - 0.125) / 2.75,
+              1e-15);
   history.v.clear();
-  EXPECT_EQ(momentum_error({history, reference, problem}).reason, "The history has no velocities.");
+  EXPECT_EQ(momentum_error({history, structure_reference, problem}).reason,
+            "The history has no velocities.");
 }
 
 TEST(Penetration, IsTheDeepestOfAllContactsAndTimes) {
-  auto history = history_of(reference, {0.0, 1.0, 1.2});
+  auto history = history_of(structure_reference, {0.0, 1.0, 1.2});
   auto problem = toy_problem();
-  EXPECT_EQ(penetration({history, reference, problem}).value, 0.0);
+  EXPECT_EQ(penetration({history, structure_reference, problem}).value, 0.0);
   history.u[2] = -0.1;
   history.u[3] = 0.05;
-  EXPECT_NEAR(penetration({history, reference, problem}).value, 0.15, 1e-16);
+  EXPECT_NEAR(penetration({history, structure_reference, problem}).value, 0.15, 1e-16);
   problem.contacts[0].gap = 0.02;
-  EXPECT_NEAR(penetration({history, reference, problem}).value, 0.17, 1e-16);
+  EXPECT_NEAR(penetration({history, structure_reference, problem}).value, 0.17, 1e-16);
   problem.contacts.push_back({Eigen::Vector2d(0.0, -1.0), 0.2, 1.0});
-  EXPECT_NEAR(penetration({history, reference, problem}).value, 0.25, 1e-16);
+  EXPECT_NEAR(penetration({history, structure_reference, problem}).value, 0.25, 1e-16);
   problem.contacts.clear();
   history.impacts.reset();
-  EXPECT_EQ(penetration({history, reference, problem}).reason, "The problem has no contact.");
+  EXPECT_EQ(penetration({history, structure_reference, problem}).reason,
+            "The problem has no contact.");
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ std::string heading_of(const Column& shown) {
   return text;
 }
 
-std::string cell_of(const Column& shown, const Row& row) {
+std::string tex_cell_of(const Column& shown, const Row& row) {
   const auto cell = shown.get(row);
   if (const auto* real = std::get_if<double>(&cell))
     return shown.kind == Kind::error ? tex_scientific(*real) : tex_number(*real);
@@ -83,7 +83,7 @@ void write_table(const Table& table, const std::vector<std::string>& marks, cons
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const char* between = "    ";
     for (const auto* shown : table.columns) {
-      out << between << cell_of(*shown, table.rows[i]);
+      out << between << tex_cell_of(*shown, table.rows[i]);
       between = " & ";
     }
     out << (i < marks.size() ? marks[i] : "") << " \\\\\n";

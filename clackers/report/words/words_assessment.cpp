@@ -62,10 +62,6 @@ std::string tolerance_sentence(const record::Subject& subject, const judge::Ladd
                      is_proportional ? "" : "not ");
 }
 
-// Causes that lie in the method and its steps, and say nothing against the model.
-constexpr auto method_causes = std::to_array<Code>(
-    {"velocity-order-lower", "commensurate-steps", "numerical-damping", "period-error",
-     "unstable-coarse-steps", "noise-floor", "printed-digits", "single-precision"});
 // Reasons that leave open what is wrong; a shown cause says more.
 constexpr auto open_reasons = std::to_array<Code>(
     {"wrong-limit", "contact-stiffness", "larger-than-motion", "energy-growth", "noise-floor"});
@@ -78,9 +74,10 @@ bool is_explained(const record::Subject& subject) {
   const auto& reason = subject.assessment.displacement.reason;
   if (is_shown_cause(subject, reason)) return true;
   if (subject.diagnoses.empty()) return false;
+  const auto* cause = diagnose::find_cause(subject.diagnoses.front().code);
   return reason == Code("unexplained-floor").name() ||
          (is_one_of(open_reasons, reason) &&
-          !is_one_of(method_causes, subject.diagnoses.front().code));
+          (cause == nullptr || cause->effect != diagnose::CauseEffect::method));
 }
 
 std::string behaviour_sentence(const record::Subject& subject) {

@@ -60,7 +60,8 @@ TEST(DiagnosisText, SaysHowLateAShiftIs) {
 }
 
 TEST(DiagnosisText, EveryCodeHasASentenceWithACure) {
-  for (const Code code : diagnose::diagnosis_codes) {
+  for (const auto& known : diagnose::causes()) {
+    const Code code = known.code;
     // All that a cause may have, and nothing.
     Diagnosis full{std::string(code.name()), 1.5, "1", 0.9, {}, "<name>", ""};
     for (const auto name : diagnose::fact_names) full.evidence.push_back({std::string(name), 2.0});

@@ -2,70 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "clackers/base/error.hpp"
 #include "clackers/diagnose/start_parameters.hpp"
 
 namespace clackers::study {
 namespace {
 
-using diagnose::Diagnosis;
-
-// The cause and its cure. A code that has no sentence here gives none.
-std::string sentence(const Diagnosis& cause, const std::string& case_name) {
-  const auto& text = cause.text;
-  const auto is = [&](Code code) { return cause.code == code.name(); };
-  const auto factor =
-      std::isnan(cause.value) ? std::string() : fmt::format(", and {:.6g} times", cause.value);
-  if (is("unit-scaled")) {
-    const auto blank = text.find(' ');
-    const bool is_part = blank != std::string::npos || text == "u" || text == "v";
-    const auto unit = text == "u" || text == "v" ? std::string() : text.substr(blank + 1);
-    const auto numbers =
-        is_part ? (text[0] == 'u' ? "All displacements" : "All velocities") : "All numbers";
-    return fmt::format("{} of the first row are {:.6g} times those of {}{} Divide them by {:.6g}.",
-                       numbers, cause.value, case_name,
-                       unit.empty() ? "." : fmt::format(": in {}?", unit), cause.value);
-  }
-  if (is("columns-exchanged"))
-    return fmt::format("Columns are exchanged{}: --columns {}.", factor, text);
-  if (is("masses-exchanged"))
-    return fmt::format("The masses are exchanged{}: --columns {}.", factor, text);
-  if (is("sign-reversed"))
-    return fmt::format(
-        "The first row is that of {} with the sign of {} reversed: measure in the direction of the "
-        "case, or change these signs.",
-        case_name, text);
-  if (is("starts-at-rest"))
-    return fmt::format(
-        "The history starts at rest, the case with v{:.0f} = {:.6g}: a free decay from its largest "
-        "displacement has v(0) = -sigma u(0) with damping. Start from the state of: clackers show "
-        "{}.",
-        cause.fact("mass"), cause.fact("expected"), case_name);
-  if (is("velocity-at-half-steps"))
-    return fmt::format(
-        "Velocities of the first row are those half a step {}: v(0) {} a(0) h/2, as leapfrog keeps "
-        "them. Write velocities at the times of the rows.",
-        cause.value > 0.0 ? "later" : "earlier", cause.value > 0.0 ? "+" : "-");
-  if (is("time-shifted"))
-    return fmt::format(
-        "The first row is the state of the case {:.6g} {} {}: shift the times, or write the initial "
-        "state at t = 0.",
-        std::abs(cause.value), cause.unit, cause.value < 0.0 ? "later" : "earlier");
-  if (is("time-unit"))
-    return fmt::format("Times are {:.6g} times those of {}{} Convert them to seconds.", cause.value,
-                       case_name, text.empty() ? "." : fmt::format(": in {}?", text));
-  return {};
-}
-
-void refuse_by(const std::string& name, const Diagnosis& cause, const std::string& case_name) {
-  const auto message = sentence(cause, case_name);
-  if (message.empty()) return;
-  for (const Code code : diagnose::diagnosis_codes)
-    if (code.name() == cause.code) throw InputError(fmt::format("{}: {}", name, message), code);
+void refuse_by(const std::string& name, const diagnose::Diagnosis& found) {
+  throw InputError(fmt::format("{}: {}", name, diagnose::sentence_of(found)),
+                   diagnose::find_cause(found.code)->code);
 }
 
 cases::Settings changed(cases::Settings values,
@@ -108,7 +53,7 @@ void refuse_start(const std::string& name, const diagnose::Opening& opening,
         fmt::format("{} With --set {} the case starts as the history does.", start, settings),
         "not-this-case");
   if (const auto cause = diagnose::diagnose_start(opening, problem.problem, *problem.motion))
-    refuse_by(name, *cause, case_name);
+    refuse_by(name, *cause);
   throw InputError(
       fmt::format("{} Neither one parameter of the case nor two, nor units, signs or exchanged "
                   "columns explain it. Give the case the parameters of the run with --set; they "
@@ -120,11 +65,9 @@ void refuse_start(const std::string& name, const diagnose::Opening& opening,
 void refuse_reading(const std::string& name, const diagnose::Opening& opening,
                     const cases::Case& problem) {
   const auto cause = diagnose::diagnose_start(opening, problem.problem, *problem.motion);
-  if (!cause) return;
-  constexpr std::array<Code, 5> codes = {"unit-scaled", "columns-exchanged", "masses-exchanged",
-                                         "sign-reversed", "time-unit"};
-  for (const Code code : codes)
-    if (cause->code == code.name()) refuse_by(name, *cause, problem.entry->name);
+  if (!cause || cause->code == Code("starts-at-rest").name()) return;
+  if (diagnose::find_cause(cause->code)->group == diagnose::CauseGroup::reading)
+    refuse_by(name, *cause);
 }
 
 }  // namespace clackers::study

@@ -7,9 +7,9 @@
 
 #include "clackers/base/codes.hpp"
 #include "clackers/base/suggest.hpp"
+#include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"
-#include "clackers/tables/listing/list_diagnoses.hpp"
 
 namespace clackers::tables {
 namespace {
@@ -111,6 +111,23 @@ record::Sheet list_metrics() {
                           std::string(metric.unit == "1" ? "" : metric.unit),
                           metric.across_jumps ? "yes" : "no", std::string(metric.definition),
                           std::string(metric.source)});
+  return sheet;
+}
+
+record::Sheet list_diagnoses() {
+  record::Sheet sheet{"clackers/diagnoses/1",
+                      "Causes that check and verify look for",
+                      {{"code", "", ""},
+                       {"unit", "", "of the value"},
+                       {"value", "", "what it is"},
+                       {"meaning", "", "and what to do about it"}},
+                      {}};
+  const auto cell = [](std::string_view text) {
+    return text.empty() ? record::Cell{} : record::Cell{std::string(text)};
+  };
+  for (const auto& row : diagnose::causes())
+    sheet.rows.push_back({std::string(row.code.name()), cell(row.unit), cell(row.value),
+                          std::string(row.code.meaning())});
   return sheet;
 }
 

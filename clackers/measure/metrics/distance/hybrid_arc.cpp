@@ -11,7 +11,7 @@
 namespace clackers::measure {
 namespace {
 
-std::string objection(const Comparison& comparison) {
+std::string objection_to_arcs(const Comparison& comparison) {
   if (!comparison.has_velocities()) return "The history has no velocities.";
   for (std::size_t i = 0; i < comparison.dof(); ++i)
     if (!(comparison.u_envelope()[i] > 0.0 && comparison.v_envelope()[i] > 0.0))
@@ -112,7 +112,8 @@ void HybridArc::put(Polyline& line, double t, std::span<const double> u,
 }
 
 MetricValue measure_hybrid_closeness(const Comparison& comparison) {
-  if (auto reason = objection(comparison); !reason.empty()) return not_measured(std::move(reason));
+  if (auto reason = objection_to_arcs(comparison); !reason.empty())
+    return not_measured(std::move(reason));
   auto history = HybridArc::of_history(comparison), reference = HybridArc::of_reference(comparison);
   const auto flights = std::min(history.flights(), reference.flights());
   double epsilon = 0.0;

@@ -1,0 +1,314 @@
+#include "clackers/diagnose/diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "clackers/base/number.hpp"
+
+namespace clackers::diagnose {
+namespace {
+
+using Group = CauseGroup;
+using Effect = CauseEffect;
+
+// clang-format off
+constexpr auto all_causes = std::to_array<Cause>({
+    {"unit-scaled", Group::reading, Effect::open, "1",
+     "numbers of the file over those in m and m/s",
+     "[{quantity} are {value} times those of the case][, in {unit_text}]",
+     "convert them to m and m/s."},
+    {"columns-exchanged", Group::reading, Effect::open, "1",
+     "factor of the numbers, where they are in another unit or sign as well",
+     "The columns are in another order than their names",
+     "read them with[ --columns {text}]."},
+    {"masses-exchanged", Group::reading, Effect::open, "1",
+     "factor of the numbers, where they are in another unit or sign as well",
+     "The columns of the two masses are exchanged",
+     "read them with[ --columns {text}]."},
+    {"sign-reversed", Group::reading, Effect::open, "",
+     "",
+     "The sign[ of {text}] is reversed",
+     "measure in the direction of the case, or change the sign."},
+    {"starts-at-rest", Group::reading, Effect::open, "m/s",
+     "velocity at the start",
+     "The history starts at rest[, the case with v{mass} = {expected} m/s]",
+     "start with the velocities of the case; a free decay has v(0) = -sigma u(0)."},
+    {"velocity-at-half-steps", Group::other, Effect::open, "steps",
+     "0.5: half a step later than the row; -0.5: earlier",
+     "Velocities are those of half a step {later}",
+     "print the mean of two neighbours, at the times of the rows."},
+    {"velocity-order-lower", Group::other, Effect::method, "1",
+     "order of the velocities",
+     "Velocities converge with order {value}[, displacements with {expected}]",
+     "check how velocities are updated or printed."},
+    {"printed-digits", Group::other, Effect::method, "1",
+     "significant digits",
+     "Printed digits limit the error[, {digits} in {text}][, and alone may make {floor}]",
+     "print 17 significant digits."},
+    {"single-precision", Group::other, Effect::method, "bits",
+     "of the mantissas",
+     "Numbers[ of {text}] have the 24 bits of single precision[, which make an error of {floor}]",
+     "compute and print in double precision."},
+    {"output-resampled", Group::other, Effect::open, "s",
+     "time between rows",
+     "The output is resampled[ by {text} interpolation between steps of {step} s][, which makes an error of {floor}]",
+     "print the solver's own steps."},
+    {"ends-early", Group::other, Effect::open, "s",
+     "last time of the history",
+     "The history ends at {value} s[ of {expected} s]",
+     "run to the end of the case, or set its end (t_end or a_t)."},
+    {"time-shifted", Group::time, Effect::open, "steps or s",
+     "time of the file minus the true one",
+     "Every state stands {shift} too {late}",
+     "check which time is printed beside which state."},
+    {"time-unit", Group::reading, Effect::open, "1",
+     "times of the file over those in seconds",
+     "Times are[ in {text},] {value} times seconds",
+     "convert them to seconds."},
+    {"time-drifts", Group::time, Effect::open, "s",
+     "distance of the last time from the grid of equal steps",
+     "Printed times leave the grid of equal steps[, by {value} s in the end]",
+     "compute t = n h instead of adding h."},
+    {"restitution-differs", Group::system, Effect::other_system, "1",
+     "coefficient of restitution of the history",
+     "Restitution looks like {value_pm}[ instead of {expected}]",
+     "check the impact law and its coefficient."},
+    {"mass-ratio-differs", Group::system, Effect::other_system, "%",
+     "relative change of the mass",
+     "The mass ratio {looks}",
+     "check the masses."},
+    {"frequency-differs", Group::system, Effect::other_system, "%",
+     "relative change of the natural frequency",
+     "The natural frequency[ of mass {mass}] {looks}",
+     "check stiffness and mass."},
+    {"damping-differs", Group::system, Effect::other_system, "% or 1",
+     "relative change of the damping ratio; the ratio where the case has none",
+     "Damping[ of mass {mass}] {damping}",
+     "check the damping coefficients: C, ratio, or per mass."},
+    {"damping-changes-at-impact", Group::system, Effect::other_system, "1",
+     "damping after the first impact over that before",
+     "After the first impact damping is another[, {value} times that before]",
+     "check the damping force where a step starts anew after an impact."},
+    {"gap-differs", Group::gap, Effect::other_system, "m",
+     "gap of the case at which contacts close",
+     "Contacts close at a gap of {value_pm} m instead of 0",
+     "check the gap of the contact and the positions that it is measured from."},
+    {"impact-missed", Group::impacts, Effect::other_system, "1",
+     "number of the impact",
+     "{impacts} missing[ (t = {time} s)]",
+     "check the detection of contacts: the masses pass through each other there."},
+    {"impact-doubled", Group::impacts, Effect::other_system, "1",
+     "number of the impact",
+     "Impact {number} was applied twice[ (t = {time} s)]",
+     "check the detection of contacts just after an impact."},
+    {"impact-impulse-wrong", Group::impacts, Effect::other_system, "1",
+     "impulse over the right one",
+     "The impulse of the impacts is {value_pm} times the right one",
+     "check effective masses and the factor 1 + eta."},
+    {"impact-at-step-end", Group::impacts, Effect::open, "steps",
+     "mean delay of impacts",
+     "Impacts are applied at the {text} of the step in which they happen",
+     "locate the impact within the step; the order is one otherwise."},
+    {"impact-interpolated", Group::impacts, Effect::open, "1",
+     "order of the impact times",
+     "Impacts are located with order {value}, the flights between them with more",
+     "locate them with dense output of the integrator's order."},
+    {"impact-tolerance", Group::impacts, Effect::open, "s",
+     "largest delay of an impact",
+     "Impacts are located to {value} s, whatever the step",
+     "tighten the tolerance of the search for impacts."},
+    {"contact-compliant", Group::impacts, Effect::open, "s",
+     "median duration of a contact",
+     "Contacts last {value} s[ and penetrate {penetration} m], not rigid[ but those of a spring of {stiffness} N/m]",
+     "a stiffer spring with smaller steps comes closer to rigid impacts."},
+    {"contact-in-tension", Group::impacts, Effect::open, "1",
+     "impulse in tension over impulse in compression",
+     "The contact pulls[, with {share_percent} of its impulse in tension]",
+     "let the contact force act in compression alone."},
+    {"wrong-limit", Group::ladder, Effect::open, "1",
+     "distance of the limit over the envelope",
+     "The histories converge[ with order {order}] to another motion[, {value} of the envelope away]",
+     "check parameters and equations; smaller steps will not help."},
+    {"noise-floor", Group::ladder, Effect::method, "1",
+     "error of the floor over the envelope",
+     "The error ends in a rough floor[ of {floor}]",
+     "tighten tolerances of the solver; smaller steps will not help."},
+    {"commensurate-steps", Group::ladder, Effect::method, "1",
+     "part of the steps",
+     "Small errors of some steps[, {share_percent} of all,] are luck, because they divide the time between impacts[, {time} s]",
+     "use steps that do not divide it."},
+    {"numerical-damping", Group::method, Effect::method, "1",
+     "part of the energy that is lost at the finest step",
+     "The method takes {percent} of the energy[ at h = {step} s], less with smaller steps[ (order {order})]",
+     "no fault of the model; use smaller steps or a method without dissipation."},
+    {"period-error", Group::method, Effect::method, "%",
+     "relative change of the frequency at the finest step",
+     "The motion {runs}[ at h = {step} s], less with smaller steps[ (order {order})]",
+     "no fault of the model; use smaller steps."},
+    {"unstable-coarse-steps", Group::other, Effect::method, "s",
+     "largest stable step",
+     "Runs[ with h = {step} s and more] fail or grow without bound[; h = {value} s does not]",
+     "start from a smaller step."},
+});
+// clang-format on
+
+std::string plain(double value, int digits = 4) {
+  return std::isnan(value) ? std::string() : short_number(value, digits);
+}
+
+// With as many digits as the uncertainty leaves, "0.9900 ±0.0001".
+std::string with_uncertainty(double value, double uncertainty) {
+  if (!(uncertainty > 0.0) || !std::isfinite(uncertainty)) return plain(value, 6);
+  if (uncertainty < 1e-6 * std::abs(value) || uncertainty >= std::abs(value))
+    return fmt::format("{} ±{}", plain(value, 7), short_number(uncertainty, 1));
+  const int decimals = std::clamp(int(-std::floor(std::log10(uncertainty))), 0, 12);
+  return fmt::format("{:.{}f} ±{:.{}f}", value, decimals, uncertainty, decimals);
+}
+
+std::string percent(double share, int digits = 3) {
+  return std::isnan(share) ? std::string() : short_number(100.0 * share, digits) + " %";
+}
+
+// The value as a share, which is in per cent or not.
+double share_of(const Diagnosis& cause) {
+  return cause.unit == "%" ? cause.value / 100.0 : cause.value;
+}
+
+// A relative change, "differs by +0.50 %", or another value, "looks like 0.75 instead of 0.5".
+std::string looks(const Diagnosis& cause) {
+  const double expected = cause.fact("expected"), uncertainty = cause.fact("uncertainty");
+  if (!std::isnan(expected) && expected != 0.0)
+    return fmt::format("looks like {} instead of {}", with_uncertainty(cause.value, uncertainty),
+                       plain(expected, 6));
+  const double scale = cause.unit == "%" ? 1.0 : 100.0;
+  return fmt::format("differs by {}{} %", cause.value > 0.0 ? "+" : "",
+                     with_uncertainty(scale * cause.value, scale * uncertainty));
+}
+
+std::string shift(const Diagnosis& cause) {
+  const double size = std::abs(cause.value);
+  const auto number = with_uncertainty(size, cause.fact("uncertainty"));
+  return fmt::format("{} {}", number, size == 1.0 && cause.unit == "steps" ? "step" : cause.unit);
+}
+
+// "u mm" of unit-scaled: the quantity and the unit.
+std::string quantity(const Diagnosis& cause) {
+  const bool is_part = cause.text.starts_with("u ") || cause.text.starts_with("v ") ||
+                       cause.text == "u" || cause.text == "v";
+  if (!is_part) return "Displacements and velocities";
+  return cause.text[0] == 'u' ? "Displacements" : "Velocities";
+}
+
+std::string unit_text(const Diagnosis& cause) {
+  if (cause.text == "u" || cause.text == "v") return {};
+  return cause.text.substr(cause.text.find(' ') + 1);
+}
+
+// What stands for a name in braces; empty where it is not known.
+std::string word(std::string_view name, const Diagnosis& cause) {
+  if (name == "value") return plain(cause.value);
+  if (name == "value_pm")
+    return std::isnan(cause.value) ? std::string()
+                                   : with_uncertainty(cause.value, cause.fact("uncertainty"));
+  if (name == "percent") return percent(share_of(cause));
+  if (name == "share_percent") return percent(cause.fact("share"), 2);
+  if (name == "looks") return looks(cause);
+  if (name == "damping" && cause.unit != "%")
+    return fmt::format("looks like a ratio of {} instead of none",
+                       with_uncertainty(cause.value, cause.fact("uncertainty")));
+  if (name == "damping") return looks(cause);
+  if (name == "runs")
+    return fmt::format("runs {} too {}", percent(std::abs(share_of(cause))),
+                       cause.value > 0.0 ? "fast" : "slow");
+  if (name == "shift") return shift(cause);
+  if (name == "late") return cause.value > 0.0 ? "late" : "early";
+  if (name == "later") return cause.value > 0.0 ? "later" : "earlier";
+  if (name == "impacts" && std::isnan(cause.value) && cause.fact("share") == 1.0)
+    return "All impacts are";
+  if (name == "impacts") return fmt::format("Impact {} is", plain(cause.value, 9));
+  if (name == "number")
+    return plain(std::isnan(cause.value) ? cause.fact("impact") : cause.value, 9);
+  if (name == "quantity") return quantity(cause);
+  if (name == "unit_text") return unit_text(cause);
+  if (name == "text") return cause.text;
+  if (name == "floor") return std::isnan(cause.fact(name)) ? "" : scientific(cause.fact(name));
+  return plain(cause.fact(name), name == "expected" ? 6 : 3);
+}
+
+// A part without brackets; nothing where a word in it is not known.
+std::optional<std::string> filled_part(std::string_view part, const Diagnosis& cause) {
+  std::string text;
+  bool complete = true;
+  for (std::size_t at = 0; at < part.size();) {
+    if (part[at] != '{') {
+      text += part[at++];
+      continue;
+    }
+    const auto end = part.find('}', at);
+    const auto found = word(part.substr(at + 1, end - at - 1), cause);
+    complete = complete && !found.empty();
+    text += found;
+    at = end + 1;
+  }
+  if (!complete) return {};
+  return text;
+}
+
+std::string filled(std::string_view pattern, const Diagnosis& cause) {
+  std::string text;
+  while (!pattern.empty()) {
+    const bool optional = pattern.front() == '[';
+    const auto end = optional ? pattern.find(']') : std::min(pattern.find('['), pattern.size());
+    const auto part = pattern.substr(optional ? 1 : 0, end - (optional ? 1 : 0));
+    if (const auto known = filled_part(part, cause))
+      text += *known;
+    else if (!optional)
+      text += "?";
+    pattern.remove_prefix(optional ? end + 1 : end);
+  }
+  return text;
+}
+
+std::string gain_text(const Diagnosis& cause) {
+  const double gain = cause.fact("gain");
+  if (!(gain >= 2.0)) return {};
+  const auto times = [](double factor) {
+    return factor < 1000.0 ? fmt::format("{:.0f}", factor) : short_number(factor, 1);
+  };
+  auto text = fmt::format(" ({} times closer", times(gain));
+  const double other = cause.fact("runner-up-gain");
+  if (!cause.runner_up.empty() && cause.runner_up != cause.code && other >= 2.0)
+    text += fmt::format("; {}: {} times", cause.runner_up, times(other));
+  return text + ")";
+}
+
+}  // namespace
+
+std::span<const Cause> causes() { return all_causes; }
+
+const Cause* find_cause(std::string_view code) {
+  const auto row =
+      std::ranges::find(all_causes, code, [](const Cause& cause) { return cause.code.name(); });
+  return row == all_causes.end() ? nullptr : &*row;
+}
+
+std::string sentence_of(const Diagnosis& found) {
+  const auto* cause = find_cause(found.code);
+  if (cause == nullptr) return {};
+  return fmt::format("{}{}: {}", filled(cause->what, found), gain_text(found),
+                     filled(cause->cure, found));
+}
+
+bool is_other_system(const Diagnosis& found) {
+  const auto* cause = find_cause(found.code);
+  return cause != nullptr && cause->effect == Effect::other_system && found.confidence >= sure;
+}
+
+bool is_noise(const Diagnosis& found) {
+  return found.code == Code("noise-floor").name() && found.confidence >= sure;
+}
+
+}  // namespace clackers::diagnose
