@@ -62,11 +62,11 @@ class BadInput(CheckTest):
         def late(row):
             return row | {"t": 1000 * row["t"]}
         self.refused("check", self.history("mm.csv", change=millimetres), code="unit-scaled",
-                     says=("1000 times those of three-parameter: in mm?", "Divide them by 1000."))
+                     says=("are 1000 times those of the case, in mm: convert them to m and m/s.",))
         self.refused("check", self.history("exchanged.csv", change=exchanged),
                      code="masses-exchanged", says="--columns t,")
         self.refused("check", self.history("ms.csv", change=late), code="time-unit",
-                     says="in milliseconds?")
+                     says="Times are in milliseconds, 1000 times seconds: convert them to seconds.")
         other = run("respond", "three-parameter", "--set", "N=5,xi1=0.25", "--step", "0.01",
                     "--format", "csv").stdout
         self.refused("check", self.write("both.csv", other), code="not-this-case",

@@ -8,7 +8,9 @@
 namespace clackers::study {
 namespace {
 
-void refuse_by(const std::string& name, const diagnose::Diagnosis& found) {
+void refuse_by(const std::string& name, diagnose::Diagnosis found) {
+  // A first row that is explained to all its digits has no gain worth a number.
+  std::erase_if(found.evidence, [](const diagnose::Fact& fact) { return fact.name == "gain"; });
   throw InputError(fmt::format("{}: {}", name, diagnose::sentence_of(found)),
                    diagnose::find_cause(found.code)->code);
 }
