@@ -44,12 +44,12 @@ struct Diagnosis {
   /// The parameter of the cause, in `unit`; NaN where the code has none. Cause::value
   /// is its meaning.
   double value = std::numeric_limits<double>::quiet_NaN();
-  std::string unit;
-  double confidence = 0.0;     ///< 0 to 1; only what reaches `least_confidence` is reported
-  std::vector<Fact> evidence;  ///< in the order in which a reader wants them
+  std::string unit{};
+  double confidence = 0.0;       ///< 0 to 1; only what reaches `least_confidence` is reported
+  std::vector<Fact> evidence{};  ///< in the order in which a reader wants them
   /// A name where the cure needs one: "t,u2,v2,u1,v1" for --columns, the unit "mm", a column.
-  std::string text;
-  std::string runner_up;  ///< code of the next best cause, empty for none
+  std::string text{};
+  std::string runner_up{};  ///< code of the next best cause, empty for none
 
   /// The fact of that name; NaN without it.
   double fact(std::string_view name) const {

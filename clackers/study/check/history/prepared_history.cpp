@@ -102,10 +102,11 @@ class Preparation {
     for (const auto& [factor, unit] : {std::pair{1e3, "milliseconds"}, {1e6, "microseconds"}}) {
       const double length = factor * problem_.motion->end();
       if (std::abs(t.back() / length - 1.0) < slack)
-        throw InputError(fmt::format("{}: times go up to {:.6g}, and {} ends at {:.6g} s: in {}? "
-                                     "Convert them to seconds.",
-                                     name(), t.back(), summary_.name, summary_.end, unit),
-                         "time-unit");
+        throw InputError(
+            fmt::format("{}: {} They go up to {:.6g}, and {} ends at {:.6g} s.", name(),
+                        diagnose::sentence_of({.code = "time-unit", .value = factor, .text = unit}),
+                        t.back(), summary_.name, summary_.end),
+            "time-unit");
     }
   }
 
