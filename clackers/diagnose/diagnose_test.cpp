@@ -35,6 +35,22 @@ TEST(Diagnose, CorrectSolversHaveNoCauseButTheirOwnErrors) {
   }
 }
 
+TEST(Diagnose, TheRowOfACauseSaysWhetherItIsAnotherSystemOrNoise) {
+  const auto found = [](const char* code, double confidence) {
+    Diagnosis cause;
+    cause.code = code;
+    cause.confidence = confidence;
+    return cause;
+  };
+  EXPECT_TRUE(is_noise(found("noise-floor", sure)));
+  EXPECT_FALSE(is_noise(found("noise-floor", 0.89)));
+  EXPECT_FALSE(is_noise(found("printed-digits", 1.0)));
+  EXPECT_TRUE(is_other_system(found("gap-differs", sure)));
+  EXPECT_FALSE(is_other_system(found("gap-differs", 0.89)));
+  EXPECT_FALSE(is_other_system(found("noise-floor", 1.0)));
+  EXPECT_FALSE(is_other_system(found("no-such-code", 1.0)));
+}
+
 TEST(Diagnose, CausesComeStrongestFirst) {
   const auto plan = ladder_plan(0);
   auto files = files_of(plan, "method=exact contact=end-of-step");

@@ -132,7 +132,7 @@ constexpr auto all_causes = std::to_array<Cause>({
      "distance of the limit over the envelope",
      "The histories converge[ with order {order}] to another motion[, {value} of the envelope away]",
      "check parameters and equations; smaller steps will not help."},
-    {"noise-floor", Group::ladder, Effect::method, "1",
+    {"noise-floor", Group::ladder, Effect::noise, "1",
      "error of the floor over the envelope",
      "The error ends in a rough floor[ of {floor}]",
      "tighten tolerances of the solver; smaller steps will not help."},
@@ -285,6 +285,11 @@ std::string gain_text(const Diagnosis& cause) {
   return text + ")";
 }
 
+bool surely_has(const Diagnosis& found, Effect effect) {
+  const auto* cause = find_cause(found.code);
+  return cause != nullptr && cause->effect == effect && found.confidence >= sure;
+}
+
 }  // namespace
 
 std::span<const Cause> causes() { return all_causes; }
@@ -302,13 +307,8 @@ std::string sentence_of(const Diagnosis& found) {
                      filled(cause->cure, found));
 }
 
-bool is_other_system(const Diagnosis& found) {
-  const auto* cause = find_cause(found.code);
-  return cause != nullptr && cause->effect == Effect::other_system && found.confidence >= sure;
-}
+bool is_other_system(const Diagnosis& found) { return surely_has(found, Effect::other_system); }
 
-bool is_noise(const Diagnosis& found) {
-  return found.code == Code("noise-floor").name() && found.confidence >= sure;
-}
+bool is_noise(const Diagnosis& found) { return surely_has(found, Effect::noise); }
 
 }  // namespace clackers::diagnose

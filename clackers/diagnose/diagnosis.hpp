@@ -69,7 +69,8 @@ enum class CauseGroup { reading, system, gap, impacts, time, method, ladder, oth
 enum class CauseEffect {
   open,
   other_system,  ///< it is another one: no refinement leads to the motion of the case
-  method         ///< nothing: it lies in the method, its steps or its output
+  method,        ///< nothing: it lies in the method, its steps or its output
+  noise          ///< nothing: a floor is noise, not another motion
 };
 
 /// All that is said of one cause beside its detection. {name} in a sentence is the value, a fact or the

@@ -77,7 +77,8 @@ bool is_explained(const record::Subject& subject) {
   const auto* cause = diagnose::find_cause(subject.diagnoses.front().code);
   return reason == Code("unexplained-floor").name() ||
          (is_one_of(open_reasons, reason) &&
-          (cause == nullptr || cause->effect != diagnose::CauseEffect::method));
+          (cause == nullptr || (cause->effect != diagnose::CauseEffect::method &&
+                                cause->effect != diagnose::CauseEffect::noise)));
 }
 
 std::string behaviour_sentence(const record::Subject& subject) {
