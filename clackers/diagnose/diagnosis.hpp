@@ -92,6 +92,9 @@ const Cause* find_cause(std::string_view code);
 /// What was found and what to do about it, in one sentence.
 std::string sentence_of(const Diagnosis& found);
 
+/// Whether `cause` brings about what `implied` describes, and is sure enough to replace it.
+bool brings_about(const Diagnosis& cause, const Diagnosis& implied);
+
 /// Confidence from which a cause changes the verdict.
 inline constexpr double sure = 0.9;
 
