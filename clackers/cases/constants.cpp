@@ -14,16 +14,17 @@
 namespace clackers::cases {
 namespace {
 
-double restitution(const Case& which) { return which.problem.contacts.front().restitution; }
+double restitution(const Case& test_case) { return test_case.problem.contacts.front().restitution; }
 
-Constant collision_count(const Case& which) {
-  return {"collisions", double(which.motion->impact_count(which.motion->end())), "",
+Constant collision_count(const Case& test_case) {
+  return {"collisions", double(test_case.motion->impact_count(test_case.motion->end())), "",
           "number of collisions up to t_end"};
 }
 
 // What a user may attribute to the solver: docs/manual/explanation/derivations/conditioning.md.
-std::vector<Constant> conditioning_of(const Case& which, const exact::PairConstants& c, double r) {
-  const double eta = restitution(which);
+std::vector<Constant> conditioning_of(const Case& test_case, const exact::PairConstants& c,
+                                      double r) {
+  const double eta = restitution(test_case);
   const double rate = exact::detuning_rate(c.ratio, r);
   constexpr double endless = std::numeric_limits<double>::infinity();
   switch (exact::conditioning(c.ratio, r, eta)) {
@@ -56,7 +57,8 @@ std::vector<Constant> conditioning_of(const Case& which, const exact::PairConsta
 
 }  // namespace
 
-std::vector<Constant> pair_constants(const Case& which, const exact::PairConstants& c, double r) {
+std::vector<Constant> pair_constants(const Case& test_case, const exact::PairConstants& c,
+                                     double r) {
   const auto limit = c.ratio.is_inverse
                          ? "limit of m2/m1, the slow mass over the fast one; the closed "
                            "form holds below it (sharp form of Eq. 18)"
@@ -82,7 +84,7 @@ std::vector<Constant> pair_constants(const Case& which, const exact::PairConstan
       {"v2(0)", c.v2, "m/s", "initial velocity of mass 2, -sigma u2(0), Eq. (17)"},
       {"X", c.ratio.is_inverse ? 1.0 / c.ratio.odd : c.ratio.odd, "", "omega_D2/omega_D1"},
       {"r", r, "", "mass ratio m1/m2"},
-      {"eta", restitution(which), "", "restitution"},
+      {"eta", restitution(test_case), "", "restitution"},
       {"r*", c.r_star, "", limit},
       {"margin", c.margin, "",
        c.ratio.odd == 1.0 ? "smallest gap relative to |u1|, 1 + r: the masses move opposite"
@@ -90,13 +92,13 @@ std::vector<Constant> pair_constants(const Case& which, const exact::PairConstan
                             "1 - r/r* (r slow over fast mass)"},
       {"T", c.period, "s", "time between collisions"},
       {"t_1", c.first_collision, "s", "time of the first collision, Eq. (28)"},
-      {"t_end", which.motion->end(), "s", "end of the run"},
-      collision_count(which)};
-  std::ranges::move(conditioning_of(which, c, r), std::back_inserter(list));
+      {"t_end", test_case.motion->end(), "s", "end of the run"},
+      collision_count(test_case)};
+  std::ranges::move(conditioning_of(test_case, c, r), std::back_inserter(list));
   return list;
 }
 
-std::vector<Constant> single_mass_constants(const Case& which, double xi1) {
+std::vector<Constant> single_mass_constants(const Case& test_case, double xi1) {
   const double omega_d = std::sqrt((1.0 - xi1) * (1.0 + xi1));
   std::vector<Constant> list{{"m1", 1.0, "kg", "the mass"},
                              {"k1", 1.0, "N/m", "its stiffness"},
@@ -106,16 +108,16 @@ std::vector<Constant> single_mass_constants(const Case& which, double xi1) {
                              {"omega1", 1.0, "rad/s", "undamped frequency"},
                              {"omega_D1", omega_d, "rad/s", "damped frequency"},
                              {"u1(0)", 1.0, "m", "initial displacement"},
-                             {"v1(0)", which.problem.start.v[0], "m/s", "initial velocity"}};
-  if (!which.problem.contacts.empty()) {
+                             {"v1(0)", test_case.problem.start.v[0], "m/s", "initial velocity"}};
+  if (!test_case.problem.contacts.empty()) {
     const double half = std::numbers::pi / omega_d;
-    list.push_back({"eta", restitution(which), "", "restitution"});
+    list.push_back({"eta", restitution(test_case), "", "restitution"});
     list.push_back({"T", half, "s", "time between collisions"});
     list.push_back({"t_1", 0.5 * half, "s", "time of the first collision"});
   }
-  list.push_back({"t_end", which.motion->end(), "s", "end of the run"});
-  list.push_back(collision_count(which));
-  if (!which.problem.contacts.empty())
+  list.push_back({"t_end", test_case.motion->end(), "s", "end of the run"});
+  list.push_back(collision_count(test_case));
+  if (!test_case.problem.contacts.empty())
     list.push_back(
         {"perturbation_growth", 1.0, "",
          "conditioning: neutral; an error at one collision, relative to the motion, is as "

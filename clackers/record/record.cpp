@@ -108,7 +108,7 @@ Counts counts(const CaseRecord& record) {
 
 Counts counts(const Record& record) {
   Counts all;
-  for (const auto& one : record.cases) add(all, counts(one));
+  for (const auto& problem : record.cases) add(all, counts(problem));
   return all;
 }
 

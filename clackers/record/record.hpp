@@ -223,7 +223,7 @@ measure::Ladder ladder_of(const Subject& subject);
 
 Counts counts(const CaseRecord& record);
 Counts counts(const Record& record);
-/// The word for the verdict: the verdict's, or "refused" or "interrupted".
+/// The verdict as text, or "refused" or "interrupted" where there is none.
 std::string_view verdict_word(const Subject& subject);
 
 /// The failure of the first run, where every run of every subject failed and some subject is a

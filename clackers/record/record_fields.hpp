@@ -225,7 +225,7 @@ void fields(Archive& archive, Like<judge::LadderFit> auto& x) {
   archive.added("floor_step", x.floor_step);
   archive.added("floor_scatter", x.floor_scatter);
   archive.added("cancel_step", x.cancel_step);
-  archive.added("lucky_share", x.lucky_share);
+  archive.added("lucky_share", x.coincident_share);
   archive.added("stable_step", x.stable_step);
   archive("steps", x.steps);
   archive("errors", x.errors);

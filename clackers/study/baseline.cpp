@@ -58,8 +58,9 @@ void require_same_case(const record::CaseSummary& problem, const record::Refinem
 }
 
 const record::CaseRecord* find(const record::Record& record, const std::string& case_name) {
-  const auto found = std::ranges::find(
-      record.cases, case_name, [](const record::CaseRecord& one) { return one.problem.name; });
+  const auto found =
+      std::ranges::find(record.cases, case_name,
+                        [](const record::CaseRecord& problem) { return problem.problem.name; });
   return found == record.cases.end() ? nullptr : &*found;
 }
 
@@ -74,9 +75,9 @@ void require_same(const std::string& command, const std::vector<PlannedCase>& ca
   if (baseline.command != command)
     refuse_other("another command", "clackers " + baseline.command, "clackers " + command);
   bool common = false;
-  for (const auto& one : cases)
-    if (const auto* before = find(baseline, one.problem.name)) {
-      require_same_case(one.problem, one.steps, *before);
+  for (const auto& problem : cases)
+    if (const auto* before = find(baseline, problem.problem.name)) {
+      require_same_case(problem.problem, problem.steps, *before);
       common = true;
     }
   if (common || cases.empty()) return;
@@ -214,27 +215,27 @@ void require_same_study(const CheckRequest& request, const record::Record& basel
 
 BaselineComparison compare(const record::Record& now, const record::Record& before) {
   std::vector<PlannedCase> cases;
-  for (const auto& one : now.cases) cases.push_back({one.problem, one.plan});
+  for (const auto& problem : now.cases) cases.push_back({problem.problem, problem.plan});
   require_same(now.command, cases, before);
   BaselineComparison all;
   all.before = before.provenance;
   all.interrupted = before.interrupted;
-  const auto add = [&](SubjectChange change, const record::CaseRecord& one,
+  const auto add = [&](SubjectChange change, const record::CaseRecord& problem,
                        const record::Subject& subject) {
-    change.case_name = one.problem.name;
+    change.case_name = problem.problem.name;
     change.name = subject.name;
     all.subjects.push_back(std::move(change));
   };
-  for (const auto& one : now.cases)
-    for (const auto& subject : one.subjects) {
-      const auto* old = find(find(before, one.problem.name), subject.name);
-      add(old != nullptr ? change_of(*old, subject) : only(SubjectChange::Presence::added), one,
+  for (const auto& problem : now.cases)
+    for (const auto& subject : problem.subjects) {
+      const auto* old = find(find(before, problem.problem.name), subject.name);
+      add(old != nullptr ? change_of(*old, subject) : only(SubjectChange::Presence::added), problem,
           subject);
     }
-  for (const auto& one : before.cases)
-    for (const auto& subject : one.subjects)
-      if (find(find(now, one.problem.name), subject.name) == nullptr)
-        add(only(SubjectChange::Presence::gone), one, subject);
+  for (const auto& problem : before.cases)
+    for (const auto& subject : problem.subjects)
+      if (find(find(now, problem.problem.name), subject.name) == nullptr)
+        add(only(SubjectChange::Presence::gone), problem, subject);
   return all;
 }
 

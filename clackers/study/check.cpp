@@ -161,15 +161,15 @@ record::Record check(const CheckRequest& request, const Progress& progress,
   }
   study.assess(no_refinement);
 
-  record::CaseRecord one;
-  one.problem = problem.summary;
-  one.plan = no_refinement;
-  one.response = reduced(tables::response_curve(problem.problem, tables::response_points));
-  one.subjects.push_back(study.finish());
+  record::CaseRecord result;
+  result.problem = problem.summary;
+  result.plan = no_refinement;
+  result.response = reduced(tables::response_curve(problem.problem, tables::response_points));
+  result.subjects.push_back(study.finish());
   record::Record record;
   record.command = "check";
   record.provenance = record::provenance(request.command);
-  record.cases.push_back(std::move(one));
+  record.cases.push_back(std::move(result));
   return record;
 }
 

@@ -104,17 +104,18 @@ void check_format(const RespondOptions& options, const Results& results) {
 }
 
 std::unique_ptr<record::RowSource> rows_of(const RespondOptions& options,
-                                           const cases::Case& which) {
-  const double end = which.motion->end();
+                                           const cases::Case& test_case) {
+  const double end = test_case.motion->end();
   const bool digits = !options.digits.empty();
   const auto count = digits ? read_whole("--digits", options.digits, 1, 1000) : 0;
   const auto respond = [&](const tables::TimeGrid& grid) {
-    if (options.energy) return tables::energies(which, grid);
-    if (!options.sensitivity.empty()) return tables::sensitivity(which, grid, options.sensitivity);
-    return digits ? tables::respond(which, grid, count) : tables::respond(which, grid);
+    if (options.energy) return tables::energies(test_case, grid);
+    if (!options.sensitivity.empty())
+      return tables::sensitivity(test_case, grid, options.sensitivity);
+    return digits ? tables::respond(test_case, grid, count) : tables::respond(test_case, grid);
   };
   if (options.collisions)
-    return digits ? tables::collisions(which, count) : tables::collisions(which);
+    return digits ? tables::collisions(test_case, count) : tables::collisions(test_case);
   if (!options.times.empty()) {
     tables::TimeGrid grid;
     grid.times = read_times(options.times, end);
@@ -125,24 +126,24 @@ std::unique_ptr<record::RowSource> rows_of(const RespondOptions& options,
   constexpr long long any = 1LL << 53;  // what makes sense is the study's to say
   const auto samples = read_whole("--samples", options.samples, -any, any);
   if (options.spectrum)
-    return tables::spectrum(which, samples, read_number("--highest", options.highest));
+    return tables::spectrum(test_case, samples, read_number("--highest", options.highest));
   return respond(tables::grid_of(samples, end));
 }
 
-std::string picture(const cases::Case& which, const report::Style& style) {
+std::string picture(const cases::Case& test_case, const report::Style& style) {
   // Marks closer than a column coincide; 1000 are more than any terminal shows.
   constexpr long long most_marks = 1000;
-  const auto& motion = *which.motion;
+  const auto& motion = *test_case.motion;
   std::vector<double> impact_times;
   const auto count = std::min(motion.impact_count(motion.end()), most_marks);
   for (long long k = 1; k <= count; ++k) impact_times.push_back(motion.impact(k).t);
   // Eight points a column let a fast oscillation be seen as a band instead of a false slow one.
-  return report::plot(tables::response_curve(which, 8 * style.width), impact_times, style);
+  return report::plot(tables::response_curve(test_case, 8 * style.width), impact_times, style);
 }
 
-std::string page_of(const cases::Case& which, const RespondOptions& options,
+std::string page_of(const cases::Case& test_case, const RespondOptions& options,
                     const std::string& line) {
-  const auto motion = tables::response_record(which);
+  const auto motion = tables::response_record(test_case);
   return report::html(
       tables::show_case(options.name, read_settings(options.settings, options.problem),
                         cases::default_threshold),
@@ -156,18 +157,19 @@ int run(RespondOptions options, const std::string& line) {
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::numbers);
   check_format(options, results);
-  const auto which = cases::make(options.name, read_settings(options.settings, options.problem));
-  const auto rows = options.ways() > 0 ? rows_of(options, which) : nullptr;
+  const auto test_case =
+      cases::make(options.name, read_settings(options.settings, options.problem));
+  const auto rows = options.ways() > 0 ? rows_of(options, test_case) : nullptr;
   if (options.plot) {
     OutputStream out(1, "standard output", OnInterrupt::stop);
-    out << picture(which, standard_style(options.common.no_color));
+    out << picture(test_case, standard_style(options.common.no_color));
     out.finish();
   }
   if (rows) {
     write_rows(*rows, results, "respond", options.common.quiet);
     results.finish();
   }
-  return !page.wanted() || page.write(page_of(which, options, line)) ? 0 : 4;
+  return !page.wanted() || page.write(page_of(test_case, options, line)) ? 0 : 4;
 }
 
 }  // namespace

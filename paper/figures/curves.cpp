@@ -79,7 +79,7 @@ Series curve(const cases::Case& test_case, int mass, Quantity quantity, int poin
   const auto dt = test_case.damped_periods.at(i) / (2.0 * points_per_half_turn);
   const auto when = instants(motion, dt);
   std::vector<double> times;
-  for (const auto& one : when) times.push_back(one.t);
+  for (const auto& item : when) times.push_back(item.t);
   std::vector<double> u[2], v[2], none;
   for (const auto side : {model::Side::left, model::Side::right}) {
     const auto s = std::size_t(side == model::Side::right);
@@ -131,12 +131,12 @@ Series without_contact(const cases::Case& test_case, int mass, const Series& lik
   return out;
 }
 
-double largest_difference(const Series& one, const Series& other) {
-  if (one.x != other.x || one.y.size() != other.y.size())
+double largest_difference(const Series& first, const Series& other) {
+  if (first.x != other.x || first.y.size() != other.y.size())
     throw std::logic_error("curves of different abscissae");
   double largest = 0.0;
-  for (std::size_t i = 0; i < one.y.size(); ++i)
-    largest = std::max(largest, std::abs(one.y[i] - other.y[i]));
+  for (std::size_t i = 0; i < first.y.size(); ++i)
+    largest = std::max(largest, std::abs(first.y[i] - other.y[i]));
   return largest;
 }
 
@@ -149,8 +149,8 @@ int maxima(const Series& curve, double before) {
 
 double constant(const cases::Case& test_case, const std::string& name) {
   for (const auto* list : {&test_case.constants, &test_case.indicators})
-    for (const auto& one : *list)
-      if (one.name == name) return one.value;
+    for (const auto& item : *list)
+      if (item.name == name) return item.value;
   throw std::logic_error("no constant " + name);
 }
 

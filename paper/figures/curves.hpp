@@ -42,7 +42,7 @@ Panel response_panel(const cases::Case& test_case, Quantity quantity, std::strin
 Series without_contact(const cases::Case& test_case, int mass, const Series& like);
 
 /// How far two curves with the same abscissae are apart at most. Throws std::logic_error for others.
-double largest_difference(const Series& one, const Series& other);
+double largest_difference(const Series& first, const Series& other);
 /// Local maxima of a curve strictly inside (0, before).
 int maxima(const Series& curve, double before);
 

@@ -26,12 +26,12 @@ struct Nearest {
 
 // Over the first flight, evaluated from the two masses' own m, c, k.
 Nearest nearest_miss(const cases::Case& test_case) {
-  const FreeFlight one(test_case, 1), two(test_case, 2);
+  const FreeFlight mass1(test_case, 1), mass2(test_case, 2);
   const double t1 = constant(test_case, "t_1");
   Nearest out;
   constexpr int fine = 40'000;
   for (int i = 0; i < fine; ++i) {
-    const double t = t1 * i / fine, share = (one.u(t) - two.u(t)) / one.u(t);
+    const double t = t1 * i / fine, share = (mass1.u(t) - mass2.u(t)) / mass1.u(t);
     if (share < out.share) out = {share, t};
   }
   return out;
@@ -60,7 +60,7 @@ Claim damping_cancels() {
 
 Figure near_miss() {
   const auto test_case = pair(miss_xi1);
-  const FreeFlight one(test_case, 1), two(test_case, 2);
+  const FreeFlight mass1(test_case, 1), mass2(test_case, 2);
   const double t1 = constant(test_case, "t_1"), omega2 = constant(test_case, "omega_D2");
   const double r_star = cases::admissibility(X, 3.0).r_star;
   const double from = t1 - 9.5 / omega2, to = t1 + 0.6 / omega2;
@@ -70,9 +70,9 @@ Figure near_miss() {
   for (int i = 0; i <= points; ++i) {
     const double t = from + (t1 - from) * i / points;
     for (auto* series : {&first, &second, &grazing}) series->x.push_back(t);
-    first.y.push_back(one.u(t));
-    second.y.push_back(two.u(t));
-    grazing.y.push_back(two.u(t) * r_star / 3.0);
+    first.y.push_back(mass1.u(t));
+    second.y.push_back(mass2.u(t));
+    grazing.y.push_back(mass2.u(t) * r_star / 3.0);
   }
   const auto near = nearest_miss(test_case);
   Panel panel;
@@ -81,7 +81,7 @@ Figure near_miss() {
   panel.series = {first, second, grazing};
   panel.series.push_back({"nearest miss",
                           {near.t, near.t},
-                          {one.u(near.t), two.u(near.t)},
+                          {mass1.u(near.t), mass2.u(near.t)},
                           {light::collision},
                           Series::Kind::points});
   panel.series.push_back({"collision", {t1}, {}, {light::collision}, Series::Kind::rule});

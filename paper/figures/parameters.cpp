@@ -52,8 +52,8 @@ constexpr auto members = std::to_array<Member>({{"a", 0, 0.05, 4.0},
                                                 {"i", 2, 0.25, 0.5},
                                                 {"j", 5, 0.25, 1.0}});
 
-int changes(const Member& one, const Member& next) {
-  return (one.N != next.N) + (one.xi1 != next.xi1) + (one.a_t != next.a_t);
+int changes(const Member& member, const Member& next) {
+  return (member.N != next.N) + (member.xi1 != next.xi1) + (member.a_t != next.a_t);
 }
 
 }  // namespace

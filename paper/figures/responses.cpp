@@ -115,11 +115,11 @@ Figure sample_extension() {
   auto figure = displacement_and_velocity(test_case);
   figure.caption =
       "The second mass five times as fast as the first (N = 1, Eq. 19: m2 = 1/3 kg, u2(0) = −0.6 m, ξ1 = 0.05): the masses still meet only at their common equilibrium.";
-  const FreeFlight one(test_case, 1), two(test_case, 2);
+  const FreeFlight mass1(test_case, 1), mass2(test_case, 2);
   const auto& mass = test_case.problem.system.mass;
   const double t1 = constant(test_case, "t_1");
-  const double apart = std::max(std::abs(one.u(t1)), std::abs(two.u(t1)));
-  const double p1 = mass(0, 0) * one.v(t1), p2 = mass(1, 1) * two.v(t1);
+  const double apart = std::max(std::abs(mass1.u(t1)), std::abs(mass2.u(t1)));
+  const double p1 = mass(0, 0) * mass1.v(t1), p2 = mass(1, 1) * mass2.v(t1);
   const double momentum = std::abs(p1 + p2) / std::abs(p1);
   const int counted = maxima(figure.panels.front().series.at(1), t1);
   figure.claims = {

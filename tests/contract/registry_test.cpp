@@ -169,8 +169,8 @@ TEST_P(EveryMethod, DoesNotDependOnTheNumbersOfTheContacts) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, testing::ValuesIn(pairs()), [](const auto& which) {
-  std::string name = which.param;
+INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, testing::ValuesIn(pairs()), [](const auto& info) {
+  std::string name = info.param;
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;

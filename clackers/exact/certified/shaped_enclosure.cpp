@@ -126,9 +126,9 @@ void ShapedEnclosure::fill(const RowParameters& p) {
   c_.sigma = p.sigma;
   const auto row = exact::row_masses(p);
   Ball up, down, momentum;
-  for (const auto& one : row) {
-    auto& sum = one.velocity > 0.0 ? up : down;
-    sum = sum + one.velocity;
+  for (const auto& mass : row) {
+    auto& sum = mass.velocity > 0.0 ? up : down;
+    sum = sum + mass.velocity;
   }
   c_.coefficients.resize(2);
   auto &frequencies = c_.coefficients[0], &amplitudes = c_.coefficients[1];

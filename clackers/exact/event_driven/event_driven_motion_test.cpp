@@ -102,9 +102,9 @@ TEST(EventDrivenMotion, ImpactsObeyTheirLawAndDepartures) {
     motion.sample({&t, 1}, u, v);
     return std::array{u[0], u[1], v[0], v[1]};
   };
-  const auto jump = [&](const ImpactLaw& law, int which) {
+  const auto jump = [&](const ImpactLaw& law, int number) {
     const auto motion = EventDrivenMotion::make(problem, law, 20.0);
-    const double t = motion->collisions().at(std::size_t(which)).t;
+    const double t = motion->collisions().at(std::size_t(number)).t;
     const auto before = at(*motion, t - 1e-9), after = at(*motion, t);
     return std::array{after[2] - before[2], after[3] - before[3], before[2] - before[3],
                       after[2] - after[3]};

@@ -151,9 +151,9 @@ class RawSensitivity : public Sensitivity {
             {z[0].u - z[1].u, z[0].v - z[1].v}};
   }
   std::array<Deviation, 2> both(const Split& s) const {
-    const double one = 1.0 / (1.0 + r_), two = r_ / (1.0 + r_);
-    return {
-        {{s.C.u + one * s.R.u, s.C.v + one * s.R.v}, {s.C.u - two * s.R.u, s.C.v - two * s.R.v}}};
+    const double weight1 = 1.0 / (1.0 + r_), weight2 = r_ / (1.0 + r_);
+    return {{{s.C.u + weight1 * s.R.u, s.C.v + weight1 * s.R.v},
+             {s.C.u - weight2 * s.R.u, s.C.v - weight2 * s.R.v}}};
   }
 
   // Just after the first collision, and what every later flight adds. Of C only the part that is

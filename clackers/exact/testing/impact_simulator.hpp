@@ -180,10 +180,10 @@ class ImpactSimulator {
     }
   }
   Real gap(const RawState& x) const { return x.u[0] - x.u[1] + gap_; }
-  // What rounding may do to a gap: amplitudes times 2^-300, and 20 decades of care.
+  // What rounding may do to a gap: amplitudes times 2^-300, and 20 decades more.
   Real tiny() const {
-    static const Real care("1e-70");
-    return (masses_[0].amplitude() + masses_[1].amplitude() + abs(gap_)) * care;
+    static const Real tolerance("1e-70");
+    return (masses_[0].amplitude() + masses_[1].amplitude() + abs(gap_)) * tolerance;
   }
 
   std::optional<Real> first_contact(const Real& until) const {

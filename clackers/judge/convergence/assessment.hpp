@@ -27,8 +27,9 @@ struct LadderFit {
   double floor_step = 0.0;     ///< largest step at which the errors lie at the floor, 0 without one
   double floor_scatter = 1.0;  ///< largest factor between raw errors and the floor
   double cancel_step = 0.0;    ///< near it the signed error passes zero; 0 where it does not
-  double lucky_share = 0.0;    ///< of the runs: at the rounding floor by luck, others not
-  double stable_step = 0.0;    ///< largest step below those whose runs failed; 0 where none did
+  /// Share of the runs at the rounding floor because their step divides the time between impacts.
+  double coincident_share = 0.0;
+  double stable_step = 0.0;  ///< largest step below those whose runs failed; 0 where none did
   std::vector<double> steps, errors;  ///< of the upper envelope, a value a level
 };
 

@@ -10,8 +10,8 @@
 namespace clackers::judge {
 namespace {
 
-// At least this share of the runs lies at the rounding floor by luck, where it is worth a word.
-constexpr double notable_luck = 1.0 / 16.0;
+// Smaller shares are not reported.
+constexpr double least_reported_share = 1.0 / 16.0;
 
 bool miscounts(const measure::RunScore& run) {
   return run.finished && run.impacts && run.impacts->missed + run.impacts->extra > 0;
@@ -131,7 +131,8 @@ std::vector<Evidence> of_the_fit(const LadderFit& fit, const measure::Ladder& la
   const auto note = [&](std::string_view code, std::vector<double> numbers) {
     all.push_back({std::string(code), Verdict::not_claimed, std::move(numbers)});
   };
-  if (fit.lucky_share >= notable_luck) note(Code("commensurate-steps").name(), {fit.lucky_share});
+  if (fit.coincident_share >= least_reported_share)
+    note(Code("commensurate-steps").name(), {fit.coincident_share});
   if (fit.cancel_step > 0.0) note(Code("errors-cancel").name(), {fit.cancel_step});
   if (fit.stable_step > 0.0) note(Code("unstable-coarse-steps").name(), {fit.stable_step});
   if (fit.reason == Code("simultaneous-impacts").name() && facts.shared)

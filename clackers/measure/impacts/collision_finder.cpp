@@ -199,7 +199,8 @@ std::vector<FoundCollision> find_collisions(const model::Trajectory& history,
   std::vector<FoundCollision> found;
   for (std::size_t k = 0; k < problem.contacts.size(); ++k)
     ContactScan(history, problem.contacts[k], int(k), motion).run(found);
-  std::ranges::stable_sort(found, {}, [](const FoundCollision& one) { return one.impact.t; });
+  std::ranges::stable_sort(found, {},
+                           [](const FoundCollision& candidate) { return candidate.impact.t; });
   return found;
 }
 

@@ -45,9 +45,9 @@ class ToyMotion : public model::Motion {
         if (!row.empty()) row[2 * i + 1] = -0.5 * row[2 * i];
     }
   }
-  model::Kinematics envelope(double) const override {
-    const Eigen::Vector2d one(1.0, 0.5);
-    return {one, one, one};
+  model::Kinematics size(double) const override {
+    const Eigen::Vector2d size(1.0, 0.5);
+    return {size, size, size};
   }
   model::Kinematics error_bound(double) const override {
     const Eigen::Vector2d bound(1e-16, 1e-16);

@@ -171,17 +171,18 @@ VerdictLine verdict_line(const record::Record& record) {
   const bool is_check = record.command == "check";
   struct Part {
     int count;
-    std::string_view one, several;
+    std::string_view singular, plural;
   };
   std::string parts;
-  for (const auto& [count, one, several] :
+  for (const auto& [count, singular, plural] :
        {Part{all.agrees, "agrees", "agree"}, Part{all.disagrees, "disagrees", "disagree"},
         Part{all.undecided, "undecided", "undecided"},
         Part{all.not_claimed, "not claimed", "not claimed"},
         Part{all.refused, "refused", "refused"},
         Part{all.interrupted, "interrupted", "interrupted"}})
     if (count > 0)
-      parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, count == 1 ? one : several);
+      parts +=
+          fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, count == 1 ? singular : plural);
   if (!is_check)
     line.counts = fmt::format("Of {}: {}.",
                               record.cases.size() == 1

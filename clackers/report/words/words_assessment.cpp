@@ -71,7 +71,7 @@ constexpr auto open_reasons = std::to_array<Code>(
     {"wrong-limit", "contact-stiffness", "larger-than-motion", "energy-growth", "noise-floor"});
 
 bool is_one_of(std::span<const Code> codes, std::string_view code) {
-  return std::ranges::any_of(codes, [&](Code one) { return one.name() == code; });
+  return std::ranges::any_of(codes, [&](Code known) { return known.name() == code; });
 }
 
 bool is_explained(const record::Subject& subject) {
@@ -137,7 +137,7 @@ std::string remark(const record::Subject& subject, const judge::Evidence& eviden
   const auto text = [&](std::size_t i) { return short_number(number(i), 3); };
   if (code == "commensurate-steps")
     return fmt::format(
-        "{:.0f} % of the runs are at the rounding floor by luck: their steps divide the time "
+        "{:.0f} % of the runs are at the rounding floor because their steps divide the time "
         "between collisions.",
         100.0 * number(0));
   if (code == "errors-cancel")
@@ -148,8 +148,7 @@ std::string remark(const record::Subject& subject, const judge::Evidence& eviden
                        resolution_text(subject, number(0)));
   if (code == "steps-per-contact") return fmt::format("A contact has {} steps.", text(0));
   if (code == "more-neighbours")
-    return fmt::format(
-        "An uncertainty of ±{} is weak evidence: add neighbouring steps to each level.", text(1));
+    return fmt::format("The order is uncertain by ±{}: add samples to each level.", text(1));
   if (code == "velocity-order-lower")
     return fmt::format("Velocities converge with order {:.2f}.", number(0));
   if (code == "error-over-tolerance")
@@ -300,7 +299,7 @@ std::string self_convergence_text(const record::SelfResult& result) {
                           fit_text(result.self.differences), fit_text(result.errors));
   if (result.against_reference.false_convergence) return text;
   if (result.self.proper)
-    add(text, fmt::format("The estimate holds: the error is {} times it.",
+    add(text, fmt::format("The estimate is reliable: error / estimate = {}.",
                           short_number(result.against_reference.error_ratio, 2)));
   else
     add(text, "The differences bound no error.");

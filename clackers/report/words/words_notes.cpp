@@ -24,9 +24,9 @@ std::string printed_digits(const record::Note& note, const std::vector<double>& 
   const bool is_single = n[1] == 1.0;
   const double share = n[3], slack = n[4];
   const auto measured =
-      share > slack ? fmt::format("the error found is {} times that", short_number(share, 3))
-      : share > 1.0 ? std::string("the error found is hardly larger, so it is not measured")
-                    : std::string("the error found is within it");
+      share > slack ? fmt::format("the measured error is {} times that", short_number(share, 3))
+      : share > 1.0 ? std::string("the measured error is not significantly larger")
+                    : std::string("the measured error is below that");
   return fmt::format("Printed digits: {} {}; printing alone may make an error of {} in u, and {}.",
                      note.text,
                      is_single ? std::string("holds numbers of single precision")
@@ -103,8 +103,8 @@ std::string note_text(const record::Note& note) {
         text(0), text(1));
   if (is("start-differs"))
     return fmt::format(
-        "The initial state is off by {} of the envelope, more than printing makes: no smaller "
-        "error is the method's.",
+        "The initial state differs from the case's by {} of the envelope, more than the printed "
+        "digits explain. Errors below that do not come from the method.",
         text(0, 2));
   return note.code;
 }

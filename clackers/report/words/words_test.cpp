@@ -109,8 +109,8 @@ TEST(AssessmentText, RemarksFollowTheFit) {
   const auto text = assessment_text(subject);
   EXPECT_TRUE(text.starts_with("Converges irregularly")) << text;
   for (const auto* words :
-       {"25 % of the runs are at the rounding floor by luck", "passes zero near h = 0.003 s.",
-        "Runs above h = 0.02 s fail", "A contact has 21 steps.", "±0.49 is weak evidence",
+       {"25 % of the runs are at the rounding floor because", "passes zero near h = 0.003 s.",
+        "Runs above h = 0.02 s fail", "A contact has 21 steps.", "uncertain by ±0.49",
         "Velocities converge with order 1.00."})
     EXPECT_TRUE(has(text, words)) << words;
 }

@@ -85,8 +85,8 @@ std::vector<Amplification> amplification(const methods::Integrator& integrator,
     const auto path = states(integrator, h);
     const auto eigenvalues = eigenvalues_of(path);
     Amplification point{h_over_T, eigenvalues.empty() ? nan : 0.0, nan, nan, nan, nan};
-    for (const auto one : eigenvalues)
-      point.spectral_radius = std::max(point.spectral_radius, std::abs(one));
+    for (const auto eigenvalue : eigenvalues)
+      point.spectral_radius = std::max(point.spectral_radius, std::abs(eigenvalue));
     const auto root = rate ? principal(eigenvalues, std::exp(*rate * h)) : std::nullopt;
     rate = root ? std::optional(std::log(*root) / h) : std::nullopt;
     if (rate) {

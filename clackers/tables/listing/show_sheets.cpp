@@ -13,8 +13,8 @@ namespace clackers::tables {
 namespace {
 
 // A pair in closed form, or null.
-const exact::ClosedForm* pair_of(const cases::Case& which) {
-  const auto* motion = exact::as_closed_form(*which.motion);
+const exact::ClosedForm* pair_of(const cases::Case& test_case) {
+  const auto* motion = exact::as_closed_form(*test_case.motion);
   return motion != nullptr && motion->pair() ? motion : nullptr;
 }
 
@@ -25,8 +25,8 @@ double lost_after(const exact::ClosedForm& motion, double eps) {
 
 }  // namespace
 
-std::optional<record::Sheet> harmonic_sheet(const cases::Case& which, double threshold) {
-  const auto* motion = pair_of(which);
+std::optional<record::Sheet> harmonic_sheet(const cases::Case& test_case, double threshold) {
+  const auto* motion = pair_of(test_case);
   if (motion == nullptr) return std::nullopt;
   const auto& c = *motion->pair();
   const double odd = c.ratio.odd, omega = std::min(c.omega_D1, c.omega_D2);
@@ -55,8 +55,8 @@ std::optional<record::Sheet> harmonic_sheet(const cases::Case& which, double thr
   return sheet;
 }
 
-std::optional<record::Sheet> conditioning_sheet(const cases::Case& which) {
-  const auto* motion = pair_of(which);
+std::optional<record::Sheet> conditioning_sheet(const cases::Case& test_case) {
+  const auto* motion = pair_of(test_case);
   if (motion == nullptr) return std::nullopt;
   record::Sheet sheet{"clackers/conditioning/1",
                       "Synchrony lost: collisions spaced wrongly by a tenth",

@@ -68,8 +68,8 @@ class Passing : public ToyMotion {
 };
 
 TEST(UnfoldedVelocity, IsDefinedWhereAnImpactReversesAll) {
-  const auto reason = [](const model::Motion& motion, const model::ImpactProblem<>& which) {
-    return unfolded_velocity_error({history_of(motion, {0.0, 1.0}), motion, which}).reason;
+  const auto reason = [](const model::Motion& motion, const model::ImpactProblem<>& problem) {
+    return unfolded_velocity_error({history_of(motion, {0.0, 1.0}), motion, problem}).reason;
   };
   auto lossy = jump_problem, two = jump_problem;
   lossy.contacts[0].restitution = 0.9;
