@@ -21,6 +21,7 @@ const cases::Constant& constant_of(const cases::Case& test_case, std::size_t ind
 }
 
 const cases::Constant& constant_of(const cases::Case& test_case, std::string_view name) {
+  if (name == "collisions") name = "impacts";  // its former name
   std::vector<std::string> names;
   for (std::size_t i = 0; i < count_of(test_case); ++i) {
     const auto& constant = constant_of(test_case, i);

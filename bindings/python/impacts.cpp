@@ -102,9 +102,9 @@ py::dict impacts(const Case& test_case, py::handle from, py::handle to) {
   return arrays.arrays();
 }
 
-py::tuple collisions(const Case& test_case) {
+py::tuple impact_table(const Case& test_case) {
   last_impact(py::none(), 1, test_case.motion->impact_count(test_case.motion->end()));
-  return read_rows(*tables::collisions(test_case));
+  return read_rows(*tables::impacts(test_case));
 }
 
 long long impact_count(const Case& test_case, py::handle t) {
@@ -118,7 +118,7 @@ long long impact_count(const Case& test_case, py::handle t) {
 
 void bind_impacts(py::module_& core) {
   core.def("impacts", &impacts, py::arg("case"), py::arg("first"), py::arg("last"));
-  core.def("collisions", &collisions, py::arg("case"));
+  core.def("impact_table", &impact_table, py::arg("case"));
   core.def("impact_count", &impact_count, py::arg("case"), py::arg("t"));
 }
 

@@ -21,12 +21,12 @@ void add_common_constants(Case& test_case, const ShapedMotion& motion, double si
            {"sigma", sigma, "1/s", "common rate of decay"},
            {"eta", eta, "", "restitution"},
            {"T", c.period.hi, "s", "time between impacts"},
-           {"t_1", c.first_collision * c.period.hi, "s", "time of the first impact"},
+           {"t_1", c.first_impact * c.period.hi, "s", "time of the first impact"},
            {"contacts_at_once", double(motion.pattern().contacts.front().size()), "",
             "contacts that close at each impact"},
            {"t_end", motion.end(), "s", "end of the run"},
-           {"collisions", double(motion.impact_count(motion.end())), "",
-            "number of collisions up to t_end, one a contact"}})
+           {"impacts", double(motion.impact_count(motion.end())), "",
+            "number of impacts up to t_end, one a contact"}})
     test_case.constants.push_back(constant);
 }
 
@@ -188,7 +188,7 @@ std::vector<CaseRow> assembly_rows() {
          t_end()}},
        build_alternating},
       {{"assembly",
-        "Pairs seen through an invertible matrix: coupled masses, simultaneous contacts.",
+        "Pairs transformed by an invertible matrix: coupled masses, simultaneous contacts.",
         "beyond the paper: assemblies in the manual",
         {{"pairs", 4.0, "", "a whole number, 1 or more, as many as fit into 1 GB",
           "number of pairs; twice as many masses"},

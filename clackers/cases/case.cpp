@@ -28,7 +28,7 @@ double ratio(const Case& test_case, double N) {
            N < 0.0 ? "Mass 2 is X = 4N + 1 times as fast as mass 1." : "");
   if (N != std::floor(N))
     refuse(test_case.entry->name, "N", N, rule,
-           "Only with X = 4N + 1 odd both masses pass equilibrium together at every collision.",
+           "Only with X = 4N + 1 odd both masses pass equilibrium together at every impact.",
            "not-whole");
   return 4.0 * N + 1.0;
 }

@@ -63,7 +63,7 @@ TEST(Cases, BuildAProblemAndItsReferenceThatFitTogether) {
       EXPECT_LE(std::abs(rest[i]), roundings * size[i] + error[i]);
     for (const auto* list : {&test_case.constants, &test_case.indicators})
       for (const auto& c : *list) EXPECT_FALSE(c.name.empty() || c.meaning.empty());
-    EXPECT_EQ(constant(test_case.constants, "collisions"),
+    EXPECT_EQ(constant(test_case.constants, "impacts"),
               double(test_case.motion->impact_count(test_case.problem.end)));
     EXPECT_EQ(constant(test_case.constants, "t_end"), test_case.problem.end);
     EXPECT_FALSE(entry.summary.empty() || entry.equations.empty());
@@ -117,7 +117,7 @@ void expect_three_parameter_system(const Case& test_case, double N, double xi1, 
   EXPECT_EQ(constant(c, "eta"), 1.0);
   expect_near(constant(c, "T"), T, "T");
   expect_near(constant(c, "t_1"), 0.5 * T, "t_1, Eq. (28)");
-  EXPECT_EQ(constant(c, "collisions"), std::floor(end / T + 0.5));
+  EXPECT_EQ(constant(c, "impacts"), std::floor(end / T + 0.5));
   expect_near(test_case.damped_periods[0], 2.0 * T, "period 1");
   expect_near(test_case.damped_periods[1], 2.0 * T / X, "period 2");
 }
@@ -198,7 +198,7 @@ TEST(Cases, StopIsEq5AndSdofEq3) {
   EXPECT_EQ(constant(stop.constants, "eta"), 0.5);
   expect_near(constant(stop.constants, "T"), std::numbers::pi / std::sqrt(0.9975), "T");
   expect_near(constant(stop.constants, "t_1"), 0.5 * std::numbers::pi / std::sqrt(0.9975), "t_1");
-  EXPECT_EQ(constant(stop.constants, "collisions"), 6.0);
+  EXPECT_EQ(constant(stop.constants, "impacts"), 6.0);
 }
 
 TEST(Cases, SynchronizedPairPassesEveryParameterOn) {
@@ -342,7 +342,7 @@ TEST(Cases, RefuseAnNThatIsNoCount) {
     EXPECT_EQ(refusal(name, {{"N", 2.5}}),
               who + ": N = 2.5; " + rule +
                   " Only with X = 4N + 1 odd both masses pass equilibrium together at every "
-                  "collision. [not-whole]");
+                  "impact. [not-whole]");
     EXPECT_EQ(refusal(name, {{"N", 25e7}}), who + ": N = 250000000; " + rule + " [out-of-range]");
     EXPECT_EQ(refusal(name, {{"N", NAN}}), who + ": N = nan; " + rule + " [not-a-number]");
     EXPECT_EQ(refusal(name, {{"N", INFINITY}}), who + ": N = inf; " + rule + " [not-finite]");

@@ -23,8 +23,8 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 void add_run(Case& test_case) {
   const double end = test_case.motion->end();
   test_case.constants.push_back({"t_end", end, "s", "end of the run"});
-  test_case.constants.push_back({"collisions", double(test_case.motion->impact_count(end)), "",
-                                 "number of collisions up to t_end"});
+  test_case.constants.push_back({"impacts", double(test_case.motion->impact_count(end)), "",
+                                 "number of impacts up to t_end"});
 }
 
 void build_cradle(Case& test_case, const Values& value, double) {
@@ -48,12 +48,12 @@ void build_cradle(Case& test_case, const Values& value, double) {
       {"T1", T1, "s", "length of a flight of mass 1, while mass 2 rests"},
       {"T2", T2, "s", "length of a flight of mass 2, while mass 1 rests"},
       {"t_1", motion->impact_count(p.t_end) > 0 ? motion->impact(1).t : 0.5 * T1, "s",
-       "time of the first collision"},
+       "time of the first impact"},
       {"perturbation_growth", growth, "",
        growth > 1.0
            ? "conditioning: growing; an error of the resting mass, relative to the motion, is "
-             "multiplied by this at each collision in the long run"
-           : "conditioning: neutral; an error at one collision, relative to the motion, does not "
+             "multiplied by this at each impact in the long run"
+           : "conditioning: neutral; an error at one impact, relative to the motion, does not "
              "grow in the long run"}};
   add_run(test_case);
 }
@@ -88,8 +88,8 @@ void use_orbit(Case& test_case, std::shared_ptr<const exact::ForcedPair> orbit, 
       {"margin", orbit->margin(), "",
        "smallest gap between impacts over the parabola (V1 - V2) s (T - s)/T; the closed "
        "form holds where it is positive"});
-  list.push_back({"T", orbit->T(), "s", "time between collisions"});
-  list.push_back({"t_1", 0.5 * orbit->T(), "s", "time of the first collision"});
+  list.push_back({"T", orbit->T(), "s", "time between impacts"});
+  list.push_back({"t_1", 0.5 * orbit->T(), "s", "time of the first impact"});
   const auto multipliers = orbit->floquet_multipliers();
   for (std::size_t i = 0; i < multipliers.size(); ++i)
     list.push_back(
@@ -101,11 +101,11 @@ void use_orbit(Case& test_case, std::shared_ptr<const exact::ForcedPair> orbit, 
   list.push_back(
       {"perturbation_growth", growth, "",
        growth > 1.0 + on_the_circle
-           ? "conditioning: unstable orbit; an error at one collision is multiplied by this at each "
+           ? "conditioning: unstable orbit; an error at one impact is multiplied by this at each "
              "later one, so every solver leaves the orbit in the end"
        : growth > 1.0 - on_the_circle
-           ? "conditioning: neutral; an error at one collision is as large at the next"
-           : "conditioning: stable orbit; an error at one collision is multiplied by this at each "
+           ? "conditioning: neutral; an error at one impact is as large at the next"
+           : "conditioning: stable orbit; an error at one impact is multiplied by this at each "
              "later one"});
   add_run(test_case);
 }
@@ -225,7 +225,7 @@ void build_piecewise(Case& test_case, const Values& value, double) {
       {"error_bound", bound.u.maxCoeff(), "m",
        "of the largest displacement of the reference solution at t_end"}};
   if (motion->impact_count(motion->end()) > 0)
-    test_case.constants.push_back({"t_1", motion->impact(1).t, "s", "time of the first collision"});
+    test_case.constants.push_back({"t_1", motion->impact(1).t, "s", "time of the first impact"});
   add_run(test_case);
 }
 
@@ -241,7 +241,7 @@ Parameter whole_periods(double standard, const char* meaning) {
 std::vector<CaseRow> orbit_rows() {
   return {
       {{"cradle",
-        "Two equal masses of different frequencies, one at rest at each elastic collision.",
+        "Two equal masses of different frequencies, one at rest at each elastic impact.",
         "none; as Newton's cradle",
         {frequency("omega1", 1.0, "undamped frequency of mass 1, above"),
          frequency("omega2", 1.7, "undamped frequency of mass 2"),
@@ -251,7 +251,7 @@ std::vector<CaseRow> orbit_rows() {
        build_cradle},
       {{"forced-pair",
         "A periodic orbit with impacts of two masses across a gap, under harmonic forces.",
-        "none; collisions at (k - 1/2) T",
+        "none; impacts at (k - 1/2) T",
         {{"m1", 1.0, "kg", "1e-30 <= m1 <= 1e+30", "mass 1, above"},
          {"m2", 1.0, "kg", "1e-30 <= m2 <= 1e+30", "mass 2"},
          frequency("omega1", 1.0, "damped frequency of mass 1"),
@@ -259,23 +259,23 @@ std::vector<CaseRow> orbit_rows() {
          {"sigma1", 0.05, "1/s", "0 <= sigma1 <= 1e+30", "rate of decay of mass 1"},
          {"sigma2", 0.05, "1/s", "0 <= sigma2 <= 1e+30", "rate of decay of mass 2"},
          {"eta", 0.8, "", "1e-3 <= eta <= 1", "restitution; 1 is elastic"},
-         {"T", 5.0, "s", "1e-30 <= T <= 1e+30", "time between collisions"},
-         whole_periods(2.0, "periods of the forces between collisions"),
+         {"T", 5.0, "s", "1e-30 <= T <= 1e+30", "time between impacts"},
+         whole_periods(2.0, "periods of the forces between impacts"),
          {"D1", -0.25, "m", "-1e+30 <= D1 <= 1e+30", "displacement of mass 1 at the contact"},
          {"D2", 0.25, "m", "-1e+30 <= D2 <= 1e+30", "displacement of mass 2 at the contact"},
-         {"V1", 0.5, "m/s", "1e-30 <= V1 <= 1e+30", "velocity of mass 1 just after a collision"},
+         {"V1", 0.5, "m/s", "1e-30 <= V1 <= 1e+30", "velocity of mass 1 just after an impact"},
          {"t_end", 40.0, "s", "0 < t_end < infinity", "end of the run"}}},
        build_forced},
       {{"base-excited-pair",
         "A periodic orbit with elastic impacts of two undamped masses on a shaken base.",
-        "none; collisions at (k - 1/2) T",
+        "none; impacts at (k - 1/2) T",
         {{"m1", 1.0, "kg", "1e-30 <= m1 <= 1e+30", "mass 1, above; m2 follows"},
          frequency("omega1", 1.0, "frequency of mass 1"),
          frequency("omega2", 3.5, "frequency of mass 2"),
-         {"T", 2.5, "s", "1e-30 <= T <= 1e+30", "time between collisions"},
-         whole_periods(1.0, "periods of the base between collisions"),
+         {"T", 2.5, "s", "1e-30 <= T <= 1e+30", "time between impacts"},
+         whole_periods(1.0, "periods of the base between impacts"),
          {"A_g", -1.0, "m/s^2", "1e-30 <= |A_g| <= 1e+30",
-          "acceleration of the base at a collision, its amplitude"},
+          "acceleration of the base at an impact, its amplitude"},
          t_end()}},
        build_base_excited},
       {{"penalized-pair",

@@ -17,7 +17,7 @@ constexpr long double pi = std::numbers::pi_v<long double>;
 
 long double sgn(long double x) { return x < 0 ? -1.0L : x > 0 ? 1.0L : 0.0L; }  // Eq. (6)
 
-// Steps that meet no collision: u bends there and v jumps.
+// Steps that meet no impact: u bends there and v jumps.
 std::vector<double> times(double end) {
   std::vector<double> t;
   for (int i = 0; i < 97; ++i) t.push_back(end * (i + 0.321) / 97.5);
@@ -104,26 +104,26 @@ TEST(PaperResponses, CollideAtEq28AndEq34InEquilibrium) {
 
 // Eq. (31), (33), (37): nothing collides from t_C1 to t_C* = pi/Omega, from there to t_C2, and from
 // t_C2 to t_C*** = 2 pi/Omega, Eq. (38).
-TEST(PaperResponses, StayApartBetweenTheCollisions) {
+TEST(PaperResponses, StayApartBetweenTheImpacts) {
   for (const double N : {0.0, 1.0, 5.0})
     for (const double xi1 : {0.0, 0.1, 0.75}) {
       SCOPED_TRACE(testing::Message() << "N = " << N << " xi1 = " << xi1);
       const auto test_case = make("three-parameter", {{"N", N}, {"xi1", xi1}});
       const double half = std::numbers::pi / std::sqrt((1.0 - xi1) * (1.0 + xi1));
-      // Beginning, end, collisions so far.
-      for (const auto& [from, to, collisions] :
+      // Beginning, end, impacts so far.
+      for (const auto& [from, to, impacts] :
            {std::tuple{0.0, 0.5, 0}, {0.5, 1.0, 1}, {1.0, 1.5, 1}, {1.5, 2.0, 2}})
         for (double part = 0.001; part < 1.0; part += 0.001) {
           const double t = half * (from + part * (to - from));
           const auto now = test_case.motion->at(t, Side::right);
           EXPECT_GT(now.u[0], now.u[1]) << "t = " << t;
-          EXPECT_EQ(test_case.motion->impact_count(t), collisions) << "t = " << t;
+          EXPECT_EQ(test_case.motion->impact_count(t), impacts) << "t = " << t;
         }
     }
 }
 
-// Figure 12: at Eq. (38) and its multiples the pair is where it would be without collisions.
-TEST(PaperResponses, AtMultiplesOfEq38AreThoseWithoutCollisions) {
+// Figure 12: at Eq. (38) and its multiples the pair is where it would be without impacts.
+TEST(PaperResponses, AtMultiplesOfEq38AreThoseWithoutImpacts) {
   for (const double N : {0.0, 1.0, 5.0})
     for (const double xi1 : {0.0, 0.1}) {
       const auto test_case = make("three-parameter", {{"N", N}, {"xi1", xi1}, {"a_t", 2.0}});

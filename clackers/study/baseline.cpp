@@ -48,9 +48,8 @@ void require_same_case(const record::CaseSummary& problem, const record::Refinem
     refuse_other("other parameters", case_options(other), case_options(problem));
   // A case with the same name and parameters that ends elsewhere is of another version.
   if (other.end != problem.end || other.impact_count != problem.impact_count)
-    refuse_other("another motion",
-                 fmt::format("{} s, {} collisions", other.end, other.impact_count),
-                 fmt::format("{} s, {} collisions", problem.end, problem.impact_count));
+    refuse_other("another motion", fmt::format("{} s, {} impacts", other.end, other.impact_count),
+                 fmt::format("{} s, {} impacts", problem.end, problem.impact_count));
   const auto& steps = baseline.plan;
   if (steps.coarsest != plan.coarsest || steps.levels != plan.levels ||
       steps.samples_per_level != plan.samples_per_level)
@@ -140,15 +139,15 @@ std::optional<ChangeAtStep<double>> error_change(const Pair& pair) {
   return ChangeAtStep<double>{now->step, before->u_error, now->u_error};
 }
 
-std::optional<ChangeAtStep<Collisions>> collision_change(const Pair& pair) {
+std::optional<ChangeAtStep<ImpactCounts>> impact_change(const Pair& pair) {
   const auto& before = pair.before->impacts;
   const auto& now = pair.now->impacts;
   if (!before || !now) return {};
   if (before->missed == now->missed && before->extra == now->extra) return {};
   const auto of = [](const measure::ImpactScore& s) {
-    return Collisions{s.expected, s.missed, s.extra};
+    return ImpactCounts{s.expected, s.missed, s.extra};
   };
-  return ChangeAtStep<Collisions>{pair.now->step, of(*before), of(*now)};
+  return ChangeAtStep<ImpactCounts>{pair.now->step, of(*before), of(*now)};
 }
 
 void compare_runs(const record::Subject& before, const record::Subject& now,
@@ -169,7 +168,7 @@ void compare_runs(const record::Subject& before, const record::Subject& now,
         change.work = {step, before_work, now_work};
       finest = false;
     }
-    if (!change.collisions) change.collisions = collision_change(pair);
+    if (!change.impacts) change.impacts = impact_change(pair);
   }
 }
 
@@ -198,7 +197,7 @@ bool operator==(const Finding& a, const Finding& b) {
 }
 
 bool SubjectChange::any() const {
-  return presence != Presence::both || finding || order || error || collisions || finished || work;
+  return presence != Presence::both || finding || order || error || impacts || finished || work;
 }
 
 bool BaselineComparison::any() const { return std::ranges::any_of(subjects, &SubjectChange::any); }

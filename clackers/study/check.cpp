@@ -33,7 +33,7 @@ void validate(const CheckRequest& request) {
   if (std::ranges::count_if(request.files, is_input) +
           std::ranges::count_if(request.events, is_input) >
       1)
-    throw InputError("check: - stands more than once; allowed: standard input for one file.",
+    throw InputError("check: - is given more than once; allowed: standard input for one file.",
                      "bad-syntax");
   require_one_each("--events", request.events.size(), request.files.size());
   require_one_each("--steps", request.steps.size(), request.files.size());

@@ -31,19 +31,19 @@ TimeGrid grid_of(long long n, double end);
 /// times.
 TimeGrid grid_every(double step, double end);
 
-/// The exact response, columns t,side,u1,v1,a1[,u2,v2,a2,...]. Where a time is the double nearest to a
-/// collision two rows appear, side "-" then "+". The case must outlive the rows. Throws InputError
+/// The exact response, columns t,side,u1,v1,a1[,u2,v2,a2,...]. Where a time is the double nearest to an
+/// impact two rows appear, side "-" then "+". The case must outlive the rows. Throws InputError
 /// for a time outside [0, end], before any row.
 std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const TimeGrid& grid);
 
-/// All collisions up to the case's end:
+/// All impacts up to the case's end:
 /// k,t[,contact],u1,v1-,v1+[,u2,v2-,v2+,...],impulse,energy_before,energy_after. Of a pair with one
 /// contact u2 is left out, since the masses touch. Contacts that close together have a row each,
 /// with the velocities before and after all of them. The case must outlive the rows.
-std::unique_ptr<record::RowSource> collisions(const cases::Case& test_case);
+std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case);
 
 /// Where the energy is: t,side,kinetic,potential,dissipated,lost,total,momentum at the times of
-/// respond(), with its two rows at collisions. A motion that is no pair's has neither dissipated nor
+/// respond(), with its two rows at impacts. A motion that is no pair's has neither dissipated nor
 /// total. The case must outlive the rows. Throws InputError as respond() does.
 std::unique_ptr<record::RowSource> energies(const cases::Case& test_case, const TimeGrid& grid);
 

@@ -128,9 +128,9 @@ void add_check(Grammar& root) {
       ->option_text("t,u1,...");
   app->add_option(
          "--events", options->events,
-         "Collisions of the history, text or .npy: a column t and optionally "
+         "Impacts of the history, text or .npy: a column t and optionally "
          "impulse,v1-,v1+,v2-,v2+; of a case with several contacts also contact, from 0. Of several "
-         "histories one file each, in their order. Without it collisions are found in the "
+         "histories one file each, in their order. Without it impacts are found in the "
          "history.")
       ->reads_file("FILE");
   app->add_option(
@@ -157,10 +157,10 @@ void add_check(Grammar& root) {
       ->option_text("all");
   add_require_option(*app, options->requirements);
   add_report_option(*app, options->report);
-  app->add_option("--baseline", options->baseline,
-                  "An earlier record of check (--format json) of the same case, - for standard "
-                  "input: says in words what changed since. The exit code stays that of the "
-                  "verdicts.")
+  app->add_option(
+         "--baseline", options->baseline,
+         "An earlier record of check (--format json) of the same case, - for standard input: lists "
+         "what changed since. The exit code follows from the verdicts only.")
       ->reads_file("FILE.json");
   add_common_options(*app, options->common);
   add_verdict_formats(*app);

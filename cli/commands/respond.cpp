@@ -28,10 +28,10 @@ struct RespondOptions {
   CommonOptions common;
   std::vector<std::string> settings;
   std::string name, samples, step, times, digits, sensitivity, highest, report, problem;
-  bool collisions = false, plot = false, energy = false, spectrum = false;
+  bool impacts = false, plot = false, energy = false, spectrum = false;
 
   int ways() const {
-    return int(!samples.empty()) + int(!step.empty()) + int(!times.empty()) + int(collisions);
+    return int(!samples.empty()) + int(!step.empty()) + int(!times.empty()) + int(impacts);
   }
 };
 
@@ -45,14 +45,13 @@ std::vector<std::string> other_kinds(const RespondOptions& options) {
 }
 
 void check(const RespondOptions& options) {
-  const std::string ways = "one of --samples n, --step h, --times FILE and --collisions";
+  const std::string ways = "one of --samples n, --step h, --times FILE and --impacts";
   if (options.name.empty())
     refuse_usage("respond",
                  "needs a CASE, for example three-parameter. All names: clackers list cases");
   if (options.ways() > 1) refuse_usage("respond", "takes only " + ways + ".");
   if (options.ways() == 0 && !options.plot && options.report.empty())
-    refuse_usage("respond",
-                 "needs times: " + ways + ", or --plot or --report for a picture alone.");
+    refuse_usage("respond", "needs times: " + ways + ", or --plot or --report for only a picture.");
   if (options.ways() == 0 && !options.common.out.empty())
     refuse_usage("respond",
                  "--out needs rows to write: " + ways + ". The picture goes to standard output.");
@@ -70,8 +69,8 @@ void check_kind(const RespondOptions& options) {
   if (kinds.size() > 1)
     refuse_usage("respond", "takes only one of --energy, --spectrum and --sensitivity; " +
                                 kinds[0] + " and " + kinds[1] + " were given.");
-  if (options.collisions)
-    refuse_usage("respond", kinds[0] + " has rows of its own and takes no --collisions.");
+  if (options.impacts)
+    refuse_usage("respond", kinds[0] + " has rows of its own and takes no --impacts.");
   if (!options.digits.empty())
     refuse_usage("respond", kinds[0] + " is computed in doubles and takes no --digits.");
   if (options.ways() == 0)
@@ -114,8 +113,8 @@ std::unique_ptr<record::RowSource> rows_of(const RespondOptions& options,
       return tables::sensitivity(test_case, grid, options.sensitivity);
     return digits ? tables::respond(test_case, grid, count) : tables::respond(test_case, grid);
   };
-  if (options.collisions)
-    return digits ? tables::collisions(test_case, count) : tables::collisions(test_case);
+  if (options.impacts)
+    return digits ? tables::impacts(test_case, count) : tables::impacts(test_case);
   if (!options.times.empty()) {
     tables::TimeGrid grid;
     grid.times = read_times(options.times, end);
@@ -183,10 +182,10 @@ void add_respond(Grammar& root) {
                         "  clackers respond three-parameter --sensitivity k2 --samples 201\n"
                         "  clackers respond stop --spectrum --samples 201 --highest 20\n",
             .about = "The exact motion of a case. Columns t [s], side, then u [m], v [m/s] and a "
-                     "[m/s^2] of each mass. Where a time is the double nearest to a collision two "
+                     "[m/s^2] of each mass. Where a time is the double nearest to an impact two "
                      "rows stand: side - before it and side + after it.",
             .usage = "  clackers respond CASE [--set name=value,...]\n"
-                     "           (--samples n | --step h | --times FILE | --collisions)\n"
+                     "           (--samples n | --step h | --times FILE | --impacts)\n"
                      "           [--digits n] [--plot] [--report FILE.html]\n"
                      "  clackers respond CASE [--set ...] (--energy | --sensitivity NAME)\n"
                      "           (--samples n | --step h | --times FILE) [--plot]\n"
@@ -205,9 +204,10 @@ void add_respond(Grammar& root) {
                   "Times from a text file, one a line, in seconds; - reads standard input. What "
                   "follows # or % is a comment.")
       ->reads_file("FILE");
-  app->add_flag("--collisions", options->collisions,
-                "The collisions instead: k, t [s], u1 [m], velocities before and after [m/s], "
+  app->add_flag("--impacts", options->impacts,
+                "The impacts instead: k, t [s], u1 [m], velocities before and after [m/s], "
                 "impulse [N s], energy before and after [J].");
+  app->add_flag("--collisions", options->impacts, "The former name of --impacts.");
   app->add_flag("--energy", options->energy,
                 "At the times, the energy instead: kinetic, potential, dissipated so far, lost at "
                 "impacts so far and their total [J], and the momentum [kg m/s].");
@@ -224,7 +224,7 @@ void add_respond(Grammar& root) {
       ->option_text("w");
   app->add_option("--digits", options->digits,
                   "Correctly rounded to n significant digits, 1 to 1000, from an enclosure; with "
-                  "--samples, --step, --times or --collisions, whose t is then the true instant.")
+                  "--samples, --step, --times or --impacts, whose t is then the true instant.")
       ->option_text("n");
   app->add_flag("--plot", options->plot,
                 "Draw the displacements in the terminal; alone, or above the rows.");

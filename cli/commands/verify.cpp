@@ -161,8 +161,8 @@ void add_verify(Grammar& root) {
            "Assesses time-integration methods: runs each with a sequence of steps on a case whose "
            "exact motion is known, and compares what was measured with what it claims. A "
            "method is integrator[:name=value,...][+contact[:name=value,...]]; without +contact "
-           "impacts are located as events (event-driven). Programs of yours (--exec) "
-           "are run and compared in the same way. Exit code 0 when all agree, 1 when "
+           "impacts are located as events (event-driven). Your own programs (--exec) are run and "
+           "compared in the same way. Exit code 0 when all agree, 1 when "
            "one disagrees, 3 when one stays undecided.",
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
@@ -177,7 +177,7 @@ void add_verify(Grammar& root) {
   app->add_flag(
       "--all", options->all,
       "Every method (clackers list pairs): every integrator with every contact treatment that "
-      "takes it, every contact law with two of them, and methods that stand alone.");
+      "takes it, every contact law with two of them, and standalone methods.");
   app->add_option(
          "--case", options->cases,
          "The case (clackers list cases). Default: three-parameter. Several, each with its "
@@ -204,7 +204,8 @@ void add_verify(Grammar& root) {
                   "seconds or as 30s, 2min; 0: none. Default: 20s, and 0 with --levels.")
       ->option_text("TIME");
   add_program_options(*app, options->programs);
-  app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
+  app->add_option("--jobs", options->jobs, "Threads. Default: one per processor.")
+      ->option_text("n");
   add_require_option(*app, options->requirements);
   app->add_option(
          "--only", options->only,
@@ -214,8 +215,8 @@ void add_verify(Grammar& root) {
   add_report_option(*app, options->report);
   app->add_option(
          "--baseline", options->baseline,
-         "An earlier record (--format json) of the same cases and steps, - for standard "
-         "input: says in words what changed since. The exit code stays that of the verdicts.")
+         "An earlier record (--format json) of the same cases and steps, - for standard input: "
+         "lists what changed since. The exit code follows from the verdicts only.")
       ->reads_file("FILE.json");
   add_common_options(*app, options->common);
   add_verdict_formats(*app);

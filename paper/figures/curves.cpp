@@ -15,11 +15,11 @@ constexpr double wanted_points = 2800.0;
 struct Instant {
   double t;
   model::Side side;
-  long long collision = 0;  // its number; 0 between collisions
+  long long impact = 0;  // its number; 0 between impacts
 };
 
 // From `from` to `to` in pieces of `dt`, the last one shorter; both ends included, seen from inside.
-// `first` and `last` are the collisions at the ends, 0 for none.
+// `first` and `last` are the impacts at the ends, 0 for none.
 void append_flight(double from, long long first, double to, long long last, double dt,
                    std::vector<Instant>& out) {
   const auto pieces = std::max(1.0, std::ceil((to - from) / dt * (1.0 - 1e-9)));
@@ -28,15 +28,15 @@ void append_flight(double from, long long first, double to, long long last, doub
   out.push_back({to, model::Side::left, last});
 }
 
-// The displacement or velocity of mass i at a collision: the limit at the true instant, which lies
+// The displacement or velocity of mass i at an impact: the limit at the true instant, which lies
 // beside the double nearest to it.
 double limit(const model::Motion& motion, const Instant& when, Quantity quantity, Eigen::Index i) {
-  const auto impact = motion.impact(when.collision);
+  const auto impact = motion.impact(when.impact);
   const auto& side = when.side == model::Side::left ? impact.before : impact.after;
   return quantity == Quantity::displacement ? side.u[i] : side.v[i];
 }
 
-// A collision lies (X theta = X pi/2) a whole number of pieces after each extremum of its flight.
+// An impact lies (X theta = X pi/2) a whole number of pieces after each extremum of its flight.
 std::vector<Instant> instants(const model::Motion& motion, double dt) {
   std::vector<Instant> out;
   double from = 0.0;
@@ -97,7 +97,7 @@ Series curve(const cases::Case& test_case, int mass, Quantity quantity, int poin
     // Displacements do not jump, so one point is enough.
     if (quantity == Quantity::displacement && !out.x.empty() && out.x.back() == when[k].t) continue;
     out.x.push_back(when[k].t);
-    out.y.push_back(when[k].collision > 0
+    out.y.push_back(when[k].impact > 0
                         ? limit(motion, when[k], quantity, static_cast<Eigen::Index>(i))
                         : rows[k * dof + i]);
   }

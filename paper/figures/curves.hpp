@@ -28,7 +28,7 @@ enum class Quantity { displacement, velocity };
 
 /// The exact curve of mass 1 or 2 over the whole run: `points_per_half_turn` pieces in each half
 /// period of that mass, so that every extremum of a flight is a point to within its damping, and
-/// both limits at every collision.
+/// both limits at every impact.
 Series curve(const cases::Case& test_case, int mass, Quantity quantity,
              int points_per_half_turn = 16);
 

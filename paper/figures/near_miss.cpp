@@ -1,4 +1,4 @@
-// Figure A.3: the nearest miss before a collision.
+// Figure A.3: the nearest miss before an impact.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ Claim damping_cancels() {
   }
   // X T/2 = 33 rad over 40000 points: missed by at most 3/2 (33/40000)^2 = 1e-6.
   return {
-      "Appendix A: for small ξ1, Eq. (18) is sufficient against collisions away from equilibrium.",
+      "Appendix A: for small ξ1, Eq. (18) is sufficient against impacts away from equilibrium.",
       fmt::format(
           "N = 5: least (u1 − u2)/u1 is {} for ξ1 = 0, 0.05, 0.5, 0.9; the proof gives 1 − 3/r* = {:.6f} for every ξ1. The exponential factor is common to both masses, so the damping need not be small.",
           found, proved),
@@ -82,21 +82,20 @@ Figure near_miss() {
   panel.series.push_back({"nearest miss",
                           {near.t, near.t},
                           {mass1.u(near.t), mass2.u(near.t)},
-                          {light::collision},
+                          {light::impact},
                           Series::Kind::points});
-  panel.series.push_back({"collision", {t1}, {}, {light::collision}, Series::Kind::rule});
-  panel.series.push_back(
-      {"t_C1", {t1 + 0.3 / omega2}, {0.3}, {light::collision}, Series::Kind::text});
+  panel.series.push_back({"impact", {t1}, {}, {light::impact}, Series::Kind::rule});
+  panel.series.push_back({"t_C1", {t1 + 0.3 / omega2}, {0.3}, {light::impact}, Series::Kind::text});
   Figure figure;
   figure.width = 640.0;
   figure.height = 300.0;
   figure.caption =
-      "Before a collision mass 2 comes nearest to mass 1 about three quarters of its period earlier; N = 5, ξ1 = 0.05. With r = r* instead of 3 the masses would graze there.";
+      "Before an impact mass 2 comes nearest to mass 1 about three quarters of its period earlier; N = 5, ξ1 = 0.05. With r = r* instead of 3 the masses would graze there.";
   figure.claims = {
       damping_cancels(),
-      {"Fig. A.3: the most probable collision away from equilibrium is a near miss.",
+      {"Fig. A.3: the most probable impact away from equilibrium is a near miss.",
        fmt::format(
-           "N = 5, ξ1 = 0.05: at t = {:.4f} s, {:.4f} rad of mass 2 before the collision, u2 is {:.4f} of u1.",
+           "N = 5, ξ1 = 0.05: at t = {:.4f} s, {:.4f} rad of mass 2 before the impact, u2 is {:.4f} of u1.",
            near.t, omega2 * (t1 - near.t), 1.0 - near.share),
        near.share > 0.0}};
   figure.choices = {

@@ -59,7 +59,7 @@ struct Compared {
 
 // Largest error of the trapezoidal rule: h^2/8 times the variation of the integrand's slope, its
 // second derivative at most (w + omega)^2 |b| exp(-sigma t) in flight. The slope of each mass turns
-// round at each collision: less than once more the same for w >= 1 and a flight of length T = 3 s.
+// round at each impact: less than once more the same for w >= 1 and a flight of length T = 3 s.
 double rule_bound(double amplitude, double w, double omega) {
   const double decay = (1.0 - std::exp(-0.05 * end)) / 0.05;
   return 2.0 * sampling * sampling / 8.0 * (w + omega) * (w + omega) * amplitude * decay;

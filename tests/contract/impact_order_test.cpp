@@ -54,7 +54,7 @@ double error_of(const methods::Method& method, const cases::Case& test_case, dou
 }
 
 // Least squares over five levels of ratio 2, without those at the floor of rounding, but three at
-// least; steps that share no factor with the collision times.
+// least; steps that share no factor with the impact times.
 double observed_order(const methods::Method& method, const cases::Case& test_case,
                       double coarsest) {
   std::vector<double> x, y;

@@ -1,4 +1,4 @@
-// Collision times and states of piecewise-exact beside those of the closed forms.
+// Impact times and states of piecewise-exact beside those of the closed forms.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST_P(PiecewiseExactBeside, TheClosedFormCollidesAtTheSameTimes) {
   ASSERT_GE(count, 1);
   for (long long k = 1; k <= count; ++k) {
     const double t = test_case.motion->impact(k).t;
-    EXPECT_NEAR(impacts[std::size_t(k - 1)].t, t, 1e-13 * t) << "collision " << k;
+    EXPECT_NEAR(impacts[std::size_t(k - 1)].t, t, 1e-13 * t) << "impact " << k;
   }
   const auto scale = test_case.motion->envelope(0.0);
   // The fastest phase is rounded once or twice, and so is its frequency.

@@ -106,7 +106,7 @@ std::unique_ptr<const ShapedMotion> make_buildings(const BuildingsParameters& p,
                                                    std::string_view who) {
   require_ranges(who, p);
   auto flight = derive_flight(who, p.Omega, p.sigma, p.eta, p.t_end);
-  flight.first_collision = 1.0;
+  flight.first_impact = 1.0;
   require_admissible(who, p);
   auto shape = std::make_unique<BuildingShape>(
       std::vector<BuildingShape::Part>{{static_cast<int>(p.left), 1.0, p.V},

@@ -45,7 +45,7 @@ KinematicBalls at_rest(std::size_t dof) {
 ShapedEnclosure::ShapedEnclosure(const exact::ShapedMotion& motion)
     : Enclosure({.collides = true,
                  .eta = motion.flight().eta,
-                 .first_collision = motion.flight().first_collision,
+                 .first_impact = motion.flight().first_impact,
                  .at_once = std::ssize(motion.pattern().contacts.front())}),
       parameters_(motion.parameters()),
       dof_(motion.dof()) {}
@@ -266,9 +266,9 @@ KinematicBalls ShapedEnclosure::at_now(long long k, double t) {
   phase.is_odd = k % 2 != 0;
   phase.is_exact = t == 0.0;
   if (phase.is_exact)
-    phase.halves = 1.0 - 2.0 * timing_.first_collision;
+    phase.halves = 1.0 - 2.0 * timing_.first_impact;
   else
-    phase.turns = omega() * t / pi() - (double(k) - 0.5 + timing_.first_collision);
+    phase.turns = omega() * t / pi() - (double(k) - 0.5 + timing_.first_impact);
   return state(phase, decay_now(k, Ball(t)));
 }
 

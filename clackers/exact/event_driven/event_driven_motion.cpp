@@ -91,7 +91,7 @@ class EventDrivenMotion::Builder {
     }
   }
   std::size_t form_index() const {
-    return motion_.systems_.size() > 1 && !motion_.collisions_.empty() ? 1 : 0;
+    return motion_.systems_.size() > 1 && !motion_.impacts_.empty() ? 1 : 0;
   }
   const ModalSystem& system() const { return motion_.systems_[form_index()]; }
   std::span<const numerics::ModalState> modal_state() const {
@@ -168,14 +168,14 @@ class EventDrivenMotion::Builder {
       row.inside = gap(row) < 0.0;
       return true;
     }
-    const int count = int(motion_.collisions_.size()) + 1;
+    const int count = int(motion_.impacts_.size()) + 1;
     double impulse = -(1.0 + row.law->restitution) * rate(row) / row.inverse_effective_mass;
     if (count == law_.missed) impulse = 0.0;
     if (count == law_.doubled) impulse *= 2.0;
     for (Index i = 0; i < v_.size(); ++i)
       v_[i] += impulse * row.response[i] *
                (law_.impulse_factor.empty() ? 1.0 : law_.impulse_factor[std::size_t(i)]);
-    motion_.collisions_.push_back({t_, row.index, impulse});
+    motion_.impacts_.push_back({t_, row.index, impulse});
     row.inside = rate(row) < 0.0 || (law_.grid > 0.0 && gap(row) < 0.0);
     return true;
   }

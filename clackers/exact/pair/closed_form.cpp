@@ -122,7 +122,7 @@ model::MotionImpact ClosedForm::impact(long long index) const {
   const auto k = static_cast<double>(index);
   model::MotionImpact hit;
   hit.index = index;
-  const auto when = collision_instant(c_, k);
+  const auto when = impact_instant(c_, k);
   hit.t = when.nearest;
   const double other = std::nextafter(hit.t, when.beyond > 0.0 ? INFINITY : 0.0);
   hit.when = {std::min(hit.t, other), std::max(hit.t, other)};

@@ -36,7 +36,7 @@ struct RawState {
   std::array<Real, 2> u, v, a;
 };
 
-struct RawCollision {
+struct RawPairImpact {
   RawState before, after;  ///< at the same t
   Real impulse;            ///< on mass 1, upward [N s]
   Real energy_before, energy_after;
@@ -145,11 +145,11 @@ class ImpactSimulator {
   /// Goes through the next contact if it is not later than `until`; otherwise stays where it is and
   /// returns nothing. Throws std::domain_error for a graze, where the gap comes within 1e-70 of
   /// the amplitudes and nothing proves a crossing, and for what follows an impact with eta = 0.
-  std::optional<RawCollision> next(const Real& until) {
+  std::optional<RawPairImpact> next(const Real& until) {
     if (eta_ == 0 && hits_ > 0) throw std::domain_error("simulator: the masses may stick");
     const auto t = first_contact(until);
     if (!t) return std::nullopt;
-    RawCollision hit;
+    RawPairImpact hit;
     hit.before = hit.after = at(*t);
     hit.energy_before = energy(hit.before);
     // Newton's law, u1' - u2' -> -eta (u1' - u2'), and conserved momentum.

@@ -35,16 +35,16 @@ struct LadderFit {
 
 /// A fact, beside the fits, that the verdict rests on. Its numbers by code:
 ///
-///     collisions-miscounted   step [s], collisions matched, expected, extra
+///     impacts-miscounted      step [s], impacts matched, expected, extra
 ///     printed-digits          u_error of the finest history, what printing makes of it
 ///     within-tolerance        u_error of the finest history, the tolerance, what printing makes of it
 ///     beyond-tolerance        the same
 ///     tolerance-not-resolved  the same: error and tolerance are nearer than what printing makes
 ///     other-start             distance of the first row from the reference over the envelope
-///     other-collisions        collisions matched, expected, extra, of a history without a claim
-///     sparse-rows             none: rows too far apart to find collisions in them
+///     other-impacts           impacts matched, expected, extra, of a history without a claim
+///     sparse-rows             none: rows too far apart to find impacts in them
 ///     wrong-limit             none: the files converge to another motion
-///     ends-early              last time, end of the case [s], collisions until then, until the end
+///     ends-early              last time, end of the case [s], impacts until then, until the end
 ///     commensurate-steps      share of the runs at the rounding floor beside others that are not
 ///     errors-cancel           step at which the error passes zero [s]
 ///     unstable-coarse-steps   largest step below those that failed [s]

@@ -119,8 +119,8 @@ std::optional<Objection> Penalty::objection(const Facts& method,
     if (chosen.models(eta)) continue;
     if (chosen.restitution == CompliantLaw::Restitution::elastic)
       return Objection{
-          fmt::format("{} with eta = {}: the law {} gives back what it takes, so it can "
-                      "only stand for eta = 1. Use penalty:law=kelvin-voigt or "
+          fmt::format("{} with eta = {}: the law {} is elastic, so it models only eta = 1. Use "
+                      "penalty:law=kelvin-voigt or "
                       "event-driven.",
                       method.name, eta, law),
           "penalty-needs-elastic"};

@@ -88,8 +88,8 @@ inline Record sample_record() {
   file.has_velocities = true;
   file.has_u = {true, false};
   file.start_error = 1e-5;
-  file.collisions = CollisionSource::history;
-  file.rows_resolve_collisions = false;
+  file.impact_source = ImpactSource::history;
+  file.rows_resolve_impacts = false;
   file.contact_time = 0.016;
   file.notes = {{"rows-beyond-end", {7.0, 20.0}, ""}, {"columns-not-used", {}, "energy"}};
   file.history = {{0.25}, {{1.0}, {0.5}}};

@@ -13,7 +13,7 @@ namespace clackers::report {
 /// Vega-Lite reads them:
 ///
 ///     response, history_rows   displacements, exact and of the finest history
-///     collisions               exact times
+///     impacts               exact times
 ///     runs                     every run
 ///     levels                   the upper envelope of each subject, without levels that the fit
 ///                              calls unusable

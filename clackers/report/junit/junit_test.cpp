@@ -55,7 +55,7 @@ TEST(Junit, AFailureHasItsCodeAndALineALevel) {
   EXPECT_STREQ(failure.attribute("type").value(), "reduced");
   EXPECT_TRUE(has(failure.attribute("message").value(), "[reduced]"));
   EXPECT_EQ(occurrences(failure.text().get(), "\nh = "), 8u);
-  EXPECT_TRUE(has(failure.text().get(), "6 of 6 collisions matched, 1 of 8 runs failed\n"));
+  EXPECT_TRUE(has(failure.text().get(), "6 of 6 impacts matched, 1 of 8 runs failed\n"));
 }
 
 TEST(Junit, AnUndecidedSubjectIsSkipped) {
@@ -78,7 +78,7 @@ TEST(Junit, PropertiesReadBackToTheSameNumbers) {
   EXPECT_STREQ(test.attribute("classname").value(), "clackers.verify.three-parameter");
   EXPECT_EQ(property(test, "u_error"), "0.30000000000000004");
   EXPECT_EQ(property(test, "order"), "2.0123");
-  EXPECT_EQ(property(test, "collisions_matched"), "6");
+  EXPECT_EQ(property(test, "impacts_matched"), "6");
   EXPECT_EQ(property(document.child("testsuites").child("testsuite"), "N"), "2");
 }
 
@@ -99,7 +99,7 @@ TEST(Junit, HistoriesAreOneTestWithALineAFile) {
   EXPECT_EQ(property(test, "metric:u-max"), "1e-06");
   EXPECT_EQ(property(test, "metric:period-fit-relative"), "") << "not measured";
   const std::string log = test.child("failure").text().get();
-  EXPECT_TRUE(has(log, "fine.csv: h = 0.01 s: error in u 1.00e-3, 4 of 6 collisions matched\n"));
+  EXPECT_TRUE(has(log, "fine.csv: h = 0.01 s: error in u 1.00e-3, 4 of 6 impacts matched\n"));
   EXPECT_TRUE(has(log, "No events file"));
 }
 

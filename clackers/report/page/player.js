@@ -29,7 +29,7 @@ function startPlayer(stage) {
   const sparks = scene.contacts.map((contact, k) => ({
     ...contact,
     times: scene.impacts.filter((impact) => impact.contact === k).map((impact) => impact.t),
-    mark: svgElement(svg, "circle", { r: 13, fill: "var(--collision)", opacity: 0, "data-contact": k })
+    mark: svgElement(svg, "circle", { r: 13, fill: "var(--impact)", opacity: 0, "data-contact": k })
   }));
   const clock = svgElement(svg, "text", { x: stageWidth - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" });
 

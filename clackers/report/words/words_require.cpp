@@ -18,7 +18,7 @@ std::string requirement_text(const record::Record& record, const record::Require
     const auto where = record.cases.size() > 1 ? fmt::format(" on {}", miss.case_name) : "";
     list += fmt::format("{}{}{} ({})", list.empty() ? "" : ", ", miss.subject, where, found);
   }
-  return fmt::format("Required: {}. Not met by {} of {}: {}.", miss.text, unmet.size(),
+  return fmt::format("Required: {}. Not met by {} of {}: {}.", requirement.text, unmet.size(),
                      record::counts(record).total(), list);
 }
 

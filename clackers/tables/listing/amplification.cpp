@@ -108,7 +108,7 @@ std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integ
   record::Sheet accuracy{"clackers/accuracy/1",
                          fmt::format("Period elongation and amplitude decay of {}", name),
                          {steps,
-                          {"period_elongation", "", "T'/T - 1, T' the period that comes out"},
+                          {"period_elongation", "", "T'/T - 1, T' the resulting period"},
                           {"amplitude_decay", "", "part of the amplitude lost in a period"}},
                          {},
                          record::Axes{.highest = 1.0}};

@@ -14,7 +14,7 @@
 namespace clackers::tables {
 namespace {
 
-constexpr std::size_t collisions_shown = 6;
+constexpr std::size_t impacts_shown = 6;
 
 record::Sheet parameter_sheet(const cases::Case& test_case) {
   record::Sheet sheet{"clackers/parameters/1",
@@ -47,7 +47,7 @@ record::Sheet constant_sheet(std::string schema, std::string title,
 }
 
 // Without the states of the masses, which fill more than a page where there are many.
-void keep_collisions_alone(record::Sheet& sheet) {
+void keep_impacts_alone(record::Sheet& sheet) {
   for (auto c = sheet.columns.size(); c-- > 0;) {
     const char first = sheet.columns[c].name.front();
     if (first != 'u' && first != 'v') continue;
@@ -56,18 +56,18 @@ void keep_collisions_alone(record::Sheet& sheet) {
   }
 }
 
-record::Sheet collision_sheet(const cases::Case& test_case) {
-  const auto rows = collisions(test_case);
+record::Sheet impact_sheet(const cases::Case& test_case) {
+  const auto rows = impacts(test_case);
   const auto total = test_case.motion->impact_count(test_case.motion->end());
   record::Sheet sheet{rows->schema(), {}, rows->columns(), {}};
   std::vector<record::Cell> row;
-  while (sheet.rows.size() < collisions_shown && rows->next(row)) sheet.rows.push_back(row);
-  if (test_case.motion->dof() > 2) keep_collisions_alone(sheet);
+  while (sheet.rows.size() < impacts_shown && rows->next(row)) sheet.rows.push_back(row);
+  if (test_case.motion->dof() > 2) keep_impacts_alone(sheet);
   sheet.title = total <= static_cast<long long>(sheet.rows.size())
-                    ? fmt::format("Collisions: {}", total)
+                    ? fmt::format("Impacts: {}", total)
                     : fmt::format(
-                          "Collisions: the first {} of {}; all: clackers respond {} "
-                          "--collisions",
+                          "Impacts: the first {} of {}; all: clackers respond {} "
+                          "--impacts",
                           sheet.rows.size(), total, test_case.entry->name);
   return sheet;
 }
@@ -99,7 +99,7 @@ record::Sheet claim_sheet(const methods::Facts& facts) {
   if (!claim.reason.empty())
     sheet.rows.push_back({"reason", claim.reason, "of the claimed behaviour"});
   sheet.rows.push_back({"reports_impacts", std::string(facts.reports_impacts ? "yes" : "no"),
-                        "whether a run says when the masses collide"});
+                        "whether a run reports its impacts"});
   return sheet;
 }
 
@@ -155,7 +155,7 @@ std::vector<record::Sheet> show_case(std::string_view name, const cases::Setting
       parameter_sheet(test_case),
       constant_sheet("clackers/constants/1", "Derived constants", test_case.constants),
       constant_sheet("clackers/indicators/1", "Indicators", test_case.indicators),
-      collision_sheet(test_case)};
+      impact_sheet(test_case)};
   for (auto& more : {harmonic_sheet(test_case, threshold), conditioning_sheet(test_case)})
     if (more) sheets.push_back(*more);
   return sheets;

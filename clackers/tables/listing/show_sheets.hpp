@@ -11,7 +11,7 @@ namespace clackers::tables {
 /// `threshold`; nothing for a single mass.
 std::optional<record::Sheet> harmonic_sheet(const cases::Case& test_case, double threshold);
 
-/// After which collision a disturbance of the start, or of the frequencies, has made a pair lose its
+/// After which impact a disturbance of the start, or of the frequencies, has made a pair lose its
 /// synchrony, for several sizes; nothing for a single mass.
 std::optional<record::Sheet> conditioning_sheet(const cases::Case& test_case);
 

@@ -12,7 +12,7 @@ namespace clackers::tables {
 std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const TimeGrid& grid,
                                            long long digits);
 
-/// collisions() in the same way; t is the true instant, not the nearest double.
-std::unique_ptr<record::RowSource> collisions(const cases::Case& test_case, long long digits);
+/// impacts() in the same way; t is the true instant, not the nearest double.
+std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case, long long digits);
 
 }  // namespace clackers::tables

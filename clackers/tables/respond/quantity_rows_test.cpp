@@ -42,7 +42,7 @@ const exact::ClosedForm& motion_of(const cases::Case& test_case) {
   return *exact::as_closed_form(*test_case.motion);
 }
 
-TEST(EnergyRows, AreTheSplitAtEveryTimeAndOnBothSidesOfACollision) {
+TEST(EnergyRows, AreTheSplitAtEveryTimeAndOnBothSidesOfAnImpact) {
   const auto test_case = cases::make("stop", {{"eta", 0.5}});
   const double hit = test_case.motion->impact(1).t;
   const auto rows = energies(test_case, {0.0, 0, 0.0, {0.5, hit, 3.0}});

@@ -47,7 +47,7 @@ TEST(Respond, NamesItsColumnsByTheNumberOfMasses) {
   for (std::size_t i = 0; i < units.size(); ++i) EXPECT_EQ(rows->columns()[i].unit, units[i]);
 }
 
-TEST(Respond, ShowsBothSidesWhereATimeIsACollision) {
+TEST(Respond, ShowsBothSidesWhereATimeIsAnImpact) {
   const auto test_case = toy(2, 4.0, {1.0, 4.0});
   const auto list = all_rows(*respond(test_case, {1.0, 5, 0.0, {}}));
   const std::vector<std::vector<record::Cell>> expected{
@@ -61,7 +61,7 @@ TEST(Respond, ShowsBothSidesWhereATimeIsACollision) {
   EXPECT_EQ(list, expected);
 }
 
-TEST(Respond, ShowsOneSideBesideACollision) {
+TEST(Respond, ShowsOneSideBesideAnImpact) {
   const auto test_case = toy(1, 4.0, {1.0});
   const double before = std::nextafter(1.0, 0.0), after = std::nextafter(1.0, 2.0);
   const auto list = all_rows(*respond(test_case, {0.0, 0, 0.0, {after, before}}));
@@ -71,7 +71,7 @@ TEST(Respond, ShowsOneSideBesideACollision) {
 }
 
 TEST(Respond, StreamsManyRowsWithoutLosingOneAtABlocksBorder) {
-  // Every tenth time is a collision; 512 is a multiple of neither 10 nor 11.
+  // Every tenth time is an impact; 512 is a multiple of neither 10 nor 11.
   std::vector<double> impacts;
   for (int k = 0; k <= 5000; k += 10) impacts.push_back(k);
   const auto test_case = toy(1, 5000.0, impacts);
@@ -134,20 +134,20 @@ TEST(Respond, RefusesTimesOutsideTheRunBeforeAnyRow) {
   EXPECT_THROW(respond(test_case, grid_of(3, 8.0)), InputError);
 }
 
-TEST(Collisions, ListEveryCollisionWithBothSides) {
+TEST(Impacts, ListEveryImpactWithBothSides) {
   const auto test_case = toy(2, 4.0, {1.0, 2.5});
-  const auto rows = collisions(test_case);
+  const auto rows = impacts(test_case);
   EXPECT_EQ(column_names(*rows),
             (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "v2-", "v2+", "impulse",
                                       "energy_before", "energy_after"}));
-  EXPECT_EQ(rows->schema(), "clackers/collisions/1");
+  EXPECT_EQ(rows->schema(), "clackers/impacts/1");
   const std::vector<std::vector<record::Cell>> expected{
       {1LL, 1.0, 1.0, 1.0, -1.0, 2.0, -2.0, 0.5, 3.0, 2.0},
       {2LL, 2.5, 2.5, -1.0, 1.0, -2.0, 2.0, 1.0, 6.0, 4.0}};
   EXPECT_EQ(all_rows(*rows), expected);
 }
 
-TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
+TEST(Impacts, NameTheirContactWhereThereAreSeveral) {
   // Two contacts that close together.
   struct Several : study::ToyMotion {
     Several() : study::ToyMotion(3, 4.0, {1.0, 1.0}) {}
@@ -160,7 +160,7 @@ TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
   auto test_case = toy(3, 4.0, {});
   test_case.motion = std::make_shared<Several>();
   test_case.problem.contacts.resize(2);
-  const auto rows = collisions(test_case);
+  const auto rows = impacts(test_case);
   EXPECT_EQ(
       column_names(*rows),
       (std::vector<std::string>{"k", "t", "contact", "u1", "v1-", "v1+", "u2", "v2-", "v2+", "u3",
@@ -174,14 +174,14 @@ TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
   EXPECT_EQ(all_rows(*respond(test_case, grid_of(5, 4.0))).size(), 6u);
 }
 
-TEST(Collisions, OfOneMassLeaveOutTheSecond) {
+TEST(Impacts, OfOneMassLeaveOutTheSecond) {
   const auto test_case = toy(1, 4.0, {1.0});
-  const auto rows = collisions(test_case);
+  const auto rows = impacts(test_case);
   EXPECT_EQ(column_names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "impulse",
                                                            "energy_before", "energy_after"}));
   EXPECT_EQ(all_rows(*rows).size(), 1u);
   const auto none = toy(1, 4.0, {});
-  EXPECT_TRUE(all_rows(*collisions(none)).empty());
+  EXPECT_TRUE(all_rows(*impacts(none)).empty());
 }
 
 TEST(ResponseCurve, HoldsOneRowAMassOverTheWholeRun) {

@@ -38,7 +38,7 @@ TimedRows::TimedRows(const model::Motion& motion, const TimeGrid& grid, std::str
       schema_(std::move(schema)),
       title_(std::move(title)),
       columns_{{"t", "s", "time", record::ColumnKind::real},
-               {"side", "", "- and + are the limits before and after a collision",
+               {"side", "", "- and + are the limits before and after an impact",
                 record::ColumnKind::side}},
       block_(block),
       fill_(std::move(fill)) {

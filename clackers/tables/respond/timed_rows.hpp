@@ -19,8 +19,8 @@ const exact::ClosedForm& closed_form(const cases::Case& test_case, std::string_v
 /// Throws InputError unless every time of the grid lies in [0, end of the case].
 void require_inside(const cases::Case& test_case, const TimeGrid& grid);
 
-/// Rows t, side and more at the times of a grid; two where a time is the double nearest to a
-/// collision, sides "-" then "+".
+/// Rows t, side and more at the times of a grid; two where a time is the double nearest to an
+/// impact, sides "-" then "+".
 class TimedRows : public record::NumberRows {
  public:
   /// Writes the values of the columns after t and side at `times` to rows that lie `stride` doubles

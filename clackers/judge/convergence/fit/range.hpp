@@ -57,7 +57,7 @@ Code floor_reason(const FitContext& context, bool rough);
 /// How many octaves equally spread points cover: the distance of the outer ones, and one spacing.
 double octaves_of(const RawPoints& points);
 
-/// Most clear levels have one run: scatter cannot be told from order.
+/// Most clear levels have one run: scatter cannot be distinguished from order.
 bool one_sample_a_level(const Range& range);
 
 /// A line says something of an order where it spans this many octaves.

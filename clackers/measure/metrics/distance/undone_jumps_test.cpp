@@ -38,7 +38,7 @@ TEST(UnfoldedVelocity, ForgetsOnWhichSideOfAJumpAMotionIs) {
   EXPECT_NEAR(found.masses[1], 0.5 * std::abs(std::sin(3.0) - std::sin(2.9)), 1e-14);
 }
 
-TEST(UnfoldedVelocity, CountsAMissedCollisionForGood) {
+TEST(UnfoldedVelocity, CountsAMissedImpactForGood) {
   auto history = history_with_late_impacts();
   history.impacts->clear();
   // Both limits in two rows: the left one is right now, the right one off by both.

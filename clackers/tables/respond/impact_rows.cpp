@@ -12,8 +12,8 @@ bool has_one_place(const cases::Case& test_case) {
   return test_case.motion->dof() <= 2 && test_case.problem.contacts.size() <= 1;
 }
 
-std::vector<record::Column> collision_columns(const cases::Case& test_case) {
-  std::vector<record::Column> columns{{"k", "", "number of the collision"},
+std::vector<record::Column> impact_columns(const cases::Case& test_case) {
+  std::vector<record::Column> columns{{"k", "", "number of the impact"},
                                       {"t", "s", "its time, the nearest double"}};
   const bool names_contact = test_case.problem.contacts.size() > 1;
   if (names_contact) columns.push_back({"contact", "", "number of the contact, from 0"});
@@ -34,21 +34,20 @@ std::vector<record::Column> collision_columns(const cases::Case& test_case) {
   return columns;
 }
 
-class CollisionRows : public record::NumberRows {
+class ImpactRows : public record::NumberRows {
  public:
-  explicit CollisionRows(const cases::Case& test_case)
+  explicit ImpactRows(const cases::Case& test_case)
       : motion_(*test_case.motion),
         name_(test_case.entry->name),
         total_(motion_.impact_count(motion_.end())),
-        columns_(collision_columns(test_case)),
+        columns_(impact_columns(test_case)),
         names_contact_(test_case.problem.contacts.size() > 1),
         has_one_place_(has_one_place(test_case)) {}
 
-  std::string schema() const override { return "clackers/collisions/1"; }
+  std::string schema() const override { return "clackers/impacts/1"; }
   std::string title() const override {
-    if (total_ > 0) return "Collisions of " + name_;
-    return fmt::format("Collisions of {}: none until the end of its run, {} s", name_,
-                       motion_.end());
+    if (total_ > 0) return "Impacts of " + name_;
+    return fmt::format("Impacts of {}: none until the end of its run, {} s", name_, motion_.end());
   }
   const std::vector<record::Column>& columns() const override { return columns_; }
 
@@ -81,8 +80,8 @@ class CollisionRows : public record::NumberRows {
 
 }  // namespace
 
-std::unique_ptr<record::RowSource> collisions(const cases::Case& test_case) {
-  return std::make_unique<CollisionRows>(test_case);
+std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case) {
+  return std::make_unique<ImpactRows>(test_case);
 }
 
 }  // namespace clackers::tables
