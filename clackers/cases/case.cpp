@@ -136,7 +136,7 @@ std::vector<CaseRow> pair_rows() {
                      threshold);
        }},
       {{"synchronized-pair",
-        "The whole class: any masses, odd frequency ratio, mass ratio below r*, restitution.",
+        "The general pair: any masses, odd frequency ratio, mass ratio below r*, restitution.",
         "Section 2.2, Eq. (9)-(17)",
         {scale("m1", 1.0, "kg", "1e-60 <= m1 <= 1e+60", "mass 1, above"),
          scale("k1", 1.0, "N/m", "1e-60 <= k1 <= 1e+60", "stiffness of mass 1"),
@@ -155,7 +155,7 @@ std::vector<CaseRow> pair_rows() {
                      threshold);
        }},
       {{"exact-data-pair",
-        "The class with every model input a binary64 number, so that nothing is rounded.",
+        "The general pair with every model input a binary64 number, so that nothing is rounded.",
         "Section 2.2, Eq. (9)-(17)",
         {scale("m2", 1.0, "kg", "1e-30 <= m2 <= 1e+30, a short binary fraction",
                "mass 2, the fast one"),

@@ -105,7 +105,7 @@ void add_check(Grammar& root) {
        .about =
            "Assesses time histories that any program wrote, against the exact motion of a case. "
            "Text with comma, semicolon, tab or blank separation, or NumPy's format (.npy); columns "
-           "t, u1, v1, a1, u2, ... by header, fields or --columns; a time that stands twice carries "
+           "t, u1, v1, a1, u2, ... by header, fields or --columns; a time that appears twice has "
            "both limits of a jump. Several files are levels of one method and give an order. "
            "Exit code 0 when the history agrees or nothing is expected, 1 when it disagrees or is "
            "of another motion, 3 when undecided.",

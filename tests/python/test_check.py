@@ -95,7 +95,8 @@ class Arrays(unittest.TestCase):
         times = CASE.impacts().t
         for record in (clackers.check(t, u, v, case=CASE, collisions=times),
                        clackers.check({"t": t, "u": u, "v": v, "collisions": times}, case=CASE)):
-            self.assertLess(record.table()["impact_time_error"][0], 1e-14)
+            self.assertLess(record.table()["collision_time_error"][0], 1e-14)
+            self.assertEqual(record.table()["collisions_matched"][0], 6)
         self.assertEqual(CASE.collisions()["t"].tolist(), CASE.impact_table()["t"].tolist())
 
     def test_several_are_levels_of_one_method(self):

@@ -112,7 +112,7 @@ def _matrix(who: str, name: str, value: object, times: int, width: int, columns_
 
 
 def _named(name: str, matrix: Array) -> Columns:
-    """A column a mass; those of NaN alone are not known and left out."""
+    """A column a mass; those of only NaN are not known and left out."""
     columns = [(f"{name}{mass + 1}", np.require(matrix[:, mass], requirements="A")) for mass in range(matrix.shape[1])]
     return [(title, column) for title, column in columns if len(column) == 0 or not np.isnan(column).all()]
 
@@ -131,7 +131,7 @@ _EVENT_NAMES = {"u": "u{}", "v_before": "v{}-", "v_after": "v{}+"}
 
 
 def read_impacts(who: str, given: object) -> Columns:
-    """Times alone, or a mapping or an object with t and what else is known, as ``Case.impacts`` has it."""
+    """Only times, or a mapping or an object with t and what else is known, as ``Case.impacts`` has it."""
     get = given.get if isinstance(given, Mapping) else lambda name: getattr(given, name, None)
     times = get("t")
     if times is None:

@@ -49,7 +49,7 @@ def verify(
     returns (t, u), (t, u, v) or (t, u, v, a), u of shape (time, dof) or (dof, time), (time,) for one mass; a
     mapping or an object with t, u, v, a and, where known, impacts (their times, or as ``Case.impacts``
     returns them); or the result of ``scipy.integrate.solve_ivp``, y = (u, v), or a list of such results of
-    consecutive flights, whose ``t_events`` are the impacts. A time that stands twice has both limits of
+    consecutive flights, whose ``t_events`` are the impacts. A time that appears twice has both limits of
     a jump. Callables are called in the thread of the caller, one at a time.
 
     Options::
@@ -153,8 +153,7 @@ def check(
     """Assesses time histories of any program against the exact motion of a case.
 
     ``check(t, u)``, ``check(t, u, v)`` and ``check(t, u, v, a)`` take arrays: times [s] and u [m] of shape
-    (time, dof) or (dof, time), (time,) for one mass; the column of a mass that is not known is NaN. A
-    time that stands twice has both limits of a jump. ``check(history)`` takes whatever a callable of
+    (time, dof) or (dof, time), (time,) for one mass; the column of a mass that is not known is NaN. A time that appears twice has both limits of a jump. ``check(history)`` takes whatever a callable of
     ``clackers.verify`` may return, or the path of a file (text, or NumPy's npy). Several histories are levels
     of one method and give an order: a list of histories or paths, or a mapping from steps [s] to them.
 
@@ -277,7 +276,7 @@ def _refuse_without_solvers(
         _core.refuse("verify", "steps", "steps and tolerances", "one of them", "", "bad-syntax")
     if has_methods and steps is not None:
         _core.refuse(
-            "verify", "steps", "steps beside methods", "steps for callables alone",
+            "verify", "steps", "steps beside methods", "steps only for callables",
             "Methods take levels and coarsest, and so do callables beside them.", "bad-syntax",
         )
 

@@ -75,6 +75,8 @@ class Table:
         if not isinstance(key, str):
             return tuple(array[key].item() if array.dtype != object else array[key]
                          for array in self._arrays.values())
+        if key not in self._arrays and key.startswith("collision"):
+            key = key.replace("collision", "impact")  # the former names
         if key not in self._arrays:
             _core.refuse_column(self.title, key, list(self._arrays))
         return self._arrays[key]

@@ -101,8 +101,7 @@ std::string behaviour_sentence(const record::Subject& subject) {
       break;
     case Behaviour::irregular:
       text = fmt::format(
-          "Converges irregularly: the upper envelope has order {}, neighbouring steps differ by up "
-          "to a factor {}.",
+          "Converges irregularly: the upper envelope has order {}, errors scatter by up to a factor {}.",
           order(), rounded_factor(fit.scatter));
       break;
     case Behaviour::stagnating:
