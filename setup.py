@@ -26,7 +26,7 @@ class CMakeBuild(build_ext):
         folder = ROOT / BUILD / "cmake"
         options = {
             "CMAKE_BUILD_TYPE": "Release",
-            "CMAKE_CXX_FLAGS_RELEASE": "-O2 -DNDEBUG",
+            "CMAKE_CXX_FLAGS_RELEASE": "-O2 -DNDEBUG " + os.environ.get("CXXFLAGS", ""),
             # No name of a folder of this machine in the module.
             "CMAKE_CXX_FLAGS": f"-ffile-prefix-map={ROOT}=.",
             "CMAKE_MODULE_LINKER_FLAGS": "-s",

@@ -36,7 +36,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libclackers-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # The static libraries of C++ leave these to whoever links them; versions as in CMakeLists.txt.
 set(development_depends "libclackers0 (= ${PROJECT_VERSION}-1)" "libeigen3-dev (>= 3.4)"
-  "libfmt-dev (>= 9)" "nlohmann-json3-dev (>= 3.11)" "libpugixml-dev (>= 1.13)" "libboost-dev (>= 1.74)"
+  "libfmt-dev (>= 9)" "nlohmann-json3-dev (>= 3.11)" "libboost-dev (>= 1.74)"
   "libhwy-dev (>= 1.0.3)" "libsqlite3-dev (>= 3.38)" libtomlplusplus-dev)
 if(arb)
   list(APPEND development_depends libflint-arb-dev libflint-dev)

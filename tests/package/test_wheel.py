@@ -16,7 +16,9 @@ import installed
 PYTHON = "/usr/bin/python3"
 # No index and no settings of the user: whoever wants to download fails.
 OFFLINE = {**os.environ, "PIP_NO_INDEX": "1", "PIP_CONFIG_FILE": os.devnull, "PIP_DISABLE_PIP_VERSION_CHECK": "1",
-           "PYTHONDONTWRITEBYTECODE": "1", "PYTHONNOUSERSITE": "1"}
+           "PYTHONDONTWRITEBYTECODE": "1", "PYTHONNOUSERSITE": "1",
+           # What is tested here does not depend on optimization, which is most of the time of a build.
+           "CXXFLAGS": "-O0"}
 FIVE_LINES = """
 import clackers
 case = clackers.case("three-parameter", N=2, xi1=0.05)

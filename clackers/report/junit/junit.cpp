@@ -4,9 +4,10 @@
 
 #include <cmath>
 #include <ostream>
-#include <pugixml.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
@@ -63,54 +64,103 @@ Totals totals_of(const record::CaseRecord& problem) {
   return totals;
 }
 
-void set(pugi::xml_node& node, const char* name, const std::string& value) {
-  node.append_attribute(name) = xml_text(value).c_str();
+using Attributes = std::vector<std::pair<std::string_view, std::string>>;
+
+std::string xml_escaped(std::string_view text, bool in_attribute) {
+  std::string out;
+  for (const char c : xml_text(text)) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (in_attribute && (c == '"' || c < ' ') && c >= 0)
+      out += c == '"' ? "&quot;" : fmt::format("&#{:02};", int(c));
+    else
+      out += c;
+  }
+  return out;
 }
 
-void set(pugi::xml_node& node, const Totals& totals) {
-  node.append_attribute("tests") = totals.tests;
-  node.append_attribute("failures") = totals.failures;
-  node.append_attribute("errors") = totals.errors;
-  node.append_attribute("skipped") = totals.skipped;
-  set(node, "time", fmt::format("{:.3f}", totals.seconds));
-}
-
-class Properties {
+// Writes elements, each in lines of its own.
+class Xml {
  public:
-  explicit Properties(pugi::xml_node& owner) : node_(owner.append_child("properties")) {}
-  void add(const std::string& name, const std::string& value) {
-    auto property = node_.append_child("property");
-    set(property, "name", name);
-    set(property, "value", value);
+  explicit Xml(std::ostream& out) : out_(out) {
+    out_ << R"(<?xml version="1.0" encoding="UTF-8"?>)";
   }
-  // What was not measured is left out.
-  void add(const std::string& name, double value) {
-    if (!std::isnan(value)) add(name, exact_number(value));
+  void open(std::string_view name, const Attributes& attributes = {}) {
+    start(name, attributes);
+    out_ << '>';
+    open_.emplace_back(name);
   }
-  void add(const std::string& name, const record::Cell& cell) {
-    if (const auto* real = std::get_if<double>(&cell)) add(name, *real);
-    if (const auto* whole = std::get_if<long long>(&cell)) add(name, fmt::format("{}", *whole));
-    if (const auto* text = std::get_if<std::string>(&cell)) add(name, *text);
+  void close() {
+    const auto name = std::move(open_.back());
+    open_.pop_back();
+    line();
+    out_ << "</" << name << '>';
+    if (open_.empty()) out_ << '\n';
+  }
+  void empty(std::string_view name, const Attributes& attributes) {
+    start(name, attributes);
+    out_ << " />";
+  }
+  void text(std::string_view name, const Attributes& attributes, std::string_view text) {
+    start(name, attributes);
+    out_ << '>' << xml_escaped(text, false) << "</" << name << '>';
   }
 
  private:
-  pugi::xml_node node_;
+  void line() { out_ << '\n' << std::string(2 * open_.size(), ' '); }
+  void start(std::string_view name, const Attributes& attributes) {
+    line();
+    out_ << '<' << name;
+    for (const auto& [key, value] : attributes)
+      out_ << ' ' << key << "=\"" << xml_escaped(value, true) << '"';
+  }
+
+  std::ostream& out_;
+  std::vector<std::string> open_;
 };
 
-void add_measured(Properties& properties, const record::CaseRecord& problem,
-                  const record::Subject& subject) {
+Attributes with_totals(Attributes attributes, const Totals& totals) {
+  for (const auto& [name, count] : {std::pair{"tests", totals.tests},
+                                    {"failures", totals.failures},
+                                    {"errors", totals.errors},
+                                    {"skipped", totals.skipped}})
+    attributes.emplace_back(name, fmt::format("{}", count));
+  attributes.emplace_back("time", fmt::format("{:.3f}", totals.seconds));
+  return attributes;
+}
+
+void add_property(Xml& xml, const std::string& name, const std::string& value) {
+  xml.empty("property", {{"name", name}, {"value", value}});
+}
+// What was not measured is left out.
+void add_property(Xml& xml, const std::string& name, double value) {
+  if (!std::isnan(value)) add_property(xml, name, exact_number(value));
+}
+void add_property(Xml& xml, const std::string& name, const record::Cell& cell) {
+  if (const auto* real = std::get_if<double>(&cell)) add_property(xml, name, *real);
+  if (const auto* whole = std::get_if<long long>(&cell))
+    add_property(xml, name, fmt::format("{}", *whole));
+  if (const auto* text = std::get_if<std::string>(&cell)) add_property(xml, name, *text);
+}
+
+void add_measured(Xml& xml, const record::CaseRecord& problem, const record::Subject& subject) {
   const auto row = subject_row(problem, subject);
   for (const auto* name :
        {"verdict", "claim", "behaviour", "order", "order_spread", "step", "u_error", "v_error",
         "energy_error", "impacts_expected", "impacts_found", "impacts_matched", "impacts_missed",
         "impacts_extra", "impact_time_error", "force_evaluations"})
-    properties.add(name, column(name).get(row));
+    add_property(xml, name, column(name).get(row));
   // "tolerance" is the error that is accepted.
-  properties.add("solver_tolerance", column("tolerance").get(row));
-  if (subject.tolerance) properties.add("tolerance", *subject.tolerance);
-  properties.add("seconds_of_all_runs", seconds_of(subject));
+  add_property(xml, "solver_tolerance", column("tolerance").get(row));
+  if (subject.tolerance) add_property(xml, "tolerance", *subject.tolerance);
+  add_property(xml, "seconds_of_all_runs", seconds_of(subject));
   if (const auto* run = subject.shown_run())
-    for (const auto& metric : run->metrics) properties.add("metric:" + metric.name, metric.value);
+    for (const auto& metric : run->metrics)
+      add_property(xml, "metric:" + metric.name, metric.value);
 }
 
 std::string run_line(const record::Subject& subject, const measure::RunScore& score, int runs,
@@ -144,75 +194,71 @@ std::string log_text(const record::Subject& subject) {
   return text;
 }
 
-void add_status(pugi::xml_node& test, const record::Subject& subject) {
+void add_status(Xml& xml, const record::Subject& subject) {
   const auto status = status_of(subject);
   if (status == Status::passed) return;
-  auto node = test.append_child(status == Status::failed    ? "failure"
-                                : status == Status::skipped ? "skipped"
-                                                            : "error");
   const auto found = finding(subject).value_or(Finding{});
   const auto causes = diagnosis_texts(subject);
-  set(node, "message",
-      causes.empty() ? text_of(found)
-                     : fmt::format("{} {}", text_of(causes.front()), text_of(found)));
-  if (status == Status::skipped) return;
-  set(node, "type", found.code.empty() ? std::string(record::verdict_word(subject)) : found.code);
-  node.text() = xml_text(log_text(subject)).c_str();
+  Attributes attributes{
+      {"message", causes.empty() ? text_of(found)
+                                 : fmt::format("{} {}", text_of(causes.front()), text_of(found))}};
+  if (status == Status::skipped) return xml.empty("skipped", attributes);
+  attributes.emplace_back(
+      "type", found.code.empty() ? std::string(record::verdict_word(subject)) : found.code);
+  xml.text(status == Status::failed ? "failure" : "error", attributes, log_text(subject));
 }
 
-void add_suite(pugi::xml_node& suites, const record::Record& record,
-               const record::CaseRecord& problem, const study::BaselineComparison* changes) {
+void add_suite(Xml& xml, const record::Record& record, const record::CaseRecord& problem,
+               const study::BaselineComparison* changes) {
   const auto& from = record.provenance;
-  auto suite = suites.append_child("testsuite");
-  set(suite, "name", case_text(problem.problem));
-  set(suite, totals_of(problem));
-  set(suite, "timestamp", from.date);
-  Properties properties(suite);
-  properties.add("command", from.command);
-  properties.add("version", from.version);
-  properties.add("compiler", from.compiler);
-  properties.add("machine", from.machine);
-  properties.add("processor", from.processor);
+  auto attributes = with_totals({{"name", case_text(problem.problem)}}, totals_of(problem));
+  attributes.emplace_back("timestamp", from.date);
+  xml.open("testsuite", attributes);
+  xml.open("properties");
+  add_property(xml, "command", from.command);
+  add_property(xml, "version", from.version);
+  add_property(xml, "compiler", from.compiler);
+  add_property(xml, "machine", from.machine);
+  add_property(xml, "processor", from.processor);
   for (const auto& parameter : problem.problem.parameters)
     if (parameter.text.empty())
-      properties.add(parameter.name, parameter.value);
+      add_property(xml, parameter.name, parameter.value);
     else
-      properties.add(parameter.name, parameter.text);
-  if (const auto plan = plan_text(problem); !plan.empty()) properties.add("plan", plan);
+      add_property(xml, parameter.name, parameter.text);
+  if (const auto plan = plan_text(problem); !plan.empty()) add_property(xml, "plan", plan);
+  xml.close();
   for (const auto& subject : problem.subjects) {
-    auto test = suite.append_child("testcase");
-    set(test, "name", subject.name);
-    set(test, "classname", fmt::format("clackers.{}.{}", record.command, problem.problem.name));
-    set(test, "time", fmt::format("{:.3f}", seconds_of(subject)));
-    Properties measured(test);
-    add_measured(measured, problem, subject);
-    add_status(test, subject);
+    xml.open("testcase",
+             {{"name", subject.name},
+              {"classname", fmt::format("clackers.{}.{}", record.command, problem.problem.name)},
+              {"time", fmt::format("{:.3f}", seconds_of(subject))}});
+    xml.open("properties");
+    add_measured(xml, problem, subject);
+    xml.close();
+    add_status(xml, subject);
+    xml.close();
   }
-  if (changes == nullptr) return;
+  if (changes == nullptr) return xml.close();
   auto of_case = *changes;
   std::erase_if(of_case.subjects, [&](const study::SubjectChange& change) {
     return change.case_name != problem.problem.name;
   });
   std::ostringstream text;
   write_changes(of_case, text, {.color = false, .width = 100});
-  suite.append_child("system-out").text() = xml_text(text.str()).c_str();
+  xml.text("system-out", {}, text.str());
+  xml.close();
 }
 
 }  // namespace
 
 void write_junit(const record::Record& record, std::ostream& out, const Style&,
                  const study::BaselineComparison* changes) {
-  pugi::xml_document document;
-  auto suites = document.append_child("testsuites");
-  set(suites, "name", "clackers " + record.command);
   Totals totals;
   for (const auto& problem : record.cases) add(totals, totals_of(problem));
-  set(suites, totals);
-  for (const auto& problem : record.cases) add_suite(suites, record, problem, changes);
-  auto declaration = document.prepend_child(pugi::node_declaration);
-  declaration.append_attribute("version") = "1.0";
-  declaration.append_attribute("encoding") = "UTF-8";
-  document.save(out, "  ", pugi::format_default, pugi::encoding_utf8);
+  Xml xml(out);
+  xml.open("testsuites", with_totals({{"name", "clackers " + record.command}}, totals));
+  for (const auto& problem : record.cases) add_suite(xml, record, problem, changes);
+  xml.close();
 }
 
 }  // namespace clackers::report
