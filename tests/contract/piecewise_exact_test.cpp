@@ -60,8 +60,8 @@ INSTANTIATE_TEST_SUITE_P(
                     ExactTask{"synchronized-pair", {{"X", 81.0}, {"r", 4.5}, {"eta", 0.97}}},
                     ExactTask{"synchronized-pair", {{"X", 3.0}, {"r", 0.5}, {"eta", 0.0}}},
                     ExactTask{"stop", {{"eta", 0.7}}}, ExactTask{"symmetric-pair", {{"eta", 0.9}}}),
-    [](const auto& info) {
-      std::string name = info.param.name + std::to_string(info.index);
+    [](const auto& parameter) {
+      std::string name = parameter.param.name + std::to_string(parameter.index);
       std::replace(name.begin(), name.end(), '-', '_');
       return name;
     });

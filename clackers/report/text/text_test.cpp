@@ -43,7 +43,7 @@ TEST(Text, ARowHasErrorOrderImpactsCostBehaviourAndVerdict) {
   // 0.8 h^2 at the finest level's largest step, 0.05/128 s: 1.2e-7; a third of it in the impact
   // times, three times it in energy; 20 s / h forces at the smallest step, 2^(7/8) times smaller.
   const auto text = text_of_record(sample_record());
-  EXPECT_TRUE(has(text, " 1.2e-7 2.01±0.01   6/6  4.1e-8  3.7e-7 93901 proper     agrees")) << text;
+  EXPECT_TRUE(has(text, " 1.2e-7 2.01±0.01  6/6  4.1e-8  3.7e-7 93901 proper     agrees")) << text;
 }
 
 // Twelve methods with two treatments, of which two disagree.
