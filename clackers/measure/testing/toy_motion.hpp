@@ -45,7 +45,7 @@ class ToyMotion : public model::Motion {
         if (!row.empty()) row[2 * i + 1] = -0.5 * row[2 * i];
     }
   }
-  model::Kinematics size(double) const override {
+  model::Kinematics envelope(double) const override {
     const Eigen::Vector2d size(1.0, 0.5);
     return {size, size, size};
   }
