@@ -384,7 +384,7 @@ def _positional(given: Sequence[object], keys: object, u: object, v: object, a: 
 
 
 class _ProgressLine:
-    """``progress=True``: a line on standard error that is written anew."""
+    """``progress=True``: a line on standard error that is updated."""
 
     def __init__(self, command: str, progress: Progress) -> None:
         self._command = command

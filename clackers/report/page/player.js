@@ -118,8 +118,8 @@ function startPlayer(stage) {
   rate.addEventListener("change", () => { speed = Number(rate.value); });
   const choice = document.createElement("select");
   choice.setAttribute("aria-label", `Beside the exact motion: ${what}`);
-  choice.append(new Option("exact motion alone", "-1"));
-  scene.runs.forEach((run, k) => choice.append(new Option(`beside it: ${run.name}, ${run.step}`, String(k))));
+  choice.append(new Option("only the exact motion", "-1"));
+  scene.runs.forEach((run, k) => choice.append(new Option(`compared with ${run.name}, ${run.step}`, String(k))));
   choice.addEventListener("change", () => { beside = scene.runs[Number(choice.value)] || null; show(); });
   const frameSvg = () => withLightColors(new XMLSerializer().serializeToString(svg)
     .replace("<svg ", `<svg width="${stageWidth}" height="${stageHeight}" style="background:var(--paper)" `));
