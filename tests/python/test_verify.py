@@ -345,7 +345,7 @@ class Refusals(unittest.TestCase):
         "a subject of another type": ((3,), {}, "out-of-range", "callable"),
         "two of one name": ((leapfrog, leapfrog), {}, "bad-syntax", "name"),
         "steps and tolerances": ((leapfrog,), {"steps": [1], "tolerances": [1]}, "bad-syntax", "one of them"),
-        "steps of methods": (("rk4", leapfrog), {"steps": [0.1]}, "bad-syntax", "callables alone"),
+        "steps of methods": (("rk4", leapfrog), {"steps": [0.1]}, "bad-syntax", "only for callables"),
         "steps without a callable": (("rk4",), {"steps": [0.1]}, "bad-syntax", "steps"),
         "a step twice": ((leapfrog,), {"steps": [0.1, 0.1]}, "not-sorted", "steps"),
         "a step of 0": ((leapfrog,), {"steps": [0.0]}, "step-not-positive", "0"),

@@ -215,7 +215,12 @@ class Case:
         return Table(*_core.impact_table(self._core))
 
     def collisions(self) -> Table:
-        """The former name of ``impact_table``."""
+        """The former name of ``impact_table``.
+
+        >>> import clackers
+        >>> len(clackers.case("stop").collisions())
+        6
+        """
         return self.impact_table()
 
     def energies(self, t: npt.ArrayLike) -> Table:
