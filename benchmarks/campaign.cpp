@@ -16,7 +16,7 @@ constexpr std::string_view specification_text = R"(methods = ["newmark", "rk4", 
 [ladder]
 levels = 3
 coarsest = 3.6e-3
-neighbours = 8
+samples_per_level = 8
 [[cases]]
 case = "three-parameter"
 set = { xi1 = { from = 0.01, to = 0.1, points = 40 } }

@@ -1,4 +1,4 @@
-// What a collision of a pair costs: piecewise-exact beside solvers of ordinary differential equations
+// What an impact of a pair costs: piecewise-exact beside solvers of ordinary differential equations
 // that find it as a root, in the same run. Asserts nothing.
 #include <cvode/cvode.h>
 #include <fmt/format.h>
@@ -59,10 +59,10 @@ Pair pair_of(const model::ImpactProblem<>& p) {
           {p.start.u[0], p.start.u[1], p.start.v[0], p.start.v[1]}};
 }
 
-using Times = std::vector<double>;  // of collisions [s]
+using Times = std::vector<double>;  // of impacts [s]
 
 // SUNDIALS CVODE: Adams' methods of variable order, fixed-point iteration, the gap as a root function
-// with a direction, restarted after each collision.
+// with a direction, restarted after each impact.
 class Cvode {
  public:
   explicit Cvode(const Pair& pair) : pair_(pair) {
@@ -153,9 +153,9 @@ void run_odeint(const Pair& pair, Times& times) {
   }
 }
 
-struct CollisionSink : model::Sink {
+struct ImpactSink : model::Sink {
   Times* times;
-  explicit CollisionSink(Times& to) : times(&to) { to.clear(); }
+  explicit ImpactSink(Times& to) : times(&to) { to.clear(); }
   bool take(const model::SampleBlock&) override { return true; }
   bool take(const model::ReportedImpact& impact) override {
     times->push_back(impact.t);
@@ -192,20 +192,20 @@ void race(double X, double than_cvode, double than_odeint) {
   std::vector<Row> rows{
       {"piecewise-exact", 0.0,
        [run](Times& times) {
-         CollisionSink sink(times);
+         ImpactSink sink(times);
          run->advance(sink);
        }},
       {"SUNDIALS CVODE, Adams", than_cvode, [cvode](Times& times) { cvode->run(times); }},
       {"Boost.odeint, dopri5", than_odeint, [pair](Times& times) { run_odeint(pair, times); }}};
   std::vector<int> repeats;
   for (auto& row : rows) repeats.push_back(calibrate([&] { row.work(row.times); }));
-  const auto collisions = double(motion.impact_count(motion.end()));
+  const auto impacts = double(motion.impact_count(motion.end()));
   for (int i = 0; i < runs; ++i)
     for (std::size_t j = 0; j < rows.size(); ++j)
       rows[j].costs.push_back(time_of([&] { rows[j].work(rows[j].times); }, repeats[j]) * 1e-3 /
-                              collisions);
-  fmt::print("\nX = {}, {} collisions\n{:<24} {:>12} {:>10}  {:>9} {:>8}\n", X, collisions, "",
-             "us/collision", "time error", "ratio", "wanted");
+                              impacts);
+  fmt::print("\nX = {}, {} impacts\n{:<24} {:>12} {:>10}  {:>9} {:>8}\n", X, impacts, "",
+             "us/impact", "time error", "ratio", "wanted");
   const double ours = median(rows[0].costs);
   for (const auto& row : rows) {
     const double cost = median(row.costs);
@@ -224,7 +224,7 @@ int main() {
   using namespace clackers::benchmarks;
   fmt::print(
       "{}, {}\nmedian of {} alternated runs; processor time; relative error of the times of "
-      "collisions\n",
+      "impacts\n",
       processor(), compiler(), runs);
   race(5.0, 800.0, 95.0);
   race(81.0, 8000.0, 950.0);

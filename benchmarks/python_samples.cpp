@@ -24,8 +24,8 @@ struct States {
 };
 
 void serve(std::size_t count) {
-  const auto which = cases::make(cases::default_case());
-  const auto& motion = *which.motion;
+  const auto test_case = cases::make(cases::default_case());
+  const auto& motion = *test_case.motion;
   const auto size = count * std::size_t(motion.dof());
   std::vector<double> times(count);
   for (std::size_t k = 0; k < count; ++k) times[k] = motion.end() * double(k) / double(count - 1);

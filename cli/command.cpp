@@ -7,9 +7,9 @@ namespace clackers::cli {
 
 std::vector<std::string> Option::values() const {
   if (const auto* const* many = std::get_if<std::vector<std::string>*>(&target)) return **many;
-  const auto* const* one = std::get_if<std::string*>(&target);
-  if (one == nullptr || (*one)->empty()) return {};
-  return {**one};
+  const auto* const* text = std::get_if<std::string*>(&target);
+  if (text == nullptr || (*text)->empty()) return {};
+  return {**text};
 }
 
 Option* Option::description(std::string text) {

@@ -64,8 +64,7 @@ class Parser {
     const auto option = std::ranges::find(command_.options, name, &Option::name);
     if (option == command_.options.end()) refuse_option(name, command_);
     if (auto* const* flag = std::get_if<bool*>(&option->target)) {
-      if (equals != std::string::npos)
-        refuse_syntax(name + " stands alone, without a value.", command_);
+      if (equals != std::string::npos) refuse_syntax(name + " takes no value.", command_);
       **flag = true;
     } else if (equals != std::string::npos) {
       give(*option, word.substr(equals + 1));
@@ -94,7 +93,7 @@ class Parser {
       return;
     }
     if (std::ranges::find(given_, &option) != given_.end())
-      refuse_syntax(fmt::format("{} stands more than once.", option.name), command_);
+      refuse_syntax(fmt::format("{} is given more than once.", option.name), command_);
     given_.push_back(&option);
     *std::get<std::string*>(option.target) = value;
   }
@@ -135,7 +134,7 @@ void print(const std::string& text) {
   const auto name = word.substr(0, word.find('='));
   const auto& known = grammar.commands.front().options;
   if (std::ranges::find(known, name, &Option::name) != known.end())
-    refuse_syntax(fmt::format("{0} stands after the command: clackers COMMAND ... {0}.", name),
+    refuse_syntax(fmt::format("{0} goes after the command: clackers COMMAND ... {0}.", name),
                   program);
   refuse_option(name, program);
 }

@@ -77,7 +77,7 @@ extern "C" void on_end(int signal) {
 // The libraries of certified arithmetic abort when memory runs out, after a message of their own.
 extern "C" void on_abort(int) {
   end_with(
-      "clackers: a library ended the program, most likely for want of memory; ask for less. "
+      "clackers: a library ended the program, most likely for lack of memory; ask for less. "
       "[out-of-memory]\n");
 }
 

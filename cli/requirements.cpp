@@ -7,11 +7,12 @@ namespace clackers::cli {
 
 void add_require_option(Command& command, std::vector<std::string>& requirements) {
   command
-      .add_option("--require", requirements,
-                  "Exit code 1 unless every subject is so: agrees; an order of at least p, "
-                  "order:p; an error in u of the finest level of at most x, error:x; or a "
-                  "behaviour such as proper. Refused methods and undecided or contradicted claims "
-                  "never are. Several, each with its own --require, are all required.")
+      .add_option(
+          "--require", requirements,
+          "Exit code 1 unless every subject fulfils this: agrees; an order of at least p, "
+          "order:p; an error in u of the finest level of at most x, error:x; or a "
+          "behaviour such as proper. Refused methods and undecided or contradicted claims never "
+          "do. May be repeated; all must be fulfilled.")
       ->option_text("WHAT");
 }
 

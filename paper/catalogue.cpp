@@ -27,11 +27,11 @@ constexpr auto table = std::to_array<Entry>({
     {"fig9", "Three parameters: the effect of the duration", short_one<effect_of_duration>},
     {"fig10", "Ten responses of the three-parameter system, Eq. (25)-(26)",
      short_one<three_parameters>},
-    {"fig11", "A collision mirrors the response", short_one<mirrored_response>},
-    {"fig12", "Coincidence with the response without collisions", short_one<coincidence>},
+    {"fig11", "An impact mirrors the response", short_one<mirrored_response>},
+    {"fig12", "Coincidence with the response without impacts", short_one<coincidence>},
     {"figA1", "No contact away from equilibrium: D' is positive", short_one<positive_definite>},
     {"figA2", "Smaller initial displacements of mass 2 are safe too", short_one<amplitudes>},
-    {"figA3", "The nearest miss before a collision", short_one<near_miss>},
+    {"figA3", "The nearest miss before an impact", short_one<near_miss>},
     {"validation", "Six methods converge to Eq. (26)", validation},
 });
 

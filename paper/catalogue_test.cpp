@@ -36,7 +36,7 @@ TEST(Catalogue, FiguresAreListedWithTheirTitles) {
   ASSERT_EQ(sheet.rows.size(), entries().size());
   EXPECT_EQ(std::get<std::string>(sheet.rows[11][0]), "fig12");
   EXPECT_EQ(std::get<std::string>(sheet.rows[11][1]),
-            "Coincidence with the response without collisions");
+            "Coincidence with the response without impacts");
 }
 
 // The whole of a figure, but the validation, which takes a study and has a test of its own.

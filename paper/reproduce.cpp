@@ -38,18 +38,18 @@ void write_manifest(const std::vector<Drawn>& drawn, const std::string& command,
                     const fs::path& folder) {
   const auto from = record::provenance(command);
   Json figures = Json::array(), files{manifest, "index.html"};
-  for (const auto& one : drawn) {
+  for (const auto& item : drawn) {
     Json claims = Json::array();
-    for (const auto& claim : one.figure.claims)
+    for (const auto& claim : item.figure.claims)
       claims.push_back(
           {{"says", claim.says}, {"measured", claim.measured}, {"verdict", verdict_of(claim)}});
-    figures.push_back({{"name", one.figure.name},
-                       {"title", one.figure.title},
-                       {"caption", one.figure.caption},
-                       {"files", one.files},
+    figures.push_back({{"name", item.figure.name},
+                       {"title", item.figure.title},
+                       {"caption", item.figure.caption},
+                       {"files", item.files},
                        {"claims", claims},
-                       {"choices", one.figure.choices}});
-    for (const auto& file : one.files) files.push_back(file);
+                       {"choices", item.figure.choices}});
+    for (const auto& file : item.files) files.push_back(file);
   }
   const Json json{{"schema", schema},  {"version", from.version}, {"command", from.command},
                   {"date", from.date}, {"files", files},          {"figures", figures}};

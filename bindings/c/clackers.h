@@ -195,7 +195,7 @@ CLACKERS_API clackers_status clackers_motion_constant(const clackers_motion* mot
 
 /**
  * Whether two masses with frequency ratio X and mass ratio r = m1/m2 touch only at equilibrium: the
- * limit r*(X) of slow over fast mass (infinity for X = 1), and the smallest gap between collisions
+ * limit r*(X) of slow over fast mass (infinity for X = 1), and the smallest gap between impacts
  * relative to the slow displacement. They do where the margin is positive; 0 grazes.
  */
 CLACKERS_API clackers_status clackers_admissibility(double X, double r, double* r_star,

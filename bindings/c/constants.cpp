@@ -10,24 +10,25 @@
 namespace clackers::c_api {
 namespace {
 
-std::size_t count_of(const cases::Case& which) {
-  return which.constants.size() + which.indicators.size();
+std::size_t count_of(const cases::Case& test_case) {
+  return test_case.constants.size() + test_case.indicators.size();
 }
 
 // Constants come first, then indicators.
-const cases::Constant& constant_of(const cases::Case& which, std::size_t index) {
-  const auto derived = which.constants.size();
-  return index < derived ? which.constants[index] : which.indicators[index - derived];
+const cases::Constant& constant_of(const cases::Case& test_case, std::size_t index) {
+  const auto derived = test_case.constants.size();
+  return index < derived ? test_case.constants[index] : test_case.indicators[index - derived];
 }
 
-const cases::Constant& constant_of(const cases::Case& which, std::string_view name) {
+const cases::Constant& constant_of(const cases::Case& test_case, std::string_view name) {
+  if (name == "collisions") name = "impacts";  // its former name
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < count_of(which); ++i) {
-    const auto& constant = constant_of(which, i);
+  for (std::size_t i = 0; i < count_of(test_case); ++i) {
+    const auto& constant = constant_of(test_case, i);
     if (constant.name == name) return constant;
     names.push_back(constant.name);
   }
-  refuse_name(fmt::format("constant of {}", which.entry->name), name, names,
+  refuse_name(fmt::format("constant of {}", test_case.entry->name), name, names,
               fmt::format("{}", fmt::join(names, ", ")));
 }
 
@@ -39,9 +40,9 @@ using namespace clackers::c_api;
 
 clackers_status clackers_motion_constant_count(const clackers_motion* motion, size_t* count) {
   return guarded([&] {
-    const auto& which = case_of("clackers_motion_constant_count", motion);
+    const auto& test_case = case_of("clackers_motion_constant_count", motion);
     require_pointer("clackers_motion_constant_count", "count", count);
-    *count = count_of(which);
+    *count = count_of(test_case);
   });
 }
 
@@ -49,13 +50,13 @@ clackers_status clackers_motion_constant_at(const clackers_motion* motion, size_
                                             clackers_constant* constant) {
   return guarded([&] {
     constexpr auto who = "clackers_motion_constant_at";
-    const auto& which = case_of(who, motion);
+    const auto& test_case = case_of(who, motion);
     require_pointer(who, "constant", constant);
     require_size(who, *constant);
-    const auto count = count_of(which);
+    const auto count = count_of(test_case);
     if (index >= count)
       refuse(who, "index", fmt::to_string(index), fmt::format("0 <= index < {}", count));
-    const auto& found = constant_of(which, index);
+    const auto& found = constant_of(test_case, index);
     write_versioned(*constant, {.struct_size = 0,  // the caller's stays
                                 .name = found.name.c_str(),
                                 .unit = found.unit.c_str(),
@@ -68,10 +69,10 @@ clackers_status clackers_motion_constant(const clackers_motion* motion, const ch
                                          double* value) {
   return guarded([&] {
     constexpr auto who = "clackers_motion_constant";
-    const auto& which = case_of(who, motion);
+    const auto& test_case = case_of(who, motion);
     require_pointer(who, "name", name);
     require_pointer(who, "value", value);
-    *value = constant_of(which, name).value;
+    *value = constant_of(test_case, name).value;
   });
 }
 

@@ -11,10 +11,10 @@ namespace {
 
 TEST(CConstants, AreAllThoseOfTheCaseThenItsIndicators) {
   const auto motion = make_case("three-parameter");
-  const auto which = cases::make("three-parameter");
-  auto all = which.constants;
-  all.insert(all.end(), which.indicators.begin(), which.indicators.end());
-  ASSERT_GT(which.indicators.size(), 0u);
+  const auto test_case = cases::make("three-parameter");
+  auto all = test_case.constants;
+  all.insert(all.end(), test_case.indicators.begin(), test_case.indicators.end());
+  ASSERT_GT(test_case.indicators.size(), 0u);
 
   std::size_t count = 0;
   ASSERT_EQ(clackers_motion_constant_count(motion.get(), &count), CLACKERS_OK);

@@ -4,7 +4,7 @@
 #include "clackers/cases/case.hpp"
 
 struct clackers_motion {
-  clackers::cases::Case which;
+  clackers::cases::Case test_case;
 };
 
 namespace clackers::c_api {
@@ -12,7 +12,7 @@ namespace clackers::c_api {
 /// The case behind a handle; throws InputError if it is null.
 inline const cases::Case& case_of(std::string_view who, const clackers_motion* motion) {
   require_pointer(who, "motion", motion);
-  return motion->which;
+  return motion->test_case;
 }
 
 inline const model::Motion& motion_of(std::string_view who, const clackers_motion* motion) {

@@ -19,8 +19,8 @@ clackers_impact empty_impact() {
 }
 
 TEST(CImpacts, AreThoseOfTheLibrary) {
-  const auto which = cases::make("synchronized-pair", {{"eta", 0.875}});
-  const auto hit = which.motion->impact(3);
+  const auto test_case = cases::make("synchronized-pair", {{"eta", 0.875}});
+  const auto hit = test_case.motion->impact(3);
   auto impact = empty_impact();
   Arrays before(2), after(2);
   ASSERT_EQ(clackers_motion_impact(pair().get(), 3, &impact, &before.out, &after.out), CLACKERS_OK)

@@ -26,8 +26,8 @@ clackers_status clackers_motion_sample(const clackers_motion* motion, const doub
     constexpr auto who = "clackers_motion_sample";
     const auto& reference = motion_of(who, motion);
     if (count > 0) require_pointer(who, "times", times);
-    const auto which = read_side(who, side);
-    reference.sample({times, count}, which, read_buffers(who, "out", out, count, reference.dof()));
+    const auto limit = read_side(who, side);
+    reference.sample({times, count}, limit, read_buffers(who, "out", out, count, reference.dof()));
   });
 }
 

@@ -16,8 +16,8 @@ const cases::Settings settings{{"X", 5.0}, {"eta", 0.875}};
 
 ScopedMotion sample_pair() { return make_case("synchronized-pair", {{"X", 5.0}, {"eta", 0.875}}); }
 const model::Motion& reference() {
-  static const auto which = cases::make("synchronized-pair", settings);
-  return *which.motion;
+  static const auto test_case = cases::make("synchronized-pair", settings);
+  return *test_case.motion;
 }
 
 TEST(CSample, SizesAreThoseOfTheMotion) {

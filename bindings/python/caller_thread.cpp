@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 constexpr auto longest_wait = 50ms;
 
 // How long the end of the interpreter waits for studies in other threads.
-constexpr auto longest_farewell = 5s;
+constexpr auto shutdown_timeout = 5s;
 
 // The studies that run, with their callers' threads, and the thread that ends the interpreter.
 struct Running {
@@ -72,7 +72,7 @@ void CallerThread::stop_all() {
   }
   const py::gil_scoped_release without_gil;
   std::unique_lock lock(running().guard);
-  running().changed.wait_for(lock, longest_farewell, [] { return running().all.empty(); });
+  running().changed.wait_for(lock, shutdown_timeout, [] { return running().all.empty(); });
 }
 
 void CallerThread::run(const py::object& progress, const Work& work) {

@@ -28,9 +28,9 @@ py::dict values(const std::vector<cases::Constant>& constants) {
   return all;
 }
 
-py::dict parameters(const Case& which) {
+py::dict parameters(const Case& test_case) {
   py::dict all;
-  for (const auto& [name, value] : which.values)
+  for (const auto& [name, value] : test_case.values)
     all[py::str(name)] = value.is_word() ? py::object(py::str(value.text())) : py::float_(value);
   return all;
 }

@@ -76,8 +76,8 @@ long long last_impact(py::handle last, long long first, long long total) {
   return number;
 }
 
-py::dict impacts(const Case& which, py::handle from, py::handle to) {
-  const auto& motion = *which.motion;
+py::dict impacts(const Case& test_case, py::handle from, py::handle to) {
+  const auto& motion = *test_case.motion;
   const auto total = motion.impact_count(motion.end());
   const auto first = read_whole("impacts", "first", from);
   if (first < 1)
@@ -102,13 +102,13 @@ py::dict impacts(const Case& which, py::handle from, py::handle to) {
   return arrays.arrays();
 }
 
-py::tuple collisions(const Case& which) {
-  last_impact(py::none(), 1, which.motion->impact_count(which.motion->end()));
-  return read_rows(*tables::collisions(which));
+py::tuple impact_table(const Case& test_case) {
+  last_impact(py::none(), 1, test_case.motion->impact_count(test_case.motion->end()));
+  return read_rows(*tables::impacts(test_case));
 }
 
-long long impact_count(const Case& which, py::handle t) {
-  const auto& motion = *which.motion;
+long long impact_count(const Case& test_case, py::handle t) {
+  const auto& motion = *test_case.motion;
   if (t.is_none()) return motion.impact_count(motion.end());
   return motion.impact_count(
       require_inside("impact_count", read_number("impact_count", "t", t), motion.end()));
@@ -118,7 +118,7 @@ long long impact_count(const Case& which, py::handle t) {
 
 void bind_impacts(py::module_& core) {
   core.def("impacts", &impacts, py::arg("case"), py::arg("first"), py::arg("last"));
-  core.def("collisions", &collisions, py::arg("case"));
+  core.def("impact_table", &impact_table, py::arg("case"));
   core.def("impact_count", &impact_count, py::arg("case"), py::arg("t"));
 }
 

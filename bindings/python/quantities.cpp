@@ -19,18 +19,19 @@ tables::TimeGrid read_grid(std::string_view who, py::handle t) {
   return grid;
 }
 
-py::tuple energies(const Case& which, py::handle t) {
-  return read_rows(*tables::energies(which, read_grid("energies", t)));
+py::tuple energies(const Case& test_case, py::handle t) {
+  return read_rows(*tables::energies(test_case, read_grid("energies", t)));
 }
 
-py::tuple sensitivity(const Case& which, py::handle name, py::handle t) {
+py::tuple sensitivity(const Case& test_case, py::handle name, py::handle t) {
   const auto text = read_text("sensitivity", "name", name);
-  return read_rows(*tables::sensitivity(which, read_grid("sensitivity", t), text));
+  return read_rows(*tables::sensitivity(test_case, read_grid("sensitivity", t), text));
 }
 
-py::tuple spectrum(const Case& which, py::handle n, py::handle highest) {
+py::tuple spectrum(const Case& test_case, py::handle n, py::handle highest) {
   const auto count = read_whole("spectrum", "n", n);
-  return read_rows(*tables::spectrum(which, count, read_number("spectrum", "highest", highest)));
+  return read_rows(
+      *tables::spectrum(test_case, count, read_number("spectrum", "highest", highest)));
 }
 
 }  // namespace

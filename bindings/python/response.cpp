@@ -97,10 +97,10 @@ Span part(Span all, std::size_t first, std::size_t count) {
   return all.empty() ? all : all.subspan(first, count);
 }
 
-py::tuple response(const Case& which, py::handle t, py::handle side, const py::object& out) {
+py::tuple response(const Case& test_case, py::handle t, py::handle side, const py::object& out) {
   const auto limit = read_side(side);
   const Times times("response", t);
-  const auto& motion = *which.motion;
+  const auto& motion = *test_case.motion;
   auto arrays = Arrays::read(out, times.size(), motion.dof());
   if (!out.is_none()) refuse_overlap(times.array, arrays);
   const auto at = times.values();
@@ -121,10 +121,10 @@ py::tuple response(const Case& which, py::handle t, py::handle side, const py::o
 
 // `of(t)` of every time, as arrays u, v and a.
 template <class Of>
-py::tuple one_by_one(std::string_view who, const Case& which, py::handle t, const Of& of) {
+py::tuple one_by_one(std::string_view who, const Case& test_case, py::handle t, const Of& of) {
   const Times times(who, t);
-  const auto dof = which.motion->dof();
-  for (const double time : times.values()) require_inside(who, time, which.motion->end());
+  const auto dof = test_case.motion->dof();
+  for (const double time : times.values()) require_inside(who, time, test_case.motion->end());
   std::array<Doubles, 3> arrays;
   for (auto& array : arrays) array = Doubles({times.size(), py::ssize_t(dof)});
   std::array<double*, 3> to;
@@ -142,13 +142,14 @@ py::tuple one_by_one(std::string_view who, const Case& which, py::handle t, cons
   return result(arrays[0], arrays[1], arrays[2], times.single);
 }
 
-py::tuple envelope(const Case& which, py::handle t) {
-  return one_by_one("envelope", which, t, [&](double at) { return which.motion->envelope(at); });
+py::tuple envelope(const Case& test_case, py::handle t) {
+  return one_by_one("envelope", test_case, t,
+                    [&](double at) { return test_case.motion->envelope(at); });
 }
 
-py::tuple error_bound(const Case& which, py::handle t) {
-  return one_by_one("error_bound", which, t,
-                    [&](double at) { return which.motion->error_bound(at); });
+py::tuple error_bound(const Case& test_case, py::handle t) {
+  return one_by_one("error_bound", test_case, t,
+                    [&](double at) { return test_case.motion->error_bound(at); });
 }
 
 }  // namespace

@@ -69,9 +69,10 @@ py::tuple verify(const std::vector<std::string>& methods, const std::vector<Call
                  const py::dict& options, const std::string& command, const py::object& progress) {
   study::VerifyRequest request;
   request.methods = methods;
-  for (const auto& one : chosen) {
-    request.cases.push_back(one.first.empty() ? std::string(cases::default_case()) : one.first);
-    request.case_settings.push_back(read_settings("case", one.second));
+  for (const auto& choice : chosen) {
+    request.cases.push_back(choice.first.empty() ? std::string(cases::default_case())
+                                                 : choice.first);
+    request.case_settings.push_back(read_settings("case", choice.second));
   }
   study::set_options(request, read_options(options));
   request.command = command;

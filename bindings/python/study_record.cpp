@@ -153,20 +153,22 @@ void bind_record(py::module_& core) {
                                py::list all;
                                for (std::size_t c = 0; c < record.cases.size(); ++c)
                                  for (std::size_t s = 0; s < record.cases[c].subjects.size(); ++s) {
-                                   auto one =
+                                   auto entry =
                                        subject_of(record.cases[c], record.cases[c].subjects[s]);
-                                   one["place"] = py::make_tuple(c, s);
-                                   all.append(one);
+                                   entry["place"] = py::make_tuple(c, s);
+                                   all.append(entry);
                                  }
                                return all;
                              })
       .def("levels",
-           [](const Record& record, std::size_t which, std::size_t subject) {
-             return level_rows(case_at(record, which), case_at(record, which).subjects.at(subject));
+           [](const Record& record, std::size_t problem_index, std::size_t subject) {
+             return level_rows(case_at(record, problem_index),
+                               case_at(record, problem_index).subjects.at(subject));
            })
       .def("subject_runs",
-           [](const Record& record, std::size_t which, std::size_t subject) {
-             return run_rows(case_at(record, which), case_at(record, which).subjects.at(subject));
+           [](const Record& record, std::size_t problem_index, std::size_t subject) {
+             return run_rows(case_at(record, problem_index),
+                             case_at(record, problem_index).subjects.at(subject));
            })
       .def("runs",
            [](const Record& record) { return read_run_sheet(report::run_sheet(record.cases)); })
@@ -175,13 +177,13 @@ void bind_record(py::module_& core) {
           "cases",
           [](const Record& record) {
             py::list names;
-            for (const auto& one : record.cases)
-              names.append(py::make_tuple(one.problem.name, report::case_text(one.problem),
-                                          report::figure_names(one)));
+            for (const auto& problem : record.cases)
+              names.append(py::make_tuple(problem.problem.name, report::case_text(problem.problem),
+                                          report::figure_names(problem)));
             return names;
           })
-      .def("figure", [](const Record& record, std::size_t which, const std::string& name) {
-        return report::notebook_figure(case_at(record, which), name);
+      .def("figure", [](const Record& record, std::size_t problem_index, const std::string& name) {
+        return report::notebook_figure(case_at(record, problem_index), name);
       });
 }
 

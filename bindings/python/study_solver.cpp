@@ -48,8 +48,7 @@ class CallableSolver : public solvers::Solver {
       return;
     }
     output.history = columns_of(callable_.name, result[0]);
-    if (!result[1].is_none())
-      output.events = columns_of("collisions of " + callable_.name, result[1]);
+    if (!result[1].is_none()) output.events = columns_of("impacts of " + callable_.name, result[1]);
     auto* const caller = &caller_;
     output.memory = {result.release().ptr(),
                      [caller](PyObject* arrays) { caller->release(arrays); }};

@@ -68,10 +68,10 @@ py::tuple explain(py::handle code) {
 }
 
 // What `clackers show` shows of a case, a table each.
-py::list case_tables(const cases::Case& which, std::optional<double> share) {
+py::list case_tables(const cases::Case& test_case, std::optional<double> share) {
   const double threshold = share.value_or(cases::default_threshold);
   py::list tables;
-  for (const auto& sheet : tables::show_case(which.entry->name, which.values, threshold))
+  for (const auto& sheet : tables::show_case(test_case.entry->name, test_case.values, threshold))
     tables.append(read_sheet(sheet));
   return tables;
 }

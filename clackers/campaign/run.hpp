@@ -16,7 +16,7 @@ struct RunSummary {
 };
 
 struct RunOptions {
-  int jobs = 0;  ///< worker threads; 0: one a processor
+  int jobs = 0;  ///< worker threads; 0: one per processor
   /// Called by the calling thread now and then with what was stored so far.
   std::function<void(const RunSummary&)> progress{};
 };

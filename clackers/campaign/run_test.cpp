@@ -84,7 +84,8 @@ TEST_F(Campaign, InterruptStoresWhatIsFinished) {
 
 TEST_F(Campaign, TaskIsWhatVerifyMakes) {
   const auto spec = Specification::from_toml(
-      "methods = [\"rk4\", \"newmark\"]\nmetrics = true\n[ladder]\nlevels = 4\nneighbours = 2\n"
+      "methods = [\"rk4\", \"newmark\"]\nmetrics = true\n[ladder]\nlevels = 4\nsamples_per_level = "
+      "2\n"
       "[[cases]]\ncase = \"stop\"\nset = { eta = [0.5, 1] }",
       "spec.toml");
   study::VerifyRequest request;
@@ -116,7 +117,8 @@ TEST_F(Campaign, TaskIsWhatVerifyMakes) {
 TEST_F(Campaign, RefusedSystemsAndMethodsAreFinishedTasks) {
   // X is odd; at eta = 0.5 a linear penalty spring is refused.
   const auto spec = Specification::from_toml(
-      "methods = [\"newmark+penalty\"]\n[ladder]\nlevels = 1\nneighbours = 1\n[[cases]]\ncase = "
+      "methods = [\"newmark+penalty\"]\n[ladder]\nlevels = 1\nsamples_per_level = "
+      "1\n[[cases]]\ncase = "
       "\"synchronized-pair\"\nset = { X = [8, 9], eta = 0.5 }",
       "spec.toml");
   const auto solvers = solvers_of(spec);
@@ -148,7 +150,7 @@ TEST_F(Campaign, PlanCountsWhatIsRun) {
 
 TEST(CampaignPlan, TooManyRunsAreRefusedWithTheirEstimate) {
   const auto spec = Specification::from_toml(
-      "methods = [\"newmark\"]\n[ladder]\nlevels = 2\nneighbours = 1\n[[cases]]\ncase = "
+      "methods = [\"newmark\"]\n[ladder]\nlevels = 2\nsamples_per_level = 1\n[[cases]]\ncase = "
       "\"three-parameter\"\nset = { xi1 = { from = 0, to = 0.1, points = 1e6 }, a_t = { from = 1, to "
       "= 2, points = 500000 } }",
       "spec.toml");

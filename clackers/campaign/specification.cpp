@@ -63,17 +63,17 @@ Settings CaseSystems::settings(long long i) const {
 
 System Specification::system(long long number) const {
   auto left = number;
-  for (const auto& one : cases_) {
-    if (left < one.size()) return {number, one.name, one.settings(left)};
-    left -= one.size();
+  for (const auto& entry : cases_) {
+    if (left < entry.size()) return {number, entry.name, entry.settings(left)};
+    left -= entry.size();
   }
   throw std::out_of_range("no system of this number");
 }
 
 std::vector<std::string> Specification::parameters() const {
   std::vector<std::string> names;
-  for (const auto& one : cases_)
-    for (const auto& axis : one.axes)
+  for (const auto& entry : cases_)
+    for (const auto& axis : entry.axes)
       if (std::ranges::find(names, axis.name) == names.end()) names.push_back(axis.name);
   return names;
 }

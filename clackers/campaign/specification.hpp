@@ -84,7 +84,7 @@ class Specification {
   const Ladder& ladder() const { return ladder_; }
   /// Names of the metrics that are kept; empty: none are measured.
   const std::vector<std::string>& metrics() const { return metrics_; }
-  /// Whether each run is made again for its processor time alone, as in `verify`.
+  /// Whether each run is repeated to measure only its processor time, as in `verify`.
   bool times_runs() const { return times_runs_; }
   const std::vector<CaseSystems>& cases() const { return cases_; }
 

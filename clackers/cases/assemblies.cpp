@@ -15,35 +15,35 @@ namespace {
 using exact::ShapedMotion;
 
 // What every synchronized motion has, after its own constants.
-void add_common_constants(Case& which, const ShapedMotion& motion, double sigma, double eta) {
+void add_common_constants(Case& test_case, const ShapedMotion& motion, double sigma, double eta) {
   const auto& c = motion.flight();
   for (const Constant& constant : std::initializer_list<Constant>{
            {"sigma", sigma, "1/s", "common rate of decay"},
            {"eta", eta, "", "restitution"},
            {"T", c.period.hi, "s", "time between impacts"},
-           {"t_1", c.first_collision * c.period.hi, "s", "time of the first impact"},
+           {"t_1", c.first_impact * c.period.hi, "s", "time of the first impact"},
            {"contacts_at_once", double(motion.pattern().contacts.front().size()), "",
             "contacts that close at each impact"},
            {"t_end", motion.end(), "s", "end of the run"},
-           {"collisions", double(motion.impact_count(motion.end())), "",
-            "number of collisions up to t_end, one a contact"}})
-    which.constants.push_back(constant);
+           {"impacts", double(motion.impact_count(motion.end())), "",
+            "number of impacts up to t_end, one a contact"}})
+    test_case.constants.push_back(constant);
 }
 
-void add_periods(Case& which, double omega, int count, double step = 2.0) {
+void add_periods(Case& test_case, double omega, int count, double step = 2.0) {
   for (int i = 0; i < count; ++i)
-    which.damped_periods.push_back(2.0 * std::numbers::pi / (omega * (1.0 + step * i)));
+    test_case.damped_periods.push_back(2.0 * std::numbers::pi / (omega * (1.0 + step * i)));
 }
 
-void build_buildings(Case& which, const Values& value, double) {
+void build_buildings(Case& test_case, const Values& value, double) {
   const exact::BuildingsParameters p{value("left"), value("right"), value("X"),     value("r"),
                                      value("m1"),   value("Omega"), value("sigma"), value("V"),
                                      value("eta"),  value("t_end")};
-  const std::shared_ptr motion = exact::make_buildings(p, which.entry->name);
-  which.problem = exact::buildings_problem(p, *motion);
+  const std::shared_ptr motion = exact::make_buildings(p, test_case.entry->name);
+  test_case.problem = exact::buildings_problem(p, *motion);
   const auto left = static_cast<int>(p.left), right = static_cast<int>(p.right);
   const double limit = exact::buildings_limit(left, right, p.X).r_star;
-  which.constants = {
+  test_case.constants = {
       {"m1", p.m1, "kg", "mass of the left roof"},
       {"m_roof_right", p.m1 / p.r, "kg", "mass of the right roof"},
       {"Omega", p.Omega, "rad/s", "lowest damped frequency of the left building"},
@@ -55,43 +55,43 @@ void build_buildings(Case& which, const Values& value, double) {
       {"r*", limit, "", "limit of r, where the roofs would graze between impacts"},
       {"margin", 1.0 - p.r / limit, "", "1 - r/r*; 0 grazes"},
       {"V", p.V, "m/s", "speed of the left roof at t = 0, just after an impact"}};
-  add_periods(which, p.Omega, left);
-  add_periods(which, p.Omega * p.X, right);
-  add_common_constants(which, *motion, p.sigma, p.eta);
-  which.motion = motion;
+  add_periods(test_case, p.Omega, left);
+  add_periods(test_case, p.Omega * p.X, right);
+  add_common_constants(test_case, *motion, p.sigma, p.eta);
+  test_case.motion = motion;
 }
 
-void build_row(Case& which, const Values& value, double) {
+void build_row(Case& test_case, const Values& value, double) {
   const exact::RowParameters p{value("masses"), value("fast"), value("X"),
                                value("speed"),  value("m1"),   value("Omega"),
                                value("sigma"),  value("eta"),  value("t_end")};
-  const std::shared_ptr motion = exact::make_row(p, which.entry->name);
-  which.problem = exact::row_problem(p, *motion);
+  const std::shared_ptr motion = exact::make_row(p, test_case.entry->name);
+  test_case.problem = exact::row_problem(p, *motion);
   const auto row = exact::row_masses(p);
-  which.constants = {{"m1", p.m1, "kg", "mass of those that move up after an impact"},
-                     {"m_last", row.back().mass, "kg", "mass of those that move down"},
-                     {"Omega", p.Omega, "rad/s", "damped frequency of the slow masses"}};
+  test_case.constants = {{"m1", p.m1, "kg", "mass of those that move up after an impact"},
+                         {"m_last", row.back().mass, "kg", "mass of those that move down"},
+                         {"Omega", p.Omega, "rad/s", "damped frequency of the slow masses"}};
   if (p.fast != 0.0) {
     const double limit = exact::row_limit(p);
-    which.constants.insert(
-        which.constants.end(),
+    test_case.constants.insert(
+        test_case.constants.end(),
         {{"X", p.X, "", "frequency of the fast mass over that of the others"},
          {"speed_limit", limit, "", "limit of speed, where the fast mass would graze a neighbour"},
          {"margin", 1.0 - p.speed / limit, "", "1 - speed/speed_limit; 0 grazes"}});
   }
   for (const auto& mass : row)
-    which.damped_periods.push_back(2.0 * std::numbers::pi / (p.Omega * mass.multiple));
-  add_common_constants(which, *motion, p.sigma, p.eta);
-  which.motion = motion;
+    test_case.damped_periods.push_back(2.0 * std::numbers::pi / (p.Omega * mass.multiple));
+  add_common_constants(test_case, *motion, p.sigma, p.eta);
+  test_case.motion = motion;
 }
 
-void build_alternating(Case& which, const Values& value, double) {
+void build_alternating(Case& test_case, const Values& value, double) {
   const exact::AlternatingParameters p{value("rh"), value("r"), value("Omega"), value("sigma"),
                                        value("t_end")};
-  const std::shared_ptr motion = exact::make_alternating(p, which.entry->name);
-  which.problem = exact::alternating_problem(p, *motion);
+  const std::shared_ptr motion = exact::make_alternating(p, test_case.entry->name);
+  test_case.problem = exact::alternating_problem(p, *motion);
   const double limit = exact::alternating_limit(p.rh), middle = 2.0 * p.rh;
-  which.constants = {
+  test_case.constants = {
       {"m_outer", 1.0, "kg", "mass of the upper and the lower one"},
       {"m_middle", 1.0 / p.r, "kg", "mass of the middle one"},
       {"Omega", p.Omega, "rad/s", "damped frequency of the outer masses"},
@@ -100,13 +100,13 @@ void build_alternating(Case& which, const Values& value, double) {
       {"r*", limit, "", "limit of r, where the middle mass would graze a partner between impacts"},
       {"margin", 1.0 - p.r / limit, "", "1 - r/r*; 0 grazes"}};
   for (const double multiple : {1.0, middle, 1.0})
-    which.damped_periods.push_back(2.0 * std::numbers::pi / (p.Omega * multiple));
-  add_common_constants(which, *motion, p.sigma, 1.0);
-  which.motion = motion;
+    test_case.damped_periods.push_back(2.0 * std::numbers::pi / (p.Omega * multiple));
+  add_common_constants(test_case, *motion, p.sigma, 1.0);
+  test_case.motion = motion;
 }
 
-void build_assembly(Case& which, const Values& value, double) {
-  const double X = ratio(which, value("N"));
+void build_assembly(Case& test_case, const Values& value, double) {
+  const double X = ratio(test_case, value("N"));
   const auto coupling = value("coupling").text();
   const exact::AssemblyParameters p{value("pairs"),
                                     coupling == "chain"   ? exact::Coupling::chain
@@ -117,16 +117,17 @@ void build_assembly(Case& which, const Values& value, double) {
                                     value("xi1"),
                                     value("eta"),
                                     value("t_end")};
-  exact::require_assembly_fits(which.entry->name, p.pairs);
-  const std::shared_ptr motion = exact::make_assembly(p, which.entry->name);
-  which.problem = exact::assembly_problem(p, *motion, which.entry->name);
+  exact::require_assembly_fits(test_case.entry->name, p.pairs);
+  const std::shared_ptr motion = exact::make_assembly(p, test_case.entry->name);
+  test_case.problem = exact::assembly_problem(p, *motion, test_case.entry->name);
   const double omega = std::sqrt((1.0 - p.xi1) * (1.0 + p.xi1));
-  which.constants = {{"omega_D1", omega, "rad/s", "damped frequency of the slow mass of each pair"},
-                     {"omega_D2", X * omega, "rad/s", "of the fast one"},
-                     {"X", X, "", "frequency ratio 4N + 1"}};
-  for (double pair = 0.0; pair < p.pairs; ++pair) add_periods(which, omega, 2, X - 1.0);
-  add_common_constants(which, *motion, p.xi1, p.eta);
-  which.motion = motion;
+  test_case.constants = {
+      {"omega_D1", omega, "rad/s", "damped frequency of the slow mass of each pair"},
+      {"omega_D2", X * omega, "rad/s", "of the fast one"},
+      {"X", X, "", "frequency ratio 4N + 1"}};
+  for (double pair = 0.0; pair < p.pairs; ++pair) add_periods(test_case, omega, 2, X - 1.0);
+  add_common_constants(test_case, *motion, p.xi1, p.eta);
+  test_case.motion = motion;
 }
 
 Parameter omega(const char* meaning) {
@@ -187,7 +188,7 @@ std::vector<CaseRow> assembly_rows() {
          t_end()}},
        build_alternating},
       {{"assembly",
-        "Pairs seen through an invertible matrix: coupled masses, simultaneous contacts.",
+        "Pairs transformed by an invertible matrix: coupled masses, simultaneous contacts.",
         "beyond the paper: assemblies in the manual",
         {{"pairs", 4.0, "", "a whole number, 1 or more, as many as fit into 1 GB",
           "number of pairs; twice as many masses"},

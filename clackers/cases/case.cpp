@@ -20,15 +20,15 @@ namespace clackers::cases {
 Parameter eta() { return {"eta", 1.0, "", "0 <= eta <= 1", "restitution; 1 is elastic"}; }
 Parameter t_end() { return {"t_end", 20.0, "s", "0 < t_end < infinity", "end of the run"}; }
 
-double ratio(const Case& which, double N) {
+double ratio(const Case& test_case, double N) {
   constexpr double largest_N = 249'999'999;
   const auto rule = fmt::format("a whole number, 0 <= N <= {:.0f}", largest_N);
   if (!(N >= 0.0 && N <= largest_N))
-    refuse(which.entry->name, "N", N, rule,
+    refuse(test_case.entry->name, "N", N, rule,
            N < 0.0 ? "Mass 2 is X = 4N + 1 times as fast as mass 1." : "");
   if (N != std::floor(N))
-    refuse(which.entry->name, "N", N, rule,
-           "Only with X = 4N + 1 odd both masses pass equilibrium together at every collision.",
+    refuse(test_case.entry->name, "N", N, rule,
+           "Only with X = 4N + 1 odd both masses pass equilibrium together at every impact.",
            "not-whole");
   return 4.0 * N + 1.0;
 }
@@ -45,29 +45,31 @@ Parameter scale(const char* name, double default_value, const char* unit, const 
 
 namespace {
 
-void use(Case& which, std::shared_ptr<const exact::ClosedForm> motion) {
-  which.problem = motion->problem();
-  which.motion = std::move(motion);
+void use(Case& test_case, std::shared_ptr<const exact::ClosedForm> motion) {
+  test_case.problem = motion->problem();
+  test_case.motion = std::move(motion);
 }
 
-void add_single_mass(Case& which, double xi1) {
-  which.damped_periods = {2.0 * std::numbers::pi / std::sqrt((1.0 - xi1) * (1.0 + xi1))};
-  which.constants = single_mass_constants(which, xi1);
+void add_single_mass(Case& test_case, double xi1) {
+  test_case.damped_periods = {2.0 * std::numbers::pi / std::sqrt((1.0 - xi1) * (1.0 + xi1))};
+  test_case.constants = single_mass_constants(test_case, xi1);
 }
 
 template <class Pair>
-void use_pair(Case& which, std::shared_ptr<const Pair> pair, double threshold) {
+void use_pair(Case& test_case, std::shared_ptr<const Pair> pair, double threshold) {
   const auto& c = pair->constants();
   const double r = c.r;
-  use(which, pair);
-  which.damped_periods = {2.0 * std::numbers::pi / c.omega_D1, 2.0 * std::numbers::pi / c.omega_D2};
-  which.constants = pair_constants(which, c, r);
-  which.indicators = indicator_constants(c.ratio.odd, std::min(c.omega_D1, c.omega_D2),
-                                         which.motion->end(), threshold);
+  use(test_case, pair);
+  test_case.damped_periods = {2.0 * std::numbers::pi / c.omega_D1,
+                              2.0 * std::numbers::pi / c.omega_D2};
+  test_case.constants = pair_constants(test_case, c, r);
+  test_case.indicators = indicator_constants(c.ratio.odd, std::min(c.omega_D1, c.omega_D2),
+                                             test_case.motion->end(), threshold);
 }
 
-void synchronize(Case& which, const exact::PairParameters& parameters, double threshold) {
-  use_pair(which, std::make_shared<const exact::SynchronizedPair>(parameters, which.entry->name),
+void synchronize(Case& test_case, const exact::PairParameters& parameters, double threshold) {
+  use_pair(test_case,
+           std::make_shared<const exact::SynchronizedPair>(parameters, test_case.entry->name),
            threshold);
 }
 
@@ -79,38 +81,38 @@ std::vector<CaseRow> pair_rows() {
         {whole_N(),
          xi1(),
          {"a_t", 1.0, "", "0 < a_t < infinity", "length of the run in units of 20 s, Eq. (24)"}}},
-       [](Case& which, const Values& value, double threshold) {
-         synchronize(which,
+       [](Case& test_case, const Values& value, double threshold) {
+         synchronize(test_case,
                      {.xi1 = value("xi1"),
-                      .X = ratio(which, value("N")),
-                      .t_end = 20.0 * require_positive(which.entry->name, "a_t", value("a_t"))},
+                      .X = ratio(test_case, value("N")),
+                      .t_end = 20.0 * require_positive(test_case.entry->name, "a_t", value("a_t"))},
                      threshold);
        }},
       {{"sdof", "One damped mass without a stop.", "Eq. (3)-(4)", {xi1(), t_end()}},
-       [](Case& which, const Values& value, double) {
-         use(which,
+       [](Case& test_case, const Values& value, double) {
+         use(test_case,
              std::make_shared<const exact::FreeMass>(
-                 exact::FreeMassParameters{value("xi1"), value("t_end")}, which.entry->name));
-         add_single_mass(which, value("xi1"));
+                 exact::FreeMassParameters{value("xi1"), value("t_end")}, test_case.entry->name));
+         add_single_mass(test_case, value("xi1"));
        }},
       {{"stop",
         "One damped mass above a rigid stop at its equilibrium.",
         "Eq. (5)-(6)",
         {xi1(), eta(), t_end()}},
-       [](Case& which, const Values& value, double threshold) {
-         use(which, std::make_shared<const exact::RigidStop>(
-                        exact::RigidStopParameters{value("xi1"), value("eta"), value("t_end")},
-                        which.entry->name));
-         add_single_mass(which, value("xi1"));
-         which.indicators = indicator_constants(
-             1.0, 2.0 * std::numbers::pi / which.damped_periods[0], value("t_end"), threshold);
+       [](Case& test_case, const Values& value, double threshold) {
+         use(test_case, std::make_shared<const exact::RigidStop>(
+                            exact::RigidStopParameters{value("xi1"), value("eta"), value("t_end")},
+                            test_case.entry->name));
+         add_single_mass(test_case, value("xi1"));
+         test_case.indicators = indicator_constants(
+             1.0, 2.0 * std::numbers::pi / test_case.damped_periods[0], value("t_end"), threshold);
        }},
       {{"symmetric-pair",
         "Two equal masses with opposite motions that collide at equilibrium.",
         "Eq. (7)-(8)",
         {xi1(), eta(), t_end()}},
-       [](Case& which, const Values& value, double threshold) {
-         synchronize(which,
+       [](Case& test_case, const Values& value, double threshold) {
+         synchronize(test_case,
                      {.xi1 = value("xi1"),
                       .X = 1.0,
                       .r = 1.0,
@@ -122,18 +124,19 @@ std::vector<CaseRow> pair_rows() {
         "Two colliding masses, the second 4N + 1 times as fast; xi1 = 0.05, t_end = 20 s.",
         "Eq. (19)-(20)",
         {whole_N()}},
-       [](Case& which, const Values& value, double threshold) {
-         synchronize(which, {.X = ratio(which, value("N"))}, threshold);
+       [](Case& test_case, const Values& value, double threshold) {
+         synchronize(test_case, {.X = ratio(test_case, value("N"))}, threshold);
        }},
       {{"two-parameter",
         "Two colliding masses, the second 4N + 1 times as fast; t_end = 20 s.",
         "Eq. (21)-(22)",
         {whole_N(), xi1()}},
-       [](Case& which, const Values& value, double threshold) {
-         synchronize(which, {.xi1 = value("xi1"), .X = ratio(which, value("N"))}, threshold);
+       [](Case& test_case, const Values& value, double threshold) {
+         synchronize(test_case, {.xi1 = value("xi1"), .X = ratio(test_case, value("N"))},
+                     threshold);
        }},
       {{"synchronized-pair",
-        "The whole class: any masses, odd frequency ratio, mass ratio below r*, restitution.",
+        "The general pair: any masses, odd frequency ratio, mass ratio below r*, restitution.",
         "Section 2.2, Eq. (9)-(17)",
         {scale("m1", 1.0, "kg", "1e-60 <= m1 <= 1e+60", "mass 1, above"),
          scale("k1", 1.0, "N/m", "1e-60 <= k1 <= 1e+60", "stiffness of mass 1"),
@@ -145,14 +148,14 @@ std::vector<CaseRow> pair_rows() {
           "mass ratio m1/m2; beyond 1/r* for X = 1 over an odd number"},
          eta(),
          t_end()}},
-       [](Case& which, const Values& value, double threshold) {
-         synchronize(which,
+       [](Case& test_case, const Values& value, double threshold) {
+         synchronize(test_case,
                      {value("m1"), value("k1"), value("xi1"), value("A"), value("X"), value("r"),
                       value("eta"), value("t_end")},
                      threshold);
        }},
       {{"exact-data-pair",
-        "The class with every model input a binary64 number, so that nothing is rounded.",
+        "The general pair with every model input a binary64 number, so that nothing is rounded.",
         "Section 2.2, Eq. (9)-(17)",
         {scale("m2", 1.0, "kg", "1e-30 <= m2 <= 1e+30, a short binary fraction",
                "mass 2, the fast one"),
@@ -166,12 +169,12 @@ std::vector<CaseRow> pair_rows() {
          {"r", 0.5, "", "0 < r < r*(X), a short binary fraction", "mass ratio m1/m2"},
          eta(),
          t_end()}},
-       [](Case& which, const Values& value, double threshold) {
+       [](Case& test_case, const Values& value, double threshold) {
          const exact::ExactDataParameters parameters{
              value("m2"), value("Omega"), value("sigma"), value("A_over_X"),
              value("X"),  value("r"),     value("eta"),   value("t_end")};
-         use_pair(which,
-                  std::make_shared<const exact::ExactDataPair>(parameters, which.entry->name),
+         use_pair(test_case,
+                  std::make_shared<const exact::ExactDataPair>(parameters, test_case.entry->name),
                   threshold);
        }},
   };
@@ -188,10 +191,10 @@ const std::vector<CaseRow>& rows() {
 }
 
 const CaseRow& row(std::string_view name) {
-  for (const auto& one : rows())
-    if (one.entry.name == name) return one;
+  for (const auto& row : rows())
+    if (row.entry.name == name) return row;
   std::vector<std::string> names;
-  for (const auto& one : rows()) names.push_back(one.entry.name);
+  for (const auto& row : rows()) names.push_back(row.entry.name);
   refuse_name("case", name, names, "clackers list cases");
 }
 
@@ -200,7 +203,7 @@ const CaseRow& row(std::string_view name) {
 std::span<const CaseEntry> entries() {
   static const auto all = [] {
     std::vector<CaseEntry> list;
-    for (const auto& one : rows()) list.push_back(one.entry);
+    for (const auto& row : rows()) list.push_back(row.entry);
     return list;
   }();
   return all;
@@ -215,11 +218,11 @@ Case make(std::string_view name, const Settings& settings, double threshold) {
   if (!(threshold > 0.0 && threshold < 1.0))
     refuse(entry.name, "threshold", threshold, "0 < threshold < 1",
            "It is the share of the spectral peak from which a harmonic counts.");
-  Case which;
-  which.entry = &entry;
-  which.values = complete(entry.name, entry.parameters, settings);
-  build(which, Values{which.values}, threshold);
-  return which;
+  Case test_case;
+  test_case.entry = &entry;
+  test_case.values = complete(entry.name, entry.parameters, settings);
+  build(test_case, Values{test_case.values}, threshold);
+  return test_case;
 }
 
 Admissibility admissibility(double X, double r) {

@@ -35,20 +35,20 @@ TEST(Cases, StartWithTheDefaultOne) { EXPECT_EQ(default_case(), "three-parameter
 TEST(Cases, BuildAProblemAndItsReferenceThatFitTogether) {
   for (const auto& entry : entries()) {
     SCOPED_TRACE(entry.name);
-    const auto which = make(entry.name);
-    EXPECT_EQ(which.entry->name, entry.name);
-    EXPECT_NO_THROW(model::validate(which.problem));
-    EXPECT_EQ(which.problem.dof(), which.motion->dof());
-    EXPECT_EQ(which.problem.start.t, 0.0);
-    EXPECT_EQ(which.problem.end, which.motion->end());
-    EXPECT_EQ(which.damped_periods.size(), static_cast<std::size_t>(which.motion->dof()));
-    const auto start = which.motion->at(0.0, model::Side::right);
-    const auto bound = which.motion->error_bound(0.0);
-    EXPECT_TRUE(((which.problem.start.u - start.u).array().abs() <= bound.u.array()).all());
-    EXPECT_TRUE(((which.problem.start.v - start.v).array().abs() <= bound.v.array()).all());
+    const auto test_case = make(entry.name);
+    EXPECT_EQ(test_case.entry->name, entry.name);
+    EXPECT_NO_THROW(model::validate(test_case.problem));
+    EXPECT_EQ(test_case.problem.dof(), test_case.motion->dof());
+    EXPECT_EQ(test_case.problem.start.t, 0.0);
+    EXPECT_EQ(test_case.problem.end, test_case.motion->end());
+    EXPECT_EQ(test_case.damped_periods.size(), static_cast<std::size_t>(test_case.motion->dof()));
+    const auto start = test_case.motion->at(0.0, model::Side::right);
+    const auto bound = test_case.motion->error_bound(0.0);
+    EXPECT_TRUE(((test_case.problem.start.u - start.u).array().abs() <= bound.u.array()).all());
+    EXPECT_TRUE(((test_case.problem.start.v - start.v).array().abs() <= bound.v.array()).all());
     // The equation of motion at the start, with the problem's own numbers; each of the terms carries
     // three roundings, and the reference its bound.
-    const auto& s = which.problem.system;
+    const auto& s = test_case.problem.system;
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(start.u.size());
     if (s.nonlinear) s.nonlinear->add(start.u, start.v, forces);
     forces = -forces;
@@ -61,21 +61,21 @@ TEST(Cases, BuildAProblemAndItsReferenceThatFitTogether) {
                                   s.stiffness.cwiseAbs() * bound.u;
     for (Eigen::Index i = 0; i < rest.size(); ++i)
       EXPECT_LE(std::abs(rest[i]), roundings * size[i] + error[i]);
-    for (const auto* list : {&which.constants, &which.indicators})
+    for (const auto* list : {&test_case.constants, &test_case.indicators})
       for (const auto& c : *list) EXPECT_FALSE(c.name.empty() || c.meaning.empty());
-    EXPECT_EQ(constant(which.constants, "collisions"),
-              double(which.motion->impact_count(which.problem.end)));
-    EXPECT_EQ(constant(which.constants, "t_end"), which.problem.end);
+    EXPECT_EQ(constant(test_case.constants, "impacts"),
+              double(test_case.motion->impact_count(test_case.problem.end)));
+    EXPECT_EQ(constant(test_case.constants, "t_end"), test_case.problem.end);
     EXPECT_FALSE(entry.summary.empty() || entry.equations.empty());
   }
 }
 
 // Eq. (25) in the paper's own words, N and xi1 free.
-void expect_three_parameter_system(const Case& which, double N, double xi1, double end) {
-  SCOPED_TRACE(testing::Message() << which.entry->name << " N=" << N << " xi1=" << xi1);
+void expect_three_parameter_system(const Case& test_case, double N, double xi1, double end) {
+  SCOPED_TRACE(testing::Message() << test_case.entry->name << " N=" << N << " xi1=" << xi1);
   const double X = 4.0 * N + 1.0, square = (1.0 - xi1 * xi1) * X * X + xi1 * xi1;
   const double d2 = -3.0 / X;
-  const auto& s = which.problem.system;
+  const auto& s = test_case.problem.system;
   expect_near(s.mass(0, 0), 1.0, "m1");
   expect_near(s.mass(1, 1), 1.0 / 3.0, "m2");
   expect_near(s.stiffness(0, 0), 1.0, "k1");
@@ -85,19 +85,19 @@ void expect_three_parameter_system(const Case& which, double N, double xi1, doub
   EXPECT_EQ(s.mass(0, 1), 0.0);
   EXPECT_EQ(s.stiffness(0, 1), 0.0);
   EXPECT_EQ(s.damping(0, 1), 0.0);
-  expect_near(which.problem.start.u[0], 1.0, "u1(0)");
-  expect_near(which.problem.start.u[1], d2, "u2(0)");
-  expect_near(which.problem.start.v[0], -xi1, "v1(0)");
-  expect_near(which.problem.start.v[1], -xi1 * d2, "v2(0)");
-  EXPECT_EQ(which.problem.end, end);
-  ASSERT_EQ(which.problem.contacts.size(), 1u);
-  const auto& contact = which.problem.contacts[0];
+  expect_near(test_case.problem.start.u[0], 1.0, "u1(0)");
+  expect_near(test_case.problem.start.u[1], d2, "u2(0)");
+  expect_near(test_case.problem.start.v[0], -xi1, "v1(0)");
+  expect_near(test_case.problem.start.v[1], -xi1 * d2, "v2(0)");
+  EXPECT_EQ(test_case.problem.end, end);
+  ASSERT_EQ(test_case.problem.contacts.size(), 1u);
+  const auto& contact = test_case.problem.contacts[0];
   EXPECT_EQ(contact.direction[0], 1.0);
   EXPECT_EQ(contact.direction[1], -1.0);
   EXPECT_EQ(contact.gap, 0.0);
   EXPECT_EQ(contact.restitution, 1.0);
   // The words of `show`.
-  const auto& c = which.constants;
+  const auto& c = test_case.constants;
   const double omega_d1 = std::sqrt(1.0 - xi1 * xi1), T = std::numbers::pi / omega_d1;
   expect_near(constant(c, "m2"), 1.0 / 3.0, "m2");
   expect_near(constant(c, "k2"), square / 3.0, "k2");
@@ -117,9 +117,9 @@ void expect_three_parameter_system(const Case& which, double N, double xi1, doub
   EXPECT_EQ(constant(c, "eta"), 1.0);
   expect_near(constant(c, "T"), T, "T");
   expect_near(constant(c, "t_1"), 0.5 * T, "t_1, Eq. (28)");
-  EXPECT_EQ(constant(c, "collisions"), std::floor(end / T + 0.5));
-  expect_near(which.damped_periods[0], 2.0 * T, "period 1");
-  expect_near(which.damped_periods[1], 2.0 * T / X, "period 2");
+  EXPECT_EQ(constant(c, "impacts"), std::floor(end / T + 0.5));
+  expect_near(test_case.damped_periods[0], 2.0 * T, "period 1");
+  expect_near(test_case.damped_periods[1], 2.0 * T / X, "period 2");
 }
 
 TEST(Cases, OneParameterIsEq19) {
@@ -143,11 +143,11 @@ TEST(Cases, ThreeParameterIsEq25) {
 }
 
 TEST(Cases, DisplacementsAreThoseOfEq26) {
-  const auto which = make("three-parameter", {{"N", 1}, {"xi1", 0.1}});
+  const auto test_case = make("three-parameter", {{"N", 1}, {"xi1", 0.1}});
   const double omega = std::sqrt(0.99);
   for (const double t : {0.3, 1.9, 4.0, 9.0, 19.5}) {
     const double slow = std::cos(omega * t), sign = slow < 0.0 ? -1.0 : 1.0, e = std::exp(-0.1 * t);
-    const auto now = which.motion->at(t, model::Side::left);
+    const auto now = test_case.motion->at(t, model::Side::left);
     // 5 omega t is 97 at most: its rounding moves the cosine by 97 * 2^-53 or less, twice.
     EXPECT_NEAR(now.u[0], sign * slow * e, 1e-14);
     EXPECT_NEAR(now.u[1], -0.6 * sign * std::cos(5.0 * omega * t) * e, 1e-13);
@@ -155,20 +155,20 @@ TEST(Cases, DisplacementsAreThoseOfEq26) {
 }
 
 TEST(Cases, SymmetricPairIsEq7) {
-  const auto which = make("symmetric-pair");
-  const auto& s = which.problem.system;
+  const auto test_case = make("symmetric-pair");
+  const auto& s = test_case.problem.system;
   for (const Eigen::Index i : {0, 1}) {
     const double sign = i == 0 ? 1.0 : -1.0;
     EXPECT_EQ(s.mass(i, i), 1.0);
     EXPECT_EQ(s.stiffness(i, i), 1.0);
     EXPECT_EQ(s.damping(i, i), 0.1);
-    EXPECT_EQ(which.problem.start.u[i], sign);
-    EXPECT_EQ(which.problem.start.v[i], -0.05 * sign);
+    EXPECT_EQ(test_case.problem.start.u[i], sign);
+    EXPECT_EQ(test_case.problem.start.v[i], -0.05 * sign);
   }
-  EXPECT_EQ(constant(which.constants, "X"), 1.0);
-  EXPECT_EQ(constant(which.constants, "r"), 1.0);
-  EXPECT_TRUE(std::isinf(constant(which.constants, "r*")));
-  EXPECT_EQ(constant(which.constants, "margin"), 2.0);
+  EXPECT_EQ(constant(test_case.constants, "X"), 1.0);
+  EXPECT_EQ(constant(test_case.constants, "r"), 1.0);
+  EXPECT_TRUE(std::isinf(constant(test_case.constants, "r*")));
+  EXPECT_EQ(constant(test_case.constants, "margin"), 2.0);
   EXPECT_EQ(make("symmetric-pair", {{"eta", 0.5}}).problem.contacts[0].restitution, 0.5);
   EXPECT_EQ(make("symmetric-pair", {{"t_end", 7.0}}).motion->end(), 7.0);
   EXPECT_EQ(make("symmetric-pair", {{"xi1", 0.25}}).problem.system.damping(1, 1), 0.5);
@@ -176,18 +176,18 @@ TEST(Cases, SymmetricPairIsEq7) {
 
 TEST(Cases, StopIsEq5AndSdofEq3) {
   for (const auto* name : {"sdof", "stop"}) {
-    const auto which = make(name, {{"xi1", 0.25}, {"t_end", 12.0}});
-    EXPECT_EQ(which.problem.system.mass(0, 0), 1.0);
-    EXPECT_EQ(which.problem.system.damping(0, 0), 0.5);
-    EXPECT_EQ(which.problem.system.stiffness(0, 0), 1.0);
-    EXPECT_EQ(which.problem.start.u[0], 1.0);
-    EXPECT_EQ(which.problem.start.v[0], -0.25);
-    EXPECT_EQ(which.problem.end, 12.0);
+    const auto test_case = make(name, {{"xi1", 0.25}, {"t_end", 12.0}});
+    EXPECT_EQ(test_case.problem.system.mass(0, 0), 1.0);
+    EXPECT_EQ(test_case.problem.system.damping(0, 0), 0.5);
+    EXPECT_EQ(test_case.problem.system.stiffness(0, 0), 1.0);
+    EXPECT_EQ(test_case.problem.start.u[0], 1.0);
+    EXPECT_EQ(test_case.problem.start.v[0], -0.25);
+    EXPECT_EQ(test_case.problem.end, 12.0);
     const double omega_d = std::sqrt(1.0 - 0.0625);
-    expect_near(which.damped_periods[0], 2.0 * std::numbers::pi / omega_d, "period");
-    expect_near(constant(which.constants, "omega_D1"), omega_d, "omega_D1");
-    EXPECT_EQ(constant(which.constants, "c1"), 0.5);
-    EXPECT_EQ(constant(which.constants, "v1(0)"), -0.25);
+    expect_near(test_case.damped_periods[0], 2.0 * std::numbers::pi / omega_d, "period");
+    expect_near(constant(test_case.constants, "omega_D1"), omega_d, "omega_D1");
+    EXPECT_EQ(constant(test_case.constants, "c1"), 0.5);
+    EXPECT_EQ(constant(test_case.constants, "v1(0)"), -0.25);
   }
   EXPECT_TRUE(make("sdof").problem.contacts.empty());
   EXPECT_TRUE(make("sdof").indicators.empty());
@@ -198,19 +198,19 @@ TEST(Cases, StopIsEq5AndSdofEq3) {
   EXPECT_EQ(constant(stop.constants, "eta"), 0.5);
   expect_near(constant(stop.constants, "T"), std::numbers::pi / std::sqrt(0.9975), "T");
   expect_near(constant(stop.constants, "t_1"), 0.5 * std::numbers::pi / std::sqrt(0.9975), "t_1");
-  EXPECT_EQ(constant(stop.constants, "collisions"), 6.0);
+  EXPECT_EQ(constant(stop.constants, "impacts"), 6.0);
 }
 
 TEST(Cases, SynchronizedPairPassesEveryParameterOn) {
-  const auto which = make("synchronized-pair", {{"m1", 2.0},
-                                                {"k1", 8.0},
-                                                {"xi1", 0.125},
-                                                {"A", 0.5},
-                                                {"X", 3.0},
-                                                {"r", 2.5},
-                                                {"eta", 0.75},
-                                                {"t_end", 7.0}});
-  const auto& s = which.problem.system;
+  const auto test_case = make("synchronized-pair", {{"m1", 2.0},
+                                                    {"k1", 8.0},
+                                                    {"xi1", 0.125},
+                                                    {"A", 0.5},
+                                                    {"X", 3.0},
+                                                    {"r", 2.5},
+                                                    {"eta", 0.75},
+                                                    {"t_end", 7.0}});
+  const auto& s = test_case.problem.system;
   const double sigma = 0.25, own = (2.0 * 2.0 * (1.0 - 0.015625)) * 9.0 + sigma * sigma;
   expect_near(s.mass(0, 0), 2.0, "m1");
   expect_near(s.mass(1, 1), 0.8, "m2");
@@ -218,41 +218,42 @@ TEST(Cases, SynchronizedPairPassesEveryParameterOn) {
   expect_near(s.stiffness(1, 1), 0.8 * own, "k2");
   expect_near(s.damping(0, 0), 1.0, "c1");
   expect_near(s.damping(1, 1), 0.4, "c2");
-  EXPECT_EQ(which.problem.start.u[0], 0.5);
+  EXPECT_EQ(test_case.problem.start.u[0], 0.5);
   // s = -1 for X = 3: u2(0) has the sign of u1(0).
-  expect_near(which.problem.start.u[1], 2.5 * 0.5 / 3.0, "u2(0)");
-  EXPECT_EQ(which.problem.contacts[0].restitution, 0.75);
-  EXPECT_EQ(which.motion->end(), 7.0);
-  EXPECT_EQ(constant(which.constants, "r*"), 3.0);
-  expect_near(constant(which.constants, "margin"), 1.0 - 2.5 / 3.0, "margin");
+  expect_near(test_case.problem.start.u[1], 2.5 * 0.5 / 3.0, "u2(0)");
+  EXPECT_EQ(test_case.problem.contacts[0].restitution, 0.75);
+  EXPECT_EQ(test_case.motion->end(), 7.0);
+  EXPECT_EQ(constant(test_case.constants, "r*"), 3.0);
+  expect_near(constant(test_case.constants, "margin"), 1.0 - 2.5 / 3.0, "margin");
 }
 
 TEST(Cases, ExchangedRolesAreOneOverAnOddNumber) {
-  const auto which = make("synchronized-pair", {{"X", 1.0 / 5.0}, {"r", 0.5}});
-  expect_near(constant(which.constants, "omega_D1") / constant(which.constants, "omega_D2"), 5.0,
-              "X");
-  EXPECT_EQ(constant(which.constants, "X"), 0.2);
-  EXPECT_EQ(constant(which.constants, "r"), 0.5);
-  EXPECT_EQ(constant(which.constants, "r*"), 4.0);
-  EXPECT_EQ(constant(which.constants, "margin"), 0.5);
-  EXPECT_EQ(constant(which.indicators, "I_ms"), 5.0);
+  const auto test_case = make("synchronized-pair", {{"X", 1.0 / 5.0}, {"r", 0.5}});
+  expect_near(constant(test_case.constants, "omega_D1") / constant(test_case.constants, "omega_D2"),
+              5.0, "X");
+  EXPECT_EQ(constant(test_case.constants, "X"), 0.2);
+  EXPECT_EQ(constant(test_case.constants, "r"), 0.5);
+  EXPECT_EQ(constant(test_case.constants, "r*"), 4.0);
+  EXPECT_EQ(constant(test_case.constants, "margin"), 0.5);
+  EXPECT_EQ(constant(test_case.indicators, "I_ms"), 5.0);
   // The slow mass, here the second, makes the longest period.
-  expect_near(constant(which.indicators, "T_L"), 5.0 * std::numbers::pi / std::sqrt(0.9975), "T_L");
+  expect_near(constant(test_case.indicators, "T_L"), 5.0 * std::numbers::pi / std::sqrt(0.9975),
+              "T_L");
 }
 
 TEST(Cases, ExactDataPairHasTheExactInputsOfItsFormulas) {
-  const auto which = make("exact-data-pair");
-  const auto& s = which.problem.system;
+  const auto test_case = make("exact-data-pair");
+  const auto& s = test_case.problem.system;
   EXPECT_EQ(s.mass(0, 0), 0.5);
   EXPECT_EQ(s.mass(1, 1), 1.0);
   EXPECT_EQ(s.stiffness(0, 0), 0.5 * (1.0 + 0.00390625));
   EXPECT_EQ(s.stiffness(1, 1), 81.0 + 0.00390625);
   EXPECT_EQ(s.damping(0, 0), 0.0625);
   EXPECT_EQ(s.damping(1, 1), 0.125);
-  EXPECT_EQ(which.problem.start.u[0], 1.125);
-  EXPECT_EQ(which.problem.start.u[1], -0.0625);
-  EXPECT_EQ(which.problem.start.v[0], -0.0625 * 1.125);
-  EXPECT_EQ(which.problem.start.v[1], 0.0625 * 0.0625);
+  EXPECT_EQ(test_case.problem.start.u[0], 1.125);
+  EXPECT_EQ(test_case.problem.start.u[1], -0.0625);
+  EXPECT_EQ(test_case.problem.start.v[0], -0.0625 * 1.125);
+  EXPECT_EQ(test_case.problem.start.v[1], 0.0625 * 0.0625);
   const auto other = make("exact-data-pair", {{"m2", 2.0},
                                               {"Omega", 0.5},
                                               {"sigma", 0.25},
@@ -292,8 +293,8 @@ TEST(Cases, IndicatorsNameTheirThreshold) {
 }
 
 TEST(Cases, SayWhatAnErrorMayBeBlamedOn) {
-  const auto find = [](const Case& which, std::string_view name) -> const Constant* {
-    for (const auto& c : which.constants)
+  const auto find = [](const Case& test_case, std::string_view name) -> const Constant* {
+    for (const auto& c : test_case.constants)
       if (c.name == name) return &c;
     return nullptr;
   };
@@ -341,7 +342,7 @@ TEST(Cases, RefuseAnNThatIsNoCount) {
     EXPECT_EQ(refusal(name, {{"N", 2.5}}),
               who + ": N = 2.5; " + rule +
                   " Only with X = 4N + 1 odd both masses pass equilibrium together at every "
-                  "collision. [not-whole]");
+                  "impact. [not-whole]");
     EXPECT_EQ(refusal(name, {{"N", 25e7}}), who + ": N = 250000000; " + rule + " [out-of-range]");
     EXPECT_EQ(refusal(name, {{"N", NAN}}), who + ": N = nan; " + rule + " [not-a-number]");
     EXPECT_EQ(refusal(name, {{"N", INFINITY}}), who + ": N = inf; " + rule + " [not-finite]");

@@ -14,49 +14,50 @@
 namespace clackers::cases {
 namespace {
 
-double restitution(const Case& which) { return which.problem.contacts.front().restitution; }
+double restitution(const Case& test_case) { return test_case.problem.contacts.front().restitution; }
 
-Constant collision_count(const Case& which) {
-  return {"collisions", double(which.motion->impact_count(which.motion->end())), "",
-          "number of collisions up to t_end"};
+Constant number_of_impacts(const Case& test_case) {
+  return {"impacts", double(test_case.motion->impact_count(test_case.motion->end())), "",
+          "number of impacts up to t_end"};
 }
 
 // What a user may attribute to the solver: docs/manual/explanation/derivations/conditioning.md.
-std::vector<Constant> conditioning_of(const Case& which, const exact::PairConstants& c, double r) {
-  const double eta = restitution(which);
+std::vector<Constant> conditioning_of(const Case& test_case, const exact::PairConstants& c,
+                                      double r) {
+  const double eta = restitution(test_case);
   const double rate = exact::detuning_rate(c.ratio, r);
   constexpr double endless = std::numeric_limits<double>::infinity();
   switch (exact::conditioning(c.ratio, r, eta)) {
     case exact::Conditioning::neutral:
       return {{"perturbation_growth", 1.0, "",
-               "conditioning: neutral; an error at one collision, relative to the motion, is as "
+               "conditioning: neutral; an error at one impact, relative to the motion, is as "
                "large at the next"}};
     case exact::Conditioning::growing: {
       std::vector<Constant> list{
           {"perturbation_growth", eta > 0.0 ? 1.0 / eta : endless, "",
            "conditioning: growing; an error relative to the motion is multiplied by 1/eta at "
-           "each collision, after k by eta^-k"}};
+           "each impact, after k by eta^-k"}};
       if (rate > 0.0)
         list.push_back({"detuning_rate", rate, "",
                         "lambda: a solver that shifts omega_D2/omega_D1 by a relative eps loses "
-                        "synchrony by a factor exp(lambda |eps|)/eta at each collision"});
+                        "synchrony by a factor exp(lambda |eps|)/eta at each impact"});
       return list;
     }
     case exact::Conditioning::detuning_fragile:
       break;
   }
-  return {
-      {"perturbation_growth", 1.0, "",
-       "conditioning: detuning-fragile; an error at one collision does not grow by itself, yet a "
-       "solver that shifts omega_D2/omega_D1 by a relative eps loses synchrony"},
-      {"detuning_rate", rate, "",
-       "lambda: the loss of synchrony grows by exp(lambda |eps|) at each collision; with r <= 1 "
-       "(slow over fast mass) it would not grow"}};
+  return {{"perturbation_growth", 1.0, "",
+           "conditioning: detuning-fragile; an error at one impact does not grow by itself, yet a "
+           "solver that shifts omega_D2/omega_D1 by a relative eps loses synchrony"},
+          {"detuning_rate", rate, "",
+           "lambda: the loss of synchrony grows by exp(lambda |eps|) at each impact; with r <= 1 "
+           "(slow over fast mass) it would not grow"}};
 }
 
 }  // namespace
 
-std::vector<Constant> pair_constants(const Case& which, const exact::PairConstants& c, double r) {
+std::vector<Constant> pair_constants(const Case& test_case, const exact::PairConstants& c,
+                                     double r) {
   const auto limit = c.ratio.is_inverse
                          ? "limit of m2/m1, the slow mass over the fast one; the closed "
                            "form holds below it (sharp form of Eq. 18)"
@@ -82,21 +83,21 @@ std::vector<Constant> pair_constants(const Case& which, const exact::PairConstan
       {"v2(0)", c.v2, "m/s", "initial velocity of mass 2, -sigma u2(0), Eq. (17)"},
       {"X", c.ratio.is_inverse ? 1.0 / c.ratio.odd : c.ratio.odd, "", "omega_D2/omega_D1"},
       {"r", r, "", "mass ratio m1/m2"},
-      {"eta", restitution(which), "", "restitution"},
+      {"eta", restitution(test_case), "", "restitution"},
       {"r*", c.r_star, "", limit},
       {"margin", c.margin, "",
        c.ratio.odd == 1.0 ? "smallest gap relative to |u1|, 1 + r: the masses move opposite"
-                          : "smallest gap between collisions relative to the slow displacement, "
+                          : "smallest gap between impacts relative to the slow displacement, "
                             "1 - r/r* (r slow over fast mass)"},
-      {"T", c.period, "s", "time between collisions"},
-      {"t_1", c.first_collision, "s", "time of the first collision, Eq. (28)"},
-      {"t_end", which.motion->end(), "s", "end of the run"},
-      collision_count(which)};
-  std::ranges::move(conditioning_of(which, c, r), std::back_inserter(list));
+      {"T", c.period, "s", "time between impacts"},
+      {"t_1", c.first_impact, "s", "time of the first impact, Eq. (28)"},
+      {"t_end", test_case.motion->end(), "s", "end of the run"},
+      number_of_impacts(test_case)};
+  std::ranges::move(conditioning_of(test_case, c, r), std::back_inserter(list));
   return list;
 }
 
-std::vector<Constant> single_mass_constants(const Case& which, double xi1) {
+std::vector<Constant> single_mass_constants(const Case& test_case, double xi1) {
   const double omega_d = std::sqrt((1.0 - xi1) * (1.0 + xi1));
   std::vector<Constant> list{{"m1", 1.0, "kg", "the mass"},
                              {"k1", 1.0, "N/m", "its stiffness"},
@@ -106,20 +107,19 @@ std::vector<Constant> single_mass_constants(const Case& which, double xi1) {
                              {"omega1", 1.0, "rad/s", "undamped frequency"},
                              {"omega_D1", omega_d, "rad/s", "damped frequency"},
                              {"u1(0)", 1.0, "m", "initial displacement"},
-                             {"v1(0)", which.problem.start.v[0], "m/s", "initial velocity"}};
-  if (!which.problem.contacts.empty()) {
+                             {"v1(0)", test_case.problem.start.v[0], "m/s", "initial velocity"}};
+  if (!test_case.problem.contacts.empty()) {
     const double half = std::numbers::pi / omega_d;
-    list.push_back({"eta", restitution(which), "", "restitution"});
-    list.push_back({"T", half, "s", "time between collisions"});
-    list.push_back({"t_1", 0.5 * half, "s", "time of the first collision"});
+    list.push_back({"eta", restitution(test_case), "", "restitution"});
+    list.push_back({"T", half, "s", "time between impacts"});
+    list.push_back({"t_1", 0.5 * half, "s", "time of the first impact"});
   }
-  list.push_back({"t_end", which.motion->end(), "s", "end of the run"});
-  list.push_back(collision_count(which));
-  if (!which.problem.contacts.empty())
-    list.push_back(
-        {"perturbation_growth", 1.0, "",
-         "conditioning: neutral; an error at one collision, relative to the motion, is as "
-         "large at the next, for every restitution"});
+  list.push_back({"t_end", test_case.motion->end(), "s", "end of the run"});
+  list.push_back(number_of_impacts(test_case));
+  if (!test_case.problem.contacts.empty())
+    list.push_back({"perturbation_growth", 1.0, "",
+                    "conditioning: neutral; an error at one impact, relative to the motion, is as "
+                    "large at the next, for every restitution"});
   return list;
 }
 

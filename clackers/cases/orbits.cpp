@@ -20,24 +20,24 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-void add_run(Case& which) {
-  const double end = which.motion->end();
-  which.constants.push_back({"t_end", end, "s", "end of the run"});
-  which.constants.push_back({"collisions", double(which.motion->impact_count(end)), "",
-                             "number of collisions up to t_end"});
+void add_run(Case& test_case) {
+  const double end = test_case.motion->end();
+  test_case.constants.push_back({"t_end", end, "s", "end of the run"});
+  test_case.constants.push_back({"impacts", double(test_case.motion->impact_count(end)), "",
+                                 "number of impacts up to t_end"});
 }
 
-void build_cradle(Case& which, const Values& value, double) {
+void build_cradle(Case& test_case, const Values& value, double) {
   const exact::CradleParameters p{value("omega1"), value("omega2"), value("xi1"), value("xi2"),
                                   value("t_end")};
-  const auto motion = std::make_shared<const exact::Cradle>(p, which.entry->name);
-  which.problem = motion->problem();
-  which.motion = motion;
+  const auto motion = std::make_shared<const exact::Cradle>(p, test_case.entry->name);
+  test_case.problem = motion->problem();
+  test_case.motion = motion;
   const double T1 = motion->flight_time(0), T2 = motion->flight_time(1);
   const double growth = motion->perturbation_growth();
-  which.damped_periods = {2.0 * T1, 2.0 * T2};
-  const auto& s = which.problem.system;
-  which.constants = {
+  test_case.damped_periods = {2.0 * T1, 2.0 * T2};
+  const auto& s = test_case.problem.system;
+  test_case.constants = {
       {"m1", 1.0, "kg", "mass 1, above"},
       {"m2", 1.0, "kg", "mass 2, below"},
       {"k1", s.stiffness(0, 0), "N/m", "stiffness of mass 1"},
@@ -48,24 +48,24 @@ void build_cradle(Case& which, const Values& value, double) {
       {"T1", T1, "s", "length of a flight of mass 1, while mass 2 rests"},
       {"T2", T2, "s", "length of a flight of mass 2, while mass 1 rests"},
       {"t_1", motion->impact_count(p.t_end) > 0 ? motion->impact(1).t : 0.5 * T1, "s",
-       "time of the first collision"},
+       "time of the first impact"},
       {"perturbation_growth", growth, "",
        growth > 1.0
            ? "conditioning: growing; an error of the resting mass, relative to the motion, is "
-             "multiplied by this at each collision in the long run"
-           : "conditioning: neutral; an error at one collision, relative to the motion, does not "
+             "multiplied by this at each impact in the long run"
+           : "conditioning: neutral; an error at one impact, relative to the motion, does not "
              "grow in the long run"}};
-  add_run(which);
+  add_run(test_case);
 }
 
 // What a forced and a base-excited pair have in common.
-void use_orbit(Case& which, std::shared_ptr<const exact::ForcedPair> orbit, double omega1,
+void use_orbit(Case& test_case, std::shared_ptr<const exact::ForcedPair> orbit, double omega1,
                double omega2) {
-  which.problem = orbit->problem();
-  which.motion = orbit;
-  which.damped_periods = {two_pi / omega1, two_pi / omega2};
-  const auto& s = which.problem.system;
-  auto& list = which.constants;
+  test_case.problem = orbit->problem();
+  test_case.motion = orbit;
+  test_case.damped_periods = {two_pi / omega1, two_pi / omega2};
+  const auto& s = test_case.problem.system;
+  auto& list = test_case.constants;
   for (int i = 0; i < 2; ++i) {
     list.push_back({fmt::format("m{}", i + 1), s.mass(i, i), "kg",
                     i == 0 ? "mass 1, above" : "mass 2, below"});
@@ -80,7 +80,7 @@ void use_orbit(Case& which, std::shared_ptr<const exact::ForcedPair> orbit, doub
                     fmt::format("amplitude of the force F{0} cos(nu t + phi{0})", f.dof + 1)});
     list.push_back({fmt::format("phi{}", f.dof + 1), f.phase, "rad", "its phase"});
   }
-  list.push_back({"gap", which.problem.contacts[0].gap, "m",
+  list.push_back({"gap", test_case.problem.contacts[0].gap, "m",
                   "contact happens at u1 - u2 = gap; below 0 the masses are apart at rest"});
   list.push_back({"V1", orbit->velocity(0), "m/s", "of mass 1 just after an impact"});
   list.push_back({"V2", orbit->velocity(1), "m/s", "of mass 2 just after an impact"});
@@ -88,8 +88,8 @@ void use_orbit(Case& which, std::shared_ptr<const exact::ForcedPair> orbit, doub
       {"margin", orbit->margin(), "",
        "smallest gap between impacts over the parabola (V1 - V2) s (T - s)/T; the closed "
        "form holds where it is positive"});
-  list.push_back({"T", orbit->T(), "s", "time between collisions"});
-  list.push_back({"t_1", 0.5 * orbit->T(), "s", "time of the first collision"});
+  list.push_back({"T", orbit->T(), "s", "time between impacts"});
+  list.push_back({"t_1", 0.5 * orbit->T(), "s", "time of the first impact"});
   const auto multipliers = orbit->floquet_multipliers();
   for (std::size_t i = 0; i < multipliers.size(); ++i)
     list.push_back(
@@ -101,29 +101,29 @@ void use_orbit(Case& which, std::shared_ptr<const exact::ForcedPair> orbit, doub
   list.push_back(
       {"perturbation_growth", growth, "",
        growth > 1.0 + on_the_circle
-           ? "conditioning: unstable orbit; an error at one collision is multiplied by this at each "
+           ? "conditioning: unstable orbit; an error at one impact is multiplied by this at each "
              "later one, so every solver leaves the orbit in the end"
        : growth > 1.0 - on_the_circle
-           ? "conditioning: neutral; an error at one collision is as large at the next"
-           : "conditioning: stable orbit; an error at one collision is multiplied by this at each "
+           ? "conditioning: neutral; an error at one impact is as large at the next"
+           : "conditioning: stable orbit; an error at one impact is multiplied by this at each "
              "later one"});
-  add_run(which);
+  add_run(test_case);
 }
 
-void build_forced(Case& which, const Values& value, double) {
+void build_forced(Case& test_case, const Values& value, double) {
   const exact::ForcedPairParameters p{
       value("m1"),     value("m2"),  value("omega1"), value("omega2"), value("sigma1"),
       value("sigma2"), value("eta"), value("T"),      value("n"),      value("D1"),
       value("D2"),     value("V1"),  value("t_end")};
-  use_orbit(which, std::make_shared<const exact::ForcedPair>(p, which.entry->name), p.omega1,
-            p.omega2);
+  use_orbit(test_case, std::make_shared<const exact::ForcedPair>(p, test_case.entry->name),
+            p.omega1, p.omega2);
 }
 
-void build_base_excited(Case& which, const Values& value, double) {
+void build_base_excited(Case& test_case, const Values& value, double) {
   const exact::BaseExcitedParameters p{value("m1"), value("omega1"), value("omega2"), value("T"),
                                        value("n"),  value("A_g"),    value("t_end")};
-  use_orbit(which, std::make_shared<const exact::ForcedPair>(p, which.entry->name), p.omega1,
-            p.omega2);
+  use_orbit(test_case, std::make_shared<const exact::ForcedPair>(p, test_case.entry->name),
+            p.omega1, p.omega2);
 }
 
 // A penalized motion of a problem with a spring and no contact: its velocities do not jump, so it has
@@ -153,21 +153,21 @@ class SpringMotion : public model::Motion {
   exact::PenalizedMotion motion_;
 };
 
-void build_penalized(Case& which, const Values& value, double) {
-  const double stiffness = require_positive(which.entry->name, "stiffness", value("stiffness"));
+void build_penalized(Case& test_case, const Values& value, double) {
+  const double stiffness = require_positive(test_case.entry->name, "stiffness", value("stiffness"));
   const exact::SynchronizedPair rigid({.m1 = value("m1"),
                                        .k1 = value("k1"),
                                        .xi1 = value("xi1"),
                                        .X = value("X"),
                                        .r = value("r"),
                                        .t_end = value("t_end")},
-                                      which.entry->name);
+                                      test_case.entry->name);
   const auto motion =
       std::make_shared<const SpringMotion>(exact::PenalizedMotion(rigid.problem(), stiffness));
-  which.problem = rigid.problem();
-  which.problem.system.nonlinear = std::make_shared<model::OneSidedSprings>(
-      std::exchange(which.problem.contacts, {}), std::vector<double>{stiffness});
-  which.motion = motion;
+  test_case.problem = rigid.problem();
+  test_case.problem.system.nonlinear = std::make_shared<model::OneSidedSprings>(
+      std::exchange(test_case.problem.contacts, {}), std::vector<double>{stiffness});
+  test_case.motion = motion;
 
   const auto& c = rigid.constants();
   const double inverse_mass = 1.0 / c.m1 + 1.0 / c.m2;
@@ -175,8 +175,9 @@ void build_penalized(Case& which, const Values& value, double) {
   const double square = c.omega_D1 * c.omega_D1 + stiffness * inverse_mass;
   const auto& penalized = motion->penalized();
   const auto contacts = penalized.impact_count(penalized.end());
-  which.damped_periods = {two_pi / c.omega_D1, two_pi / std::max(c.omega_D2, std::sqrt(square))};
-  which.constants = {
+  test_case.damped_periods = {two_pi / c.omega_D1,
+                              two_pi / std::max(c.omega_D2, std::sqrt(square))};
+  test_case.constants = {
       {"m1", c.m1, "kg", "mass 1, above"},
       {"m2", c.m2, "kg", "mass 2, below"},
       {"k1", c.k1, "N/m", "stiffness of mass 1"},
@@ -192,40 +193,40 @@ void build_penalized(Case& which, const Values& value, double) {
        "half a period of the masses in contact; of X = 1 the length of each contact"},
       {"contacts", double(contacts), "", "number of contacts begun up to t_end"}};
   if (contacts > 0)
-    which.constants.push_back(
+    test_case.constants.push_back(
         {"t_1", penalized.impact(1).t, "s", "time at which the first contact begins"});
-  which.constants.push_back(
+  test_case.constants.push_back(
       {"smoothness", 2.0, "",
        "the force has kinks where contacts begin and end, so no method has more than this order"});
-  add_run(which);
+  add_run(test_case);
 }
 
-void build_piecewise(Case& which, const Values& value, double) {
+void build_piecewise(Case& test_case, const Values& value, double) {
   const auto file = value("problem").text();
-  which.problem = file == "example" ? model::problem_from_text(model::example_problem, file)
-                                    : model::read_problem(file);
+  test_case.problem = file == "example" ? model::problem_from_text(model::example_problem, file)
+                                        : model::read_problem(file);
   const auto motion =
-      std::make_shared<const exact::PiecewiseMotion>(which.problem, which.entry->name);
-  which.motion = motion;
+      std::make_shared<const exact::PiecewiseMotion>(test_case.problem, test_case.entry->name);
+  test_case.motion = motion;
   std::vector<double> frequencies;
   for (const auto& mode : motion->modes().modes()) {
     frequencies.push_back(mode.omega);
     // A mode that does not oscillate has no period; the run's length is what it has.
-    which.damped_periods.push_back(mode.oscillates() && mode.w > 0.0 ? two_pi / mode.w
-                                                                     : which.problem.end);
+    test_case.damped_periods.push_back(mode.oscillates() && mode.w > 0.0 ? two_pi / mode.w
+                                                                         : test_case.problem.end);
   }
   const auto [lowest, highest] = std::ranges::minmax(frequencies);
   const auto bound = motion->error_bound(motion->end());
-  which.constants = {
+  test_case.constants = {
       {"masses", double(motion->dof()), "", "degrees of freedom"},
-      {"contacts", double(which.problem.contacts.size()), "", "rows of the contact condition"},
+      {"contacts", double(test_case.problem.contacts.size()), "", "rows of the contact condition"},
       {"omega_min", lowest, "rad/s", "lowest undamped natural frequency without contact"},
       {"omega_max", highest, "rad/s", "highest undamped natural frequency without contact"},
       {"error_bound", bound.u.maxCoeff(), "m",
        "of the largest displacement of the reference solution at t_end"}};
   if (motion->impact_count(motion->end()) > 0)
-    which.constants.push_back({"t_1", motion->impact(1).t, "s", "time of the first collision"});
-  add_run(which);
+    test_case.constants.push_back({"t_1", motion->impact(1).t, "s", "time of the first impact"});
+  add_run(test_case);
 }
 
 Parameter frequency(const char* name, double standard, const char* meaning) {
@@ -240,7 +241,7 @@ Parameter whole_periods(double standard, const char* meaning) {
 std::vector<CaseRow> orbit_rows() {
   return {
       {{"cradle",
-        "Two equal masses of different frequencies, one at rest at each elastic collision.",
+        "Two equal masses of different frequencies, one at rest at each elastic impact.",
         "none; as Newton's cradle",
         {frequency("omega1", 1.0, "undamped frequency of mass 1, above"),
          frequency("omega2", 1.7, "undamped frequency of mass 2"),
@@ -250,7 +251,7 @@ std::vector<CaseRow> orbit_rows() {
        build_cradle},
       {{"forced-pair",
         "A periodic orbit with impacts of two masses across a gap, under harmonic forces.",
-        "none; collisions at (k - 1/2) T",
+        "none; impacts at (k - 1/2) T",
         {{"m1", 1.0, "kg", "1e-30 <= m1 <= 1e+30", "mass 1, above"},
          {"m2", 1.0, "kg", "1e-30 <= m2 <= 1e+30", "mass 2"},
          frequency("omega1", 1.0, "damped frequency of mass 1"),
@@ -258,23 +259,23 @@ std::vector<CaseRow> orbit_rows() {
          {"sigma1", 0.05, "1/s", "0 <= sigma1 <= 1e+30", "rate of decay of mass 1"},
          {"sigma2", 0.05, "1/s", "0 <= sigma2 <= 1e+30", "rate of decay of mass 2"},
          {"eta", 0.8, "", "1e-3 <= eta <= 1", "restitution; 1 is elastic"},
-         {"T", 5.0, "s", "1e-30 <= T <= 1e+30", "time between collisions"},
-         whole_periods(2.0, "periods of the forces between collisions"),
+         {"T", 5.0, "s", "1e-30 <= T <= 1e+30", "time between impacts"},
+         whole_periods(2.0, "periods of the forces between impacts"),
          {"D1", -0.25, "m", "-1e+30 <= D1 <= 1e+30", "displacement of mass 1 at the contact"},
          {"D2", 0.25, "m", "-1e+30 <= D2 <= 1e+30", "displacement of mass 2 at the contact"},
-         {"V1", 0.5, "m/s", "1e-30 <= V1 <= 1e+30", "velocity of mass 1 just after a collision"},
+         {"V1", 0.5, "m/s", "1e-30 <= V1 <= 1e+30", "velocity of mass 1 just after an impact"},
          {"t_end", 40.0, "s", "0 < t_end < infinity", "end of the run"}}},
        build_forced},
       {{"base-excited-pair",
         "A periodic orbit with elastic impacts of two undamped masses on a shaken base.",
-        "none; collisions at (k - 1/2) T",
+        "none; impacts at (k - 1/2) T",
         {{"m1", 1.0, "kg", "1e-30 <= m1 <= 1e+30", "mass 1, above; m2 follows"},
          frequency("omega1", 1.0, "frequency of mass 1"),
          frequency("omega2", 3.5, "frequency of mass 2"),
-         {"T", 2.5, "s", "1e-30 <= T <= 1e+30", "time between collisions"},
-         whole_periods(1.0, "periods of the base between collisions"),
+         {"T", 2.5, "s", "1e-30 <= T <= 1e+30", "time between impacts"},
+         whole_periods(1.0, "periods of the base between impacts"),
          {"A_g", -1.0, "m/s^2", "1e-30 <= |A_g| <= 1e+30",
-          "acceleration of the base at a collision, its amplitude"},
+          "acceleration of the base at an impact, its amplitude"},
          t_end()}},
        build_base_excited},
       {{"penalized-pair",

@@ -17,7 +17,7 @@ constexpr long double pi = std::numbers::pi_v<long double>;
 
 long double sgn(long double x) { return x < 0 ? -1.0L : x > 0 ? 1.0L : 0.0L; }  // Eq. (6)
 
-// Steps that meet no collision: u bends there and v jumps.
+// Steps that meet no impact: u bends there and v jumps.
 std::vector<double> times(double end) {
   std::vector<double> t;
   for (int i = 0; i < 97; ++i) t.push_back(end * (i + 0.321) / 97.5);
@@ -26,38 +26,38 @@ std::vector<double> times(double end) {
 
 // u and its formula: half a unit of the envelope for the double, one for the formula, and its phase
 // with some roundings of 2^-64.
-void expect_displacement(const Case& which, double t, int mass, long double formula,
+void expect_displacement(const Case& test_case, double t, int mass, long double formula,
                          long double envelope, long double phase) {
-  const auto u = which.motion->at(t, Side::right).u[mass];
+  const auto u = test_case.motion->at(t, Side::right).u[mass];
   EXPECT_NEAR(u, double(formula),
               double(envelope * (1.5L * 0x1p-52L + 8.0L * phase * 0x1p-64L) + 5e-324L))
-      << which.entry->name << " t = " << t << " mass " << mass + 1;
+      << test_case.entry->name << " t = " << t << " mass " << mass + 1;
 }
 
 // Eq. (26); d2 = u2(0).
-void expect_eq26(const Case& which, long double X, long double omega, long double xi1,
+void expect_eq26(const Case& test_case, long double X, long double omega, long double xi1,
                  long double d2) {
-  for (const double t : times(which.motion->end())) {
+  for (const double t : times(test_case.motion->end())) {
     const long double e = std::exp(-xi1 * t), slow = std::cos(omega * t);
-    expect_displacement(which, t, 0, sgn(slow) * slow * e, e, omega * t);
-    expect_displacement(which, t, 1, d2 * sgn(slow) * std::cos(X * omega * t) * e, -d2 * e,
+    expect_displacement(test_case, t, 0, sgn(slow) * slow * e, e, omega * t);
+    expect_displacement(test_case, t, 1, d2 * sgn(slow) * std::cos(X * omega * t) * e, -d2 * e,
                         X * omega * t);
   }
 }
 
 TEST(PaperResponses, OfTheFreeMassIsEq4) {
-  const auto which = make("sdof");
+  const auto test_case = make("sdof");
   for (const double t : times(20.0)) {
     const long double e = std::exp(-0.05L * t), phase = std::sqrt(0.9975L) * t;
-    expect_displacement(which, t, 0, std::cos(phase) * e, e, phase);
+    expect_displacement(test_case, t, 0, std::cos(phase) * e, e, phase);
   }
 }
 
 TEST(PaperResponses, AboveAStopIsEq5) {
-  const auto which = make("stop");
+  const auto test_case = make("stop");
   for (const double t : times(20.0)) {
     const long double e = std::exp(-0.05L * t), phase = std::sqrt(0.9975L) * t;
-    expect_displacement(which, t, 0, sgn(std::cos(phase)) * std::cos(phase) * e, e, phase);
+    expect_displacement(test_case, t, 0, sgn(std::cos(phase)) * std::cos(phase) * e, e, phase);
   }
 }
 
@@ -81,9 +81,9 @@ TEST(PaperResponses, OfTwoParametersIsEq22) {
 
 TEST(PaperResponses, OfThreeParametersIsEq26) {
   for (const double a_t : {0.5, 1.2, 20.0}) {
-    const auto which = make("three-parameter", {{"N", 2}, {"xi1", 0.125}, {"a_t", a_t}});
-    expect_eq26(which, 9.0L, std::sqrt(1.0L - 0.015625L), 0.125L, -3.0L / 9.0L);
-    EXPECT_EQ(which.motion->end(), 20.0 * a_t);
+    const auto test_case = make("three-parameter", {{"N", 2}, {"xi1", 0.125}, {"a_t", a_t}});
+    expect_eq26(test_case, 9.0L, std::sqrt(1.0L - 0.015625L), 0.125L, -3.0L / 9.0L);
+    EXPECT_EQ(test_case.motion->end(), 20.0 * a_t);
   }
 }
 
@@ -91,9 +91,9 @@ TEST(PaperResponses, OfThreeParametersIsEq26) {
 TEST(PaperResponses, CollideAtEq28AndEq34InEquilibrium) {
   for (const double N : {0.0, 1.0, 5.0})
     for (const double xi1 : {0.0, 0.1, 0.75}) {
-      const auto which = make("three-parameter", {{"N", N}, {"xi1", xi1}});
+      const auto test_case = make("three-parameter", {{"N", N}, {"xi1", xi1}});
       const long double omega = std::sqrt(1.0L - static_cast<long double>(xi1) * xi1);
-      const auto first = which.motion->impact(1), second = which.motion->impact(2);
+      const auto first = test_case.motion->impact(1), second = test_case.motion->impact(2);
       EXPECT_DOUBLE_EQ(first.t, double(pi / (2.0L * omega)));
       EXPECT_DOUBLE_EQ(second.t, double(3.0L * pi / (2.0L * omega)));
       // Eq. (29) and (35).
@@ -104,34 +104,34 @@ TEST(PaperResponses, CollideAtEq28AndEq34InEquilibrium) {
 
 // Eq. (31), (33), (37): nothing collides from t_C1 to t_C* = pi/Omega, from there to t_C2, and from
 // t_C2 to t_C*** = 2 pi/Omega, Eq. (38).
-TEST(PaperResponses, StayApartBetweenTheCollisions) {
+TEST(PaperResponses, StayApartBetweenTheImpacts) {
   for (const double N : {0.0, 1.0, 5.0})
     for (const double xi1 : {0.0, 0.1, 0.75}) {
       SCOPED_TRACE(testing::Message() << "N = " << N << " xi1 = " << xi1);
-      const auto which = make("three-parameter", {{"N", N}, {"xi1", xi1}});
+      const auto test_case = make("three-parameter", {{"N", N}, {"xi1", xi1}});
       const double half = std::numbers::pi / std::sqrt((1.0 - xi1) * (1.0 + xi1));
-      // Beginning, end, collisions so far.
-      for (const auto& [from, to, collisions] :
+      // Beginning, end, impacts so far.
+      for (const auto& [from, to, impacts] :
            {std::tuple{0.0, 0.5, 0}, {0.5, 1.0, 1}, {1.0, 1.5, 1}, {1.5, 2.0, 2}})
         for (double part = 0.001; part < 1.0; part += 0.001) {
           const double t = half * (from + part * (to - from));
-          const auto now = which.motion->at(t, Side::right);
+          const auto now = test_case.motion->at(t, Side::right);
           EXPECT_GT(now.u[0], now.u[1]) << "t = " << t;
-          EXPECT_EQ(which.motion->impact_count(t), collisions) << "t = " << t;
+          EXPECT_EQ(test_case.motion->impact_count(t), impacts) << "t = " << t;
         }
     }
 }
 
-// Figure 12: at Eq. (38) and its multiples the pair is where it would be without collisions.
-TEST(PaperResponses, AtMultiplesOfEq38AreThoseWithoutCollisions) {
+// Figure 12: at Eq. (38) and its multiples the pair is where it would be without impacts.
+TEST(PaperResponses, AtMultiplesOfEq38AreThoseWithoutImpacts) {
   for (const double N : {0.0, 1.0, 5.0})
     for (const double xi1 : {0.0, 0.1}) {
-      const auto which = make("three-parameter", {{"N", N}, {"xi1", xi1}, {"a_t", 2.0}});
+      const auto test_case = make("three-parameter", {{"N", N}, {"xi1", xi1}, {"a_t", 2.0}});
       const long double omega = std::sqrt(1.0L - static_cast<long double>(xi1) * xi1);
       for (int j = 1; j <= 6; ++j) {
         const double t = double(2.0L * pi * j / omega);
-        const auto now = which.motion->at(t, Side::right);
-        const auto envelope = which.motion->envelope(t);
+        const auto now = test_case.motion->at(t, Side::right);
+        const auto envelope = test_case.motion->envelope(t);
         for (int i = 0; i < 2; ++i) {
           // Eq. (27) and its derivative.
           const long double p = i == 0 ? 1.0L : 4.0L * N + 1.0L, b = i == 0 ? 1.0L : -3.0L / p;
@@ -141,7 +141,7 @@ TEST(PaperResponses, AtMultiplesOfEq38AreThoseWithoutCollisions) {
           EXPECT_NEAR(now.v[i], double(-e * (xi1 * std::cos(w * t) + w * std::sin(w * t))),
                       bound * envelope.v[i]);
         }
-        EXPECT_EQ(which.motion->impact_count(t), 2 * j);
+        EXPECT_EQ(test_case.motion->impact_count(t), 2 * j);
       }
     }
 }

@@ -16,7 +16,7 @@ struct Values {
 
 /// Fills problem, motion, constants, indicators and periods of a case whose entry and values are
 /// set. Throws InputError for values outside their range.
-using Builder = void (*)(Case& which, const Values& value, double threshold);
+using Builder = void (*)(Case& test_case, const Values& value, double threshold);
 
 struct CaseRow {
   CaseEntry entry;
@@ -33,7 +33,7 @@ Parameter scale(const char* name, double default_value, const char* unit, const 
 
 /// X = 4N + 1 of Eq. (9), up to the largest ratio that the reference solution takes. Throws
 /// InputError for an N that is no whole number or outside its range.
-double ratio(const Case& which, double N);
+double ratio(const Case& test_case, double N);
 
 /// Periodic motions with impacts, penalty contacts, and problems of files.
 std::vector<CaseRow> orbit_rows();

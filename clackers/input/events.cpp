@@ -64,11 +64,11 @@ std::vector<model::Impact> read_events(const Source& source, int dof, int contac
   auto t = find(table, "t");
   if (!t) t = find(table, "time");
   if (!t)
-    throw InputError(table.name() + " has no column t; collisions need their times.", "no-column");
+    throw InputError(table.name() + " has no column t; impacts need their times.", "no-column");
   const auto contact = contacts > 1 ? find(table, "contact") : Column();
   if (contacts > 1 && !contact)
     throw InputError(fmt::format("{} has no column contact; the problem has {} contacts, and each "
-                                 "collision needs the number of one, from 0.",
+                                 "impact needs the number of one, from 0.",
                                  table.name(), contacts),
                      "no-column");
   const auto impulse = find(table, "impulse");
@@ -81,7 +81,7 @@ std::vector<model::Impact> read_events(const Source& source, int dof, int contac
     if (!impacts.empty() && impact.t < impacts.back().t)
       refuse(table.place(), "t", impact.t,
              fmt::format("at least {} s, the time above it", impacts.back().t),
-             "Sort the collisions by time.", "not-sorted");
+             "Sort the impacts by time.", "not-sorted");
     if (contact) impact.contact = contact_in(table, *contact, contacts);
     impact.impulse = impulse ? number_in(table, *impulse) : unknown;
     impact.u = numbers_in(table, u);

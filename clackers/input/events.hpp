@@ -9,10 +9,10 @@
 
 namespace clackers::input {
 
-/// Reads a list of collisions from any source: a column t and, where they are known, impulse, u1,
+/// Reads a list of impacts from any source: a column t and, where they are known, impulse, u1,
 /// v1-, v1+, u2, ... (v-, v+ for one mass); one column alone needs no name. Other columns are left
-/// out. What is not given of a collision is NaN; a quantity that no mass has is an empty vector. No
-/// rows: there were no collisions. With several `contacts` a column contact names one of them, from
+/// out. What is not given of an impact is NaN; a quantity that no mass has is an empty vector. No
+/// rows: there were no impacts. With several `contacts` a column contact names one of them, from
 /// 0.
 ///
 /// Throws InputError as read_history does, for times that descend, and for contacts that are missing

@@ -97,7 +97,7 @@ class Reader {
       const double last = times.back();
       if (t < last)
         refuse(table_.place(), "t", t, fmt::format("at least {} s, the time above it", last),
-               "Sort the rows by time; of a run that starts anew keep one part.", "not-sorted");
+               "Sort the rows by time; of a run that was restarted keep one part.", "not-sorted");
       const bool twice = times.size() > 1 && times[times.size() - 2] == last;
       if (t == last && twice)
         refuse(table_.place(), "t", t, "at most two rows of one time, the limits of a jump",

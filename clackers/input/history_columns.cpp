@@ -29,7 +29,7 @@ class Finder {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       if (std::ranges::find(specifications, names_[i]) == specifications.end()) continue;
       if (found)
-        throw InputError(fmt::format("{}: column {} stands twice; name the other one _ with "
+        throw InputError(fmt::format("{}: column {} appears twice; name the other one _ with "
                                      "--columns.",
                                      path_, names_[i]),
                          "no-column");

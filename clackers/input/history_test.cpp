@@ -87,8 +87,8 @@ TEST(History, RefusesOneTimeAlone) {
 TEST(History, RefusesMissingAndDoubleColumns) {
   EXPECT_REFUSED(history("t,x\n0,1\n1,2\n"), "no-column", "no column u1 or u2; its columns: t, x");
   EXPECT_REFUSED(history("u1,v1\n0,1\n1,2\n", 1), "no-column", "no column t");
-  EXPECT_REFUSED(history("t,u1,U1\n0,1,1\n1,2,2\n", 1), "no-column", "u1 stands twice");
-  EXPECT_REFUSED(history("t,time,u1\n0,0,1\n1,1,2\n", 1), "no-column", "stands twice");
+  EXPECT_REFUSED(history("t,u1,U1\n0,1,1\n1,2,2\n", 1), "no-column", "u1 appears twice");
+  EXPECT_REFUSED(history("t,time,u1\n0,0,1\n1,1,2\n", 1), "no-column", "appears twice");
 }
 
 TEST(History, WithoutTimesHasThemFromTheStep) {

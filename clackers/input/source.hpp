@@ -21,7 +21,7 @@ struct NumberColumns {
   std::vector<NumberColumn> columns;
 };
 
-/// Where a history or a list of collisions comes from: the path of a file, "-" for standard input,
+/// Where a history or a list of impacts comes from: the path of a file, "-" for standard input,
 /// or columns in memory.
 using Source = std::variant<std::string, NumberColumns>;
 

@@ -35,7 +35,7 @@ TEST(SourcesRefused, RefuseByTheRulesOfText) {
   expect_refused({{"t", "u1"}, {}}, "too-short", "", "has no rows");
   expect_refused({{"t", "x"}, {{0, 1}, {1, 1}}}, "no-column", "", "no column u1");
   expect_refused({{"t", "u1", "U"}, {{0, 1, 1}, {1, 1, 1}}}, "no-column", "", "");
-  expect_refused({{"t", "u1", "U1"}, {{0, 1, 1}, {1, 1, 1}}}, "no-column", "", "u1 stands twice");
+  expect_refused({{"t", "u1", "U1"}, {{0, 1, 1}, {1, 1, 1}}}, "no-column", "", "u1 appears twice");
 }
 
 TEST(SourcesRefused, EndAtTheFirstNumberThatIsNotFiniteWhereAskedTo) {

@@ -112,7 +112,7 @@ TEST(Sources, WithoutTimesHaveThemFromTheStep) {
   EXPECT_REFUSED(read_history(memory.columns, {}), "no-column", "history 1 has no column t");
 }
 
-TEST(Sources, OfCollisionsAreReadAlike) {
+TEST(Sources, OfImpactsAreReadAlike) {
   const Data data{{"k", "t", "u1", "v1-", "v1+", "v2-", "v2+", "impulse"},
                   {{1, 1.5, 0, -1, 1, 3, -3, 2}, {2, 4.7, 0, -2, 2, 6, -6, 4}}};
   const auto memory = memory_of(data);

@@ -35,7 +35,7 @@ void add(std::vector<Row>& all) {
   (all.push_back(row<Types>()), ...);
 }
 
-// Families of integrators, contact treatments, methods that stand alone.
+// Families of integrators, contact treatments, standalone methods.
 std::vector<Row> all_rows() {
   std::vector<Row> all;
   for (const auto& family : families)

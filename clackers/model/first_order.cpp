@@ -47,7 +47,8 @@ void FirstOrder::impact(std::span<const double> y, std::optional<std::size_t> co
   const double gap_rate = closed.gap_rate(v);
   if (gap_rate > 0.0)
     refuse("impact", "b . v", gap_rate, "b . v <= 0 m/s, a gap that closes",
-           "In this state the impact is already behind, or the event was found on the way out.");
+           "In this state the impact has already happened, or the event was found while the gap "
+           "opens.");
   const VectorXd response = mass_.solve(closed.direction);
   const double change = (1.0 + closed.restitution) * gap_rate / closed.direction.dot(response);
   Eigen::Map<VectorXd> out(after.data(), 2 * dof);

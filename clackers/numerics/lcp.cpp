@@ -138,9 +138,10 @@ Index LcpSolver::leaving_row(Index entering) const {
     const double at_i = table_(i, entering), at_k = table_(k, entering);
     for (Index c = -1; c < n_; ++c) {
       const Index column = c < 0 ? right : c;
-      const double one = table_(i, column) * at_k, other = table_(k, column) * at_i;
+      const double ratio_i = table_(i, column) * at_k, ratio_k = table_(k, column) * at_i;
       // Equal but for rounding: the next column decides. The artificial variable leaves if it can.
-      if (std::abs(one - other) > unit * (std::abs(one) + std::abs(other))) return one < other;
+      if (std::abs(ratio_i - ratio_k) > unit * (std::abs(ratio_i) + std::abs(ratio_k)))
+        return ratio_i < ratio_k;
       if (c < 0 && basis_[static_cast<std::size_t>(i)] == artificial) return true;
       if (c < 0 && basis_[static_cast<std::size_t>(k)] == artificial) return false;
     }

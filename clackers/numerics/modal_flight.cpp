@@ -208,9 +208,9 @@ bool ModalSystem::add_coupled(const std::vector<Index>& block, const MatrixXd& d
   // Two real eigenvalues are a mode as well; the farthest from each other are best told apart.
   std::ranges::sort(real, {}, [&](Index i) { return values[i].real(); });
   for (std::size_t i = 0; i < real.size() / 2; ++i) {
-    const Index one = real[i], other = real[real.size() - 1 - i];
-    const double a = values[one].real() * fast, b = values[other].real() * fast;
-    const VectorXd x = vectors.col(one).head(m).real(), y = vectors.col(other).head(m).real();
+    const Index first = real[i], second = real[real.size() - 1 - i];
+    const double a = values[first].real() * fast, b = values[second].real() * fast;
+    const VectorXd x = vectors.col(first).head(m).real(), y = vectors.col(second).head(m).real();
     Mode mode(-0.5 * (a + b), a * b);
     mode.w = 0.5 * std::abs(a - b);
     add(mode, (a * y - b * x) / (a - b), (x - y) / (a - b));

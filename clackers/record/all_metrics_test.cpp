@@ -52,7 +52,7 @@ TEST(CauseMetrics, AreAllThereInTheirOrder) {
 }
 
 TEST(CauseMetrics, ExplainALossOfSynchronyByTheMethodsFrequencies) {
-  // Elastic, r > 1: a detuned frequency grows at every collision. 20 steps a fast period.
+  // Elastic, r > 1: a detuned frequency grows at every impact. 20 steps a fast period.
   const double h = 2.0 * std::numbers::pi / 9.0 / 20.0;
   const auto run = shown("newmark", "synchronized-pair",
                          {{"X", 9.0}, {"r", 3.0}, {"xi1", 0.0}, {"t_end", 700.0}}, h);
@@ -70,7 +70,7 @@ TEST(CauseMetrics, ExplainALossOfSynchronyByTheMethodsFrequencies) {
 
 TEST(CauseMetrics, SayWhereSynchronyIsKept) {
   const auto run = shown("rk4", "three-parameter", {}, 0.01);
-  EXPECT_EQ(run.reason("synchrony-loss-index"), "Synchrony is kept over all 6 collisions.");
+  EXPECT_EQ(run.reason("synchrony-loss-index"), "Synchrony is kept over all 6 impacts.");
   EXPECT_EQ(run.reason("momentum-growth-fit"), run.reason("synchrony-loss-index"));
   const auto calm = shown("newmark", "synchronized-pair", {{"r", 0.5}}, 0.01);
   EXPECT_EQ(calm.reason("detuning-share"), "On this case no detuning grows.");

@@ -27,17 +27,19 @@ std::string_view field_of(judge::Counter counter) {
 
 std::vector<Profile> profiles_of(std::span<const CaseRecord> cases) {
   std::vector<Profile> profiles;
-  const auto is_interrupted = [](const CaseRecord& one) { return counts(one).interrupted > 0; };
+  const auto is_interrupted = [](const CaseRecord& problem) {
+    return counts(problem).interrupted > 0;
+  };
   if (cases.empty() || std::ranges::any_of(cases, is_interrupted)) return profiles;
   for (const auto counter : judge::all_counters) {
     if (counter == judge::Counter::seconds) continue;
     judge::CostTable table;
     for (const auto& subject : cases.front().subjects) table.methods.push_back(subject.name);
     table.costs.resize(table.methods.size());
-    for (const auto& one : cases) {
+    for (const auto& problem : cases) {
       std::vector<measure::Ladder> ladders;
-      for (const auto& subject : one.subjects) ladders.push_back(ladder_of(subject));
-      judge::add_tasks(table, one.problem.name, ladders, counter);
+      for (const auto& subject : problem.subjects) ladders.push_back(ladder_of(subject));
+      judge::add_tasks(table, problem.problem.name, ladders, counter);
     }
     if (!judge::has_ratios(table)) continue;
     auto methods = judge::performance_profile(table);

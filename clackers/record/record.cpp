@@ -28,7 +28,7 @@ std::string_view to_string(StepSource source) {
   return names[static_cast<std::size_t>(source)];
 }
 
-std::string_view to_string(CollisionSource source) {
+std::string_view to_string(ImpactSource source) {
   constexpr std::string_view names[] = {"events", "history", "unknown"};
   return names[static_cast<std::size_t>(source)];
 }
@@ -108,7 +108,7 @@ Counts counts(const CaseRecord& record) {
 
 Counts counts(const Record& record) {
   Counts all;
-  for (const auto& one : record.cases) add(all, counts(one));
+  for (const auto& problem : record.cases) add(all, counts(problem));
   return all;
 }
 

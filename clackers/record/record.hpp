@@ -91,11 +91,11 @@ struct PrintedColumn {
   double half_unit = 0.0;  ///< largest rounding error of printing, in the column's unit
 };
 
-enum class StepSource { data, name, option };             ///< where a history's step comes from
-enum class CollisionSource { events, history, unknown };  ///< unknown: neither reported nor found
+enum class StepSource { data, name, option };          ///< where a history's step comes from
+enum class ImpactSource { events, history, unknown };  ///< unknown: neither reported nor found
 
-std::string_view to_string(StepSource source);       ///< "data", "name", "option"
-std::string_view to_string(CollisionSource source);  ///< "events", "history", "unknown"
+std::string_view to_string(StepSource source);    ///< "data", "name", "option"
+std::string_view to_string(ImpactSource source);  ///< "events", "history", "unknown"
 
 /// Something a reader should know of a history: a code and its numbers; report/words makes the
 /// sentence. `text` holds a name where the note needs one (a column, a code of a step source).
@@ -120,9 +120,9 @@ struct HistoryFile {
   bool has_velocities = false;
   std::vector<bool> has_u;   ///< one entry a mass
   double start_error = 0.0;  ///< of the first row, relative to envelopes of u and v
-  CollisionSource collisions = CollisionSource::unknown;
-  bool rows_resolve_collisions = true;  ///< false: rows too far apart to find collisions in them
-  double contact_time = 0.0;            ///< median length of the contacts in it [s], 0 for instants
+  ImpactSource impact_source = ImpactSource::unknown;
+  bool rows_resolve_impacts = true;  ///< false: rows too far apart to find impacts in them
+  double contact_time = 0.0;         ///< median length of the contacts in it [s], 0 for instants
   std::vector<Note> notes;
   Curve history;  ///< displacements for a figure [m]; empty without those of all masses
 };
@@ -223,7 +223,7 @@ measure::Ladder ladder_of(const Subject& subject);
 
 Counts counts(const CaseRecord& record);
 Counts counts(const Record& record);
-/// The word for the verdict: the verdict's, or "refused" or "interrupted".
+/// The verdict as text, or "refused" or "interrupted" where there is none.
 std::string_view verdict_word(const Subject& subject);
 
 /// The failure of the first run, where every run of every subject failed and some subject is a

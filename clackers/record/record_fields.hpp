@@ -129,8 +129,8 @@ void fields(Archive& archive, Like<HistoryFile> auto& x) {
   archive("has_velocities", x.has_velocities);
   archive("has_displacement", x.has_u);
   archive("start_error", x.start_error);
-  archive("collision_source", x.collisions);
-  archive("rows_resolve_collisions", x.rows_resolve_collisions);
+  archive("collision_source", x.impact_source);
+  archive("rows_resolve_collisions", x.rows_resolve_impacts);
   archive("contact_time", x.contact_time);
   archive("notes", x.notes);
   archive("history", x.history);
@@ -225,7 +225,7 @@ void fields(Archive& archive, Like<judge::LadderFit> auto& x) {
   archive.added("floor_step", x.floor_step);
   archive.added("floor_scatter", x.floor_scatter);
   archive.added("cancel_step", x.cancel_step);
-  archive.added("lucky_share", x.lucky_share);
+  archive.added("lucky_share", x.coincident_share);
   archive.added("stable_step", x.stable_step);
   archive("steps", x.steps);
   archive("errors", x.errors);

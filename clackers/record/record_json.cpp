@@ -171,9 +171,8 @@ class Reader {
   static void read(const Json& json, const std::string& where, StepSource& x) {
     read_word(json, where, x, {StepSource::data, StepSource::name, StepSource::option});
   }
-  static void read(const Json& json, const std::string& where, CollisionSource& x) {
-    read_word(json, where, x,
-              {CollisionSource::events, CollisionSource::history, CollisionSource::unknown});
+  static void read(const Json& json, const std::string& where, ImpactSource& x) {
+    read_word(json, where, x, {ImpactSource::events, ImpactSource::history, ImpactSource::unknown});
   }
   static void read(const Json& json, const std::string& where, SubjectKind& x) {
     read_word(
@@ -212,6 +211,17 @@ class Reader {
       else
         read(value, place, x.evidence.emplace_back(diagnose::Fact{name}).value);
     }
+  }
+  template <class T>
+  requires std::same_as<T, Note> || std::same_as<T, judge::Evidence>
+  static void read(const Json& json, const std::string& where, T& x) {
+    Reader reader(json, where);
+    fields(reader, x);
+    reader.finish();
+    // Records of earlier versions say "no-collisions", "other-collisions" and so on.
+    constexpr std::string_view former = "collisions";
+    if (const auto at = x.code.find(former); at != std::string::npos)
+      x.code.replace(at, former.size(), "impacts");
   }
   static void read(const Json& json, const std::string&, Json& x) { x = json; }
   template <class T>

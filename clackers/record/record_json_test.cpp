@@ -130,10 +130,13 @@ TEST(RecordJson, ReadsRecordsOfEarlierVersions) {
   subject.erase("resolution");
   subject.erase("diagnoses");
   subject["levels"][0]["runs"][1].erase("printed");
+  subject["assessment"]["evidence"] = Json::array(
+      {{{"code", "other-collisions"}, {"verdict", "disagrees"}, {"numbers", {4, 6, 1}}}});
   const auto read = record_from_json(json_text(json)).cases[0].subjects[0];
   EXPECT_EQ(read.resolution, Resolution::step);
   EXPECT_TRUE(read.diagnoses.empty());
   EXPECT_EQ(read.levels[0].runs[1].printed, "");
+  EXPECT_EQ(read.assessment.evidence.at(0).code, "other-impacts");
 }
 
 TEST(RecordJson, WritesTheEvidenceOfADiagnosisAsOneObject) {

@@ -101,10 +101,10 @@ Requirement requirement_from(std::string_view text) {
 
 std::vector<Unmet> unmet(const Record& record, const Requirement& requirement) {
   std::vector<Unmet> all;
-  for (const auto& one : record.cases)
-    for (const auto& subject : one.subjects)
+  for (const auto& problem : record.cases)
+    for (const auto& subject : problem.subjects)
       if (auto found = shortfall(subject, requirement)) {
-        found->case_name = one.problem.name;
+        found->case_name = problem.problem.name;
         all.push_back(std::move(*found));
       }
   return all;

@@ -13,7 +13,7 @@ namespace clackers::record {
 /// Empty, a real number, a whole number or text.
 using Cell = std::variant<std::monostate, double, long long, std::string>;
 
-/// What the cells of a column hold. In rows of doubles a side is -1 ("-", before a collision), 1
+/// What the cells of a column hold. In rows of doubles a side is -1 ("-", before an impact), 1
 /// ("+", after it) or 0 (empty).
 enum class ColumnKind { any, real, whole, side };
 

@@ -93,12 +93,12 @@ Cell steps_per_fast_period(const Row& row) {
   return number(row.problem->problem.fast_period / step);
 }
 
-Cell collision_time_error(const Row& row) {
+Cell impact_time_error(const Row& row) {
   const auto* found = impacts_of(row);
   return found != nullptr && found->matched > 0 ? number(found->worst_time_error) : Cell();
 }
 
-Cell collisions(const Row& row) {
+Cell matched_of_expected(const Row& row) {
   const auto* found = impacts_of(row);
   return found == nullptr ? Cell() : text(fmt::format("{}/{}", found->matched, found->expected));
 }
@@ -181,14 +181,14 @@ const Column all[] = {
     {"energy_error", "", "energy error", "", "largest |E - E exact| / largest E exact of the run; stays of order one where restitution < 1", error, true, score<&Score::energy_error>},
     {"energy_ratio", "", "energy ratio", "", "E / E exact at the last state", Kind::number, true, score<&Score::energy_ratio>},
     {"rounding_floor", "", "rounding floor", "", "of u_error, estimated", error, true, score<&Score::rounding_floor>},
-    {"collision_source", "", "collisions from", "", "events, history (found in it) or unknown", word, true, [](const Row& row) { return file_of(row) ? text(to_string(file_of(row)->collisions)) : Cell(); }},
-    {"collisions", "", "collisions", "coll.", "matched / exact", Kind::count, false, collisions},
-    {"collisions_expected", "", "exact collisions", "", "of the reference solution up to the end of the run", Kind::count, true, impacts<&Impacts::expected>},
-    {"collisions_found", "", "found", "", "reported by the run or by the events file, or found in the history", Kind::count, true, impacts<&Impacts::found>},
-    {"collisions_matched", "", "matched", "", "in order, nearest within a quarter of the time between neighbours", Kind::count, true, impacts<&Impacts::matched>},
-    {"collisions_missed", "", "missed", "", "exact ones that match none", Kind::count, true, impacts<&Impacts::missed>},
-    {"collisions_extra", "", "extra", "", "found ones that match none", Kind::count, true, impacts<&Impacts::extra>},
-    {"collision_time_error", "s", "collision-time error", "time error", "largest over the matched ones", error, true, collision_time_error},
+    {"impact_source", "", "impacts from", "", "events, history (found in it) or unknown", word, true, [](const Row& row) { return file_of(row) ? text(to_string(file_of(row)->impact_source)) : Cell(); }},
+    {"impacts", "", "impacts", "imp.", "matched / exact", Kind::count, false, matched_of_expected},
+    {"impacts_expected", "", "exact impacts", "", "of the reference solution up to the end of the run", Kind::count, true, impacts<&Impacts::expected>},
+    {"impacts_found", "", "found", "", "reported by the run or by the events file, or found in the history", Kind::count, true, impacts<&Impacts::found>},
+    {"impacts_matched", "", "matched", "", "in order, nearest within a quarter of the time between impacts", Kind::count, true, impacts<&Impacts::matched>},
+    {"impacts_missed", "", "missed", "", "exact ones that match none", Kind::count, true, impacts<&Impacts::missed>},
+    {"impacts_extra", "", "extra", "", "found ones that match none", Kind::count, true, impacts<&Impacts::extra>},
+    {"impact_time_error", "s", "impact-time error", "time error", "largest over the matched ones", error, true, impact_time_error},
     {"steps", "", "steps", "", "counted", Kind::count, true, work<&Work::steps>},
     {"force_evaluations", "", "force evaluations", "force eval.", "counted", Kind::count, true, work<&Work::force_evaluations>},
     {"factorizations", "", "factorizations", "", "counted", Kind::count, true, work<&Work::factorizations>},
@@ -272,10 +272,10 @@ Table summary_table(const record::CaseRecord& problem, record::SubjectKind kind,
   const bool methods = kind == record::SubjectKind::method;
   const bool by_step = std::ranges::all_of(problem.subjects, is_by_step);
   Table table{methods
-                  ? named({"method", "u_error", "order_range", "collisions", "collision_time_error",
+                  ? named({"method", "u_error", "order_range", "impacts", "impact_time_error",
                            "energy_error", "force_evaluations", "behaviour", "verdict"})
                   : named({"file_name", "rows", by_step ? "step" : "tolerance", "digits", "u_error",
-                           "v_error", "collisions", "collision_time_error", "collision_source"}),
+                           "v_error", "impacts", "impact_time_error", "impact_source"}),
               {}};
   for (const auto& group : groups_of(problem, only)) {
     if (methods && group.is_headed) table.heads.push_back({table.rows.size(), group});
@@ -293,8 +293,8 @@ Table summary_table(const record::CaseRecord& problem, record::SubjectKind kind,
 
 Table level_table(const record::CaseRecord& problem, const record::Subject& subject) {
   Table table{named({"level", is_by_step(subject) ? "step" : "tolerance", "steps_per_fast_period",
-                     "runs", "failed_runs", "u_error", "v_error", "collisions",
-                     "collision_time_error", "energy_error", "force_evaluations", "seconds"}),
+                     "runs", "failed_runs", "u_error", "v_error", "impacts", "impact_time_error",
+                     "energy_error", "force_evaluations", "seconds"}),
               {}};
   for (std::size_t level = 0; level < subject.levels.size(); ++level)
     table.rows.push_back(level_row(problem, subject, int(level) + 1));
@@ -340,7 +340,7 @@ record::Sheet list_columns() {
     if (shown.in_rows) add(shown.name, shown.unit, "verify, check", shown.meaning);
   add("metric:NAME", "", "verify, check", "a metric (clackers list metrics) of the finest run");
   add("t", "s", "respond", "time");
-  add("side", "", "respond", "- and + for the limits before and after a collision, else empty");
+  add("side", "", "respond", "- and + for the limits before and after an impact, else empty");
   add("u1", "m", "respond", "displacement of mass 1; u2, ... of the others");
   add("v1", "m/s", "respond", "velocity of mass 1; v2, ... of the others");
   add("a1", "m/s2", "respond", "acceleration of mass 1; a2, ... of the others");

@@ -81,10 +81,10 @@ TEST(RunSheet, EveryNumberOfARunIsInItsColumn) {
   for (const auto name :
        {"u_error", "u_error_absolute", "v_error", "energy_error", "energy_ratio", "rounding_floor"})
     EXPECT_EQ(cell(sheet, 0, name), Cell(next++)) << name;
-  for (const auto name : {"collisions_expected", "collisions_found", "collisions_matched",
-                          "collisions_missed", "collisions_extra"})
+  for (const auto name :
+       {"impacts_expected", "impacts_found", "impacts_matched", "impacts_missed", "impacts_extra"})
     EXPECT_EQ(cell(sheet, 0, name), Cell(static_cast<long long>(next++))) << name;
-  EXPECT_EQ(cell(sheet, 0, "collision_time_error"), Cell(next++));
+  EXPECT_EQ(cell(sheet, 0, "impact_time_error"), Cell(next++));
   for (const auto name :
        {"steps", "force_evaluations", "factorizations", "newton_iterations", "event_searches"})
     EXPECT_EQ(cell(sheet, 0, name), Cell(static_cast<long long>(next++))) << name;
@@ -98,7 +98,7 @@ TEST(RunSheet, ARunThatFailedHasItsWorkAndNoErrors) {
   run.failure_code = "diverged";
   run.failure = "left the finite numbers";
   const auto sheet = run_sheet(record.cases);
-  for (const auto name : {"u_error", "v_error", "collisions_found", "collision_time_error"})
+  for (const auto name : {"u_error", "v_error", "impacts_found", "impact_time_error"})
     EXPECT_EQ(cell(sheet, 0, name), Cell()) << name;
   EXPECT_EQ(cell(sheet, 0, "steps"), Cell(400LL));
   EXPECT_EQ(cell(sheet, 0, "finished"), Cell("no"));
@@ -129,12 +129,12 @@ TEST(RunSheet, MetricsAreThoseOfAllRuns) {
   EXPECT_EQ(run_sheet(record.cases, false).columns.size() + 2, sheet.columns.size());
 }
 
-TEST(SummaryTable, CollisionsAreMatchedOverExact) {
+TEST(SummaryTable, ImpactsAreMatchedOverExact) {
   auto record = sample_record();
   for (auto& run : record.cases[0].subjects[0].levels.back().runs)
     run.score.impacts = measure::ImpactScore{6, 6, 5, 1, 1, 1e-3};
   const auto table = summary_table(record.cases[0], record::SubjectKind::method);
-  EXPECT_EQ(column("collisions").get(table.rows[0]), Cell("5/6"));
+  EXPECT_EQ(column("impacts").get(table.rows[0]), Cell("5/6"));
 }
 
 TEST(SummaryTable, TheWorstOfTheFinestLevelThatRanIsShown) {

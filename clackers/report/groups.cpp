@@ -44,8 +44,7 @@ std::vector<SubjectGroup> groups_of(const record::CaseRecord& problem,
 }
 
 std::string heading_of(const SubjectGroup& group) {
-  return fmt::format("{}, {}",
-                     group.treatment.empty() ? "methods that stand alone" : group.treatment,
+  return fmt::format("{}, {}", group.treatment.empty() ? "standalone methods" : group.treatment,
                      counted(std::ssize(group.subjects), "method"));
 }
 

@@ -30,7 +30,7 @@ inline constexpr std::size_t most_ungrouped = 10;
 std::vector<SubjectGroup> groups_of(const record::CaseRecord& problem,
                                     const std::vector<std::string>& only = {});
 
-/// "penalty, 45 methods"; "methods that stand alone, 1 method".
+/// "penalty, 45 methods"; "standalone methods, 1 method".
 std::string heading_of(const SubjectGroup& group);
 /// The name of a method without the treatment of its group.
 std::string name_in(const SubjectGroup& group, const record::Subject& subject);

@@ -49,7 +49,7 @@ TEST(Groups, OfManyMethodsHaveTheirTreatmentAndTheWorstFirst) {
   EXPECT_EQ(names(groups_of(problem)),
             (std::vector<std::string>{"penalty, 4 methods", "rk3", "chang", "rk4", "newmark",
                                       "event-driven, 5 methods", "rk4", "chang", "newmark", "rk3",
-                                      "cr", "methods that stand alone, 1 method", "moreau-jean",
+                                      "cr", "standalone methods, 1 method", "moreau-jean",
                                       "penalty:law=hertz, 1 method", "rk4"}));
 }
 

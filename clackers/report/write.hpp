@@ -60,7 +60,7 @@ std::string html(std::span<const record::Sheet> sheets, const std::string& name,
 /// Figures draw the displacements of this many masses at most, the first ones, and say so.
 inline constexpr std::size_t most_drawn_masses = 9;
 
-/// The displacements as a picture of characters, masses marked 1, 2, ..., collisions on the axis.
+/// The displacements as a picture of characters, masses marked 1, 2, ..., impacts on the axis.
 std::string plot(const record::Curve& response, std::span<const double> impact_times,
                  const Style& style = {});
 

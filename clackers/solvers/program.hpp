@@ -19,7 +19,7 @@ inline constexpr std::string_view instead_of_plugin =
 struct Program {
   /// For the shell, with placeholders: {case} and {case:text} are files with the problem, {h} the
   /// step [s], {n} the number of steps, {tolerance} one of the request's tolerances, {events} a file
-  /// for collisions, which may be left out, {out} the file for the history; without {out} the
+  /// for impacts, which may be left out, {out} the file for the history; without {out} the
   /// history is standard output.
   std::string command;
   std::string name;  ///< in every output; empty: the program's file without folder and extension

@@ -48,9 +48,8 @@ void require_same_case(const record::CaseSummary& problem, const record::Refinem
     refuse_other("other parameters", case_options(other), case_options(problem));
   // A case with the same name and parameters that ends elsewhere is of another version.
   if (other.end != problem.end || other.impact_count != problem.impact_count)
-    refuse_other("another motion",
-                 fmt::format("{} s, {} collisions", other.end, other.impact_count),
-                 fmt::format("{} s, {} collisions", problem.end, problem.impact_count));
+    refuse_other("another motion", fmt::format("{} s, {} impacts", other.end, other.impact_count),
+                 fmt::format("{} s, {} impacts", problem.end, problem.impact_count));
   const auto& steps = baseline.plan;
   if (steps.coarsest != plan.coarsest || steps.levels != plan.levels ||
       steps.samples_per_level != plan.samples_per_level)
@@ -58,8 +57,9 @@ void require_same_case(const record::CaseSummary& problem, const record::Refinem
 }
 
 const record::CaseRecord* find(const record::Record& record, const std::string& case_name) {
-  const auto found = std::ranges::find(
-      record.cases, case_name, [](const record::CaseRecord& one) { return one.problem.name; });
+  const auto found =
+      std::ranges::find(record.cases, case_name,
+                        [](const record::CaseRecord& problem) { return problem.problem.name; });
   return found == record.cases.end() ? nullptr : &*found;
 }
 
@@ -74,9 +74,9 @@ void require_same(const std::string& command, const std::vector<PlannedCase>& ca
   if (baseline.command != command)
     refuse_other("another command", "clackers " + baseline.command, "clackers " + command);
   bool common = false;
-  for (const auto& one : cases)
-    if (const auto* before = find(baseline, one.problem.name)) {
-      require_same_case(one.problem, one.steps, *before);
+  for (const auto& problem : cases)
+    if (const auto* before = find(baseline, problem.problem.name)) {
+      require_same_case(problem.problem, problem.steps, *before);
       common = true;
     }
   if (common || cases.empty()) return;
@@ -139,15 +139,15 @@ std::optional<ChangeAtStep<double>> error_change(const Pair& pair) {
   return ChangeAtStep<double>{now->step, before->u_error, now->u_error};
 }
 
-std::optional<ChangeAtStep<Collisions>> collision_change(const Pair& pair) {
+std::optional<ChangeAtStep<ImpactCounts>> impact_change(const Pair& pair) {
   const auto& before = pair.before->impacts;
   const auto& now = pair.now->impacts;
   if (!before || !now) return {};
   if (before->missed == now->missed && before->extra == now->extra) return {};
   const auto of = [](const measure::ImpactScore& s) {
-    return Collisions{s.expected, s.missed, s.extra};
+    return ImpactCounts{s.expected, s.missed, s.extra};
   };
-  return ChangeAtStep<Collisions>{pair.now->step, of(*before), of(*now)};
+  return ChangeAtStep<ImpactCounts>{pair.now->step, of(*before), of(*now)};
 }
 
 void compare_runs(const record::Subject& before, const record::Subject& now,
@@ -168,7 +168,7 @@ void compare_runs(const record::Subject& before, const record::Subject& now,
         change.work = {step, before_work, now_work};
       finest = false;
     }
-    if (!change.collisions) change.collisions = collision_change(pair);
+    if (!change.impacts) change.impacts = impact_change(pair);
   }
 }
 
@@ -197,7 +197,7 @@ bool operator==(const Finding& a, const Finding& b) {
 }
 
 bool SubjectChange::any() const {
-  return presence != Presence::both || finding || order || error || collisions || finished || work;
+  return presence != Presence::both || finding || order || error || impacts || finished || work;
 }
 
 bool BaselineComparison::any() const { return std::ranges::any_of(subjects, &SubjectChange::any); }
@@ -214,27 +214,27 @@ void require_same_study(const CheckRequest& request, const record::Record& basel
 
 BaselineComparison compare(const record::Record& now, const record::Record& before) {
   std::vector<PlannedCase> cases;
-  for (const auto& one : now.cases) cases.push_back({one.problem, one.plan});
+  for (const auto& problem : now.cases) cases.push_back({problem.problem, problem.plan});
   require_same(now.command, cases, before);
   BaselineComparison all;
   all.before = before.provenance;
   all.interrupted = before.interrupted;
-  const auto add = [&](SubjectChange change, const record::CaseRecord& one,
+  const auto add = [&](SubjectChange change, const record::CaseRecord& problem,
                        const record::Subject& subject) {
-    change.case_name = one.problem.name;
+    change.case_name = problem.problem.name;
     change.name = subject.name;
     all.subjects.push_back(std::move(change));
   };
-  for (const auto& one : now.cases)
-    for (const auto& subject : one.subjects) {
-      const auto* old = find(find(before, one.problem.name), subject.name);
-      add(old != nullptr ? change_of(*old, subject) : only(SubjectChange::Presence::added), one,
+  for (const auto& problem : now.cases)
+    for (const auto& subject : problem.subjects) {
+      const auto* old = find(find(before, problem.problem.name), subject.name);
+      add(old != nullptr ? change_of(*old, subject) : only(SubjectChange::Presence::added), problem,
           subject);
     }
-  for (const auto& one : before.cases)
-    for (const auto& subject : one.subjects)
-      if (find(find(now, one.problem.name), subject.name) == nullptr)
-        add(only(SubjectChange::Presence::gone), one, subject);
+  for (const auto& problem : before.cases)
+    for (const auto& subject : problem.subjects)
+      if (find(find(now, problem.problem.name), subject.name) == nullptr)
+        add(only(SubjectChange::Presence::gone), problem, subject);
   return all;
 }
 

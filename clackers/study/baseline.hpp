@@ -34,8 +34,8 @@ struct ChangeAtStep {
   T before{}, now{};
 };
 
-/// Collisions that a run did not find, and those that it found too much.
-struct Collisions {
+/// ImpactCounts that a run did not find, and those that it found too much.
+struct ImpactCounts {
   long long expected = 0, missed = 0, extra = 0;
 };
 
@@ -51,8 +51,8 @@ struct SubjectChange {
   /// Displacement error of the finest step that both finished, where the change is larger than
   /// `visible_error` of the larger and than both rounding floors together.
   std::optional<ChangeAtStep<double>> error;
-  /// Of the finest step at which missed or extra collisions differ.
-  std::optional<ChangeAtStep<Collisions>> collisions;
+  /// Of the finest step at which missed or extra impacts differ.
+  std::optional<ChangeAtStep<ImpactCounts>> impacts;
   /// Of the finest step at which one run reached its end and the other did not; true: it did.
   std::optional<ChangeAtStep<bool>> finished;
   /// Force evaluations of the finest step that both finished, where they differ by more than

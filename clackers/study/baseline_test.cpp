@@ -177,20 +177,19 @@ TEST(Baseline, LeavesOutErrorsBelowTheRoundingFloors) {
   EXPECT_FALSE(compare(now, before).subjects[0].error);
 }
 
-TEST(Baseline, ShowsCollisionsThatAreMissedNowOfTheFinestSuchStep) {
+TEST(Baseline, ShowsImpactsThatAreMissedNowOfTheFinestSuchStep) {
   const auto missing = after([](auto& m) {
     m.levels[0].runs[0].score.impacts->missed = 3;
     m.levels[1].runs[1].score.impacts->missed = 2;
   });
-  ASSERT_TRUE(missing.collisions);
-  EXPECT_EQ(missing.collisions->step, 0.8 * 0.02);
-  EXPECT_EQ(missing.collisions->before.missed, 0);
-  EXPECT_EQ(missing.collisions->now.missed, 2);
-  EXPECT_EQ(missing.collisions->now.expected, 6);
-  EXPECT_EQ(
-      after([](auto& m) { m.levels[1].runs[0].score.impacts->extra = 1; }).collisions->now.extra,
-      1);
-  EXPECT_FALSE(after([](auto& m) { m.levels[1].runs[0].score.impacts.reset(); }).collisions);
+  ASSERT_TRUE(missing.impacts);
+  EXPECT_EQ(missing.impacts->step, 0.8 * 0.02);
+  EXPECT_EQ(missing.impacts->before.missed, 0);
+  EXPECT_EQ(missing.impacts->now.missed, 2);
+  EXPECT_EQ(missing.impacts->now.expected, 6);
+  EXPECT_EQ(after([](auto& m) { m.levels[1].runs[0].score.impacts->extra = 1; }).impacts->now.extra,
+            1);
+  EXPECT_FALSE(after([](auto& m) { m.levels[1].runs[0].score.impacts.reset(); }).impacts);
 }
 
 TEST(Baseline, ShowsWorkOfTheFinestStep) {
@@ -235,7 +234,7 @@ TEST(Baseline, OfAnotherCaseOrLadderIsRefusedWithTheOptionsOfBoth) {
             std::string::npos);
   EXPECT_NE(refused([](record::Record& r) {
               r.cases[0].problem.end = 21.0;
-            }).find("another motion: 21 s, 6 collisions; this run: 20 s, 6 collisions"),
+            }).find("another motion: 21 s, 6 impacts; this run: 20 s, 6 impacts"),
             std::string::npos);
   EXPECT_NE(refused([](record::Record& r) {
               r.cases[0].problem.impact_count = 7;

@@ -33,7 +33,7 @@ void validate(const CheckRequest& request) {
   if (std::ranges::count_if(request.files, is_input) +
           std::ranges::count_if(request.events, is_input) >
       1)
-    throw InputError("check: - stands more than once; allowed: standard input for one file.",
+    throw InputError("check: - is given more than once; allowed: standard input for one file.",
                      "bad-syntax");
   require_one_each("--events", request.events.size(), request.files.size());
   require_one_each("--steps", request.steps.size(), request.files.size());
@@ -161,15 +161,15 @@ record::Record check(const CheckRequest& request, const Progress& progress,
   }
   study.assess(no_refinement);
 
-  record::CaseRecord one;
-  one.problem = problem.summary;
-  one.plan = no_refinement;
-  one.response = reduced(tables::response_curve(problem.problem, tables::response_points));
-  one.subjects.push_back(study.finish());
+  record::CaseRecord result;
+  result.problem = problem.summary;
+  result.plan = no_refinement;
+  result.response = reduced(tables::response_curve(problem.problem, tables::response_points));
+  result.subjects.push_back(study.finish());
   record::Record record;
   record.command = "check";
   record.provenance = record::provenance(request.command);
-  record.cases.push_back(std::move(one));
+  record.cases.push_back(std::move(result));
   return record;
 }
 

@@ -20,7 +20,7 @@ struct CheckRequest {
   std::string case_name;  ///< empty: the default case
   cases::Settings settings;
   std::vector<std::string> columns;   ///< names of the columns; empty: those of the files
-  std::vector<input::Source> events;  ///< collisions: none, or one a history
+  std::vector<input::Source> events;  ///< impacts: none, or one a history
   std::vector<double> steps;          ///< none, or one a history [s]
   std::vector<double> tolerances;     ///< none, or one a history instead of a step, of (0, 1)
   std::optional<Claim> expect;
@@ -39,7 +39,7 @@ struct CheckRequest {
 /// ends is a failed run of its level.
 ///
 /// judge::judge gives behaviour and verdict. Its claim is `expect`; without it the verdict goes by
-/// the tolerance, and the finest history disagrees where it misses a collision, has one too many, or
+/// the tolerance, and the finest history disagrees where it misses an impact, has one too many, or
 /// begins far from the reference.
 ///
 /// Throws InputError for what read_history refuses, histories none of which is finite, one that

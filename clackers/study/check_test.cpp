@@ -31,7 +31,7 @@ TEST_F(Check, FillsARecordOfOneCaseAndOneSubject) {
   EXPECT_EQ(run->file->rows, 2001);
   EXPECT_LT(run->score.u_error, 1e-14);
   EXPECT_EQ(run->score.impacts->matched, 6);
-  EXPECT_TRUE(has(*run, "collisions-from-history"));
+  EXPECT_TRUE(has(*run, "impacts-from-history"));
   EXPECT_FALSE(has(*run, "last-line-incomplete"));
   EXPECT_EQ(exit_code(record), 0);
 }

@@ -24,7 +24,7 @@ constexpr auto all_options = std::to_array<VerifyOption>({
      "Time for further levels and steps of methods that these leave undecided, in seconds or as "
      "30s, 2min; 0: none. Default: 20s, and 0 with --levels.",
      [](VerifyRequest& request, double value) { request.budget = value; }},
-    {"jobs", "", Kind::whole, "n", "Threads. Default: one a processor.",
+    {"jobs", "", Kind::whole, "n", "Threads. Default: one per processor.",
      [](VerifyRequest& request, double value) { request.jobs = int(value); }},
 });
 

@@ -64,7 +64,7 @@ std::optional<record::Refinement> refinement_of(const record::RefinementPlan& as
 ///    agreement on an envelope whose order is more uncertain than the tolerance of envelopes.
 ///  2 a compliant contact that too few levels resolve: finer levels up to the first that does, then
 ///    one by one. Such a ladder is not decided by a disagreement: steps that do not resolve a contact miscount
-///    collisions.
+///    impacts.
 ///  3 the finest level has a failed run: nothing
 ///  4 an envelope with an order more uncertain than its tolerance: twice the steps a level
 ///  5 the finest level is at the rounding floor: a coarser first level, while it has two steps a

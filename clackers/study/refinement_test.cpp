@@ -118,7 +118,7 @@ TEST(NextPlan, AddsTheLevelsThatACompliantContactNeeds) {
   EXPECT_EQ(next(subject, plan), (Steps{0.05, 7, 8}));
   EXPECT_EQ(next(subject, {0.05, 7, 8}), (Steps{0.05, 8, 8}));
   subject.assessment.verdict = Verdict::disagrees;
-  EXPECT_EQ(next(subject, plan), (Steps{0.05, 7, 8})) << "collisions are not counted yet";
+  EXPECT_EQ(next(subject, plan), (Steps{0.05, 7, 8})) << "impacts are not counted yet";
   subject.assessment.verdict = Verdict::agrees;
   EXPECT_EQ(next(subject, plan), Steps{});
   auto resolved = undecided({0.05, 9, 8});

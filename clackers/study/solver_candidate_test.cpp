@@ -151,7 +151,7 @@ struct ExactSolver : solvers::Solver {
       columns.columns.push_back({c == 0 ? "t" : c == 1 ? "u1" : "u2", numbers->data() + c, 3});
     solvers::SolverOutput output;
     output.history = columns;
-    output.events = input::NumberColumns{"its collisions", 0, {{"t"}}};
+    output.events = input::NumberColumns{"its impacts", 0, {{"t"}}};
     output.memory = numbers;
     return output;
   }

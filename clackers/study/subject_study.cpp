@@ -47,7 +47,7 @@ judge::HistoryFacts facts_of(const record::HistoryFile& file, const model::Motio
           .printed_floor = file.printed_floor,
           .first = file.first,
           .start_error = file.start_error,
-          .rows_resolve_collisions = file.rows_resolve_collisions,
+          .rows_resolve_impacts = file.rows_resolve_impacts,
           .last = file.last,
           .end = motion.end(),
           .expected_to_last = motion.impact_count(file.last),

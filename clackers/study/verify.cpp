@@ -55,7 +55,7 @@ void require_names(const VerifyRequest& request, const Methods& methods) {
     const auto name = short_name(methods[i]->facts().name);
     if (std::ranges::find(names, name) != names.end())
       refuse("verify", "method", request.methods.empty() ? name : request.methods[i],
-             "each method once", fmt::format("{} was named before.", name), "bad-syntax");
+             "each method once", fmt::format("{} has appeared before.", name), "bad-syntax");
     names.push_back(name);
   }
   names.insert(names.end(), request.methods.begin(), request.methods.end());

@@ -25,7 +25,7 @@ struct VerifyRequest {
   /// Time for refinement beyond the plan, of all cases and subjects together [s]; 0: none. What is run
   /// within it does not depend on it, only where it ends.
   double budget = 0.0;
-  int jobs = 0;                                   ///< threads; 0: one a processor
+  int jobs = 0;                                   ///< threads; 0: one per processor
   std::string command;                            ///< as typed, for the record
   std::vector<solvers::SolverSubject> solvers{};  ///< behind the methods
 };

@@ -265,7 +265,7 @@ TEST(Verify, HoldsMethodsToTheirSmoothOrderWhereNothingCollides) {
   free.cases = {"sdof"};
   auto early = free;
   early.cases = {"stop"};
-  early.settings = {{"t_end", 1.5}};  // the first collision is at 1.573 s
+  early.settings = {{"t_end", 1.5}};  // the first impact is at 1.573 s
   for (const auto& request : {free, early}) {
     const auto record = verify(request);
     for (const auto& method : subjects(record)) {

@@ -17,7 +17,7 @@ record::Sheet list(std::string_view kind);
 std::vector<std::string> list_kinds();
 
 /// What `clackers show NAME` shows of a case: parameters, derived constants, indicators, margin,
-/// first collisions, and of a pair the harmonics and when disturbances make it lose synchrony.
+/// first impacts, and of a pair the harmonics and when disturbances make it lose synchrony.
 std::vector<record::Sheet> show_case(std::string_view name, const cases::Settings& settings,
                                      double threshold);
 

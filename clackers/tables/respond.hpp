@@ -31,42 +31,43 @@ TimeGrid grid_of(long long n, double end);
 /// times.
 TimeGrid grid_every(double step, double end);
 
-/// The exact response, columns t,side,u1,v1,a1[,u2,v2,a2,...]. Where a time is the double nearest to a
-/// collision two rows appear, side "-" then "+". The case must outlive the rows. Throws InputError
+/// The exact response, columns t,side,u1,v1,a1[,u2,v2,a2,...]. Where a time is the double nearest to an
+/// impact two rows appear, side "-" then "+". The case must outlive the rows. Throws InputError
 /// for a time outside [0, end], before any row.
-std::unique_ptr<record::RowSource> respond(const cases::Case& which, const TimeGrid& grid);
+std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const TimeGrid& grid);
 
-/// All collisions up to the case's end:
+/// All impacts up to the case's end:
 /// k,t[,contact],u1,v1-,v1+[,u2,v2-,v2+,...],impulse,energy_before,energy_after. Of a pair with one
 /// contact u2 is left out, since the masses touch. Contacts that close together have a row each,
 /// with the velocities before and after all of them. The case must outlive the rows.
-std::unique_ptr<record::RowSource> collisions(const cases::Case& which);
+std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case);
 
 /// Where the energy is: t,side,kinetic,potential,dissipated,lost,total,momentum at the times of
-/// respond(), with its two rows at collisions. A motion that is no pair's has neither dissipated nor
+/// respond(), with its two rows at impacts. A motion that is no pair's has neither dissipated nor
 /// total. The case must outlive the rows. Throws InputError as respond() does.
-std::unique_ptr<record::RowSource> energies(const cases::Case& which, const TimeGrid& grid);
+std::unique_ptr<record::RowSource> energies(const cases::Case& test_case, const TimeGrid& grid);
 
 /// The columns of respond() differentiated: t,side,du1,dv1,da1[,du2,dv2,da2]. `name` is a raw
 /// parameter (m1 m2 k1 k2 c1 c2 eta gap u10 u20 v10 v20, all else fixed) or one of the case, what
 /// follows from it following; class:m1 is that of the case where both have the name. Throws
 /// InputError as energies() does, for unknown names (with did-you-mean), and where there is no
 /// derivative (no-derivative: whole numbers, the end of the run, eta = 0).
-std::unique_ptr<record::RowSource> sensitivity(const cases::Case& which, const TimeGrid& grid,
+std::unique_ptr<record::RowSource> sensitivity(const cases::Case& test_case, const TimeGrid& grid,
                                                std::string_view name);
 
 /// The Fourier transform of the displacements over the run, omega,re1,im1[,re2,im2], at `n` equally
 /// spaced frequencies from 0 to `highest` [rad/s]. The case must outlive the rows. Throws InputError
 /// unless 2 <= n <= 1e9 and 0 < highest, its phase over the run being certain.
-std::unique_ptr<record::RowSource> spectrum(const cases::Case& which, long long n, double highest);
+std::unique_ptr<record::RowSource> spectrum(const cases::Case& test_case, long long n,
+                                            double highest);
 
 /// Times of the response in a report.
 inline constexpr int response_points = 1501;
 
 /// A case without subjects: its summary and response, for a page.
-record::CaseRecord response_record(const cases::Case& which);
+record::CaseRecord response_record(const cases::Case& test_case);
 
 /// Exact displacements at `n` equally spaced times, for a picture. Throws InputError for n < 2.
-record::Curve response_curve(const cases::Case& which, int n);
+record::Curve response_curve(const cases::Case& test_case, int n);
 
 }  // namespace clackers::tables

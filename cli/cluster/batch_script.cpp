@@ -73,7 +73,8 @@ std::string array_script(const BatchJob& job) {
                                  "--quiet"};
   if (job.is_large) words.push_back("--yes");
   return head(job, "run", lines) +
-         "# Each element runs one shard of the campaign. Started again, it goes on where it stopped.\n" +
+         "# Each element runs one shard of the campaign. Started again, it continues where it "
+         "stopped.\n" +
          body(job, words, fmt::format(" --shard \"$SLURM_ARRAY_TASK_ID/{}\"", job.shards));
 }
 

@@ -21,13 +21,13 @@ Opened open_first(campaign::Transport& transport, const FirstRank& first) try {
   campaign::adopt_ranks(store);
   return {std::move(specification), std::move(store)};
 } catch (...) {
-  campaign::dismiss(transport);
+  campaign::stop_all_ranks(transport);
   throw;
 }
 
 void report_failures(const campaign::RanksSummary& summary) {
-  for (const auto& departure : summary.failures)
-    report_error(fmt::format("rank {}: {}", departure.rank, departure.failure), departure.code);
+  for (const auto& result : summary.failures)
+    report_error(fmt::format("rank {}: {}", result.rank, result.failure), result.code);
 }
 
 // The store is closed at the end.

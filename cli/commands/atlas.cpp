@@ -33,7 +33,7 @@ void require_fitting(const AtlasOptions& options) {
   const bool submits = !options.submit.empty();
   if (submits && !options.merge.empty())
     refuse_usage("atlas",
-                 "--merge: --submit writes a file, --merge takes files in; give one of the two.");
+                 "--merge: --submit writes a file, --merge reads files; give one of the two.");
   if (submits && options.common.out.empty())
     refuse_usage("atlas", "--submit writes a file: give it with --out FILE.db.");
   const bool is_program = !options.command.empty();
@@ -78,9 +78,8 @@ int submit(const AtlasOptions& options, const std::string& line) {
   file.stream() << read_file(database);
   file.commit();
   if (!options.common.quiet)
-    note(fmt::format(
-        "Wrote {}: {} tasks. Who has an atlas takes them in with: clackers atlas --merge {}",
-        options.common.out, specification.tasks(), options.common.out));
+    note(fmt::format("Wrote {}: {} tasks. Merge them into an atlas with: clackers atlas --merge {}",
+                     options.common.out, specification.tasks(), options.common.out));
   return 0;
 }
 
@@ -128,7 +127,7 @@ int run(const AtlasOptions& options, const std::string& line) {
   folder.take_in(options.merge);
   print_verdicts(store, results);
   if (done.interrupted) {
-    report_error("interrupted; what was finished is stored. The same command goes on.",
+    report_error("interrupted; what was finished is stored. The same command continues.",
                  "interrupted");
     return 130;
   }
@@ -151,40 +150,41 @@ void add_atlas(Grammar& root) {
            "  clackers atlas --submit ours --exec './solver {case} {h} {out}' --out our.db\n"
            "  clackers atlas --merge our.db\n",
        .about =
-           "Runs the campaign that ships with clackers: every method on pairs over a grid of their "
+           "Runs the campaign that comes with clackers: every method on pairs over a grid of their "
            "parameters and on the systems beyond the pair. FOLDER receives index.html, a page that "
            "opens without a network: a matrix of verdicts, convergence plots, maps of order and error, "
            "Pareto fronts and performance profiles; atlas.db, the database of the campaign; atlas.toml, "
-           "its specification; and results/, databases of others that were taken in. An atlas that was "
-           "interrupted goes on when the same command is given again.",
+           "its specification; and results/, the merged databases of others. After an interruption "
+           "the same command continues the atlas.",
        .usage = "  clackers atlas [--out FOLDER] [--jobs n] [--specification FILE.toml]\n"
                 "           [--merge FILE.db ...]\n"
                 "  clackers atlas --submit METHOD [--author NAME] --out FILE.db\n"
                 "  clackers atlas --submit NAME --exec COMMAND\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--author NAME] --out FILE.db\n"});
-  app->add_option("--jobs", options->jobs, "Threads. Default: one a processor.")->option_text("n");
-  app->add_option("--specification", options->specification,
-                  "Systems, methods and ladder as `clackers campaign` takes them, instead of those "
-                  "that ship.")
+  app->add_option("--jobs", options->jobs, "Threads. Default: one per processor.")
+      ->option_text("n");
+  app->add_option(
+         "--specification", options->specification,
+         "Systems, methods and ladder as for `clackers campaign`, instead of the default ones.")
       ->reads_file("FILE.toml");
   app->add_option(
          "--submit", options->submit,
-         "Run this method alone on all systems, and write the results with their provenance "
-         "as a database that other atlases take in. With --exec it is the name of your program.")
+         "Run only this method on all systems, and write the results with their provenance as a "
+         "database for --merge. With --exec it is the name of your program.")
       ->option_text("METHOD");
   app->add_option("--exec", options->command,
-                  "Your program, a line for the shell, as `clackers verify --exec` takes it.")
+                  "Your program, a command for the shell, as of `clackers verify --exec`.")
       ->option_text("COMMAND");
   app->add_option("--expect", options->expect,
                   "What your program should show: proper:2, reduced:1, irregular:1, exact, "
                   "stagnating or divergent. Default: nothing is claimed.")
       ->option_text("BEHAVIOUR[:ORDER]");
   app->add_option("--author", options->author,
-                  "Whose results they are; the page shows it. Default: METHOD.")
+                  "Author of the results, shown on the page. Default: METHOD.")
       ->option_text("NAME");
   app->add_option(
          "--merge", options->merge,
-         "Take in a database that --submit wrote; the page shows its rows with their author. "
+         "Merge a database that --submit wrote; the page shows its rows with their author. "
          "May be repeated. A file of the same name is replaced.")
       ->reads_file("FILE.db");
   add_common_options(*app, options->common);

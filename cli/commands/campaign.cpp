@@ -107,7 +107,8 @@ void add_campaign(Grammar& root) {
        .about =
            "Runs every method of a specification on every system: cases with listed values, ranges or "
            "samples of their parameters. The results are rows of one SQLite database. A campaign "
-           "that was interrupted goes on when it is run again; rows do not depend on the number of "
+           "that was interrupted continues when it is run again; rows do not depend on the number "
+           "of "
            "threads, on their order or on interruptions. Under mpirun and srun the processes share "
            "the tasks. A specification reads:\n\n"
            "  methods = [\"newmark\", \"rk4\", \"moreau-jean\"]  # or \"panel\", \"all\"\n"
@@ -149,7 +150,7 @@ void add_campaign(Grammar& root) {
       ->option_text("i/n");
   app->add_option(
          "--jobs", options->jobs,
-         "Threads. Default: one a processor; under mpirun and in an element of a job array one.")
+         "Threads. Default: one per processor; under mpirun and in an element of a job array one.")
       ->option_text("n");
   app->add_flag("--yes", options->yes, "Start a campaign of more than 1e7 runs.");
   app->add_flag(
@@ -161,10 +162,11 @@ void add_campaign(Grammar& root) {
   app->add_option("--sbatch", options->sbatch,
                   "submit: an option of sbatch without dashes (may be repeated).")
       ->option_text("name=value");
-  app->add_flag("--dry-run", options->dry_run, "submit: write the scripts alone.");
-  app->add_option("--table", options->table,
-                  "What is exported: runs, a row each run with the columns of its subject, or "
-                  "subjects, a row each system and method. Default: runs.")
+  app->add_flag("--dry-run", options->dry_run, "submit: only write the scripts.");
+  app->add_option(
+         "--table", options->table,
+         "What is exported: runs, one row per run with the columns of its subject, or subjects, "
+         "one row per system and method. Default: runs.")
       ->option_text("runs|subjects");
   app->add_flag("--times", options->times,
                 "Export the processor times as well, which differ from machine to machine.");
@@ -172,7 +174,7 @@ void add_campaign(Grammar& root) {
   app->get_option("--format")
       ->description(
           "table (for people), csv or json (numbers read back to the same double), or, of export, npy "
-          "(NumPy, columns of numbers alone). Default: table.")
+          "(NumPy, only the columns of numbers). Default: table.")
       ->option_text("table|csv|json|npy");
   app->run = [options](const std::string& line) { return run(*options, line); };
 }

@@ -50,7 +50,7 @@ int report_end(const CampaignOptions& options, const std::string& database,
                const campaign::RunSummary& summary) {
   print_status(options, database);
   if (!summary.interrupted) return 0;
-  report_error("interrupted; what was finished is stored. The same command goes on.",
+  report_error("interrupted; what was finished is stored. The same command continues.",
                "interrupted");
   return 130;
 }

@@ -62,10 +62,9 @@ void write_file(const std::string& path, const std::string& text) {
 }
 
 [[noreturn]] void fail(const std::string& line, const std::string& reason) {
-  throw FileError(
-      fmt::format("{} failed: {}. The scripts are written; --dry-run writes them alone.",
-                  printable(line), printable(reason)),
-      "scheduler-failed");
+  throw FileError(fmt::format("{} failed: {}. The scripts are written; --dry-run only writes them.",
+                              printable(line), printable(reason)),
+                  "scheduler-failed");
 }
 
 // The sentence of a process that failed.

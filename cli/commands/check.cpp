@@ -105,7 +105,7 @@ void add_check(Grammar& root) {
        .about =
            "Assesses time histories that any program wrote, against the exact motion of a case. "
            "Text with comma, semicolon, tab or blank separation, or NumPy's format (.npy); columns "
-           "t, u1, v1, a1, u2, ... by header, fields or --columns; a time that stands twice carries "
+           "t, u1, v1, a1, u2, ... by header, fields or --columns; a time that appears twice has "
            "both limits of a jump. Several files are levels of one method and give an order. "
            "Exit code 0 when the history agrees or nothing is expected, 1 when it disagrees or is "
            "of another motion, 3 when undecided.",
@@ -128,9 +128,9 @@ void add_check(Grammar& root) {
       ->option_text("t,u1,...");
   app->add_option(
          "--events", options->events,
-         "Collisions of the history, text or .npy: a column t and optionally "
+         "Impacts of the history, text or .npy: a column t and optionally "
          "impulse,v1-,v1+,v2-,v2+; of a case with several contacts also contact, from 0. Of several "
-         "histories one file each, in their order. Without it collisions are found in the "
+         "histories one file each, in their order. Without it impacts are found in the "
          "history.")
       ->reads_file("FILE");
   app->add_option(
@@ -157,10 +157,10 @@ void add_check(Grammar& root) {
       ->option_text("all");
   add_require_option(*app, options->requirements);
   add_report_option(*app, options->report);
-  app->add_option("--baseline", options->baseline,
-                  "An earlier record of check (--format json) of the same case, - for standard "
-                  "input: says in words what changed since. The exit code stays that of the "
-                  "verdicts.")
+  app->add_option(
+         "--baseline", options->baseline,
+         "An earlier record of check (--format json) of the same case, - for standard input: lists "
+         "what changed since. The exit code follows from the verdicts only.")
       ->reads_file("FILE.json");
   add_common_options(*app, options->common);
   add_verdict_formats(*app);

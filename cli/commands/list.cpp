@@ -79,16 +79,16 @@ int run(const ListOptions& options) {
 
 void add_list(Grammar& root) {
   const auto options = std::make_shared<ListOptions>();
-  auto* app = root.add_subcommand("list", "[KIND]", "what there is: cases, methods, metrics");
+  auto* app = root.add_subcommand("list", "[KIND]", "cases, methods, metrics and more");
   set_help(*app, {.examples = "  clackers list cases\n"
                               "  clackers list pairs --format csv\n",
-                  .about = "Lists what there is, one line each.",
+                  .about = "Lists cases, methods, metrics and more, one line each.",
                   .usage = "  clackers list [cases|integrators|contacts|methods|pairs|metrics|\n"
                            "           columns|diagnoses|figures]\n"});
   app->add_option(
       "KIND", options->kind,
-      "cases, methods (integrators, contact treatments, methods that stand alone, and which are "
-      "the default panel), integrators, contacts, pairs (every integrator with every contact "
+      "cases, methods (integrators, contact treatments, standalone methods, and the default "
+      "panel), integrators, contacts, pairs (every integrator with every contact "
       "treatment that takes it, and what they claim), metrics, columns (of csv and json), "
       "diagnoses (causes that check and verify name) or figures (of clackers paper). "
       "Without it cases, methods and metrics.");

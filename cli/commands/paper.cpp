@@ -62,12 +62,13 @@ void add_paper(Grammar& root) {
       *app,
       {.examples = "  clackers paper --out figures\n"
                    "  clackers paper fig12 figA3 --out two\n",
-       .about = "Draws the figures of the paper from the library alone, and sets each claim of its "
-                "text beside what was measured. FOLDER receives of each figure a picture (svg, "
-                "pdf), its numbers (csv) and its Vega-Lite specification (vl.json), then "
-                "index.html, which shows all of it, and paper.json. The claims also go to standard "
-                "output. Drawing needs the programs node and rsvg-convert; without them numbers "
-                "and specifications are written all the same and the exit code is 4.",
+       .about =
+           "Draws the figures of the paper with the library only, and compares each claim of its "
+           "text with measured values. FOLDER receives of each figure a picture (svg, "
+           "pdf), its numbers (csv) and its Vega-Lite specification (vl.json), then "
+           "index.html, which shows all of it, and paper.json. The claims also go to standard "
+           "output. Drawing needs the programs node and rsvg-convert; without them numbers "
+           "and specifications are written all the same and the exit code is 4.",
        .usage = "  clackers paper [FIGURE ...] --out FOLDER\n"});
   app->add_option("FIGURE", options->figures,
                   "Figures, by name (clackers list figures). Without any, all.");

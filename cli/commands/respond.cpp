@@ -28,10 +28,10 @@ struct RespondOptions {
   CommonOptions common;
   std::vector<std::string> settings;
   std::string name, samples, step, times, digits, sensitivity, highest, report, problem;
-  bool collisions = false, plot = false, energy = false, spectrum = false;
+  bool impacts = false, plot = false, energy = false, spectrum = false;
 
   int ways() const {
-    return int(!samples.empty()) + int(!step.empty()) + int(!times.empty()) + int(collisions);
+    return int(!samples.empty()) + int(!step.empty()) + int(!times.empty()) + int(impacts);
   }
 };
 
@@ -45,14 +45,13 @@ std::vector<std::string> other_kinds(const RespondOptions& options) {
 }
 
 void check(const RespondOptions& options) {
-  const std::string ways = "one of --samples n, --step h, --times FILE and --collisions";
+  const std::string ways = "one of --samples n, --step h, --times FILE and --impacts";
   if (options.name.empty())
     refuse_usage("respond",
                  "needs a CASE, for example three-parameter. All names: clackers list cases");
   if (options.ways() > 1) refuse_usage("respond", "takes only " + ways + ".");
   if (options.ways() == 0 && !options.plot && options.report.empty())
-    refuse_usage("respond",
-                 "needs times: " + ways + ", or --plot or --report for a picture alone.");
+    refuse_usage("respond", "needs times: " + ways + ", or --plot or --report for only a picture.");
   if (options.ways() == 0 && !options.common.out.empty())
     refuse_usage("respond",
                  "--out needs rows to write: " + ways + ". The picture goes to standard output.");
@@ -70,8 +69,8 @@ void check_kind(const RespondOptions& options) {
   if (kinds.size() > 1)
     refuse_usage("respond", "takes only one of --energy, --spectrum and --sensitivity; " +
                                 kinds[0] + " and " + kinds[1] + " were given.");
-  if (options.collisions)
-    refuse_usage("respond", kinds[0] + " has rows of its own and takes no --collisions.");
+  if (options.impacts)
+    refuse_usage("respond", kinds[0] + " has rows of its own and takes no --impacts.");
   if (!options.digits.empty())
     refuse_usage("respond", kinds[0] + " is computed in doubles and takes no --digits.");
   if (options.ways() == 0)
@@ -104,17 +103,18 @@ void check_format(const RespondOptions& options, const Results& results) {
 }
 
 std::unique_ptr<record::RowSource> rows_of(const RespondOptions& options,
-                                           const cases::Case& which) {
-  const double end = which.motion->end();
+                                           const cases::Case& test_case) {
+  const double end = test_case.motion->end();
   const bool digits = !options.digits.empty();
   const auto count = digits ? read_whole("--digits", options.digits, 1, 1000) : 0;
   const auto respond = [&](const tables::TimeGrid& grid) {
-    if (options.energy) return tables::energies(which, grid);
-    if (!options.sensitivity.empty()) return tables::sensitivity(which, grid, options.sensitivity);
-    return digits ? tables::respond(which, grid, count) : tables::respond(which, grid);
+    if (options.energy) return tables::energies(test_case, grid);
+    if (!options.sensitivity.empty())
+      return tables::sensitivity(test_case, grid, options.sensitivity);
+    return digits ? tables::respond(test_case, grid, count) : tables::respond(test_case, grid);
   };
-  if (options.collisions)
-    return digits ? tables::collisions(which, count) : tables::collisions(which);
+  if (options.impacts)
+    return digits ? tables::impacts(test_case, count) : tables::impacts(test_case);
   if (!options.times.empty()) {
     tables::TimeGrid grid;
     grid.times = read_times(options.times, end);
@@ -125,24 +125,24 @@ std::unique_ptr<record::RowSource> rows_of(const RespondOptions& options,
   constexpr long long any = 1LL << 53;  // what makes sense is the study's to say
   const auto samples = read_whole("--samples", options.samples, -any, any);
   if (options.spectrum)
-    return tables::spectrum(which, samples, read_number("--highest", options.highest));
+    return tables::spectrum(test_case, samples, read_number("--highest", options.highest));
   return respond(tables::grid_of(samples, end));
 }
 
-std::string picture(const cases::Case& which, const report::Style& style) {
+std::string picture(const cases::Case& test_case, const report::Style& style) {
   // Marks closer than a column coincide; 1000 are more than any terminal shows.
   constexpr long long most_marks = 1000;
-  const auto& motion = *which.motion;
+  const auto& motion = *test_case.motion;
   std::vector<double> impact_times;
   const auto count = std::min(motion.impact_count(motion.end()), most_marks);
   for (long long k = 1; k <= count; ++k) impact_times.push_back(motion.impact(k).t);
   // Eight points a column let a fast oscillation be seen as a band instead of a false slow one.
-  return report::plot(tables::response_curve(which, 8 * style.width), impact_times, style);
+  return report::plot(tables::response_curve(test_case, 8 * style.width), impact_times, style);
 }
 
-std::string page_of(const cases::Case& which, const RespondOptions& options,
+std::string page_of(const cases::Case& test_case, const RespondOptions& options,
                     const std::string& line) {
-  const auto motion = tables::response_record(which);
+  const auto motion = tables::response_record(test_case);
   return report::html(
       tables::show_case(options.name, read_settings(options.settings, options.problem),
                         cases::default_threshold),
@@ -156,18 +156,19 @@ int run(RespondOptions options, const std::string& line) {
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::numbers);
   check_format(options, results);
-  const auto which = cases::make(options.name, read_settings(options.settings, options.problem));
-  const auto rows = options.ways() > 0 ? rows_of(options, which) : nullptr;
+  const auto test_case =
+      cases::make(options.name, read_settings(options.settings, options.problem));
+  const auto rows = options.ways() > 0 ? rows_of(options, test_case) : nullptr;
   if (options.plot) {
     OutputStream out(1, "standard output", OnInterrupt::stop);
-    out << picture(which, standard_style(options.common.no_color));
+    out << picture(test_case, standard_style(options.common.no_color));
     out.finish();
   }
   if (rows) {
     write_rows(*rows, results, "respond", options.common.quiet);
     results.finish();
   }
-  return !page.wanted() || page.write(page_of(which, options, line)) ? 0 : 4;
+  return !page.wanted() || page.write(page_of(test_case, options, line)) ? 0 : 4;
 }
 
 }  // namespace
@@ -181,10 +182,10 @@ void add_respond(Grammar& root) {
                         "  clackers respond three-parameter --sensitivity k2 --samples 201\n"
                         "  clackers respond stop --spectrum --samples 201 --highest 20\n",
             .about = "The exact motion of a case. Columns t [s], side, then u [m], v [m/s] and a "
-                     "[m/s^2] of each mass. Where a time is the double nearest to a collision two "
+                     "[m/s^2] of each mass. Where a time is the double nearest to an impact two "
                      "rows stand: side - before it and side + after it.",
             .usage = "  clackers respond CASE [--set name=value,...]\n"
-                     "           (--samples n | --step h | --times FILE | --collisions)\n"
+                     "           (--samples n | --step h | --times FILE | --impacts)\n"
                      "           [--digits n] [--plot] [--report FILE.html]\n"
                      "  clackers respond CASE [--set ...] (--energy | --sensitivity NAME)\n"
                      "           (--samples n | --step h | --times FILE) [--plot]\n"
@@ -203,9 +204,10 @@ void add_respond(Grammar& root) {
                   "Times from a text file, one a line, in seconds; - reads standard input. What "
                   "follows # or % is a comment.")
       ->reads_file("FILE");
-  app->add_flag("--collisions", options->collisions,
-                "The collisions instead: k, t [s], u1 [m], velocities before and after [m/s], "
+  app->add_flag("--impacts", options->impacts,
+                "The impacts instead: k, t [s], u1 [m], velocities before and after [m/s], "
                 "impulse [N s], energy before and after [J].");
+  app->add_flag("--collisions", options->impacts, "The former name of --impacts.");
   app->add_flag("--energy", options->energy,
                 "At the times, the energy instead: kinetic, potential, dissipated so far, lost at "
                 "impacts so far and their total [J], and the momentum [kg m/s].");
@@ -222,7 +224,7 @@ void add_respond(Grammar& root) {
       ->option_text("w");
   app->add_option("--digits", options->digits,
                   "Correctly rounded to n significant digits, 1 to 1000, from an enclosure; with "
-                  "--samples, --step, --times or --collisions, whose t is then the true instant.")
+                  "--samples, --step, --times or --impacts, whose t is then the true instant.")
       ->option_text("n");
   app->add_flag("--plot", options->plot,
                 "Draw the displacements in the terminal; alone, or above the rows.");

@@ -98,7 +98,7 @@ void add_show(Grammar& root) {
                    "  clackers show newmark:beta=0.25,gamma=0.5\n"
                    "  clackers show generalized-alpha:rho=0.8 --report page.html\n",
        .about = "Of a case: parameters, derived constants, the indicators I_ms, T_L, T_S and "
-                "I_OC, the admissibility margin, the conditioning and the first collisions. Of "
+                "I_OC, the admissibility margin, the conditioning and the first impacts. Of "
                 "a method: what it claims; period elongation, amplitude decay, spectral radius "
                 "and overshoot of its integrator; its parameters and its card.",
        .usage = "  clackers show CASE|METHOD [--set name=value,...] [--threshold x]\n"

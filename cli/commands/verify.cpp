@@ -163,8 +163,8 @@ void add_verify(Grammar& root) {
            "Assesses time-integration methods: runs each with a sequence of steps on a case whose "
            "exact motion is known, and compares what was measured with what it claims. A "
            "method is integrator[:name=value,...][+contact[:name=value,...]]; without +contact "
-           "impacts are located as events (event-driven). Programs of yours (--exec) "
-           "are run and compared in the same way. Exit code 0 when all agree, 1 when "
+           "impacts are located as events (event-driven). Your own programs (--exec) are run and "
+           "compared in the same way. Exit code 0 when all agree, 1 when "
            "one disagrees, 3 when one stays undecided.",
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
@@ -179,7 +179,7 @@ void add_verify(Grammar& root) {
   app->add_flag(
       "--all", options->all,
       "Every method (clackers list pairs): every integrator with every contact treatment that "
-      "takes it, every contact law with two of them, and methods that stand alone.");
+      "takes it, every contact law with two of them, and standalone methods.");
   app->add_option(
          "--case", options->cases,
          "The case (clackers list cases). Default: three-parameter. Several, each with its "
@@ -206,8 +206,8 @@ void add_verify(Grammar& root) {
   add_report_option(*app, options->report);
   app->add_option(
          "--baseline", options->baseline,
-         "An earlier record (--format json) of the same cases and steps, - for standard "
-         "input: says in words what changed since. The exit code stays that of the verdicts.")
+         "An earlier record (--format json) of the same cases and steps, - for standard input: "
+         "lists what changed since. The exit code follows from the verdicts only.")
       ->reads_file("FILE.json");
   add_common_options(*app, options->common);
   add_verdict_formats(*app);

@@ -14,12 +14,13 @@ void add_program_options(Command& command, ProgramOptions& options) {
   command
       .add_option(
           "--exec", options.commands,
-          "A program of yours as a method, a line for the shell: each step is one run. Placeholders: "
+          "Your own program as a method, a command for the shell: each step is one run. "
+          "Placeholders: "
           "{case} a json file with the problem ({case:text} the same as key=value lines), {h} the "
           "step in seconds, {n} the number of steps, {tolerance} one of --tolerances, {out} the file "
-          "for the history (without it: standard output), {events} a file for collisions, which may "
-          "be left out. A run has a folder of its own; files that the command names by a path from "
-          "here are found. May be repeated, and stand beside METHODs.")
+          "for the history (without it: standard output), {events} a file for impacts, which may "
+          "be left out. Each run has its own folder; files that the command names relative to the "
+          "current folder are found. May be repeated and combined with METHODs.")
       ->option_text("COMMAND");
   command
       .add_option(
@@ -50,7 +51,7 @@ void add_program_options(Command& command, ProgramOptions& options) {
                   "$XDG_CACHE_HOME/clackers for 14 days, and reused while command, program, "
                   "problem and step are the same.")
       ->option_text("FOLDER");
-  command.add_flag("--fresh", options.fresh, "Make every run of programs anew, reuse none.");
+  command.add_flag("--fresh", options.fresh, "Repeat every run of the programs; reuse none.");
 }
 
 namespace {

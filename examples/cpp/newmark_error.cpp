@@ -35,12 +35,12 @@ class LargestError : public clackers::model::Sink {
 }  // namespace
 
 int main() try {
-  const auto which = clackers::cases::make("three-parameter", {{"N", 1.0}, {"xi1", 0.05}});
+  const auto test_case = clackers::cases::make("three-parameter", {{"N", 1.0}, {"xi1", 0.05}});
   const auto newmark = clackers::methods::method("newmark:beta=0.25");
   for (const double steps : {1000.0, 2000.0, 4000.0}) {
-    const double h = which.problem.end / steps;
-    LargestError error(*which.motion);
-    const auto outcome = newmark->prepare(which.problem, h)->advance(error);
+    const double h = test_case.problem.end / steps;
+    LargestError error(*test_case.motion);
+    const auto outcome = newmark->prepare(test_case.problem, h)->advance(error);
     if (outcome.failed()) {
       std::fprintf(stderr, "h = %g s: %s\n", h, outcome.detail.c_str());
       return 1;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double quarter = std::numbers::pi / 2.0;
 
-// D'(t) = cos(t) + 3/X cos(X t) for X = 4N + 1, in the angle s from the collision, where it is
+// D'(t) = cos(t) + 3/X cos(X t) for X = 4N + 1, in the angle s from the impact, where it is
 // sin(s) + 3/X sin(X s): the cosines would cancel. pi/2 is `quarter` plus 6.1e-17.
 double relative_gap(double X, double t) {
   const double s = (quarter - std::abs(t)) + 6.123233995736766e-17;
@@ -61,7 +61,7 @@ double nearest(const cases::Case& test_case) {
   const auto& motion = *test_case.motion;
   for (std::size_t i = 0; i < two.x.size(); ++i) {
     const double u1 = motion.at(two.x[i], model::Side::right).u[0];
-    // Beside a collision both vanish; 1e-6 of the amplitude is far inside the last tenth of a turn.
+    // Beside an impact both vanish; 1e-6 of the amplitude is far inside the last tenth of a turn.
     if (u1 > 1e-6 * motion.envelope(two.x[i]).u[0]) least = std::min(least, (u1 - two.y[i]) / u1);
   }
   return least;
@@ -123,12 +123,12 @@ Figure amplitudes() {
     figure.claims.push_back(
         {fmt::format("Appendix A: a smaller −u2(0) is conservative (N = {}).", N),
          fmt::format(
-             "Between collisions (u1 − u2)/u1 is at least {:.4f} for 3 and {:.4f} for 1.5; 1 − r/r* is {:.4f} and {:.4f}.",
+             "Between impacts (u1 − u2)/u1 is at least {:.4f} for 3 and {:.4f} for 1.5; 1 − r/r* is {:.4f} and {:.4f}.",
              measured[0], measured[1], margin[0], margin[1]),
          measured[1] > measured[0] && std::abs(measured[0] - margin[0]) < missed &&
              std::abs(measured[1] - margin[1]) < missed});
   }
-  figure.choices = {"The duration does not stand in the text; 10 s show three collisions."};
+  figure.choices = {"The duration does not stand in the text; 10 s show three impacts."};
   return figure;
 }
 

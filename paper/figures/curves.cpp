@@ -15,11 +15,11 @@ constexpr double wanted_points = 2800.0;
 struct Instant {
   double t;
   model::Side side;
-  long long collision = 0;  // its number; 0 between collisions
+  long long impact = 0;  // its number; 0 between impacts
 };
 
 // From `from` to `to` in pieces of `dt`, the last one shorter; both ends included, seen from inside.
-// `first` and `last` are the collisions at the ends, 0 for none.
+// `first` and `last` are the impacts at the ends, 0 for none.
 void append_flight(double from, long long first, double to, long long last, double dt,
                    std::vector<Instant>& out) {
   const auto pieces = std::max(1.0, std::ceil((to - from) / dt * (1.0 - 1e-9)));
@@ -28,15 +28,15 @@ void append_flight(double from, long long first, double to, long long last, doub
   out.push_back({to, model::Side::left, last});
 }
 
-// The displacement or velocity of mass i at a collision: the limit at the true instant, which lies
+// The displacement or velocity of mass i at an impact: the limit at the true instant, which lies
 // beside the double nearest to it.
 double limit(const model::Motion& motion, const Instant& when, Quantity quantity, Eigen::Index i) {
-  const auto impact = motion.impact(when.collision);
+  const auto impact = motion.impact(when.impact);
   const auto& side = when.side == model::Side::left ? impact.before : impact.after;
   return quantity == Quantity::displacement ? side.u[i] : side.v[i];
 }
 
-// A collision lies (X theta = X pi/2) a whole number of pieces after each extremum of its flight.
+// An impact lies (X theta = X pi/2) a whole number of pieces after each extremum of its flight.
 std::vector<Instant> instants(const model::Motion& motion, double dt) {
   std::vector<Instant> out;
   double from = 0.0;
@@ -79,7 +79,7 @@ Series curve(const cases::Case& test_case, int mass, Quantity quantity, int poin
   const auto dt = test_case.damped_periods.at(i) / (2.0 * points_per_half_turn);
   const auto when = instants(motion, dt);
   std::vector<double> times;
-  for (const auto& one : when) times.push_back(one.t);
+  for (const auto& item : when) times.push_back(item.t);
   std::vector<double> u[2], v[2], none;
   for (const auto side : {model::Side::left, model::Side::right}) {
     const auto s = std::size_t(side == model::Side::right);
@@ -97,7 +97,7 @@ Series curve(const cases::Case& test_case, int mass, Quantity quantity, int poin
     // Displacements do not jump, so one point is enough.
     if (quantity == Quantity::displacement && !out.x.empty() && out.x.back() == when[k].t) continue;
     out.x.push_back(when[k].t);
-    out.y.push_back(when[k].collision > 0
+    out.y.push_back(when[k].impact > 0
                         ? limit(motion, when[k], quantity, static_cast<Eigen::Index>(i))
                         : rows[k * dof + i]);
   }
@@ -131,12 +131,12 @@ Series without_contact(const cases::Case& test_case, int mass, const Series& lik
   return out;
 }
 
-double largest_difference(const Series& one, const Series& other) {
-  if (one.x != other.x || one.y.size() != other.y.size())
+double largest_difference(const Series& first, const Series& other) {
+  if (first.x != other.x || first.y.size() != other.y.size())
     throw std::logic_error("curves of different abscissae");
   double largest = 0.0;
-  for (std::size_t i = 0; i < one.y.size(); ++i)
-    largest = std::max(largest, std::abs(one.y[i] - other.y[i]));
+  for (std::size_t i = 0; i < first.y.size(); ++i)
+    largest = std::max(largest, std::abs(first.y[i] - other.y[i]));
   return largest;
 }
 
@@ -149,8 +149,8 @@ int maxima(const Series& curve, double before) {
 
 double constant(const cases::Case& test_case, const std::string& name) {
   for (const auto* list : {&test_case.constants, &test_case.indicators})
-    for (const auto& one : *list)
-      if (one.name == name) return one.value;
+    for (const auto& item : *list)
+      if (item.name == name) return item.value;
   throw std::logic_error("no constant " + name);
 }
 

@@ -28,7 +28,7 @@ enum class Quantity { displacement, velocity };
 
 /// The exact curve of mass 1 or 2 over the whole run: `points_per_half_turn` pieces in each half
 /// period of that mass, so that every extremum of a flight is a point to within its damping, and
-/// both limits at every collision.
+/// both limits at every impact.
 Series curve(const cases::Case& test_case, int mass, Quantity quantity,
              int points_per_half_turn = 16);
 
@@ -42,7 +42,7 @@ Panel response_panel(const cases::Case& test_case, Quantity quantity, std::strin
 Series without_contact(const cases::Case& test_case, int mass, const Series& like);
 
 /// How far two curves with the same abscissae are apart at most. Throws std::logic_error for others.
-double largest_difference(const Series& one, const Series& other);
+double largest_difference(const Series& first, const Series& other);
 /// Local maxima of a curve strictly inside (0, before).
 int maxima(const Series& curve, double before);
 

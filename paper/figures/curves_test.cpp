@@ -24,7 +24,7 @@ TEST(FreeFlight, FollowsItsClosedFormula) {
   }
 }
 
-TEST(Curve, VelocityHasTwoPointsAndDisplacementOneAtACollision) {
+TEST(Curve, VelocityHasTwoPointsAndDisplacementOneAtAnImpact) {
   const auto test_case = cases::make("two-parameter", {{"N", 1.0}});
   const double t1 = test_case.motion->impact(1).t;
   const auto v = curve(test_case, 2, Quantity::velocity),
@@ -70,7 +70,7 @@ TEST(Panel, ResponseHasACurveForEachMassAndTheRunAsRange) {
   EXPECT_EQ(two.x.highest, 40.0);
 }
 
-TEST(WithoutContact, EqualsTheCollidingMassUntilTheFirstCollisionOnly) {
+TEST(WithoutContact, EqualsTheCollidingMassUntilTheFirstImpactOnly) {
   const auto test_case = cases::make("two-parameter", {{"N", 1.0}});
   const auto with = curve(test_case, 2, Quantity::displacement);
   const auto alone = without_contact(test_case, 2, with);

@@ -59,10 +59,10 @@ TEST(Fig3, MassStaysBeyondTheStopAndItsVelocityJumpsSixTimes) {
   EXPECT_EQ(jumps, 6);
 }
 
-TEST(Fig3, Rk4FindsEveryCollision) {
+TEST(Fig3, Rk4FindsEveryImpact) {
   const auto measured = response_at_stop().claims.back().measured;
   EXPECT_TRUE(measured.starts_with("rk4 with located impacts, step 0.001 s: largest error "));
-  EXPECT_TRUE(measured.ends_with(", 6 of 6 collisions.")) << measured;
+  EXPECT_TRUE(measured.ends_with(", 6 of 6 impacts.")) << measured;
 }
 
 TEST(Fig4, MassesAreMirrorImages) {
@@ -134,7 +134,7 @@ TEST(Fig9And10, DurationsAndStartsFollowFromTheParameters) {
   for (std::size_t i = 0; i < ratios.size(); ++i) EXPECT_DOUBLE_EQ(starts[i], ratios[i]) << i;
 }
 
-TEST(Fig11, TheResponseWithoutCollisionIsTheMirrorImage) {
+TEST(Fig11, TheResponseWithoutImpactIsTheMirrorImage) {
   const auto panel = mirrored_response().panels.at(0);
   for (std::size_t mass = 0; mass < 2; ++mass) {
     const auto& with = panel.series.at(2 * mass);
@@ -160,7 +160,7 @@ TEST(Fig12, CurvesMeetAtMultiplesOfTheFullPeriod) {
       for (const std::size_t curve : {0u, 1u})
         EXPECT_NEAR(exactly(panel.series[curve], t), start * std::exp(-0.1 * t), 1e-14);
     }
-    // And not elsewhere: between the first and the second collision they are opposite.
+    // And not elsewhere: between the first and the second impact they are opposite.
     EXPECT_NEAR(at(panel.series[0], 0.45 * period), -at(panel.series[1], 0.45 * period), 1e-12);
   }
 }

@@ -1,4 +1,4 @@
-// Figures 11 and 12: a collision mirrors the response; two collisions restore it.
+// Figures 11 and 12: an impact mirrors the response; two impacts restore it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,22 +50,22 @@ Figure mirrored_response() {
     auto alone = without_contact(test_case, mass, after);
     for (std::size_t i = 0; i < after.x.size(); ++i)
       difference = std::max(difference, std::abs(after.y[i] + alone.y[i]));
-    alone.name = fmt::format("mass {} without the collision", mass);
+    alone.name = fmt::format("mass {} without the impact", mass);
     alone.stroke.dash = {2, 3};
     alone.stroke.width = 1.0;
     panel.series.push_back(whole);
     panel.series.push_back(alone);
   }
-  panel.series.push_back({"collision", {t1}, {}, {light::collision}, Series::Kind::rule});
+  panel.series.push_back({"impact", {t1}, {}, {light::impact}, Series::Kind::rule});
   Figure figure;
   figure.width = 640.0;
   figure.height = 260.0;
   figure.caption =
-      "From the collision at t_C1 (vertical line) on, each response is the mirror image, with respect to the time axis, of the response without collision. Drawn for N = 1, ξ1 = 0.1 up to t_C2.";
+      "From the impact at t_C1 (vertical line) on, each response is the mirror image, with respect to the time axis, of the response without impact. Drawn for N = 1, ξ1 = 0.1 up to t_C2.";
   figure.claims = {
-      {"Section 2.3: the collision mirrors the response that would have existed without it.",
+      {"Section 2.3: the impact mirrors the response that would have existed without it.",
        fmt::format(
-           "In t_C1 ≤ t ≤ t_C2, u with and u without the collision add up to {} m at most, for both masses.",
+           "In t_C1 ≤ t ≤ t_C2, u with and u without the impact add up to {} m at most, for both masses.",
            number(difference)),
        difference <= pair_precision}};
   figure.choices = {
@@ -84,15 +84,15 @@ Figure coincidence() {
   figure.width = 640.0;
   figure.height = 190.0;
   figure.caption =
-      "The actual responses and those without any collision coincide at t_C***, 2 t_C***, 3 t_C*** (points); N = 1, ξ1 = 0.1, a_t = 1: (a) the first mass, (b) the second mass.";
+      "The actual responses and those without any impact coincide at t_C***, 2 t_C***, 3 t_C*** (points); N = 1, ξ1 = 0.1, a_t = 1: (a) the first mass, (b) the second mass.";
   for (int mass = 1; mass <= 2; ++mass) {
     const auto i = mass - 1;
     const FreeFlight alone(test_case, mass);
     auto actual = curve(test_case, mass, Quantity::displacement, 40);
     auto free = without_contact(test_case, mass, actual);
-    free.name = "without collisions";
+    free.name = "without impacts";
     free.stroke = dotted;
-    Series points{"coincidence", {}, {}, {light::collision}, Series::Kind::points};
+    Series points{"coincidence", {}, {}, {light::impact}, Series::Kind::points};
     double u = 0.0, v = 0.0;
     for (const double t : moments) {
       const auto at = motion.at(t, model::Side::right), size = motion.envelope(t);
@@ -109,7 +109,7 @@ Figure coincidence() {
     figure.panels.push_back(panel);
     figure.claims.push_back(
         {fmt::format(
-             "Section 2.3: at multiples of t_C*** displacement and velocity of mass {} are those without collisions.",
+             "Section 2.3: at multiples of t_C*** displacement and velocity of mass {} are those without impacts.",
              mass),
          fmt::format(
              "t_C*** = 2π/√(1 − ξ1²) = {:.6f} s; at {} multiples the displacements differ by {} and the velocities by {} of the amplitude then.",

@@ -1,4 +1,4 @@
-// Figure A.3: the nearest miss before a collision.
+// Figure A.3: the nearest miss before an impact.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,12 +26,12 @@ struct Nearest {
 
 // Over the first flight, evaluated from the two masses' own m, c, k.
 Nearest nearest_miss(const cases::Case& test_case) {
-  const FreeFlight one(test_case, 1), two(test_case, 2);
+  const FreeFlight mass1(test_case, 1), mass2(test_case, 2);
   const double t1 = constant(test_case, "t_1");
   Nearest out;
   constexpr int fine = 40'000;
   for (int i = 0; i < fine; ++i) {
-    const double t = t1 * i / fine, share = (one.u(t) - two.u(t)) / one.u(t);
+    const double t = t1 * i / fine, share = (mass1.u(t) - mass2.u(t)) / mass1.u(t);
     if (share < out.share) out = {share, t};
   }
   return out;
@@ -49,7 +49,7 @@ Claim damping_cancels() {
   }
   // X T/2 = 33 rad over 40000 points: missed by at most 3/2 (33/40000)^2 = 1e-6.
   return {
-      "Appendix A: for small ξ1, Eq. (18) is sufficient against collisions away from equilibrium.",
+      "Appendix A: for small ξ1, Eq. (18) is sufficient against impacts away from equilibrium.",
       fmt::format(
           "N = 5: least (u1 − u2)/u1 is {} for ξ1 = 0, 0.05, 0.5, 0.9; the proof gives 1 − 3/r* = {:.6f} for every ξ1. The exponential factor is common to both masses, so the damping need not be small.",
           found, proved),
@@ -60,7 +60,7 @@ Claim damping_cancels() {
 
 Figure near_miss() {
   const auto test_case = pair(miss_xi1);
-  const FreeFlight one(test_case, 1), two(test_case, 2);
+  const FreeFlight mass1(test_case, 1), mass2(test_case, 2);
   const double t1 = constant(test_case, "t_1"), omega2 = constant(test_case, "omega_D2");
   const double r_star = cases::admissibility(X, 3.0).r_star;
   const double from = t1 - 9.5 / omega2, to = t1 + 0.6 / omega2;
@@ -70,9 +70,9 @@ Figure near_miss() {
   for (int i = 0; i <= points; ++i) {
     const double t = from + (t1 - from) * i / points;
     for (auto* series : {&first, &second, &grazing}) series->x.push_back(t);
-    first.y.push_back(one.u(t));
-    second.y.push_back(two.u(t));
-    grazing.y.push_back(two.u(t) * r_star / 3.0);
+    first.y.push_back(mass1.u(t));
+    second.y.push_back(mass2.u(t));
+    grazing.y.push_back(mass2.u(t) * r_star / 3.0);
   }
   const auto near = nearest_miss(test_case);
   Panel panel;
@@ -81,22 +81,21 @@ Figure near_miss() {
   panel.series = {first, second, grazing};
   panel.series.push_back({"nearest miss",
                           {near.t, near.t},
-                          {one.u(near.t), two.u(near.t)},
-                          {light::collision},
+                          {mass1.u(near.t), mass2.u(near.t)},
+                          {light::impact},
                           Series::Kind::points});
-  panel.series.push_back({"collision", {t1}, {}, {light::collision}, Series::Kind::rule});
-  panel.series.push_back(
-      {"t_C1", {t1 + 0.3 / omega2}, {0.3}, {light::collision}, Series::Kind::text});
+  panel.series.push_back({"impact", {t1}, {}, {light::impact}, Series::Kind::rule});
+  panel.series.push_back({"t_C1", {t1 + 0.3 / omega2}, {0.3}, {light::impact}, Series::Kind::text});
   Figure figure;
   figure.width = 640.0;
   figure.height = 300.0;
   figure.caption =
-      "Before a collision mass 2 comes nearest to mass 1 about three quarters of its period earlier; N = 5, ξ1 = 0.05. With r = r* instead of 3 the masses would graze there.";
+      "Before an impact mass 2 comes nearest to mass 1 about three quarters of its period earlier; N = 5, ξ1 = 0.05. With r = r* instead of 3 the masses would graze there.";
   figure.claims = {
       damping_cancels(),
-      {"Fig. A.3: the most probable collision away from equilibrium is a near miss.",
+      {"Fig. A.3: the most probable impact away from equilibrium is a near miss.",
        fmt::format(
-           "N = 5, ξ1 = 0.05: at t = {:.4f} s, {:.4f} rad of mass 2 before the collision, u2 is {:.4f} of u1.",
+           "N = 5, ξ1 = 0.05: at t = {:.4f} s, {:.4f} rad of mass 2 before the impact, u2 is {:.4f} of u1.",
            near.t, omega2 * (t1 - near.t), 1.0 - near.share),
        near.share > 0.0}};
   figure.choices = {

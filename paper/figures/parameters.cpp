@@ -52,8 +52,8 @@ constexpr auto members = std::to_array<Member>({{"a", 0, 0.05, 4.0},
                                                 {"i", 2, 0.25, 0.5},
                                                 {"j", 5, 0.25, 1.0}});
 
-int changes(const Member& one, const Member& next) {
-  return (one.N != next.N) + (one.xi1 != next.xi1) + (one.a_t != next.a_t);
+int changes(const Member& member, const Member& next) {
+  return (member.N != next.N) + (member.xi1 != next.xi1) + (member.a_t != next.a_t);
 }
 
 }  // namespace
@@ -126,21 +126,20 @@ Figure effect_of_duration() {
   figure.height = 150.0;
   figure.caption =
       "Exact displacements of the three-parameter system for N = 5, ξ1 = 0.10 over 20 a_t seconds.";
-  Sequence oscillations, collisions;
+  Sequence oscillations, impacts;
   for (std::size_t i = 0; i < factors.size(); ++i) {
     const auto test_case =
         cases::make("three-parameter", {{"N", 5.0}, {"xi1", 0.10}, {"a_t", factors[i]}});
     figure.panels.push_back(response_panel(test_case, Quantity::displacement, panel_letters[i],
                                            fmt::format("a_t = {}", factors[i]), {-0.2, 1.0}));
     oscillations.values.push_back(constant(test_case, "I_OC"));
-    collisions.values.push_back(constant(test_case, "collisions"));
+    impacts.values.push_back(constant(test_case, "impacts"));
   }
   figure.claims = {
       {"Section 2.2: the behaviour is more oscillatory when a_t is larger.",
-       fmt::format(
-           "a_t = 2, 5, 20: I_OC = t_end/T_S = {} with the threshold 0.1, and {} collisions.",
-           oscillations.words(), collisions.words()),
-       oscillations.rising() && collisions.rising()}};
+       fmt::format("a_t = 2, 5, 20: I_OC = t_end/T_S = {} with the threshold 0.1, and {} impacts.",
+                   oscillations.words(), impacts.words()),
+       oscillations.rising() && impacts.rising()}};
   return figure;
 }
 

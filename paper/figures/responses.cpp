@@ -36,7 +36,7 @@ Claim integrated(const std::string& says, const std::string& name,
   const long long found = score.impacts ? score.impacts->found : 0;
   auto measured = fmt::format("rk4 with located impacts, step {} s: largest error {}", step,
                               number(score.u_error));
-  if (expected > 0) measured += fmt::format(", {} of {} collisions", found, expected);
+  if (expected > 0) measured += fmt::format(", {} of {} impacts", found, expected);
   return {says, measured + ".", score.u_error < most_integration_error && found == expected};
 }
 
@@ -84,11 +84,11 @@ Figure response_at_stop() {
   const auto test_case = cases::make("stop");
   auto figure = displacement_and_velocity(test_case);
   figure.caption =
-      "Exact displacement and velocity of the mass of Fig. 1 with a rigid stop at its equilibrium, restitution η = 1. At each collision the velocity jumps; both limits are drawn.";
+      "Exact displacement and velocity of the mass of Fig. 1 with a rigid stop at its equilibrium, restitution η = 1. At each impact the velocity jumps; both limits are drawn.";
   figure.claims = {
       formula("Section 2.1: with the stop the response becomes Eq. (5).", figure.panels.front(),
               true),
-      integrated("Section 2.1: it solves Eq. (3) with elastic collisions at u = 0.", "stop", {})};
+      integrated("Section 2.1: it solves Eq. (3) with elastic impacts at u = 0.", "stop", {})};
   return figure;
 }
 
@@ -115,21 +115,21 @@ Figure sample_extension() {
   auto figure = displacement_and_velocity(test_case);
   figure.caption =
       "The second mass five times as fast as the first (N = 1, Eq. 19: m2 = 1/3 kg, u2(0) = −0.6 m, ξ1 = 0.05): the masses still meet only at their common equilibrium.";
-  const FreeFlight one(test_case, 1), two(test_case, 2);
+  const FreeFlight mass1(test_case, 1), mass2(test_case, 2);
   const auto& mass = test_case.problem.system.mass;
   const double t1 = constant(test_case, "t_1");
-  const double apart = std::max(std::abs(one.u(t1)), std::abs(two.u(t1)));
-  const double p1 = mass(0, 0) * one.v(t1), p2 = mass(1, 1) * two.v(t1);
+  const double apart = std::max(std::abs(mass1.u(t1)), std::abs(mass2.u(t1)));
+  const double p1 = mass(0, 0) * mass1.v(t1), p2 = mass(1, 1) * mass2.v(t1);
   const double momentum = std::abs(p1 + p2) / std::abs(p1);
   const int counted = maxima(figure.panels.front().series.at(1), t1);
   figure.claims = {
-      {"Section 2.2: the first collision is at the common equilibrium, the momenta equal and opposite.",
+      {"Section 2.2: the first impact is at the common equilibrium, the momenta equal and opposite.",
        fmt::format(
            "Each mass alone, from its own m, c, k: at t = π/(2 ω_D1) = {:.6f} s both displacements are below {} m and the momenta add up to {} of one of them.",
            t1, number(apart), number(momentum)),
        // 25 ulp of phase, as in plain_precision, at up to five times the slope
        apart < 5.0 * plain_precision(5.0, t1) && momentum < 5.0 * plain_precision(5.0, t1)},
-      {"Section 2.2: N is the number of maxima of mass 2 before the first collision; Fig. 5 shows N = 1.",
+      {"Section 2.2: N is the number of maxima of mass 2 before the first impact; Fig. 5 shows N = 1.",
        fmt::format("{} maximum of u2 in 0 < t < {:.4f} s.", counted, t1), counted == 1},
       integrated("Section 2.2: Eq. (20) is the exact response of Eq. (19).", "one-parameter",
                  {{"N", 1.0}})};

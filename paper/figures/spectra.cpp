@@ -59,7 +59,7 @@ struct Compared {
 
 // Largest error of the trapezoidal rule: h^2/8 times the variation of the integrand's slope, its
 // second derivative at most (w + omega)^2 |b| exp(-sigma t) in flight. The slope of each mass turns
-// round at each collision: less than once more the same for w >= 1 and a flight of length T = 3 s.
+// round at each impact: less than once more the same for w >= 1 and a flight of length T = 3 s.
 double rule_bound(double amplitude, double w, double omega) {
   const double decay = (1.0 - std::exp(-0.05 * end)) / 0.05;
   return 2.0 * sampling * sampling / 8.0 * (w + omega) * (w + omega) * amplitude * decay;
@@ -145,23 +145,23 @@ Figure spectra() {
   std::string periods;
   bool falling = true;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto& one = all[i];
-    figure.panels.push_back(one.time);
-    figure.panels.push_back(one.frequency);
+    const auto& entry = all[i];
+    figure.panels.push_back(entry.time);
+    figure.panels.push_back(entry.frequency);
     figure.claims.push_back(
         {fmt::format(
              "Section 2.2: time steps of 0.001 s give accurate Fourier amplitudes (N = {}).",
-             one.N),
+             entry.N),
          fmt::format(
              "The transform of the samples and the closed form differ by at most {} m s, {} of the peak of mass 2. The trapezoidal rule allows {} m s.",
-             number(one.difference), number(one.difference / one.peak.amplitude),
-             number(one.bound)),
-         one.difference <= one.bound});
-    periods += fmt::format("{}N = {}: {:.4g} s with {:.4g} m s", i == 0 ? "" : ", ", one.N,
-                           2.0 * std::numbers::pi / one.peak.omega, one.peak.amplitude);
+             number(entry.difference), number(entry.difference / entry.peak.amplitude),
+             number(entry.bound)),
+         entry.difference <= entry.bound});
+    periods += fmt::format("{}N = {}: {:.4g} s with {:.4g} m s", i == 0 ? "" : ", ", entry.N,
+                           2.0 * std::numbers::pi / entry.peak.omega, entry.peak.amplitude);
     if (i > 0)
-      falling = falling && one.peak.omega > all[i - 1].peak.omega &&
-                one.peak.amplitude < all[i - 1].peak.amplitude;
+      falling = falling && entry.peak.omega > all[i - 1].peak.omega &&
+                entry.peak.amplitude < all[i - 1].peak.amplitude;
   }
   figure.claims.push_back(
       {"Section 2.2: as N increases, the smallest period and its Fourier amplitude decrease.",

@@ -18,7 +18,7 @@ namespace clackers::paper::light {
 extern const char *const paper,
     *const ink, *const muted, *const faint, *const line,
                                                 *const grid,
-                                                    *const collision,
+                                                    *const impact,
                                                         *const m1, *const m2, *const m3,
                                                                                   *const m4,
                                                                                       *const m7,

@@ -85,8 +85,8 @@ std::string section(const Drawn& drawn) {
 std::string overall(const std::vector<Drawn>& drawn) {
   std::map<std::string_view, int> counts;
   int all = 0;
-  for (const auto& one : drawn)
-    for (const auto& claim : one.figure.claims) ++counts[verdict_of(claim)], ++all;
+  for (const auto& item : drawn)
+    for (const auto& claim : item.figure.claims) ++counts[verdict_of(claim)], ++all;
   auto out = fmt::format("{} {} of {} claims", badge("holds"), counts["holds"], all);
   for (const auto* verdict : {"holds in part", "differs"})
     if (counts[verdict] > 0) out += fmt::format(" {} {}", badge(verdict), counts[verdict]);
@@ -119,9 +119,9 @@ std::string open_points() {
 
 std::string page(const std::vector<Drawn>& drawn, const std::string& command) {
   std::string contents, figures;
-  for (const auto& one : drawn) {
-    contents += fmt::format("<a href=\"#{}\">{}</a>\n", one.figure.name, label(one.figure.name));
-    figures += section(one);
+  for (const auto& item : drawn) {
+    contents += fmt::format("<a href=\"#{}\">{}</a>\n", item.figure.name, label(item.figure.name));
+    figures += section(item);
   }
   const auto from = record::provenance(command);
   return report::fill(assets::page_html, {{"version", escape(from.version)},

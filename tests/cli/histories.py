@@ -10,11 +10,11 @@ COLUMNS = ("t", "u1", "v1", "u2", "v2")
 class CheckTest(CommandTest):
     @classmethod
     def setUpClass(cls):
-        """The exact response of the default case every 0.01 s, and its collisions."""
+        """The exact response of the default case every 0.01 s, and its impacts."""
         cls.response = run("respond", "three-parameter", "--step", "0.01", "--format", "csv").stdout
         cls.exact = [{k: row[k] if k == "side" else float(row[k]) for k in row}
                      for row in rows(cls.response)]
-        cls.hits = run("respond", "three-parameter", "--collisions", "--format", "csv").stdout
+        cls.hits = run("respond", "three-parameter", "--impacts", "--format", "csv").stdout
 
     def write(self, name, text, mode="w", **more):
         path = self.path(name)

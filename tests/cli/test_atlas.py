@@ -12,7 +12,7 @@ from command import CommandTest, rows, run, start
 SPEC = """methods = ["newmark", "rk4", "newmark+penalty"]
 [ladder]
 levels = 3
-neighbours = 2
+samples_per_level = 2
 [[cases]]
 case = "stop"
 set = { eta = [0.5, 1], xi1 = [0.05, 0.1] }

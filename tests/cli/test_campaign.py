@@ -12,7 +12,7 @@ from command import CommandTest, rows, run, start
 SPEC = """methods = ["newmark", "rk4", "newmark+penalty"]
 [ladder]
 levels = 2
-neighbours = 2
+samples_per_level = 2
 [[cases]]
 case = "stop"
 set = { eta = [0.5, 1], t_end = { from = 2, to = 4, points = 3 } }
@@ -163,7 +163,7 @@ class Use(Campaign):
     def test_programs_are_methods(self):
         solver = os.path.join(os.path.dirname(__file__), "../../examples/solvers/midpoint.py")
         self.write("spec.toml", 'methods = ["rk4", { exec = "python3 %s {case} {h} {out} {events}", name = "mine", '
-                   'expect = "proper:2" }]\n[ladder]\nlevels = 1\nneighbours = 2\n[[cases]]\ncase = "stop"\n'
+                   'expect = "proper:2" }]\n[ladder]\nlevels = 1\nsamples_per_level = 2\n[[cases]]\ncase = "stop"\n'
                    'set = { t_end = 2 }\n' % os.path.abspath(solver))
         self.run_spec()
         found = rows(self.exported())

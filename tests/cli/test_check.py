@@ -67,7 +67,7 @@ class Verdicts(CheckTest):
                     for name, value in row.items()}
         record = self.checked(self.history("through.csv", change=through), exit_code=1)
         self.assertEqual(self.assessment(record)["verdict"], "disagrees")
-        self.assertEqual(self.assessment(record)["evidence"][0]["code"], "other-collisions")
+        self.assertEqual(self.assessment(record)["evidence"][0]["code"], "other-impacts")
         self.assertEqual(self.runs(record)[0]["impacts"]["found"], 0)
 
     def test_on_missing_events_disagrees(self):
@@ -77,7 +77,7 @@ class Verdicts(CheckTest):
         self.assertEqual(self.runs(record)[0]["impacts"]["missed"], 1)
         none = self.write("none.csv", lines[0] + "\n")
         record = self.checked(self.history("exact.csv"), "--events", none, exit_code=1)
-        self.assertEqual(self.notes(record)["no-collisions-reported"], ([6], ""))
+        self.assertEqual(self.notes(record)["no-impacts-reported"], ([6], ""))
 
     def test_with_the_exact_events_agree(self):
         events = self.write("hits.csv", self.hits)

@@ -87,7 +87,7 @@ class BadInput(CheckTest):
         self.assertEqual(self.notes(late)["rows-beyond-end"], ([1000, 10], ""))
         self.assertEqual(self.runs(late)[0]["file"]["rows"], 1001)
         before = self.checked(self.history("before.csv", until=1.0), exit_code=3)
-        self.assertIn("no-collisions", self.notes(before))
+        self.assertIn("no-impacts", self.notes(before))
         self.refused("check", self.write("beyond.csv", "t,u1,u2\n30,1,1\n31,1,1\n"),
                      code="too-short", says="t_end")
 

@@ -1,4 +1,4 @@
-"""check: NumPy files as histories and as collisions, and which of them are refused."""
+"""check: NumPy files as histories and as impacts, and which of them are refused."""
 import array
 import os
 import struct
@@ -43,7 +43,7 @@ class CheckNpy(CommandTest):
                       "--out", path, "--quiet")
         hits = {kind: self.path(f"hits.{kind}") for kind in ("npy", "csv")}
         for kind, path in hits.items():
-            self.good("respond", "three-parameter", "--collisions", "--format", kind, "--out", path, "--quiet")
+            self.good("respond", "three-parameter", "--impacts", "--format", kind, "--out", path, "--quiet")
         expected = self.checked(csv_path)
         self.assertEqual(self.checked(npy_path), expected)
         self.assertEqual(self.checked(npy_path, "--events", hits["npy"]),
@@ -53,7 +53,7 @@ class CheckNpy(CommandTest):
         self.assertEqual(self.checked("-", stdin=data), self.checked("-", stdin=self.csv.encode()))
 
     def test_both_rows_of_a_jump_are_read(self):
-        t = rows(self.good("respond", "stop", "--collisions", "--format", "csv"))[0]["t"]
+        t = rows(self.good("respond", "stop", "--impacts", "--format", "csv"))[0]["t"]
         times = "".join(f"{time}\n" for time in (*(0.01 * i for i in range(100)), t))
         for kind in ("npy", "csv"):
             self.good("respond", "stop", "--times", "-", "--format", kind, "--out", self.path(f"h.{kind}"),
@@ -95,7 +95,7 @@ class CheckNpy(CommandTest):
         pickled = f"cos\nsystem\n(S'touch {marker}'\ntR.".encode()
         for data, code, says in (
                 (whole[:-1], "not-an-array", "ends before the last of its 2 rows"),
-                (whole + b"x", "not-an-array", "goes on behind"),
+                (whole + b"x", "not-an-array", "continues after"),
                 (whole[:20], "not-an-array", "ends within its header"),
                 (npy("'|O'", "(1,)", pickled), "not-an-array", "never unpickled"),
                 (npy("'<c16'", "(1,)", b"x" * 16), "not-an-array", "allowed: floating-point"),

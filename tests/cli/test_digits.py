@@ -18,7 +18,7 @@ def significant(text):
 class Digits(CommandTest):
     def test_agree_with_the_doubles_of_every_case(self):
         for case in CASES:
-            for way in (("--samples", "7"), ("--step", "3.3"), ("--collisions",)):
+            for way in (("--samples", "7"), ("--step", "3.3"), ("--impacts",)):
                 plain = self.rows_of("respond", case, *way)
                 long = self.rows_of("respond", case, *way, "--digits", "40")
                 self.assertEqual(len(plain), len(long))
@@ -50,9 +50,9 @@ class Digits(CommandTest):
                 self.assertLessEqual(abs(ours - expected), expected.scaleb(-n) * 5)
                 self.assertEqual(significant(row["u1"]), n)
 
-    def test_of_collision_times_are_those_of_pi(self):
-        # Without damping and with k1 = m1 the third collision is at 5 pi/2.
-        row = self.rows_of("respond", "two-parameter", "--set", "xi1=0", "--collisions",
+    def test_of_impact_times_are_those_of_pi(self):
+        # Without damping and with k1 = m1 the third impact is at 5 pi/2.
+        row = self.rows_of("respond", "two-parameter", "--set", "xi1=0", "--impacts",
                            "--digits", "50")[2]
         self.assertEqual(row["t"], "7.8539816339744830961566084581987572104929234984378")
         self.assertEqual((row["k"], row["u1"]), ("3", "0"))
@@ -71,8 +71,8 @@ class Digits(CommandTest):
             row = self.rows_of("respond", "stop", "--samples", "3", "--digits", str(n))[1]
             self.assertEqual(significant(row["v1"]), n)
 
-    def test_beside_a_collision_both_sides_are_told(self):
-        hit = self.rows_of("respond", "three-parameter", "--collisions")[1]["t"]
+    def test_beside_an_impact_both_sides_are_told(self):
+        hit = self.rows_of("respond", "three-parameter", "--impacts")[1]["t"]
         rows = self.rows_of("respond", "three-parameter", "--times", "-", "--digits", "30",
                             stdin=hit + "\n")
         self.assertEqual([r["side"] for r in rows], ["-", "+"])
@@ -84,8 +84,8 @@ class Digits(CommandTest):
         self.assertEqual(whole["schema"], "clackers/response-digits/1")
         self.assertIn("30 digits", whole["title"])
         self.assertIsInstance(whole["rows"][0][2], str)
-        hits = self.json_of("respond", "stop", "--collisions", "--digits", "30")
-        self.assertEqual(hits["schema"], "clackers/collisions-digits/1")
+        hits = self.json_of("respond", "stop", "--impacts", "--digits", "30")
+        self.assertEqual(hits["schema"], "clackers/impacts-digits/1")
         self.assertEqual(hits["columns"][1]["meaning"], "its time")
         self.assertIsInstance(hits["rows"][0][1], str)
 

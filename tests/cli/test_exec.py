@@ -11,7 +11,7 @@ from command import CommandTest, run, start
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 SOLVERS = os.path.join(ROOT, "examples", "solvers")
 
-# A mass above a stop, for some collisions.
+# A mass above a stop, for some impacts.
 STOP = ("--case", "stop", "--set", "t_end=8")
 # Enough runs to be failed.
 SHORT = (*STOP, "--levels", "2", "--samples-per-level", "1")

@@ -31,7 +31,7 @@ class Help(CommandTest):
                             "--table", "--times"],
                "atlas": ["--jobs", "--specification", "--submit", "--exec", "--expect", "--author",
                          "--merge"],
-               "respond": ["--problem", "--report", "--set", "--samples", "--step", "--times", "--collisions", "--plot",
+               "respond": ["--problem", "--report", "--set", "--samples", "--step", "--times", "--impacts", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--samples-per-level", "--neighbours",
                           "--budget", "--exec", "--name", "--expect", "--tolerances", "--timeout",
@@ -105,10 +105,10 @@ class Syntax(CommandTest):
 
     def test_refuses_an_option_given_twice(self):
         self.refused("list", "--format", "csv", "--format", "json", code="bad-syntax",
-                     says="--format stands more than once")
+                     says="--format is given more than once")
 
     def test_refuses_a_value_for_a_flag(self):
-        self.refused("list", "--quiet=3", code="bad-syntax", says="--quiet stands alone")
+        self.refused("list", "--quiet=3", code="bad-syntax", says="--quiet takes no value")
 
     def test_refuses_surplus_arguments(self):
         for command in ("list", "cases", "stop"), ("explain", "proper", "exact"), (
@@ -117,7 +117,7 @@ class Syntax(CommandTest):
 
     def test_refuses_options_before_the_command(self):
         self.refused("--format", "json", "list", code="bad-syntax",
-                     says="--format stands after the command")
+                     says="--format goes after the command")
 
     def test_a_double_dash_ends_the_options(self):
         self.assertEqual(self.good("list", "--", "cases"), self.good("list", "cases"))

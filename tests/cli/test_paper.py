@@ -38,7 +38,7 @@ class Folder(CommandTest):
         root = xml.etree.ElementTree.fromstring(self.read("figures/fig12.svg"))
         self.assertTrue(root.tag.endswith("svg"))
         texts = "".join(root.itertext())
-        for text in ("(a)  the first mass", "time t [s]", "displacement u [m]", "without collisions"):
+        for text in ("(a)  the first mass", "time t [s]", "displacement u [m]", "without impacts"):
             self.assertIn(text, texts)
         with open(self.path("figures/fig12.pdf"), "rb") as file:
             self.assertEqual(file.read(5), b"%PDF-")
@@ -67,7 +67,7 @@ class Folder(CommandTest):
             for row in table:
                 if row["panel"] == panel:
                     curves.setdefault(row["series"], {})[row["x"]] = float(row["y"])
-            ghost = curves.pop("without collisions")
+            ghost = curves.pop("without impacts")
             points = curves.pop("coincidence")
             (actual,) = curves.values()
             self.assertEqual(len(points), 3)

@@ -1,4 +1,4 @@
-"""respond: columns, times, collisions, the picture, and what it refuses."""
+"""respond: columns, times, impacts, the picture, and what it refuses."""
 import array
 import ast
 import math
@@ -22,10 +22,10 @@ class Columns(CommandTest):
         for case, columns in CASES.items():
             text = self.good("respond", case, "--samples", "5", "--format", "csv")
             self.assertEqual(text.splitlines()[0], columns)
-        head = self.good("respond", "three-parameter", "--collisions", "--format", "csv")
+        head = self.good("respond", "three-parameter", "--impacts", "--format", "csv")
         self.assertEqual(head.splitlines()[0],
                          "k,t,u1,v1-,v1+,v2-,v2+,impulse,energy_before,energy_after")
-        head = self.good("respond", "stop", "--collisions", "--format", "csv")
+        head = self.good("respond", "stop", "--impacts", "--format", "csv")
         self.assertEqual(head.splitlines()[0],
                          "k,t,u1,v1-,v1+,impulse,energy_before,energy_after")
 
@@ -43,7 +43,7 @@ class Columns(CommandTest):
 
     def test_table_fits_80_columns(self):
         for case in CASES:
-            for way in (("--samples", "11"), ("--collisions",)):
+            for way in (("--samples", "11"), ("--impacts",)):
                 for line in self.good("respond", case, *way).splitlines():
                     self.assertLessEqual(len(line), 80, line)
 
@@ -121,7 +121,7 @@ def npy(data):
 
 class Npy(CommandTest):
     WAYS = (("three-parameter", "--samples", "5001"), ("stop", "--step", "0.1"),
-            ("three-parameter", "--collisions"), ("stop", "--energy", "--samples", "11"),
+            ("three-parameter", "--impacts"), ("stop", "--energy", "--samples", "11"),
             ("stop", "--sensitivity", "xi1", "--samples", "11"),
             ("stop", "--spectrum", "--samples", "11", "--highest", "20"))
 
@@ -147,8 +147,8 @@ class Npy(CommandTest):
                     self.assertEqual(next(read), expected, (way, name))
             self.assertEqual(list(read), [])
 
-    def test_keeps_both_rows_at_a_collision(self):
-        t = self.rows_of("respond", "stop", "--collisions")[0]["t"]
+    def test_keeps_both_rows_at_an_impact(self):
+        t = self.rows_of("respond", "stop", "--impacts")[0]["t"]
         run("respond", "stop", "--times", "-", "--format", "npy", "--out", self.path("r.npy"),
             stdin=f"1\n{t}\n2\n")
         with open(self.path("r.npy"), "rb") as file:
@@ -217,33 +217,34 @@ class Long(CommandTest):
         self.assertEqual(text, "")
 
 
-class Collisions(CommandTest):
+class Impacts(CommandTest):
     def test_at_the_nearest_double_give_two_rows_and_at_its_neighbours_one(self):
         for case in ("three-parameter", "stop", "exact-data-pair"):
-            hit = self.rows_of("respond", case, "--collisions")[1]
+            hit = self.rows_of("respond", case, "--impacts")[1]
             t = float(hit["t"])
             times = [math.nextafter(t, 0), t, math.nextafter(t, 30)]
             got = self.rows_of("respond", case, "--times", "-", stdin="\n".join(map(repr, times)))
             self.assertEqual([row["side"] for row in got], ["", "-", "+", ""])
             self.assertEqual([float(row["t"]) for row in got], [times[0], t, t, times[2]])
-            # The collision is at the true instant, the row at the double nearest to it: half an ulp
+            # The impact is at the true instant, the row at the double nearest to it: half an ulp
             # of t apart, where |a| <= E omega = 1 or less; both values are within 2 ulp of E omega.
             for row, side in ((got[1], "v1-"), (got[2], "v1+")):
                 self.assertAlmostEqual(float(row["v1"]), float(hit[side]), delta=(t + 8) * 2**-52)
             self.assertLess(float(got[1]["v1"]) * float(got[2]["v1"]), 0)
 
     def test_are_numbered_from_one_and_in_order(self):
-        got = self.rows_of("respond", "three-parameter", "--collisions")
+        got = self.rows_of("respond", "three-parameter", "--impacts")
         self.assertEqual([int(row["k"]) for row in got], list(range(1, len(got) + 1)))
         self.assertGreater(len(got), 3)
         times = [float(row["t"]) for row in got]
         self.assertEqual(times, sorted(times))
+        self.assertEqual(self.rows_of("respond", "three-parameter", "--collisions"), got)
 
     def test_of_a_mass_without_stop_are_none(self):
-        self.assertEqual(self.rows_of("respond", "sdof", "--collisions"), [])
+        self.assertEqual(self.rows_of("respond", "sdof", "--impacts"), [])
         for case, end in (("sdof", "20"), ("stop", "0.5")):
-            self.assertEqual(self.good("respond", case, "--set", f"t_end={end}", "--collisions"),
-                             f"Collisions of {case}: none until the end of its run, {end} s\n")
+            self.assertEqual(self.good("respond", case, "--set", f"t_end={end}", "--impacts"),
+                             f"Impacts of {case}: none until the end of its run, {end} s\n")
 
 
 class Quantities(CommandTest):
@@ -266,8 +267,8 @@ class Quantities(CommandTest):
         for way, name in zip(self.WAYS, ("energy", "sensitivity", "spectrum")):
             self.assertEqual(self.json_of("respond", "stop", *way)["schema"], f"clackers/{name}/1")
 
-    def test_energy_is_complete_at_every_time_and_jumps_where_the_collision_takes_it(self):
-        hit = self.rows_of("respond", "stop", "--set", "eta=0.5", "--collisions")[0]
+    def test_energy_is_complete_at_every_time_and_jumps_where_the_impact_takes_it(self):
+        hit = self.rows_of("respond", "stop", "--set", "eta=0.5", "--impacts")[0]
         got = self.rows_of("respond", "stop", "--set", "eta=0.5", "--energy", "--times", "-",
                            stdin=f"0\n{hit['t']}\n15\n")
         self.assertEqual([row["side"] for row in got], ["", "-", "+", ""])
@@ -329,7 +330,7 @@ class Quantities(CommandTest):
                 (("--spectrum", "--samples", "3"), "needs --highest"),
                 (("--spectrum", "--step", "1", "--highest", "3"), "frequencies, not times"),
                 (("--samples", "3", "--highest", "3"), "--spectrum; add it"),
-                (("--energy", "--collisions"), "rows of its own"),
+                (("--energy", "--impacts"), "rows of its own"),
                 (("--energy", "--samples", "3", "--digits", "5"), "takes no --digits")):
             self.refused("respond", "stop", *arguments, code="bad-syntax", says=says)
         for highest, code in (("0", "out-of-range"), ("-1", "out-of-range"), ("inf", "not-finite"),
@@ -370,7 +371,7 @@ class Picture(CommandTest):
 class Refusals(CommandTest):
     def test_of_a_request_without_or_with_too_many_ways(self):
         self.refused("respond", code="bad-syntax", says="needs a CASE")
-        self.refused("respond", "stop", code="bad-syntax", says="--collisions")
+        self.refused("respond", "stop", code="bad-syntax", says="--impacts")
         self.refused("respond", "stop", "--samples", "3", "--step", "1", code="bad-syntax",
                      says="only one of")
 

@@ -122,7 +122,7 @@ class Examples(StepFunctions):
         self.assertEqual((subject["name"], subject["assessment"]["verdict"]), ("euler", "agrees"))
         done = run("verify", "--exec", program + COMMAND, "--case", "symmetric-pair")
         self.assertEqual(done.returncode, 4)
-        self.assertIn("It printed: one mass and one contact, please, at t = 0", done.stderr)
+        self.assertIn("It printed: only one mass and one contact, at t = 0", done.stderr)
 
 
 class Good(StepFunctions):

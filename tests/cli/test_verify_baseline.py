@@ -52,7 +52,7 @@ class Baseline(CommandTest):
         self.assertRegex(text, r"rk4: verdict \w+, before disagrees\.")
         self.assertRegex(text, r"rk4: behaviour \w+( \[[a-z-]+\])?, before reduced")
         self.assertRegex(text, r"rk4: error in u at h = [\d.]+ s grew by a factor 4: ")
-        self.assertRegex(text, r"rk4: misses none of 6 collisions at h = [\d.]+ s, before 2\.")
+        self.assertRegex(text, r"rk4: misses none of 6 impacts at h = [\d.]+ s, before 2\.")
         self.assertIn("moreau-jean: is new; the baseline does not have it.", text)
         self.assertIn("newmark: is gone; only the baseline has it.", text)
         for line in done.stdout.splitlines():

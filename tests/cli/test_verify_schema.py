@@ -44,7 +44,7 @@ class Schema(CommandTest):
         jsonschema.Draft202012Validator.check_schema(schema)
         cls.validator = jsonschema.Draft202012Validator(schema)
         # A method that refuses the case, one that does not finish its coarse runs, one that reports
-        # no collisions in full.
+        # no impacts in full.
         done = run("verify", "rk4", "newmark+penalty", "moreau-jean", "--case", "symmetric-pair",
                    "--set", "eta=0.5", "--levels", "2", "--samples-per-level", "2", "--format", "json")
         cls.record = json.loads(done.stdout)
@@ -81,7 +81,7 @@ class Schema(CommandTest):
                        "--format", "json")
             self.validator.validate(json.loads(done.stdout))
 
-    def test_takes_a_run_that_reports_no_collisions(self):
+    def test_takes_a_run_that_reports_no_impacts(self):
         record = self.good_record()
         record["cases"][0]["subjects"][0]["levels"][0]["runs"][0]["impacts"] = None
         self.assertTrue(self.is_valid(record))

@@ -44,7 +44,7 @@ methods = ["newmark", "rk4", "moreau-jean"]
 
 [ladder]
 levels = 3
-neighbours = 1
+samples_per_level = 1
 
 [[cases]]
 case = "three-parameter"

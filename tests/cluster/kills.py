@@ -27,7 +27,7 @@ methods = ["newmark", "rk4", "moreau-jean"]
 
 [ladder]
 levels = 4
-neighbours = 2
+samples_per_level = 2
 
 [[cases]]
 case = "three-parameter"

@@ -23,13 +23,13 @@ class LawOrder : public testing::TestWithParam<methods::CompliantLaw> {
 
   // Two impacts; with so many steps a contact the error is that of the model.
   static double error_of(double stiffness, double eta, double steps_per_contact) {
-    const auto which = cases::make("stop", {{"eta", eta}, {"t_end", 5.0}});
+    const auto test_case = cases::make("stop", {{"eta", eta}, {"t_end", 5.0}});
     const auto method = methods::method(specification(stiffness));
     const double steps = std::round(
-        steps_per_contact * which.problem.end / method->contact_time(which.problem) + 0.37);
-    const double h = which.problem.end / steps;
-    measure::ErrorSink sink(*which.motion, which.problem, h);
-    const auto outcome = method->prepare(which.problem, h)->advance(sink);
+        steps_per_contact * test_case.problem.end / method->contact_time(test_case.problem) + 0.37);
+    const double h = test_case.problem.end / steps;
+    measure::ErrorSink sink(*test_case.motion, test_case.problem, h);
+    const auto outcome = method->prepare(test_case.problem, h)->advance(sink);
     EXPECT_TRUE(outcome.finished) << outcome.detail;
     EXPECT_EQ(sink.score(outcome).impacts->matched, 2);
     return sink.score(outcome).u_error;

@@ -40,25 +40,27 @@ const std::vector<Task>& tasks() {
   return all;
 }
 
-measure::RunScore score_of(const methods::Method& method, const cases::Case& which, double steps) {
-  const double h = which.problem.end / steps;
-  measure::ErrorSink sink(*which.motion, which.problem, h);
-  const auto outcome = method.prepare(which.problem, h)->advance(sink);
+measure::RunScore score_of(const methods::Method& method, const cases::Case& test_case,
+                           double steps) {
+  const double h = test_case.problem.end / steps;
+  measure::ErrorSink sink(*test_case.motion, test_case.problem, h);
+  const auto outcome = method.prepare(test_case.problem, h)->advance(sink);
   EXPECT_TRUE(outcome.finished) << outcome.detail;
   return sink.score(outcome);
 }
 
-double error_of(const methods::Method& method, const cases::Case& which, double steps) {
-  return score_of(method, which, steps).u_error;
+double error_of(const methods::Method& method, const cases::Case& test_case, double steps) {
+  return score_of(method, test_case, steps).u_error;
 }
 
 // Least squares over five levels of ratio 2, without those at the floor of rounding, but three at
-// least; steps that share no factor with the collision times.
-double observed_order(const methods::Method& method, const cases::Case& which, double coarsest) {
+// least; steps that share no factor with the impact times.
+double observed_order(const methods::Method& method, const cases::Case& test_case,
+                      double coarsest) {
   std::vector<double> x, y;
   for (int i = 0; i < 5; ++i) {
-    const double steps = std::round((which.problem.end / coarsest) * std::exp2(i) + 0.37);
-    const double error = error_of(method, which, steps);
+    const double steps = std::round((test_case.problem.end / coarsest) * std::exp2(i) + 0.37);
+    const double error = error_of(method, test_case, steps);
     if (i > 2 && error < 3e-12) break;
     x.push_back(-std::log2(steps));
     y.push_back(std::log2(error));
@@ -72,15 +74,17 @@ struct AdaptiveOrder {
   std::optional<double> in_mean_step;
   double in_tolerance;
 };
-AdaptiveOrder adaptive_order(const methods::Method& method, const cases::Case& which) {
+AdaptiveOrder adaptive_order(const methods::Method& method, const cases::Case& test_case) {
   std::vector<double> steps, tolerances, errors;
   bool has_mean_step = true;
   for (int i = 0; i <= 8; ++i) {
     const double tolerance = std::pow(10.0, -6.0 - 0.5 * i);
-    const double scale = which.problem.end / 1e4;  // of the matcher of impacts, which are not used
-    measure::ErrorSink sink(*which.motion, which.problem, scale);
+    const double scale =
+        test_case.problem.end / 1e4;  // of the matcher of impacts, which are not used
+    measure::ErrorSink sink(*test_case.motion, test_case.problem, scale);
     const auto outcome =
-        method.prepare(which.problem, methods::Resolution::by_tolerance(tolerance))->advance(sink);
+        method.prepare(test_case.problem, methods::Resolution::by_tolerance(tolerance))
+            ->advance(sink);
     EXPECT_TRUE(outcome.finished) << outcome.detail;
     const double error = sink.score(outcome).u_error;
     if (i > 5 && error < 3e-12) break;
@@ -97,22 +101,22 @@ AdaptiveOrder adaptive_order(const methods::Method& method, const cases::Case& w
 }
 
 // The largest error of eight neighbouring steps.
-double envelope(const methods::Method& method, const cases::Case& which, double coarsest) {
+double envelope(const methods::Method& method, const cases::Case& test_case, double coarsest) {
   double worst = 0.0;
   for (int i = 0; i < 8; ++i) {
-    const double steps = std::round(which.problem.end / coarsest * std::exp2(i / 8.0));
-    worst = std::max(worst, error_of(method, which, steps));
+    const double steps = std::round(test_case.problem.end / coarsest * std::exp2(i / 8.0));
+    worst = std::max(worst, error_of(method, test_case, steps));
   }
   return worst;
 }
 
 // Of the error and of the ratio of energies at the end, over neighbouring steps.
-std::pair<double, double> medians(const methods::Method& method, const cases::Case& which,
+std::pair<double, double> medians(const methods::Method& method, const cases::Case& test_case,
                                   double coarsest) {
   std::vector<double> errors, energies;
   for (int i = 0; i < 9; ++i) {
-    const double steps = std::round(which.problem.end / coarsest * std::exp2(i / 9.0));
-    const auto score = score_of(method, which, steps);
+    const double steps = std::round(test_case.problem.end / coarsest * std::exp2(i / 9.0));
+    const auto score = score_of(method, test_case, steps);
     errors.push_back(score.u_error);
     energies.push_back(score.energy_ratio);
   }
@@ -128,20 +132,21 @@ class ImpactOrder : public testing::TestWithParam<std::string> {
   void for_each_case(const Measure& measure) const {
     int measured = 0;
     for (const auto& task : tasks()) {
-      const auto which = cases::make(task.name, task.settings);
+      const auto test_case = cases::make(task.name, task.settings);
       const double coarsest = task.coarsest(facts.smooth_order);
-      if (chosen->objection(which.problem) || coarsest == 0.0) continue;
+      if (chosen->objection(test_case.problem) || coarsest == 0.0) continue;
       SCOPED_TRACE(task.name);
-      measure(which, coarsest);
+      measure(test_case, coarsest);
       ++measured;
     }
     EXPECT_GE(measured, 1) << "no case measures the claim of " << facts.name;
   }
 
-  void expect_floor_by_tolerance(const cases::Case& which) const {
+  void expect_floor_by_tolerance(const cases::Case& test_case) const {
     const auto error = [&](double tolerance) {
-      measure::ErrorSink sink(*which.motion, which.problem, which.problem.end / 1e4);
-      const auto run = chosen->prepare(which.problem, methods::Resolution::by_tolerance(tolerance));
+      measure::ErrorSink sink(*test_case.motion, test_case.problem, test_case.problem.end / 1e4);
+      const auto run =
+          chosen->prepare(test_case.problem, methods::Resolution::by_tolerance(tolerance));
       const auto outcome = run->advance(sink);
       EXPECT_TRUE(outcome.finished) << outcome.detail;
       return sink.score(outcome).u_error;
@@ -159,55 +164,57 @@ TEST_P(ImpactOrder, IsTheClaimedOne) {
   const auto& claim = facts.through_impacts;
   switch (claim.behaviour) {
     case Behaviour::proper:
-      return for_each_case([&](const cases::Case& which, double coarsest) {
-        if (methods::claim_on(facts, which.problem, true).behaviour == Behaviour::exact) {
+      return for_each_case([&](const cases::Case& test_case, double coarsest) {
+        if (methods::claim_on(facts, test_case.problem, true).behaviour == Behaviour::exact) {
           for (const double h : {0.4, 0.05})
-            EXPECT_LT(error_of(*chosen, which, std::round(which.problem.end / h)), 1e-11) << h;
+            EXPECT_LT(error_of(*chosen, test_case, std::round(test_case.problem.end / h)), 1e-11)
+                << h;
           return;
         }
         if (facts.is_adaptive) {
-          const auto found = adaptive_order(*chosen, which);
+          const auto found = adaptive_order(*chosen, test_case);
           if (found.in_mean_step) {
             EXPECT_NEAR(*found.in_mean_step, claim.order, 0.1 * claim.order);
           }
           EXPECT_NEAR(found.in_tolerance, 1.0, 0.15);
           return;
         }
-        EXPECT_NEAR(observed_order(*chosen, which, coarsest), claim.order, 0.1 * claim.order);
+        EXPECT_NEAR(observed_order(*chosen, test_case, coarsest), claim.order, 0.1 * claim.order);
       });
     case Behaviour::exact:
       // From about the coarsest step of a study of the fastest of these motions.
       for (const auto& task : tasks()) {
         SCOPED_TRACE(task.name);
-        const auto which = cases::make(task.name, task.settings);
+        const auto test_case = cases::make(task.name, task.settings);
         for (const double steps : {411.0, 2011.0, 20011.0}) {
-          const auto score = score_of(*chosen, which, steps);
+          const auto score = score_of(*chosen, test_case, steps);
           EXPECT_LT(score.u_error, score.rounding_floor) << steps;
         }
       }
       return;
     case Behaviour::irregular: {
-      const auto which = cases::make("stop");
-      const double fall = envelope(*chosen, which, 0.02) / envelope(*chosen, which, 0.00125);
+      const auto test_case = cases::make("stop");
+      const double fall =
+          envelope(*chosen, test_case, 0.02) / envelope(*chosen, test_case, 0.00125);
       EXPECT_NEAR(std::log2(fall) / 4.0, claim.order, 0.2);
       return;
     }
     case Behaviour::stagnating:
-      return for_each_case([&](const cases::Case& which, double) {
-        if (facts.is_adaptive) return expect_floor_by_tolerance(which);
+      return for_each_case([&](const cases::Case& test_case, double) {
+        if (facts.is_adaptive) return expect_floor_by_tolerance(test_case);
         // At 25 steps a contact or more the error no longer falls, and it is not rounding. The error
         // of first order falls below it later.
-        const double steps = (facts.smooth_order > 1.5 ? 25.0 : 400.0) * which.problem.end /
-                             chosen->contact_time(which.problem);
-        const double coarse = error_of(*chosen, which, std::round(steps)),
-                     fine = error_of(*chosen, which, std::round(4.0 * steps));
+        const double steps = (facts.smooth_order > 1.5 ? 25.0 : 400.0) * test_case.problem.end /
+                             chosen->contact_time(test_case.problem);
+        const double coarse = error_of(*chosen, test_case, std::round(steps)),
+                     fine = error_of(*chosen, test_case, std::round(4.0 * steps));
         EXPECT_GT(fine, 1e-4);
         EXPECT_NEAR(fine / coarse, 1.0, 0.5);
       });
     case Behaviour::divergent:
-      return for_each_case([&](const cases::Case& which, double coarsest) {
+      return for_each_case([&](const cases::Case& test_case, double coarsest) {
         for (const double h : {coarsest, coarsest / 8.0}) {
-          const auto [error, energy] = medians(*chosen, which, h);
+          const auto [error, energy] = medians(*chosen, test_case, h);
           EXPECT_GT(error, 0.5);
           EXPECT_GT(energy, 2.0);
         }
@@ -223,19 +230,19 @@ TEST_P(ImpactOrder, IsTheClaimedOne) {
 TEST_P(ImpactOrder, IsTheClaimedOneWhereImpactsAreSimultaneous) {
   if (facts.through_impacts.behaviour != Behaviour::proper || facts.is_exact_without_load)
     GTEST_SKIP() << "claims no order";
-  const auto which = cases::make("row");
-  if (chosen->objection(which.problem)) GTEST_SKIP() << "does not take it";
+  const auto test_case = cases::make("row");
+  if (chosen->objection(test_case.problem)) GTEST_SKIP() << "does not take it";
   if (facts.is_adaptive) {
-    EXPECT_NEAR(adaptive_order(*chosen, which).in_tolerance, 1.0, 0.15);
+    EXPECT_NEAR(adaptive_order(*chosen, test_case).in_tolerance, 1.0, 0.15);
     return;
   }
   const double order = facts.through_impacts.order;
   const double coarsest = order > 2.5 ? 0.04 : order > 1.5 ? 0.02 : 0.002;
-  EXPECT_NEAR(observed_order(*chosen, which, coarsest), order, 0.1 * order);
+  EXPECT_NEAR(observed_order(*chosen, test_case, coarsest), order, 0.1 * order);
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& which) {
-  std::string name = which.param;
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
   std::ranges::replace_if(
       name, [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;

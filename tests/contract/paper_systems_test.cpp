@@ -37,7 +37,7 @@ TEST_P(PaperSystems, Rk4WithLocatedImpactsIsProperAtFour) {
   EXPECT_NEAR(assessment.displacement.order, 4.0, 0.4) << assessment.displacement.reason;
   EXPECT_EQ(assessment.verdict, Verdict::agrees) << assessment.displacement.reason;
   EXPECT_EQ(exit_code(record), 0);
-  // T = pi / sqrt(1 - xi1^2): the last collision before 20 s is number floor(20/T + 1/2).
+  // T = pi / sqrt(1 - xi1^2): the last impact before 20 s is number floor(20/T + 1/2).
   const auto expected =
       std::llround(std::floor(20.0 * std::sqrt(1.0 - xi1 * xi1) / std::numbers::pi + 0.5));
   EXPECT_EQ(record.cases.at(0).problem.impact_count, expected);

@@ -1,4 +1,4 @@
-// Collision times and states of piecewise-exact beside those of the closed forms.
+// Impact times and states of piecewise-exact beside those of the closed forms.
 
 #include <gtest/gtest.h>
 
@@ -19,29 +19,30 @@ struct ExactTask {
 class PiecewiseExactBeside : public testing::TestWithParam<ExactTask> {};
 
 TEST_P(PiecewiseExactBeside, TheClosedFormCollidesAtTheSameTimes) {
-  const auto which = cases::make(GetParam().name, GetParam().settings);
+  const auto test_case = cases::make(GetParam().name, GetParam().settings);
   model::TrajectorySink sink(true);
-  const double h = which.problem.end / 97.0;
-  const auto outcome = methods::method("piecewise-exact")->prepare(which.problem, h)->advance(sink);
+  const double h = test_case.problem.end / 97.0;
+  const auto outcome =
+      methods::method("piecewise-exact")->prepare(test_case.problem, h)->advance(sink);
   ASSERT_TRUE(outcome.finished) << outcome.detail;
   const auto& path = sink.trajectory();
   const auto& impacts = *path.impacts;
-  const auto count = which.motion->impact_count(which.problem.end);
+  const auto count = test_case.motion->impact_count(test_case.problem.end);
   ASSERT_EQ(std::ssize(impacts), count);
   ASSERT_GE(count, 1);
   for (long long k = 1; k <= count; ++k) {
-    const double t = which.motion->impact(k).t;
-    EXPECT_NEAR(impacts[std::size_t(k - 1)].t, t, 1e-13 * t) << "collision " << k;
+    const double t = test_case.motion->impact(k).t;
+    EXPECT_NEAR(impacts[std::size_t(k - 1)].t, t, 1e-13 * t) << "impact " << k;
   }
-  const auto scale = which.motion->envelope(0.0);
+  const auto scale = test_case.motion->envelope(0.0);
   // The fastest phase is rounded once or twice, and so is its frequency.
-  const auto& system = which.problem.system;
+  const auto& system = test_case.problem.system;
   const double fastest =
       std::sqrt((system.stiffness.diagonal().array() / system.mass.diagonal().array()).maxCoeff());
-  const double allowed = 1e-14 + 4.0 * 0x1p-52 * fastest * which.problem.end;
+  const double allowed = 1e-14 + 4.0 * 0x1p-52 * fastest * test_case.problem.end;
   for (std::size_t i = 0; i < path.t.size(); ++i) {
     const auto known =
-        which.motion->at(std::min(path.t[i], which.motion->end()), model::Side::right);
+        test_case.motion->at(std::min(path.t[i], test_case.motion->end()), model::Side::right);
     for (int j = 0; j < path.dof; ++j) {
       const auto row = i * std::size_t(path.dof) + std::size_t(j);
       EXPECT_NEAR(path.u[row], known.u[j], allowed * scale.u[j]) << path.t[i];
@@ -59,8 +60,8 @@ INSTANTIATE_TEST_SUITE_P(
                     ExactTask{"synchronized-pair", {{"X", 81.0}, {"r", 4.5}, {"eta", 0.97}}},
                     ExactTask{"synchronized-pair", {{"X", 3.0}, {"r", 0.5}, {"eta", 0.0}}},
                     ExactTask{"stop", {{"eta", 0.7}}}, ExactTask{"symmetric-pair", {{"eta", 0.9}}}),
-    [](const auto& which) {
-      std::string name = which.param.name + std::to_string(which.index);
+    [](const auto& parameter) {
+      std::string name = parameter.param.name + std::to_string(parameter.index);
       std::replace(name.begin(), name.end(), '-', '_');
       return name;
     });

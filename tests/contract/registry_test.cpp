@@ -169,12 +169,14 @@ TEST_P(EveryMethod, DoesNotDependOnTheNumbersOfTheContacts) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, testing::ValuesIn(pairs()), [](const auto& which) {
-  std::string name = which.param;
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, testing::ValuesIn(pairs()),
+                         [](const auto& parameter) {
+                           std::string name = parameter.param;
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](unsigned char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
 
 TEST(Registry, RefusesThePairsItLeavesOutWithAReason) {
   const auto all = pairs();

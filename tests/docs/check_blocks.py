@@ -34,7 +34,7 @@ ELSEWHERE = {
     r"scripts/docs.*": "docs.manual",
     r"scripts/bench.*": "by hand: benchmarks/README.md",
     r"cmake --preset dev && .*": "scripts/test",
-    r"cc examples/c/collisions.c .*": "package.test_c",
+    r"cc examples/c/impacts.c .*": "package.test_c",
     r"scripts/package && apt install .*": "package.test_debian",
     r"python3 -m venv --system-site-packages venv && .*": "package.test_wheel",
     r"clackers paper .*": "cli.test_paper",

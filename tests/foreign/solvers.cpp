@@ -77,7 +77,7 @@ void write(const std::string& path, const std::vector<State>& rows, const System
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// Collisions as the solver reports them.
+/// Impacts as the solver reports them.
 void write_events(const std::string& path, const History& history) {
   std::ofstream out(path);
   out.precision(17);

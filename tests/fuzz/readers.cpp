@@ -78,7 +78,7 @@ void read_events(std::string_view bytes) {
   const auto events = input::read_events(file.path(), 2);
   double last = -INFINITY;
   for (const auto& event : events) {
-    require(std::isfinite(event.t) && event.t >= last, "times of collisions ascend");
+    require(std::isfinite(event.t) && event.t >= last, "times of impacts ascend");
     require(event.u.empty() || event.u.size() == 2, "u is empty or has a value a mass");
     require(event.v_before.empty() || event.v_before.size() == 2, "v- is empty or whole");
     require(event.v_after.empty() || event.v_after.size() == 2, "v+ is empty or whole");

@@ -45,8 +45,8 @@ class CLibrary(unittest.TestCase):
 
     def test_example_is_built_with_pkg_config(self):
         environment = tree.environment()
-        program = tree.folder / "collisions"
-        installed.run(installed.CC, *STRICT, installed.ROOT / "examples/c/collisions.c", *flags("--cflags --libs"), "-o", program)
+        program = tree.folder / "impacts"
+        installed.run(installed.CC, *STRICT, installed.ROOT / "examples/c/impacts.c", *flags("--cflags --libs"), "-o", program)
         self.check(installed.run(program, env=environment))
 
     def test_example_is_built_with_cmake(self):
@@ -55,11 +55,11 @@ class CLibrary(unittest.TestCase):
         (source / "CMakeLists.txt").write_text(
             "cmake_minimum_required(VERSION 3.25)\nproject(it LANGUAGES C)\n"
             "find_package(clackers 0.1 REQUIRED COMPONENTS c)\n"
-            f"add_executable(collisions {installed.ROOT}/examples/c/collisions.c)\n"
-            "target_link_libraries(collisions PRIVATE clackers::c)\n")
+            f"add_executable(impacts {installed.ROOT}/examples/c/impacts.c)\n"
+            "target_link_libraries(impacts PRIVATE clackers::c)\n")
         build = tree.configure(source, "with_cmake_build")
         installed.run(installed.CMAKE, "--build", build)
-        self.check(installed.run(build / "collisions"))
+        self.check(installed.run(build / "impacts"))
 
     def test_pkg_config_has_the_version_of_the_command(self):
         version = installed.run("pkg-config", "--modversion", "clackers", env=tree.environment()).strip()

@@ -136,14 +136,14 @@ class InstalledUsedAndRemoved(unittest.TestCase):
     def use(self, root):
         version = installed.run(root / "usr/bin/clackers", "--version")
         self.assertIn(field("clackers", "Version").split("-")[0], version)
-        rows = installed.run(root / "usr/bin/clackers", "respond", "three-parameter", "--collisions", "--format", "csv")
+        rows = installed.run(root / "usr/bin/clackers", "respond", "three-parameter", "--impacts", "--format", "csv")
         self.assertEqual(len(re.findall(r"^\d", rows, re.MULTILINE)), 6)
 
         lib = next(root.glob("usr/lib/**/libclackers.so")).parent
         environment = {**os.environ, "PKG_CONFIG_PATH": str(lib / "pkgconfig"), "LD_LIBRARY_PATH": str(lib)}
         flags = installed.run("pkg-config", "--cflags", "--libs", "clackers", env=environment).split()
-        installed.run(installed.CC, installed.ROOT / "examples/c/collisions.c", *flags, "-o", folder / "collisions")
-        self.assertEqual(len(installed.run(folder / "collisions", env=environment).splitlines()), 7)
+        installed.run(installed.CC, installed.ROOT / "examples/c/impacts.c", *flags, "-o", folder / "impacts")
+        self.assertEqual(len(installed.run(folder / "impacts", env=environment).splitlines()), 7)
         if has_python():
             self.use_python(root / "usr/lib/python3/dist-packages")
 

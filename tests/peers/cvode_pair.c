@@ -3,7 +3,7 @@
 
      cvode_pair m1 m2 k1 k2 c1 c2 eta u10 u20 v10 v20 end rtol step digits HISTORY EVENTS
 
-   HISTORY has a row every `step` and both limits of each collision; EVENTS the collisions. */
+   HISTORY has a row every `step` and both limits of each impact; EVENTS the impacts. */
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <stdio.h>

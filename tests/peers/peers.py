@@ -34,8 +34,8 @@ class PeerTest(CommandTest):
                          run("check", *arguments).stdout)
         return json.loads(done.stdout)["cases"][0]["subjects"][0]
 
-    def assert_six_collisions(self, run, time_error):
-        """A run has all six collisions and no other, each within `time_error` [s]."""
+    def assert_six_impacts(self, run, time_error):
+        """A run has all six impacts and no other, each within `time_error` [s]."""
         impacts = run["impacts"]
         self.assertEqual((impacts["expected"], impacts["matched"], impacts["missed"],
                           impacts["extra"]), (6, 6, 0, 0), run["file"]["notes"])

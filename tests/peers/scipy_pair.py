@@ -1,9 +1,9 @@
-"""Two colliding masses by SciPy's solve_ivp, collisions as its terminal events.
+"""Two colliding masses by SciPy's solve_ivp, impacts as its terminal events.
 
     scipy_pair.py CONSTANTS.json METHOD STEP HISTORY EVENTS
 
 STEP is the length of every step of a Runge-Kutta method, or "rtol=1e-9" for its own choice. HISTORY
-has a row a step and both limits of each collision; EVENTS the times of the collisions.
+has a row a step and both limits of each impact; EVENTS the times of the impacts.
 """
 import json
 import sys

@@ -20,19 +20,19 @@ class Calculix(PeerTest):
                           self.pair["t_end"] if end is None else end, path)
         return path
 
-    def test_stiff_contact_has_all_collisions_late_by_the_contacts(self):
+    def test_stiff_contact_has_all_impacts_late_by_the_contacts(self):
         subject = self.checked(self.history(1e4, 0.004), *CASE)
         run = runs(subject)[0]
         self.assertEqual(subject["assessment"]["verdict"], "not claimed")
         # Each contact lasts 0.0157 s and delays what follows by as much: 0.079 s at the sixth.
-        self.assert_six_collisions(run, 0.11)
+        self.assert_six_impacts(run, 0.11)
         self.assertGreater(run["impacts"]["worst_time_error"], 0.07)
         self.assertEqual(run["file"]["collision_source"], "history")
         self.assertEqual({c["digits"] for c in run["file"]["columns"] if c["name"] != "t"}, {7})
 
     def test_error_of_soft_contact_stagnates(self):
         # Contacts of pi sqrt(0.25 / 900) = 0.0524 s, 26 of the finest steps.
-        # The first two collisions: a run of 6 s.
+        # The first two impacts: a run of 6 s.
         case = ("--set", "xi1=0,a_t=0.3")
         files = [self.history(900.0, 0.016 / 2**n, end=6.0) for n in range(4)]
         subject = self.checked(*files, *case, "--expect", "stagnating")

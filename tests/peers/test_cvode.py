@@ -33,7 +33,7 @@ class Cvode(PeerTest):
         for arguments in ((history,), (history, "--events", events)):
             subject = self.checked(*arguments, "--tolerance", "1e-6")
             self.assertEqual(subject["assessment"]["verdict"], "agrees")
-            self.assert_six_collisions(runs(subject)[0], 1e-6)
+            self.assert_six_impacts(runs(subject)[0], 1e-6)
         self.assertEqual(self.checked(history)["assessment"]["verdict"], "not claimed")
 
     def test_loose_tolerance_disagrees(self):
@@ -60,9 +60,9 @@ class Cvode(PeerTest):
     def test_other_restitution_agrees_with_the_case_that_has_it(self):
         history, events = self.histories("soft", 1e-10, eta=0.5)
         arguments = (history, "--events", events, "--tolerance", "1e-6")
-        # The collisions come at the same times, whatever the restitution.
+        # The impacts come at the same times, whatever the restitution.
         subject = self.checked(*arguments, exit_code=1)
-        self.assert_six_collisions(runs(subject)[0], 1e-6)
+        self.assert_six_impacts(runs(subject)[0], 1e-6)
         self.checked(*arguments, "--case", "synchronized-pair", "--set", "eta=0.5")
 
     def test_history_that_ends_early_is_undecided_unless_the_case_ends_there(self):

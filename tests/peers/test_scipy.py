@@ -35,7 +35,7 @@ class SolveIvp(PeerTest):
     def test_tight_tolerance_agrees(self):
         history, events = self.histories("tight", "DOP853", "rtol=1e-12")
         subject = self.checked(history, "--events", events, "--tolerance", "1e-9")
-        self.assert_six_collisions(runs(subject)[0], 1e-9)
+        self.assert_six_impacts(runs(subject)[0], 1e-9)
 
     def test_large_steps_are_noted_as_few_rows(self):
         # Its own steps, a few a period.

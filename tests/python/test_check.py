@@ -56,7 +56,7 @@ class Arrays(unittest.TestCase):
         expected = forms["arrays"].table()
         for form, record in forms.items():
             with self.subTest(form):
-                for column in ("u_error", "v_error", "collisions_matched"):
+                for column in ("u_error", "v_error", "impacts_matched"):
                     np.testing.assert_array_equal(record.table()[column], expected[column])
 
     def test_arrays_are_not_written_to(self):
@@ -81,14 +81,23 @@ class Arrays(unittest.TestCase):
     def test_flights_of_solve_ivp(self):
         record = clackers.check([scipy_flights(PROBLEM, 1e-9)], case=CASE, tolerance=1e-6)
         self.assertEqual(record.verdict, "agrees")
-        self.assertEqual(record.table()["collisions_matched"][0], 6)
+        self.assertEqual(record.table()["impacts_matched"][0], 6)
 
-    def test_collisions_as_times_and_as_impacts(self):
+    def test_impacts_as_times_and_as_arrays(self):
         t, u, v, _ = exact()
-        for collisions in (CASE.impacts().t, CASE.impacts(), {"t": CASE.impacts().t}):
-            record = clackers.check(t, u, v, case=CASE, collisions=collisions)
-            self.assertEqual(record.table()["collisions_matched"][0], 6)
+        for impacts in (CASE.impacts().t, CASE.impacts(), {"t": CASE.impacts().t}):
+            record = clackers.check(t, u, v, case=CASE, impacts=impacts)
+            self.assertEqual(record.table()["impacts_matched"][0], 6)
+            self.assertLess(record.table()["impact_time_error"][0], 1e-14)
+
+    def test_impacts_have_a_former_name(self):
+        t, u, v, _ = exact()
+        times = CASE.impacts().t
+        for record in (clackers.check(t, u, v, case=CASE, collisions=times),
+                       clackers.check({"t": t, "u": u, "v": v, "collisions": times}, case=CASE)):
             self.assertLess(record.table()["collision_time_error"][0], 1e-14)
+            self.assertEqual(record.table()["collisions_matched"][0], 6)
+        self.assertEqual(CASE.collisions()["t"].tolist(), CASE.impact_table()["t"].tolist())
 
     def test_several_are_levels_of_one_method(self):
         steps = [0.02 * 2 ** (-k / 4) for k in range(20)]
@@ -142,10 +151,10 @@ class Files(unittest.TestCase):
     def test_events_of_a_file(self):
         events = self.folder / "hits.csv"
         np.savetxt(events, CASE.impacts().t, header="t", comments="")
-        record = clackers.check(self.written("run.csv"), collisions=events, case=CASE)
-        self.assertEqual(record.table()["collisions_matched"][0], 6)
-        record = clackers.check(self.written("run.csv"), collisions=CASE.impacts().t, case=CASE)
-        self.assertEqual(record.table()["collisions_matched"][0], 6)
+        record = clackers.check(self.written("run.csv"), impacts=events, case=CASE)
+        self.assertEqual(record.table()["impacts_matched"][0], 6)
+        record = clackers.check(self.written("run.csv"), impacts=CASE.impacts().t, case=CASE)
+        self.assertEqual(record.table()["impacts_matched"][0], 6)
 
     def test_a_missing_file(self):
         with self.assertRaises(clackers.FileError):
@@ -193,8 +202,8 @@ class Refusals(unittest.TestCase):
         "two of one step": (lambda: dict(t=[exact()[:2], exact()[:2]]), "out-of-range", "different steps"),
         "keys that are text": (lambda: dict(t={"a": exact()[:2]}), "not-a-number", "key"),
         "keys beside steps": (lambda: dict(t={0.1: exact()[:2]}, step=0.1), "bad-syntax", "step"),
-        "collisions that are text": (lambda: dict(t=exact()[0], u=exact()[1], collisions=["a"]), "not-a-number", "collisions"),
-        "collisions backwards": (lambda: dict(t=exact()[0], u=exact()[1], collisions=[2.0, 1.0]), "not-sorted", ""),
+        "impacts that are text": (lambda: dict(t=exact()[0], u=exact()[1], impacts=["a"]), "not-a-number", "impacts"),
+        "impacts backwards": (lambda: dict(t=exact()[0], u=exact()[1], impacts=[2.0, 1.0]), "not-sorted", ""),
         "an unknown parameter": (lambda: dict(t=exact()[0], u=exact()[1], case="stop", z=1), "unknown-name", "z"),
     }
 

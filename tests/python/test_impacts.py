@@ -10,7 +10,7 @@ from command import rows_of_command
 
 class Impacts(unittest.TestCase):
     def test_values_are_the_bits_that_the_command_prints(self):
-        rows = rows_of_command("respond", "synchronized-pair", "--set", "eta=0.5", "--collisions")
+        rows = rows_of_command("respond", "synchronized-pair", "--set", "eta=0.5", "--impacts")
         impacts = clackers.case("synchronized-pair", eta=0.5).impacts()
         self.assertEqual(len(impacts), len(rows))
         columns = {"k": impacts.index, "t": impacts.t, "u1": impacts.u[:, 0], "impulse": impacts.impulse,

@@ -55,7 +55,7 @@ class Plots(unittest.TestCase):
 
 
 class OfACase(Plots):
-    def test_response_has_the_exact_displacements_also_at_the_collisions(self):
+    def test_response_has_the_exact_displacements_also_at_the_impacts(self):
         axes = clackers.plot.response(CASE)
         shown = lines(axes)
         t = shown["$u_1$"].get_xdata()
@@ -65,14 +65,14 @@ class OfACase(Plots):
             np.testing.assert_array_equal(shown[name].get_ydata(), CASE.response(t).u[:, mass])
         self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("time $t$ [s]", "displacement [m]"))
 
-    def test_response_marks_every_collision_among_its_times(self):
+    def test_response_marks_every_impact_among_its_times(self):
         for t, expected in ((None, CASE.impacts().t), ([1.0, 5.0], CASE.impacts().t[:2]),
                             ([8.0, 5.0], CASE.impacts().t[2:3])):
             (marks,) = clackers.plot.response(CASE, t).collections
             self.assertEqual([path[0, 0] for path in marks.get_segments()], list(expected))
         self.assertEqual(len(clackers.plot.response(CASE, [0.0, 1.0]).collections), 0)
 
-    def test_many_collisions_are_short_ticks(self):
+    def test_many_impacts_are_short_ticks(self):
         def height(case):
             return clackers.plot.response(case).collections[0].get_segments()[0][1, 1]
 
@@ -81,12 +81,12 @@ class OfACase(Plots):
         self.assertGreater(many.impact_count(), 60)
         self.assertLess(height(many), 0.1)
 
-    def test_a_case_of_one_mass_without_collisions(self):
+    def test_a_case_of_one_mass_without_impacts(self):
         axes = clackers.plot.response(clackers.case("sdof"))
         self.assertEqual(list(lines(axes)), ["$u$"])
         self.assertEqual(len(axes.collections), 0)
 
-    def test_energies_have_both_sides_of_a_collision(self):
+    def test_energies_have_both_sides_of_an_impact(self):
         case = clackers.case("stop", eta=0.5)
         axes = clackers.plot.energies(case)
         shown = lines(axes)
@@ -97,7 +97,7 @@ class OfACase(Plots):
         self.assertGreater(after, 0.1)
         table = case.energies(np.unique(t))
         for name, line in shown.items():
-            if name != "collisions":
+            if name != "impacts":
                 np.testing.assert_array_equal(line.get_ydata(), table[name])
         self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("time $t$ [s]", "energy [J]"))
 

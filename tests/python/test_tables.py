@@ -34,12 +34,12 @@ class Quantities(unittest.TestCase):
     def test_spectrum_is_that_of_the_command(self):
         self.check(clackers.case("stop").spectrum(201, 20.0), "respond", "stop", "--spectrum", "--samples", "201", "--highest", "20")
 
-    def test_collisions_are_those_of_the_command(self):
-        table = clackers.case("synchronized-pair", eta=0.5).collisions()
-        self.check(table, "respond", "synchronized-pair", "--set", "eta=0.5", "--collisions")
+    def test_impacts_are_those_of_the_command(self):
+        table = clackers.case("synchronized-pair", eta=0.5).impact_table()
+        self.check(table, "respond", "synchronized-pair", "--set", "eta=0.5", "--impacts")
         self.assertEqual(table["k"].dtype, np.int64)
 
-    def test_two_rows_stand_at_a_collision(self):
+    def test_two_rows_stand_at_an_impact(self):
         case = clackers.case("synchronized-pair", eta=0.5)
         t = case.impacts().t[0]
         table = case.energies([t, 0.0])
@@ -82,7 +82,7 @@ class Catalogue(unittest.TestCase):
     def test_tables_of_a_case_are_those_of_the_command(self):
         case = clackers.case("synchronized-pair", threshold=0.25, eta=0.5)
         tables = case.tables()
-        self.assertEqual(list(tables), ["parameters", "constants", "indicators", "collisions", "harmonics", "conditioning"])
+        self.assertEqual(list(tables), ["parameters", "constants", "indicators", "impacts", "harmonics", "conditioning"])
         self.assertEqual(dict(zip(tables["parameters"]["parameter"], tables["parameters"]["value"])), case.parameters)
         self.assertEqual(dict(zip(tables["constants"]["name"], tables["constants"]["value"])), case.constants)
         self.assertEqual(dict(zip(tables["indicators"]["name"], tables["indicators"]["value"])), case.indicators)

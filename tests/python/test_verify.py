@@ -77,7 +77,7 @@ class Callables(unittest.TestCase):
         record = clackers.verify(scipy_flights, tolerances="1e-4:1e-9", expect="proper:1")
         self.assertEqual(record.behaviour, "proper")
         self.assertEqual(record.verdict, "agrees")
-        self.assertEqual(record["scipy_flights"].runs["collisions_matched"].tolist(), [6] * 6)
+        self.assertEqual(record["scipy_flights"].runs["impacts_matched"].tolist(), [6] * 6)
 
     def test_every_form_of_a_result_gives_the_same_errors(self):
         t, u, v = None, None, None
@@ -131,22 +131,22 @@ class Callables(unittest.TestCase):
         record = clackers.verify(solver, **FAST)
         self.assertTrue(all(finished == "yes" for finished in record.table()["finished"]))
 
-    def test_collisions_are_taken_as_reported(self):
+    def test_impacts_are_taken_as_reported(self):
         def solver(problem, h):
             t, u, v = event_driven(problem, h)
             times = t[1:][np.diff(t) == 0]
-            return {"t": t, "u": u, "v": v, "collisions": times}
+            return {"t": t, "u": u, "v": v, "impacts": times}
 
         record = clackers.verify(solver, steps=[0.1, 0.07])
-        self.assertEqual(record.table()["collisions_matched"].tolist(), [6, 6])
+        self.assertEqual(record.table()["impacts_matched"].tolist(), [6, 6])
 
-    def test_no_collisions_reported_are_missed_ones(self):
+    def test_no_impacts_reported_are_missed_ones(self):
         def solver(problem, h):
             t, u, v = event_driven(problem, h)
-            return {"t": t, "u": u, "v": v, "collisions": []}
+            return {"t": t, "u": u, "v": v, "impacts": []}
 
         record = clackers.verify(solver, steps=[0.1, 0.07])
-        self.assertEqual(record.table()["collisions_found"].tolist(), [0, 0])
+        self.assertEqual(record.table()["impacts_found"].tolist(), [0, 0])
 
     def test_methods_stand_beside_callables(self):
         record = clackers.verify("rk4", leapfrog, **FAST)
@@ -272,8 +272,8 @@ class Failures(unittest.TestCase):
         "a mapping without u": (with_arrays(lambda t, u, v: {"t": t}), "callable-output", "dict"),
         "an attribute that raises": (returns(type("R", (), {"t": property(lambda self: 1 / 0)})()), "callable-output",
                                      "ZeroDivisionError"),
-        "bad collisions": (with_arrays(lambda t, u, v: dict(t=t, u=u, collisions="none")), "callable-output",
-                           "collisions"),
+        "bad impacts": (with_arrays(lambda t, u, v: dict(t=t, u=u, impacts="none")), "callable-output",
+                           "impacts"),
         "too few states": (with_arrays(lambda t, u, v: (t[:1], u[:1])), "too-short", "two"),
         "times backwards": (with_arrays(lambda t, u, v: (t[::-1], u)), "not-sorted", "row"),
         "NaN in the middle": (with_arrays(nan_in_the_middle), "not-finite", "u1"),
@@ -345,7 +345,7 @@ class Refusals(unittest.TestCase):
         "a subject of another type": ((3,), {}, "out-of-range", "callable"),
         "two of one name": ((leapfrog, leapfrog), {}, "bad-syntax", "name"),
         "steps and tolerances": ((leapfrog,), {"steps": [1], "tolerances": [1]}, "bad-syntax", "one of them"),
-        "steps of methods": (("rk4", leapfrog), {"steps": [0.1]}, "bad-syntax", "callables alone"),
+        "steps of methods": (("rk4", leapfrog), {"steps": [0.1]}, "bad-syntax", "only for callables"),
         "steps without a callable": (("rk4",), {"steps": [0.1]}, "bad-syntax", "steps"),
         "a step twice": ((leapfrog,), {"steps": [0.1, 0.1]}, "not-sorted", "steps"),
         "a step of 0": ((leapfrog,), {"steps": [0.0]}, "step-not-positive", "0"),

@@ -33,7 +33,7 @@ def main() -> None:
     record: clackers.Record = clackers.verify("rk4", solver, case=case, expect="proper:2")
     order: float | None = record["rk4"].order
     causes: list[str] = [cause.code for cause in record["solver"].diagnoses]
-    again: clackers.Record = clackers.check(t, u, v, case="three-parameter", N=2, collisions=impacts.t)
+    again: clackers.Record = clackers.check(t, u, v, case="three-parameter", N=2, impacts=impacts.t)
     figure: clackers.Figure = again.figure("response")
     names: list[str] = [column.name for column in case.spectrum(3, 1.0).columns]
     tables: dict[str, clackers.Table] = clackers.catalogue()

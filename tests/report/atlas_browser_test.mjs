@@ -108,7 +108,7 @@ async function panels(page) {
   await page.evaluate(() => { navigator.clipboard.writeText = async (text) => { window.copied = text; }; });
   await panel.locator("[data-copy]").click();
   check("which a button copies", await page.evaluate(() => window.copied) === command);
-  check("the numbers stand beside", /Collisions\s+6 of 6 \(0 missed, 0 extra\)/.test(await panel.innerText()), await panel.innerText());
+  check("the numbers stand beside", /Impacts\s+6 of 6 \(0 missed, 0 extra\)/.test(await panel.innerText()), await panel.innerText());
   check("the runs are saved as CSV", (await save(page, "ladder", "CSV")).split("\n").length === 10);
   check("the plot is saved as SVG with fixed colours", !(await save(page, "ladder", "SVG")).includes("var("));
   await cell(page, 5, 0).click();

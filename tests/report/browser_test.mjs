@@ -25,8 +25,8 @@ await run(async () => {
   check("all figures are drawn", await page.evaluate(() => document.documentElement.dataset.figures) === "drawn");
   for (const name of figures)
     check(`figure ${name} has lines`, await marks(page, name, "g.mark-line path") > 0);
-  check("the response marks six collisions",
-    await marks(page, "response", "g.mark-rule.role-mark line") === 6 && await marks(page, "response", "g.mark-symbol path[fill='var(--collision)']") === 6);
+  check("the response marks six impacts",
+    await marks(page, "response", "g.mark-rule.role-mark line") === 6 && await marks(page, "response", "g.mark-symbol path[fill='var(--impact)']") === 6);
   const methods = await page.locator('[data-legend^="convergence"] button[data-series]').count();
   check("the convergence plot has an envelope for every method that ran", methods === 7 &&
     await page.evaluate(() => new Set(data.levels.map((row) => row.method)).size) === methods);

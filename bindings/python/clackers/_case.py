@@ -203,16 +203,25 @@ class Case:
         """
         return Impacts(**_core.impacts(self._core, first, last))
 
-    def collisions(self) -> Table:
+    def impact_table(self) -> Table:
         """The impacts as a table, at most a million; ``impacts()`` has them as arrays and by range.
 
         Columns k, t [s], u1 [m], v1-, v1+ [m/s] and so on, impulse [N s], energy_before, energy_after [J].
 
         >>> import clackers
-        >>> clackers.case("stop").collisions()["k"]
+        >>> clackers.case("stop").impact_table()["k"]
         array([1, 2, 3, 4, 5, 6])
         """
-        return Table(*_core.collisions(self._core))
+        return Table(*_core.impact_table(self._core))
+
+    def collisions(self) -> Table:
+        """The former name of ``impact_table``.
+
+        >>> import clackers
+        >>> len(clackers.case("stop").collisions())
+        6
+        """
+        return self.impact_table()
 
     def energies(self, t: npt.ArrayLike) -> Table:
         """Where the energy is at times ``t`` [s]: kinetic, potential, dissipated, lost and total [J].
@@ -253,12 +262,12 @@ class Case:
         return Table(*_core.spectrum(self._core, n, highest))
 
     def tables(self) -> dict[str, Table]:
-        """What ``clackers show`` shows of the case: parameters, constants, indicators, first collisions, and of a
+        """What ``clackers show`` shows of the case: parameters, constants, indicators, first impacts, and of a
         pair the harmonics and its conditioning.
 
         >>> import clackers
         >>> list(clackers.case("stop").tables())
-        ['parameters', 'constants', 'indicators', 'collisions']
+        ['parameters', 'constants', 'indicators', 'impacts']
         """
         found = [Table(*rows) for rows in _core.case_tables(self._core, self._threshold)]
         return {table.schema.split("/")[1]: table for table in found}
@@ -277,7 +286,7 @@ class Admissibility(NamedTuple):
     r_star: float
     """Limit of slow over fast mass; infinity for equal frequencies."""
     margin: float
-    """Smallest gap between collisions relative to the slow displacement; the closed form holds where it is positive."""
+    """Smallest gap between impacts relative to the slow displacement; the closed form holds where it is positive."""
 
 
 def admissibility(X: float, r: float) -> Admissibility:

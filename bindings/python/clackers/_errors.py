@@ -11,7 +11,7 @@ class Error(RuntimeError):
     """Everything that the library raises on purpose.
 
     ``str(error)`` is the sentence for a person; ``error.code`` is the stable name for a program, which
-    ``clackers explain CODE`` tells more of.
+    ``clackers explain CODE`` describes.
     """
 
     code: str

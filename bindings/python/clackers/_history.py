@@ -46,7 +46,7 @@ def _joined(flights: Sequence[History]) -> History:
     return History(columns, [("t", np.sort(np.concatenate(times)))] if times else None)
 
 
-_NAMES = ("t", "u", "v", "a", "y", "collisions", "events", "t_events")
+_NAMES = ("t", "u", "v", "a", "y", "impacts", "collisions", "events", "t_events")
 
 
 def _parts(value: object) -> dict[str, Any]:
@@ -112,15 +112,15 @@ def _matrix(who: str, name: str, value: object, times: int, width: int, columns_
 
 
 def _named(name: str, matrix: Array) -> Columns:
-    """A column a mass; those of NaN alone are not known and left out."""
+    """A column a mass; those of only NaN are not known and left out."""
     columns = [(f"{name}{mass + 1}", np.require(matrix[:, mass], requirements="A")) for mass in range(matrix.shape[1])]
     return [(title, column) for title, column in columns if len(column) == 0 or not np.isnan(column).all()]
 
 
 def _read_events(who: str, parts: dict[str, Any]) -> Columns | None:
-    for name in ("collisions", "events"):
+    for name in ("impacts", "collisions", "events"):  # the second is the former name
         if name in parts:
-            return read_collisions(who, parts[name])
+            return read_impacts(who, parts[name])
     if "t_events" not in parts:
         return None
     lists = [_core.read_vector(who, "t_events", times) for times in parts["t_events"]]
@@ -130,27 +130,27 @@ def _read_events(who: str, parts: dict[str, Any]) -> Columns | None:
 _EVENT_NAMES = {"u": "u{}", "v_before": "v{}-", "v_after": "v{}+"}
 
 
-def read_collisions(who: str, given: object) -> Columns:
-    """Times alone, or a mapping or an object with t and what else is known, as ``Case.impacts`` has it."""
+def read_impacts(who: str, given: object) -> Columns:
+    """Only times, or a mapping or an object with t and what else is known, as ``Case.impacts`` has it."""
     get = given.get if isinstance(given, Mapping) else lambda name: getattr(given, name, None)
     times = get("t")
     if times is None:
-        return [("t", _core.read_vector(who, "collisions", given))]
-    t = _core.read_vector(who, "t of collisions", times)
+        return [("t", _core.read_vector(who, "impacts", given))]
+    t = _core.read_vector(who, "t of impacts", times)
     columns: Columns = [("t", t)]
     if (impulse := get("impulse")) is not None:
-        columns.append(("impulse", _core.read_vector(who, "impulse of collisions", impulse)))
+        columns.append(("impulse", _core.read_vector(who, "impulse of impacts", impulse)))
     for name, title in _EVENT_NAMES.items():
         if (value := get(name)) is None:
             continue
-        array = _core.read_array(who, f"{name} of collisions", value)
+        array = _core.read_array(who, f"{name} of impacts", value)
         array = array.reshape(len(t), 1) if array.shape == (len(t),) else array
         if array.ndim != 2:
-            _core.refuse(who, f"{name} of collisions", _described(array), f"shape ({len(t)}, dof)", "", "wrong-size")
+            _core.refuse(who, f"{name} of impacts", _described(array), f"shape ({len(t)}, dof)", "", "wrong-size")
         columns += [(title.format(mass + 1), array[:, mass]) for mass in range(array.shape[1])]
     for title, column in columns:
         if len(column) != len(t):
-            _core.refuse(who, f"{title} of collisions", _described(column), f"{len(t)} numbers, as t", "", "wrong-size")
+            _core.refuse(who, f"{title} of impacts", _described(column), f"{len(t)} numbers, as t", "", "wrong-size")
     return columns
 
 

@@ -38,7 +38,7 @@ class Runs:
             result = self._solver(task, resolution)
         except KeyboardInterrupt:
             raise
-        except BaseException as error:  # SystemExit among them: it ends this run alone
+        except BaseException as error:  # SystemExit among them: it ends only this run
             return self._failed(False, error, isinstance(error, _MISTAKES), error.__traceback__)
         try:
             return read_history(f"{self.name}(problem, {resolution:g})", result, task.dof)

@@ -12,7 +12,7 @@ from clackers import _core
 from clackers._case import Case
 from clackers._case import case as make_case
 from clackers._errors import Interrupted, SolverError
-from clackers._history import Columns, Source, read_collisions, read_history
+from clackers._history import Columns, Source, read_impacts, read_history
 from clackers._record import Record
 from clackers._solver import Runs, Solver, name_of
 
@@ -45,9 +45,9 @@ def verify(
     A subject is the name of a method (``clackers.catalogue("pairs")``) or a callable; without any, the
     default panel of methods. A callable ``solver(problem, h)`` gets a ``clackers.Problem`` and a step [s] and
     returns (t, u), (t, u, v) or (t, u, v, a), u of shape (time, dof) or (dof, time), (time,) for one mass; a
-    mapping or an object with t, u, v, a and, where known, collisions (their times, or as ``Case.impacts``
+    mapping or an object with t, u, v, a and, where known, impacts (their times, or as ``Case.impacts``
     returns them); or the result of ``scipy.integrate.solve_ivp``, y = (u, v), or a list of such results of
-    consecutive flights, whose ``t_events`` are the collisions. A time that stands twice has both limits of
+    consecutive flights, whose ``t_events`` are the impacts. A time that appears twice has both limits of
     a jump. Callables are called in the thread of the caller, one at a time.
 
     Options::
@@ -61,7 +61,7 @@ def verify(
         expect      what callables should show: "proper:2", "irregular:1", "exact", ...; default nothing
         name        names of callables in the record; default those of the functions
         budget      time for further steps of what is undecided [s]; default 20, 0 with levels or steps
-        jobs        threads; default one a processor
+        jobs        threads; default one per processor
         progress    a callable that gets the share that is done, or True for a line on standard error
 
     A run that raises, or returns something else, is a failed run of its step. Raises SolverError where
@@ -131,6 +131,7 @@ def check(
     v: npt.ArrayLike | None = None,
     a: npt.ArrayLike | None = None,
     *,
+    impacts: object = None,
     collisions: object = None,
     step: float | Sequence[float] | None = None,
     tolerances: Sequence[float] | None = None,
@@ -145,15 +146,14 @@ def check(
     """Assesses time histories of any program against the exact motion of a case.
 
     ``check(t, u)``, ``check(t, u, v)`` and ``check(t, u, v, a)`` take arrays: times [s] and u [m] of shape
-    (time, dof) or (dof, time), (time,) for one mass; the column of a mass that is not known is NaN. A
-    time that stands twice has both limits of a jump. ``check(history)`` takes whatever a callable of
+    (time, dof) or (dof, time), (time,) for one mass; the column of a mass that is not known is NaN. A time that appears twice has both limits of a jump. ``check(history)`` takes whatever a callable of
     ``clackers.verify`` may return, or the path of a file (text, or NumPy's npy). Several histories are levels
     of one method and give an order: a list of histories or paths, or a mapping from steps [s] to them.
 
     Options::
 
-        collisions  times of the collisions, or as Case.impacts returns them; of a file a path; of several
-                    histories a list of these; default: found in the history
+        impacts     times of the impacts, or as Case.impacts returns them; of a file a path; of several
+                    histories a list of these; default: found in the history; former name: collisions
         step        step of the history [s], a list of several; default: the median time between rows
         tolerances  of an adaptive solver, one a history, instead of steps
         case        a name with **parameters, or a clackers.Case; default three-parameter
@@ -179,7 +179,7 @@ def check(
     if keys is not None and (step is not None or tolerances is not None):
         _core.refuse("check", "step", "steps beside a mapping", "steps as keys, or step and tolerances", "", "bad-syntax")
     titles = _titles(name, len(given))
-    events = _one_each("collisions", collisions, len(given))
+    events = _one_each("impacts", collisions if impacts is None else impacts, len(given))
     dof = 0 if all(map(_is_path, given)) else (case if isinstance(case, Case) else make_case(case, threshold=None, **parameters)).dof
     sources: list[Source] = []
     reported: list[Source | None] = []
@@ -194,10 +194,10 @@ def check(
             reported.append(os.fspath(event))
             continue
         if event is not None:
-            found = read_collisions("check", event)
-        reported.append(None if found is None else (f"collisions of {title}", found))
+            found = read_impacts("check", event)
+        reported.append(None if found is None else (f"impacts of {title}", found))
     if any(each is None for each in reported) and not all(each is None for each in reported):
-        _core.refuse("check", "collisions", "those of some histories", "those of all, or of none", "", "wrong-size")
+        _core.refuse("check", "impacts", "those of some histories", "those of all, or of none", "", "wrong-size")
     steps = list(keys or ())
     if step is not None:
         steps = _core.read_vector("check", "step", step).tolist()
@@ -269,7 +269,7 @@ def _refuse_without_solvers(
         _core.refuse("verify", "steps", "steps and tolerances", "one of them", "", "bad-syntax")
     if has_methods and steps is not None:
         _core.refuse(
-            "verify", "steps", "steps beside methods", "steps for callables alone",
+            "verify", "steps", "steps beside methods", "steps only for callables",
             "Methods take levels and coarsest, and so do callables beside them.", "bad-syntax",
         )
 
@@ -370,7 +370,7 @@ def _positional(given: Sequence[object], keys: object, u: object, v: object, a: 
 
 
 class _ProgressLine:
-    """``progress=True``: a line on standard error that is written anew."""
+    """``progress=True``: a line on standard error that is updated."""
 
     def __init__(self, command: str, progress: Progress) -> None:
         self._command = command

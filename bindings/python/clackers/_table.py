@@ -27,8 +27,8 @@ class Table:
     """Rows with named columns, each column an array.
 
     ``table["u1"]`` is a column, ``table[0]`` a row, ``len(table)`` the number of rows, and iteration
-    yields the rows as tuples. Numbers are float64 or int64; the column ``side`` is -1 (before a
-    collision), 1 (after it) or 0; texts are ``str``, and ``None`` where a cell is empty.
+    yields the rows as tuples. Numbers are float64 or int64; the column ``side`` is -1 (before an
+    impact), 1 (after it) or 0; texts are ``str``, and ``None`` where a cell is empty.
 
     >>> import clackers
     >>> table = clackers.case("stop").energies([0, 1])
@@ -75,6 +75,8 @@ class Table:
         if not isinstance(key, str):
             return tuple(array[key].item() if array.dtype != object else array[key]
                          for array in self._arrays.values())
+        if key not in self._arrays and key.startswith("collision"):
+            key = key.replace("collision", "impact")  # the former names
         if key not in self._arrays:
             _core.refuse_column(self.title, key, list(self._arrays))
         return self._arrays[key]

@@ -34,7 +34,7 @@ PAGE = 7.0
 _HEIGHT = 0.65  # without the legend, of the width of a column
 _DPI = 200
 _SAMPLES = 2001
-_MOST_LINES = 60  # more collisions than that are ticks instead of lines
+_MOST_LINES = 60  # more impacts than that are ticks instead of lines
 _NEAR_FLOOR = 1e3  # the floor is drawn where an error comes as close as this
 _GREY = "#707070"
 
@@ -60,9 +60,9 @@ _MARKERS = ("o", "s", "D", "^", "v", "P", "X", "<", ">")
 def response(
     case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = None, width: float = COLUMN
 ) -> Axes:
-    """The exact displacements of the masses against time; thin lines mark the collisions.
+    """The exact displacements of the masses against time; thin lines mark the impacts.
 
-    ``t`` are times [s], by default 2001 over the run and those of the collisions. More than 60 collisions are
+    ``t`` are times [s], by default 2001 over the run and those of the impacts. More than 60 impacts are
     ticks at the bottom. Raises InputError as ``Case.response`` does.
 
     >>> import clackers
@@ -83,10 +83,10 @@ def response(
 
 
 def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = None, width: float = COLUMN) -> Axes:
-    """Where the energy is against time: kinetic, potential, dissipated by damping, lost in collisions, total.
+    """Where the energy is against time: kinetic, potential, dissipated by damping, lost in impacts, total.
 
-    ``t`` are times [s], by default 2001 over the run and those of the collisions. Where a time is that of a
-    collision, the limits of both sides are drawn.
+    ``t`` are times [s], by default 2001 over the run and those of the impacts. Where a time is that of an
+    impact, the limits of both sides are drawn.
 
     >>> import clackers
     >>> axes = clackers.plot.energies(clackers.case("stop", eta=0.8))
@@ -273,7 +273,7 @@ def _indexed(symbol: str, mass: int, dof: int) -> str:
 
 
 def _times(case: Case, t: npt.ArrayLike | None) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """The times to draw, and those of the collisions among them."""
+    """The times to draw, and those of the impacts among them."""
     hits = case.impacts().t if case.impact_count() else np.empty(0)
     if t is None:
         return np.union1d(np.linspace(0.0, case.end, _SAMPLES), hits), hits
@@ -288,7 +288,7 @@ def _mark(axes: Axes, hits: npt.NDArray[np.float64]) -> None:
     marks = axes.vlines(
         hits, 0, height, transform=axes.get_xaxis_transform(), colors="#b0b0b0", linewidths=0.5, zorder=0.5,
     )
-    marks.set_label("collisions")
+    marks.set_label("impacts")
 
 
 # Data of a record.

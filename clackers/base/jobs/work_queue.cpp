@@ -18,7 +18,7 @@ int thread_count(int jobs) {
   constexpr int most = 1024;
   if (jobs < 0 || jobs > most)
     refuse("verify", "jobs", fmt::format("{}", jobs), fmt::format("0 <= jobs <= {}", most),
-           "0 takes one thread a processor.");
+           "0 takes one thread per processor.");
   if (jobs > 0) return jobs;
   return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most);
 }

@@ -5,7 +5,7 @@
 
 namespace clackers {
 
-/// Number of threads meant by `jobs`: itself, or one a processor for 0. Throws InputError for a
+/// Number of threads meant by `jobs`: itself, or one per processor for 0. Throws InputError for a
 /// negative number or one beyond 1024.
 int thread_count(int jobs);
 

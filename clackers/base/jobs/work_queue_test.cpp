@@ -62,8 +62,9 @@ TEST(WorkQueue, TakesJobsAsThreadsAndZeroAsOneAProcessor) {
   try {
     thread_count(-1);
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "verify: jobs = -1; allowed: 0 <= jobs <= 1024. 0 takes one thread a processor.");
+    EXPECT_STREQ(
+        error.what(),
+        "verify: jobs = -1; allowed: 0 <= jobs <= 1024. 0 takes one thread per processor.");
     EXPECT_EQ(error.code().name(), "out-of-range");
   }
 }

@@ -102,7 +102,7 @@ std::string ladder_options(const Ladder& ladder) {
   if (ladder.coarsest) add("--coarsest " + exact_number(*ladder.coarsest));
   if (!ladder.tolerances.empty()) {
     std::vector<std::string> list;
-    for (const double one : ladder.tolerances) list.push_back(exact_number(one));
+    for (const double tolerance : ladder.tolerances) list.push_back(exact_number(tolerance));
     add(fmt::format("--tolerances {}", fmt::join(list, ",")));
   }
   if (!ladder.levels) add("--budget 0");  // a campaign never refines beyond its ladder

@@ -9,7 +9,7 @@ methods = ["all"]
 
 [ladder]
 levels = 8
-neighbours = 4
+samples_per_level = 4
 
 # The paper's class by its three parameters: how much faster mass 2 is (4 N + 1), damping.
 [[cases]]

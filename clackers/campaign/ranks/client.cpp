@@ -11,7 +11,7 @@ Message Client::ask(Kind kind) {
 
 std::optional<std::string> Client::greet() {
   const std::lock_guard lock(mutex_);
-  const auto answer = ask(Kind::greeting);
+  const auto answer = ask(Kind::hello);
   if (answer.kind == Kind::campaign) return answer.text;
   stopped_ = true;
   return std::nullopt;
@@ -29,7 +29,7 @@ std::optional<TaskBlock> Client::next() {
 void Client::leave(const RunSummary& summary, const std::string& failure, const std::string& code) {
   const std::lock_guard lock(mutex_);
   const auto text = failure.empty() ? failure : failure + '\0' + code;
-  transport_.send(0, {Kind::farewell, {summary.tasks, summary.runs, summary.interrupted}, text});
+  transport_.send(0, {Kind::done, {summary.tasks, summary.runs, summary.interrupted}, text});
 }
 
 }  // namespace clackers::campaign

@@ -96,15 +96,15 @@ RanksSummary run_first_rank(Transport& transport, const Specification& specifica
   const auto all = dispatcher.left();
   OwnTasks tasks(dispatcher);
   OwnRun own([&] { return run_campaign(specification, store, tasks, options, &interrupt); });
-  const auto departures =
+  const auto results =
       serve(transport, dispatcher, announcement(specification, store), interrupt, [&] {
         if (progress) progress(dispatcher.finished(), all);
       });
   RanksSummary sum;
   add(sum, own.result());
-  for (const auto& departure : departures) {
-    add(sum, departure.summary);
-    if (!departure.failure.empty()) sum.failures.push_back(departure);
+  for (const auto& result : results) {
+    add(sum, result.summary);
+    if (!result.failure.empty()) sum.failures.push_back(result);
   }
   adopt_ranks(store);
   return sum;

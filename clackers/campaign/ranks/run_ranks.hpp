@@ -14,7 +14,7 @@ namespace clackers::campaign {
 
 /// What all ranks did.
 struct RanksSummary : RunSummary {
-  std::vector<Departure>
+  std::vector<RankResult>
       failures;  ///< of other ranks than 0; their tasks are left for the next start
 };
 

@@ -44,12 +44,12 @@ TEST(Serve, EachTaskIsComputedOnce) {
     client.leave(summary);
   });
   Dispatcher dispatcher({{0, tasks}}, {.ranks = size});
-  const auto departures = serve(ranks[0], dispatcher, "what to do", false);
+  const auto results = serve(ranks[0], dispatcher, "what to do", false);
   join(threads);
   for (const auto& count : counts) EXPECT_EQ(count, 1);
-  ASSERT_EQ(departures.size(), size - 1u);
+  ASSERT_EQ(results.size(), size - 1u);
   long long sum = 0;
-  for (const auto& departure : departures) sum += departure.summary.tasks;
+  for (const auto& result : results) sum += result.summary.tasks;
   EXPECT_EQ(sum, tasks);
 }
 
@@ -68,16 +68,16 @@ TEST(Serve, AFailedRankLeavesTheOthersAtWork) {
     client.leave(summary);
   });
   Dispatcher dispatcher({{0, tasks}}, {.ranks = size});
-  const auto departures = serve(ranks[0], dispatcher, "what to do", false);
+  const auto results = serve(ranks[0], dispatcher, "what to do", false);
   join(threads);
   EXPECT_EQ(dispatcher.left(), 0);
   int failed = 0;
-  for (const auto& departure : departures)
-    if (!departure.failure.empty()) {
+  for (const auto& result : results)
+    if (!result.failure.empty()) {
       ++failed;
-      EXPECT_EQ(departure.rank, 2);
-      EXPECT_EQ(departure.failure, "disk full");
-      EXPECT_EQ(departure.code, "cannot-write");
+      EXPECT_EQ(result.rank, 2);
+      EXPECT_EQ(result.failure, "disk full");
+      EXPECT_EQ(result.code, "cannot-write");
     }
   EXPECT_EQ(failed, 1);
 }
@@ -94,12 +94,12 @@ TEST(Serve, InterruptedGivesNoMoreBlocks) {
     client.leave({0, 0, true});
   });
   Dispatcher dispatcher({{0, 1000000000000}}, {.ranks = size});
-  const auto departures = serve(ranks[0], dispatcher, "what to do", interrupt);
+  const auto results = serve(ranks[0], dispatcher, "what to do", interrupt);
   join(threads);
-  for (const auto& departure : departures) EXPECT_TRUE(departure.summary.interrupted);
+  for (const auto& result : results) EXPECT_TRUE(result.summary.interrupted);
 }
 
-TEST(Dismiss, EveryRankIsToldToStop) {
+TEST(StopAllRanks, EveryRankGetsStop) {
   test::LocalRanks ranks(size);
   auto threads = other_ranks(ranks, [](Transport& transport) {
     Client client(transport);
@@ -107,7 +107,7 @@ TEST(Dismiss, EveryRankIsToldToStop) {
     EXPECT_FALSE(client.next());
     client.leave({});
   });
-  dismiss(ranks[0]);
+  stop_all_ranks(ranks[0]);
   join(threads);
 }
 

@@ -9,9 +9,9 @@ namespace clackers::campaign {
 /// What ranks write to each other. All messages go to rank 0 or come from it.
 struct Message {
   enum class Kind {
-    greeting,  ///< to rank 0: a rank is there and asks for the campaign
+    hello,     ///< to rank 0: a rank has started and asks for the campaign
     request,   ///< to rank 0: a rank has finished its last block and asks for another
-    farewell,  ///< to rank 0: a rank has finished; numbers: tasks, runs, whether interrupted;
+    done,      ///< to rank 0: a rank has finished; numbers: tasks, runs, whether interrupted;
                ///< text: a failure and its code, separated by a zero, or nothing
     campaign,  ///< text: what a rank must know to begin
     block,     ///< numbers: first and last of a block of tasks

@@ -50,8 +50,8 @@ class SpecificationReader : public TomlReader {
     if (node.is_table()) return add_solver(node, *node.as_table());
     const auto text = word(node, "a method");
     if (text == "all" || text == "panel") {
-      for (const auto& one : text == "all" ? methods::pairs() : methods::default_panel())
-        add_method(node, {MethodEntry::Kind::catalogue, one, study::subject_name(one), {}});
+      for (const auto& item : text == "all" ? methods::pairs() : methods::default_panel())
+        add_method(node, {MethodEntry::Kind::catalogue, item, study::subject_name(item), {}});
     } else {
       const auto name = at(node, [&] { return study::subject_name(text); });
       add_method(node, {MethodEntry::Kind::catalogue, text, name, {}});
@@ -59,8 +59,8 @@ class SpecificationReader : public TomlReader {
   }
   void add_method(const toml::node& node, MethodEntry entry) {
     // A program without a name has that of its file.
-    const auto same = [&](const MethodEntry& one) {
-      return entry.name.empty() ? one.text == entry.text : one.name == entry.name;
+    const auto same = [&](const MethodEntry& known) {
+      return entry.name.empty() ? known.text == entry.text : known.name == entry.name;
     };
     if (std::ranges::any_of(out_.methods_, same))
       fail(node, fmt::format("method = {}; allowed: each method once.", entry.text), "bad-syntax");
@@ -107,8 +107,8 @@ class SpecificationReader : public TomlReader {
   std::vector<double> tolerances(const toml::node& node) const {
     if (!node.is_array()) return solvers::tolerances_from(word(node, "tolerances"));
     std::string text;
-    for (const auto& one : list(node, "tolerances"))
-      text += fmt::format("{}{}", text.empty() ? "" : ",", number(one, "a tolerance"));
+    for (const auto& item : list(node, "tolerances"))
+      text += fmt::format("{}{}", text.empty() ? "" : ",", number(item, "a tolerance"));
     return solvers::tolerances_from(text);
   }
 
@@ -118,10 +118,10 @@ class SpecificationReader : public TomlReader {
       if (flag(node, "metrics")) out_.metrics_ = known;
       return;
     }
-    for (const auto& one : list(node, "metrics")) {
-      const auto name = word(one, "a metric");
+    for (const auto& item : list(node, "metrics")) {
+      const auto name = word(item, "a metric");
       if (std::ranges::find(known, name) == known.end())
-        at(one, [&] { refuse_name("metric", name, known, "clackers list metrics"); });
+        at(item, [&] { refuse_name("metric", name, known, "clackers list metrics"); });
       out_.metrics_.push_back(name);
     }
   }
@@ -184,13 +184,13 @@ class SpecificationReader : public TomlReader {
     if (const auto* range = node.as_table()) {
       read_range(systems, axis, *range);
     } else if (node.is_array()) {
-      for (const auto& one : list(node, name)) axis.listed.push_back(value(one, name));
+      for (const auto& item : list(node, name)) axis.listed.push_back(value(item, name));
     } else {
       axis.listed = {value(node, name)};
     }
     // Words and numbers in each other's place.
-    for (const auto& one : axis.listed)
-      at(node, [&] { complete(systems.name, known, {{name, one}}); });
+    for (const auto& item : axis.listed)
+      at(node, [&] { complete(systems.name, known, {{name, item}}); });
     return axis;
   }
   ParameterValue value(const toml::node& node, const std::string& name) const {

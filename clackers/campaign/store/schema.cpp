@@ -82,9 +82,10 @@ void require_campaign(const Sqlite& database) {
 void require_tables(const Sqlite& database, const Tables& tables) {
   const auto damaged = [&](const std::string& what) {
     throw InputError(
-        fmt::format("{}: the database of the campaign is damaged: {}. Make it anew, or "
-                    "take another file.",
-                    database.path(), what),
+        fmt::format(
+            "{}: the database of the campaign is damaged: {}. Create it again, or take another "
+            "file.",
+            database.path(), what),
         "not-a-campaign");
   };
   if (database.whole("SELECT count(*) FROM sqlite_master WHERE type NOT IN ('table', 'index')") > 0)

@@ -15,7 +15,7 @@ namespace clackers::campaign::test {
 inline Specification small() {
   return Specification::from_toml(
       "methods = [\"newmark\", \"rk4\", \"newmark+penalty\"]\nmetrics = [\"u-end\"]\n"
-      "[ladder]\nlevels = 2\nneighbours = 2\n"
+      "[ladder]\nlevels = 2\nsamples_per_level = 2\n"
       "[[cases]]\ncase = \"stop\"\nset = { eta = [0.5, 1], t_end = 3 }\n"
       "[[cases]]\ncase = \"three-parameter\"\nset = { xi1 = { from = 0.0, to = 0.1, points = 2 } }\n",
       "spec.toml");

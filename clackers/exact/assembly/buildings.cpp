@@ -106,7 +106,7 @@ std::unique_ptr<const ShapedMotion> make_buildings(const BuildingsParameters& p,
                                                    std::string_view who) {
   require_ranges(who, p);
   auto flight = derive_flight(who, p.Omega, p.sigma, p.eta, p.t_end);
-  flight.first_collision = 1.0;
+  flight.first_impact = 1.0;
   require_admissible(who, p);
   auto shape = std::make_unique<BuildingShape>(
       std::vector<BuildingShape::Part>{{static_cast<int>(p.left), 1.0, p.V},
@@ -125,9 +125,9 @@ model::ImpactProblem<> buildings_problem(const BuildingsParameters& p,
   auto& system = problem.system;
   system.mass = system.damping = system.stiffness = Eigen::MatrixXd::Zero(n, n);
   Eigen::Index at = 0;
-  for (const auto& one :
+  for (const auto& structure :
        {building(p.left, p.m1, p.Omega), building(p.right, p.m1 / p.r, p.Omega * p.X)}) {
-    const auto masses = one.masses(), springs = one.stiffnesses();
+    const auto masses = structure.masses(), springs = structure.stiffnesses();
     for (std::size_t i = 0; i < masses.size(); ++i, ++at) {
       const double above = i == 0 ? 0.0 : springs[i - 1];
       system.mass(at, at) = masses[i];

@@ -12,8 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace clackers::exact::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_INLINE double one(const double* const* columns, const double* factors, std::size_t m,
-                      std::size_t i) {
+HWY_INLINE double sum_at(const double* const* columns, const double* factors, std::size_t m,
+                         std::size_t i) {
   double sum = factors[0] * columns[0][i];
   for (std::size_t j = 1; j < m; ++j) sum += factors[j] * columns[j][i];
   return sum;
@@ -28,14 +28,14 @@ void combine(const double* const* columns, const double* factors, std::size_t m,
   if (bypass_cache)
     for (; i < count && reinterpret_cast<std::uintptr_t>(out + i) % (lanes * sizeof(double)) != 0;
          ++i)
-      out[i] = one(columns, factors, m, i);
+      out[i] = sum_at(columns, factors, m, i);
   for (; i + lanes <= count; i += lanes) {
     auto sum = hn::Mul(hn::Set(d, factors[0]), hn::LoadU(d, columns[0] + i));
     for (std::size_t j = 1; j < m; ++j)
       sum = hn::Add(sum, hn::Mul(hn::Set(d, factors[j]), hn::LoadU(d, columns[j] + i)));
     bypass_cache ? hn::Stream(sum, d, out + i) : hn::StoreU(sum, d, out + i);
   }
-  for (; i < count; ++i) out[i] = one(columns, factors, m, i);
+  for (; i < count; ++i) out[i] = sum_at(columns, factors, m, i);
   if (bypass_cache) hwy::FlushStream();
 }
 

@@ -105,10 +105,10 @@ model::MotionImpact ShapedMotion::impact(long long index) const {
       contacts[static_cast<std::size_t>((index - 1) % contacts_at_once())];
 
   const auto k = static_cast<double>(number);
-  const auto halvings = c_.period_decay * (k - 1.0 + c_.first_collision);
+  const auto halvings = c_.period_decay * (k - 1.0 + c_.first_impact);
   const auto before = instant(k - 1.0, {0.5, 0.0}, halvings);
   const auto after = instant(k, {-0.5, 0.0}, halvings);
-  const auto when = collision_instant(c_, k);
+  const auto when = impact_instant(c_, k);
   model::MotionImpact hit;
   hit.index = index;
   hit.t = when.nearest;

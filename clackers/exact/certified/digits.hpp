@@ -32,7 +32,7 @@ class Digits {
   std::string time(double t) const;
   /// The state at t within the motion; `side` as for model::Motion::sample().
   KinematicTexts at(double t, model::Side side);
-  /// Collision 1, 2, ... up to the motion's impact_count(end).
+  /// Impact 1, 2, ... up to the motion's impact_count(end).
   ImpactTexts impact(long long k);
 
  private:

@@ -94,7 +94,7 @@ TEST(Digits, OfValuesHalfwayBetweenTwoNumbersAreRoundedToEven) {
   };
   EXPECT_EQ(start(0.25), "-0.2");
   EXPECT_EQ(start(0.75), "-0.4");
-  // Without damping collisions are fractions too: v1 = -A Omega = -0.25, energy (1 + 3) 0.25^2/2 =
+  // Without damping impacts are fractions too: v1 = -A Omega = -0.25, energy (1 + 3) 0.25^2/2 =
   // 0.125, impulse 0.5; k1 = 1/25 of m1 makes Omega 0.2 and v1 = -0.25 again, inexactly.
   const SynchronizedPair undamped({.xi1 = 0.0, .A = 0.25});
   const auto hit = Digits(undamped, 1).impact(1);
@@ -108,7 +108,7 @@ TEST(Digits, OfValuesHalfwayBetweenTwoNumbersAreRoundedToEven) {
   EXPECT_EQ(Digits(lossy, 2).impact(2).before.v[0], "-0.12");
 }
 
-TEST(Digits, OfCollisionsAreToldForEachSide) {
+TEST(Digits, OfImpactsAreToldForEachSide) {
   const SynchronizedPair motion({.eta = 0.5});
   const double t = motion.impact(2).t;
   Digits digits(motion, 20);

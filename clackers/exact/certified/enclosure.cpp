@@ -78,7 +78,7 @@ const PairEnclosure::Constants& PairEnclosure::constants() {
 }
 
 Ball Enclosure::instant_now(long long k) {
-  return (Ball(double(k - 1)) + timing_.first_collision) * pi() / omega();
+  return (Ball(double(k - 1)) + timing_.first_impact) * pi() / omega();
 }
 
 Ball Enclosure::instant(long long k, long bits) {
@@ -89,7 +89,7 @@ Ball Enclosure::instant(long long k, long bits) {
 // The k with t_k <= t < t_(k+1). It is never on the edge: t_k is transcendental, Omega being algebraic.
 long long Enclosure::natural_flight(double t) {
   const auto floor_of_turns = [&] {
-    const Ball turns = omega() * t / pi() + (1.0 - timing_.first_collision);
+    const Ball turns = omega() * t / pi() + (1.0 - timing_.first_impact);
     Ball whole;
     arb_floor(whole.get(), turns.get(), WorkingBits::now());
     return whole;
@@ -138,7 +138,7 @@ Ball Enclosure::decay_now(long long k, const Ball& t) {
 KinematicBalls PairEnclosure::at_now(long long k, double t) {
   const auto& c = constants();
   KinematicBalls now;
-  // Each collision reverses the sign of the motion: the sgn of Eq. (22).
+  // Each impact reverses the sign of the motion: the sgn of Eq. (22).
   const Ball e = (k % 2 == 0 ? decay_now(k, t) : -decay_now(k, t));
   for (std::size_t i = 0; i < static_cast<std::size_t>(in_.dof); ++i) {
     const Ball &w = c.frequency[i], &sigma = c.sigma, amplitude = e * c.start[i];
@@ -163,7 +163,7 @@ ImpactBalls PairEnclosure::impact_now(long long k) {
   hit.t = instant_now(k);
   const Ball e = decay_now(k - 1, hit.t), eta = in_.eta;
   for (std::size_t i = 0; i < static_cast<std::size_t>(in_.dof); ++i) {
-    // The sign of sin(w t_k) alternates from one collision to the next, and so does the motion's.
+    // The sign of sin(w t_k) alternates from one impact to the next, and so does the motion's.
     const double s = quarter_sine(in_.multiple(i));
     const Ball v = Ball(-s) * c.start[i] * c.frequency[i] * e;
     for (auto* side : {&hit.before, &hit.after}) side->u.emplace_back();

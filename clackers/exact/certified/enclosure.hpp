@@ -16,7 +16,7 @@ struct KinematicBalls {
   std::vector<Ball> u, v, a;
 };
 
-/// One collision.
+/// One impact.
 struct ImpactBalls {
   Ball t;                        ///< [s]
   KinematicBalls before, after;  ///< limits
@@ -34,19 +34,19 @@ class Enclosure {
  public:
   virtual ~Enclosure() = default;
 
-  /// At the double t >= 0. `side` decides where t is the double nearest to a collision, as in
+  /// At the double t >= 0. `side` decides where t is the double nearest to an impact, as in
   /// model::Motion::sample(). Each value is exactly 0 or certain to `bits` >= 1 bits of itself.
   KinematicBalls at(double t, model::Side side, long bits);
 
   /// The instant t_k, k >= 1.
   Ball instant(long long k, long bits);
-  /// Collision k >= 1; with eta = 0 there are only those of the first instant.
+  /// Impact k >= 1; with eta = 0 there are only those of the first instant.
   ImpactBalls impact(long long k, long bits);
 
-  /// Collisions up to t.
+  /// Impacts up to t.
   long long impact_count(double t);
 
-  /// At t = 0, and at collisions where is_undamped(), each value is the root of a fraction whose
+  /// At t = 0, and at impacts where is_undamped(), each value is the root of a fraction whose
   /// denominator is below 2^this.
   virtual double fraction_bits(long long flights) const = 0;
   virtual bool is_undamped() const = 0;
@@ -55,8 +55,8 @@ class Enclosure {
   struct Timing {
     bool collides = true;
     double eta = 1.0;
-    double first_collision = 0.5;  ///< t_1 Omega / pi: 1/2 or 1
-    long long at_once = 1;         ///< contacts that close at each instant
+    double first_impact = 0.5;  ///< t_1 Omega / pi: 1/2 or 1
+    long long at_once = 1;      ///< contacts that close at each instant
   };
   explicit Enclosure(const Timing& timing) : timing_(timing) {}
 

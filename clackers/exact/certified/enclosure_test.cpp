@@ -29,7 +29,7 @@ bool is_within(const Ball& ball, double value, double bound) {
 }
 
 // The double results against the balls: the motion's own bound at a time; 0.51 units of 2^-52 of
-// each value itself, and one subnormal spacing, at a collision.
+// each value itself, and one subnormal spacing, at an impact.
 double own_bound(double value) { return std::ldexp(std::abs(value) * 0.52, -52) + 5e-324; }
 
 void expect_enclosed(const exact::ClosedForm& motion, double t, Side side) {

@@ -1,5 +1,5 @@
 // The sharp form of Eq. (18), proved for every odd X up to 1001 by interval arithmetic. With
-// x = X theta in (0, X pi/2], theta counted from a collision, u1 - u2 has the sign of
+// x = X theta in (0, X pi/2], theta counted from an impact, u1 - u2 has the sign of
 //
 //     F_r(x) = X sin(x/X) + r sin(x).
 //

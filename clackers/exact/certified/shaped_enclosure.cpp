@@ -45,7 +45,7 @@ KinematicBalls at_rest(std::size_t dof) {
 ShapedEnclosure::ShapedEnclosure(const exact::ShapedMotion& motion)
     : Enclosure({.collides = true,
                  .eta = motion.flight().eta,
-                 .first_collision = motion.flight().first_collision,
+                 .first_impact = motion.flight().first_impact,
                  .at_once = std::ssize(motion.pattern().contacts.front())}),
       parameters_(motion.parameters()),
       dof_(motion.dof()) {}
@@ -126,9 +126,9 @@ void ShapedEnclosure::fill(const RowParameters& p) {
   c_.sigma = p.sigma;
   const auto row = exact::row_masses(p);
   Ball up, down, momentum;
-  for (const auto& one : row) {
-    auto& sum = one.velocity > 0.0 ? up : down;
-    sum = sum + one.velocity;
+  for (const auto& mass : row) {
+    auto& sum = mass.velocity > 0.0 ? up : down;
+    sum = sum + mass.velocity;
   }
   c_.coefficients.resize(2);
   auto &frequencies = c_.coefficients[0], &amplitudes = c_.coefficients[1];
@@ -266,9 +266,9 @@ KinematicBalls ShapedEnclosure::at_now(long long k, double t) {
   phase.is_odd = k % 2 != 0;
   phase.is_exact = t == 0.0;
   if (phase.is_exact)
-    phase.halves = 1.0 - 2.0 * timing_.first_collision;
+    phase.halves = 1.0 - 2.0 * timing_.first_impact;
   else
-    phase.turns = omega() * t / pi() - (double(k) - 0.5 + timing_.first_collision);
+    phase.turns = omega() * t / pi() - (double(k) - 0.5 + timing_.first_impact);
   return state(phase, decay_now(k, Ball(t)));
 }
 

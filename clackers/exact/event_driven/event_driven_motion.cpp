@@ -60,7 +60,7 @@ class EventDrivenMotion::Builder {
     const model::Contact<>* law = nullptr;
     int index = 0;
     double inverse_effective_mass = 0.0;     // b' M^-1 b [1/kg]
-    VectorXd push;                           // M^-1 b
+    VectorXd response;                       // M^-1 b
     std::vector<numerics::ModalForm> forms;  // of the gap, of each system
     bool inside = false;                     // passed through, not yet back
   };
@@ -81,8 +81,8 @@ class EventDrivenMotion::Builder {
       Row row;
       row.law = &contact;
       row.index = int(contacts_.size());
-      row.push = inverse_mass * contact.direction;
-      row.inverse_effective_mass = contact.direction.dot(row.push);
+      row.response = inverse_mass * contact.direction;
+      row.inverse_effective_mass = contact.direction.dot(row.response);
       const std::span<const double> b{contact.direction.data(),
                                       std::size_t(contact.direction.size())};
       for (const auto& system : motion_.systems_)
@@ -90,10 +90,10 @@ class EventDrivenMotion::Builder {
       contacts_.push_back(std::move(row));
     }
   }
-  std::size_t which() const {
-    return motion_.systems_.size() > 1 && !motion_.collisions_.empty() ? 1 : 0;
+  std::size_t form_index() const {
+    return motion_.systems_.size() > 1 && !motion_.impacts_.empty() ? 1 : 0;
   }
-  const ModalSystem& system() const { return motion_.systems_[which()]; }
+  const ModalSystem& system() const { return motion_.systems_[form_index()]; }
   std::span<const numerics::ModalState> modal_state() const {
     return std::span(motion_.states_).last(std::size_t(motion_.dof_));
   }
@@ -104,7 +104,7 @@ class EventDrivenMotion::Builder {
     double gap = 0.0, rate = 0.0;
   };
   Size size(const Row& row) const {
-    const auto& form = row.forms[which()];
+    const auto& form = row.forms[form_index()];
     return {std::abs(row.law->gap) + form.amplitude(system(), modal_state(), 0.0),
             form.derivative_bound(system(), modal_state(), 1)};
   }
@@ -115,7 +115,7 @@ class EventDrivenMotion::Builder {
   }
 
   void begin_flight() {
-    motion_.flights_.push_back({t_, which() == 1});
+    motion_.flights_.push_back({t_, form_index() == 1});
     motion_.states_.resize(motion_.states_.size() + std::size_t(motion_.dof_));
     system().to_modes(entries(u_), entries(v_),
                       std::span(motion_.states_).last(std::size_t(motion_.dof_)));
@@ -126,7 +126,7 @@ class EventDrivenMotion::Builder {
   }
 
   FirstRoot crossing(const Row& row, double sign, double span) {
-    ahead_.begin(system(), row.forms[which()], modal_state(), sign);
+    ahead_.begin(system(), row.forms[form_index()], modal_state(), sign);
     const double shortest =
         1e-6 / std::max({system().fastest(), 1e-3 / span, std::numeric_limits<double>::min()});
     return numerics::first_root(ahead_, 0.0, span, shortest, most_root_steps);
@@ -168,14 +168,14 @@ class EventDrivenMotion::Builder {
       row.inside = gap(row) < 0.0;
       return true;
     }
-    const int count = int(motion_.collisions_.size()) + 1;
+    const int count = int(motion_.impacts_.size()) + 1;
     double impulse = -(1.0 + row.law->restitution) * rate(row) / row.inverse_effective_mass;
     if (count == law_.missed) impulse = 0.0;
     if (count == law_.doubled) impulse *= 2.0;
     for (Index i = 0; i < v_.size(); ++i)
-      v_[i] += impulse * row.push[i] *
+      v_[i] += impulse * row.response[i] *
                (law_.impulse_factor.empty() ? 1.0 : law_.impulse_factor[std::size_t(i)]);
-    motion_.collisions_.push_back({t_, row.index, impulse});
+    motion_.impacts_.push_back({t_, row.index, impulse});
     row.inside = rate(row) < 0.0 || (law_.grid > 0.0 && gap(row) < 0.0);
     return true;
   }

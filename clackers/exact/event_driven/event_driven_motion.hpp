@@ -25,8 +25,8 @@ struct ImpactLaw {
   double damping_after_impact = 1.0;
 };
 
-/// A collision that a simulation went through.
-struct Collision {
+/// An impact that a simulation went through.
+struct SimulatedImpact {
   double t = 0.0;  ///< [s]; when the impulse acts
   int contact = 0;
   double impulse = 0.0;  ///< along the contact's direction [N s], of the mass with factor 1
@@ -52,7 +52,7 @@ class EventDrivenMotion {
   /// row-major (time, mass); the right limit at an impact. `v` may be empty. Throws InputError for
   /// times outside.
   void sample(std::span<const double> times, std::span<double> u, std::span<double> v) const;
-  const std::vector<Collision>& collisions() const { return collisions_; }
+  const std::vector<SimulatedImpact>& impacts() const { return impacts_; }
 
  private:
   struct Flight {
@@ -66,7 +66,7 @@ class EventDrivenMotion {
   std::vector<numerics::ModalSystem> systems_;  // before the first impact, after it
   std::vector<Flight> flights_;
   std::vector<numerics::ModalState> states_;  // flights x modes
-  std::vector<Collision> collisions_;
+  std::vector<SimulatedImpact> impacts_;
 };
 
 }  // namespace clackers::exact

@@ -43,7 +43,7 @@ TEST(EventDrivenMotion, IsTheClosedFormOfTheClass) {
   const auto agrees = [&](const ClosedForm& form, double bound) {
     const auto motion = EventDrivenMotion::make(form.problem(), {}, 20.0);
     ASSERT_TRUE(motion);
-    EXPECT_EQ(std::ssize(motion->collisions()), form.impact_count(20.0));
+    EXPECT_EQ(std::ssize(motion->impacts()), form.impact_count(20.0));
     EXPECT_LT(distance(*motion, form, t), bound);
   };
   // The doubles of the problem move phases of up to 20 X radians by a few 2^-53 of themselves, and
@@ -81,7 +81,7 @@ TEST(EventDrivenMotion, FollowsASimulationWithNinetyDigitsForOtherSystems) {
   // The simulator's contact is at u1 - u2 = -gap.
   const auto motion = EventDrivenMotion::make(problem, {}, 12.0);
   ASSERT_TRUE(motion);
-  ASSERT_GE(motion->collisions().size(), 4u);
+  ASSERT_GE(motion->impacts().size(), 4u);
   std::vector<Real> times;
   const auto t = grid(12.0, 97);
   for (const double x : t) times.push_back(x);
@@ -102,9 +102,9 @@ TEST(EventDrivenMotion, ImpactsObeyTheirLawAndDepartures) {
     motion.sample({&t, 1}, u, v);
     return std::array{u[0], u[1], v[0], v[1]};
   };
-  const auto jump = [&](const ImpactLaw& law, int which) {
+  const auto jump = [&](const ImpactLaw& law, int number) {
     const auto motion = EventDrivenMotion::make(problem, law, 20.0);
-    const double t = motion->collisions().at(std::size_t(which)).t;
+    const double t = motion->impacts().at(std::size_t(number)).t;
     const auto before = at(*motion, t - 1e-9), after = at(*motion, t);
     return std::array{after[2] - before[2], after[3] - before[3], before[2] - before[3],
                       after[2] - after[3]};
@@ -129,9 +129,9 @@ TEST(EventDrivenMotion, ImpactsOfAGridActAtItsTimes) {
   const auto motion = EventDrivenMotion::make(problem, {.grid = h}, 20.0);
   const auto exact = EventDrivenMotion::make(problem, {}, 20.0);
   ASSERT_TRUE(motion);
-  EXPECT_EQ(motion->collisions().size(), exact->collisions().size());
-  for (const auto& hit : motion->collisions()) EXPECT_NEAR(hit.t / h, std::round(hit.t / h), 1e-9);
-  const double delay = motion->collisions()[0].t - exact->collisions()[0].t;
+  EXPECT_EQ(motion->impacts().size(), exact->impacts().size());
+  for (const auto& hit : motion->impacts()) EXPECT_NEAR(hit.t / h, std::round(hit.t / h), 1e-9);
+  const double delay = motion->impacts()[0].t - exact->impacts()[0].t;
   EXPECT_GE(delay, 0.0);
   EXPECT_LT(delay, h);
 }
@@ -140,7 +140,7 @@ TEST(EventDrivenMotion, DampingAfterTheFirstImpactChangesTheDecay) {
   const auto problem = RigidStop({0.05, 1.0, 20.0}).problem();
   const auto motion = EventDrivenMotion::make(problem, {.damping_after_impact = 0.0}, 20.0);
   ASSERT_TRUE(motion);
-  const auto& hits = motion->collisions();
+  const auto& hits = motion->impacts();
   ASSERT_GE(hits.size(), 4u);
   // Without damping the speed at the stop stays.
   EXPECT_NEAR(hits[2].impulse, hits[1].impulse, 1e-12 * hits[1].impulse);
@@ -165,7 +165,7 @@ TEST(EventDrivenMotion, PlasticImpactAtEquilibriumEndsTheMotion) {
   const RigidStop stop({0.05, 0.0, 20.0});
   const auto motion = EventDrivenMotion::make(stop.problem(), {}, 20.0);
   ASSERT_TRUE(motion);
-  EXPECT_EQ(motion->collisions().size(), 1u);
+  EXPECT_EQ(motion->impacts().size(), 1u);
   const double t = 15.0;
   double u = 1.0;
   motion->sample({&t, 1}, {&u, 1}, {});

@@ -60,7 +60,7 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
   for (int order = 0; order <= 3; ++order) derivatives_.push_back(system_.derivative(order));
   inverse_ = system_.inverse();
   const Matrix inverse_mass = mass_.llt().solve(Matrix::Identity(dof(), dof()));
-  push_ = inverse_.rightCols(dof()) * inverse_mass;
+  impulse_response_ = inverse_.rightCols(dof()) * inverse_mass;
   add_forces(problem, inverse_mass, who);
   find_residuals();
 }
@@ -75,8 +75,8 @@ void ForcedModes::add_forces(const model::ImpactProblem<>& problem, const Matrix
     Force force;
     force.frequency = f.frequency;
     const Complex phase = std::polar(f.amplitude, f.phase), turn(0.0, f.frequency);
-    force.push = inverse_mass.col(f.dof).cast<Complex>() * phase;
-    const Eigen::VectorXcd g = push_.col(f.dof).cast<Complex>() * phase;
+    force.acceleration = inverse_mass.col(f.dof).cast<Complex>() * phase;
+    const Eigen::VectorXcd g = impulse_response_.col(f.dof).cast<Complex>() * phase;
     force.steady = Eigen::VectorXcd::Zero(2 * n);
     for (Index j = 0; j < n; ++j) {
       const auto& mode = system_.modes()[std::size_t(j)];
@@ -97,7 +97,7 @@ void ForcedModes::add_forces(const model::ImpactProblem<>& problem, const Matrix
       force.steady[n + j] = turn * force.steady[j] - g[j];
     }
     Eigen::VectorXcd left(2 * n);
-    left << derivatives_[0] * g, derivatives_[1] * g - force.push;
+    left << derivatives_[0] * g, derivatives_[1] * g - force.acceleration;
     force.defect_per_time = (inverse_.cast<Complex>() * left).cwiseAbs();
     forces_.push_back(std::move(force));
   }
@@ -117,14 +117,15 @@ void ForcedModes::find_residuals() {
   const Matrix size = mass_.cwiseAbs() * derivatives_[2].cwiseAbs() +
                       damping_.cwiseAbs() * derivatives_[1].cwiseAbs() +
                       stiffness_.cwiseAbs() * derivatives_[0].cwiseAbs();
-  force_residual_ = (push_ * left).cwiseAbs() + rounding * push_.cwiseAbs() * size;
+  force_residual_ =
+      (impulse_response_ * left).cwiseAbs() + rounding * impulse_response_.cwiseAbs() * size;
 }
 
 Vector ForcedModes::state(const Vector& u, const Vector& v) const {
   return inverse_.leftCols(dof()) * u + inverse_.rightCols(dof()) * v;
 }
 
-Vector ForcedModes::impulse(const Vector& direction) const { return push_ * direction; }
+Vector ForcedModes::impulse(const Vector& direction) const { return impulse_response_ * direction; }
 
 Vector ForcedModes::steady(double t) const {
   Vector z = Vector::Zero(2 * dof());
@@ -156,7 +157,8 @@ Vector ForcedModes::rate(const Vector& z) const {
 
 Vector ForcedModes::acceleration(const Vector& z, double t) const {
   Vector a = derivatives_[2] * z;
-  for (const auto& force : forces_) a += (force.push * std::polar(1.0, force.frequency * t)).real();
+  for (const auto& force : forces_)
+    a += (force.acceleration * std::polar(1.0, force.frequency * t)).real();
   return a;
 }
 
@@ -223,13 +225,13 @@ Matrix ForcedModes::carried(const Matrix& covariance, double s) const {
   const Index n = dof();
   Vector unit = Vector::Zero(2 * n);
   unit.head(n).setOnes();
-  const Vector one = advanced(unit, s), two = advanced(Vector::Ones(2 * n) - unit, s);
+  const Vector from_value = advanced(unit, s), from_rate = advanced(Vector::Ones(2 * n) - unit, s);
   const auto mapped = [&](const Matrix& x) {
     Matrix y(2 * n, 2 * n);
-    y.topRows(n) = one.head(n).asDiagonal() * x.topRows(n);
-    y.topRows(n) += two.head(n).asDiagonal() * x.bottomRows(n);
-    y.bottomRows(n) = one.tail(n).asDiagonal() * x.topRows(n);
-    y.bottomRows(n) += two.tail(n).asDiagonal() * x.bottomRows(n);
+    y.topRows(n) = from_value.head(n).asDiagonal() * x.topRows(n);
+    y.topRows(n) += from_rate.head(n).asDiagonal() * x.bottomRows(n);
+    y.bottomRows(n) = from_value.tail(n).asDiagonal() * x.topRows(n);
+    y.bottomRows(n) += from_rate.tail(n).asDiagonal() * x.bottomRows(n);
     return y;
   };
   return mapped(mapped(covariance).transpose());

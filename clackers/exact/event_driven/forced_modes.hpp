@@ -26,8 +26,8 @@ class ForcedModes {
   ForcedModes(const model::ImpactProblem<>& problem, std::string_view who);
 
   struct Force {
-    double frequency = 0.0;           ///< [rad/s]
-    Eigen::VectorXcd push, steady;    ///< e^(i phase) times M^-1 f, and the response z
+    double frequency = 0.0;                 ///< [rad/s]
+    Eigen::VectorXcd acceleration, steady;  ///< e^(i phase) times M^-1 f, and the response z
     Eigen::VectorXd defect_per_time;  ///< what the response leaves of the equations, as a rate of z
   };
   /// Bounds on |y| and |y'| of each mode.
@@ -72,7 +72,7 @@ class ForcedModes {
   Matrix mass_, damping_, stiffness_;
   numerics::ModalSystem system_;
   std::vector<Matrix> derivatives_;
-  Matrix inverse_, push_;                   // z by (u, v), and by impulses
+  Matrix inverse_, impulse_response_;       // z by (u, v), and by impulses
   Matrix basis_residual_, force_residual_;  // of z: its own error, and the rate of it
   std::vector<Force> forces_;
 };

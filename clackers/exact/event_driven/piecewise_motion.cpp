@@ -64,11 +64,11 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
     const MatrixXd covariance = covariance_after(flight, t - flight.t);
     // What is summed, for the rounding of the sum.
     const auto size = modes_.sizes(flight.free, t - flight.t);
-    VectorXd whole(2 * n), push = VectorXd::Zero(n);
+    VectorXd whole(2 * n), load = VectorXd::Zero(n);
     whole << size.y, size.rate;
     for (const auto& force : modes_.forces()) {
       whole += force.steady.cwiseAbs();
-      push += (2.0 + force.frequency * t) * force.push.cwiseAbs();
+      load += (2.0 + force.frequency * t) * force.acceleration.cwiseAbs();
     }
     const auto raise = [&](VectorXd& to, int order, const VectorXd& more) {
       const MatrixXd& rows = modes_.derivative(order);
@@ -80,7 +80,7 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
     };
     raise(bound.u, 0, VectorXd::Zero(n));
     raise(bound.v, 1, VectorXd::Zero(n));
-    raise(bound.a, 2, push);
+    raise(bound.a, 2, load);
   }
   return bound;
 }

@@ -87,9 +87,9 @@ model::ImpactProblem<> seen_through(const MatrixXd& s, const model::ImpactProble
   return seen;
 }
 
-Real time_of(const testing_oracle::RawCollision& impact) { return impact.before.t; }
+Real time_of(const testing_oracle::RawPairImpact& impact) { return impact.before.t; }
 Real time_of(const testing_oracle::TaylorSimulator::Impact& impact) { return impact.t; }
-int contact_of(const testing_oracle::RawCollision&) { return 0; }
+int contact_of(const testing_oracle::RawPairImpact&) { return 0; }
 int contact_of(const testing_oracle::TaylorSimulator::Impact& impact) { return impact.contact; }
 
 Real entry(const std::array<Real, 2>& values, Eigen::Index j) { return values[std::size_t(j)]; }

@@ -162,11 +162,11 @@ std::optional<ForcedPair::Closing> ForcedPair::closing() const {
     fastest = std::max(fastest, own);
   }
   const auto bound = [&](double s) {
-    const auto one = mass_state(masses_[0], s), two = mass_state(masses_[1], s);
+    const auto mass1 = mass_state(masses_[0], s), mass2 = mass_state(masses_[1], s);
     numerics::LocalBound gap;
-    gap.value = ((one.u - two.u) - (masses_[0].D - masses_[1].D)).nearest();
-    gap.slope = (one.v - two.v).nearest();
-    gap.second = (one.a - two.a).nearest();
+    gap.value = ((mass1.u - mass2.u) - (masses_[0].D - masses_[1].D)).nearest();
+    gap.slope = (mass1.v - mass2.v).nearest();
+    gap.second = (mass1.a - mass2.a).nearest();
     gap.curvature = curvature * (1.0 + 1e-9);
     gap.third_bound = third * (1.0 + 1e-9);
     gap.reach = T;

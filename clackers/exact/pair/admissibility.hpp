@@ -14,7 +14,7 @@ namespace clackers::exact {
 /// strictly rising towards 4.60333884875.
 double r_star(double X);
 
-/// X times the angle before a collision at which the gap is smallest, for odd X >= 5: the zero of
+/// X times the angle before an impact at which the gap is smallest, for odd X >= 5: the zero of
 /// X sin(x/X) cos(x) - sin(x) cos(x/X) in (pi, 3 pi/2), to the last bit.
 double graze_angle(double X);
 

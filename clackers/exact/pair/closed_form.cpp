@@ -49,7 +49,7 @@ Phase ClosedForm::phase(double t, Side side) const {
 void ClosedForm::sample(std::span<const double> times, Side side, model::SampleBuffers out) const {
   const auto masses = c_.masses.size();
   model::require_buffers("motion", out, times.size(), masses);
-  const auto one = [&](std::size_t i) {
+  const auto evaluate = [&](std::size_t i) {
     const auto at = i * masses;
     sample_one(times[i], side, &out.u[at], &out.v[at], out.a.empty() ? nullptr : &out.a[at]);
   };
@@ -58,14 +58,14 @@ void ClosedForm::sample(std::span<const double> times, Side side, model::SampleB
   for (std::size_t i = 0; i < times.size(); i += most_in_block) {
     const auto count = std::min(most_in_block, times.size() - i);
     if (count <= few) {
-      for (std::size_t j = i; j < i + count; ++j) one(j);
+      for (std::size_t j = i; j < i + count; ++j) evaluate(j);
       continue;
     }
     const auto at = i * masses;
     auto left_out = sample_block(c_, &times[i], count, &out.u[at], &out.v[at],
                                  out.a.empty() ? nullptr : &out.a[at]);
     for (; left_out != 0; left_out &= left_out - 1)
-      one(i + static_cast<std::size_t>(std::countr_zero(left_out)));
+      evaluate(i + static_cast<std::size_t>(std::countr_zero(left_out)));
   }
 }
 
@@ -122,7 +122,7 @@ model::MotionImpact ClosedForm::impact(long long index) const {
   const auto k = static_cast<double>(index);
   model::MotionImpact hit;
   hit.index = index;
-  const auto when = collision_instant(c_, k);
+  const auto when = impact_instant(c_, k);
   hit.t = when.nearest;
   const double other = std::nextafter(hit.t, when.beyond > 0.0 ? INFINITY : 0.0);
   hit.when = {std::min(hit.t, other), std::max(hit.t, other)};

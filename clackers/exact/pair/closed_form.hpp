@@ -9,7 +9,7 @@
 
 namespace clackers::exact {
 
-/// A motion made of flights u_i = b_i E cos(p_i theta) between collisions at t_k = (k - 1/2) T, in
+/// A motion made of flights u_i = b_i E cos(p_i theta) between impacts at t_k = (k - 1/2) T, in
 /// which all masses pass equilibrium together. The base of all motions of this module.
 ///
 /// Evaluation: the phase Omega t / pi is formed with 159 bits and reduced exactly, sines, cosines
@@ -26,7 +26,7 @@ class ClosedForm : public model::Motion {
               model::SampleBuffers out) const override;
 
   /// |b| E, |b| E omega and |b| E omega^2 of each mass, omega its undamped frequency. At the
-  /// double nearest to a collision E is that of the flight before it, the larger one.
+  /// double nearest to an impact E is that of the flight before it, the larger one.
   model::Kinematics envelope(double t) const override;
   /// The envelope at t = 0: it never grows.
   model::Kinematics peak() const override { return envelope(0.0); }
@@ -56,7 +56,7 @@ class ClosedForm : public model::Motion {
   const Parameters& parameters() const { return parameters_; }
   const std::optional<PairConstants>& pair() const { return pair_; }
 
-  /// The flight that holds at t, or that `side` means where t is the double nearest to a collision.
+  /// The flight that holds at t, or that `side` means where t is the double nearest to an impact.
   /// theta / pi lies in [-1/2, 1/2], without a stop in [-1, 1]. Throws InputError outside
   /// [0, end()].
   Phase phase(double t, model::Side side) const;

@@ -62,12 +62,12 @@ void expect_true(const ClosedForm& motion, const Oracle& oracle, double t) {
     EXPECT_TRUE(check.bound_holds) << "t = " << t;
     EXPECT_TRUE(check.envelope_holds) << "t = " << t;
     EXPECT_EQ(motion.impact_count(t),
-              oracle.eta == 0.0 ? std::min(1LL, oracle.collisions(t)) : oracle.collisions(t))
+              oracle.eta == 0.0 ? std::min(1LL, oracle.impacts(t)) : oracle.impacts(t))
         << "t = " << t;
   }
 }
 
-// Times of every size up to the end, and some within 4 ulp of collisions.
+// Times of every size up to the end, and some within 4 ulp of impacts.
 std::vector<double> times(Box& box, const Oracle& oracle, double end) {
   std::vector<double> result{0.0, end, spacing, box.uniform(0.0, end),
                              end * box.decades(-12.0, 0.0)};
@@ -145,9 +145,9 @@ TEST(ClosedForm, IsTrueAtLongTimesOfFastPairs) {
     }
 }
 
-TEST(ClosedForm, SurvivesWhereTheNumberOfCollisionsIsLargest) {
-  // 2^50 collisions: the spacing of doubles at the end is a fifth of a period, so every other
-  // time or so is the nearest double of a collision.
+TEST(ClosedForm, SurvivesWhereTheNumberOfImpactsIsLargest) {
+  // 2^50 impacts: the spacing of doubles at the end is a fifth of a period, so every other
+  // time or so is the nearest double of an impact.
   PairParameters p{.xi1 = 0.0, .X = 9.0, .r = 0.5, .t_end = 0x1p50 * 3.14159265};
   const SynchronizedPair motion(p);
   const auto oracle = oracle_of(p);
@@ -193,7 +193,7 @@ TEST(ClosedForm, FreeMassAndRigidStopFollowTheirFormulas) {
     expect_true(FreeMass({}), oracle_of(FreeMassParameters{}), t);
 }
 
-TEST(ClosedForm, SideDecidesOnlyAtTheDoubleNearestToACollision) {
+TEST(ClosedForm, SideDecidesOnlyAtTheDoubleNearestToAnImpact) {
   const SynchronizedPair motion({});
   for (const long long k : {1LL, 2LL, 6LL}) {
     const double t = motion.impact(k).t;
@@ -259,7 +259,7 @@ TEST(ClosedForm, ImpactsAreTrueAndTheirTimesEnclosed) {
   }
 }
 
-TEST(ClosedForm, EarlyCollisionsAreCountedOnTheRightSideOfTheirInstants) {
+TEST(ClosedForm, EarlyImpactsAreCountedOnTheRightSideOfTheirInstants) {
   // There the phase of a neighbouring double is a half to the last bit, and its low part decides.
   constexpr unsigned seed = 20260107;
   Box box(seed);
@@ -273,7 +273,7 @@ TEST(ClosedForm, EarlyCollisionsAreCountedOnTheRightSideOfTheirInstants) {
   }
 }
 
-TEST(ClosedForm, CollisionsAreCountedByTheTrueInstantUpToTheLast) {
+TEST(ClosedForm, ImpactsAreCountedByTheTrueInstantUpToTheLast) {
   const SynchronizedPair motion({});
   EXPECT_EQ(motion.impact_count(0.0), 0);
   EXPECT_EQ(motion.impact_count(motion.impact(1).when.lo), 0);
@@ -283,7 +283,7 @@ TEST(ClosedForm, CollisionsAreCountedByTheTrueInstantUpToTheLast) {
   EXPECT_EQ(RigidStop({}).impact_count(20.0), 6);
 }
 
-TEST(ClosedForm, WithoutRestitutionTheMassesRestAfterTheFirstCollision) {
+TEST(ClosedForm, WithoutRestitutionTheMassesRestAfterTheFirstImpact) {
   const SynchronizedPair motion({.eta = 0.0});
   EXPECT_EQ(motion.impact_count(20.0), 1);
   const auto hit = motion.impact(1);

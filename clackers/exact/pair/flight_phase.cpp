@@ -13,7 +13,7 @@ using numerics::DoubleDouble;
 
 Phase natural_phase(const FlightConstants& c, double t) {
   const auto turns = c.turns * t;
-  const double start = c.first_collision - 0.5;
+  const double start = c.first_impact - 0.5;
   double k = numerics::nearest_whole(turns.hi - start);
   // k <= 2^50 + 1, so the difference is exact.
   const auto top = numerics::two_sum(turns.hi - k, turns.mid);
@@ -30,8 +30,8 @@ Phase natural_phase(const FlightConstants& c, double t) {
   return {k, y};
 }
 
-numerics::Neighbour collision_instant(const FlightConstants& c, double k) {
-  return numerics::nearest_double(c.period * (k - 1.0 + c.first_collision));
+numerics::Neighbour impact_instant(const FlightConstants& c, double k) {
+  return numerics::nearest_double(c.period * (k - 1.0 + c.first_impact));
 }
 
 Phase phase_at(const FlightConstants& c, double t, model::Side side) {
@@ -49,7 +49,7 @@ Phase phase_at(const FlightConstants& c, double t, model::Side side) {
   const double y = phase.theta_over_pi.hi;
   if (0.5 - std::abs(y) <= (natural + 1.0) * two_to_minus_52) {
     const double k = y > 0.0 ? natural + 1.0 : natural;
-    if (k >= 1.0 && collision_instant(c, k).nearest == t) {
+    if (k >= 1.0 && impact_instant(c, k).nearest == t) {
       phase.flight = side == model::Side::left ? k - 1.0 : k;
       phase.theta_over_pi = phase.theta_over_pi + DoubleDouble{natural - phase.flight, 0.0};
     }

@@ -16,12 +16,12 @@ struct Phase {
 /// [-1/2, 1/2], with an error below 2^-100.
 Phase natural_phase(const FlightConstants& c, double t);
 
-/// The same, but where t is the double nearest to a collision, the flight that `side` means. Without
-/// collisions the flight is 0 and theta / pi lies in [-1, 1].
+/// The same, but where t is the double nearest to an impact, the flight that `side` means. Without
+/// impacts the flight is 0 and theta / pi lies in [-1, 1].
 Phase phase_at(const FlightConstants& c, double t, model::Side side);
 
-/// t_k [s] of collision k = 1, 2, ...
-numerics::Neighbour collision_instant(const FlightConstants& c, double k);
+/// t_k [s] of impact k = 1, 2, ...
+numerics::Neighbour impact_instant(const FlightConstants& c, double k);
 
 /// 2^halvings; 0 below 2^-4000, where every product with a constant (all below 1e300) is nearer to
 /// 0 than to the smallest subnormal.

@@ -50,7 +50,7 @@ struct RealMotion {
   };
 
   std::vector<Mass> masses;
-  Real omega;  // Omega, the damped frequency whose half period separates the collisions [1/s]
+  Real omega;  // Omega, the damped frequency whose half period separates the impacts [1/s]
   Real sigma;  // common rate of decay [1/s]
   double eta = 1.0;
   double end = 0.0;
@@ -67,7 +67,7 @@ void require_end(std::string_view who, const RealMotion& motion) {
     refuse(who, "t_end", motion.end,
            fmt::format("0 < t_end <= {} s, which is 2^50 half periods",
                        std::nextafter(to_double(most_half_periods * pi() / motion.omega), 0.0)),
-           "Beyond, collisions lie closer together than double precision resolves their times.");
+           "Beyond, impacts lie closer together than double precision resolves their times.");
 }
 
 RealMotion unit_mass(double xi1, double eta, double end, bool collides) {
@@ -249,13 +249,13 @@ PairConstants pair_constants(const RealMotion& motion, const model::ImpactProble
   c.v1 = problem.start.v[0];
   c.v2 = problem.start.v[1];
   c.period = to_double(period);
-  c.first_collision = to_double(period / 2);
+  c.first_impact = to_double(period / 2);
   c.r_star = r_star(c.ratio.odd);
   c.margin = admissibility_margin(c.ratio, motion.r);
   return c;
 }
 
-// With x = X phi, phi = pi/2 - Omega t the angle before the collision, slow minus fast displacement
+// With x = X phi, phi = pi/2 - Omega t the angle before the impact, slow minus fast displacement
 // is proportional to X sin(x/X) + r sin x. Its minimum over r decides: r* = -X sin(x/X)/sin(x) at
 // the x in (pi, 3 pi/2) where tan x = X tan(x/X). The ratio is stationary there, so the error of
 // the double x (1e-15) enters squared.

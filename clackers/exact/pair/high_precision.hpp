@@ -22,8 +22,8 @@ struct PairConstants {
   double sigma = 0.0;                     ///< common rate of decay, Eq. (12) [1/s]
   double u1 = 0.0, u2 = 0.0;              ///< initial displacements, Eq. (13) [m]
   double v1 = 0.0, v2 = 0.0;              ///< initial velocities, Eq. (17) [m/s]
-  double period = 0.0;                    ///< T, time between collisions [s]
-  double first_collision = 0.0;           ///< t_1 = T/2 [s]
+  double period = 0.0;                    ///< T, time between impacts [s]
+  double first_impact = 0.0;              ///< t_1 = T/2 [s]
   double r_star = 0.0;  ///< limit of slow over fast mass; infinity for equal frequencies
   double margin = 0.0;  ///< see admissibility_margin
 };

@@ -90,7 +90,7 @@ TEST(SynchronizedPair, DerivedConstantsAreThoseOfThePaper) {
   EXPECT_EQ(c.k1, 1.0);
   EXPECT_EQ(c.u1, 1.0);
   EXPECT_DOUBLE_EQ(c.period, M_PI / std::sqrt(0.9975));
-  EXPECT_DOUBLE_EQ(c.first_collision, M_PI / std::sqrt(0.9975) / 2.0);
+  EXPECT_DOUBLE_EQ(c.first_impact, M_PI / std::sqrt(0.9975) / 2.0);
   EXPECT_NEAR(c.r_star, 4.4136778, 1e-7);
   EXPECT_DOUBLE_EQ(c.margin, 1.0 - 3.0 / c.r_star);
   EXPECT_EQ(pair.constants().r, 3.0);

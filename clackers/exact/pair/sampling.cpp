@@ -62,7 +62,7 @@ HWY_INLINE std::uint64_t start(const FlightConstants& c, Vector t, std::size_t a
   hn::Store(e.hi, d, block.e_hi + at);
   hn::Store(e.lo, d, block.e_lo + at);
   hn::Store(scale, d, block.scale + at);
-  // Written so that NaN is left out. The distance from a collision is as in ClosedForm::flight_at().
+  // Written so that NaN is left out. The distance from an impact is as in ClosedForm::flight_at().
   auto plain = And(hn::Ge(t, hn::Zero(d)), hn::Le(t, constant(c.end)));
   plain = And(plain,
               hn::Gt(Sub(constant(0.5), Abs(y.hi)), Mul(Add(k, constant(2.0)), constant(0x1p-52))));

@@ -10,7 +10,7 @@
 namespace clackers::exact {
 
 /// One mass of a motion u = b E cos(p theta), with theta = Omega t - k pi in [-pi/2, pi/2),
-/// E = eta^k exp(-sigma t) and k the collisions so far. Per unit of E:
+/// E = eta^k exp(-sigma t) and k the impacts so far. Per unit of E:
 ///     u = b C,   v = v_cos C + v_sin S,   a = a_cos C + a_sin S,   C, S = cos, sin(p theta).
 struct MassConstants {
   double multiple = 1.0;         ///< p = damped frequency / Omega, odd
@@ -19,7 +19,7 @@ struct MassConstants {
   numerics::DoubleDouble v_sin;  ///< -b p Omega
   numerics::DoubleDouble a_cos;  ///< b (sigma^2 - p^2 Omega^2)
   numerics::DoubleDouble a_sin;  ///< 2 b sigma p Omega
-  numerics::DoubleDouble v_hit;  ///< velocity before a collision: -b p Omega sin(p pi/2)
+  numerics::DoubleDouble v_hit;  ///< velocity before an impact: -b p Omega sin(p pi/2)
   numerics::DoubleDouble a_hit;  ///< acceleration there: -2 sigma v_hit
   double u_envelope = 0.0;       ///< |b|
   double v_envelope = 0.0;       ///< |b| omega, omega^2 = p^2 Omega^2 + sigma^2
@@ -32,9 +32,9 @@ struct FlightConstants {
   bool collides = true;               ///< false: the free mass
   double eta = 1.0;
   double end = 0.0;                     ///< [s]
-  double first_collision = 0.5;         ///< t_1 / T: 1/2, or 1 for a start just after a collision
+  double first_impact = 0.5;            ///< t_1 / T: 1/2, or 1 for a start just after an impact
   numerics::TripleDouble turns;         ///< Omega / pi, half turns a second
-  numerics::TripleDouble period;        ///< T = pi / Omega [s], time between collisions
+  numerics::TripleDouble period;        ///< T = pi / Omega [s], time between impacts
   numerics::DoubleDouble decay;         ///< sigma / ln 2, halvings a second
   numerics::DoubleDouble period_decay;  ///< sigma T / ln 2
   numerics::DoubleDouble log2_eta;      ///< 0 when eta = 0, where it is not used
@@ -48,7 +48,7 @@ inline constexpr std::size_t most_in_block = 64;
 /// Evaluates a motion at `count` times with the widest vectors of the processor, chosen when the
 /// program first comes here. Writes row-major (time, mass); `a` may be null. Returns a bit for each
 /// time (the first the lowest) that was left out and is to be evaluated alone: outside [0, end], beside
-/// a collision, where E < 2^-1000, and at rest. The others hold the bits that the same operations on
+/// an impact, where E < 2^-1000, and at rest. The others hold the bits that the same operations on
 /// single numbers give.
 std::uint64_t sample_block(const FlightConstants& c, const double* times, std::size_t count,
                            double* u, double* v, double* a);

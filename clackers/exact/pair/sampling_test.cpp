@@ -62,12 +62,12 @@ void expect_bits_of_single_times(const ClosedForm& motion, const std::vector<dou
 
 std::vector<double> random_times(Box& box, const ClosedForm& motion, std::size_t count) {
   std::vector<double> times(count);
-  const auto collisions = motion.impact_count(motion.end());
+  const auto impacts = motion.impact_count(motion.end());
   for (auto& t : times) {
     t = box.one_in(3) ? motion.end() * box.decades(-9.0, 0.0) : box.uniform(0.0, motion.end());
-    // Beside and at collisions.
-    if (collisions > 0 && box.one_in(4)) {
-      t = motion.impact(1 + static_cast<long long>(box.uniform(0.0, double(collisions)))).t;
+    // Beside and at impacts.
+    if (impacts > 0 && box.one_in(4)) {
+      t = motion.impact(1 + static_cast<long long>(box.uniform(0.0, double(impacts)))).t;
       if (box.one_in(3)) t = std::nextafter(t, 0.0);
       if (box.one_in(3)) t = std::min(motion.end(), std::nextafter(t, INFINITY));
     }
@@ -128,7 +128,7 @@ TEST_P(Sampling, LeavesOutOnlyWhatIsToBeEvaluatedAlone) {
   const std::vector<double> times{0.0, 1.0, hit, 5.0, -1.0, 13000.0, NAN, 2e5, 19.0, 90000.0};
   double u[20], v[20];
   const auto left_out = sample_block(motion.flight(), times.data(), times.size(), u, v, nullptr);
-  // The collision, the times outside, and those at which E is below 2^-1000.
+  // The impact, the times outside, and those at which E is below 2^-1000.
   EXPECT_EQ(left_out, 0b1011110100u);
   const SynchronizedPair plastic({.eta = 0.0});
   EXPECT_EQ(sample_block(plastic.flight(), times.data(), 2, u, v, nullptr), 0u);

@@ -34,7 +34,7 @@ void require_kind(const model::ImpactProblem<>& problem) {
     refuse(penalized_name, "contacts", double(problem.contacts.size()), "one");
   if (problem.contacts[0].restitution != 1.0)
     refuse(penalized_name, "restitution", problem.contacts[0].restitution,
-           "1, since a linear spring gives back what it takes", {}, "penalty-needs-elastic");
+           "1, since a linear spring is elastic", {}, "penalty-needs-elastic");
 }
 
 }  // namespace

@@ -236,7 +236,7 @@ TEST(PenalizedMotion, ComesNearerToTheRigidOneAsTheSpringStiffens) {
 }
 
 TEST(PenalizedMotion, DoesNotTouchWhereTheRigidOneWouldNotEither) {
-  // r* of X = 9 is 4.41368: just below it the masses nearly touch between collisions.
+  // r* of X = 9 is 4.41368: just below it the masses nearly touch between impacts.
   const auto problem = pair({.X = 9.0, .r = 4.413, .t_end = 4.0});
   const PenalizedMotion motion(problem, 1e10);
   EXPECT_EQ(motion.impact_count(4.0), 1);

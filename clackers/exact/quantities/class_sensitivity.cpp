@@ -111,7 +111,7 @@ class ClassSensitivity : public Sensitivity {
 
 std::vector<std::string> class_parameters(const ClosedForm& motion) {
   std::vector<std::string> names;
-  for (const auto& one : table(motion)) names.push_back(one.name);
+  for (const auto& row : table(motion)) names.push_back(row.name);
   return names;
 }
 

@@ -14,8 +14,8 @@ double slow_over_fast(const FrequencyRatio& ratio, double r) {
   return ratio.is_inverse ? 1.0 / r : r;
 }
 
-// Collisions until `size` has grown to lost_synchrony, the logarithm growing by `rate` at each.
-double collisions_at(double size, double rate) {
+// Impacts until `size` has grown to lost_synchrony, the logarithm growing by `rate` at each.
+double impacts_at(double size, double rate) {
   if (size >= lost_synchrony) return 0.0;
   if (rate == 0.0) return infinity;
   return std::max(1.0, std::ceil(std::log(lost_synchrony / size) / rate));
@@ -70,13 +70,13 @@ class DetunedPair {
   Wave slow_{1.0, 0.0}, fast_;
 };
 
-// The collision after which a simulated pair is first spaced wrongly, if that is not after `most`;
+// The impact after which a simulated pair is first spaced wrongly, if that is not after `most`;
 // infinity where it is, and where it would take too long to see.
 double simulated_loss(double X, double r, double eta, double eps, double most) {
   using std::numbers::pi;
   DetunedPair pair(X, r, eta, X * (1.0 + eps));
   int evaluations = 30000;
-  // The first collision ends half a spacing.
+  // The first impact ends half a spacing.
   double start = -0.5 * pi;
   for (double k = 1.0; k <= most; k += 1.0) {
     const double theta = pair.fly(evaluations);
@@ -102,15 +102,15 @@ Conditioning conditioning(const FrequencyRatio& ratio, double r, double eta) {
   return detuning_rate(ratio, r) > 0.0 ? Conditioning::detuning_fragile : Conditioning::neutral;
 }
 
-double collisions_until_perturbation(double eta, double size) {
+double impacts_until_perturbation(double eta, double size) {
   require_share("perturbation", size, size);
-  return collisions_at(size, -std::log(eta));
+  return impacts_at(size, -std::log(eta));
 }
 
-double collisions_until_detuning(const FrequencyRatio& ratio, double r, double eta, double eps) {
+double impacts_until_detuning(const FrequencyRatio& ratio, double r, double eta, double eps) {
   const double size = std::abs(eps);
   require_share("detuning", eps, size);
-  const double law = collisions_at(size, detuning_rate(ratio, r) * size - std::log(eta));
+  const double law = impacts_at(size, detuning_rate(ratio, r) * size - std::log(eta));
   return std::min(law, simulated_loss(ratio.odd, slow_over_fast(ratio, r), eta, eps, law));
 }
 

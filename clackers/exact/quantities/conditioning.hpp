@@ -4,11 +4,11 @@
 
 namespace clackers::exact {
 
-/// What becomes of small errors at the collisions of a synchronized pair, and so which errors
+/// What becomes of small errors at the impacts of a synchronized pair, and so which errors
 /// a user may attribute to a solver. Relative means: against the decaying amplitude of the motion.
 enum class Conditioning {
   neutral,           ///< elastic with r <= 1 or X = 1: a relative error stays what it is
-  growing,           ///< eta < 1: a relative error grows by 1/eta at each collision
+  growing,           ///< eta < 1: a relative error grows by 1/eta at each impact
   detuning_fragile,  ///< elastic with r > 1 and X >= 3: a detuned frequency destroys synchrony
 };
 
@@ -17,28 +17,28 @@ enum class Conditioning {
 Conditioning conditioning(const FrequencyRatio& ratio, double r, double eta);
 
 /// lambda = pi sqrt((r - 1) (X^2 - r^2) / (1 + r)^3), r slow over fast mass: in an elastic pair
-/// whose damped frequencies have the ratio X (1 + eps), as a solver's dispersion makes them, a loss
-/// of synchrony grows by exp(lambda |eps|) at each collision, to first order in eps. 0 where it
+/// whose damped frequencies have the ratio X (1 + eps), as caused by a solver's dispersion them, a loss
+/// of synchrony grows by exp(lambda |eps|) at each impact, to first order in eps. 0 where it
 /// does not grow: for r <= 1, where it oscillates instead, and for X = 1. Needs r < X for X >= 3,
 /// which admissibility implies.
 double detuning_rate(const FrequencyRatio& ratio, double r);
 
-/// Synchrony counts as lost when collisions are spaced wrongly by this part.
+/// Synchrony counts as lost when impacts are spaced wrongly by this part.
 inline constexpr double lost_synchrony = 0.1;
 
-/// The collision after which a disturbance of relative size `size` (0 < size < 1) at the start has
+/// The impact after which a disturbance of relative size `size` (0 < size < 1) at the start has
 /// grown to lost_synchrony: ln(0.1/size)/ln(1/eta), rounded up, at least 1; infinity for eta = 1,
 /// where it does not grow; 0 when it is that large already. To first order.
-double collisions_until_perturbation(double eta, double size);
+double impacts_until_perturbation(double eta, double size);
 
 /// The same for damped frequencies whose ratio is X (1 + eps), 0 < |eps| < 1. The smaller of two:
-/// - a loss of |eps| that grows by exp(lambda |eps|)/eta at each collision. Average-acceleration
+/// - a loss of |eps| that grows by exp(lambda |eps|)/eta at each impact. Average-acceleration
 ///   Newmark restarted at each impact lost synchrony within 5 % of it (X = 9, r = 3, eta = 1, 20 to
 ///   160 steps a fast period);
 /// - the loss in a simulation of the detuned pair from its exact start, followed for 3e4 evaluations
 ///   of the gap. It is the smaller one near r*, where the masses touch away from equilibrium;
-///   elsewhere it takes 1.2 to 1.7 times as many collisions, as it starts below |eps|.
+///   elsewhere it takes 1.2 to 1.7 times as many impacts, as it starts below |eps|.
 /// Infinity where neither loses it.
-double collisions_until_detuning(const FrequencyRatio& ratio, double r, double eta, double eps);
+double impacts_until_detuning(const FrequencyRatio& ratio, double r, double eta, double eps);
 
 }  // namespace clackers::exact

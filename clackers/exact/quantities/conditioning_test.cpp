@@ -13,19 +13,19 @@
 namespace clackers::exact {
 namespace {
 
-// One collision of a simulation: time since the one before, and the velocities just after it.
-struct Collision {
+// One impact of a simulation: time since the one before, and the velocities just after it.
+struct PairImpact {
   double spacing, v1, v2;
 };
 
-// Collisions of an undamped pair, slow mass m1 = r and fast m2 = 1, started just after a collision
+// Impacts of an undamped pair, slow mass m1 = r and fast m2 = 1, started just after an impact
 // with velocities (1 + push, -r); frequencies 1 and X (1 + eps). Knows no closed form: Newton's
 // method finds each contact on the free flights.
-std::vector<Collision> simulate(double X, double r, double eta, double eps, double push,
-                                int count) {
+std::vector<PairImpact> simulate(double X, double r, double eta, double eps, double push,
+                                 int count) {
   const double w = X * (1.0 + eps);
   double u = 0.0, v1 = 1.0 + push, v2 = -r;
-  std::vector<Collision> list;
+  std::vector<PairImpact> list;
   for (int k = 0; k < count; ++k) {
     const auto u1 = [&](double t) { return u * std::cos(t) + v1 * std::sin(t); };
     const auto u2 = [&](double t) { return u * std::cos(w * t) + v2 / w * std::sin(w * t); };
@@ -44,12 +44,11 @@ std::vector<Collision> simulate(double X, double r, double eta, double eps, doub
 
 std::vector<double> spacings(double X, double r, double eps, int count) {
   std::vector<double> list;
-  for (const auto& collision : simulate(X, r, 1.0, eps, 0.0, count))
-    list.push_back(collision.spacing);
+  for (const auto& impact : simulate(X, r, 1.0, eps, 0.0, count)) list.push_back(impact.spacing);
   return list;
 }
 
-// cosh of the growth over `stride` collisions: differences d of every second spacing obey
+// cosh of the growth over `stride` impacts: differences d of every second spacing obey
 // d(k + stride) + d(k - stride) = 2 cosh(growth) d(k), which removes the constant part and the
 // alternation of an elastic impact.
 double hyperbolic_cosine(const std::vector<double>& s, std::size_t k, std::size_t stride) {
@@ -81,10 +80,10 @@ TEST(Conditioning, ALightSlowMassOscillatesInsteadOfGrowing) {
   EXPECT_EQ(detuning_rate({9.0, false}, 1.0), 0.0);
 }
 
-TEST(Conditioning, ARelativeErrorGrowsByOneOverEtaAtEachCollision) {
+TEST(Conditioning, ARelativeErrorGrowsByOneOverEtaAtEachImpact) {
   // The total momentum should be zero. An impact keeps it and half a period turns it round, while
   // the motion itself shrinks by eta.
-  const auto relative_momentum = [](const Collision& c) { return (0.5 * c.v1 + c.v2) / c.v1; };
+  const auto relative_momentum = [](const PairImpact& c) { return (0.5 * c.v1 + c.v2) / c.v1; };
   for (const double eta : {1.0, 0.75, 0.5}) {
     const auto run = simulate(5.0, 0.5, eta, 0.0, 1e-6, 9);
     const double growth = std::abs(relative_momentum(run[8]) / relative_momentum(run[0]));
@@ -110,7 +109,7 @@ TEST(Conditioning, NamesTheKind) {
   EXPECT_EQ(detuning_rate(ninth, 0.25), detuning_rate(nine, 4.0));
 }
 
-// The first collision after which a simulation's spacing is off by a tenth.
+// The first impact after which a simulation's spacing is off by a tenth.
 double lost_after(double X, double r, double eps, int most) {
   const auto list = spacings(X, r, eps, most);
   for (std::size_t k = 0; k < list.size(); ++k)
@@ -127,13 +126,13 @@ TEST(Conditioning, DetuningLosesSynchronyAboutWhenItSays) {
                {13.0, 4.0, 1e-3, 1.345},     {3.0, 2.0, 1e-3, 1.533},
                {9.0, 1.5, 1e-3, 1.212}};
   for (const auto& [X, r, eps, seen] : table) {
-    const double predicted = collisions_until_detuning({X, false}, r, 1.0, eps);
+    const double predicted = impacts_until_detuning({X, false}, r, 1.0, eps);
     const double lost = lost_after(X, r, eps, static_cast<int>(3.0 * predicted));
     EXPECT_NEAR(lost / predicted, seen, 0.01)
         << X << " " << r << " " << eps << " predicted " << predicted;
   }
   EXPECT_EQ(lost_after(9.0, 0.5, 1e-3, 20000), INFINITY);
-  EXPECT_EQ(collisions_until_detuning({9.0, false}, 0.5, 1.0, 1e-3), INFINITY);
+  EXPECT_EQ(impacts_until_detuning({9.0, false}, 0.5, 1.0, 1e-3), INFINITY);
 }
 
 TEST(Conditioning, DispersionLosesSynchronyWhenASolverWasSeenToLoseIt) {
@@ -144,18 +143,18 @@ TEST(Conditioning, DispersionLosesSynchronyWhenASolverWasSeenToLoseIt) {
     const auto factor = [&](double angle) { return std::atan(angle) / angle; };
     const double angle = std::numbers::pi / steps;
     const double eps = factor(angle) / factor(angle / 9.0) - 1.0;
-    EXPECT_NEAR(collisions_until_detuning({9.0, false}, 3.0, 1.0, eps) / seen, 1.0, 0.05) << steps;
+    EXPECT_NEAR(impacts_until_detuning({9.0, false}, 3.0, 1.0, eps) / seen, 1.0, 0.05) << steps;
   }
 }
 
 TEST(Conditioning, APerturbationReachesATenthWhenEtaHasMultipliedItThere) {
   // 0.1/1e-6 = 1e5 lies between 2^16 and 2^17.
-  EXPECT_EQ(collisions_until_perturbation(0.5, 1e-6), 17.0);
-  EXPECT_EQ(collisions_until_perturbation(1.0, 1e-6), INFINITY);
-  // The next collision after it cannot come before it.
-  EXPECT_EQ(collisions_until_perturbation(0.0, 1e-6), 1.0);
-  EXPECT_EQ(collisions_until_perturbation(1.0, 0.1), 0.0);
-  // A simulation whose first mass is pushed by 1e-6 after a collision.
+  EXPECT_EQ(impacts_until_perturbation(0.5, 1e-6), 17.0);
+  EXPECT_EQ(impacts_until_perturbation(1.0, 1e-6), INFINITY);
+  // The next impact after it cannot come before it.
+  EXPECT_EQ(impacts_until_perturbation(0.0, 1e-6), 1.0);
+  EXPECT_EQ(impacts_until_perturbation(1.0, 0.1), 0.0);
+  // A simulation whose first mass is pushed by 1e-6 after an impact.
   const auto run = simulate(5.0, 0.5, 0.5, 0.0, 1e-6, 20);
   double spacing = 0.0;
   int lost = 0;
@@ -169,11 +168,11 @@ TEST(Conditioning, APerturbationReachesATenthWhenEtaHasMultipliedItThere) {
       lost = k + 1;
   }
   EXPECT_NEAR(lost, 17, 1);
-  // Each collision adds the detuning anew, each multiplies it by 1/eta.
-  EXPECT_EQ(collisions_until_detuning({9.0, false}, 0.5, 0.5, -1e-6), 17.0);
+  // Each impact adds the detuning anew, each multiplies it by 1/eta.
+  EXPECT_EQ(impacts_until_detuning({9.0, false}, 0.5, 0.5, -1e-6), 17.0);
 }
 
-// The collision after which a detuned pair is first spaced wrongly by a tenth, from the exact start
+// The impact after which a detuned pair is first spaced wrongly by a tenth, from the exact start
 // at t = 0: the gap is sampled 40 times a fast half period, and bisected where it changes its sign.
 double sampled_loss(double X, double r, double eta, double eps, int most) {
   const double w = X * (1.0 + eps), step = std::numbers::pi / (40.0 * X);
@@ -210,17 +209,17 @@ TEST(Conditioning, DetuningAndRestitutionTogetherLoseSynchronyAsSimulated) {
                {9.0, 3.0, 0.99, 0.01},     {9.0, 0.5, 0.9, 0.01},       {9.0, 3.0, 0.5, 0.001}};
   for (const auto& [X, r, eta, eps] : table)
     for (const double signed_eps : {eps, -eps}) {
-      const double found = collisions_until_detuning({X, false}, r, eta, signed_eps);
+      const double found = impacts_until_detuning({X, false}, r, eta, signed_eps);
       // Detuning alone starts below |eps|: at most 2.6 times later (r < 1: the growth oscillates).
       const double seen = sampled_loss(X, r, eta, signed_eps, 2000);
       EXPECT_LE(found, seen) << X << " " << r << " " << eta << " " << signed_eps;
       EXPECT_GE(found, seen / 2.6) << X << " " << r << " " << eta << " " << signed_eps;
     }
   // Numbers of another simulation: 48, 950, 15, 40.
-  EXPECT_NEAR(collisions_until_detuning({9.0, false}, 3.0, 0.999999, 0.01), 48.0, 2.0);
-  EXPECT_NEAR(collisions_until_detuning({9.0, false}, 3.0, 0.999999, 0.001), 950.0, 40.0);
-  EXPECT_NEAR(collisions_until_detuning({21.0, false}, 3.0, 0.999, 0.01), 15.0, 5.0);
-  EXPECT_NEAR(collisions_until_detuning({9.0, false}, 3.0, 0.99, 0.01), 40.0, 2.0);
+  EXPECT_NEAR(impacts_until_detuning({9.0, false}, 3.0, 0.999999, 0.01), 48.0, 2.0);
+  EXPECT_NEAR(impacts_until_detuning({9.0, false}, 3.0, 0.999999, 0.001), 950.0, 40.0);
+  EXPECT_NEAR(impacts_until_detuning({21.0, false}, 3.0, 0.999, 0.01), 15.0, 5.0);
+  EXPECT_NEAR(impacts_until_detuning({9.0, false}, 3.0, 0.99, 0.01), 40.0, 2.0);
 }
 
 // The same with 90 digits and no sampling, so that no short contact is missed.
@@ -244,30 +243,30 @@ double proved_loss(double X, double r, double eps, int most) {
 TEST(Conditioning, DetuningNearTheLimitOfAdmissibilityIsLostAsSimulated) {
   const double below_3 = std::nextafter(3.0, 0.0);
   for (const double eps : {-0.01, -0.001, 0.01})
-    EXPECT_EQ(collisions_until_detuning({3.0, false}, below_3, 1.0, eps),
+    EXPECT_EQ(impacts_until_detuning({3.0, false}, below_3, 1.0, eps),
               proved_loss(3.0, below_3, eps, 100))
         << eps;
   for (const double eps : {-0.01, 0.01}) {
-    const double found = collisions_until_detuning({5.0, false}, 3.9999, 1.0, eps);
+    const double found = impacts_until_detuning({5.0, false}, 3.9999, 1.0, eps);
     EXPECT_EQ(found, proved_loss(5.0, 3.9999, eps, 100)) << eps;
-    EXPECT_EQ(collisions_until_detuning({5.0, true}, 1.0 / 3.9999, 1.0, eps), found) << eps;
+    EXPECT_EQ(impacts_until_detuning({5.0, true}, 1.0 / 3.9999, 1.0, eps), found) << eps;
   }
-  EXPECT_EQ(collisions_until_detuning({5.0, false}, 3.9999, 1.0, -0.01), 1.0);
+  EXPECT_EQ(impacts_until_detuning({5.0, false}, 3.9999, 1.0, -0.01), 1.0);
 }
 
-TEST(Conditioning, APlasticPairIsNotLostBeforeItsFirstCollision) {
+TEST(Conditioning, APlasticPairIsNotLostBeforeItsFirstImpact) {
   for (const double eta : {0.0, 1e-300}) {
-    EXPECT_EQ(collisions_until_perturbation(eta, 0x1p-53), 1.0) << eta;
-    EXPECT_EQ(collisions_until_detuning({9.0, false}, 3.0, eta, 1e-6), 1.0) << eta;
+    EXPECT_EQ(impacts_until_perturbation(eta, 0x1p-53), 1.0) << eta;
+    EXPECT_EQ(impacts_until_detuning({9.0, false}, 3.0, eta, 1e-6), 1.0) << eta;
   }
 }
 
 TEST(Conditioning, RefusesSizesThatAreNone) {
   for (const double size : {0.0, 1.0, -2.0, double(NAN)}) {
-    EXPECT_THROW(collisions_until_perturbation(0.5, size), InputError);
-    EXPECT_THROW(collisions_until_detuning({9.0, false}, 3.0, 1.0, size), InputError);
+    EXPECT_THROW(impacts_until_perturbation(0.5, size), InputError);
+    EXPECT_THROW(impacts_until_detuning({9.0, false}, 3.0, 1.0, size), InputError);
   }
-  EXPECT_THROW(collisions_until_perturbation(0.5, -1e-3), InputError);
+  EXPECT_THROW(impacts_until_perturbation(0.5, -1e-3), InputError);
 }
 
 TEST(Conditioning, RateOfThePapersPairIsThreeHalvesPi) {

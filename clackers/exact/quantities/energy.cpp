@@ -39,7 +39,7 @@ EnergyAccount::EnergyAccount(const ClosedForm& motion) : motion_(motion) {
 }
 
 // 1 + g + ... + g^(count - 1) with g = eta^2 exp(-2 sigma T).
-double EnergyAccount::sum_over_collisions(double count) const {
+double EnergyAccount::sum_over_impacts(double count) const {
   if (motion_.flight().eta == 0.0) return std::min(count, 1.0);
   if (log_ratio_ == 0.0) return count;
   return std::expm1(count * log_ratio_) / std::expm1(log_ratio_);
@@ -81,13 +81,13 @@ EnergySplit EnergyAccount::at(double t, Side side) const {
   }
   if (flight == 0.0) return split;
 
-  split.lost = at_first_hit_ * (1.0 - c.eta) * (1.0 + c.eta) * sum_over_collisions(flight);
+  split.lost = at_first_hit_ * (1.0 - c.eta) * (1.0 + c.eta) * sum_over_impacts(flight);
   split.dissipated = in_first_half_;
   if (c.eta == 0.0) return split;
   split.dissipated += at_first_hit_ * c.eta * c.eta * -std::expm1(-2.0 * sigma_ * period_) *
-                      sum_over_collisions(flight - 1.0);
+                      sum_over_impacts(flight - 1.0);
 
-  // From the collision on: m V^2/2 times 1 - exp(-2 sigma x) [1 - (s/w) sin 2wx + 2 (s/w)^2 sin^2
+  // From the impact on: m V^2/2 times 1 - exp(-2 sigma x) [1 - (s/w) sin 2wx + 2 (s/w)^2 sin^2
   // wx], V the velocity just after it.
   const auto part = theta_over_pi + DoubleDouble{0.5, 0.0};
   const double x = std::max(0.0, part.hi) * period_;

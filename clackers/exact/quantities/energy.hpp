@@ -16,7 +16,7 @@ struct EnergySplit {
   double total() const { return kinetic + potential + dissipated + lost; }
 };
 
-/// Energy and momentum of a motion in flights, exact at every time: sums over collisions are
+/// Energy and momentum of a motion in flights, exact at every time: sums over impacts are
 /// geometric, and what a dashpot dissipated in a part of a flight is formed without subtracting energies;
 /// docs/manual/explanation/derivations/energy-and-spectrum.md. Relative errors: dissipated and lost at most 64 units of 2^-52;
 /// kinetic and potential at most 8 of the largest each reaches around t, since errors of u and v are
@@ -27,10 +27,10 @@ class EnergyAccount {
   /// The motion must outlive it.
   explicit EnergyAccount(const ClosedForm& motion);
 
-  /// The split at t; at a collision `side` decides. Throws InputError outside [0, end()].
+  /// The split at t; at an impact `side` decides. Throws InputError outside [0, end()].
   EnergySplit at(double t, model::Side side) const;
 
-  /// Sum of m v [kg m/s]. Zero at collisions of a pair and, for equal frequencies, always. Error at
+  /// Sum of m v [kg m/s]. Zero at impacts of a pair and, for equal frequencies, always. Error at
   /// most 4 units of 2^-52 of the sum of m |v|, each |v| its envelope.
   double momentum(double t, model::Side side) const;
 
@@ -43,7 +43,7 @@ class EnergyAccount {
   };
   double dissipated_in_first_flight(const Body& body, double t,
                                     const numerics::DoubleDouble& theta_over_pi) const;
-  double sum_over_collisions(double count) const;
+  double sum_over_impacts(double count) const;
 
   const ClosedForm& motion_;
   std::array<Body, 2> bodies_{};
@@ -51,7 +51,7 @@ class EnergyAccount {
   double sigma_ = 0.0;          ///< [1/s]
   double period_ = 0.0;         ///< [s]
   double log_ratio_ = 0.0;      ///< ln(eta^2 exp(-2 sigma T)); of no meaning for eta = 0
-  double at_first_hit_ = 0.0;   ///< energy just before the first collision [J]
+  double at_first_hit_ = 0.0;   ///< energy just before the first impact [J]
   double in_first_half_ = 0.0;  ///< dissipated before it [J]
 };
 

@@ -108,7 +108,7 @@ TEST(Energy, IsSplitAtBothEndsOfDampingToo) {
   }
 }
 
-TEST(Energy, IsCompleteAfterManyCollisions) {
+TEST(Energy, IsCompleteAfterManyImpacts) {
   for (const double eta : {1.0, 1.0 - 1e-9, 0.5})
     for (const double xi1 : {0.0, 1e-10, 0.05}) {
       const SynchronizedPair motion({.xi1 = xi1, .eta = eta, .t_end = 1e9});
@@ -122,14 +122,14 @@ TEST(Energy, IsCompleteAfterManyCollisions) {
     }
 }
 
-TEST(Energy, JumpsAtACollisionByWhatTheCollisionTakes) {
+TEST(Energy, JumpsAtAnImpactByWhatTheImpactTakes) {
   for (const double eta : {0.0, 0.3, 1.0}) {
     const SynchronizedPair motion({.X = 5.0, .eta = eta});
     const EnergyAccount account(motion);
     for (long long k = 1; k <= motion.impact_count(20.0); ++k) {
       const auto hit = motion.impact(k);
       const auto before = account.at(hit.t, Side::left), after = account.at(hit.t, Side::right);
-      // The collision is within half an ulp of hit.t, where energies change by less than ulps.
+      // The impact is within half an ulp of hit.t, where energies change by less than ulps.
       const double slack = 64 * unit * account.initial();
       EXPECT_NEAR(after.lost - before.lost, hit.energy_before - hit.energy_after, slack);
       EXPECT_NEAR(after.dissipated, before.dissipated, slack);

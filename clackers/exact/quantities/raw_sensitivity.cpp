@@ -34,7 +34,7 @@ struct Body {
   double mass = 1.0, sigma = 0.0, w = 1.0;  // w: damped frequency
   double square = 1.0;                      // w^2 + sigma^2
   double multiple = 1.0, start = 0.0;
-  double V = 0.0;  // velocity after a collision over that of mass 1
+  double V = 0.0;  // velocity after an impact over that of mass 1
   // Derivatives of sigma, w and square with respect to the parameter.
   double sigma_p = 0.0, w_p = 0.0, square_p = 0.0;
   Deviation initial;
@@ -86,7 +86,7 @@ class RawSensitivity : public Sensitivity {
     if (name == "m1") rho_.C.v = -(1.0 + eta_) * r_ / (eta_ * bodies_[0].mass * (1.0 + r_));
     if (name == "m2") rho_.C.v = (1.0 + eta_) * r_ * r_ / (eta_ * bodies_[0].mass * (1.0 + r_));
     if (name == "gap") rho_.R.u = -(1.0 + eta_);
-    if (c.collides) prepare_collisions(c);
+    if (c.collides) prepare_impacts(c);
   }
 
   Kinematics at(double t, Side side) const override {
@@ -151,14 +151,14 @@ class RawSensitivity : public Sensitivity {
             {z[0].u - z[1].u, z[0].v - z[1].v}};
   }
   std::array<Deviation, 2> both(const Split& s) const {
-    const double one = 1.0 / (1.0 + r_), two = r_ / (1.0 + r_);
-    return {
-        {{s.C.u + one * s.R.u, s.C.v + one * s.R.v}, {s.C.u - two * s.R.u, s.C.v - two * s.R.v}}};
+    const double weight1 = 1.0 / (1.0 + r_), weight2 = r_ / (1.0 + r_);
+    return {{{s.C.u + weight1 * s.R.u, s.C.v + weight1 * s.R.v},
+             {s.C.u - weight2 * s.R.u, s.C.v - weight2 * s.R.v}}};
   }
 
-  // Just after the first collision, and what every later flight adds. Of C only the part that is
+  // Just after the first impact, and what every later flight adds. Of C only the part that is
   // not shared with the later flights.
-  void prepare_collisions(const FlightConstants& c) {
+  void prepare_impacts(const FlightConstants& c) {
     const double e = exp2_rounded(c.period_decay * -0.5);
     a_1_ = -c.masses[0].v_hit.hi * eta_ * e;
     std::array<Deviation, 2> hit, rest, later;
@@ -189,7 +189,7 @@ class RawSensitivity : public Sensitivity {
     log_q_ = std::log(2.0) * (c.log2_eta - c.period_decay).hi;
   }
 
-  // Just after collision `flight`: every flight reverses all signs and adds to it, every impact reverses
+  // Just after impact `flight`: every flight reverses all signs and adds to it, every impact reverses
   // R once more; n flights later the sums are geometric.
   Split after(double flight) const {
     const auto& c = motion_.flight();
@@ -236,7 +236,7 @@ std::unique_ptr<Sensitivity> raw_sensitivity(const ClosedForm& motion, std::stri
     throw InputError(
         fmt::format(
             "sensitivity to {}: eta = 0; allowed: 0 < eta <= 1. At 0 the masses stay in "
-            "contact after the first collision; disturbed ones press or part by the sign of "
+            "contact after the first impact; disturbed ones press or part by the sign of "
             "the disturbance, and the formula divides by eta: there is no derivative. Use a "
             "small eta instead.",
             parameter),

@@ -18,7 +18,7 @@ namespace clackers::exact {
 class Sensitivity {
  public:
   virtual ~Sensitivity() = default;
-  /// At a collision `side` decides. Throws InputError outside [0, end()].
+  /// At an impact `side` decides. Throws InputError outside [0, end()].
   virtual model::Kinematics at(double t, model::Side side) const = 0;
 };
 
@@ -31,7 +31,7 @@ std::vector<std::string> raw_parameters(const ClosedForm& motion);
 /// from them (m2, k2, c1, u2(0), ...) following.
 std::vector<std::string> class_parameters(const ClosedForm& motion);
 
-/// The derivative with respect to a raw parameter, through the impacts: the times of the collisions
+/// The derivative with respect to a raw parameter, through the impacts: the times of the impacts
 /// move, and the changed motion is no longer synchronized; docs/manual/explanation/derivations/conditioning.md. The motion must outlive it.
 /// Throws InputError for an unknown name, and for eta = 0 where something collides.
 std::unique_ptr<Sensitivity> raw_sensitivity(const ClosedForm& motion, std::string_view parameter);

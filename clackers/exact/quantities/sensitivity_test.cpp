@@ -201,7 +201,7 @@ TEST(ClassSensitivity, IsTheDerivativeOfTheExactDataPairAndOfSingleMasses) {
                         1, wide_times(later)));
 }
 
-TEST(ClassSensitivity, IsTheSumOfTheRawOnesOverManyCollisions) {
+TEST(ClassSensitivity, IsTheSumOfTheRawOnesOverManyImpacts) {
   // d/dA = u1(0)/A d/du10 + ...: all in proportion. The raw sums run over 60 impacts.
   const SynchronizedPair motion({.A = 2.0, .X = 5.0, .r = 0.5, .eta = 0.98, .t_end = 190.0});
   const auto& c = motion.constants();
@@ -216,12 +216,12 @@ TEST(ClassSensitivity, IsTheSumOfTheRawOnesOverManyCollisions) {
     const auto expected = whole->at(t, Side::left);
     EXPECT_LE((sum - expected.u).norm(), 1e-12 * motion.envelope(t).u.norm()) << t;
     const auto one = both->at(t, Side::left), other = raw->at(t, Side::left);
-    // k collisions: k/eta of the motion.
+    // k impacts: k/eta of the motion.
     EXPECT_LE((one.v - other.v).norm(), 1e-12 * 60 * motion.envelope(t).v.norm()) << t;
   }
 }
 
-TEST(Sensitivity, AtACollisionTheSideDecides) {
+TEST(Sensitivity, AtAnImpactTheSideDecides) {
   const SynchronizedPair motion({.X = 5.0, .r = 0.5, .eta = 0.5});
   const auto hit = motion.impact(2);
   const auto k1 = raw_sensitivity(motion, "k1"), eta = class_sensitivity(motion, "eta");
@@ -292,7 +292,7 @@ TEST(ClassSensitivity, KeepsItsDigitsWhereTheMotionItselfUnderflows) {
   EXPECT_NEAR(by_xi1.u[0], -1.14e-320, 1e-322);
 }
 
-TEST(Sensitivity, WithoutRestitutionIsThereUntilTheFirstCollision) {
+TEST(Sensitivity, WithoutRestitutionIsThereUntilTheFirstImpact) {
   const SynchronizedPair plastic({.eta = 0.0, .t_end = 1.0}), elastic({.t_end = 1.0});
   for (const auto& name : twelve)
     EXPECT_EQ(raw_sensitivity(plastic, name)->at(1.0, Side::right).u,

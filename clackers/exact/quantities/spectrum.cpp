@@ -52,10 +52,10 @@ Spectrum::Spectrum(const ClosedForm& motion) : motion_(motion) {
   omega_ = c.turns.hi * numerics::pi.hi;
   sigma_ = c.decay.hi * std::log(2.0);
   const auto phase = motion.phase(c.end, model::Side::right);
-  collisions_ = phase.flight;
+  impacts_ = phase.flight;
   const auto all = c.turns * c.end;
-  last_ = collisions_ > 0.0 ? phase.theta_over_pi + DoubleDouble{0.5, 0.0}
-                            : numerics::quick_two_sum(all.hi, all.mid);
+  last_ = impacts_ > 0.0 ? phase.theta_over_pi + DoubleDouble{0.5, 0.0}
+                         : numerics::quick_two_sum(all.hi, all.mid);
 }
 
 std::array<Complex, 2> Spectrum::at(double omega) const {
@@ -66,7 +66,7 @@ std::array<Complex, 2> Spectrum::at(double omega) const {
                        most_radians / c.end));
   // Lengths are in half periods T, so that pi h times a length is a phase.
   const auto h = inverse_ * omega;
-  const double T = c.period.hi, K = collisions_;
+  const double T = c.period.hi, K = impacts_;
   const auto first = K > 0.0 ? DoubleDouble{0.5, 0.0} : last_;
   const bool flies_on = K > 0.0 && c.eta > 0.0;
   // Flights 1 to K - 1: a geometric sum of ratio exp(L).

@@ -30,7 +30,7 @@ class Spectrum {
   numerics::DoubleDouble inverse_;  ///< 1 / Omega [s]
   double omega_, sigma_;            ///< Omega, sigma [1/s]
   numerics::DoubleDouble last_;     ///< length of the last flight, or the run, in half periods
-  double collisions_ = 0.0;         ///< up to t_end
+  double impacts_ = 0.0;            ///< up to t_end
 };
 
 }  // namespace clackers::exact

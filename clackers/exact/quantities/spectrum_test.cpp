@@ -47,7 +47,7 @@ struct Transform {
 Transform transform(const Oracle& o, int i, const Real& omega, const Real& end) {
   const auto& m = o.mass[i];
   WideComplex part[3] = {{0, 0}, {0, 0}, {0, 0}};
-  const auto last = o.collisions(end.convert_to<double>());
+  const auto last = o.impacts(end.convert_to<double>());
   for (long long k = 0; k <= last; ++k) {
     const Real from = k == 0 ? Real(0) : o.instant(double(k));
     const Real to = k == last ? end : o.instant(double(k + 1));
@@ -81,7 +81,7 @@ TEST(Spectrum, IsTheTransformOfEveryFlightOfRandomPairs) {
   Box box(seed);
   for (int i = 0; i < trials(8); ++i) {
     auto p = simple_pair(box);
-    // From before the first collision to some hundred of them.
+    // From before the first impact to some hundred of them.
     p.t_end *= box.one_in(4) ? 0.09 : box.decades(-0.5, 1.5);
     if (box.one_in(5)) p.eta = 0.0;
     SCOPED_TRACE(testing::Message() << "seed " << seed << " trial " << i << " xi1 " << p.xi1

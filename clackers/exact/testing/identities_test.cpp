@@ -1,5 +1,5 @@
 // What must hold of any motion of two masses that collide, whatever its formula: balances of
-// momentum and energy over pieces of flights and across collisions, the impact law, symmetry, and
+// momentum and energy over pieces of flights and across impacts, the impact law, symmetry, and
 // the limits of the parameters. Only what sample(), impact() and problem() return is used.
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ PairParameters member(Box& box) {
                    .X = exchanged ? 1.0 / odd : odd,
                    .r = exchanged ? 1.0 / r : r,
                    .eta = box.one_in(4) ? 1.0 : box.uniform(0.3, 1.0)};
-  // Six collisions of the slow mass.
+  // Six impacts of the slow mass.
   p.t_end = 6.2 * M_PI / std::sqrt(p.k1 / p.m1) * (exchanged ? odd : 1.0);
   return p;
 }
@@ -39,7 +39,7 @@ struct Sums {
 };
 
 // Gauss's rule of 30 nodes on a piece of at most one radian is exact to rounding: its error is that
-// of a Taylor series from the 60th term on. Ends within half a unit of an instant of collision
+// of a Taylor series from the 60th term on. Ends within half a unit of an instant of impact
 // belong to the flight between.
 Sums integrals(const ClosedForm& motion, double a, double b, double fastest) {
   Sums sums;
@@ -71,7 +71,7 @@ TEST(Identities, VelocityIsTheIntegralOfAccelerationAndDisplacementThatOfVelocit
     const SynchronizedPair motion(member(box));
     SCOPED_TRACE(testing::Message() << "seed " << seed << " trial " << i);
     const double fastest = fastest_of(motion), T = motion.constants().period;
-    // Anywhere in the first flights, away from collisions.
+    // Anywhere in the first flights, away from impacts.
     const double a = T * (std::floor(box.uniform(0.0, 5.0)) + box.uniform(0.51, 1.2));
     const double b = a + box.uniform(0.1, 2.0) / fastest * std::min(1.0, 0.25 * T * fastest);
     const auto sums = integrals(motion, a, b, fastest);
@@ -89,7 +89,7 @@ TEST(Identities, VelocityIsTheIntegralOfAccelerationAndDisplacementThatOfVelocit
   }
 }
 
-TEST(Identities, MomentumAndEnergyBalanceAcrossCollisions) {
+TEST(Identities, MomentumAndEnergyBalanceAcrossImpacts) {
   constexpr unsigned seed = 20260602;
   Box box(seed);
   for (int i = 0; i < trials(12); ++i) {
@@ -247,7 +247,7 @@ TEST(Identities, LimitsOfTheParametersAreReachedContinuously) {
         EXPECT_NEAR(x.v[m], y.v[m], (change + 1.02 * ulp) * e.v[m]);
       }
     };
-    // eta = 1 - 2^-53 takes k 2^-53 off after k <= 6 collisions; more than six times do not fit.
+    // eta = 1 - 2^-53 takes k 2^-53 off after k <= 6 impacts; more than six times do not fit.
     auto elastic = p, nearly = p;
     elastic.eta = 1.0;
     nearly.eta = 1.0 - 0x1p-53;
@@ -257,7 +257,7 @@ TEST(Identities, LimitsOfTheParametersAreReachedContinuously) {
     undamped.xi1 = 0.0;
     hardly.xi1 = 1e-60;
     near(undamped, hardly, 0.0);
-    // eta -> 0: what is left after the first collision is eta of it.
+    // eta -> 0: what is left after the first impact is eta of it.
     auto plastic = p, soft = p;
     plastic.eta = 0.0;
     soft.eta = 1e-300;

@@ -36,7 +36,7 @@ struct RawState {
   std::array<Real, 2> u, v, a;
 };
 
-struct RawCollision {
+struct RawPairImpact {
   RawState before, after;  ///< at the same t
   Real impulse;            ///< on mass 1, upward [N s]
   Real energy_before, energy_after;
@@ -145,11 +145,11 @@ class ImpactSimulator {
   /// Goes through the next contact if it is not later than `until`; otherwise stays where it is and
   /// returns nothing. Throws std::domain_error for a graze, where the gap comes within 1e-70 of
   /// the amplitudes and nothing proves a crossing, and for what follows an impact with eta = 0.
-  std::optional<RawCollision> next(const Real& until) {
+  std::optional<RawPairImpact> next(const Real& until) {
     if (eta_ == 0 && hits_ > 0) throw std::domain_error("simulator: the masses may stick");
     const auto t = first_contact(until);
     if (!t) return std::nullopt;
-    RawCollision hit;
+    RawPairImpact hit;
     hit.before = hit.after = at(*t);
     hit.energy_before = energy(hit.before);
     // Newton's law, u1' - u2' -> -eta (u1' - u2'), and conserved momentum.
@@ -180,10 +180,10 @@ class ImpactSimulator {
     }
   }
   Real gap(const RawState& x) const { return x.u[0] - x.u[1] + gap_; }
-  // What rounding may do to a gap: amplitudes times 2^-300, and 20 decades of care.
+  // What rounding may do to a gap: amplitudes times 2^-300, and 20 decades more.
   Real tiny() const {
-    static const Real care("1e-70");
-    return (masses_[0].amplitude() + masses_[1].amplitude() + abs(gap_)) * care;
+    static const Real tolerance("1e-70");
+    return (masses_[0].amplitude() + masses_[1].amplitude() + abs(gap_)) * tolerance;
   }
 
   std::optional<Real> first_contact(const Real& until) const {

@@ -104,12 +104,12 @@ class MassSimulator {
   Modal modal(const Real& t) const {
     const auto n = static_cast<Eigen::Index>(modes_.size());
     Modal x{RealVector(n), RealVector(n), RealVector(n)};
-    RawState one;
+    RawState state;
     for (Eigen::Index i = 0; i < n; ++i) {
-      modes_[static_cast<std::size_t>(i)].put(t - start_, one, 0);
-      x.u[i] = one.u[0];
-      x.v[i] = one.v[0];
-      x.a[i] = one.a[0];
+      modes_[static_cast<std::size_t>(i)].put(t - start_, state, 0);
+      x.u[i] = state.u[0];
+      x.v[i] = state.v[0];
+      x.a[i] = state.a[0];
     }
     return x;
   }
@@ -129,8 +129,8 @@ class MassSimulator {
       }
   }
   Real tiny(Eigen::Index j) const {
-    static const Real care("1e-70");
-    return sizes_[j] * care;
+    static const Real tolerance("1e-70");
+    return sizes_[j] * tolerance;
   }
 
   // As ImpactSimulator::first_contact(), whose comments give the proof.

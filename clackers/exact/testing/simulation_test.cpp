@@ -101,7 +101,7 @@ void expect_limit(const RawState& reference, const model::Kinematics& limit,
   }
 }
 
-// Flights, collision times, both limits, impulses and energies of the first `impacts` collisions.
+// Flights, impact times, both limits, impulses and energies of the first `impacts` impacts.
 void expect_simulated(const ClosedForm& motion, const RawPair& pair, long long impacts) {
   ImpactSimulator simulator(pair);
   const auto first = simulator.at(0);
@@ -128,7 +128,7 @@ void expect_simulated(const ClosedForm& motion, const RawPair& pair, long long i
   }
 }
 
-// Long enough for a few collisions of the slow mass.
+// Long enough for a few impacts of the slow mass.
 PairParameters with_end(PairParameters p, double half_periods) {
   const double damped = std::sqrt(p.k1 / p.m1) * std::sqrt((1.0 - p.xi1) * (1.0 + p.xi1));
   p.t_end = half_periods * M_PI / (p.X < 1.0 ? damped * p.X : damped);
@@ -151,7 +151,7 @@ TEST(Simulation, AgreesWithTheClosedFormOfRandomPairs) {
     if (odd > 1.0)
       p.r =
           r_star(odd) * (box.one_in(3) ? 1.0 - box.decades(-12.0, -1.0) : box.uniform(0.01, 0.99));
-    // After a collision with a tiny eta the simulation has lost that many digits.
+    // After an impact with a tiny eta the simulation has lost that many digits.
     if (!box.one_in(3)) p.eta = box.one_in(4) ? box.decades(-12.0, 0.0) : box.uniform(0.1, 1.0);
     if (box.one_in(8)) p.eta = 0.0;
     if (odd > 1.0 && box.one_in(3)) {

@@ -11,8 +11,8 @@ namespace {
 
 using testing_oracle::ImpactSimulator;
 using testing_oracle::pi;
-using testing_oracle::RawCollision;
 using testing_oracle::RawPair;
+using testing_oracle::RawPairImpact;
 using testing_oracle::Real;
 
 // Elastic, m1/m2 = 3, damped frequencies 1 and 5, just after an impact: time between impacts pi.
@@ -22,17 +22,17 @@ RawPair after_an_impact(const Real& sigma1, const Real& sigma2, const Real& v1, 
       v1, v2};
 }
 
-// The next `count` collisions; all must be at equilibrium and `spacing` apart.
-std::vector<RawCollision> expect_synchronized(const RawPair& pair, int count, Real t,
-                                              const Real& spacing) {
+// The next `count` impacts; all must be at equilibrium and `spacing` apart.
+std::vector<RawPairImpact> expect_synchronized(const RawPair& pair, int count, Real t,
+                                               const Real& spacing) {
   ImpactSimulator simulator(pair);
-  std::vector<RawCollision> hits;
+  std::vector<RawPairImpact> hits;
   for (int k = 1; k <= count; ++k, t += spacing) {
     const auto hit = simulator.next(Real(1000));
-    EXPECT_TRUE(hit) << "collision " << k;
+    EXPECT_TRUE(hit) << "impact " << k;
     if (!hit) break;
-    EXPECT_LE(abs(hit->before.t - t), Real("1e-60")) << "collision " << k;
-    for (const auto& u : hit->before.u) EXPECT_LE(abs(u), Real("1e-60")) << "collision " << k;
+    EXPECT_LE(abs(hit->before.t - t), Real("1e-60")) << "impact " << k;
+    for (const auto& u : hit->before.u) EXPECT_LE(abs(u), Real("1e-60")) << "impact " << k;
     hits.push_back(*hit);
   }
   return hits;

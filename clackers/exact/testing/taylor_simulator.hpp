@@ -47,13 +47,13 @@ class TaylorSimulator {
     for (;;) {
       const Real end = std::min(Real(start_ + step_), until);
       std::optional<Real> first;
-      int which = 0;
+      int contact_index = 0;
       for (std::size_t i = 0; i < problem_.contacts.size(); ++i)
         if (const auto t = first_zero(i, first ? *first : end)) {
           first = t;
-          which = int(i);
+          contact_index = int(i);
         }
-      if (first) return impact(*first, which);
+      if (first) return impact(*first, contact_index);
       const auto x = at(end);
       expand(end, x.u, x.v);
       if (end == until) return std::nullopt;
@@ -125,9 +125,9 @@ class TaylorSimulator {
   Impact impact(const Real& t, int contact) {
     auto x = at(t);
     const auto& law = problem_.contacts[std::size_t(contact)];
-    const RealVector b = row(std::size_t(contact)), push = inverse_mass_ * b;
-    const Real impulse = -(1 + Real(law.restitution)) * b.dot(x.v) / b.dot(push);
-    expand(t, x.u, x.v + impulse * push);
+    const RealVector b = row(std::size_t(contact)), response = inverse_mass_ * b;
+    const Real impulse = -(1 + Real(law.restitution)) * b.dot(x.v) / b.dot(response);
+    expand(t, x.u, x.v + impulse * response);
     return {t, impulse, contact};
   }
 

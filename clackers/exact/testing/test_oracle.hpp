@@ -34,14 +34,14 @@ struct Oracle {
   bool collides = true;
 
   Real instant(double k) const { return (2 * Real(k) - 1) * pi() / (2 * omega); }
-  long long collisions(double t) const {
+  long long impacts(double t) const {
     if (!collides) return 0;
     return static_cast<long long>(Real(floor(omega * t / pi() + Real(0.5))).convert_to<double>());
   }
   /// The flight that `side` means at t.
   long long flight(double t, model::Side side) const {
     if (!collides) return 0;
-    const auto k = collisions(t);
+    const auto k = impacts(t);
     for (const auto hit : {k, k + 1})
       if (hit >= 1 && instant(double(hit)).convert_to<double>() == t)
         return side == model::Side::left ? hit - 1 : hit;
@@ -53,7 +53,7 @@ struct Oracle {
   OracleState state_in(long long k, double t, model::Side) const {
     OracleState s;
     const Real e = (k > 0 && eta == 0.0) ? Real(0) : decay(k, t);
-    // Each collision turns the motion about: the sgn of Eq. (22).
+    // Each impact turns the motion about: the sgn of Eq. (22).
     const int sign = k % 2 == 0 ? 1 : -1;
     for (int i = 0; i < dof; ++i) {
       const auto& m = mass[i];

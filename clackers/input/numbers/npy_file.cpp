@@ -60,13 +60,13 @@ NpyFile::NpyFile(InputFile file) : file_(std::move(file)) {
 
 void NpyFile::fail_short() const {
   throw InputError(fmt::format("{} ends before the last of its {} rows: it may have been cut here, "
-                               "or is still being written. Save it anew with numpy.save.",
+                               "or is still being written. Save it again with numpy.save.",
                                name(), header_.rows),
                    "not-an-array");
 }
 
 void NpyFile::fail_long() const {
-  throw InputError(fmt::format("{} goes on behind the {} rows of its array; allowed: one array. "
+  throw InputError(fmt::format("{} continues after the {} rows of its array; allowed: one array. "
                                "Save each to a file of its own.",
                                name(), header_.rows),
                    "not-an-array");
@@ -78,14 +78,14 @@ void NpyFile::read_header() {
     if (file_.read_all(reinterpret_cast<char*>(bytes), count) == count) return;
     throw InputError(name() +
                          " ends within its header: it may have been cut here, or is still being "
-                         "written. Save it anew with numpy.save.",
+                         "written. Save it again with numpy.save.",
                      "not-an-array");
   };
   read(start.data(), 10);
   const int version = start[6];
   if (version < 1 || version > 3)
     throw InputError(fmt::format("{} has version {}.{} of NumPy's format; allowed: 1 to 3. Save it "
-                                 "anew with numpy.save.",
+                                 "again with numpy.save.",
                                  name(), version, int(start[7])),
                      "not-an-array");
   std::size_t length = start[8] + 256u * start[9];

@@ -158,8 +158,8 @@ TEST(NpyFile, RefusesCutAndLongFilesFromFilesAndPipes) {
       EXPECT_REFUSED(read_npy(cut), "not-an-array", "ends before the last of its 3 rows");
       EXPECT_REFUSED(read_pipe(cut), "not-an-array", "ends before the last of its 3 rows");
     }
-    EXPECT_REFUSED(read_npy(whole + whole), "not-an-array", "goes on behind the 3 rows");
-    EXPECT_REFUSED(read_pipe(whole + whole), "not-an-array", "goes on behind the 3 rows");
+    EXPECT_REFUSED(read_npy(whole + whole), "not-an-array", "continues after the 3 rows");
+    EXPECT_REFUSED(read_pipe(whole + whole), "not-an-array", "continues after the 3 rows");
     for (const std::size_t size : {6u, 8u, 9u, 10u, 40u}) {
       EXPECT_REFUSED(read_npy(whole.substr(0, size)), "not-an-array", "ends within its header");
       EXPECT_REFUSED(read_pipe(whole.substr(0, size)), "not-an-array", "ends within its header");

@@ -62,7 +62,7 @@ void NumberTable::name_columns(const std::vector<std::string>& given, TableKind 
   } else {
     throw InputError(
         fmt::format("{}: {} columns of numbers have no names; {}.", name(), columns.size(),
-                    events ? "save a structured array with a field t, or times alone"
+                    events ? "save a structured array with a field t, or only times"
                            : "save a structured array whose fields have the names, or give them "
                              "with --columns, for example --columns t,u1,v1 (_ skips one)"),
         "no-column");

@@ -23,7 +23,7 @@ class LiteralReader {
     constexpr std::size_t shown = 40;
     throw InputError(
         fmt::format("{}: byte {} of its header (\"{}\") is not as NumPy writes it: the "
-                    "file is damaged. Write it anew with numpy.save.",
+                    "file is damaged. Write it again with numpy.save.",
                     name_, at_, printable(std::string(text_.substr(at_, shown)))),
         "not-an-array");
   }

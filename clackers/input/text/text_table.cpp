@@ -11,7 +11,7 @@ namespace clackers::input {
 namespace {
 
 constexpr auto decimal_comma_hint =
-    "Are the commas decimal? Numbers take a decimal point; write the file anew with points.";
+    "Are the commas decimal? Numbers take a decimal point; write the file again with points.";
 
 std::vector<std::string> plain_names(const Separation& separation, std::string_view line) {
   std::vector<std::string_view> fields;

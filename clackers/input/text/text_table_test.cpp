@@ -91,7 +91,7 @@ TEST(TextTable, GivenNamesReplaceAHeaderAndStandForNone) {
   EXPECT_REFUSED(read("0 1 7\n0.5 -2 7\n", {"t", "u1"}), "ragged-row", "3 fields; allowed: 2");
 }
 
-TEST(TextTable, AListOfCollisionsMayBeTimesAloneOrAHeaderAlone) {
+TEST(TextTable, AListOfImpactsMayBeTimesAloneOrAHeaderAlone) {
   EXPECT_EQ(read("0.5\n1.5\n", {}, TableKind::events).names, Names{"t"});
   EXPECT_EQ(read("t,impulse\n", {}, TableKind::events).names, (Names{"t", "impulse"}));
   EXPECT_TRUE(read("t,impulse\n", {}, TableKind::events).rows.empty());

@@ -27,23 +27,24 @@ struct LadderFit {
   double floor_step = 0.0;     ///< largest step at which the errors lie at the floor, 0 without one
   double floor_scatter = 1.0;  ///< largest factor between raw errors and the floor
   double cancel_step = 0.0;    ///< near it the signed error passes zero; 0 where it does not
-  double lucky_share = 0.0;    ///< of the runs: at the rounding floor by luck, others not
-  double stable_step = 0.0;    ///< largest step below those whose runs failed; 0 where none did
+  /// Share of the runs at the rounding floor because their step divides the time between impacts.
+  double coincident_share = 0.0;
+  double stable_step = 0.0;  ///< largest step below those whose runs failed; 0 where none did
   std::vector<double> steps, errors;  ///< of the upper envelope, a value a level
 };
 
 /// A fact, beside the fits, that the verdict rests on. Its numbers by code:
 ///
-///     collisions-miscounted   step [s], collisions matched, expected, extra
+///     impacts-miscounted      step [s], impacts matched, expected, extra
 ///     printed-digits          u_error of the finest history, what printing makes of it
 ///     within-tolerance        u_error of the finest history, the tolerance, what printing makes of it
 ///     beyond-tolerance        the same
 ///     tolerance-not-resolved  the same: error and tolerance are nearer than what printing makes
 ///     other-start             distance of the first row from the reference over the envelope
-///     other-collisions        collisions matched, expected, extra, of a history without a claim
-///     sparse-rows             none: rows too far apart to find collisions in them
+///     other-impacts           impacts matched, expected, extra, of a history without a claim
+///     sparse-rows             none: rows too far apart to find impacts in them
 ///     wrong-limit             none: the files converge to another motion
-///     ends-early              last time, end of the case [s], collisions until then, until the end
+///     ends-early              last time, end of the case [s], impacts until then, until the end
 ///     commensurate-steps      share of the runs at the rounding floor beside others that are not
 ///     errors-cancel           step at which the error passes zero [s]
 ///     unstable-coarse-steps   largest step below those that failed [s]

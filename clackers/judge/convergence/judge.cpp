@@ -212,7 +212,7 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
       found.reason = Code("printed-digits").name();
     else if (evidence.code == "ends-early" || evidence.code == "wrong-limit")
       found.reason = evidence.code;
-    else if (evidence.code != "collisions-miscounted")
+    else if (evidence.code != "impacts-miscounted")
       found.reason.clear();
   }
   if (found.verdict == Verdict::disagrees) found.mismatch = mismatch_of(fit, claim, facts);

@@ -34,14 +34,14 @@ inline constexpr double far_start = 0.1;
 /// What is known of a history beside its score.
 struct HistoryFacts {
   long long rows = 0;
-  double printed_floor = 0.0;           ///< part of u_error that printing alone may make
-  double first = 0.0;                   ///< time of the first row [s]
-  double start_error = 0.0;             ///< of the first row, relative to the envelopes
-  bool rows_resolve_collisions = true;  ///< false: rows too far apart to find collisions in them
-  double last = 0.0;                    ///< time of the last row [s]
-  double end = 0.0;                     ///< of the case [s]; 0: not known, so no row is missing
-  long long expected_to_last = 0;       ///< collisions of the reference until `last`
-  long long expected = 0;               ///< collisions of the reference until `end`
+  double printed_floor = 0.0;        ///< part of u_error that printing alone may make
+  double first = 0.0;                ///< time of the first row [s]
+  double start_error = 0.0;          ///< of the first row, relative to the envelopes
+  bool rows_resolve_impacts = true;  ///< false: rows too far apart to find impacts in them
+  double last = 0.0;                 ///< time of the last row [s]
+  double end = 0.0;                  ///< of the case [s]; 0: not known, so no row is missing
+  long long expected_to_last = 0;    ///< impacts of the reference until `last`
+  long long expected = 0;            ///< impacts of the reference until `end`
 };
 
 /// What is known of a method or of histories beside their errors.
@@ -87,13 +87,13 @@ struct Facts {
 /// above, or the claimed reason of a floor (a floor without a claimed reason agrees with any, also
 /// with one as large as the motion where impacts are simultaneous);
 /// otherwise `disagrees`. A claim is two-sided: better than claimed is another behaviour and
-/// disagrees as well. Collisions missed or extra on the two finest levels disagree whatever the
+/// disagrees as well. Impacts missed or extra on the two finest levels disagree whatever the
 /// errors say, unless the claim is a floor and their number is right: then they came too late to be
 /// matched; where an envelope is claimed and found, only if most runs of both levels miscount. A claim to converge disagrees where the files converge to another limit.
 ///
 /// A tolerance has a verdict of its own, `undecided` where printing makes more than the difference
 /// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of
-/// another motion: it starts far from the reference, misses a collision or has one too many. Of
+/// another motion: it starts far from the reference, misses an impact or has one too many. Of
 /// several verdicts counts the first of disagrees, undecided, agrees, not claimed.
 Assessment judge(const measure::Ladder& ladder, const Claim& claim, const Facts& facts = {});
 

@@ -10,8 +10,8 @@
 namespace clackers::judge {
 namespace {
 
-// At least this share of the runs lies at the rounding floor by luck, where it is worth a word.
-constexpr double notable_luck = 1.0 / 16.0;
+// Smaller shares are not reported.
+constexpr double least_reported_share = 1.0 / 16.0;
 
 bool miscounts(const measure::RunScore& run) {
   return run.finished && run.impacts && run.impacts->missed + run.impacts->extra > 0;
@@ -19,12 +19,12 @@ bool miscounts(const measure::RunScore& run) {
 
 Evidence miscount(const measure::RunScore& run) {
   const auto& found = *run.impacts;
-  return {"collisions-miscounted",
+  return {"impacts-miscounted",
           Verdict::disagrees,
           {run.step, double(found.matched), double(found.expected), double(found.extra)}};
 }
 
-// The first run of the two finest levels that did not find the collisions it should. Where the errors
+// The first run of the two finest levels that did not find the impacts it should. Where the errors
 // decide nothing, steps may be too long to find them: then only if every run of both levels misses as
 // many and has as many too many, as no refinement will mend. Where errors scatter as claimed, gentle
 // impacts are off by more than their match may be at some steps: then only if most runs miscount.
@@ -75,9 +75,9 @@ Evidence tolerance_evidence(const measure::RunScore& finest, double limit, doubl
 std::optional<Evidence> other_motion(const measure::RunScore& finest, const HistoryFacts& facts) {
   if (facts.first > 0.0 && facts.start_error > far_start)
     return Evidence{"other-start", Verdict::disagrees, {facts.start_error}};
-  if (!facts.rows_resolve_collisions || !miscounts(finest)) return {};
+  if (!facts.rows_resolve_impacts || !miscounts(finest)) return {};
   const auto& found = *finest.impacts;
-  return Evidence{"other-collisions",
+  return Evidence{"other-impacts",
                   Verdict::disagrees,
                   {double(found.matched), double(found.expected), double(found.extra)}};
 }
@@ -131,7 +131,8 @@ std::vector<Evidence> of_the_fit(const LadderFit& fit, const measure::Ladder& la
   const auto note = [&](std::string_view code, std::vector<double> numbers) {
     all.push_back({std::string(code), Verdict::not_claimed, std::move(numbers)});
   };
-  if (fit.lucky_share >= notable_luck) note(Code("commensurate-steps").name(), {fit.lucky_share});
+  if (fit.coincident_share >= least_reported_share)
+    note(Code("commensurate-steps").name(), {fit.coincident_share});
   if (fit.cancel_step > 0.0) note(Code("errors-cancel").name(), {fit.cancel_step});
   if (fit.stable_step > 0.0) note(Code("unstable-coarse-steps").name(), {fit.stable_step});
   if (fit.reason == Code("simultaneous-impacts").name() && facts.shared)
@@ -178,7 +179,7 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   if (!facts.finest) return all;
   add(ends_early(*facts.finest));
   if (claimed) return all;  // an expected divergence may lead to another motion
-  if (!facts.tolerance && finest.impacts && !facts.finest->rows_resolve_collisions)
+  if (!facts.tolerance && finest.impacts && !facts.finest->rows_resolve_impacts)
     all.push_back({"sparse-rows", Verdict::not_claimed, {}});
   add(other_motion(finest, *facts.finest));
   if (facts.wrong_limit) all.push_back(wrong_limit);

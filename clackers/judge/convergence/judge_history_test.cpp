@@ -111,7 +111,7 @@ TEST(JudgeHistories, AnotherMotionDisagreesThoughNothingIsClaimed) {
   extra.impacts->extra = 1;
   for (const auto& wrong : {missed, extra}) {
     EXPECT_EQ(assessed(one(wrong)).verdict, Verdict::disagrees);
-    EXPECT_EQ(assessed(one(wrong)).evidence.at(0).code, "other-collisions");
+    EXPECT_EQ(assessed(one(wrong)).evidence.at(0).code, "other-impacts");
     EXPECT_EQ(assessed(one(wrong), {}, 1.0).verdict, Verdict::disagrees);
     EXPECT_EQ(assessed({{0.02, {run(0.02, 0.3)}}, {0.01, {wrong}}}).verdict, Verdict::disagrees);
     EXPECT_EQ(assessed({{0.01, {wrong}}, {0.005, {run(0.005, 0.1)}}}).verdict, Verdict::not_claimed)
@@ -119,7 +119,7 @@ TEST(JudgeHistories, AnotherMotionDisagreesThoughNothingIsClaimed) {
   }
   const HistoryFacts away{.first = 1.0, .start_error = 0.5};
   EXPECT_EQ(assessed(one(run(0.01, 0.3)), {}, {}, away).verdict, Verdict::disagrees);
-  const HistoryFacts sparse{.rows_resolve_collisions = false};
+  const HistoryFacts sparse{.rows_resolve_impacts = false};
   EXPECT_EQ(assessed(one(missed), {}, {}, sparse).verdict, Verdict::not_claimed);
   EXPECT_EQ(assessed(one(missed), {}, {}, sparse).reason, "sparse-rows");
   EXPECT_EQ(assessed(one(run(0.01, 0.3))).verdict, Verdict::not_claimed);

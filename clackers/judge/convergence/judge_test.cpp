@@ -14,7 +14,7 @@ namespace {
 using namespace synthetic;
 
 // Scores whose displacement error is `error(h)`, with velocity and impact times in proportion and
-// all six collisions found.
+// all six impacts found.
 measure::Ladder scores(const std::function<double(double)>& error, const Shape& shape = {}) {
   measure::Ladder made;
   for (const auto& level : ladder(error, shape)) {
@@ -167,7 +167,7 @@ TEST(Judge, ImpactTimesHaveNoSizeOfTheMotion) {
   EXPECT_EQ(judge(late, second).impact_time.behaviour, Behaviour::stagnating);
 }
 
-TEST(Judge, WhatIsUndecidedStaysSoWhateverEnergyAndCollisions) {
+TEST(Judge, WhatIsUndecidedStaysSoWhateverEnergyAndImpacts) {
   auto unresolved = scores([](double h) { return 0.3 + h; });
   every_run(unresolved, 0, [](measure::RunScore& run) {
     grown(run, 8.0);
@@ -222,7 +222,7 @@ TEST(Judge, AnExactMotionAgreesWithTheClaimOfOneAndTellsNothingOfAnOrder) {
   EXPECT_EQ(found.verdict, Verdict::undecided);
 }
 
-TEST(Judge, MissedOrExtraCollisionsOnTheFinestLevelsDisagree) {
+TEST(Judge, MissedOrExtraImpactsOnTheFinestLevelsDisagree) {
   for (const bool extra : {false, true})
     for (const std::size_t level : {6u, 7u}) {
       auto ladder = scores(power(2.0));
@@ -232,7 +232,7 @@ TEST(Judge, MissedOrExtraCollisionsOnTheFinestLevelsDisagree) {
       const auto found = judge(ladder, second);
       EXPECT_EQ(found.verdict, Verdict::disagrees) << level;
       ASSERT_EQ(found.evidence.size(), 1u);
-      EXPECT_EQ(found.evidence[0].code, "collisions-miscounted");
+      EXPECT_EQ(found.evidence[0].code, "impacts-miscounted");
       const auto& run = ladder[level].runs[5];
       EXPECT_EQ(found.evidence[0].numbers,
                 (std::vector{run.step, extra ? 6.0 : 5.0, 6.0, extra ? 1.0 : 0.0}));
@@ -242,7 +242,7 @@ TEST(Judge, MissedOrExtraCollisionsOnTheFinestLevelsDisagree) {
   EXPECT_EQ(judge(coarse, second).verdict, Verdict::agrees);
 }
 
-TEST(Judge, LateCollisionsDoNotContradictAFloorButMissedOnesDo) {
+TEST(Judge, LateImpactsDoNotContradictAFloorButMissedOnesDo) {
   auto late = scores([](double) { return 0.9; });
   every_run(late, 0, [](measure::RunScore& run) {
     run.impacts = measure::ImpactScore{6, 6, 2, 4, 4};

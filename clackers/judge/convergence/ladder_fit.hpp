@@ -58,7 +58,7 @@ inline constexpr double settling_share = 0.5;
 ///  1 no level, or steps that do not resolve a compliant contact (unless flat to two digits over
 ///    three octaves with ten steps a contact: stagnating): undecided
 ///  2 most runs of the finest level failed: divergent if the errors before them grow, or undecided
-///  3 every run of every level at the rounding floor, but for those there by luck: exact
+///  3 every run of every level at the rounding floor, but for those there by coincidence: exact
 ///  4 a ladder of tolerances: by the line of all errors, scatter 10 allowed, and a floor after it
 ///  5 the claimed line over at least four levels, all rates of adjacent levels within a tenth of
 ///    the claimed order and raw points within a factor 1.5 of the line: proper

@@ -85,7 +85,7 @@ TEST(LadderFit, ABendBeforeThreeProperLevelsLeavesTooFew) {
 }
 
 TEST(LadderFit, OneStepALevelShowsALineAndAPlateau) {
-  const Shape single{.neighbours = 1};
+  const Shape single{.samples = 1};
   EXPECT_BEHAVIOUR(
       fit_ladder(ladder([](double h) { return h * h; }, single), {.claimed_order = 2.0}),
       Behaviour::proper, "");
@@ -106,9 +106,8 @@ TEST(LadderFit, ResultDoesNotDependOnTheUnitOfTime) {
 
 TEST(LadderFit, GrowthThatSettlesIsNotDivergent) {
   const auto settles = [](double h) { return 1e-2 * (1.0 - std::sqrt(h / 0.1)); };
-  EXPECT_BEHAVIOUR(
-      fit_ladder(ladder(settles, {.levels = 4, .neighbours = 1}), {.claimed_order = 2.0}),
-      Behaviour::undecided, "no-convergence-yet");
+  EXPECT_BEHAVIOUR(fit_ladder(ladder(settles, {.levels = 4, .samples = 1}), {.claimed_order = 2.0}),
+                   Behaviour::undecided, "no-convergence-yet");
 }
 
 TEST(LadderFit, ThreeFlatLevelsAloneAreTooFew) {
@@ -177,10 +176,9 @@ TEST(LadderFit, GrowthThatAcceleratesIsDivergent) {
 
 TEST(LadderFit, WithOneStepALevelAChangeOfSignIsNotIrregular) {
   for (const double zero : {0.02, 0.01, 0.006}) {
-    const auto fit =
-        fit_ladder(ladder([&](double h) { return 1e-2 * std::abs(1.0 - pow(h / zero, 2)); },
-                          {.neighbours = 1}),
-                   {.claimed_order = 2.0});
+    const auto fit = fit_ladder(
+        ladder([&](double h) { return 1e-2 * std::abs(1.0 - pow(h / zero, 2)); }, {.samples = 1}),
+        {.claimed_order = 2.0});
     EXPECT_BEHAVIOUR(fit, Behaviour::stagnating, "unexplained-floor");
   }
 }

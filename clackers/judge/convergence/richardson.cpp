@@ -20,9 +20,9 @@ double norm(const Values& values) {
   return largest;
 }
 
-// one + factor * other
-Values sum(const Values& one, double factor, const Values& other) {
-  Values made = one;
+// first + factor * other
+Values sum(const Values& first, double factor, const Values& other) {
+  Values made = first;
   for (std::size_t i = 0; i < made.size(); ++i) made[i] += factor * other[i];
   return made;
 }

@@ -44,11 +44,11 @@ void validate(std::span<const ResponseLevel> runs, const SelfContext& context) {
   }
 }
 
-double distance(std::span<const double> one, std::span<const double> other) {
-  if (one.empty() || other.empty()) return unknown;
+double distance(std::span<const double> first, std::span<const double> other) {
+  if (first.empty() || other.empty()) return unknown;
   double largest = 0.0;
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    const double off = std::abs(one[i] - other[i]);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const double off = std::abs(first[i] - other[i]);
     if (!std::isfinite(off)) return unknown;
     largest = std::max(largest, off);
   }

@@ -92,13 +92,13 @@ TEST(StepLadder, NoStepLeavesItsPlaceFurtherThanAQuarterOfTheWayToTheNext) {
   std::vector<double> everywhere;  // at every whole step of every number up to 130
   for (int n = 2; n < 130; ++n)
     for (int k = 1; k < n; ++k) everywhere.push_back(double(k) / n);
-  for (int neighbours : {1, 2, 5}) {
-    const double reach = 0.25 * (std::exp2(1.0 / neighbours) - 1.0);
-    const auto ladder = step_ladder(
-        {.coarsest = 0.025, .levels = 2, .samples_per_level = neighbours}, 1.0, everywhere);
+  for (int samples : {1, 2, 5}) {
+    const double reach = 0.25 * (std::exp2(1.0 / samples) - 1.0);
+    const auto ladder = step_ladder({.coarsest = 0.025, .levels = 2, .samples_per_level = samples},
+                                    1.0, everywhere);
     for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < neighbours; ++j) {
-        const double wanted = 40.0 * std::exp2(i + double(j) / neighbours);
+      for (int j = 0; j < samples; ++j) {
+        const double wanted = 40.0 * std::exp2(i + double(j) / samples);
         EXPECT_NEAR(double(ladder[std::size_t(i)].counts[std::size_t(j)]), wanted,
                     reach * wanted + 0.5);
       }

@@ -12,7 +12,7 @@ namespace clackers::judge {
 /// A level is one octave. The octaves begin at or shortly above the largest step: their edges lie in
 /// the middle of a gap of the fractional parts of log2 h, the first one above the largest step that is
 /// at least half as wide as the widest. So neither steps end / n, which miss their nominal values by
-/// a little, nor uneven ones are divided by luck. Octaves without a step are left out: steps in a
+/// a little, nor uneven ones are divided by coincidence. Octaves without a step are left out: steps in a
 /// ratio of 3, 4 or 10 are one level each.
 ///
 /// Throws InputError unless every step is positive and finite.

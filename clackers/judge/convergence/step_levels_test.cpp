@@ -46,12 +46,12 @@ TEST(StepLevels, RatiosBetweenShareOctavesWithoutAWiderLevel) {
 }
 
 TEST(StepLevels, WholeNumbersOfStepsChangeNoLevel) {
-  for (const int neighbours : {1, 2, 3, 4, 8})
+  for (const int samples : {1, 2, 3, 4, 8})
     for (int shift = 0; shift < 40; ++shift) {
       std::vector<double> steps;
-      for (int i = 0; i < 5 * neighbours; ++i)
-        steps.push_back(20.0 / std::round((300.0 + shift) * std::exp2(double(i) / neighbours)));
-      EXPECT_EQ(sizes(steps), Sizes(5, std::size_t(neighbours))) << neighbours << ' ' << shift;
+      for (int i = 0; i < 5 * samples; ++i)
+        steps.push_back(20.0 / std::round((300.0 + shift) * std::exp2(double(i) / samples)));
+      EXPECT_EQ(sizes(steps), Sizes(5, std::size_t(samples))) << samples << ' ' << shift;
     }
 }
 

@@ -88,7 +88,7 @@ const VerdictSequence failure_rows[] = {
      .claim = claims(2), .behaviour = stagnating, .verdict = Verdict::disagrees,
      .reason = "unexplained-floor",
      .change = at_the_end([](measure::RunScore& run) { run.energy_ratio = 0.4; })},
-    {.name = "a line that misses a collision disagrees",
+    {.name = "a line that misses an impact disagrees",
      .make = [] { return ladder([](double h) { return h * h; }); },
      .claim = claims(2), .behaviour = proper, .verdict = Verdict::disagrees, .order = 2.0,
      .within = 1e-9,
@@ -121,7 +121,7 @@ const VerdictSequence failure_rows[] = {
      .claim = claims(1), .behaviour = undecided, .verdict = Verdict::undecided,
      .reason = "numerical-damping",
      .change = at_the_end([](measure::RunScore& run) { run.energy_ratio = 0.4; })},
-    {.name = "a floor whose collisions are late but all there agrees",
+    {.name = "a floor whose impacts are late but all there agrees",
      .make = [] { return ladder([](double h) { return 0.3 + h; }); },
      .claim = claims_floor(""), .behaviour = stagnating, .verdict = Verdict::agrees,
      .reason = "unexplained-floor",
@@ -129,7 +129,7 @@ const VerdictSequence failure_rows[] = {
        run.impacts->matched = 5;
        run.impacts->missed = run.impacts->extra = 1;
      })},
-    {.name = "a floor with a collision too few disagrees",
+    {.name = "a floor with an impact too few disagrees",
      .make = [] { return ladder([](double h) { return 0.3 + h; }); },
      .claim = claims_floor(""), .behaviour = stagnating, .verdict = Verdict::disagrees,
      .reason = "unexplained-floor",

@@ -29,7 +29,7 @@ struct KindOfShape {
 };
 
 void PrintTo(const KindOfShape& row, std::ostream* out) {
-  *out << row.kind.name << ", " << row.shape.levels << " levels of " << row.shape.neighbours;
+  *out << row.kind.name << ", " << row.shape.levels << " levels of " << row.shape.samples;
 }
 
 // Errors of the size that a motion of size one leaves, at h = 0.05 s and below.
@@ -95,14 +95,13 @@ std::vector<Kind> smooth_kinds() {
 std::vector<KindOfShape> smooth_shapes() {
   std::vector<KindOfShape> rows;
   for (const auto& kind : smooth_kinds())
-    for (const Shape& shape :
-         {Shape{.levels = 5, .neighbours = 1}, Shape{.levels = 5, .neighbours = 4},
-          Shape{.levels = 6, .neighbours = 2}, Shape{.levels = 8, .neighbours = 8}})
+    for (const Shape& shape : {Shape{.levels = 5, .samples = 1}, Shape{.levels = 5, .samples = 4},
+                               Shape{.levels = 6, .samples = 2}, Shape{.levels = 8, .samples = 8}})
       rows.push_back({kind, shape});
   return rows;
 }
 
-// Ladders that need more levels, or neighbours, before an expert speaks.
+// Ladders that need more levels, or samples, before an expert decides.
 std::vector<KindOfShape> long_rows() {
   const Kind kinds[] = {
       {"order two bending to a floor", [](double h) { return h * h + 4e-7; }, claims(2), proper,
@@ -124,8 +123,7 @@ std::vector<KindOfShape> long_rows() {
   };
   std::vector<KindOfShape> rows;
   for (const auto& kind : kinds)
-    for (const Shape& shape :
-         {Shape{.levels = 8, .neighbours = 4}, Shape{.levels = 8, .neighbours = 8}})
+    for (const Shape& shape : {Shape{.levels = 8, .samples = 4}, Shape{.levels = 8, .samples = 8}})
       rows.push_back({kind, shape});
   return rows;
 }
@@ -147,7 +145,7 @@ TEST_P(VerdictKinds, AreJudgedAsAnExpertWouldWhateverTheirShape) {
 
 auto name_of_kind = [](const testing::TestParamInfo<KindOfShape>& row) {
   return camel_case(row.param.kind.name) + std::to_string(row.param.shape.levels) + "Levels" +
-         std::to_string(row.param.shape.neighbours) + "Neighbours";
+         std::to_string(row.param.shape.samples) + "Samples";
 };
 
 INSTANTIATE_TEST_SUITE_P(AnyShape, VerdictKinds, testing::ValuesIn(smooth_shapes()), name_of_kind);

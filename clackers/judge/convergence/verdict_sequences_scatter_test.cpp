@@ -132,7 +132,7 @@ const VerdictSequence scatter_rows[] = {
      .claim = claims_envelope(1), .behaviour = divergent, .verdict = Verdict::disagrees,
      .reason = "error-growth"},
     {.name = "rough errors of two steps a level still have an envelope",
-     .make = [] { return scattered(1.0, 6.0, 13, {.neighbours = 2}); },
+     .make = [] { return scattered(1.0, 6.0, 13, {.samples = 2}); },
      .claim = claims_envelope(1), .behaviour = irregular, .verdict = Verdict::agrees, .order = 1.0,
      .within = 0.3},
 };

@@ -155,7 +155,7 @@ const VerdictSequence smooth_rows[] = {
      .within = 1e-9},
     {.name = "rates that settle at order one with one step a level contradict order two",
      .make = [] {
-       return ladder([](double h) { return h + 6.0 * h * h; }, {.levels = 6, .neighbours = 1});
+       return ladder([](double h) { return h + 6.0 * h * h; }, {.levels = 6, .samples = 1});
      },
      .claim = claims(2), .behaviour = reduced, .verdict = Verdict::disagrees, .order = 1.0,
      .within = 0.1},

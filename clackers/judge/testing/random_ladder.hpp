@@ -36,15 +36,15 @@ struct RandomLadder {
   double order = 0.0;
 };
 
-/// Draws a shape of 4 to 8 levels with one of these numbers of neighbours.
-inline Shape any_shape(Random& random, std::initializer_list<double> neighbours) {
+/// Draws a shape of 4 to 8 levels with one of these numbers of samples.
+inline Shape any_shape(Random& random, std::initializer_list<double> samples) {
   return {.levels = std::uniform_int_distribution<int>(4, 8)(random),
-          .neighbours = int(any(random, neighbours)),
+          .samples = int(any(random, samples)),
           .coarsest = scale(random, 0.005, 0.05)};
 }
 
 inline double finest_of(const Shape& shape) {
-  return shape.coarsest * std::exp2(-shape.levels + 1.0 / shape.neighbours);
+  return shape.coarsest * std::exp2(-shape.levels + 1.0 / shape.samples);
 }
 
 /// a h^p with factors up to `scatter` either way: what is left of methods that locate impacts.
@@ -119,8 +119,8 @@ inline RandomLadder blend(Random& random) {
 }
 
 /// Impacts noticed at the end of a step: a share of the step that varies from step to step.
-inline RandomLadder late_impact_shares(Random& random, std::initializer_list<double> neighbours) {
-  const auto shape = any_shape(random, neighbours);
+inline RandomLadder late_impact_shares(Random& random, std::initializer_list<double> samples) {
+  const auto shape = any_shape(random, samples);
   const double size = scale(random, 0.5, 5.0);
   std::vector<double> times;
   for (int i = 0; i < 5; ++i) times.push_back(uniform(random, 1.0, 20.0));
@@ -136,8 +136,8 @@ inline RandomLadder late_impact_shares(Random& random, std::initializer_list<dou
 }
 
 /// A power of the step times |sin| of a phase that varies from step to step.
-inline RandomLadder sine_shares(Random& random, std::initializer_list<double> neighbours) {
-  const auto shape = any_shape(random, neighbours);
+inline RandomLadder sine_shares(Random& random, std::initializer_list<double> samples) {
+  const auto shape = any_shape(random, samples);
   const double p = any(random, {1.0, 2.0}), t = uniform(random, 5.0, 20.0);
   return {ladder(
               [&](double h) {
@@ -176,14 +176,14 @@ inline std::vector<RandomKind> random_kinds() {
           {"line that meets rounding", line_to_rounding},
           {"line that ends in noise", line_to_noise},
           {"blend of orders one and two", blend},
-          {"late impacts, 1 neighbour", [](Random& r) { return late_impact_shares(r, {1}); }},
-          {"late impacts, 2 neighbours", [](Random& r) { return late_impact_shares(r, {2}); }},
-          {"late impacts, 4 neighbours", [](Random& r) { return late_impact_shares(r, {4}); }},
-          {"late impacts, 8 neighbours", [](Random& r) { return late_impact_shares(r, {8}); }},
-          {"sine shares, 1 neighbour", [](Random& r) { return sine_shares(r, {1}); }},
-          {"sine shares, 2 neighbours", [](Random& r) { return sine_shares(r, {2}); }},
-          {"sine shares, 4 neighbours", [](Random& r) { return sine_shares(r, {4}); }},
-          {"sine shares, 8 neighbours", [](Random& r) { return sine_shares(r, {8}); }},
+          {"late impacts, 1 sample", [](Random& r) { return late_impact_shares(r, {1}); }},
+          {"late impacts, 2 samples", [](Random& r) { return late_impact_shares(r, {2}); }},
+          {"late impacts, 4 samples", [](Random& r) { return late_impact_shares(r, {4}); }},
+          {"late impacts, 8 samples", [](Random& r) { return late_impact_shares(r, {8}); }},
+          {"sine shares, 1 sample", [](Random& r) { return sine_shares(r, {1}); }},
+          {"sine shares, 2 samples", [](Random& r) { return sine_shares(r, {2}); }},
+          {"sine shares, 4 samples", [](Random& r) { return sine_shares(r, {4}); }},
+          {"sine shares, 8 samples", [](Random& r) { return sine_shares(r, {8}); }},
           {"lognormal shares", lognormal_shares}};
 }
 

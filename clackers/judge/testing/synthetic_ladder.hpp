@@ -16,7 +16,7 @@ inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Shape of the default ladder of a study: runs to 20 s.
 struct Shape {
-  int levels = 8, neighbours = 8;
+  int levels = 8, samples = 8;
   double coarsest = 0.05, end = 20.0;
 };
 
@@ -26,9 +26,9 @@ inline std::vector<ErrorLevel> ladder(const std::function<double(double)>& error
   std::vector<ErrorLevel> made;
   for (int i = 0; i < shape.levels; ++i) {
     made.emplace_back();
-    for (int j = 0; j < shape.neighbours; ++j) {
+    for (int j = 0; j < shape.samples; ++j) {
       const double n =
-          std::round(shape.end / shape.coarsest * std::exp2(i + double(j) / shape.neighbours));
+          std::round(shape.end / shape.coarsest * std::exp2(i + double(j) / shape.samples));
       const double h = shape.end / n;
       made.back().push_back({h, error(h), n * std::numeric_limits<double>::epsilon()});
     }

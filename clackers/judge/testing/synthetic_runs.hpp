@@ -9,16 +9,16 @@
 // Runs made by hand, for tests.
 namespace clackers::judge::synthetic {
 
-/// Runs of `levels` levels with the values `at(h)`, steps halved from `coarsest`, `neighbours` of
-/// ratio 2^(1/neighbours) a level.
+/// Runs of `levels` levels with the values `at(h)`, steps halved from `coarsest`, `samples` of
+/// ratio 2^(1/samples) a level.
 inline std::vector<ResponseLevel> runs(const std::function<std::vector<double>(double)>& at,
-                                       int levels = 8, int neighbours = 1, double coarsest = 0.1,
+                                       int levels = 8, int samples = 1, double coarsest = 0.1,
                                        double floor = 0.0) {
   std::vector<ResponseLevel> made;
   for (int i = 0; i < levels; ++i) {
     made.emplace_back();
-    for (int k = 0; k < neighbours; ++k) {
-      const double h = coarsest * std::exp2(-i - double(k) / neighbours);
+    for (int k = 0; k < samples; ++k) {
+      const double h = coarsest * std::exp2(-i - double(k) / samples);
       made.back().push_back({h, at(h), floor});
     }
   }

@@ -51,7 +51,7 @@ inline auto name_of_row = [](const testing::TestParamInfo<VerdictSequence>& row)
   return camel_case(row.param.name);
 };
 
-/// Scores of finished runs with these displacement errors and all six collisions found. NaN is a
+/// Scores of finished runs with these displacement errors and all six impacts found. NaN is a
 /// run that failed; an infinite error one that came to its end.
 inline measure::Ladder scores_of(const std::vector<ErrorLevel>& errors) {
   measure::Ladder made;
@@ -74,8 +74,8 @@ inline measure::Ladder scores_of(const std::vector<ErrorLevel>& errors) {
 
 namespace synthetic {
 
-/// The default ladder with one step a level, or with other numbers of levels and neighbours.
-inline constexpr Shape single{.neighbours = 1};
+/// The default ladder with one step a level, or with other numbers of levels and samples.
+inline constexpr Shape single{.samples = 1};
 
 inline Claim claims(double order) { return {Behaviour::proper, order, ""}; }
 inline Claim claims_envelope(double order) { return {Behaviour::irregular, order, ""}; }

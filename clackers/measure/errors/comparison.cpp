@@ -10,7 +10,7 @@
 #include "clackers/measure/errors/history_check.hpp"
 #include "clackers/measure/errors/meter.hpp"
 #include "clackers/measure/errors/vectors.hpp"
-#include "clackers/measure/impacts/collision_finder.hpp"
+#include "clackers/measure/impacts/impact_finder.hpp"
 #include "clackers/measure/impacts/impact_matcher.hpp"
 #include "clackers/measure/impacts/jump_limits.hpp"
 
@@ -46,7 +46,7 @@ Comparison::Comparison(const model::Trajectory& history, const model::Motion& re
   u_envelope_ = entries(scale.u);
   v_envelope_ = entries(scale.v);
   a_envelope_ = entries(scale.a);
-  // The search for collisions needs memory for a while; the reference comes after it.
+  // The search for impacts needs memory for a while; the reference comes after it.
   collect_impacts();
   sample_reference();
 }
@@ -144,16 +144,16 @@ RunScore Comparison::score(double step) const {
   return score;
 }
 
-double Comparison::collision_period() const {
-  if (collision_period_ != 0.0) return collision_period_;
-  collision_period_ = reference_.end();
+double Comparison::impact_period() const {
+  if (impact_period_ != 0.0) return impact_period_;
+  impact_period_ = reference_.end();
   const auto count = reference_.impact_count(reference_.end());
   for (long long k = 2; k <= count; ++k)
     if (const double period = reference_.impact(k).t - reference_.impact(1).t; period > 0.0) {
-      collision_period_ = period;
+      impact_period_ = period;
       break;
     }
-  return collision_period_;
+  return impact_period_;
 }
 
 std::string Comparison::objection_to_sparse_rows() const {
@@ -173,7 +173,7 @@ void Comparison::collect_impacts() {
   const double step = std::min(step_, spacing / 16.0);
   if (!given_.impacts) {
     source_ = ImpactSource::found_in_history;
-    for (auto& found : find_collisions(given_, problem_)) {
+    for (auto& found : find_impacts(given_, problem_)) {
       impacts_.push_back(std::move(found.impact));
       impact_ends_.push_back(found.end);
     }
@@ -186,7 +186,7 @@ void Comparison::collect_impacts() {
   for (auto& report : reports_) {
     forget_what_is_not_finite(report);
     auto& same = last[std::size_t(report.contact)];
-    if (same && report.t - impact_ends_[*same] < one_collision * step) {
+    if (same && report.t - impact_ends_[*same] < one_impact * step) {
       impacts_[*same].v_after = report.v_after;
       impacts_[*same].impulse += report.impulse;
       impact_ends_[*same] = report.t;

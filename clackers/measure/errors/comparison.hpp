@@ -16,7 +16,7 @@ namespace clackers::measure {
 
 class Meter;
 
-/// A collision of the history and the true one it belongs to.
+/// An impact of the history and the true one it belongs to.
 struct MatchedImpact {
   std::size_t found = 0;  ///< index into Comparison::impacts()
   model::MotionImpact reference;
@@ -58,7 +58,7 @@ class Comparison {
   double step() const { return step_; }
   /// The time T that distances in time are divided by [s]: between the first two instants of true
   /// impacts, or the whole motion where it has fewer.
-  double collision_period() const;
+  double impact_period() const;
   /// The result of make(*this), computed at the first call and kept: what several metrics share.
   template <class Result>
   const Result& shared(Result (*make)(const Comparison&)) const {
@@ -95,8 +95,8 @@ class Comparison {
   std::span<const double> v_envelope() const { return v_envelope_; }
   std::span<const double> a_envelope() const { return a_envelope_; }
 
-  /// The history's collisions in order of time: those it reports, or else those found in it.
-  /// Reports of adjacent steps are one collision with the time and the limits before of the first,
+  /// The history's impacts in order of time: those it reports, or else those found in it.
+  /// Reports of adjacent steps are one impact with the time and the limits before of the first,
   /// the limits after of the last and the sum of impulses. What is not known of one stands as an
   /// empty vector, and NaN for the impulse.
   const std::vector<model::Impact>& impacts() const { return impacts_; }
@@ -122,7 +122,7 @@ class Comparison {
   const model::ImpactProblem<>& problem_;
   RunFacts facts_;
   double step_ = 0.0;
-  mutable double collision_period_ = 0.0;  ///< 0 until asked for
+  mutable double impact_period_ = 0.0;  ///< 0 until asked for
   std::vector<double> reference_u_, reference_v_, reference_a_, u_envelope_, v_envelope_,
       a_envelope_;
   std::vector<model::Impact> reports_;  ///< in order of time

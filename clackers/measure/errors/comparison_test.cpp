@@ -122,12 +122,12 @@ TEST(Comparison, JoinsReportsOfAContactAmongThoseOfOthers) {
   }
 }
 
-TEST(Comparison, TheCollisionPeriodIsBetweenInstantsNotBetweenContacts) {
+TEST(Comparison, TheImpactPeriodIsBetweenInstantsNotBetweenContacts) {
   const auto period = [](std::vector<double> impacts) {
     const ToyMotion reference(20.0, std::move(impacts));
     const auto problem = toy_problem();
     const auto history = history_of(reference, {0.0, 1.0, 2.0});
-    return Comparison(history, reference, problem).collision_period();
+    return Comparison(history, reference, problem).impact_period();
   };
   EXPECT_EQ(period({2.0, 2.0, 5.0, 9.0}), 3.0);
   EXPECT_EQ(period({2.0, 2.0}), 20.0);

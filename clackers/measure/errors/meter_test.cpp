@@ -12,7 +12,7 @@ namespace {
 
 cases::Case pair_case() { return cases::make("three-parameter"); }
 
-// The exact motion every `step`, and both limits at each collision if asked.
+// The exact motion every `step`, and both limits at each impact if asked.
 model::Trajectory exact_history(const cases::Case& problem, double step, bool with_limits) {
   const auto& motion = *problem.motion;
   model::Trajectory h;
@@ -41,7 +41,7 @@ RunScore score(const model::Trajectory& h, const cases::Case& problem) {
 TEST(MeterOfRows, OfTheReferenceIsRounding) {
   const auto problem = pair_case();
   const auto found = score(exact_history(problem, 0.01, true), problem);
-  // The sixth collision's time is off by half of 3.6e-15 s, and mass 2 moves nine envelopes a second.
+  // The sixth impact's time is off by half of 3.6e-15 s, and mass 2 moves nine envelopes a second.
   EXPECT_LT(found.u_error, 2e-14);
   EXPECT_LT(found.v_error, 1e-15);
   EXPECT_LT(found.energy_error, 1e-14);

@@ -31,8 +31,8 @@ struct RunScore {
   /// over masses.
   double v_error = 0.0;
   /// Largest over output times of |E - E*| over the largest E* of the run, E kinetic energy and that
-  /// of the structure (not of a contact spring). Where collisions take energy (eta < 1) it does not tend to zero with
-  /// the step: between a collision and that of the run the two are on either side of the jump.
+  /// of the structure (not of a contact spring). Where impacts take energy (eta < 1) it does not tend to zero with
+  /// the step: between an impact and that of the run the two are on either side of the jump.
   double energy_error = 0.0;
   double energy_ratio = 1.0;  ///< E / E* at the last state; NaN where E* is 0
   /// Below it errors show nothing: the larger of an estimate of rounding for this many steps and

@@ -8,9 +8,9 @@ namespace {
 
 std::vector<double> copy(std::span<const double> from) { return {from.begin(), from.end()}; }
 
-std::vector<double> distance(std::span<const double> one, std::span<const double> other) {
-  std::vector<double> errors(one.size());
-  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] = std::abs(one[i] - other[i]);
+std::vector<double> distance(std::span<const double> first, std::span<const double> other) {
+  std::vector<double> errors(first.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] = std::abs(first[i] - other[i]);
   return errors;
 }
 

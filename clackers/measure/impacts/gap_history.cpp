@@ -85,7 +85,7 @@ void find_rates(GapHistory& gaps) {
   }
 }
 
-// In free motion both rates are the same, so that half of all rows being collisions or less leaves
+// In free motion both rates are the same, so that half of all rows being impacts or less leaves
 // the median to rounding. It is local, since a motion may decay; the factor covers the tail of a
 // normal distribution down to 1e-7 (5.3 deviations, one deviation being 1.5 medians).
 constexpr std::size_t noise_block = 4096;

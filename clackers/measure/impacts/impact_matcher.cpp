@@ -89,7 +89,7 @@ void ImpactMatcher::advance(int contact, double t) {
 void ImpactMatcher::take(double t, bool resting, int contact) {
   const auto number = reports_++;
   auto& [target, nearest, last_report] = tracks_.at(std::size_t(contact));
-  const bool same = last_report && t - *last_report < one_collision * step_;
+  const bool same = last_report && t - *last_report < one_impact * step_;
   last_report = t;
   if (same) return;
   while (target && t > target->t + target->reach) advance(contact, t);

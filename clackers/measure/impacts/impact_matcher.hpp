@@ -16,9 +16,9 @@ struct ImpactPair {
   std::size_t report = 0;   ///< zero-based number of the call of ImpactMatcher::take
 };
 
-/// Reports of one contact less than this many steps apart are one collision: a little less than
+/// Reports of one contact less than this many steps apart are one impact: a little less than
 /// two, so that reports two whole steps apart stay two.
-inline constexpr double one_collision = 2.0 - 1e-6;
+inline constexpr double one_impact = 2.0 - 1e-6;
 
 /// Whether the reference rests in contact number `contact` just after time t [s]: its gap and the
 /// rate of it are zero, as after an impact without restitution. A time outside the motion stands
@@ -29,14 +29,14 @@ bool rests_in_contact(const model::Motion& reference, const std::vector<model::C
 /// Matches the impacts that a run reports, as they come, with those of the reference, contact by
 /// contact.
 ///
-/// - A report less than two steps after the one before it belongs to the same collision: a method
+/// - A report less than two steps after the one before it belongs to the same impact: a method
 ///   that applies impacts in adjacent steps has found one impact, timed at its first report. A
-///   chain of such reports is one collision, too.
-/// - A collision belongs to the nearest true impact if their times differ by at most a quarter of
+///   chain of such reports is one impact, too.
+/// - A reported impact belongs to the nearest true one if their times differ by at most a quarter of
 ///   the time to that impact's nearer true neighbour (a quarter of the run if it has none). Of
-///   several collisions around one true impact the nearest is its match, the others are extra.
+///   several impacts around one true impact the nearest is its match, the others are extra.
 /// - A report while the reference rests in contact (after an impact without restitution) that is
-///   no match is neither found nor extra: a lasting contact is no collision, and a method may
+///   no match is neither found nor extra: a lasting contact is no impact, and a method may
 ///   close it again and again.
 /// - A true impact in the last two steps may come too late to be seen: it is expected only if
 ///   found. So is the last one before a run that starts late.
@@ -72,7 +72,7 @@ class ImpactMatcher {
   /// The impacts of one contact.
   struct Track {
     std::optional<Target> target;   ///< the earliest true impact that may still find a match
-    std::optional<Report> nearest;  ///< the best collision for it so far
+    std::optional<Report> nearest;  ///< the best impact for it so far
     std::optional<double> last_report;
   };
   std::optional<model::MotionImpact> impact_of(int contact, long long from, int direction) const;

@@ -70,7 +70,7 @@ TEST(ImpactMatcher, TheNearerNeighbourSetsTheReach) {
   EXPECT_SCORE(match({13.1}, 0.01, 20.0, {8.0}), 1, 1, 0, 1, 1);
 }
 
-TEST(ImpactMatcher, ReportsInAdjacentStepsAreOneCollisionTimedAtTheFirst) {
+TEST(ImpactMatcher, ReportsInAdjacentStepsAreOneImpactTimedAtTheFirst) {
   const auto twice = match({2.05, 2.15, 6.0, 6.1, 6.2, 6.3, 10.0, 14.0, 18.0}, 0.1);
   EXPECT_SCORE(twice, 5, 5, 5, 0, 0);
   EXPECT_NEAR(twice.worst_time_error, 0.05, 1e-14);
@@ -89,7 +89,7 @@ TEST(ImpactMatcher, OfSeveralAroundOneTheNearestIsItsMatch) {
   EXPECT_NEAR(earlier.worst_time_error, 0.1, 1e-14);
 }
 
-TEST(ImpactMatcher, AContactThatLastsIsOneCollision) {
+TEST(ImpactMatcher, AContactThatLastsIsOneImpact) {
   const ToyMotion reference(20.0, {8.0});
   ImpactMatcher matcher(reference, 0.01);
   for (const double t : {8.02, 8.1, 9.0, 14.0}) matcher.take(t, true);
@@ -152,7 +152,7 @@ TEST(ImpactMatcher, NamesItsPairsByTrueImpactAndReport) {
   const ToyMotion reference(20.0, regular);
   ImpactMatcher matcher(reference, 0.1);
   matcher.keep_pairs();
-  // Two reports of one collision, an extra one, the better of two, one missed (14), one last.
+  // Two reports of one impact, an extra one, the better of two, one missed (14), one last.
   for (const double t : {2.05, 2.15, 4.0, 5.5, 6.1, 10.0, 18.2}) matcher.take(t);
   const auto pairs = matcher.pairs(20.0);
   ASSERT_EQ(pairs.size(), 4u);

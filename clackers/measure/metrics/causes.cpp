@@ -21,7 +21,7 @@ void explain(const SynchronyLoss& loss, double eps, double rate, Synchrony& out)
     return;
   }
   const auto part = explained_by_detuning(loss, {.rate = rate, .eta = 1.0, .eps = eps});
-  out.predicted = measured(part.collision);
+  out.predicted = measured(part.impact);
   out.share = std::isnan(out.growth.value) ? not_measured(out.growth.reason) : measured(part.share);
 }
 
@@ -30,18 +30,16 @@ void explain(const SynchronyLoss& loss, double eps, double rate, Synchrony& out)
 Synchrony explain_synchrony(const Comparison& comparison) {
   const auto loss = synchrony_loss(comparison);
   Synchrony out;
-  if (loss.collisions == 0)
-    out.lost = not_measured("The history or the reference has no collisions.");
+  if (loss.impacts == 0)
+    out.lost = not_measured("The history or the reference has no impacts.");
   else if (!loss.lost)
-    out.lost =
-        not_measured(fmt::format("Synchrony is kept over all {} collisions.", loss.collisions));
+    out.lost = not_measured(fmt::format("Synchrony is kept over all {} impacts.", loss.impacts));
   else
     out.lost = measured(double(*loss.lost));
   if (!loss.lost)
     out.growth = not_measured(out.lost.reason);
   else if (std::isnan(loss.growth))
-    out.growth =
-        not_measured("Momenta after the collisions before the loss are too few or unknown.");
+    out.growth = not_measured("Momenta after the impacts before the loss are too few or unknown.");
   else
     out.growth = measured(loss.growth);
   const auto found = flight_frequencies(comparison);

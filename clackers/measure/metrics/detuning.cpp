@@ -60,7 +60,7 @@ FlightFrequencies flight_frequencies(const Comparison& comparison) {
            (impacts[next].t < t || (impacts[next].t == t && !comparison.is_left_limit(row)));
          ++next)
       same_flight = false;
-    // Nor does a row within a collision that takes several steps belong to a flight.
+    // Nor does a row within an impact that takes several steps belong to a flight.
     if (next > 0 && row > 0 && history.t[row - 1] < comparison.impact_ends()[next - 1])
       same_flight = false;
     if (same_flight) time += t - history.t[row - 1];

@@ -26,7 +26,7 @@ struct MetricValue {
 /// compared: u, v, a, energy, impact-time, period, ... MEASURE is how its error becomes a number:
 /// max, l1, l2, end, count, fit (a least-squares line), or the name of a distance. In definitions a
 /// star marks the reference; U and V are the largest envelopes of u* and v* over the run, T the time
-/// between collisions.
+/// between impacts.
 struct Metric {
   std::string name;        ///< "u-max"
   std::string_view unit;   ///< "m", "m/s", "s", "1"

@@ -16,23 +16,24 @@ class Distances {
  public:
   explicit Distances(const Comparison& comparison) : comparison_(comparison) {}
 
-  MetricValue largest(std::span<const double> one, std::span<const double> other) const {
+  MetricValue largest(std::span<const double> values, std::span<const double> other) const {
     const auto n = comparison_.dof();
     std::vector<double> masses(n, 0.0);
-    for (std::size_t at = 0; at < one.size(); ++at)
-      masses[at % n] = std::max(masses[at % n], std::abs(one[at] - other[at]));
+    for (std::size_t at = 0; at < values.size(); ++at)
+      masses[at % n] = std::max(masses[at % n], std::abs(values[at] - other[at]));
     return relative_to(measured(std::move(masses)), comparison_.u_envelope());
   }
 
-  MetricValue mean(std::span<const double> one, std::span<const double> other) const {
+  MetricValue mean(std::span<const double> values, std::span<const double> other) const {
     const auto n = comparison_.dof();
     const auto& t = comparison_.history().t;
     const double length = t.back() - t.front();
     std::vector<double> masses(n, 0.0);
-    for (std::size_t at = n; at < one.size(); ++at) {
+    for (std::size_t at = n; at < values.size(); ++at) {
       const auto row = at / n;
-      masses[at % n] += 0.5 * (t[row] - t[row - 1]) / length *
-                        (std::abs(one[at] - other[at]) + std::abs(one[at - n] - other[at - n]));
+      masses[at % n] +=
+          0.5 * (t[row] - t[row - 1]) / length *
+          (std::abs(values[at] - other[at]) + std::abs(values[at - n] - other[at - n]));
     }
     return relative_to(measured(std::move(masses)), comparison_.v_envelope());
   }

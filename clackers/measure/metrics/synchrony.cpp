@@ -43,7 +43,7 @@ void SynchronyWatch::take(double found, double reference, double momentum) {
 SynchronyLoss SynchronyWatch::loss() const {
   std::vector<double> numbers(momenta_.size());
   std::iota(numbers.begin(), numbers.end(), 0.0);
-  return {.collisions = count_,
+  return {.impacts = count_,
           .lost = lost_,
           .worst = worst_,
           .growth = numbers.size() >= fewest ? numerics::fit_line(numbers, momenta_).slope : nan};
@@ -61,7 +61,7 @@ SynchronyLoss synchrony_loss(const Comparison& comparison) {
   const auto& t = comparison.history().t;
   const auto first = reference.impact_count(t.front());
   const auto known = reference.impact_count(reference.end());
-  SynchronyWatch watch(comparison.collision_period(), t.front());
+  SynchronyWatch watch(comparison.impact_period(), t.front());
   for (std::size_t k = 0; k < comparison.impacts().size(); ++k) {
     const auto index = first + static_cast<long long>(k) + 1;
     if (index > known) break;
@@ -81,7 +81,7 @@ DetuningPart explained_by_detuning(const SynchronyLoss& loss, const DetuningFact
   if (!(facts.eta > 0.0 && facts.eta <= 1.0)) refuse("detuning", "eta", facts.eta, "0 < eta <= 1");
   DetuningPart part;
   part.growth = facts.rate * size - std::log(facts.eta);
-  part.collision =
+  part.impact =
       size >= lost_synchrony ? 0.0 : std::ceil(std::log(lost_synchrony / size) / part.growth);
   part.share = part.growth / loss.growth;
   return part;
@@ -89,7 +89,7 @@ DetuningPart explained_by_detuning(const SynchronyLoss& loss, const DetuningFact
 
 MetricValue measure_spacing_error(const Comparison& comparison) {
   const auto loss = synchrony_loss(comparison);
-  if (loss.collisions == 0) return not_measured("The history or the reference has no collisions.");
+  if (loss.impacts == 0) return not_measured("The history or the reference has no impacts.");
   return measured(loss.worst);
 }
 

@@ -46,8 +46,8 @@ class ToyMotion : public model::Motion {
     }
   }
   model::Kinematics envelope(double) const override {
-    const Eigen::Vector2d one(1.0, 0.5);
-    return {one, one, one};
+    const Eigen::Vector2d size(1.0, 0.5);
+    return {size, size, size};
   }
   model::Kinematics error_bound(double) const override {
     const Eigen::Vector2d bound(1e-16, 1e-16);

@@ -119,8 +119,8 @@ std::optional<Objection> Penalty::objection(const Facts& method,
     if (chosen.models(eta)) continue;
     if (chosen.restitution == CompliantLaw::Restitution::elastic)
       return Objection{
-          fmt::format("{} with eta = {}: the law {} gives back what it takes, so it can "
-                      "only stand for eta = 1. Use penalty:law=kelvin-voigt or "
+          fmt::format("{} with eta = {}: the law {} is elastic, so it models only eta = 1. Use "
+                      "penalty:law=kelvin-voigt or "
                       "event-driven.",
                       method.name, eta, law),
           "penalty-needs-elastic"};
@@ -216,7 +216,7 @@ class Penalty::Loop {
     for (std::size_t j = 0; j < problem_.contacts.size(); ++j)
       if (is_touched(j, before, now)) touches_.push_back({touch_time(j, before, now), j, 0.0});
     std::sort(touches_.begin(), touches_.end(),
-              [](const Touch& one, const Touch& other) { return one.s < other.s; });
+              [](const Touch& first, const Touch& other) { return first.s < other.s; });
     for (auto& [s, j, w0] : touches_) {
       at_ = before;
       if (s > 0.0) at_ = stepper_->partial(before, s);

@@ -128,7 +128,7 @@ TEST(Penalty, ElasticLawsStandForElasticImpactsOnly) {
     ASSERT_TRUE(no);
     EXPECT_EQ(no->code, Code("penalty-needs-elastic"));
     EXPECT_EQ(no->sentence, chosen->facts().name + " with eta = 0.5: the law " + law +
-                                " gives back what it takes, so it can only stand for eta = 1. Use "
+                                " is elastic, so it models only eta = 1. Use "
                                 "penalty:law=kelvin-voigt or event-driven.");
     EXPECT_REFUSED(chosen->prepare(p, 0.1), "penalty-needs-elastic", "with eta = 0.5");
   }

@@ -52,8 +52,8 @@ std::vector<std::string> registered(bool is_linear_too) {
   return all;
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& which) {
-  std::string name = which.param;
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
   std::ranges::replace_if(
       name, [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;

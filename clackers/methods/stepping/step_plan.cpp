@@ -24,7 +24,7 @@ StepPlan plan_steps(std::string_view who, double start, double end, double h) {
   const bool is_whole = std::abs(ratio - nearest) <= 4.0 * eps * scale * ratio && nearest >= 1.0;
   if (!is_whole && h > length)
     refuse(who, "h", h, fmt::format("h <= {}, the length of the run in seconds", length),
-           "Use a step that fits into the run.");
+           "Use a step that is not longer than the run.");
   if (!(ratio <= most_steps))
     refuse(who, "h", h, fmt::format("h >= {}, that is at most 1e9 steps", length / most_steps),
            "Use a larger step or an earlier end.", "too-many-steps");

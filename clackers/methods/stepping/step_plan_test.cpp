@@ -45,7 +45,7 @@ TEST(StepPlan, RefusesWhatCannotRun) {
   EXPECT_REFUSED(plan_steps("who", 0, 20, INFINITY), "not-finite");
   EXPECT_REFUSED(plan_steps("rk4+event-driven", 0, 20, 30), "out-of-range",
                  "rk4+event-driven: h = 30; allowed: h <= 20, the length of the run in seconds. "
-                 "Use a step that fits into the run.");
+                 "Use a step that is not longer than the run.");
   EXPECT_NO_THROW(plan_steps("who", 0, 20, 20.0));
   EXPECT_REFUSED(plan_steps("who", 0, 20, 1.9e-8), "too-many-steps");
   EXPECT_REFUSED(plan_steps("who", 0, 20, 5e-324), "too-many-steps");

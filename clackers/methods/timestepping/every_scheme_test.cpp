@@ -138,8 +138,8 @@ TEST_P(EveryScheme, LosesEnergyOfAFreeMotionOnlyWhereItDissipates) {
     EXPECT_NEAR(ratio, 1.0, 1e-5);
 }
 
-std::string scheme_test_name(const testing::TestParamInfo<std::string>& which) {
-  std::string name = which.param;
+std::string scheme_test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
   std::ranges::replace_if(
       name, [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;

@@ -216,8 +216,8 @@ INSTANTIATE_TEST_SUITE_P(Names, Scheme,
                                          "nonsmooth-generalized-alpha",
                                          "newmark-position-multiplier", "moreau-jean",
                                          "moreau-jean:theta=1"),
-                         [](const auto& which) {
-                           std::string name = which.param;
+                         [](const auto& parameter) {
+                           std::string name = parameter.param;
                            std::ranges::replace_if(
                                name, [](unsigned char c) { return !std::isalnum(c); }, '_');
                            return name;

@@ -54,7 +54,7 @@ inline Record sample_record() {
   fit.floor_step = 2e-4;
   fit.floor_scatter = 3.5;
   fit.cancel_step = 0.0031;
-  fit.lucky_share = 0.25;
+  fit.coincident_share = 0.25;
   fit.stable_step = 0.011;
   fit.steps = {0.05, 0.025};
   fit.errors = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -88,8 +88,8 @@ inline Record sample_record() {
   file.has_velocities = true;
   file.has_u = {true, false};
   file.start_error = 1e-5;
-  file.collisions = CollisionSource::history;
-  file.rows_resolve_collisions = false;
+  file.impact_source = ImpactSource::history;
+  file.rows_resolve_impacts = false;
   file.contact_time = 0.016;
   file.notes = {{"rows-beyond-end", {7.0, 20.0}, ""}, {"columns-not-used", {}, "energy"}};
   file.history = {{0.25}, {{1.0}, {0.5}}};
@@ -129,22 +129,22 @@ inline Record sample_record() {
   histories.tolerance.reset();
   histories.self_convergence.reset();
   histories.refinement.reset();
-  CaseRecord one;
-  one.problem = {"three-parameter",
-                 "two masses",
-                 "Eq. (25)",
-                 {{"N", 2.0, "", "whole"}},
-                 {{"m2", 1.0 / 3.0, "kg", "mass 2"}},
-                 20.0,
-                 0.699,
-                 {1.5727, 4.7181},
-                 {0, 1},
-                 {{{0, 1.0}, {1, 0.5}}, {{0, -1}}, {{0, 1, 0.25}}},
-                 2};
-  one.plan = {0.04, 6, 5};
-  one.response = {{0.0, 1.0}, {{1.0, 0.5}, {-0.3, 0.2}}};
-  one.subjects = {method, histories};
-  one.profiles = {
+  CaseRecord problem;
+  problem.problem = {"three-parameter",
+                     "two masses",
+                     "Eq. (25)",
+                     {{"N", 2.0, "", "whole"}},
+                     {{"m2", 1.0 / 3.0, "kg", "mass 2"}},
+                     20.0,
+                     0.699,
+                     {1.5727, 4.7181},
+                     {0, 1},
+                     {{{0, 1.0}, {1, 0.5}}, {{0, -1}}, {{0, 1, 0.25}}},
+                     2};
+  problem.plan = {0.04, 6, 5};
+  problem.response = {{0.0, 1.0}, {{1.0, 0.5}, {-0.3, 0.2}}};
+  problem.subjects = {method, histories};
+  problem.profiles = {
       {"steps",
        {"stop: error in u <= 1e-01"},
        {{"newmark", {1.5, std::numeric_limits<double>::infinity()}, {{1.5, 0.5}}, 0, 1}}}};
@@ -152,8 +152,8 @@ inline Record sample_record() {
   record.command = "check";
   record.provenance = {"clackers verify", "9.8.7", "GCC 12",
                        "Linux",           "EPYC",  "2030-01-02T03:04:05Z"};
-  record.cases = {one, CaseRecord{}};
-  record.profiles = one.profiles;
+  record.cases = {problem, CaseRecord{}};
+  record.profiles = problem.profiles;
   record.profiles[0].counter = "force_evaluations";
   record.interrupted = true;
   return record;

@@ -47,9 +47,10 @@ std::string profile_section() {
              {"profile", "profile", "Performance profile of the methods that the matrix shows",
               "<span id=\"profile-caption\"></span>",
               "A task is a system with an error in u to reach: 0.1, 0.01, ... down to the smallest "
-              "that some method reaches. A line says which share of the tasks a method solves with "
+              "that some method reaches. A line shows the share of the tasks that a method solves "
+              "with "
               "at most that many times the work of the best method for the task (Dolan and Mor\u00e9 "
-              "2002). High on the left is cheap, high on the right is dependable. Filters of the "
+              "2002). High on the left is cheap, high on the right is reliable. Filters of the "
               "matrix choose the methods.",
               "<div id=\"profile-counters\" class=\"tools\" role=\"group\" "
               "aria-label=\"What the figure counts\"></div>\n"
@@ -68,7 +69,8 @@ std::string again_section(std::span<const AtlasPart> parts, const AtlasText& tex
   auto out = again_html(text.from);
   if (parts.size() > 1) {
     out +=
-        "<h3>Whose results</h3>\n<div class=\"scroll\" tabindex=\"0\"><table>\n<thead><tr><th "
+        "<h3>Sources of the results</h3>\n<div class=\"scroll\" "
+        "tabindex=\"0\"><table>\n<thead><tr><th "
         "scope=\"col\">origin</th><th scope=\"col\">clackers</th><th scope=\"col\">date</th><th "
         "scope=\"col\">processor</th></tr></thead>\n<tbody>\n";
     for (const auto& part : parts) out += part_row(part);

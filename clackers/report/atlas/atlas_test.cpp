@@ -99,7 +99,7 @@ TEST(Atlas, RefusesNothingAndTheSameCellTwice) {
   row[0] = 99LL;
   atlas.subjects.rows.push_back(row);
   EXPECT_REFUSED(page_of(atlas), "bad-syntax",
-                 {"newmark stands on three-parameter N=1,xi1=0.05 twice"});
+                 {"newmark appears twice on three-parameter N=1,xi1=0.05"});
   atlas.subjects.rows.clear();
   EXPECT_REFUSED(page_of(atlas), "not-a-campaign", {"clackers campaign run"});
 }

@@ -133,7 +133,7 @@ Survey survey_of(std::span<const AtlasPart> parts) {
       subject.row = r;
       if (!seen.try_emplace({subject.method, subject.system}, true).second)
         throw InputError(
-            fmt::format("atlas: {} stands on {} {} twice; allowed: a method once on each system.",
+            fmt::format("atlas: {} appears twice on {} {}; allowed: a method once on each system.",
                         name, system.name, system.settings_text()),
             "bad-syntax");
       place_of_task[cells.whole(row, "task")] = survey.subjects.size();

@@ -91,17 +91,10 @@ Json ladder_json(const SurveySubject& subject) {
 }
 
 // Fields of a cell that are numbers of its row, and those that are words.
-constexpr std::string_view numbers[] = {"order",
-                                        "order_spread",
-                                        "u_error",
-                                        "v_error",
-                                        "energy_error",
-                                        "rounding_floor",
-                                        "collisions_expected",
-                                        "collisions_matched",
-                                        "collisions_missed",
-                                        "collisions_extra",
-                                        "collision_time_error"};
+constexpr std::string_view numbers[] = {
+    "order",          "order_spread",   "u_error",          "v_error",
+    "energy_error",   "rounding_floor", "impacts_expected", "impacts_matched",
+    "impacts_missed", "impacts_extra",  "impact_time_error"};
 constexpr std::string_view words[] = {"behaviour", "verdict",      "reason",
                                       "diagnosis", "refusal_code", "refusal"};
 

@@ -65,11 +65,10 @@ Json displacements(const record::Curve& whole) {
   return out;
 }
 
-Json collisions(const record::CaseSummary& problem) {
+Json impacts(const record::CaseSummary& problem) {
   Json out = Json::array();
   for (std::size_t k = 0; k < problem.impact_times.size(); ++k)
-    out.push_back(
-        {{"series", "collisions"}, {"k", k + 1}, {"t", rounded(problem.impact_times[k])}});
+    out.push_back({{"series", "impacts"}, {"k", k + 1}, {"t", rounded(problem.impact_times[k])}});
   return out;
 }
 
@@ -287,7 +286,7 @@ Json figure_data(const record::CaseRecord& problem) {
   return {{"response", displacements(problem.response)},
           {"history_rows",
            drawn == nullptr ? Json::array() : displacements(drawn->shown_run()->file->history)},
-          {"collisions", collisions(problem.problem)},
+          {"impacts", impacts(problem.problem)},
           {"runs", all_runs(problem)},
           {"levels", levels(problem)},
           {"slopes", slopes(problem)},

@@ -13,7 +13,7 @@ namespace clackers::report {
 /// Vega-Lite reads them:
 ///
 ///     response, history_rows   displacements, exact and of the finest history
-///     collisions               exact times
+///     impacts               exact times
 ///     runs                     every run
 ///     levels                   the upper envelope of each subject, without levels that the fit
 ///                              calls unusable
@@ -30,7 +30,7 @@ bool has_player(const record::CaseRecord& problem);
 /// of its "runs", with its own times.
 nlohmann::ordered_json player_data(const record::CaseRecord& problem);
 
-/// Lines of profiles. Methods that refused every one of the cases have none.
+/// Curves of the performance profiles, without methods that accept none of the cases.
 nlohmann::ordered_json profile_data(const std::vector<record::Profile>& profiles,
                                     std::span<const record::CaseRecord> cases);
 

@@ -58,10 +58,9 @@ std::string response_legend(const record::CaseRecord& problem, const Place& plac
     out += toggle(name, key_svg(mass_style(mass)), name);
   }
   if (!problem.problem.impact_times.empty())
-    out +=
-        toggle("collisions",
-               small_key("var(--collision)", "<path d=\"M0,-5L5,4H-5Z\" fill=\"currentColor\"/>"),
-               "collisions");
+    out += toggle("impacts",
+                  small_key("var(--impact)", "<path d=\"M0,-5L5,4H-5Z\" fill=\"currentColor\"/>"),
+                  "impacts");
   if (drawn_subject(problem) != nullptr)
     out += toggle("history", small_key("inherit", "<circle r=\"3\" fill=\"currentColor\"/>"),
                   "rows of the history");
@@ -124,12 +123,12 @@ FigureText response_text(const record::CaseRecord& record, const Place& place) {
   const auto* rows = drawn_subject(record);
   std::string reading =
       rows != nullptr
-          ? "Dots that leave their line are errors of the history; dots that are late or early by "
-            "the same amount are errors of its clock. Triangles mark the exact collisions."
+          ? "Dots that leave their line are errors of the history; dots that are all late or early "
+            "by the same amount are errors of its time column. Triangles mark the exact impacts."
           : "The masses touch at the thin vertical lines, marked by a triangle on the time axis.";
   if (static_cast<long long>(drawn) < problem.impact_count)
     reading +=
-        fmt::format(" Only the first {} of {} collisions are marked.", drawn, problem.impact_count);
+        fmt::format(" Only the first {} of {} impacts are marked.", drawn, problem.impact_count);
   const auto caption =
       rows != nullptr
           ? fmt::format(
@@ -139,7 +138,7 @@ FigureText response_text(const record::CaseRecord& record, const Place& place) {
           : fmt::format(
                 "Displacement u of each mass in metres against time in seconds, over {} s "
                 "with {}.",
-                html_number(problem.end, 6), counted(problem.impact_count, "collision"));
+                html_number(problem.end, 6), counted(problem.impact_count, "impact"));
   return {"response",
           rows != nullptr ? "history_rows" : "response",
           rows != nullptr ? "The history over the exact response" : "Exact response",
@@ -165,7 +164,7 @@ FigureText convergence_text(const record::CaseRecord& problem) {
       "envelope), without levels of which more than half of the runs failed. A method of order "
       "p follows a straight line as steep as the side of the triangle with p beside it. "
       "Scatter of the points is irregularity, a line that levels out is a floor. Point at a "
-      "curve, or at its name above, to pick it out in every figure." +
+      "curve, or at its name above, to highlight it in every figure." +
           not_drawn(problem),
       {}};
 }
@@ -177,7 +176,7 @@ FigureText history_text(const record::CaseRecord& problem, const Place& place) {
           "Displacement error divided by the largest envelope of the mass against time in seconds, "
           "one run of each. The error axis is logarithmic." +
               masses_left_out(problem),
-          "Steps up at collisions are errors that collisions bring in; downward spikes are changes "
+          "Steps up at impacts are errors that the impacts cause; downward spikes are changes "
           "of sign; a level line in a history may be its printed digits. Point at a curve to see "
           "which run it is.",
           mass_choice(problem, place)};
@@ -190,7 +189,7 @@ std::string player_html(int& number, const record::CaseRecord& problem, const Pl
        {"number", fmt::format("{}", number++)},
        {"title", "The exact motion"},
        {"caption",
-        fmt::format("The structure over {} s, as fast as in truth unless another speed is chosen.",
+        fmt::format("The structure over {} s, in real time unless another speed is chosen.",
                     html_number(problem.problem.end, 6))},
        {"choices", ""},
        {"response", "response" + place.suffix},
@@ -237,7 +236,7 @@ FigureText profile_text(const std::vector<record::Profile>& profiles, const Plac
                       cases == 1 ? std::string("this case") : "one of " + counted(cases, "case")),
           "The left edge shows how often a method is the cheapest, the right edge how many tasks "
           "it solves. Refusals and failures count as not solved." +
-              failed_tasks(profile) + (cases == 1 ? " One case says little of others." : ""),
+              failed_tasks(profile) + (cases == 1 ? " One case says little about others." : ""),
           counter_choice(counters_of(profiles), "profile" + place.suffix)};
 }
 

@@ -122,11 +122,10 @@ TEST(Html, EveryMethodThatRanHasItsMetrics) {
   const auto page = html(record);
   EXPECT_EQ(occurrences(page, "<details class=\"metrics\">"), 7u);
   EXPECT_EQ(occurrences(page, "<code>v-max</code> *</th>"), 7u);
-  EXPECT_EQ(
-      occurrences(page,
-                  "<p>There are no collisions. Not measured: <code>period-fit-relative</code>, "
-                  "<code>impact-spacing-max-relative</code>.</p>"),
-      7u);
+  EXPECT_EQ(occurrences(page,
+                        "<p>There are no impacts. Not measured: <code>period-fit-relative</code>, "
+                        "<code>impact-spacing-max-relative</code>.</p>"),
+            7u);
 }
 
 TEST(Html, HistoriesHaveFilesNotesAndMetrics) {

@@ -95,7 +95,7 @@ std::string notebook_figure(const record::CaseRecord& problem, std::string_view 
   std::vector<std::string> used;
   add_data_names(figure, used);
   const auto data = figure_data(problem);
-  for (const auto& one : used) figure["datasets"][one] = rows_of(data.at(one));
+  for (const auto& rows : used) figure["datasets"][rows] = rows_of(data.at(rows));
   return json_text(figure);
 }
 

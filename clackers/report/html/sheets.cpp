@@ -111,7 +111,7 @@ std::string html(std::span<const record::Sheet> sheets, const std::string& name,
     page.heading = escape(case_text(motion->problem, "\u00a0"));
     page.lead = lead_html(*motion);
     auto data = figure_data(*motion);
-    for (const auto* rows : {"response", "collisions"}) page.data[rows] = data[rows];
+    for (const auto* rows : {"response", "impacts"}) page.data[rows] = data[rows];
     page.data["motion"] = player_data(*motion);
     page.specifications["response"] = figure_specifications(*motion)["response"];
     page.sections.push_back({"figures", "Figures", "Figures", response_html(*motion, {}, number)});

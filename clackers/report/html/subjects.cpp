@@ -41,7 +41,7 @@ std::string facts_html(const record::Subject& subject) {
     out += fact("Found", escape(to_string(displacement.behaviour)));
     out += fact("Order in u", order_html(displacement));
     out += fact("Order in v", order_html(assessment.velocity));
-    out += fact("Order in collision time", order_html(assessment.impact_time));
+    out += fact("Order in impact time", order_html(assessment.impact_time));
     if (displacement.has_line && displacement.scatter > 1.0)
       out += fact("Scatter", fmt::format("factor {} between runs and line",
                                          html_number(displacement.scatter, 3)));

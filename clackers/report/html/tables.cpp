@@ -21,8 +21,7 @@ std::string cell_html(const Column& shown, const Row& row) {
   if (text == nullptr) return "–";
   if (shown.kind == Kind::verdict) return badge(*text);
   const auto& impacts = row.score.worst.impacts;
-  const bool is_wrong =
-      shown.name == "collisions" && impacts && impacts->missed + impacts->extra > 0;
+  const bool is_wrong = shown.name == "impacts" && impacts && impacts->missed + impacts->extra > 0;
   return is_wrong ? fmt::format("<span class=\"wrong\">{}</span>", escape(*text)) : escape(*text);
 }
 
@@ -175,7 +174,7 @@ std::string verdicts_html(const record::CaseRecord& problem, const Place& place)
         "Verdict table",
         fmt::format(
             "Of each method the worst of the finest level's steps. Errors {}; order ± 95 %; "
-            "collisions matched / exact. A dash: not measured.",
+            "impacts matched / exact. A dash: not measured.",
             error_scale_text),
         methods,
         [&](const Row& row) {
@@ -193,7 +192,7 @@ std::string verdicts_html(const record::CaseRecord& problem, const Place& place)
     out += html_table("Histories",
                       std::string(by_step ? "Coarsest step" : "Loosest tolerance") +
                           " first. Errors relative to the largest envelope; v in the mean "
-                          "over time; collisions matched / exact. A dash: not measured.",
+                          "over time; impacts matched / exact. A dash: not measured.",
                       histories, [](const Row& row) {
                         return breakable(escape(row.run->file ? short_path(row.run->file->file)
                                                               : row.subject->name));

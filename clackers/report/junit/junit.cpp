@@ -151,8 +151,8 @@ void add_measured(Xml& xml, const record::CaseRecord& problem, const record::Sub
   const auto row = subject_row(problem, subject);
   for (const auto* name :
        {"verdict", "claim", "behaviour", "order", "order_spread", "step", "u_error", "v_error",
-        "energy_error", "collisions_expected", "collisions_found", "collisions_matched",
-        "collisions_missed", "collisions_extra", "collision_time_error", "force_evaluations"})
+        "energy_error", "impacts_expected", "impacts_found", "impacts_matched", "impacts_missed",
+        "impacts_extra", "impact_time_error", "force_evaluations"})
     add_property(xml, name, column(name).get(row));
   // "tolerance" is the error that is accepted.
   add_property(xml, "solver_tolerance", column("tolerance").get(row));
@@ -169,7 +169,7 @@ std::string run_line(const record::Subject& subject, const measure::RunScore& sc
                           scientific(score.u_error, 2));
   if (score.impacts)
     text += fmt::format(", {} of {} matched", score.impacts->matched,
-                        counted(score.impacts->expected, "collision"));
+                        counted(score.impacts->expected, "impact"));
   if (failed > 0) text += fmt::format(", {} of {} failed", failed, counted(runs, "run"));
   return text + '\n';
 }

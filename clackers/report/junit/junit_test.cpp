@@ -51,7 +51,7 @@ TEST(Junit, AFailureHasItsCodeAndALineALevel) {
   EXPECT_EQ(attribute(test, "failure", "type"), "reduced");
   EXPECT_TRUE(has(attribute(test, "failure", "message"), "[reduced]"));
   EXPECT_EQ(occurrences(test, "\nh = "), 8u);
-  EXPECT_TRUE(has(test, "6 of 6 collisions matched, 1 of 8 runs failed\n"));
+  EXPECT_TRUE(has(test, "6 of 6 impacts matched, 1 of 8 runs failed\n"));
 }
 
 TEST(Junit, AnUndecidedSubjectIsSkipped) {
@@ -73,7 +73,7 @@ TEST(Junit, PropertiesReadBackToTheSameNumbers) {
   EXPECT_EQ(attribute(test, "testcase", "classname"), "clackers.verify.three-parameter");
   EXPECT_EQ(property(test, "u_error"), "0.30000000000000004");
   EXPECT_EQ(property(test, "order"), "2.0123");
-  EXPECT_EQ(property(test, "collisions_matched"), "6");
+  EXPECT_EQ(property(test, "impacts_matched"), "6");
   EXPECT_EQ(property(written(record, Format::junit), "N"), "2");
 }
 
@@ -90,7 +90,7 @@ TEST(Junit, HistoriesAreOneTestWithALineAFile) {
   EXPECT_EQ(attribute(test, "testcase", "classname"), "clackers.check.three-parameter");
   EXPECT_EQ(property(test, "metric:u-max"), "1e-06");
   EXPECT_EQ(property(test, "metric:period-fit-relative"), "") << "not measured";
-  EXPECT_TRUE(has(test, "fine.csv: h = 0.01 s: error in u 1.00e-3, 4 of 6 collisions matched\n"));
+  EXPECT_TRUE(has(test, "fine.csv: h = 0.01 s: error in u 1.00e-3, 4 of 6 impacts matched\n"));
   EXPECT_TRUE(has(test, "No events file"));
 }
 

@@ -97,7 +97,7 @@ void write_methods(const record::CaseRecord& problem, bool interrupted, std::ost
   const auto table = summary_table(problem, record::SubjectKind::method);
   if (table.rows.empty()) return;
   Frame frame{fmt::format("{}: {}. Of each method the worst run of the finest level; errors {}, "
-                          "order with its 95\\,\\% interval, collisions matched/exact.{}",
+                          "order with its 95\\,\\% interval, impacts matched/exact.{}",
                           tex_text(case_text(problem.problem)), tex_text(plan_text(problem)),
                           error_scale_text,
                           interrupted ? " Interrupted: only what was finished is shown." : ""),
@@ -121,7 +121,7 @@ void write_histories(const record::CaseRecord& problem, std::ostream& out) {
   const auto table = summary_table(problem, record::SubjectKind::histories);
   if (table.rows.empty()) return;
   Frame frame{fmt::format("{}: time histories against the exact motion. Errors relative to the "
-                          "largest envelope, of velocities in the mean over time; collisions "
+                          "largest envelope, of velocities in the mean over time; impacts "
                           "matched/exact.",
                           tex_text(case_text(problem.problem))),
               "check-" + problem.problem.name,

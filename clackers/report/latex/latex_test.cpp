@@ -103,7 +103,7 @@ TEST(Latex, EveryRowHasTheColumnsOfItsHeading) {
   for (const auto& row : rows) EXPECT_EQ(columns(row), 9) << row;
 }
 
-TEST(Latex, ARowHasErrorOrderCollisionsCostBehaviourAndVerdict) {
+TEST(Latex, ARowHasErrorOrderImpactsCostBehaviourAndVerdict) {
   const auto text = latex(sample_record());
   EXPECT_TRUE(has(text,
                   "    \\texttt{newmark} & $1.2\\cdot 10^{-7}$ & 2.01$\\pm$0.01 & 6/6 & "

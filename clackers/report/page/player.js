@@ -29,7 +29,7 @@ function startPlayer(stage) {
   const sparks = scene.contacts.map((contact, k) => ({
     ...contact,
     times: scene.impacts.filter((impact) => impact.contact === k).map((impact) => impact.t),
-    mark: svgElement(svg, "circle", { r: 13, fill: "var(--collision)", opacity: 0, "data-contact": k })
+    mark: svgElement(svg, "circle", { r: 13, fill: "var(--impact)", opacity: 0, "data-contact": k })
   }));
   const clock = svgElement(svg, "text", { x: stageWidth - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" });
 
@@ -118,8 +118,8 @@ function startPlayer(stage) {
   rate.addEventListener("change", () => { speed = Number(rate.value); });
   const choice = document.createElement("select");
   choice.setAttribute("aria-label", `Beside the exact motion: ${what}`);
-  choice.append(new Option("exact motion alone", "-1"));
-  scene.runs.forEach((run, k) => choice.append(new Option(`beside it: ${run.name}, ${run.step}`, String(k))));
+  choice.append(new Option("only the exact motion", "-1"));
+  scene.runs.forEach((run, k) => choice.append(new Option(`compared with ${run.name}, ${run.step}`, String(k))));
   choice.addEventListener("change", () => { beside = scene.runs[Number(choice.value)] || null; show(); });
   const frameSvg = () => withLightColors(new XMLSerializer().serializeToString(svg)
     .replace("<svg ", `<svg width="${stageWidth}" height="${stageHeight}" style="background:var(--paper)" `));

@@ -111,8 +111,8 @@ inline std::vector<record::MetricResult> sample_metrics() {
   return {{"u-max", "m", 1e-6, {1e-6, 5e-7}, "", true},
           {"v-max", "m/s", 2.0, {2.0, 1.0}, "", false},
           {"energy-max-relative", "1", 2.0, {}, "", false},
-          {"period-fit-relative", "1", nan, {}, "There are no collisions.", true},
-          {"impact-spacing-max-relative", "1", nan, {}, "There are no collisions.", true}};
+          {"period-fit-relative", "1", nan, {}, "There are no impacts.", true},
+          {"impact-spacing-max-relative", "1", nan, {}, "There are no impacts.", true}};
 }
 
 inline record::Curve sample_error_history(const SampleMethod& method, double step,
@@ -169,8 +169,8 @@ inline record::Subject sample_refusal() {
   record::name_method(refused, "newmark+penalty:stiffness=1e6");
   refused.claim = {Behaviour::stagnating, 0, "contact-stiffness"};
   refused.refusal =
-      "newmark+penalty with eta = 0.5: a linear penalty spring gives back what it takes, "
-      "so it can only stand for eta = 1.";
+      "newmark+penalty with eta = 0.5: a linear penalty spring is elastic, so it models only eta = "
+      "1.";
   refused.refusal_code = "penalty-needs-elastic";
   return refused;
 }
@@ -248,8 +248,8 @@ inline record::Run sample_history_run(const std::string& name, double step) {
   file.printed_floor = 5e-6;
   file.printed_by = "u1";
   file.has_u = {true, true};
-  file.collisions = record::CollisionSource::history;
-  file.notes = {record::note("collisions-from-history", {step, 1.0, 5.0, 6.0, 0.0})};
+  file.impact_source = record::ImpactSource::history;
+  file.notes = {record::note("impacts-from-history", {step, 1.0, 5.0, 6.0, 0.0})};
   file.history = run.error_history = sample_response(201);
   for (auto& y : run.error_history.y)
     for (std::size_t i = 0; i < y.size(); ++i) y[i] = 1e-3 * run.error_history.t[i];
@@ -278,7 +278,7 @@ inline record::Record sample_check() {
   assessment.displacement.steps = {0.02, 0.01};
   assessment.displacement.errors = {0.002, 0.001};
   assessment.verdict = Verdict::disagrees;
-  assessment.evidence = {{"other-collisions", Verdict::disagrees, {4, 6, 1}}};
+  assessment.evidence = {{"other-impacts", Verdict::disagrees, {4, 6, 1}}};
   return record;
 }
 

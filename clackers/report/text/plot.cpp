@@ -206,7 +206,7 @@ std::string plot(const record::Curve& response, std::span<const double> impact_t
   if (masses == 2) picture.title += ", 2: mass 2";
   if (masses > 2) picture.title += fmt::format(", ..., {0}: mass {0}", drawn);
   if (drawn < masses) picture.title += fmt::format(" of {}", masses);
-  if (!impact_times.empty()) picture.title += "; ▲ collision";
+  if (!impact_times.empty()) picture.title += "; ▲ impact";
   return draw(std::move(picture), style);
 }
 

@@ -62,7 +62,7 @@ TEST(Plot, DrawsASteepFallAsOneColumnOfDots) {
   EXPECT_EQ(at(out[15], 10), "⣇");
 }
 
-TEST(Plot, MarksCollisionsOnTheAxis) {
+TEST(Plot, MarksImpactsOnTheAxis) {
   const auto record = sample_record().cases[0];
   const auto text = plot(record.response, record.problem.impact_times);
   const auto axis = lines(text)[16];

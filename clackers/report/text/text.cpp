@@ -48,7 +48,7 @@ TextCell cell_of(const Column& shown, const Row& row) {
 
 // Columns of which long names take the place where rows stand in groups.
 constexpr auto left_out =
-    std::to_array<std::string_view>({"collision_time_error", "force_evaluations"});
+    std::to_array<std::string_view>({"impact_time_error", "force_evaluations"});
 constexpr int width_for_all = 100;
 
 void print(Table table, std::ostream& out, const Style& style) {
@@ -127,11 +127,10 @@ void print_methods(const record::CaseRecord& problem, std::ostream& out, const S
   out << '\n';
   print(table, out, style);
   out << '\n';
-  print_wrapped(
-      fmt::format("Worst of the finest level's steps; errors {}; order ± 95 %; collisions "
-                  "matched/exact.",
-                  error_scale_text),
-      out, style);
+  print_wrapped(fmt::format("Worst of the finest level's steps; errors {}; order ± 95 %; impacts "
+                            "matched/exact.",
+                            error_scale_text),
+                out, style);
 }
 
 void print_failures(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
@@ -151,7 +150,7 @@ void print_histories(const record::CaseRecord& problem, std::ostream& out, const
   print(table, out, style);
   out << '\n';
   print_wrapped(
-      "Errors relative to the largest envelope; v in the mean over time; collisions "
+      "Errors relative to the largest envelope; v in the mean over time; impacts "
       "matched/exact.",
       out, style);
   for (const auto& subject : problem.subjects) {

@@ -25,7 +25,7 @@ TEST(Text, NoLineIsLongerThanEightyColumnsOrEndsInASpace) {
     }
 }
 
-TEST(Text, LongNamesAndThousandsOfCollisionsStayWithinTheWidth) {
+TEST(Text, LongNamesAndThousandsOfImpactsStayWithinTheWidth) {
   auto record = sample_record();
   record.provenance.command = "clackers verify " + std::string(100, 'n');
   for (auto& subject : record.cases[0].subjects) {
@@ -39,11 +39,11 @@ TEST(Text, LongNamesAndThousandsOfCollisionsStayWithinTheWidth) {
       EXPECT_LE(display_width(line), std::size_t(width)) << line;
 }
 
-TEST(Text, ARowHasErrorOrderCollisionsCostBehaviourAndVerdict) {
-  // 0.8 h^2 at the finest level's largest step, 0.05/128 s: 1.2e-7; a third of it in the collision
+TEST(Text, ARowHasErrorOrderImpactsCostBehaviourAndVerdict) {
+  // 0.8 h^2 at the finest level's largest step, 0.05/128 s: 1.2e-7; a third of it in the impact
   // times, three times it in energy; 20 s / h forces at the smallest step, 2^(7/8) times smaller.
   const auto text = text_of_record(sample_record());
-  EXPECT_TRUE(has(text, " 1.2e-7 2.01±0.01   6/6  4.1e-8  3.7e-7 93901 proper     agrees")) << text;
+  EXPECT_TRUE(has(text, " 1.2e-7 2.01±0.01  6/6  4.1e-8  3.7e-7 93901 proper     agrees")) << text;
 }
 
 // Twelve methods with two treatments, of which two disagree.
@@ -100,7 +100,7 @@ TEST(Text, OfHistoriesTheCauseAndTheAnswerStandBeforeTheNumbers) {
   auto text = text_of_record(record);
   const auto answer = finding(subject)->sentence.substr(0, 20);
   EXPECT_LT(text.find("[restitution-differs]"), text.find(answer));
-  EXPECT_LT(text.find(answer), text.find("coll."));
+  EXPECT_LT(text.find(answer), text.find("imp."));
   EXPECT_FALSE(has(text, "tolerance"));
   subject.resolution = record::Resolution::tolerance;
   text = text_of_record(record);

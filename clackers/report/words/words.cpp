@@ -135,8 +135,7 @@ std::string case_text(const record::CaseSummary& problem, std::string_view space
 
 std::string length_text(const record::CaseSummary& problem) {
   return fmt::format("{} s with {}; fast period {} s", short_number(problem.end),
-                     counted(problem.impact_count, "collision"),
-                     short_number(problem.fast_period, 4));
+                     counted(problem.impact_count, "impact"), short_number(problem.fast_period, 4));
 }
 
 std::string plan_text(const record::CaseRecord& problem) {
@@ -171,17 +170,18 @@ VerdictLine verdict_line(const record::Record& record) {
   const bool is_check = record.command == "check";
   struct Part {
     int count;
-    std::string_view one, several;
+    std::string_view singular, plural;
   };
   std::string parts;
-  for (const auto& [count, one, several] :
+  for (const auto& [count, singular, plural] :
        {Part{all.agrees, "agrees", "agree"}, Part{all.disagrees, "disagrees", "disagree"},
         Part{all.undecided, "undecided", "undecided"},
         Part{all.not_claimed, "not claimed", "not claimed"},
         Part{all.refused, "refused", "refused"},
         Part{all.interrupted, "interrupted", "interrupted"}})
     if (count > 0)
-      parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, count == 1 ? one : several);
+      parts +=
+          fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, count == 1 ? singular : plural);
   if (!is_check)
     line.counts = fmt::format("Of {}: {}.",
                               record.cases.size() == 1
@@ -238,7 +238,7 @@ VerdictLine verdict_line(const record::Record& record) {
     explain(code);
   else if (is_check && line.word == "disagrees")
     next(call ? fmt::format("clackers.case(\"{}\").impacts()", record.cases.front().problem.name)
-              : fmt::format("clackers respond {} --collisions", record.cases.front().problem.name));
+              : fmt::format("clackers respond {} --impacts", record.cases.front().problem.name));
   else if (const auto expect = expectation(record); code.empty() && !expect.empty())
     same_with("--expect", expect);
   else if (call)

@@ -31,7 +31,7 @@ std::string claim_text(const Claim& claim);
 
 /// "three-parameter (N = 2, xi1 = 0.05, a_t = 1 m)"; `space` stands around "=" and before units.
 std::string case_text(const record::CaseSummary& problem, std::string_view space = " ");
-/// "20 s with 6 collisions; fast period 1.258 s".
+/// "20 s with 6 impacts; fast period 1.258 s".
 std::string length_text(const record::CaseSummary& problem);
 /// "8 levels of 8 steps, h = 0.05 s to 0.00039 s, 13 to 1625 steps per fast period", of adaptive
 /// methods "8 levels, tolerance 0.001 to 1e-10"; empty for histories.

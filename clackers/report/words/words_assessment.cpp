@@ -67,7 +67,7 @@ constexpr auto open_reasons = std::to_array<Code>(
     {"wrong-limit", "contact-stiffness", "larger-than-motion", "energy-growth", "noise-floor"});
 
 bool is_one_of(std::span<const Code> codes, std::string_view code) {
-  return std::ranges::any_of(codes, [&](Code one) { return one.name() == code; });
+  return std::ranges::any_of(codes, [&](Code known) { return known.name() == code; });
 }
 
 bool is_explained(const record::Subject& subject) {
@@ -99,8 +99,7 @@ std::string behaviour_sentence(const record::Subject& subject) {
       break;
     case Behaviour::irregular:
       text = fmt::format(
-          "Converges irregularly: the upper envelope has order {}, neighbouring steps differ by up "
-          "to a factor {}.",
+          "Converges irregularly: the upper envelope has order {}, errors scatter by up to a factor {}.",
           order(), rounded_factor(fit.scatter));
       break;
     case Behaviour::stagnating:
@@ -135,8 +134,8 @@ std::string remark(const record::Subject& subject, const judge::Evidence& eviden
   const auto text = [&](std::size_t i) { return short_number(number(i), 3); };
   if (code == "commensurate-steps")
     return fmt::format(
-        "{:.0f} % of the runs are at the rounding floor by luck: their steps divide the time "
-        "between collisions.",
+        "{:.0f} % of the runs are at the rounding floor because their steps divide the time "
+        "between impacts.",
         100.0 * number(0));
   if (code == "errors-cancel")
     return fmt::format("The signed error passes zero near {}.",
@@ -146,8 +145,7 @@ std::string remark(const record::Subject& subject, const judge::Evidence& eviden
                        resolution_text(subject, number(0)));
   if (code == "steps-per-contact") return fmt::format("A contact has {} steps.", text(0));
   if (code == "more-neighbours")
-    return fmt::format(
-        "An uncertainty of ±{} is weak evidence: add neighbouring steps to each level.", text(1));
+    return fmt::format("The order is uncertain by ±{}: use more samples per level.", text(1));
   if (code == "velocity-order-lower")
     return fmt::format("Velocities converge with order {:.2f}.", number(0));
   if (code == "error-over-tolerance")
@@ -162,8 +160,8 @@ std::string evidence_sentence(const record::Subject& subject, const judge::Evide
     return i < evidence.numbers.size() ? evidence.numbers[i] : std::nan("");
   };
   const auto text = [&](std::size_t i, int digits = 3) { return short_number(number(i), digits); };
-  if (code == "collisions-miscounted")
-    return fmt::format("Wrong collisions at {}: {} of {} matched, {} extra.",
+  if (code == "impacts-miscounted")
+    return fmt::format("Wrong impacts at {}: {} of {} matched, {} extra.",
                        resolution_text(subject, number(0)), text(1, 15), text(2, 15), text(3, 15));
   if (code == "printed-digits")
     return fmt::format(
@@ -182,18 +180,18 @@ std::string evidence_sentence(const record::Subject& subject, const judge::Evide
         "printing alone may make {}.",
         text(0), text(1), scientific(number(2)));
   if (code == "other-start")
-    return fmt::format("Another motion: the first row is {} of the envelope off.", text(0, 2));
-  if (code == "other-collisions")
-    return fmt::format("Another motion: {} of {} collisions matched, {} extra.", text(0, 15),
+    return fmt::format("Another motion: the first row differs by {} of the envelope.", text(0, 2));
+  if (code == "other-impacts")
+    return fmt::format("Another motion: {} of {} impacts matched, {} extra.", text(0, 15),
                        text(1, 15), text(2, 15));
   if (code == "ends-early")
-    return fmt::format("The history ends at {} s of {} s, with {} of {} collisions.", text(0),
-                       text(1), text(2, 15), text(3, 15));
+    return fmt::format("The history ends at {} s of {} s, with {} of {} impacts.", text(0), text(1),
+                       text(2, 15), text(3, 15));
   if (code == "simultaneous-impacts")
     return fmt::format(
         "At t = {} s, where {} contacts close at once, the error in u goes from {} to {}.", text(0),
         text(1), scientific(number(2)), scientific(number(3)));
-  if (code == "sparse-rows") return "The rows are too far apart to find the collisions in them.";
+  if (code == "sparse-rows") return "The rows are too far apart to find the impacts in them.";
   return meaning_of(code);
 }
 
@@ -298,10 +296,10 @@ std::string self_convergence_text(const record::SelfResult& result) {
                           fit_text(result.self.differences), fit_text(result.errors));
   if (result.against_reference.false_convergence) return text;
   if (result.self.proper)
-    add(text, fmt::format("The estimate holds: the error is {} times it.",
+    add(text, fmt::format("The estimate is reliable: error / estimate = {}.",
                           short_number(result.against_reference.error_ratio, 2)));
   else
-    add(text, "The differences bound no error.");
+    add(text, "The differences give no error bound.");
   return text;
 }
 

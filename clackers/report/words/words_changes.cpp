@@ -56,16 +56,16 @@ std::string count_or_none(long long count) {
   return count == 0 ? "none" : fmt::format("{}", count);
 }
 
-void add_collisions(const ChangeAtStep<study::Collisions>& change, std::vector<std::string>& out) {
+void add_impacts(const ChangeAtStep<study::ImpactCounts>& change, std::vector<std::string>& out) {
   const auto& [step, before, now] = change;
   if (before.missed != now.missed)
     out.push_back(fmt::format("misses {} of {} {}, before {}.", count_or_none(now.missed),
-                              counted(now.expected, "collision"), at(step),
+                              counted(now.expected, "impact"), at(step),
                               count_or_none(before.missed)));
   if (before.extra != now.extra)
     out.push_back(fmt::format(
         "finds {} {}, before {}.",
-        now.extra == 0 ? std::string("no extra collision") : counted(now.extra, "extra collision"),
+        now.extra == 0 ? std::string("no extra impact") : counted(now.extra, "extra impact"),
         at(step), count_or_none(before.extra)));
 }
 
@@ -81,7 +81,7 @@ std::vector<std::string> change_texts(const study::SubjectChange& change) {
     out.push_back(fmt::format("order {}, before {}.", order_text(change.order->now),
                               order_text(change.order->before)));
   if (change.error) out.push_back(error_sentence(*change.error));
-  if (change.collisions) add_collisions(*change.collisions, out);
+  if (change.impacts) add_impacts(*change.impacts, out);
   if (change.finished)
     out.push_back(fmt::format("the run {} {}.", at(change.finished->step),
                               change.finished->now ? "reaches its end, before it failed"

@@ -107,11 +107,11 @@ TEST(Changes, NumbersHaveTheirStep) {
   change.error = {0.05, 0.0, 1.2e-7};
   EXPECT_EQ(text_of_all(change), "error in u at h = 0.05 s: 1.20e-7, before 0.");
   change.error.reset();
-  change.collisions = {0.01, {6, 0, 1}, {6, 2, 0}};
+  change.impacts = {0.01, {6, 0, 1}, {6, 2, 0}};
   EXPECT_EQ(text_of_all(change),
-            "misses 2 of 6 collisions at h = 0.01 s, before none. finds no extra collision at h = "
+            "misses 2 of 6 impacts at h = 0.01 s, before none. finds no extra impact at h = "
             "0.01 s, before 1.");
-  change.collisions.reset();
+  change.impacts.reset();
   change.finished = {0.01, true, false};
   EXPECT_EQ(text_of_all(change), "the run at h = 0.01 s fails, before it reached its end.");
   change.finished = {0.01, false, true};
@@ -132,7 +132,7 @@ TEST(Changes, AreShownByTextPageAndJunit) {
   const auto text = written(now, Format::table, {}, &changes);
   for (const auto& line : lines_of(text)) EXPECT_LE(display_width(line), 80u) << line;
   EXPECT_TRUE(has(text, "\ncentral-difference: verdict disagrees, before agrees.\n")) << text;
-  EXPECT_TRUE(has(text, "\nrk4: misses 2 of 6 collisions at h = "));
+  EXPECT_TRUE(has(text, "\nrk4: misses 2 of 6 impacts at h = "));
   EXPECT_TRUE(has(text, "\nnewmark: is gone; only the baseline has it.\n"));
   const auto page = html(now, &changes);
   EXPECT_TRUE(has(page, "<a href=\"#changes\">Changes</a>"));

@@ -65,10 +65,10 @@ std::string one_file(const record::Subject& subject, const measure::RunScore& ru
   auto text = size_text(run);
   if (run.impacts && run.impacts->expected > 0)
     text += fmt::format(
-        " {} of {} matched{}.", run.impacts->matched, counted(run.impacts->expected, "collision"),
+        " {} of {} matched{}.", run.impacts->matched, counted(run.impacts->expected, "impact"),
         run.impacts->extra > 0 ? fmt::format(", {} extra", run.impacts->extra) : "");
   return text +
-         fmt::format(" One {} shows no order: add the same run at {}; four are the least.",
+         fmt::format(" One {} gives no order: add the same run at {}; at least four are needed.",
                      subject.resolution == record::Resolution::tolerance ? "tolerance" : "step",
                      with_unit(subject, finer(subject, run.step, 3)));
 }
@@ -85,8 +85,8 @@ std::string hint_text(const record::Subject& subject) {
   const int levels = int(subject.levels.size());
   if (levels < least_levels)
     return fmt::format(
-        "{}; {} are the least: add the same run at {}.", counted(levels, "level"), least_levels,
-        with_unit(subject, finer(subject, runs.back()->step, least_levels - levels)));
+        "{}; at least {} are needed: add the same run at {}.", counted(levels, "level"),
+        least_levels, with_unit(subject, finer(subject, runs.back()->step, least_levels - levels)));
   const bool single = std::ranges::all_of(
       subject.levels, [](const record::Level& level) { return level.runs.size() == 1; });
   const bool scatters = fit.reason == "one-sample-a-level" || fit.reason == "more-neighbours" ||
@@ -95,7 +95,8 @@ std::string hint_text(const record::Subject& subject) {
     std::vector<double> between;
     for (int i = 1; i <= 3; ++i) between.push_back(runs.front()->step * std::exp2(-0.25 * i));
     return fmt::format(
-        "{}, one step each: scatter cannot be told from order. Add three steps between each two, as "
+        "{}, one step each: scatter cannot be distinguished from order. Add three steps between "
+        "each two, as "
         "{} between the first two.",
         counted(levels, "level"), with_unit(subject, between));
   }

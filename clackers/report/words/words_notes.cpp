@@ -24,9 +24,9 @@ std::string printed_digits(const record::Note& note, const std::vector<double>& 
   const bool is_single = n[1] == 1.0;
   const double share = n[3], slack = n[4];
   const auto measured =
-      share > slack ? fmt::format("the error found is {} times that", short_number(share, 3))
-      : share > 1.0 ? std::string("the error found is hardly larger, so it is not measured")
-                    : std::string("the error found is within it");
+      share > slack ? fmt::format("the measured error is {} times that", short_number(share, 3))
+      : share > 1.0 ? std::string("the measured error is not significantly larger")
+                    : std::string("the measured error is below that");
   return fmt::format("Printed digits: {} {}; printing alone may make an error of {} in u, and {}.",
                      note.text,
                      is_single ? std::string("holds numbers of single precision")
@@ -34,13 +34,13 @@ std::string printed_digits(const record::Note& note, const std::vector<double>& 
                      scientific(n[2]), measured);
 }
 
-std::string collisions_from_history(const std::vector<double>& n) {
-  std::string text = "No events file: collisions were found in the history itself";
+std::string impacts_from_history(const std::vector<double>& n) {
+  std::string text = "No events file: impacts were found in the history itself";
   if (n[1] == 0.0)
     text += fmt::format(", but its rows, {} s apart, are too far apart for that",
                         short_number(n[0], 3));
   else if (n[2] == 0.0)
-    text += fmt::format("; there is none in it, while {} happen", short_number(n[3], 15));
+    text += fmt::format("; it has none, the case has {}", short_number(n[3], 15));
   if (n[4] > 0.0)
     text += fmt::format("; contacts last {} s: compliant, not rigid", short_number(n[4], 3));
   return text + ".";
@@ -77,21 +77,21 @@ std::string note_text(const record::Note& note) {
         "The step is the {} s in the name; rows are {} s apart, as of dense or resampled output.",
         text(0), text(1));
   if (is("displacements-incomplete"))
-    return "Collisions and metrics are not measured: they need the displacements of all masses.";
+    return "Impacts and metrics are not measured: they need the displacements of all masses.";
   if (is("events-outside"))
     return fmt::format("{}: {} outside the history, {} s to {} s, left out.", note.text,
-                       counted(std::llround(n[0]), "collision"), text(1), text(2));
+                       counted(std::llround(n[0]), "impact"), text(1), text(2));
   if (is("printed-digits")) return printed_digits(note, n);
   if (is("few-rows-a-period"))
     return fmt::format(
         "Sampling: {} rows a fast period; between rows the fast mass leaves the straight line by "
         "up to {} of its amplitude.",
         text(0, 3), text(1, 2));
-  if (is("no-collisions"))
-    return "No collision happens before the history ends, and none is in it.";
-  if (is("no-collisions-reported"))
-    return fmt::format("The events file reports no collision, while {} happen.", text(0, 15));
-  if (is("collisions-from-history")) return collisions_from_history(n);
+  if (is("no-impacts"))
+    return "The case has no impact before the history ends, and the history has none.";
+  if (is("no-impacts-reported"))
+    return fmt::format("The events file has no impact, the case has {}.", text(0, 15));
+  if (is("impacts-from-history")) return impacts_from_history(n);
   if (is("starts-late")) return fmt::format("The first row is at {} s, not at the start.", text(0));
   if (is("rows-beyond-end"))
     return fmt::format(
@@ -99,12 +99,12 @@ std::string note_text(const record::Note& note) {
         counted(std::llround(n[0]), "row"), text(1));
   if (is("ends-early"))
     return fmt::format(
-        "The history ends at {} s, the case at {} s: what happens between is not assessed.",
-        text(0), text(1));
+        "The history ends at {} s, the case at {} s: the time between is not assessed.", text(0),
+        text(1));
   if (is("start-differs"))
     return fmt::format(
-        "The initial state is off by {} of the envelope, more than printing makes: no smaller "
-        "error is the method's.",
+        "The initial state differs from the case's by {} of the envelope, more than the printed "
+        "digits explain. Errors below that do not come from the method.",
         text(0, 2));
   return note.code;
 }

@@ -63,11 +63,11 @@ TEST(AssessmentText, TheFirstFailureIsQuoted) {
 
 TEST(AssessmentText, EvidenceIsGivenWithItsNumbers) {
   auto subject = assessed(Behaviour::proper);
-  subject.assessment.evidence = {{"collisions-miscounted", Verdict::disagrees, {0.05, 5, 6, 1}}};
+  subject.assessment.evidence = {{"impacts-miscounted", Verdict::disagrees, {0.05, 5, 6, 1}}};
   EXPECT_TRUE(has(assessment_text(subject), "h = 0.05 s: 5 of 6 matched, 1 extra."));
   for (const auto* code :
        {"printed-digits", "within-tolerance", "beyond-tolerance", "tolerance-not-resolved",
-        "other-start", "other-collisions", "sparse-rows"}) {
+        "other-start", "other-impacts", "sparse-rows"}) {
     subject.assessment.evidence = {{code, Verdict::undecided, {1e-3, 2e-3, 3e-3}}};
     EXPECT_GT(assessment_text(subject).size(), assessment_text(assessed(Behaviour::proper)).size())
         << code;
@@ -78,7 +78,7 @@ TEST(AssessmentText, AClaimThatIsTooLowIsSaid) {
   auto subject = assessed(Behaviour::proper);
   subject.assessment.displacement.order = 4.0;
   subject.assessment.verdict = Verdict::disagrees;
-  EXPECT_FALSE(has(assessment_text(subject), "converges faster")) << "collisions may be the cause";
+  EXPECT_FALSE(has(assessment_text(subject), "converges faster")) << "impacts may be the cause";
   subject.assessment.mismatch = judge::Mismatch::higher_order;
   EXPECT_TRUE(has(assessment_text(subject), "converges faster"));
   subject.claim = {};
@@ -109,8 +109,8 @@ TEST(AssessmentText, RemarksFollowTheFit) {
   const auto text = assessment_text(subject);
   EXPECT_TRUE(text.starts_with("Converges irregularly")) << text;
   for (const auto* words :
-       {"25 % of the runs are at the rounding floor by luck", "passes zero near h = 0.003 s.",
-        "Runs above h = 0.02 s fail", "A contact has 21 steps.", "±0.49 is weak evidence",
+       {"25 % of the runs are at the rounding floor because", "passes zero near h = 0.003 s.",
+        "Runs above h = 0.02 s fail", "A contact has 21 steps.", "uncertain by ±0.49",
         "Velocities converge with order 1.00."})
     EXPECT_TRUE(has(text, words)) << words;
 }
@@ -150,7 +150,7 @@ TEST(AssessmentText, AnEarlyEndIsSaidFirst) {
   auto subject = assessed(Behaviour::proper);
   subject.assessment.evidence = {{"ends-early", Verdict::undecided, {1.0, 20.0, 0.0, 6.0}}};
   EXPECT_TRUE(assessment_text(subject).starts_with(
-      "The history ends at 1 s of 20 s, with 0 of 6 collisions."));
+      "The history ends at 1 s of 20 s, with 0 of 6 impacts."));
 }
 
 TEST(AssessmentText, ALadderOfTolerancesHasTheRatioOfTheError) {
@@ -181,14 +181,14 @@ record::Subject histories(std::vector<double> steps, std::string reason = {}) {
 
 TEST(HintText, OfOneFileHasTheErrorAndTheStepsToAdd) {
   EXPECT_EQ(hint_text(histories({0.01})),
-            "The largest error in u is 2.3 % of the largest envelope. 5 of 6 collisions matched, 1 "
-            "extra. One step shows no order: add the same run at h = 0.005, 0.0025 and 0.00125 s; "
-            "four are the least.");
+            "The largest error in u is 2.3 % of the largest envelope. 5 of 6 impacts matched, 1 "
+            "extra. One step gives no order: add the same run at h = 0.005, 0.0025 and 0.00125 s; "
+            "at least four are needed.");
 }
 
 TEST(HintText, OfFewLevelsHasTheMissingOnes) {
   EXPECT_EQ(hint_text(histories({0.02, 0.01}, "too-few-levels")),
-            "2 levels; 4 are the least: add the same run at h = 0.005 and 0.0025 s.");
+            "2 levels; at least 4 are needed: add the same run at h = 0.005 and 0.0025 s.");
   auto subject = histories({1e-3, 1e-4}, "too-few-levels");
   subject.resolution = record::Resolution::tolerance;
   EXPECT_TRUE(has(hint_text(subject), "at tolerances 1e-5 and 1e-6."));
@@ -261,7 +261,7 @@ TEST(NoteTexts, OneForEachCode) {
   auto subject = sample_check().cases[0].subjects[0];
   const auto texts = note_texts(subject);
   ASSERT_EQ(texts.size(), 2u);
-  EXPECT_EQ(texts[0], "No events file: collisions were found in the history itself.");
+  EXPECT_EQ(texts[0], "No events file: impacts were found in the history itself.");
   EXPECT_TRUE(texts[1].starts_with("coarse.csv: The first row is at 0.02 s")) << texts[1];
   auto& numbers = subject.levels[0].runs[0].file->notes[0].numbers;
   numbers.resize(5);
@@ -354,7 +354,7 @@ TEST(VerdictLine, OfACallOfPythonOptionsAreArguments) {
 TEST(VerdictLine, HistoriesWithALineGetAnExpectation) {
   auto record = sample_check();
   auto& assessment = record.cases[0].subjects[0].assessment;
-  EXPECT_EQ(verdict_line(record).next, "clackers respond three-parameter --collisions");
+  EXPECT_EQ(verdict_line(record).next, "clackers respond three-parameter --impacts");
   assessment.verdict = Verdict::not_claimed;
   assessment.displacement.behaviour = Behaviour::proper;
   assessment.displacement.reason.clear();

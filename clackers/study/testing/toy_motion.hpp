@@ -36,9 +36,9 @@ class ToyMotion : public model::Motion {
     }
   }
   model::Kinematics envelope(double) const override {
-    model::Kinematics one{Eigen::VectorXd(dof_), Eigen::VectorXd(dof_), Eigen::VectorXd(dof_)};
-    for (int i = 0; i < dof_; ++i) one.u[i] = one.v[i] = one.a[i] = 4.0 * (i + 1);
-    return one;
+    model::Kinematics values{Eigen::VectorXd(dof_), Eigen::VectorXd(dof_), Eigen::VectorXd(dof_)};
+    for (int i = 0; i < dof_; ++i) values.u[i] = values.v[i] = values.a[i] = 4.0 * (i + 1);
+    return values;
   }
   model::Kinematics error_bound(double t) const override { return envelope(t); }
   long long impact_count(double t) const override {

@@ -85,8 +85,8 @@ std::vector<Amplification> amplification(const methods::Integrator& integrator,
     const auto path = states(integrator, h);
     const auto eigenvalues = eigenvalues_of(path);
     Amplification point{h_over_T, eigenvalues.empty() ? nan : 0.0, nan, nan, nan, nan};
-    for (const auto one : eigenvalues)
-      point.spectral_radius = std::max(point.spectral_radius, std::abs(one));
+    for (const auto eigenvalue : eigenvalues)
+      point.spectral_radius = std::max(point.spectral_radius, std::abs(eigenvalue));
     const auto root = rate ? principal(eigenvalues, std::exp(*rate * h)) : std::nullopt;
     rate = root ? std::optional(std::log(*root) / h) : std::nullopt;
     if (rate) {
@@ -108,7 +108,7 @@ std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integ
   record::Sheet accuracy{"clackers/accuracy/1",
                          fmt::format("Period elongation and amplitude decay of {}", name),
                          {steps,
-                          {"period_elongation", "", "T'/T - 1, T' the period that comes out"},
+                          {"period_elongation", "", "T'/T - 1, T' the resulting period"},
                           {"amplitude_decay", "", "part of the amplitude lost in a period"}},
                          {},
                          record::Axes{.highest = 1.0}};

@@ -63,7 +63,7 @@ record::Sheet list_entries(std::string_view title, std::string_view schema, std:
 record::Sheet list_methods() {
   record::Sheet sheet{
       "clackers/methods/1",
-      fmt::format("Methods: integrator+contact, or one that stands alone. Default panel: {}",
+      fmt::format("Methods: integrator+contact, or a standalone one. Default panel: {}",
                   fmt::join(methods::default_panel(), ", ")),
       {name_column,
        {"kind", "", "integrator, contact, or method (brings its own integration)"},

@@ -117,7 +117,7 @@ TEST(Explain, RefusesUnknownCodesWithASuggestion) {
             "[unknown-name]");
 }
 
-TEST(ShowCase, TellsParametersConstantsIndicatorsAndCollisions) {
+TEST(ShowCase, TellsParametersConstantsIndicatorsAndImpacts) {
   const auto sheets = show_case("three-parameter", {{"N", 5.0}}, 0.2);
   ASSERT_EQ(sheets.size(), 6u);
   EXPECT_EQ(cell(sheets[0], "N", "value"), record::Cell{5.0});
@@ -127,17 +127,17 @@ TEST(ShowCase, TellsParametersConstantsIndicatorsAndCollisions) {
   EXPECT_EQ(cell(sheets[1], "X", "value"), record::Cell{21.0});
   EXPECT_EQ(cell(sheets[1], "T", "unit"), record::Cell{std::string("s")});
   EXPECT_EQ(cell(sheets[2], "threshold", "value"), record::Cell{0.2});
-  EXPECT_EQ(sheets[3].title, "Collisions: 6");
+  EXPECT_EQ(sheets[3].title, "Impacts: 6");
   EXPECT_EQ(sheets[3].rows.size(), 6u);
   EXPECT_EQ(sheets[3].columns[1].name, "t");
 }
 
-TEST(ShowCase, ShowsTheFirstCollisionsOfManyAndSaysSo) {
+TEST(ShowCase, ShowsTheFirstImpactsOfManyAndSaysSo) {
   const auto sheets = show_case("three-parameter", {{"a_t", 50.0}}, 0.1);
   EXPECT_EQ(sheets[3].rows.size(), 6u);
   EXPECT_EQ(sheets[3].title,
-            "Collisions: the first 6 of 318; all: clackers respond three-parameter --collisions");
-  EXPECT_EQ(show_case("sdof", {}, 0.1)[3].title, "Collisions: 0");
+            "Impacts: the first 6 of 318; all: clackers respond three-parameter --impacts");
+  EXPECT_EQ(show_case("sdof", {}, 0.1)[3].title, "Impacts: 0");
 }
 
 TEST(ShowCase, RefusesAsTheCaseDoes) {

@@ -14,21 +14,21 @@
 namespace clackers::tables {
 namespace {
 
-constexpr std::size_t collisions_shown = 6;
+constexpr std::size_t impacts_shown = 6;
 
-record::Sheet parameter_sheet(const cases::Case& which) {
-  record::Sheet sheet{
-      "clackers/parameters/1",
-      fmt::format("{}, {}: {}", which.entry->name, which.entry->equations, which.entry->summary),
-      {{"parameter", "", "as typed after --set"},
-       {"value", "", "in use"},
-       {"unit", "", ""},
-       {"allowed", "", ""},
-       {"meaning", "", ""}},
-      {}};
-  for (std::size_t i = 0; i < which.values.size(); ++i) {
-    const auto& p = which.entry->parameters[i];
-    const auto& value = which.values[i].second;
+record::Sheet parameter_sheet(const cases::Case& test_case) {
+  record::Sheet sheet{"clackers/parameters/1",
+                      fmt::format("{}, {}: {}", test_case.entry->name, test_case.entry->equations,
+                                  test_case.entry->summary),
+                      {{"parameter", "", "as typed after --set"},
+                       {"value", "", "in use"},
+                       {"unit", "", ""},
+                       {"allowed", "", ""},
+                       {"meaning", "", ""}},
+                      {}};
+  for (std::size_t i = 0; i < test_case.values.size(); ++i) {
+    const auto& p = test_case.entry->parameters[i];
+    const auto& value = test_case.values[i].second;
     const record::Cell cell =
         value.is_word() ? record::Cell(value.text()) : record::Cell(double(value));
     sheet.rows.push_back({p.name, cell, p.unit, p.allowed, p.meaning});
@@ -47,7 +47,7 @@ record::Sheet constant_sheet(std::string schema, std::string title,
 }
 
 // Without the states of the masses, which fill more than a page where there are many.
-void keep_collisions_alone(record::Sheet& sheet) {
+void keep_impacts_alone(record::Sheet& sheet) {
   for (auto c = sheet.columns.size(); c-- > 0;) {
     const char first = sheet.columns[c].name.front();
     if (first != 'u' && first != 'v') continue;
@@ -56,19 +56,19 @@ void keep_collisions_alone(record::Sheet& sheet) {
   }
 }
 
-record::Sheet collision_sheet(const cases::Case& which) {
-  const auto rows = collisions(which);
-  const auto total = which.motion->impact_count(which.motion->end());
+record::Sheet impact_sheet(const cases::Case& test_case) {
+  const auto rows = impacts(test_case);
+  const auto total = test_case.motion->impact_count(test_case.motion->end());
   record::Sheet sheet{rows->schema(), {}, rows->columns(), {}};
   std::vector<record::Cell> row;
-  while (sheet.rows.size() < collisions_shown && rows->next(row)) sheet.rows.push_back(row);
-  if (which.motion->dof() > 2) keep_collisions_alone(sheet);
+  while (sheet.rows.size() < impacts_shown && rows->next(row)) sheet.rows.push_back(row);
+  if (test_case.motion->dof() > 2) keep_impacts_alone(sheet);
   sheet.title = total <= static_cast<long long>(sheet.rows.size())
-                    ? fmt::format("Collisions: {}", total)
+                    ? fmt::format("Impacts: {}", total)
                     : fmt::format(
-                          "Collisions: the first {} of {}; all: clackers respond {} "
-                          "--collisions",
-                          sheet.rows.size(), total, which.entry->name);
+                          "Impacts: the first {} of {}; all: clackers respond {} "
+                          "--impacts",
+                          sheet.rows.size(), total, test_case.entry->name);
   return sheet;
 }
 
@@ -99,7 +99,7 @@ record::Sheet claim_sheet(const methods::Facts& facts) {
   if (!claim.reason.empty())
     sheet.rows.push_back({"reason", claim.reason, "of the claimed behaviour"});
   sheet.rows.push_back({"reports_impacts", std::string(facts.reports_impacts ? "yes" : "no"),
-                        "whether a run says when the masses collide"});
+                        "whether a run reports its impacts"});
   return sheet;
 }
 
@@ -150,13 +150,13 @@ bool is_integrator(std::string_view term) {
 
 std::vector<record::Sheet> show_case(std::string_view name, const cases::Settings& settings,
                                      double threshold) {
-  const auto which = cases::make(name, settings, threshold);
+  const auto test_case = cases::make(name, settings, threshold);
   std::vector<record::Sheet> sheets{
-      parameter_sheet(which),
-      constant_sheet("clackers/constants/1", "Derived constants", which.constants),
-      constant_sheet("clackers/indicators/1", "Indicators", which.indicators),
-      collision_sheet(which)};
-  for (auto& more : {harmonic_sheet(which, threshold), conditioning_sheet(which)})
+      parameter_sheet(test_case),
+      constant_sheet("clackers/constants/1", "Derived constants", test_case.constants),
+      constant_sheet("clackers/indicators/1", "Indicators", test_case.indicators),
+      impact_sheet(test_case)};
+  for (auto& more : {harmonic_sheet(test_case, threshold), conditioning_sheet(test_case)})
     if (more) sheets.push_back(*more);
   return sheets;
 }

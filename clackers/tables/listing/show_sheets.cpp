@@ -13,20 +13,20 @@ namespace clackers::tables {
 namespace {
 
 // A pair in closed form, or null.
-const exact::ClosedForm* pair_of(const cases::Case& which) {
-  const auto* motion = exact::as_closed_form(*which.motion);
+const exact::ClosedForm* pair_of(const cases::Case& test_case) {
+  const auto* motion = exact::as_closed_form(*test_case.motion);
   return motion != nullptr && motion->pair() ? motion : nullptr;
 }
 
 double lost_after(const exact::ClosedForm& motion, double eps) {
   const auto& pair = *motion.pair();
-  return exact::collisions_until_detuning(pair.ratio, pair.r, motion.flight().eta, eps);
+  return exact::impacts_until_detuning(pair.ratio, pair.r, motion.flight().eta, eps);
 }
 
 }  // namespace
 
-std::optional<record::Sheet> harmonic_sheet(const cases::Case& which, double threshold) {
-  const auto* motion = pair_of(which);
+std::optional<record::Sheet> harmonic_sheet(const cases::Case& test_case, double threshold) {
+  const auto* motion = pair_of(test_case);
   if (motion == nullptr) return std::nullopt;
   const auto& c = *motion->pair();
   const double odd = c.ratio.odd, omega = std::min(c.omega_D1, c.omega_D2);
@@ -55,21 +55,21 @@ std::optional<record::Sheet> harmonic_sheet(const cases::Case& which, double thr
   return sheet;
 }
 
-std::optional<record::Sheet> conditioning_sheet(const cases::Case& which) {
-  const auto* motion = pair_of(which);
+std::optional<record::Sheet> conditioning_sheet(const cases::Case& test_case) {
+  const auto* motion = pair_of(test_case);
   if (motion == nullptr) return std::nullopt;
   record::Sheet sheet{"clackers/conditioning/1",
-                      "Synchrony lost: collisions spaced wrongly by a tenth",
+                      "Synchrony lost: impacts spaced wrongly by a tenth",
                       {{"disturbance", "", "of what"},
                        {"size", "", "relative"},
-                       {"lost_after", "", "number of the collision; inf: never"}},
+                       {"lost_after", "", "number of the impact; inf: never"}},
                       {}};
   for (const double size : {1e-3, 1e-6, 1e-9, 0x1p-53})
-    sheet.rows.push_back({std::string("of the state at one collision"), size,
-                          exact::collisions_until_perturbation(motion->flight().eta, size)});
+    sheet.rows.push_back({std::string("of the state at one impact"), size,
+                          exact::impacts_until_perturbation(motion->flight().eta, size)});
   for (const double size : {1e-2, 1e-3, 1e-4, 1e-6})
-    sheet.rows.push_back({std::string("of omega_D2/omega_D1, as a solver's dispersion makes"), size,
-                          std::min(lost_after(*motion, size), lost_after(*motion, -size))});
+    sheet.rows.push_back({std::string("of omega_D2/omega_D1, as caused by a solver's dispersion"),
+                          size, std::min(lost_after(*motion, size), lost_after(*motion, -size))});
   return sheet;
 }
 

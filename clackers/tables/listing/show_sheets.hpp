@@ -9,10 +9,10 @@ namespace clackers::tables {
 
 /// The harmonics of the fast mass of a pair around their peak and around the last that reaches
 /// `threshold`; nothing for a single mass.
-std::optional<record::Sheet> harmonic_sheet(const cases::Case& which, double threshold);
+std::optional<record::Sheet> harmonic_sheet(const cases::Case& test_case, double threshold);
 
-/// After which collision a disturbance of the start, or of the frequencies, has made a pair lose its
+/// After which impact a disturbance of the start, or of the frequencies, has made a pair lose its
 /// synchrony, for several sizes; nothing for a single mass.
-std::optional<record::Sheet> conditioning_sheet(const cases::Case& which);
+std::optional<record::Sheet> conditioning_sheet(const cases::Case& test_case);
 
 }  // namespace clackers::tables

@@ -15,11 +15,11 @@ using certified::Digits;
 // which side each is of, is decided once.
 class DigitRows : public record::RowSource {
  public:
-  // `about` is the number of rows, second rows at collisions left out.
-  DigitRows(const cases::Case& which, std::unique_ptr<record::RowSource> rows, long long digits,
+  // `about` is the number of rows, second rows at impacts left out.
+  DigitRows(const cases::Case& test_case, std::unique_ptr<record::RowSource> rows, long long digits,
             long long about)
       : rows_(std::move(rows)),
-        digits_(*which.motion, digits),
+        digits_(*test_case.motion, digits),
         columns_(rows_->columns()),
         title_(fmt::format("{} to {} digits", rows_->title(), digits)),
         about_(about) {
@@ -65,14 +65,14 @@ class ResponseDigits : public DigitRows {
   }
 };
 
-class CollisionDigits : public DigitRows {
+class ImpactDigits : public DigitRows {
  public:
-  CollisionDigits(const cases::Case& which, std::unique_ptr<record::RowSource> rows,
-                  long long digits, long long about)
-      : DigitRows(which, std::move(rows), digits, about) {
+  ImpactDigits(const cases::Case& test_case, std::unique_ptr<record::RowSource> rows,
+               long long digits, long long about)
+      : DigitRows(test_case, std::move(rows), digits, about) {
     columns_[1].meaning = "its time";
   }
-  std::string schema() const override { return "clackers/collisions-digits/1"; }
+  std::string schema() const override { return "clackers/impacts-digits/1"; }
 
   void round(std::vector<record::Cell>& row) override {
     const auto hit = digits_.impact(std::get<long long>(row[0]));
@@ -90,14 +90,14 @@ class CollisionDigits : public DigitRows {
 
 }  // namespace
 
-std::unique_ptr<record::RowSource> respond(const cases::Case& which, const TimeGrid& grid,
+std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const TimeGrid& grid,
                                            long long digits) {
-  return std::make_unique<ResponseDigits>(which, respond(which, grid), digits, grid.size());
+  return std::make_unique<ResponseDigits>(test_case, respond(test_case, grid), digits, grid.size());
 }
 
-std::unique_ptr<record::RowSource> collisions(const cases::Case& which, long long digits) {
-  return std::make_unique<CollisionDigits>(which, collisions(which), digits,
-                                           which.motion->impact_count(which.motion->end()));
+std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case, long long digits) {
+  return std::make_unique<ImpactDigits>(test_case, impacts(test_case), digits,
+                                        test_case.motion->impact_count(test_case.motion->end()));
 }
 
 }  // namespace clackers::tables

@@ -13,11 +13,11 @@ const record::Column potential{"potential", "J", "in the springs"};
 const record::Column lost{"lost", "J", "at impacts so far"};
 const record::Column momentum{"momentum", "kg m/s", "of all masses"};
 
-std::unique_ptr<record::RowSource> rows_of(const cases::Case& which, const TimeGrid& grid,
+std::unique_ptr<record::RowSource> rows_of(const cases::Case& test_case, const TimeGrid& grid,
                                            const std::vector<record::Column>& columns,
                                            TimedRows::Fill fill) {
-  return std::make_unique<TimedRows>(*which.motion, grid, "clackers/energy/1",
-                                     "Energy of " + which.entry->name, columns, 64,
+  return std::make_unique<TimedRows>(*test_case.motion, grid, "clackers/energy/1",
+                                     "Energy of " + test_case.entry->name, columns, 64,
                                      std::move(fill));
 }
 
@@ -44,14 +44,14 @@ class LostEnergy {
   std::vector<double> t_, sum_{0.0};
 };
 
-std::unique_ptr<record::RowSource> sampled_energies(const cases::Case& which,
+std::unique_ptr<record::RowSource> sampled_energies(const cases::Case& test_case,
                                                     const TimeGrid& grid) {
-  const auto& motion = *which.motion;
-  const auto energy = std::make_shared<const measure::MechanicalEnergy>(which.problem.system);
+  const auto& motion = *test_case.motion;
+  const auto energy = std::make_shared<const measure::MechanicalEnergy>(test_case.problem.system);
   const auto at_impacts = std::make_shared<const LostEnergy>(motion);
-  const Eigen::VectorXd mass = which.problem.system.mass.colwise().sum();
+  const Eigen::VectorXd mass = test_case.problem.system.mass.colwise().sum();
   return rows_of(
-      which, grid, {kinetic, potential, lost, momentum},
+      test_case, grid, {kinetic, potential, lost, momentum},
       one_by_one([&motion, energy, at_impacts, mass](double t, model::Side side, double* row) {
         const auto now = motion.at(t, side);
         for (const double value : {energy->kinetic(now.v.data()), energy->potential(now.u.data()),
@@ -62,13 +62,13 @@ std::unique_ptr<record::RowSource> sampled_energies(const cases::Case& which,
 
 }  // namespace
 
-std::unique_ptr<record::RowSource> energies(const cases::Case& which, const TimeGrid& grid) {
-  require_inside(which, grid);
-  const auto* motion = exact::as_closed_form(*which.motion);
-  if (motion == nullptr) return sampled_energies(which, grid);
+std::unique_ptr<record::RowSource> energies(const cases::Case& test_case, const TimeGrid& grid) {
+  require_inside(test_case, grid);
+  const auto* motion = exact::as_closed_form(*test_case.motion);
+  if (motion == nullptr) return sampled_energies(test_case, grid);
   const auto account = std::make_shared<const exact::EnergyAccount>(*motion);
   return rows_of(
-      which, grid,
+      test_case, grid,
       {kinetic,
        potential,
        {"dissipated", "J", "by the dashpots so far"},

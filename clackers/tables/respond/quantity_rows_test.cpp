@@ -38,17 +38,17 @@ std::string units(const record::RowSource& rows) {
 
 using test::refusal_of;
 
-const exact::ClosedForm& motion_of(const cases::Case& which) {
-  return *exact::as_closed_form(*which.motion);
+const exact::ClosedForm& motion_of(const cases::Case& test_case) {
+  return *exact::as_closed_form(*test_case.motion);
 }
 
-TEST(EnergyRows, AreTheSplitAtEveryTimeAndOnBothSidesOfACollision) {
-  const auto which = cases::make("stop", {{"eta", 0.5}});
-  const double hit = which.motion->impact(1).t;
-  const auto rows = energies(which, {0.0, 0, 0.0, {0.5, hit, 3.0}});
+TEST(EnergyRows, AreTheSplitAtEveryTimeAndOnBothSidesOfAnImpact) {
+  const auto test_case = cases::make("stop", {{"eta", 0.5}});
+  const double hit = test_case.motion->impact(1).t;
+  const auto rows = energies(test_case, {0.0, 0, 0.0, {0.5, hit, 3.0}});
   EXPECT_EQ(names(*rows), "t,side,kinetic,potential,dissipated,lost,total,momentum");
   EXPECT_EQ(rows->schema(), "clackers/energy/1");
-  const exact::EnergyAccount account(motion_of(which));
+  const exact::EnergyAccount account(motion_of(test_case));
   const auto row = [&](double t, const char* sign, model::Side side) {
     const auto s = account.at(t, side);
     return std::vector<record::Cell>{
@@ -66,24 +66,25 @@ TEST(EnergyRows, AreTheSplitAtEveryTimeAndOnBothSidesOfACollision) {
 }
 
 TEST(SensitivityRows, AreTheRawDerivativeWhereARawParameterIsNamed) {
-  const auto which = cases::make("synchronized-pair", {{"r", 0.5}});
-  const auto rows = sensitivity(which, grid_of(3, 20.0), "k1");
+  const auto test_case = cases::make("synchronized-pair", {{"r", 0.5}});
+  const auto rows = sensitivity(test_case, grid_of(3, 20.0), "k1");
   EXPECT_EQ(names(*rows), "t,side,du1,dv1,da1,du2,dv2,da2");
   EXPECT_EQ(units(*rows), ",s,,m^2/N,m^2/N/s,m^2/N/s^2,m^2/N,m^2/N/s,m^2/N/s^2");
-  const auto d = exact::raw_sensitivity(motion_of(which), "k1")->at(10.0, model::Side::left);
+  const auto d = exact::raw_sensitivity(motion_of(test_case), "k1")->at(10.0, model::Side::left);
   EXPECT_EQ(all(*rows)[1], (std::vector<record::Cell>{10.0, record::Cell{}, d.u[0], d.v[0], d.a[0],
                                                       d.u[1], d.v[1], d.a[1]}));
 }
 
 TEST(SensitivityRows, AreTheDerivativeWithinTheClassWhereAParameterOfTheCaseIsNamed) {
-  const auto which = cases::make("synchronized-pair", {{"r", 0.5}});
+  const auto test_case = cases::make("synchronized-pair", {{"r", 0.5}});
   for (const auto& [name, plain] : {std::pair{"r", "r"}, {"xi1", "xi1"}, {"class:k1", "k1"}}) {
-    const auto d = exact::class_sensitivity(motion_of(which), plain)->at(10.0, model::Side::left);
-    const auto rows = all(*sensitivity(which, grid_of(3, 20.0), name));
+    const auto d =
+        exact::class_sensitivity(motion_of(test_case), plain)->at(10.0, model::Side::left);
+    const auto rows = all(*sensitivity(test_case, grid_of(3, 20.0), name));
     EXPECT_EQ(rows[1][2], record::Cell{d.u[0]}) << name;
     EXPECT_EQ(rows[1][7], record::Cell{d.a[1]}) << name;
   }
-  EXPECT_EQ(units(*sensitivity(which, grid_of(3, 20.0), "r")), ",s,,m,m/s,m/s^2,m,m/s,m/s^2");
+  EXPECT_EQ(units(*sensitivity(test_case, grid_of(3, 20.0), "r")), ",s,,m,m/s,m/s^2,m,m/s,m/s^2");
   EXPECT_EQ(units(*sensitivity(cases::make("sdof"), grid_of(3, 20.0), "m1")),
             ",s,,m/kg,m/s/kg,m/s^2/kg");
   const auto sdof = cases::make("sdof");
@@ -98,8 +99,8 @@ TEST(SensitivityRows, AreTheDerivativeWithinTheClassWhereAParameterOfTheCaseIsNa
 TEST(SensitivityRows, AreRefusedWithTheReason) {
   const auto ask = [](const char* name, const cases::Settings& settings, const char* parameter) {
     return refusal_of([&] {
-      const auto which = cases::make(name, settings);
-      sensitivity(which, grid_of(2, 1.0), parameter);
+      const auto test_case = cases::make(name, settings);
+      sensitivity(test_case, grid_of(2, 1.0), parameter);
     });
   };
   EXPECT_EQ(ask("three-parameter", {}, "xi2"),
@@ -123,23 +124,24 @@ TEST(SensitivityRows, AreRefusedWithTheReason) {
 }
 
 TEST(SpectrumRows, AreTheTransformFromZeroToTheHighestFrequency) {
-  const auto which = cases::make("three-parameter");
-  const auto rows = spectrum(which, 5, 2.0);
+  const auto test_case = cases::make("three-parameter");
+  const auto rows = spectrum(test_case, 5, 2.0);
   EXPECT_EQ(names(*rows), "omega,re1,im1,re2,im2");
   EXPECT_EQ(units(*rows), ",rad/s,m s,m s,m s,m s");
   const auto list = all(*rows);
   ASSERT_EQ(list.size(), 5u);
   for (std::size_t k = 0; k < 5; ++k) {
     const double omega = 0.5 * double(k);
-    const auto f = exact::Spectrum(motion_of(which)).at(omega);
+    const auto f = exact::Spectrum(motion_of(test_case)).at(omega);
     EXPECT_EQ(list[k], (std::vector<record::Cell>{omega, f[0].real(), f[0].imag(), f[1].real(),
                                                   f[1].imag()}));
   }
   EXPECT_EQ(names(*spectrum(cases::make("sdof"), 2, 1.0)), "omega,re1,im1");
   for (const double highest : {0.0, -1.0, 1e300})
-    EXPECT_NE(refusal_of([&] { spectrum(which, 5, highest); }).find("highest = "),
+    EXPECT_NE(refusal_of([&] { spectrum(test_case, 5, highest); }).find("highest = "),
               std::string::npos);
-  EXPECT_NE(refusal_of([&] { spectrum(which, 1, 1.0); }).find("samples = 1"), std::string::npos);
+  EXPECT_NE(refusal_of([&] { spectrum(test_case, 1, 1.0); }).find("samples = 1"),
+            std::string::npos);
 }
 
 // Masses 1, 2 and 3 kg with v = i and u = i t, on springs of 2 N/m; two impacts at 1 s, each with
@@ -177,10 +179,11 @@ TEST(QuantityRows, NeedAClosedFormAndTimesInsideTheRun) {
   for (const auto& text : {refusal_of([&] { sensitivity(toy, grid_of(2, 1.0), "m1"); }),
                            refusal_of([&] { spectrum(toy, 2, 1.0); })})
     EXPECT_NE(text.find("toy is none. [no-closed-form]"), std::string::npos) << text;
-  const auto which = cases::make("sdof");
+  const auto test_case = cases::make("sdof");
   const TimeGrid late{0.0, 0, 0.0, {21.0}};
-  EXPECT_NE(refusal_of([&] { energies(which, late); }).find("[time-outside]"), std::string::npos);
-  EXPECT_NE(refusal_of([&] { sensitivity(which, late, "m1"); }).find("[time-outside]"),
+  EXPECT_NE(refusal_of([&] { energies(test_case, late); }).find("[time-outside]"),
+            std::string::npos);
+  EXPECT_NE(refusal_of([&] { sensitivity(test_case, late, "m1"); }).find("[time-outside]"),
             std::string::npos);
 }
 

@@ -14,10 +14,10 @@ namespace {
 const cases::CaseEntry toy_entry{"toy", "", "", {}};
 
 cases::Case toy(int dof, double end, std::vector<double> impacts) {
-  cases::Case which;
-  which.entry = &toy_entry;
-  which.motion = std::make_shared<study::ToyMotion>(dof, end, std::move(impacts));
-  return which;
+  cases::Case test_case;
+  test_case.entry = &toy_entry;
+  test_case.motion = std::make_shared<study::ToyMotion>(dof, end, std::move(impacts));
+  return test_case;
 }
 
 std::vector<std::vector<record::Cell>> all_rows(record::RowSource& rows) {
@@ -47,9 +47,9 @@ TEST(Respond, NamesItsColumnsByTheNumberOfMasses) {
   for (std::size_t i = 0; i < units.size(); ++i) EXPECT_EQ(rows->columns()[i].unit, units[i]);
 }
 
-TEST(Respond, ShowsBothSidesWhereATimeIsACollision) {
-  const auto which = toy(2, 4.0, {1.0, 4.0});
-  const auto list = all_rows(*respond(which, {1.0, 5, 0.0, {}}));
+TEST(Respond, ShowsBothSidesWhereATimeIsAnImpact) {
+  const auto test_case = toy(2, 4.0, {1.0, 4.0});
+  const auto list = all_rows(*respond(test_case, {1.0, 5, 0.0, {}}));
   const std::vector<std::vector<record::Cell>> expected{
       {0.0, nothing, 0.0, 1.0, 100.0, 0.0, 2.0, 200.0},
       {1.0, minus, 1.0, 1.0, 101.0, 2.0, 2.0, 201.0},
@@ -61,21 +61,21 @@ TEST(Respond, ShowsBothSidesWhereATimeIsACollision) {
   EXPECT_EQ(list, expected);
 }
 
-TEST(Respond, ShowsOneSideBesideACollision) {
-  const auto which = toy(1, 4.0, {1.0});
+TEST(Respond, ShowsOneSideBesideAnImpact) {
+  const auto test_case = toy(1, 4.0, {1.0});
   const double before = std::nextafter(1.0, 0.0), after = std::nextafter(1.0, 2.0);
-  const auto list = all_rows(*respond(which, {0.0, 0, 0.0, {after, before}}));
+  const auto list = all_rows(*respond(test_case, {0.0, 0, 0.0, {after, before}}));
   const std::vector<std::vector<record::Cell>> expected{
       {after, nothing, after, -1.0, 100.0 + after}, {before, nothing, before, 1.0, 100.0 + before}};
   EXPECT_EQ(list, expected);
 }
 
 TEST(Respond, StreamsManyRowsWithoutLosingOneAtABlocksBorder) {
-  // Every tenth time is a collision; 512 is a multiple of neither 10 nor 11.
+  // Every tenth time is an impact; 512 is a multiple of neither 10 nor 11.
   std::vector<double> impacts;
   for (int k = 0; k <= 5000; k += 10) impacts.push_back(k);
-  const auto which = toy(1, 5000.0, impacts);
-  const auto rows = respond(which, grid_of(5001, 5000.0));
+  const auto test_case = toy(1, 5000.0, impacts);
+  const auto rows = respond(test_case, grid_of(5001, 5000.0));
   std::vector<record::Cell> row;
   for (int k = 0; k <= 5000; ++k) {
     ASSERT_TRUE(rows->next(row));
@@ -91,8 +91,8 @@ TEST(Respond, StreamsManyRowsWithoutLosingOneAtABlocksBorder) {
 }
 
 TEST(Respond, KnowsTheNumberOfItsRowsAndGivesThemAsNumbers) {
-  const auto which = toy(2, 4.0, {1.0, 4.0});
-  const auto rows = respond(which, {1.0, 5, 0.0, {}});
+  const auto test_case = toy(2, 4.0, {1.0, 4.0});
+  const auto rows = respond(test_case, {1.0, 5, 0.0, {}});
   ASSERT_NE(rows->numbers(), nullptr);
   EXPECT_EQ(rows->numbers()->count(), 7);
   std::vector<double> values;
@@ -105,8 +105,8 @@ TEST(Respond, KnowsTheNumberOfItsRowsAndGivesThemAsNumbers) {
 }
 
 TEST(Respond, ReportsTheShareOfItsRowsAndEndsWhereTheCallerThrows) {
-  const auto which = toy(1, 5000.0, {});
-  const auto rows = respond(which, grid_of(5001, 5000.0));
+  const auto test_case = toy(1, 5000.0, {});
+  const auto rows = respond(test_case, grid_of(5001, 5000.0));
   std::vector<double> shares;
   rows->progress = [&](double share) {
     shares.push_back(share);
@@ -120,34 +120,34 @@ TEST(Respond, ReportsTheShareOfItsRowsAndEndsWhereTheCallerThrows) {
 }
 
 TEST(Respond, RefusesTimesOutsideTheRunBeforeAnyRow) {
-  const auto which = toy(1, 4.0, {});
+  const auto test_case = toy(1, 4.0, {});
   for (const auto& row : {std::pair{4.5, "time-outside"},
                           {-0.5, "time-outside"},
                           {double(NAN), "not-a-number"},
                           {double(INFINITY), "not-finite"}}) {
-    EXPECT_REFUSED(respond(which, {0.0, 0, 0.0, {1.0, row.first, 2.0}}), row.second);
+    EXPECT_REFUSED(respond(test_case, {0.0, 0, 0.0, {1.0, row.first, 2.0}}), row.second);
   }
   EXPECT_REFUSED(
-      respond(which, {0.0, 0, 0.0, {4.5}}), "time-outside",
+      respond(test_case, {0.0, 0, 0.0, {4.5}}), "time-outside",
       "respond: t = 4.5; allowed: 0 <= t <= 4 s, the run of toy. A longer run is another "
       "value of t_end or a_t.");
-  EXPECT_THROW(respond(which, grid_of(3, 8.0)), InputError);
+  EXPECT_THROW(respond(test_case, grid_of(3, 8.0)), InputError);
 }
 
-TEST(Collisions, ListEveryCollisionWithBothSides) {
-  const auto which = toy(2, 4.0, {1.0, 2.5});
-  const auto rows = collisions(which);
+TEST(Impacts, ListEveryImpactWithBothSides) {
+  const auto test_case = toy(2, 4.0, {1.0, 2.5});
+  const auto rows = impacts(test_case);
   EXPECT_EQ(column_names(*rows),
             (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "v2-", "v2+", "impulse",
                                       "energy_before", "energy_after"}));
-  EXPECT_EQ(rows->schema(), "clackers/collisions/1");
+  EXPECT_EQ(rows->schema(), "clackers/impacts/1");
   const std::vector<std::vector<record::Cell>> expected{
       {1LL, 1.0, 1.0, 1.0, -1.0, 2.0, -2.0, 0.5, 3.0, 2.0},
       {2LL, 2.5, 2.5, -1.0, 1.0, -2.0, 2.0, 1.0, 6.0, 4.0}};
   EXPECT_EQ(all_rows(*rows), expected);
 }
 
-TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
+TEST(Impacts, NameTheirContactWhereThereAreSeveral) {
   // Two contacts that close together.
   struct Several : study::ToyMotion {
     Several() : study::ToyMotion(3, 4.0, {1.0, 1.0}) {}
@@ -157,10 +157,10 @@ TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
       return now;
     }
   };
-  auto which = toy(3, 4.0, {});
-  which.motion = std::make_shared<Several>();
-  which.problem.contacts.resize(2);
-  const auto rows = collisions(which);
+  auto test_case = toy(3, 4.0, {});
+  test_case.motion = std::make_shared<Several>();
+  test_case.problem.contacts.resize(2);
+  const auto rows = impacts(test_case);
   EXPECT_EQ(
       column_names(*rows),
       (std::vector<std::string>{"k", "t", "contact", "u1", "v1-", "v1+", "u2", "v2-", "v2+", "u3",
@@ -171,17 +171,17 @@ TEST(Collisions, NameTheirContactWhereThereAreSeveral) {
       {2LL, 1.0, 0LL, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 1.0, 6.0, 4.0}};
   EXPECT_EQ(all_rows(*rows), expected);
   // Rows of the response have two limits there, not four.
-  EXPECT_EQ(all_rows(*respond(which, grid_of(5, 4.0))).size(), 6u);
+  EXPECT_EQ(all_rows(*respond(test_case, grid_of(5, 4.0))).size(), 6u);
 }
 
-TEST(Collisions, OfOneMassLeaveOutTheSecond) {
-  const auto which = toy(1, 4.0, {1.0});
-  const auto rows = collisions(which);
+TEST(Impacts, OfOneMassLeaveOutTheSecond) {
+  const auto test_case = toy(1, 4.0, {1.0});
+  const auto rows = impacts(test_case);
   EXPECT_EQ(column_names(*rows), (std::vector<std::string>{"k", "t", "u1", "v1-", "v1+", "impulse",
                                                            "energy_before", "energy_after"}));
   EXPECT_EQ(all_rows(*rows).size(), 1u);
   const auto none = toy(1, 4.0, {});
-  EXPECT_TRUE(all_rows(*collisions(none)).empty());
+  EXPECT_TRUE(all_rows(*impacts(none)).empty());
 }
 
 TEST(ResponseCurve, HoldsOneRowAMassOverTheWholeRun) {

@@ -40,29 +40,29 @@ struct States {
 
 }  // namespace
 
-std::unique_ptr<record::RowSource> respond(const cases::Case& which, const TimeGrid& grid) {
-  require_inside(which, grid);
-  const auto& motion = *which.motion;
+std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const TimeGrid& grid) {
+  require_inside(test_case, grid);
+  const auto& motion = *test_case.motion;
   return std::make_unique<TimedRows>(
-      motion, grid, "clackers/response/1", "Exact response of " + which.entry->name,
+      motion, grid, "clackers/response/1", "Exact response of " + test_case.entry->name,
       response_columns(motion.dof()), block, States{motion, {}, {}, {}});
 }
 
-record::CaseRecord response_record(const cases::Case& which) {
+record::CaseRecord response_record(const cases::Case& test_case) {
   record::CaseRecord record;
-  record.problem = summary_of(which);
+  record.problem = summary_of(test_case);
   record.plan = {0.0, 0, 0};
-  record.response = response_curve(which, response_points);
+  record.response = response_curve(test_case, response_points);
   return record;
 }
 
-record::Curve response_curve(const cases::Case& which, int n) {
-  const auto grid = grid_of(n, which.motion->end());
-  const auto dof = static_cast<std::size_t>(which.motion->dof());
+record::Curve response_curve(const cases::Case& test_case, int n) {
+  const auto grid = grid_of(n, test_case.motion->end());
+  const auto dof = static_cast<std::size_t>(test_case.motion->dof());
   record::Curve curve;
   for (long long k = 0; k < grid.size(); ++k) curve.t.push_back(grid.at(k));
   std::vector<double> u(curve.t.size() * dof), v(u.size());
-  which.motion->sample(curve.t, model::Side::left, {u, v, {}});
+  test_case.motion->sample(curve.t, model::Side::left, {u, v, {}});
   curve.y.assign(dof, std::vector<double>(curve.t.size()));
   for (std::size_t k = 0; k < curve.t.size(); ++k)
     for (std::size_t i = 0; i < dof; ++i) curve.y[i][k] = u[k * dof + i];

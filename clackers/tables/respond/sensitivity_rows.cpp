@@ -47,11 +47,11 @@ std::array<std::string, 3> units_over(const std::string& by) {
 }
 
 // Of a parameter of the case that the motion does not depend on smoothly.
-[[noreturn]] void refuse_parameter(const cases::Case& which, std::string_view name) {
+[[noreturn]] void refuse_parameter(const cases::Case& test_case, std::string_view name) {
   const bool whole = name == "N" || name == "X";
   throw InputError(
       fmt::format(
-          "respond {}: --sensitivity {}: {}", which.entry->name, name,
+          "respond {}: --sensitivity {}: {}", test_case.entry->name, name,
           whole
               ? "it is a whole number, and between two of them there is no motion of the class to "
                 "compare with. Use k2 or m2, which shift the frequency of mass 2."
@@ -64,7 +64,8 @@ struct Choice {
   std::unique_ptr<exact::Sensitivity> sensitivity;
 };
 
-Choice choose(const cases::Case& which, const exact::ClosedForm& motion, std::string_view given) {
+Choice choose(const cases::Case& test_case, const exact::ClosedForm& motion,
+              std::string_view given) {
   const auto raw = exact::raw_parameters(motion);
   const bool in_class = given.starts_with(class_prefix);
   const auto name = in_class ? given.substr(class_prefix.size()) : given;
@@ -72,10 +73,10 @@ Choice choose(const cases::Case& which, const exact::ClosedForm& motion, std::st
     return {std::string(name), unit_of_raw(name), exact::raw_sensitivity(motion, name)};
 
   const auto smooth = exact::class_parameters(motion);
-  const auto& own = which.entry->parameters;
+  const auto& own = test_case.entry->parameters;
   const auto found = std::ranges::find(own, name, &Parameter::name);
   if (found != own.end()) {
-    if (!contains(smooth, name)) refuse_parameter(which, name);
+    if (!contains(smooth, name)) refuse_parameter(test_case, name);
     return {fmt::format("{}, all that follows from it following", name), found->unit,
             exact::class_sensitivity(motion, name)};
   }
@@ -85,17 +86,17 @@ Choice choose(const cases::Case& which, const exact::ClosedForm& motion, std::st
     if (contains(smooth, parameter.name))
       known.push_back(contains(raw, parameter.name) ? std::string(class_prefix) + parameter.name
                                                     : parameter.name);
-  refuse_name(fmt::format("parameter of {} to differentiate by", which.entry->name), given, known,
-              fmt::format("{}", fmt::join(known, " ")));
+  refuse_name(fmt::format("parameter of {} to differentiate by", test_case.entry->name), given,
+              known, fmt::format("{}", fmt::join(known, " ")));
 }
 
 }  // namespace
 
-std::unique_ptr<record::RowSource> sensitivity(const cases::Case& which, const TimeGrid& grid,
+std::unique_ptr<record::RowSource> sensitivity(const cases::Case& test_case, const TimeGrid& grid,
                                                std::string_view name) {
-  const auto& motion = closed_form(which, "a sensitivity");
-  auto choice = choose(which, motion, name);
-  require_inside(which, grid);
+  const auto& motion = closed_form(test_case, "a sensitivity");
+  auto choice = choose(test_case, motion, name);
+  require_inside(test_case, grid);
   const auto [u, v, a] = units_over(choice.unit);
   std::vector<record::Column> columns;
   for (int i = 1; i <= motion.dof(); ++i) {
@@ -110,7 +111,7 @@ std::unique_ptr<record::RowSource> sensitivity(const cases::Case& which, const T
   const std::shared_ptr<const exact::Sensitivity> change = std::move(choice.sensitivity);
   return std::make_unique<TimedRows>(
       motion, grid, "clackers/sensitivity/1",
-      fmt::format("Sensitivity of {} to {}", which.entry->name, choice.label), columns, 64,
+      fmt::format("Sensitivity of {} to {}", test_case.entry->name, choice.label), columns, 64,
       one_by_one([change](double t, model::Side side, double* row) {
         const auto d = change->at(t, side);
         for (Eigen::Index i = 0; i < d.u.size(); ++i)

@@ -56,13 +56,14 @@ class SpectrumRows : public record::NumberRows {
 
 }  // namespace
 
-std::unique_ptr<record::RowSource> spectrum(const cases::Case& which, long long n, double highest) {
-  const auto& motion = closed_form(which, "the spectrum");
+std::unique_ptr<record::RowSource> spectrum(const cases::Case& test_case, long long n,
+                                            double highest) {
+  const auto& motion = closed_form(test_case, "the spectrum");
   const double limit = exact::Spectrum::most_radians / motion.end();
   if (!(highest > 0.0 && highest <= limit))
     refuse("respond", "highest", highest, fmt::format("0 < highest <= {:.6g} rad/s", limit),
            highest > 0.0 ? "Beyond, the phase at the end of the run is not certain." : "");
-  return std::make_unique<SpectrumRows>(motion, which.entry->name, grid_of(n, highest));
+  return std::make_unique<SpectrumRows>(motion, test_case.entry->name, grid_of(n, highest));
 }
 
 }  // namespace clackers::tables

@@ -8,21 +8,21 @@
 
 namespace clackers::tables {
 
-const exact::ClosedForm& closed_form(const cases::Case& which, std::string_view wanted) {
-  const auto* motion = exact::as_closed_form(*which.motion);
+const exact::ClosedForm& closed_form(const cases::Case& test_case, std::string_view wanted) {
+  const auto* motion = exact::as_closed_form(*test_case.motion);
   if (motion == nullptr)
     throw InputError(fmt::format("respond: {} is known for motions in closed form; {} is none.",
-                                 wanted, which.entry->name),
+                                 wanted, test_case.entry->name),
                      "no-closed-form");
   return *motion;
 }
 
-void require_inside(const cases::Case& which, const TimeGrid& grid) {
-  const double end = which.motion->end();
+void require_inside(const cases::Case& test_case, const TimeGrid& grid) {
+  const double end = test_case.motion->end();
   const auto require = [&](double t) {
     if (!(t >= 0.0 && t <= end))
       refuse("respond", "t", t,
-             fmt::format("0 <= t <= {} s, the run of {}", end, which.entry->name),
+             fmt::format("0 <= t <= {} s, the run of {}", end, test_case.entry->name),
              "A longer run is another value of t_end or a_t.", "time-outside");
   };
   for (const double t : grid.times) require(t);
@@ -38,7 +38,7 @@ TimedRows::TimedRows(const model::Motion& motion, const TimeGrid& grid, std::str
       schema_(std::move(schema)),
       title_(std::move(title)),
       columns_{{"t", "s", "time", record::ColumnKind::real},
-               {"side", "", "- and + are the limits before and after a collision",
+               {"side", "", "- and + are the limits before and after an impact",
                 record::ColumnKind::side}},
       block_(block),
       fill_(std::move(fill)) {

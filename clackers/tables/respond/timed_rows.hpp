@@ -14,13 +14,13 @@ namespace clackers::tables {
 
 /// The closed form of a case. Throws InputError, naming the quantity that needs it, for a motion of
 /// another kind.
-const exact::ClosedForm& closed_form(const cases::Case& which, std::string_view wanted);
+const exact::ClosedForm& closed_form(const cases::Case& test_case, std::string_view wanted);
 
 /// Throws InputError unless every time of the grid lies in [0, end of the case].
-void require_inside(const cases::Case& which, const TimeGrid& grid);
+void require_inside(const cases::Case& test_case, const TimeGrid& grid);
 
-/// Rows t, side and more at the times of a grid; two where a time is the double nearest to a
-/// collision, sides "-" then "+".
+/// Rows t, side and more at the times of a grid; two where a time is the double nearest to an
+/// impact, sides "-" then "+".
 class TimedRows : public record::NumberRows {
  public:
   /// Writes the values of the columns after t and side at `times` to rows that lie `stride` doubles

@@ -138,7 +138,7 @@ def metrics(command):
     return {"reference/metrics.md": (
         "# Metrics\n\nThe table begins with the scores of a run of `verify`; the metrics of a whole history follow, which "
         "`check` and the report pages show. u, v, a are the displacement, velocity and acceleration of a history; u\\*, v\\*, "
-        "a\\* those of the reference solution; U, V their largest envelopes over the run; T the time between collisions; "
+        "a\\* those of the reference solution; U, V their largest envelopes over the run; T the time between impacts; "
         "g the gap of a contact. A name is QUANTITY-MEASURE, with `-relative` for a value without unit.\n\nA metric is *valid across jumps* if it tends to zero for every history that converges, although its "
         "velocities jump at slightly different times than those of the reference solution. The maximum of velocity errors "
         "is not valid: it compares the two sides of a jump.\n\n" + sheet_table(command.json("list", "metrics")))}

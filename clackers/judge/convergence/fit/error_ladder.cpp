@@ -23,17 +23,17 @@ bool far_above_floor(const ErrorPoint& point) {
   return std::isfinite(point.error) && point.error > bending_slack * point.floor;
 }
 
-LevelView view_level(const ErrorLevel& level, double lucky_above, bool was_lucky) {
+LevelView view_level(const ErrorLevel& level, double coincident_above, bool was_coincident) {
   LevelView seen;
   seen.error = -1.0;
   if (!level.empty()) seen.step = level.front().step;
-  const bool others_err = was_lucky && std::ranges::any_of(level, far_above_floor);
+  const bool others_err = was_coincident && std::ranges::any_of(level, far_above_floor);
   std::size_t finite = 0, rounding = 0, bending = 0;
   for (const auto& point : level) {
     if (!std::isfinite(point.error)) continue;
     ++finite;
-    if (at_floor(point) && (others_err || point.step > lucky_above)) {
-      ++seen.lucky;
+    if (at_floor(point) && (others_err || point.step > coincident_above)) {
+      ++seen.coincident;
       seen.error = std::max(seen.error, point.error);
       continue;
     }
@@ -48,9 +48,9 @@ LevelView view_level(const ErrorLevel& level, double lucky_above, bool was_lucky
     seen.x.push_back(std::log(point.step));
     seen.y.push_back(std::log(point.error));
   }
-  const auto others = finite - std::size_t(seen.lucky);
+  const auto others = finite - std::size_t(seen.coincident);
   seen.usable = finite > 0 && 2 * finite >= level.size();
-  seen.at_floor = seen.usable && rounding == others && seen.lucky == 0;
+  seen.at_floor = seen.usable && rounding == others && seen.coincident == 0;
   seen.near_floor = seen.usable && others > 0 && 4 * rounding >= others;
   seen.may_bend = seen.usable && others > 0 && 4 * bending >= others;
   if (!seen.usable) seen.error = std::numeric_limits<double>::quiet_NaN();
@@ -71,14 +71,14 @@ double smallest_that_errs(std::span<const ErrorLevel> ladder) {
 std::vector<LevelView> view(std::span<const ErrorLevel> ladder) {
   for (const auto& level : ladder)
     for (const auto& point : level) validate(point);
-  const double lucky_above = smallest_that_errs(ladder);
+  const double coincident_above = smallest_that_errs(ladder);
   std::vector<LevelView> levels;
   double before = std::numeric_limits<double>::infinity();
-  bool was_lucky = false;
+  bool was_coincident = false;
   for (auto level : ladder) {
     std::ranges::stable_sort(level, std::greater{}, &ErrorPoint::step);
-    levels.push_back(view_level(level, lucky_above, was_lucky));
-    was_lucky = was_lucky || levels.back().lucky > 0;
+    levels.push_back(view_level(level, coincident_above, was_coincident));
+    was_coincident = was_coincident || levels.back().coincident > 0;
     for (const auto& point : level)
       if (!(point.step < before))
         refuse("ladder fit", "a step of level " + std::to_string(levels.size()), point.step,

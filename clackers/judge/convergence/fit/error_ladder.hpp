@@ -25,12 +25,12 @@ inline constexpr double bending_slack = rounding_slack * rounding_slack;
 
 /// A level as the fit sees it, in logarithmic axes.
 struct LevelView {
-  /// ln step descending, ln error; failed runs, zero errors and errors at the rounding floor by luck
-  /// left out.
+  /// ln step descending, ln error; failed runs, zero errors and coincident
+  /// errors left out.
   std::vector<double> x, y;
   double step = 0.0;        ///< of the largest error; of the first point when there is none
   double error = 0.0;       ///< the upper envelope: the largest error, NaN when not usable
-  int lucky = 0;            ///< runs at the floor by luck, as view() says
+  int coincident = 0;       ///< runs at the rounding floor by coincidence, see view()
   bool usable = false;      ///< at least half of its runs came to an end with a finite error
   bool at_floor = false;    ///< usable, and no error above rounding_slack times its floor
   bool near_floor = false;  ///< usable, and at least a quarter of the other errors is not above it
@@ -42,9 +42,9 @@ struct LevelView {
 /// ladder given finest first is not reversed: its errors may belong to other steps. A step may
 /// stand twice in one level.
 ///
-/// A run lies at the floor by luck where a run with a smaller step has an error above `bending_slack`
+/// A run lies at the floor by coincidence where a run with a smaller step has an error above `bending_slack`
 /// times its floor, since rounding grows as steps get smaller but not by as much; and where others of
-/// its level do while a level before it has runs at the floor by luck. So does a step that divides the
+/// its level do while a level before it has such runs. So does a step that divides the
 /// time between impacts, which no neighbouring step does.
 std::vector<LevelView> view(std::span<const ErrorLevel> ladder);
 

@@ -81,10 +81,10 @@ double spread_of_largest(std::span<const LevelView> levels, const Envelope& foun
 std::vector<LevelView> largest_of(std::span<const LevelView> levels, const Envelope& found) {
   std::vector<LevelView> largest;
   for (int i = found.first; i <= found.last; ++i) {
-    LevelView one;
-    one.x = {std::log(levels[std::size_t(i)].step)};
-    one.y = {std::log(levels[std::size_t(i)].error)};
-    largest.push_back(std::move(one));
+    LevelView level;
+    level.x = {std::log(levels[std::size_t(i)].step)};
+    level.y = {std::log(levels[std::size_t(i)].error)};
+    largest.push_back(std::move(level));
   }
   return largest;
 }

@@ -24,8 +24,8 @@ TEST(Irregular, IndependentScatterZigzags) {
 }
 
 TEST(Irregular, SmoothCurvesDoNotZigzagHoweverBent) {
-  for (const int neighbours : {1, 8}) {
-    const Shape shape{.neighbours = neighbours};
+  for (const int samples : {1, 8}) {
+    const Shape shape{.samples = samples};
     EXPECT_FALSE(zigzag(ladder([](double h) { return h * h; }, shape)));
     EXPECT_FALSE(zigzag(ladder([](double h) { return std::tanh(1e4 * h * h); }, shape)));
     for (const double zero : {0.01, 0.003, 0.001, 0.0006, 0.0004})
@@ -50,7 +50,7 @@ TEST(Irregular, AFewRoughPlacesAmongManySmoothOnesDoNotCount) {
 
 TEST(Irregular, ABendThatKeepsItsSideIsNoZigzag) {
   const auto ever_flatter = [](double h) { return std::exp(-0.4 * std::pow(std::log(h), 2)); };
-  EXPECT_FALSE(zigzag(ladder(ever_flatter, {.levels = 12, .neighbours = 1})));
+  EXPECT_FALSE(zigzag(ladder(ever_flatter, {.levels = 12, .samples = 1})));
 }
 
 TEST(Irregular, AFailedLevelEndsTheEnvelope) {
@@ -119,8 +119,8 @@ TEST(Swings, BendsAndOnePassageThroughZeroDoNot) {
 
 TEST(Swings, FewerThanTenPointsMayLieSoByChance) {
   const auto stairs = [](double h) { return std::exp2(2.0 * std::floor(0.5 * std::log2(h))); };
-  EXPECT_TRUE(swinging(ladder(stairs, {.neighbours = 2})));
-  EXPECT_FALSE(swinging(ladder(stairs, {.levels = 9, .neighbours = 1})));
+  EXPECT_TRUE(swinging(ladder(stairs, {.samples = 2})));
+  EXPECT_FALSE(swinging(ladder(stairs, {.levels = 9, .samples = 1})));
 }
 
 TEST(Swings, OnlyTheGivenLevelsCount) {

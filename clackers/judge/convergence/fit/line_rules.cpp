@@ -15,7 +15,7 @@ RuleResult claimed_to(const Range& range, const FitContext& context, int least) 
       .rates = context.order_tolerance * claimed, .around_slope = false, .centre = claimed};
   for (int last = range.finest; last >= std::max(least, range.first); --last)
     if (const auto found = longest_straight(range.levels, range.first, last, asked);
-        found && !rests_on_luck(range, *found))
+        found && !is_underdetermined(range, *found))
       return shows(with_line(range, *found), Behaviour::proper);
   return {};
 }
@@ -41,7 +41,7 @@ RuleResult other_line(const Range& range, const FitContext& context) {
   // Errors of files that have another limit fall a little where impacts come nearer to theirs.
   const double flat = context.wrong_limit ? highest_flat_slope : straight_rates;
   if (std::abs(slope) <= flat) return stagnates(range, context, *range.line);
-  if (rests_on_luck(range, *range.line)) return undecided(range, "one-sample-a-level");
+  if (is_underdetermined(range, *range.line)) return undecided(range, "one-sample-a-level");
   if (slope > 0.0 && may_still_reach(claimed, *range.line)) {
     // Rates may also stray because the points scatter, still within what a line allows.
     for (const auto rule : {bent_by_rounding, line_with_floor, zigzag})

@@ -33,7 +33,7 @@ Range range_of(std::span<const ErrorLevel> ladder, const FitContext& context) {
   range.levels = view(ladder);
   range.finest = int(range.levels.size()) - 1;
   range.smallest_step = std::numeric_limits<double>::infinity();
-  int runs = 0, lucky = 0;
+  int runs = 0, coincident = 0;
   for (const auto& level : ladder)
     for (const auto& point : level) {
       ++runs;
@@ -42,9 +42,9 @@ Range range_of(std::span<const ErrorLevel> ladder, const FitContext& context) {
   for (const auto& level : range.levels) {
     range.blank.steps.push_back(level.step);
     range.blank.errors.push_back(level.error);
-    lucky += level.lucky;
+    coincident += level.coincident;
   }
-  if (runs > 0) range.blank.lucky_share = double(lucky) / runs;
+  if (runs > 0) range.blank.coincident_share = double(coincident) / runs;
   if (range.finest < 0 || !range.level(range.finest).usable) return range;
   note_unstable_steps(range, ladder);
   range.first = range.finest;
@@ -109,7 +109,7 @@ double shortfall_of_floor(const Range& range, int first, int last, double order)
   return std::max(0.0, most - order);
 }
 
-bool rests_on_luck(const Range& range, const Window& found) {
+bool is_underdetermined(const Range& range, const Window& found) {
   if (!one_sample_a_level(range) || found.first <= range.tracked) return false;
   const auto before = window(range.levels, range.tracked, found.first);
   return before && std::ranges::any_of(before->rates, [](double rate) { return rate < 0.0; });

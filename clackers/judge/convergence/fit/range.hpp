@@ -48,7 +48,7 @@ LadderFit with_line(const Range& range, const Window& found);
 double shortfall_of_floor(const Range& range, int first, int last, double slope);
 /// One run a level, and the errors before the window go up and down: a few of them lie on a line by
 /// chance.
-bool rests_on_luck(const Range& range, const Window& found);
+bool is_underdetermined(const Range& range, const Window& found);
 /// Of an order: reduced where it is more than a tenth below the claim, otherwise proper.
 Behaviour behaviour_of_order(double order, const FitContext& context);
 /// The reason of a floor; `rough` where its runs scatter.
@@ -57,7 +57,7 @@ Code floor_reason(const FitContext& context, bool rough);
 /// How many octaves equally spread points cover: the distance of the outer ones, and one spacing.
 double octaves_of(const RawPoints& points);
 
-/// Most clear levels have one run: scatter cannot be told from order.
+/// Most clear levels have one run: scatter cannot be distinguished from order.
 bool one_sample_a_level(const Range& range);
 
 /// A line says something of an order where it spans this many octaves.

@@ -89,11 +89,11 @@ double best_power(const std::vector<Point>& points, double q) {
   constexpr double golden = 0.6180339887498949;
   double low = best / 1.1, high = best * 1.1;
   for (int i = 0; i < 30; ++i) {
-    const double one = high - golden * (high - low), other = low + golden * (high - low);
-    if (squares(one) < squares(other))
-      high = other;
+    const double left = high - golden * (high - low), right = low + golden * (high - low);
+    if (squares(left) < squares(right))
+      high = right;
     else
-      low = one;
+      low = left;
   }
   return 0.5 * (low + high);
 }
@@ -155,14 +155,15 @@ std::optional<TwoTerms> fit_two_terms(std::span<const LevelView> levels, int fir
   if (std::ssize(points) < (terms.p > 0.0 ? 4 : 5)) return {};
   if (!terms.cancels) return law(points, centre, terms);
   scale_by_neighbours(points);
-  const auto lowest = std::size_t(
-      std::ranges::min_element(points, {}, [](const Point& one) { return one.error / one.scale; }) -
-      points.begin());
+  const auto lowest =
+      std::size_t(std::ranges::min_element(
+                      points, {}, [](const Point& point) { return point.error / point.scale; }) -
+                  points.begin());
   // Beyond a zero the errors rise again.
   constexpr double rises = 1.5;
   const bool dips =
       std::any_of(points.begin() + std::ptrdiff_t(lowest), points.end(),
-                  [&](const Point& one) { return one.error > rises * points[lowest].error; });
+                  [&](const Point& point) { return point.error > rises * points[lowest].error; });
   if (!dips) return {};
   std::optional<TwoTerms> best;
   for (const auto place : {lowest, lowest + 1}) {

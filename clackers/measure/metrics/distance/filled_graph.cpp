@@ -102,7 +102,7 @@ Polyline history_graph(const Comparison& comparison, std::size_t mass) {
   const auto& history = comparison.history();
   const double scale = comparison.v_envelope()[mass];
   const auto jumps = reported_jumps(comparison, mass, scale);
-  GraphBuilder graph(comparison.collision_period(), jumps, last_found_is_alone(comparison));
+  GraphBuilder graph(comparison.impact_period(), jumps, last_found_is_alone(comparison));
   graph.reserve(history.t.size());
   for (std::size_t i = 0; i < history.t.size(); ++i)
     graph.row(history.t[i], history.v[i * comparison.dof() + mass] / scale);
@@ -113,7 +113,7 @@ Polyline reference_graph(const Comparison& comparison, std::size_t mass) {
   const auto& t = comparison.history().t;
   const double scale = comparison.v_envelope()[mass];
   const auto jumps = true_jumps(comparison, mass, scale);
-  GraphBuilder graph(comparison.collision_period(), jumps, last_true_is_alone(comparison, jumps));
+  GraphBuilder graph(comparison.impact_period(), jumps, last_true_is_alone(comparison, jumps));
   graph.reserve(t.size());
   for (std::size_t i = 0; i < t.size(); ++i)
     graph.row(t[i], comparison.reference_v()[i * comparison.dof() + mass] / scale);

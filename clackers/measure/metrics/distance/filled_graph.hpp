@@ -9,7 +9,7 @@
 namespace clackers::measure {
 
 /// The filled graph of a velocity: the set of (t/T, v/V) with vertical segments from the left limit
-/// to the right one at jumps. T is Comparison::collision_period(), V the mass's true envelope at t
+/// to the right one at jumps. T is Comparison::impact_period(), V the mass's true envelope at t
 /// = 0. The Hausdorff distance of two filled graphs, with points as far apart as the farther of
 /// their two coordinates, tends to zero when jumps come slightly early or late, take two steps or
 /// are smeared over a contact time; a distance of d says that neither graph leaves the other by

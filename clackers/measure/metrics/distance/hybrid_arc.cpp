@@ -104,7 +104,7 @@ bool HybridArc::is_before(const Jump& impact, std::size_t row) const {
 
 void HybridArc::put(Polyline& line, double t, std::span<const double> u,
                     std::span<const double> v) const {
-  line.points.push_back(t / comparison_.collision_period());
+  line.points.push_back(t / comparison_.impact_period());
   for (std::size_t i = 0; i < u.size(); ++i) {
     line.points.push_back(u[i] / comparison_.u_envelope()[i]);
     line.points.push_back(v[i] / comparison_.v_envelope()[i]);

@@ -11,14 +11,14 @@
 namespace clackers::measure {
 
 /// A motion as a hybrid arc: one line for each flight j = 0, 1, ..., points (t/T, u/U, v/V) of all
-/// masses, T as in Comparison::collision_period(), U and V the largest true envelopes. Flights do
+/// masses, T as in Comparison::impact_period(), U and V the largest true envelopes. Flights do
 /// not share their ends: the first ends with the left limits of an impact, the next starts with the
 /// right ones. Flights are made one after another, so that one alone is in memory.
 class HybridArc {
  public:
   /// Of the history, points at its rows and impacts. Its flights end and start at its own
-  /// collisions; a row inside a collision that takes several steps belongs to no flight. Where the
-  /// displacement or a limit of a collision is not known, its flights end with the last row before
+  /// impacts; a row inside an impact that takes several steps belongs to no flight. Where the
+  /// displacement or a limit of an impact is not known, its flights end with the last row before
   /// it and start with the first row after it. The comparison must outlive the arc.
   static HybridArc of_history(const Comparison& comparison);
   /// Of the reference, points at the history's rows and at its own impacts.

@@ -230,9 +230,9 @@ PolylineDistance one_sided_distance(const Polyline& from, const Polyline& to, do
   return search(from, to, at_least);
 }
 
-PolylineDistance hausdorff_distance(const Polyline& one, const Polyline& other) {
-  const auto first = one_sided_distance(one, other);
-  return first.complete ? one_sided_distance(other, one, first.value) : first;
+PolylineDistance hausdorff_distance(const Polyline& line, const Polyline& other) {
+  const auto first = one_sided_distance(line, other);
+  return first.complete ? one_sided_distance(other, line, first.value) : first;
 }
 
 }  // namespace clackers::measure

@@ -58,6 +58,6 @@ PolylineDistance one_sided_distance(const Polyline& from, const Polyline& to,
                                     double at_least = 0.0);
 
 /// The larger of both one-sided distances.
-PolylineDistance hausdorff_distance(const Polyline& one, const Polyline& other);
+PolylineDistance hausdorff_distance(const Polyline& line, const Polyline& other);
 
 }  // namespace clackers::measure

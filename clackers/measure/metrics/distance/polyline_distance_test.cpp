@@ -89,16 +89,16 @@ TEST(PolylineDistance, TakesLinesOfOnePoint) {
 
 TEST(PolylineDistance, SeesLongSegmentsBetweenShortOnesWhereverTheyStand) {
   // One after another each segment is the long one, so that it also joins two blocks of the tree.
-  for (int which = 0; which < 20; ++which) {
+  for (int gap = 0; gap < 20; ++gap) {
     Polyline to;
     double t = 0.0, before = 0.0;
     for (int i = 0; i <= 20; ++i) {
       to.points.insert(to.points.end(), {t, 0.0});
-      if (i == which) before = t;
-      t += i == which ? 1.0 : 0.01;
+      if (i == gap) before = t;
+      t += i == gap ? 1.0 : 0.01;
     }
     for (const double s : {0.2, 0.8})
-      EXPECT_DOUBLE_EQ(one_sided_distance(line({{before + s, 0.1}}), to).value, 0.1) << which;
+      EXPECT_DOUBLE_EQ(one_sided_distance(line({{before + s, 0.1}}), to).value, 0.1) << gap;
   }
 }
 

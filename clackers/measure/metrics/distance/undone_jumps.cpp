@@ -47,10 +47,10 @@ class ImpactMap {
   Eigen::VectorXd direction_, change_;
 };
 
-double distance(const double* one, const double* other, std::span<const double> scale) {
+double distance(const double* first, const double* other, std::span<const double> scale) {
   double largest = 0.0;
   for (std::size_t j = 0; j < scale.size(); ++j)
-    largest = std::max(largest, std::abs(one[j] - other[j]) / scale[j]);
+    largest = std::max(largest, std::abs(first[j] - other[j]) / scale[j]);
   return largest;
 }
 

@@ -16,7 +16,7 @@ namespace clackers::measure {
 /// pairs) or one mass meets a rigid stop. Elsewhere, and without velocities, it is not measured.
 ///
 /// Of two rows with one time the first stands before the impact, the second after it; a row alone
-/// at the very time of an impact stands after it. A missed or extra collision turns the sign for
+/// at the very time of an impact stands after it. A missed or extra impact turns the sign for
 /// good, so that the error is of the size of the velocity.
 ///
 /// Valid across jumps: yes. Not for contacts that last several rows (compliant contacts, impacts

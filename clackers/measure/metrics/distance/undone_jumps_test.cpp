@@ -38,7 +38,7 @@ TEST(UnfoldedVelocity, ForgetsOnWhichSideOfAJumpAMotionIs) {
   EXPECT_NEAR(found.masses[1], 0.5 * std::abs(std::sin(3.0) - std::sin(2.9)), 1e-14);
 }
 
-TEST(UnfoldedVelocity, CountsAMissedCollisionForGood) {
+TEST(UnfoldedVelocity, CountsAMissedImpactForGood) {
   auto history = history_with_late_impacts();
   history.impacts->clear();
   // Both limits in two rows: the left one is right now, the right one off by both.
@@ -68,8 +68,8 @@ class Passing : public ToyMotion {
 };
 
 TEST(UnfoldedVelocity, IsDefinedWhereAnImpactReversesAll) {
-  const auto reason = [](const model::Motion& motion, const model::ImpactProblem<>& which) {
-    return unfolded_velocity_error({history_of(motion, {0.0, 1.0}), motion, which}).reason;
+  const auto reason = [](const model::Motion& motion, const model::ImpactProblem<>& problem) {
+    return unfolded_velocity_error({history_of(motion, {0.0, 1.0}), motion, problem}).reason;
   };
   auto lossy = jump_problem, two = jump_problem;
   lossy.contacts[0].restitution = 0.9;

@@ -16,18 +16,18 @@ std::vector<double> distance(const std::vector<double>& found, const Eigen::Vect
 }
 
 MetricValue none_matched(const EventReport& report) {
-  if (report.expected == 0) return not_measured("The reference has no collision by then.");
-  return not_measured("No collision of the history belongs to a true one.");
+  if (report.expected == 0) return not_measured("The reference has no impact by then.");
+  return not_measured("No impact of the history belongs to a true one.");
 }
 
-// The largest entry of a list that each collision carries, mass by mass.
-MetricValue worst(const Comparison& comparison, std::vector<double> CollisionError::*list,
+// The largest entry of a list that each impact carries, mass by mass.
+MetricValue worst(const Comparison& comparison, std::vector<double> ImpactError::*list,
                   const char* unknown) {
   const auto& report = comparison.shared(event_report);
-  if (report.collisions.empty()) return none_matched(report);
+  if (report.impacts.empty()) return none_matched(report);
   std::vector<double> masses;
-  for (const auto& collision : report.collisions) {
-    const auto& errors = collision.*list;
+  for (const auto& impact : report.impacts) {
+    const auto& errors = impact.*list;
     if (!errors.empty()) masses.resize(errors.size());
     for (std::size_t i = 0; i < errors.size(); ++i) masses[i] = std::max(masses[i], errors[i]);
   }
@@ -47,7 +47,7 @@ EventReport event_report(const Comparison& comparison) {
   report.extra = score.extra;
   for (const auto& [number, reference] : comparison.matches()) {
     const auto& impact = comparison.impacts()[number];
-    CollisionError error;
+    ImpactError error;
     error.index = reference.index;
     error.found = number;
     error.t = impact.t;
@@ -57,37 +57,36 @@ EventReport event_report(const Comparison& comparison) {
     error.impulse = std::abs(impact.impulse - reference.impulse);
     error.late = error.time_error > comparison.step();
     report.late += error.late;
-    report.collisions.push_back(std::move(error));
+    report.impacts.push_back(std::move(error));
   }
   return report;
 }
 
 MetricValue impact_time_error(const Comparison& comparison) {
   const auto& report = comparison.shared(event_report);
-  if (report.collisions.empty()) return none_matched(report);
+  if (report.impacts.empty()) return none_matched(report);
   double worst = 0.0;
-  for (const auto& collision : report.collisions)
-    worst = std::max(worst, std::abs(collision.time_error));
+  for (const auto& impact : report.impacts) worst = std::max(worst, std::abs(impact.time_error));
   return measured(worst);
 }
 
 MetricValue velocity_before_error(const Comparison& comparison) {
-  return worst(comparison, &CollisionError::before,
-               "No velocity before a collision is known of the history.");
+  return worst(comparison, &ImpactError::before,
+               "No velocity before an impact is known of the history.");
 }
 
 MetricValue velocity_after_error(const Comparison& comparison) {
-  return worst(comparison, &CollisionError::after,
-               "No velocity after a collision is known of the history.");
+  return worst(comparison, &ImpactError::after,
+               "No velocity after an impact is known of the history.");
 }
 
 MetricValue impulse_error(const Comparison& comparison) {
   const auto& report = comparison.shared(event_report);
-  if (report.collisions.empty()) return none_matched(report);
+  if (report.impacts.empty()) return none_matched(report);
   double worst = -1.0;
-  for (const auto& collision : report.collisions)
-    if (!std::isnan(collision.impulse)) worst = std::max(worst, collision.impulse);
-  if (worst < 0.0) return not_measured("No impulse of a collision is known of the history.");
+  for (const auto& impact : report.impacts)
+    if (!std::isnan(impact.impulse)) worst = std::max(worst, impact.impulse);
+  if (worst < 0.0) return not_measured("No impulse of an impact is known of the history.");
   return measured(worst);
 }
 

@@ -8,11 +8,11 @@
 
 namespace clackers::measure {
 
-/// One collision of the history against the true one it belongs to.
-struct CollisionError {
+/// One impact of the history against the true one it belongs to.
+struct ImpactError {
   long long index = 0;      ///< of the true impact, 1 for the first
   std::size_t found = 0;    ///< index into Comparison::impacts()
-  double t = 0.0;           ///< of the history's collision [s]
+  double t = 0.0;           ///< of the history's impact [s]
   double time_error = 0.0;  ///< found minus true [s]
   /// |v - v*| just before and just after, mass by mass [m/s]; empty where not known.
   std::vector<double> before, after;
@@ -21,21 +21,21 @@ struct CollisionError {
   bool late = false;  ///< found more than one step of the history after the true instant
 };
 
-/// Collision k against k.
+/// Impact k against k.
 struct EventReport {
   ImpactSource source = ImpactSource::reported;
   long long expected = 0, found = 0, matched = 0, missed = 0, extra = 0;
-  long long late = 0;                      ///< of the matched
-  std::vector<CollisionError> collisions;  ///< the matched ones in order of time
+  long long late = 0;                ///< of the matched
+  std::vector<ImpactError> impacts;  ///< the matched ones in order of time
 };
 
-/// Times, velocities on both sides and impulses are compared at the collisions themselves, each
-/// motion at its own instant, so all of it is valid across jumps: a collision found at t* + d has
+/// Times, velocities on both sides and impulses are compared at the impacts themselves, each
+/// motion at its own instant, so all of it is valid across jumps: an impact found at t* + d has
 /// the right velocities up to O(d). Pairs and counts follow ImpactMatcher's rule; a step is
 /// Comparison::step(). Source: common.
 EventReport event_report(const Comparison& comparison);
 
-/// The worst of all matched collisions. Not measured where none is matched, or where what is asked
+/// The worst of all matched impacts. Not measured where none is matched, or where what is asked
 /// for is known of none.
 MetricValue impact_time_error(const Comparison& comparison);      ///< max |t - t*| [s]
 MetricValue velocity_before_error(const Comparison& comparison);  ///< [m/s], mass by mass

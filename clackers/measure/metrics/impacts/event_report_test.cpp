@@ -28,7 +28,7 @@ const auto spoilt = history({{pi / 2 + 0.05, 0, {}, {-1.1, 0.5}, {0.9, -0.6}, 2.
                              {3 * pi / 2 - 0.02, 0, {}, {}, {0.8, -0.5}, nan},
                              {7 * pi / 2 + 0.1, 0, {}, {-1.0, 0.7}, {}, 1.9}});
 
-TEST(EventReport, StandsCollisionBesideCollision) {
+TEST(EventReport, StandsImpactBesideImpact) {
   const Comparison comparison(spoilt, report_reference, report_problem);
   const auto report = event_report(comparison);
   EXPECT_EQ(report.source, ImpactSource::reported);
@@ -38,9 +38,9 @@ TEST(EventReport, StandsCollisionBesideCollision) {
   EXPECT_EQ(report.missed, 1);
   EXPECT_EQ(report.extra, 1);
   EXPECT_EQ(report.late, 1);  // by more than the step, 0.08
-  ASSERT_EQ(report.collisions.size(), 3u);
+  ASSERT_EQ(report.impacts.size(), 3u);
   const auto& [first, second, last] =
-      std::tie(report.collisions[0], report.collisions[1], report.collisions[2]);
+      std::tie(report.impacts[0], report.impacts[1], report.impacts[2]);
   EXPECT_EQ(first.index, 1);
   EXPECT_EQ(first.found, 0u);
   EXPECT_EQ(first.t, pi / 2 + 0.05);
@@ -88,7 +88,7 @@ TEST(EventReport, SaysWhyThereIsNothingToCompare) {
       nothing_known(bare, report_reference, report_problem);
   for (const auto measure :
        {impact_time_error, velocity_before_error, velocity_after_error, impulse_error})
-    EXPECT_EQ(measure(no_match).reason, "No collision of the history belongs to a true one.");
+    EXPECT_EQ(measure(no_match).reason, "No impact of the history belongs to a true one.");
   EXPECT_EQ(missed_impacts(no_match).value, 4.0);
   EXPECT_EQ(impact_time_error(nothing_known).value, 0.0);
   EXPECT_NE(velocity_before_error(nothing_known).reason.find("before"), std::string::npos);
@@ -96,7 +96,7 @@ TEST(EventReport, SaysWhyThereIsNothingToCompare) {
   EXPECT_NE(impulse_error(nothing_known).reason.find("impulse"), std::string::npos);
   auto early = history_of(report_reference, {0.0, 0.1, 1.0});
   EXPECT_EQ(impact_time_error({early, report_reference, report_problem}).reason,
-            "The reference has no collision by then.");
+            "The reference has no impact by then.");
 }
 
 }  // namespace

@@ -17,13 +17,13 @@ struct FlightError {
 
 /// All flights of which at least one row can be compared, in order of time.
 ///
-/// A flight of the history lasts from the end of one of its collisions to the start of the next. If
-/// the collision belongs to the true impact at t*, then d = end of the collision - t*, and the
+/// A flight of the history lasts from the end of one of its impacts to the start of the next. If
+/// the impact belongs to the true impact at t*, then d = end of the impact - t*, and the
 /// history at t is compared with the reference at t - d, as long as t - d lies in the true flight
-/// that starts at t*: in (t*, next impact]. The flight before the first collision is not shifted.
-/// Flights after an extra collision are not compared: they have no true flight. Of two rows with
+/// that starts at t*: in (t*, next impact]. The flight before the first impact is not shifted.
+/// Flights after an extra impact are not compared: they have no true flight. Of two rows with
 /// one time the first closes a flight and the second opens the next; a row alone at the very time
-/// of a collision belongs to neither side, and a row with a closed contact (g < 0 beyond rounding)
+/// of an impact belongs to neither side, and a row with a closed contact (g < 0 beyond rounding)
 /// to no flight unless it is a limit of a jump.
 ///
 /// Valid across jumps: yes, since both motions are smooth within a flight; contacts over several

@@ -77,14 +77,14 @@ TEST(FlightError, LeavesOutRowsInWhichAContactIsClosed) {
   EXPECT_EQ(flight_errors(comparison)[1].rows, 3u);
 }
 
-TEST(FlightError, LeavesOutARowAloneAtACollision) {
+TEST(FlightError, LeavesOutARowAloneAtAnImpact) {
   auto history = history_of(flight_reference, {0.0, 1.0, pi / 2, 2.0, 4.0});
   history.v[4] = 3.0;
   history.impacts = {{history.t[2], 0, {}, {}, {}, nan}};
   EXPECT_LE(flight_v_error({history, flight_reference, flight_problem}).value, 1e-14);
 }
 
-TEST(FlightError, DoesNotCompareWhatFollowsAnExtraCollision) {
+TEST(FlightError, DoesNotCompareWhatFollowsAnExtraImpact) {
   auto history = late();
   history.impacts = {{history.t[2], 0, {}, {}, {}, nan}, {3.0, 0, {}, {}, {}, nan}};
   history.u[2 * 5] += 5.0;  // t = 4.1, after the extra one
@@ -96,7 +96,7 @@ TEST(FlightError, DoesNotCompareWhatFollowsAnExtraCollision) {
 }
 
 // A contact that lasts from 1.5 to 1.7: the flight starts when it is over.
-TEST(FlightError, StartsWhenTheCollisionIsOver) {
+TEST(FlightError, StartsWhenTheImpactIsOver) {
   auto history = late();
   history.impacts = {{history.t[2] - 0.05, 0, {}, {}, {}, nan}, {history.t[2], 0, {}, {}, {}, nan}};
   const Comparison comparison(history, flight_reference, flight_problem);

@@ -76,7 +76,7 @@ PhaseMarks crossing_marks(const Comparison& comparison, std::size_t mass) {
   return marks;
 }
 
-PhaseMarks collision_marks(const Comparison& comparison, std::size_t mass) {
+PhaseMarks impact_marks(const Comparison& comparison, std::size_t mass) {
   PhaseMarks marks;
   for (const auto& match : comparison.matches()) {
     const auto& impact = comparison.impacts()[match.found];
@@ -86,7 +86,7 @@ PhaseMarks collision_marks(const Comparison& comparison, std::size_t mass) {
     marks.speed_found.push_back(impact.v_before.empty() ? nan : std::abs(impact.v_before[mass]));
     marks.speed_true.push_back(std::abs(match.reference.before.v[static_cast<Eigen::Index>(mass)]));
   }
-  if (marks.index.size() < 2) marks.reason = "Fewer than two collisions are matched.";
+  if (marks.index.size() < 2) marks.reason = "Fewer than two impacts are matched.";
   return marks;
 }
 
@@ -134,7 +134,7 @@ PhaseMarks phase_marks(const Comparison& comparison, std::size_t mass) {
   const auto& reference = comparison.reference();
   const auto impacts = reference.impact_count(std::min(t.back(), reference.end())) -
                        reference.impact_count(t.front());
-  return impacts >= 2 ? collision_marks(comparison, mass) : crossing_marks(comparison, mass);
+  return impacts >= 2 ? impact_marks(comparison, mass) : crossing_marks(comparison, mass);
 }
 
 MetricValue measure_period_error(const Comparison& comparison) {

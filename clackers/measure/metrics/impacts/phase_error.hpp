@@ -18,8 +18,8 @@ struct PhaseMarks {
   std::string reason;                           ///< why there are none, a sentence
 };
 
-/// The marks of one mass. Where the reference collides at least twice: matched collisions, a period
-/// is the time T between collisions, the speed is that before impact. Otherwise zero crossings of
+/// The marks of one mass. Where the reference collides at least twice: matched impacts, a period
+/// is the time T between impacts, the speed is that before impact. Otherwise zero crossings of
 /// the displacement, two a period, interpolated linearly between rows in the history and, at the
 /// same rows, in the reference, so that the interpolation hardly differs; speeds likewise.
 PhaseMarks phase_marks(const Comparison& comparison, std::size_t mass);

@@ -40,7 +40,7 @@ MetricValue of_free(const model::Trajectory& history, MetricValue (*metric)(cons
   return metric(Comparison(history, reference, problem));
 }
 
-TEST(PhaseError, OfCollisionsThatAreALittleFartherApart) {
+TEST(PhaseError, OfImpactsThatAreALittleFartherApart) {
   for (const double stretch : {1.001, 0.999}) {
     const ToyFlaws flaws{.h = 0.01, .stretch = stretch};
     const auto period = of_toy(flaws, measure_period_error);
@@ -48,12 +48,12 @@ TEST(PhaseError, OfCollisionsThatAreALittleFartherApart) {
     EXPECT_NEAR(period.masses[0], stretch - 1.0, 1e-12);
     EXPECT_EQ(period.masses[1], period.masses[0]);
     EXPECT_EQ(period.value, std::abs(period.masses[0]));
-    // Collision 3, the last one before 10 s, is at 2.5 T.
+    // Impact 3, the last one before 10 s, is at 2.5 T.
     EXPECT_NEAR(of_toy(flaws, measure_phase_error).masses[0], 2.5 * (stretch - 1.0), 1e-12);
   }
 }
 
-TEST(PhaseError, ADelayOfAllCollisionsIsNoErrorOfThePeriod) {
+TEST(PhaseError, ADelayOfAllImpactsIsNoErrorOfThePeriod) {
   EXPECT_NEAR(of_toy({.delay = 0.02}, measure_period_error).value, 0.0, 1e-12);
   EXPECT_NEAR(of_toy({.delay = 0.02}, measure_phase_error).masses[0], 0.02 / pi, 1e-12);
   EXPECT_NEAR(of_toy({.delay = -0.02}, measure_phase_error).masses[1], -0.02 / pi, 1e-12);
@@ -80,7 +80,7 @@ TEST(PhaseError, DecayIsMeasuredAPeriod) {
   EXPECT_NEAR(of_free(free_history(1.0, 1.0), measure_decay_error).value, 0.0, 1e-12);
 }
 
-TEST(PhaseError, DecayThroughCollisionsIsThatOfTheSpeedBeforeThem) {
+TEST(PhaseError, DecayThroughImpactsIsThatOfTheSpeedBeforeThem) {
   auto history = toy_history({});
   double factor = 1.0;
   for (auto& impact : *history.impacts) {
@@ -123,7 +123,7 @@ TEST(PhaseError, SaysWhyItIsNotMeasured) {
   const ToyMotion reference;
   const auto problem = toy_problem();
   EXPECT_EQ(measure_period_error(Comparison(silent, reference, problem)).reason,
-            "Fewer than two collisions are matched.");
+            "Fewer than two impacts are matched.");
 }
 
 TEST(PhaseError, ARowAtZeroIsOneCrossing) {

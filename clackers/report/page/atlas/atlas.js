@@ -24,7 +24,7 @@ const verdictOf = (cell) => among(verdicts, value(cell, "verdict"));
 const behaviourOf = (cell) => (verdictOf(cell) === "refused" ? "refused" : among(behaviours, value(cell, "behaviour")));
 const slug = (word) => word.replaceAll(" ", "-");
 
-const treatmentName = (treatment) => treatment || "methods that stand alone";
+const treatmentName = (treatment) => treatment || "standalone methods";
 const methodName = (method) => {
   const { name, part } = atlas.methods[method];
   return atlas.parts[part].origin ? `${name} (${atlas.parts[part].origin})` : name;

@@ -36,14 +36,14 @@ function show(kind, heading, below, html) {
 // ---- A cell.
 
 function numbersHtml(cell) {
-  const known = value(cell, "collisions_expected");
-  const collisions = known === null ? "" : `${whole(value(cell, "collisions_matched"))} of ${whole(known)}` +
-    ` (${value(cell, "collisions_missed")} missed, ${value(cell, "collisions_extra")} extra)`;
-  const failed = ladderRuns(cell).filter((run) => run.u_error === null).length, time = value(cell, "collision_time_error");
+  const known = value(cell, "impacts_expected");
+  const impacts = known === null ? "" : `${whole(value(cell, "impacts_matched"))} of ${whole(known)}` +
+    ` (${value(cell, "impacts_missed")} missed, ${value(cell, "impacts_extra")} extra)`;
+  const failed = ladderRuns(cell).filter((run) => run.u_error === null).length, time = value(cell, "impact_time_error");
   return `<dl class="facts">${factHtml("Claimed", escaped(value(cell, "claim").text))}${factHtml("Order", orderText(cell))}` +
     factHtml("Error in u, finest", scientific(value(cell, "u_error"), 2)) + factHtml("Error in v", scientific(value(cell, "v_error"), 2)) +
-    factHtml("Energy error", scientific(value(cell, "energy_error"), 2)) + factHtml("Collisions", collisions) +
-    factHtml("Collision time", time === null ? "" : `${scientific(time, 2)} s`) +
+    factHtml("Energy error", scientific(value(cell, "energy_error"), 2)) + factHtml("Impacts", impacts) +
+    factHtml("Impact time", time === null ? "" : `${scientific(time, 2)} s`) +
     factHtml("Steps, finest", whole(value(cell, "steps").at(-1) ?? null)) +
     factHtml("Force evaluations", whole(value(cell, "forces").at(-1) ?? null)) +
     factHtml("Failed runs", failed ? `${failed} of ${ladderRuns(cell).length}` : "") +

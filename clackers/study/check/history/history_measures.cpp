@@ -54,7 +54,7 @@ class Measurement {
 
   // What needs the displacements of all masses.
   void measure_motion(const measure::Comparison& comparison) {
-    take_collisions(comparison);
+    take_impacts(comparison);
     take_curves(comparison);
     observe(comparison);
     report(compared_share);
@@ -108,15 +108,14 @@ class Measurement {
     return *middle >= 4.0 * file_.spacing ? *middle : 0.0;
   }
 
-  void take_collisions(const measure::Comparison& comparison) {
+  void take_impacts(const measure::Comparison& comparison) {
     const bool reported = comparison.impact_source() == measure::ImpactSource::reported;
-    file_.collisions =
-        reported ? record::CollisionSource::events : record::CollisionSource::history;
-    // Between two collisions the faster mass turns round once at least; eight rows show it.
+    file_.impact_source = reported ? record::ImpactSource::events : record::ImpactSource::history;
+    // Between two impacts the faster mass turns round once at least; eight rows show it.
     const auto count = std::max(1LL, summary_.impact_count);
     const double apart = summary_.end / double(count);
     if (!reported) file_.contact_time = contact_time(comparison);
-    file_.rows_resolve_collisions = reported || 8.0 * file_.spacing <= apart;
+    file_.rows_resolve_impacts = reported || 8.0 * file_.spacing <= apart;
     // A mass passes the place of contact with about its largest velocity, amplitude times pi / T.
     auto& floor = run_.score.impacts->rounding_floor;
     floor = std::max(floor,

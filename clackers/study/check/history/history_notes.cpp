@@ -29,17 +29,17 @@ void add_sampling(record::HistoryFile& file, const record::CaseSummary& problem)
     file.notes.push_back(record::note("few-rows-a-period", {rows, file.unseen_bend}));
 }
 
-void add_collisions(record::HistoryFile& file, const measure::RunScore& score) {
+void add_impacts(record::HistoryFile& file, const measure::RunScore& score) {
   if (!score.impacts) return;
   const auto expected = double(score.impacts->expected), found = double(score.impacts->found);
   if (expected == 0.0 && found == 0.0)
-    file.notes.push_back(record::note("no-collisions"));
-  else if (file.collisions != record::CollisionSource::events)
+    file.notes.push_back(record::note("no-impacts"));
+  else if (file.impact_source != record::ImpactSource::events)
     file.notes.push_back(record::note(
-        "collisions-from-history",
-        {file.spacing, double(file.rows_resolve_collisions), found, expected, file.contact_time}));
+        "impacts-from-history",
+        {file.spacing, double(file.rows_resolve_impacts), found, expected, file.contact_time}));
   else if (found == 0.0)
-    file.notes.push_back(record::note("no-collisions-reported", {expected}));
+    file.notes.push_back(record::note("no-impacts-reported", {expected}));
 }
 
 void add_ends(record::HistoryFile& file, const record::CaseSummary& problem) {
@@ -62,7 +62,7 @@ void add_notes(record::HistoryFile& file, const measure::RunScore& score,
                const record::CaseSummary& problem) {
   add_digits(file, score);
   add_sampling(file, problem);
-  add_collisions(file, score);
+  add_impacts(file, score);
   add_ends(file, problem);
   add_start(file);
 }

@@ -25,7 +25,7 @@ struct PreparedHistory {
 PreparedHistory prepare(const HistoryTask& task, input::History data, const cases::Case& problem,
                         const record::CaseSummary& summary);
 
-/// Reads the collisions of a history; those outside it are left out, with a note. Where two masses
+/// Reads the impacts of a history; those outside it are left out, with a note. Where two masses
 /// touch, the place of one gives that of the other. Throws as input::read_events() does.
 void add_events(PreparedHistory& history, const input::Source& events, const cases::Case& problem,
                 const std::atomic<bool>* interrupt);
@@ -36,7 +36,7 @@ void complete_u(PreparedHistory& history, const cases::Case& problem);
 /// The share of a history's work that reading it is, for progress.
 inline constexpr double read_share = 0.4;
 
-/// Compares a history with the reference: score, collisions, curves, what diagnosis needs, all
+/// Compares a history with the reference: score, impacts, curves, what diagnosis needs, all
 /// metrics and the notes that follow. Without the displacements of all masses only the score is
 /// measured. `step` [s] is the level's. Calls `progress` with shares from read_share on. Throws Error
 /// (interrupted) when asked to stop.

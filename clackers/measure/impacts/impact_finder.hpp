@@ -7,27 +7,27 @@
 
 namespace clackers::measure {
 
-/// A collision read from a history that reports none.
-struct FoundCollision {
+/// An impact read from a history that reports none.
+struct FoundImpact {
   /// `u`, `v_before` and `v_after` are what free motion makes of the rows around it; `v_after` is
   /// empty and the impulse NaN where the history ends inside the contact.
   model::Impact impact;
   double end = 0.0;  ///< when it was over [s]; later than impact.t for a compliant contact
 };
 
-/// The collisions of a history, in order of time, read from its rows, the equation of motion and
+/// The impacts of a history, in order of time, read from its rows, the equation of motion and
 /// the contacts; what the history reports is not looked at.
 ///
-/// A collision is where a contact near closure has a force: the relative velocity rises by at least
+/// An impact is where a contact near closure has a force: the relative velocity rises by at least
 /// half the closing speed (Newton's law gives 1 + eta of it) beyond what free motion could do
 /// between the rows and beyond rounding. So nothing is found in masses that oscillate freely, or
 /// pass through each other. A jump between two rows, a jump given as two rows of one time, and a
-/// compliant contact over many rows are one collision each, timed at first contact.
+/// compliant contact over many rows are one impact each, timed at first contact.
 ///
 /// Timing: exact for two rows of one time. Else free motion from the last row before it, followed
 /// to contact: local error O(h^5) of the history's own state for rows with velocities, O(h^3)
 /// without; the end of the step where it gets no further than that. Without velocities rows are
-/// joined to longer steps when printed digits ask for it, and a collision in the first or last of
+/// joined to longer steps when printed digits ask for it, and an impact in the first or last of
 /// these is not seen.
 ///
 /// Limits: a closing speed below 1e-5 of the velocities, or below what free motion does in a step
@@ -35,7 +35,7 @@ struct FoundCollision {
 /// free motion. Ten rows a period of the fastest motion at a contact are enough.
 ///
 /// The history has sound sizes and times (require_comparable). Cost: linear in rows and masses.
-std::vector<FoundCollision> find_collisions(const model::Trajectory& history,
-                                            const model::ImpactProblem<>& problem);
+std::vector<FoundImpact> find_impacts(const model::Trajectory& history,
+                                      const model::ImpactProblem<>& problem);
 
 }  // namespace clackers::measure

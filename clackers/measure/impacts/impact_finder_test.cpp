@@ -1,4 +1,4 @@
-#include "clackers/measure/impacts/collision_finder.hpp"
+#include "clackers/measure/impacts/impact_finder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 namespace clackers::measure {
 namespace {
 
-// How far the found collisions are from the true ones, which must be as many.
-double worst_time_error(const std::vector<FoundCollision>& found, const model::Motion& reference) {
+// How far the found impacts are from the true ones, which must be as many.
+double worst_time_error(const std::vector<FoundImpact>& found, const model::Motion& reference) {
   EXPECT_EQ(std::ssize(found), reference.impact_count(reference.end()));
   double worst = 0.0;
   for (std::size_t k = 0;
@@ -27,7 +27,7 @@ struct Pair {
   double X, r, eta;
 };
 
-class CollisionsOfAPair : public testing::TestWithParam<Pair> {
+class ImpactsOfAPair : public testing::TestWithParam<Pair> {
  protected:
   exact::SynchronizedPair motion_{{.X = GetParam().X, .r = GetParam().r, .eta = GetParam().eta}};
   model::ImpactProblem<> problem_ = motion_.problem();
@@ -41,9 +41,9 @@ class CollisionsOfAPair : public testing::TestWithParam<Pair> {
   }
 };
 
-TEST_P(CollisionsOfAPair, AreFoundBetweenRowsWithVelocities) {
+TEST_P(ImpactsOfAPair, AreFoundBetweenRowsWithVelocities) {
   for (const double a_period : {10.5, 20.3, 100.0, 1000.0}) {
-    const auto found = find_collisions(sampled(a_period, true), problem_);
+    const auto found = find_impacts(sampled(a_period, true), problem_);
     const double turn = 2.0 * std::numbers::pi / a_period;  // of the phase in one step
     // Runge and Kutta's local error, (omega h)^5 / 120, of a velocity that the gap is left with.
     EXPECT_LE(worst_time_error(found, motion_), std::pow(turn, 5) / 120.0 * fast_ + 1e-13)
@@ -63,17 +63,17 @@ TEST_P(CollisionsOfAPair, AreFoundBetweenRowsWithVelocities) {
   }
 }
 
-TEST_P(CollisionsOfAPair, AreFoundBetweenRowsWithoutVelocities) {
+TEST_P(ImpactsOfAPair, AreFoundBetweenRowsWithoutVelocities) {
   for (const double a_period : {10.5, 20.3, 100.0, 1000.0}) {
-    const auto found = find_collisions(sampled(a_period, false), problem_);
+    const auto found = find_impacts(sampled(a_period, false), problem_);
     const double turn = 2.0 * std::numbers::pi / a_period;
     EXPECT_LE(worst_time_error(found, motion_), std::pow(turn, 3) / 24.0 * fast_ + 1e-9)
         << a_period;
   }
 }
 
-TEST_P(CollisionsOfAPair, AreExactWhereTheHistoryHasBothLimits) {
-  const auto found = find_collisions(sampled(20.3, true, true), problem_);
+TEST_P(ImpactsOfAPair, AreExactWhereTheHistoryHasBothLimits) {
+  const auto found = find_impacts(sampled(20.3, true, true), problem_);
   EXPECT_EQ(worst_time_error(found, motion_), 0.0);
   for (std::size_t k = 0; k < found.size(); ++k) {
     const auto reference = motion_.impact(std::int64_t(k) + 1);
@@ -85,17 +85,17 @@ TEST_P(CollisionsOfAPair, AreExactWhereTheHistoryHasBothLimits) {
   }
 }
 
-TEST_P(CollisionsOfAPair, AreFoundInSixDigits) {
+TEST_P(ImpactsOfAPair, AreFoundInSixDigits) {
   for (const double a_period : {10.5, 100.0, 2000.0})
     for (const bool velocities : {true, false}) {
       const auto history = printed(sampled(a_period, velocities), 6);
-      const auto found = find_collisions(history, problem_);
+      const auto found = find_impacts(history, problem_);
       EXPECT_LE(worst_time_error(found, motion_), fast_ / a_period)
           << a_period << (velocities ? " with" : " without") << " velocities";
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Members, CollisionsOfAPair,
+INSTANTIATE_TEST_SUITE_P(Members, ImpactsOfAPair,
                          testing::Values(Pair{1.0, 1.0, 1.0}, Pair{3.0, 0.5, 1.0},
                                          Pair{9.0, 3.0, 1.0}, Pair{9.0, 3.0, 0.5},
                                          Pair{5.0, 2.0, 0.8}, Pair{1.0 / 3.0, 2.0, 0.5}));

@@ -1,4 +1,4 @@
-#include "clackers/measure/impacts/collision_finder.hpp"
+#include "clackers/measure/impacts/impact_finder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-// The collisions of one contact.
+// The impacts of one contact.
 class ContactScan {
  public:
   ContactScan(const model::Trajectory& history, const model::Contact<>& contact, int number,
@@ -27,14 +27,14 @@ class ContactScan {
         gaps_(!has_velocities_ ? gap_history_from_displacements(history, motion, contact)
                                : gap_history_from_velocities(history, motion, contact)) {}
 
-  void run(std::vector<FoundCollision>& found) const {
-    // No collision before this row is open any more. Without velocities row 0 has no rate.
+  void run(std::vector<FoundImpact>& found) const {
+    // No impact before this row is open any more. Without velocities row 0 has no rate.
     std::size_t free = has_velocities_ ? 0 : 1;
     for (std::size_t i = 0; i + 1 < gaps_.size(); ++i) {
       if (!strikes(i)) continue;
       const auto span = whole(has_velocities_ ? i : steepest(i), free);
-      if (auto collision = collision_in(span)) {
-        found.push_back(std::move(*collision));
+      if (auto impact = impact_in(span)) {
+        found.push_back(std::move(*impact));
         free = span.last;
         i = has_velocities_ ? span.last - 1 : span.last;
       }
@@ -42,7 +42,7 @@ class ContactScan {
   }
 
  private:
-  // Rows before and after a collision.
+  // Rows before and after an impact.
   struct Span {
     std::size_t first, last;
     bool penetrates;  // over more than one step
@@ -68,7 +68,7 @@ class ContactScan {
     return i;
   }
 
-  // All rows of the collision that strikes in step i: back to the last open row, forward until the
+  // All rows of the impact that strikes in step i: back to the last open row, forward until the
   // contact is open, or closes on without a force. A contact at rest still has a force.
   Span whole(std::size_t i, std::size_t free) const {
     if (gaps_.length(i) == 0.0) return {i, i + 1, false};
@@ -92,19 +92,19 @@ class ContactScan {
     return span;
   }
 
-  std::optional<FoundCollision> collision_in(const Span& span) const {
+  std::optional<FoundImpact> impact_in(const Span& span) const {
     const auto before = struck(span);
     const double closing = -contact_.gap_rate(before.v);
     double change = 0.0, uncertainty = 0.0;
     for (auto i = span.first; i < span.last; ++i) {
       const bool is_first = i == span.first, is_last = i + 1 == span.last;
-      // Rates inside the collision cancel in the sum over its steps.
+      // Rates inside the impact cancel in the sum over its steps.
       change += (is_last ? gaps_.after[i + 1] : 0.0) - (is_first ? gaps_.before[i] : 0.0) -
                 0.5 * gaps_.length(i) * (gaps_.acceleration[i] + gaps_.acceleration[i + 1]);
       uncertainty += gaps_.uncertainty(i);
     }
     if (!(change > 0.5 * closing + uncertainty)) return {};
-    FoundCollision found;
+    FoundImpact found;
     found.impact.t = found.end = before.t;
     found.impact.contact = number_;
     found.impact.u = entries(before.u);
@@ -124,7 +124,7 @@ class ContactScan {
     return found;
   }
 
-  // Where free motion from the last row before the collision closes the contact.
+  // Where free motion from the last row before the impact closes the contact.
   FreeState struck(const Span& span) const {
     const auto from = state(span.first, Side::before);
     return motion_.moved(from, root(from, gaps_.length(span.first)));
@@ -193,13 +193,14 @@ class ContactScan {
 
 }  // namespace
 
-std::vector<FoundCollision> find_collisions(const model::Trajectory& history,
-                                            const model::ImpactProblem<>& problem) {
+std::vector<FoundImpact> find_impacts(const model::Trajectory& history,
+                                      const model::ImpactProblem<>& problem) {
   const FreeMotion motion(problem.system);
-  std::vector<FoundCollision> found;
+  std::vector<FoundImpact> found;
   for (std::size_t k = 0; k < problem.contacts.size(); ++k)
     ContactScan(history, problem.contacts[k], int(k), motion).run(found);
-  std::ranges::stable_sort(found, {}, [](const FoundCollision& one) { return one.impact.t; });
+  std::ranges::stable_sort(found, {},
+                           [](const FoundImpact& candidate) { return candidate.impact.t; });
   return found;
 }
 

@@ -1,7 +1,7 @@
 /*
- * Prints the collisions of a pair of masses, exact to the last digit.
+ * Prints the impacts of a pair of masses, exact to the last digit.
  *
- *     cc collisions.c $(pkg-config --cflags --libs clackers) -o collisions && ./collisions
+ *     cc impacts.c $(pkg-config --cflags --libs clackers) -o impacts && ./impacts
  */
 #include <clackers.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ int main(void) {
   pair.struct_size = sizeof pair;
   if (clackers_pair_defaults(&pair) != CLACKERS_OK) return complain();
   pair.X = 5.0;    /* mass 2 is five times as fast */
-  pair.eta = 0.75; /* and loses a quarter of its closing speed at each collision */
+  pair.eta = 0.75; /* and loses a quarter of its closing speed at each impact */
   if (clackers_pair_create(&pair, &motion) != CLACKERS_OK) return complain();
   if (clackers_motion_impact_count(motion, pair.t_end, &count) != CLACKERS_OK) return complain();
 

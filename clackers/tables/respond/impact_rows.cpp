@@ -8,17 +8,17 @@ namespace clackers::tables {
 namespace {
 
 // Two masses that touch in their only contact have one place.
-bool has_one_place(const cases::Case& which) {
-  return which.motion->dof() <= 2 && which.problem.contacts.size() <= 1;
+bool has_one_place(const cases::Case& test_case) {
+  return test_case.motion->dof() <= 2 && test_case.problem.contacts.size() <= 1;
 }
 
-std::vector<record::Column> collision_columns(const cases::Case& which) {
-  std::vector<record::Column> columns{{"k", "", "number of the collision"},
+std::vector<record::Column> impact_columns(const cases::Case& test_case) {
+  std::vector<record::Column> columns{{"k", "", "number of the impact"},
                                       {"t", "s", "its time, the nearest double"}};
-  const bool names_contact = which.problem.contacts.size() > 1;
+  const bool names_contact = test_case.problem.contacts.size() > 1;
   if (names_contact) columns.push_back({"contact", "", "number of the contact, from 0"});
-  for (int i = 1; i <= which.motion->dof(); ++i) {
-    if (i == 1 || !has_one_place(which))
+  for (int i = 1; i <= test_case.motion->dof(); ++i) {
+    if (i == 1 || !has_one_place(test_case))
       columns.push_back({fmt::format("u{}", i), "m", fmt::format("displacement of mass {}", i)});
     columns.push_back(
         {fmt::format("v{}-", i), "m/s", fmt::format("velocity of mass {} just before", i)});
@@ -34,21 +34,20 @@ std::vector<record::Column> collision_columns(const cases::Case& which) {
   return columns;
 }
 
-class CollisionRows : public record::NumberRows {
+class ImpactRows : public record::NumberRows {
  public:
-  explicit CollisionRows(const cases::Case& which)
-      : motion_(*which.motion),
-        name_(which.entry->name),
+  explicit ImpactRows(const cases::Case& test_case)
+      : motion_(*test_case.motion),
+        name_(test_case.entry->name),
         total_(motion_.impact_count(motion_.end())),
-        columns_(collision_columns(which)),
-        names_contact_(which.problem.contacts.size() > 1),
-        has_one_place_(has_one_place(which)) {}
+        columns_(impact_columns(test_case)),
+        names_contact_(test_case.problem.contacts.size() > 1),
+        has_one_place_(has_one_place(test_case)) {}
 
-  std::string schema() const override { return "clackers/collisions/1"; }
+  std::string schema() const override { return "clackers/impacts/1"; }
   std::string title() const override {
-    if (total_ > 0) return "Collisions of " + name_;
-    return fmt::format("Collisions of {}: none until the end of its run, {} s", name_,
-                       motion_.end());
+    if (total_ > 0) return "Impacts of " + name_;
+    return fmt::format("Impacts of {}: none until the end of its run, {} s", name_, motion_.end());
   }
   const std::vector<record::Column>& columns() const override { return columns_; }
 
@@ -81,8 +80,8 @@ class CollisionRows : public record::NumberRows {
 
 }  // namespace
 
-std::unique_ptr<record::RowSource> collisions(const cases::Case& which) {
-  return std::make_unique<CollisionRows>(which);
+std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case) {
+  return std::make_unique<ImpactRows>(test_case);
 }
 
 }  // namespace clackers::tables

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/measure/impacts/collision_finder.hpp"
+#include "clackers/measure/impacts/impact_finder.hpp"
 #include "clackers/measure/testing/sampled_motion.hpp"
 
 namespace clackers::measure {
@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-TEST(CollisionFinder, InventsNothingInFreeMotion) {
+TEST(ImpactFinder, InventsNothingInFreeMotion) {
   for (const double w2 : {1.0, 1.4, 5.0, 9.0, 40.0})
     for (const double phase : {0.0, 0.7, 2.0})
       for (const double a_period : {10.0, 11.7, 30.0, 300.0})
@@ -19,24 +19,24 @@ TEST(CollisionFinder, InventsNothingInFreeMotion) {
           const double step = 2.0 * pi / (w2 * a_period);
           const auto history =
               sampled(unconstrained_motion(1.0, w2, phase), 40.0, step, velocities);
-          EXPECT_EQ(find_collisions(history, masses(1.0, w2)).size(), 0u)
+          EXPECT_EQ(find_impacts(history, masses(1.0, w2)).size(), 0u)
               << "w2 " << w2 << " phase " << phase << " rows a period " << a_period
               << (velocities ? " with" : " without") << " velocities";
         }
 }
 
-TEST(CollisionFinder, InventsNothingInSixDigits) {
+TEST(ImpactFinder, InventsNothingInSixDigits) {
   for (const double a_period : {10.0, 300.0, 3000.0})
     for (const bool velocities : {true, false}) {
       const auto history = sampled(unconstrained_motion(1.0, 5.0, 0.7), 10.0,
                                    2.0 * pi / (5.0 * a_period), velocities);
-      EXPECT_EQ(find_collisions(printed(history, 6), masses(1.0, 5.0)).size(), 0u)
+      EXPECT_EQ(find_impacts(printed(history, 6), masses(1.0, 5.0)).size(), 0u)
           << a_period << (velocities ? " with" : " without") << " velocities";
     }
 }
 
 // Masses that swing in contact and do not press: the gap and its rate are the rounding of digits.
-TEST(CollisionFinder, InventsNothingInAContactThatMoves) {
+TEST(ImpactFinder, InventsNothingInAContactThatMoves) {
   auto problem = masses(1.0, 1.0);
   problem.contacts[0].direction = Eigen::Vector2d(1.0, -3.0);
   const StateAt together = [](double t) {
@@ -45,29 +45,28 @@ TEST(CollisionFinder, InventsNothingInAContactThatMoves) {
   };
   for (const double step : {0.3, 0.01})
     for (const bool velocities : {true, false})
-      EXPECT_EQ(
-          find_collisions(printed(sampled(together, 20.0, step, velocities), 6), problem).size(),
-          0u)
+      EXPECT_EQ(find_impacts(printed(sampled(together, 20.0, step, velocities), 6), problem).size(),
+                0u)
           << step << (velocities ? " with" : " without") << " velocities";
 }
 
 // An impact that a method spreads over two steps: the rate of the gap goes -2, -0.6, 2.
-TEST(CollisionFinder, TakesAnImpactOverTwoStepsForOne) {
+TEST(ImpactFinder, TakesAnImpactOverTwoStepsForOne) {
   const auto free = Penalty{1e12};  // as good as rigid
   auto history = sampled(free, 3.0, 0.05, true);
   std::size_t behind = 0;
   while (history.t[behind] < 0.5 * pi) ++behind;
   history.v[2 * behind] = -0.3;
   history.v[2 * behind + 1] = 0.3;
-  const auto found = find_collisions(history, equal_masses());
+  const auto found = find_impacts(history, equal_masses());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].impact.t, 0.5 * pi, 1e-6);
   EXPECT_EQ(found[0].end, history.t[behind + 1]);
   EXPECT_NEAR(found[0].impact.v_after[0], history.v[2 * behind + 2], 1e-12);
 }
 
-// Without restitution both stop for ever; a contact at rest is no collision.
-TEST(CollisionFinder, FindsTheCollisionThatEndsInRest) {
+// Without restitution both stop for ever; a contact at rest is no impact.
+TEST(ImpactFinder, FindsTheImpactThatEndsInRest) {
   const StateAt stops = [](double t) {
     const double x = t - 0.5 * pi;
     if (x > 0.0) return FreeState{t, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
@@ -75,7 +74,7 @@ TEST(CollisionFinder, FindsTheCollisionThatEndsInRest) {
                      Eigen::Vector2d(-std::cos(x), std::cos(x))};
   };
   for (const bool velocities : {true, false}) {
-    const auto found = find_collisions(sampled(stops, 10.0, 0.0503, velocities), equal_masses());
+    const auto found = find_impacts(sampled(stops, 10.0, 0.0503, velocities), equal_masses());
     ASSERT_EQ(found.size(), 1u) << velocities;
     EXPECT_NEAR(found[0].impact.t, 0.5 * pi, velocities ? 1e-8 : 1e-5);
     EXPECT_NEAR(found[0].impact.v_before[0], -1.0, velocities ? 1e-8 : 1e-3);
@@ -85,7 +84,7 @@ TEST(CollisionFinder, FindsTheCollisionThatEndsInRest) {
 }
 
 // Mass 1 falls on a stop and stays there, a little too deep, pressed by its load.
-TEST(CollisionFinder, TakesTheEndOfAFallForItsWholeCollision) {
+TEST(ImpactFinder, TakesTheEndOfAFallForItsWholeImpact) {
   auto problem = equal_masses();
   problem.contacts[0] = {Eigen::Vector2d(1.0, 0.0), 0.0, 0.0};
   problem.system.stiffness.setZero();
@@ -96,7 +95,7 @@ TEST(CollisionFinder, TakesTheEndOfAFallForItsWholeCollision) {
     return FreeState{t, Eigen::Vector2d(rests ? -1e-12 : 1.0 - 0.5 * t * t, -1.0),
                      Eigen::Vector2d(rests ? 0.0 : -t, 0.0)};
   };
-  const auto found = find_collisions(sampled(motion, 4.0, 0.03, true), problem);
+  const auto found = find_impacts(sampled(motion, 4.0, 0.03, true), problem);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].impact.t, fall, 1e-9);
   EXPECT_NEAR(found[0].end, fall, 0.03);
@@ -105,14 +104,14 @@ TEST(CollisionFinder, TakesTheEndOfAFallForItsWholeCollision) {
 }
 
 // Masses that pass through each other with one wrong velocity while they turn.
-TEST(CollisionFinder, TakesAKickInsideForNoCollision) {
+TEST(ImpactFinder, TakesAKickInsideForNoImpact) {
   auto history = sampled(unconstrained_motion(1.0, 1.0, 0.0), 6.0, 0.05, true);
   history.v[2 * 63] += 0.1;  // t = 3.15, just behind the deepest point
-  EXPECT_EQ(find_collisions(history, equal_masses()).size(), 0u);
+  EXPECT_EQ(find_impacts(history, equal_masses()).size(), 0u);
 }
 
 // Rest that rounding shakes.
-TEST(CollisionFinder, TakesTheTremorOfRestForRest) {
+TEST(ImpactFinder, TakesTheTremorOfRestForRest) {
   model::Trajectory history;
   history.dof = 2;
   for (int i = 0; i < 400; ++i) {
@@ -122,11 +121,11 @@ TEST(CollisionFinder, TakesTheTremorOfRestForRest) {
     history.u.insert(history.u.end(), {u, -u});
     history.v.insert(history.v.end(), {v, -v});
   }
-  EXPECT_EQ(find_collisions(history, equal_masses()).size(), 1u);
+  EXPECT_EQ(find_impacts(history, equal_masses()).size(), 1u);
 }
 
 // Mass 2 between mass 1 and a floor at -1.2: it hits the floor while mass 1 is far away.
-TEST(CollisionFinder, TellsContactsApart) {
+TEST(ImpactFinder, TellsContactsApart) {
   auto problem = equal_masses();
   problem.contacts.push_back({Eigen::Vector2d(0.0, 1.0), -1.2, 1.0});
   const double hit = std::acos(-1.2 / 2.0) + 0.5 * pi - std::acos(0.0);  // 2 cos t = -1.2
@@ -137,7 +136,7 @@ TEST(CollisionFinder, TellsContactsApart) {
   };
   problem.system.stiffness(0, 0) = 0.0;
   for (const bool velocities : {true, false}) {
-    const auto found = find_collisions(sampled(motion, 2.0 * hit, 0.03, velocities), problem);
+    const auto found = find_impacts(sampled(motion, 2.0 * hit, 0.03, velocities), problem);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].impact.contact, 1);
     EXPECT_NEAR(found[0].impact.t, hit, 1e-6);
@@ -146,8 +145,8 @@ TEST(CollisionFinder, TellsContactsApart) {
   }
 }
 
-// A load that pushes the masses apart is no collision, and is known where there is one.
-TEST(CollisionFinder, KnowsLoadsAndForces) {
+// A load that pushes the masses apart is no impact, and is known where there is one.
+TEST(ImpactFinder, KnowsLoadsAndForces) {
   auto problem = equal_masses();
   problem.system.stiffness.setZero();
   problem.system.add_load = [](double, std::span<double> force) { force[0] += 50.0; };
@@ -155,17 +154,16 @@ TEST(CollisionFinder, KnowsLoadsAndForces) {
     const double x = t - 0.2;  // turned round at the bottom, u1 = 1e-3 there
     return FreeState{t, Eigen::Vector2d(1e-3 + 25.0 * x * x, 0.0), Eigen::Vector2d(50.0 * x, 0.0)};
   };
-  EXPECT_EQ(find_collisions(sampled(bounce, 0.5, 0.011, true), problem).size(), 0u);
+  EXPECT_EQ(find_impacts(sampled(bounce, 0.5, 0.011, true), problem).size(), 0u);
   problem.system.add_load = {};
-  EXPECT_EQ(find_collisions(sampled(bounce, 0.5, 0.011, true), problem).size(), 1u);
+  EXPECT_EQ(find_impacts(sampled(bounce, 0.5, 0.011, true), problem).size(), 1u);
 }
 
-TEST(CollisionFinder, HasNothingToFindWithoutAContact) {
+TEST(ImpactFinder, HasNothingToFindWithoutAContact) {
   auto problem = masses(1.0, 2.0);
   problem.contacts.clear();
   EXPECT_TRUE(
-      find_collisions(sampled(unconstrained_motion(1.0, 2.0, 0.0), 10.0, 0.1, true), problem)
-          .empty());
+      find_impacts(sampled(unconstrained_motion(1.0, 2.0, 0.0), 10.0, 0.1, true), problem).empty());
 }
 
 TEST(FreeMotion, IsThatOfTheEquationOfMotion) {
