@@ -6,8 +6,8 @@
 
 #include "benchmarks/banded_newmark.hpp"
 #include "benchmarks/measure.hpp"
+#include "clackers/exact/assembly/assemblies.hpp"
 #include "clackers/exact/assembly/assembly.hpp"
-#include "clackers/exact/assembly/buildings.hpp"
 
 // Motions of many masses beside what a step of a method, or a cosine, costs:
 // clackers_benchmark_assemblies.

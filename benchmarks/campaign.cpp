@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "benchmarks/measure.hpp"
-#include "clackers/campaign/plan.hpp"
 #include "clackers/campaign/run.hpp"
 
 // What a campaign costs beside its runs, and what a second thread gains: clackers_benchmark_campaign.

@@ -1,20 +1,17 @@
-#include "cli/command_line.hpp"
+#include "cli/command.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <span>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/solvers/program.hpp"
-#include "cli/command.hpp"
 #include "cli/files/output_stream.hpp"
 #include "cli/files/paths.hpp"
-#include "cli/help/completion.hpp"
 #include "cli/help/help.hpp"
-#include "cli/help/shell_files.hpp"
 
 namespace clackers::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "cli/command_line.hpp"
+#include "cli/command.hpp"
 #include "cli/files/output_stream.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"

@@ -1,4 +1,4 @@
-#include "cli/requirements.hpp"
+#include "cli/values.hpp"
 
 #include "clackers/report/words/words.hpp"
 #include "cli/messages.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "clackers/base/suggest.hpp"
+#include "clackers/base/check.hpp"
 
 namespace clackers::paper {
 namespace {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <atomic>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "clackers/record/sheet.hpp"
 #include "paper/figure.hpp"
 
 namespace clackers::paper {
@@ -45,5 +47,18 @@ Figure positive_definite();                             ///< appendix.cpp: Fig. 
 Figure amplitudes();                                    ///< appendix.cpp: Fig. A.2
 Figure near_miss();                                     ///< near_miss.cpp: Fig. A.3
 Figure validation(const std::atomic<bool>* interrupt);  ///< validation.cpp: section 2.3
+
+/// The numbers behind a figure as csv, unreduced: panel,series,x_name,x,y_name,y; numbers read back
+/// to the same double. A vertical line has an empty y.
+void write_csv(const Figure& figure, std::ostream& out);
+
+/// Every claim of the figures with its verdict, a row each.
+record::Sheet claims_of(const std::vector<Figure>& figures);
+
+/// What `clackers list figures` shows.
+record::Sheet list_figures();
+
+/// "holds", "holds in part" (see Claim) or "differs".
+const char* verdict_of(const Claim& claim);
 
 }  // namespace clackers::paper

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "clackers/base/error.hpp"
-#include "paper/table.hpp"
 
 namespace clackers::paper {
 namespace {

@@ -6,9 +6,8 @@
 #include "clackers/base/files.hpp"
 #include "clackers/base/json.hpp"
 #include "clackers/record/provenance.hpp"
+#include "paper/catalogue.hpp"
 #include "paper/rendering/page.hpp"
-#include "paper/rendering/specification.hpp"
-#include "paper/table.hpp"
 
 namespace clackers::paper {
 namespace {

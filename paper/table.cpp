@@ -1,7 +1,6 @@
-#include "paper/table.hpp"
+#include "paper/catalogue.hpp"
 
 #include "clackers/report/write.hpp"
-#include "paper/catalogue.hpp"
 
 namespace clackers::paper {
 

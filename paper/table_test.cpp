@@ -1,4 +1,4 @@
-#include "paper/table.hpp"
+#include "paper/catalogue.hpp"
 
 #include <gtest/gtest.h>
 

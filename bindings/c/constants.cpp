@@ -4,7 +4,7 @@
 #include "bindings/c/guard.hpp"
 #include "bindings/c/handle.hpp"
 #include "bindings/c/versioned.hpp"
-#include "clackers/base/suggest.hpp"
+#include "clackers/base/check.hpp"
 #include "clackers/cases/case.hpp"
 
 namespace clackers::c_api {

@@ -8,7 +8,7 @@
 
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
-#include "clackers/base/suggest.hpp"
+#include "clackers/base/check.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/write.hpp"

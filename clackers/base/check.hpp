@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace clackers {
@@ -13,5 +15,13 @@ double require_within(std::string_view who, std::string_view name, double value,
                       double highest);
 /// Returns the step h in seconds, or throws InputError unless 0 < h < infinity.
 double require_step(std::string_view who, double h);
+
+/// The known name nearest to a misspelled one, or an empty string when none is near: edit
+/// distance (insert, delete, replace, swap of neighbours), at most a third of the length plus one.
+std::string nearest(std::string_view given, std::span<const std::string> known);
+
+/// Throws InputError: `who: no WHAT "given". Did you mean "x"? All names: WHERE_LISTED`.
+[[noreturn]] void refuse_name(std::string_view what, std::string_view given,
+                              std::span<const std::string> known, std::string_view where_listed);
 
 }  // namespace clackers

@@ -14,15 +14,15 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"reduced", "behaviour",
      "The line is straight but its slope is lower than the order the method claims."},
     {"irregular", "behaviour",
-     "The error shrinks with the step, yet scatters so much between neighbouring steps that no line can be fitted; "
-     "the order of the upper envelope over many neighbouring steps is given instead. "
-     "Usual for methods that notice an impact only at the end of a step."},
+     "The error shrinks with the step, but scatters so much within each level that no line can be fitted; "
+     "the order of the upper envelope is given instead. "
+     "Usual for methods that detect an impact only at the end of a step."},
     {"stagnating", "behaviour",
-     "The error stops shrinking above the rounding floor. The reason is given beside it."},
+     "The error stops shrinking above the rounding floor. The message gives the reason."},
     {"divergent", "behaviour",
      "The error grows when the step is refined, or the energy of the run leaves [1/2, 2] of the true one, or simultaneous impacts end in another motion."},
     {"undecided", "behaviour",
-     "The runs do not carry a judgement; what to change is said beside it."},
+     "These runs are not enough for a verdict. The message says what to change."},
     {"contact-stiffness", "reason",
      "The floor is the model error of a compliant contact: "
      "each impact lasts a contact time instead of an instant. "
@@ -46,14 +46,14 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"simultaneous-impacts", "reason",
      "Several contacts close at one instant, and the method finds them one after the other. Impacts one by one end in another motion than the impacts of one instant, whatever the step. Use a treatment that solves all contacts of a step together, such as moreau-jean."},
     {"one-sample-a-level", "reason",
-     "There is one step a level, and the errors go up and down: scatter cannot be told from order. "
+     "There is one step a level, and the errors go up and down: scatter cannot be distinguished from order. "
      "Add three steps between each two, in the ratio 2^(1/4) (h, h/1.19, h/1.41, h/1.68, h/2)."},
     {"more-neighbours", "reason",
-     "The errors scatter so much between neighbouring steps that the order is uncertain. "
-     "Add neighbouring steps to each level: eight in the ratio 2^(1/8) halve the uncertainty of two."},
+     "The errors scatter so much that the order is uncertain. "
+     "Use more samples per level: eight in the ratio 2^(1/8) halve the uncertainty of two."},
     {"errors-cancel", "reason",
      "The signed error passes zero near a step, where two of its terms cancel; the order is that of the term that is left below it. "
-     "Steps around it say nothing; use smaller ones."},
+     "Errors of steps around it are not representative; use smaller steps."},
     {"error-grows-again", "reason",
      "The error falls and then grows again with smaller steps: something grows with their number, as summed times, single precision or a tolerance of each step do. "
      "Smaller steps make it worse."},
@@ -111,7 +111,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "The initial state violates a contact: its gap is negative, or closed and closing."},
     {"not-odd", "refusal",
      "The frequency ratio X must be an odd whole number, or 1 over one; "
-     "only then do both masses pass equilibrium together at every collision."},
+     "only then do both masses pass equilibrium together at every impact."},
     {"not-admissible", "refusal",
      "The mass ratio r reaches r*(X): "
      "the masses would also touch away from equilibrium and the closed form would not hold. "
@@ -138,7 +138,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"not-whole", "refusal",
      "A whole number was asked for and one with a fraction was given."},
     {"penalty-needs-elastic", "refusal",
-     "An elastic contact law gives back what it takes, so it can only stand for restitution 1; "
+     "An elastic contact law dissipates no energy, so it models only restitution 1; "
      "penalty:law=kelvin-voigt and others have a restitution."},
     {"law-needs-restitution", "refusal",
      "The contact law has no coefficients for this restitution; choose another law or another restitution."},
@@ -158,7 +158,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"tolerance-too-small", "refusal",
      "The tolerance is below what rounding allows."},
     {"beyond-last-impact", "refusal",
-     "Collisions end before the index that was asked for."},
+     "The motion has no impact with the requested number."},
     {"no-closed-form", "refusal",
      "Energies, sensitivities and spectra are known for motions in closed form only."},
     {"no-derivative", "refusal",
@@ -182,13 +182,13 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "A NumPy file (.npy) that is cut, damaged, longer than its array, of Python objects, or of "
      "another shape than rows of numbers. Save the columns with numpy.save."},
     {"no-column", "refusal",
-     "A column that is needed is missing or stands twice, or the columns have no names. "
+     "A column that is needed is missing or appears twice, or the columns have no names. "
      "Name them in a header line or with --columns t,u1,v1,...; an underscore leaves one out."},
     {"ragged-row", "refusal",
      "A row has more or fewer fields than the header or the first row."},
     {"decimal-comma", "refusal",
      "Numbers take a decimal point. "
-     "A file with decimal commas must be written anew, for example with tr where commas separate nothing."},
+     "A file with decimal commas must be written again, for example with tr where commas separate nothing."},
     {"not-sorted", "refusal",
      "Times must not descend, and at most two rows may have the same time: "
      "the left and the right limit of a jump. Sort the rows, or print times with more digits."},
@@ -196,13 +196,13 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "A history needs at least two different times."},
     {"not-this-case", "refusal",
      "The history starts from another state than the case. "
-     "The message says which value differs and, where one parameter can mend it, its value for --set."},
+     "The message says which value differs and, where one parameter explains it, its value for --set."},
     {"printed-digits", "reason",
      "The floor is the rounding of the printed numbers. "
      "Print more digits: 17 keep a double whole."},
     {"sparse-rows", "reason",
-     "The rows of the history lie too far apart to find collisions in them. "
-     "Print more rows, or give the collisions with --events."},
+     "The rows of the history lie too far apart to find impacts in them. "
+     "Print more rows, or give the impacts with --events."},
     // Causes of what histories show.
     {"restitution-differs", "diagnosis",
      "The history is that of another restitution: relative velocities after impacts are another multiple of those before. Check the impact law and its coefficient."},
@@ -225,9 +225,9 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"unit-scaled", "diagnosis",
      "Displacements or velocities are those of the case times one factor. Convert them to m and m/s."},
     {"columns-exchanged", "diagnosis",
-     "Columns are in another order than their names. The message has the --columns that mends it."},
+     "Columns are in another order than their names. The message has the --columns that corrects it."},
     {"masses-exchanged", "diagnosis",
-     "The columns of the two masses are exchanged. The message has the --columns that mends it."},
+     "The columns of the two masses are exchanged. The message has the --columns that corrects it."},
     {"sign-reversed", "diagnosis",
      "Displacements are measured in the opposite direction. Reverse the sign of the columns that the message names."},
     {"velocity-at-half-steps", "diagnosis",
@@ -243,7 +243,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"impact-impulse-wrong", "diagnosis",
      "The impulse of the impacts is a constant multiple of the right one. Check effective masses and the factor 1 + eta."},
     {"impact-at-step-end", "diagnosis",
-     "Impacts are applied at the end or at the start of the step in which they happen, which limits the order to one and makes errors of neighbouring steps scatter. Locate the impact within the step."},
+     "Impacts are applied at the end or at the start of the step in which they happen, which limits the order to one and makes the errors scatter. Locate the impact within the step."},
     {"impact-interpolated", "diagnosis",
      "States at impacts are interpolated at a lower order than the integrator has, which limits the order of all that follows. Locate impacts with dense output of the integrator's order, or by steps of part of h."},
     {"impact-tolerance", "diagnosis",
@@ -251,13 +251,13 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"contact-compliant", "diagnosis",
      "Contacts last a time and penetrate: the contact is a spring, not rigid. A stiffer spring with smaller steps comes closer to rigid impacts."},
     {"contact-in-tension", "diagnosis",
-     "The contact pulls: masses stay together where a contact can only push. Let the contact force act in compression alone."},
+     "The contact pulls: masses stay together where a contact can only push. Let the contact force act only in compression."},
     {"single-precision", "diagnosis",
      "Numbers have the 24 bits of single precision. Compute and print in double precision."},
     {"noise-floor", "diagnosis",
      "The error ends in a rough floor without a trend: noise of the solver's arithmetic, iteration or output. Tighten the tolerances of iterations and print all digits; smaller steps do not help."},
     {"commensurate-steps", "diagnosis",
-     "Some steps divide the time between impacts, so that impacts fall on steps and their error vanishes there by luck. Use steps that do not."},
+     "Some steps divide the time between impacts, so that impacts fall on ends of steps, and the error of their times vanishes. Use steps that do not."},
     {"numerical-damping", "diagnosis",
      "The history loses energy that the motion keeps, less with smaller steps: the dissipation of the method. Use smaller steps or a method without dissipation."},
     {"period-error", "diagnosis",
@@ -281,7 +281,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "Numbers (csv) and specifications (vl.json) were written all the same."},
     {"program-failed", "failure",
      "A program of `verify --exec` could not be started, ended with a status other than 0, or was "
-     "ended by a signal. Its run is a failed one of its step; what it printed last stands beside it."},
+     "ended by a signal. Its run is a failed one of its step; the message has its last output."},
     {"program-timeout", "failure",
      "A program of `verify --exec` was still running after the time of `--timeout`, and was ended "
      "with all that it had started."},
@@ -290,7 +290,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "more than can be read."},
     {"callable-failed", "failure",
      "A callable under test (clackers.verify of Python) raised an exception. Its run is a failed one "
-     "of its step; the end of the traceback stands beside it."},
+     "of its step; the message has the end of the traceback."},
     {"callable-output", "failure",
      "A callable under test (clackers.verify of Python) returned something that is no history: return "
      "(t, u), (t, u, v) or (t, u, v, a), u of shape (time, dof), or a result of SciPy's solve_ivp."},
@@ -298,7 +298,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "The folder of --out holds files that the command did not write. "
      "It is replaced as a whole, so give another name, or move them away."},
     {"too-many-runs", "refusal",
-     "The campaign has more runs than are started unasked. Use fewer values, points, methods or levels, or give --yes."},
+     "The campaign has more runs than are started without --yes. Use fewer values, points, methods or levels, or give --yes."},
     {"not-a-campaign", "refusal",
      "The file is no database of a campaign and no results for an atlas, or a damaged or half written one, or nothing in it is finished. Give another name, or move it away."},
     {"other-campaign", "refusal",

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 
 namespace clackers {
 namespace {

@@ -1,4 +1,4 @@
-#include "clackers/base/suggest.hpp"
+#include "clackers/base/check.hpp"
 
 #include <gtest/gtest.h>
 

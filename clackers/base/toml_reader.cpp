@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/number.hpp"
-#include "clackers/base/suggest.hpp"
 
 namespace clackers {
 

@@ -1,4 +1,4 @@
-#include "clackers/campaign/plan.hpp"
+#include "clackers/campaign/run.hpp"
 
 #include <fmt/format.h>
 

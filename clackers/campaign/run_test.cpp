@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "clackers/base/testing/refusal.hpp"
-#include "clackers/campaign/plan.hpp"
 #include "clackers/campaign/testing/database_fixture.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/study/verify.hpp"

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "clackers/campaign/specification/sampling.hpp"
-
 namespace clackers::campaign {
 namespace {
 

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "clackers/base/testing/refusal.hpp"
-#include "clackers/campaign/specification/sampling.hpp"
 
 namespace clackers::campaign {
 namespace {

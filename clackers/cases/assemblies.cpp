@@ -3,11 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/exact/assembly/alternating.hpp"
+#include "clackers/exact/assembly/assemblies.hpp"
 #include "clackers/exact/assembly/assembly.hpp"
 #include "clackers/exact/assembly/building_shape.hpp"
-#include "clackers/exact/assembly/buildings.hpp"
-#include "clackers/exact/assembly/row.hpp"
 
 namespace clackers::cases {
 namespace {

@@ -8,9 +8,8 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
-#include "clackers/cases/constants.hpp"
 #include "clackers/cases/row.hpp"
+#include "clackers/cases/rows.hpp"
 #include "clackers/exact/pair/admissibility.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/exact/pair/parameters.hpp"

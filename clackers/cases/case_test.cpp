@@ -7,7 +7,7 @@
 
 #include "clackers/base/files.hpp"
 #include "clackers/base/testing/refusal.hpp"
-#include "clackers/model/problem_text.hpp"
+#include "clackers/model/problem_file.hpp"
 
 namespace clackers::cases {
 namespace {

@@ -1,4 +1,4 @@
-#include "clackers/cases/constants.hpp"
+#include "clackers/cases/rows.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "clackers/exact/quantities/conditioning.hpp"
-#include "clackers/exact/quantities/indicators.hpp"
+#include "clackers/exact/quantities/quantities.hpp"
 
 namespace clackers::cases {
 namespace {

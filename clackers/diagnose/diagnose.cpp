@@ -26,7 +26,7 @@ void add(std::vector<Diagnosis>& all, std::vector<Diagnosis> more) {
 
 }  // namespace
 
-std::vector<Diagnosis> diagnose(const Question& question) {
+std::vector<Diagnosis> diagnose(const DiagnosisInput& question) {
   std::vector<Diagnosis> found;
   if (!question.is_this_system) add(found, file_causes(question));
   const bool is_readable = std::ranges::none_of(found, is_unreadable);

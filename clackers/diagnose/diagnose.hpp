@@ -13,7 +13,7 @@
 namespace clackers::diagnose {
 
 /// All that a cause may be looked for in.
-struct Question {
+struct DiagnosisInput {
   const model::ImpactProblem<>& problem;
   const model::Motion& motion;
   /// The finished histories, coarsest first; empty for a method whose runs are not stored.
@@ -29,10 +29,10 @@ struct Question {
 
 /// The causes that explain the histories, strongest first, each at most once; empty for a correct
 /// solver whose steps are fine.
-std::vector<Diagnosis> diagnose(const Question& question);
+std::vector<Diagnosis> diagnose(const DiagnosisInput& question);
 
 /// The rows at the start of a history that is refused, or not yet compared.
-struct Opening {
+struct FirstRows {
   double step = 0.0;        ///< [s], 0 where it is not known
   model::Trajectory rows;   ///< as read; `v` may be empty
   std::vector<bool> has_u;  ///< one entry a mass
@@ -54,7 +54,7 @@ struct Opening {
 /// -0.5 steps; of an exchange the factor where there is one as well, else NaN. `text`: of
 /// unit-scaled "mm", "u mm" or "v mm/s", or "u" or "v" for a factor that is no known unit; of
 /// sign-reversed the columns "u2,v2"; of an exchange the value of --columns that mends it.
-std::optional<Diagnosis> diagnose_start(const Opening& opening,
+std::optional<Diagnosis> diagnose_start(const FirstRows& opening,
                                         const model::ImpactProblem<>& problem,
                                         const model::Motion& motion);
 

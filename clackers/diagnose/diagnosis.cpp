@@ -1,12 +1,7 @@
 #include "clackers/diagnose/diagnosis.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <optional>
-
-#include "clackers/base/number.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -127,7 +122,7 @@ constexpr auto all_causes = std::to_array<Cause>({
     {"contact-in-tension", Group::impacts, Effect::open, "1",
      "impulse in tension over impulse in compression",
      "The contact pulls[, with {share_percent} of its impulse in tension]",
-     "let the contact force act in compression alone."},
+     "let the contact force act only in compression."},
     {"wrong-limit", Group::ladder, Effect::open, "1",
      "distance of the limit over the envelope",
      "The histories converge[ with order {order}] to another motion[, {value} of the envelope away]",
@@ -138,16 +133,16 @@ constexpr auto all_causes = std::to_array<Cause>({
      "tighten tolerances of the solver; smaller steps will not help."},
     {"commensurate-steps", Group::ladder, Effect::method, "1",
      "part of the steps",
-     "Small errors of some steps[, {share_percent} of all,] are luck, because they divide the time between impacts[, {time} s]",
+     "Small errors of some steps[, {share_percent} of all,] are coincidence: the steps divide the time between impacts[, {time} s]",
      "use steps that do not divide it."},
     {"numerical-damping", Group::method, Effect::method, "1",
      "part of the energy that is lost at the finest step",
      "The method takes {percent} of the energy[ at h = {step} s], less with smaller steps[ (order {order})]",
-     "no fault of the model; use smaller steps or a method without dissipation."},
+     "the error is the method's, not the model's; use smaller steps, or a method without dissipation."},
     {"period-error", Group::method, Effect::method, "%",
      "relative change of the frequency at the finest step",
      "The motion {runs}[ at h = {step} s], less with smaller steps[ (order {order})]",
-     "no fault of the model; use smaller steps."},
+     "the error is the method's, not the model's; use smaller steps."},
     {"unstable-coarse-steps", Group::other, Effect::method, "s",
      "largest stable step",
      "Runs[ with h = {step} s and more] fail or grow without bound[; h = {value} s does not]",
@@ -235,136 +230,6 @@ bool contains(const Codes& codes, const std::string& code) {
   return std::ranges::find(codes, code, &Code::name) != codes.end();
 }
 
-std::string plain(double value, int digits = 4) {
-  return std::isnan(value) ? std::string() : short_number(value, digits);
-}
-
-// With as many digits as the uncertainty leaves, "0.9900 ±0.0001".
-std::string with_uncertainty(double value, double uncertainty) {
-  if (!(uncertainty > 0.0) || !std::isfinite(uncertainty)) return plain(value, 6);
-  if (uncertainty < 1e-6 * std::abs(value) || uncertainty >= std::abs(value))
-    return fmt::format("{} ±{}", plain(value, 7), short_number(uncertainty, 1));
-  const int decimals = std::clamp(int(-std::floor(std::log10(uncertainty))), 0, 12);
-  return fmt::format("{:.{}f} ±{:.{}f}", value, decimals, uncertainty, decimals);
-}
-
-std::string percent(double share, int digits = 3) {
-  return std::isnan(share) ? std::string() : short_number(100.0 * share, digits) + " %";
-}
-
-// The value as a share, which is in per cent or not.
-double share_of(const Diagnosis& cause) {
-  return cause.unit == "%" ? cause.value / 100.0 : cause.value;
-}
-
-// A relative change, "differs by +0.50 %", or another value, "looks like 0.75 instead of 0.5".
-std::string looks(const Diagnosis& cause) {
-  const double expected = cause.fact("expected"), uncertainty = cause.fact("uncertainty");
-  if (!std::isnan(expected) && expected != 0.0)
-    return fmt::format("looks like {} instead of {}", with_uncertainty(cause.value, uncertainty),
-                       plain(expected, 6));
-  const double scale = cause.unit == "%" ? 1.0 : 100.0;
-  return fmt::format("differs by {}{} %", cause.value > 0.0 ? "+" : "",
-                     with_uncertainty(scale * cause.value, scale * uncertainty));
-}
-
-std::string shift(const Diagnosis& cause) {
-  const double size = std::abs(cause.value);
-  const auto number = with_uncertainty(size, cause.fact("uncertainty"));
-  return fmt::format("{} {}", number, size == 1.0 && cause.unit == "steps" ? "step" : cause.unit);
-}
-
-// "u mm" of unit-scaled: the quantity and the unit.
-std::string quantity(const Diagnosis& cause) {
-  const bool is_part = cause.text.starts_with("u ") || cause.text.starts_with("v ") ||
-                       cause.text == "u" || cause.text == "v";
-  if (!is_part) return "Displacements and velocities";
-  return cause.text[0] == 'u' ? "Displacements" : "Velocities";
-}
-
-std::string unit_text(const Diagnosis& cause) {
-  if (cause.text == "u" || cause.text == "v") return {};
-  return cause.text.substr(cause.text.find(' ') + 1);
-}
-
-// What stands for a name in braces; empty where it is not known.
-std::string word(std::string_view name, const Diagnosis& cause) {
-  if (name == "value") return plain(cause.value);
-  if (name == "value_pm")
-    return std::isnan(cause.value) ? std::string()
-                                   : with_uncertainty(cause.value, cause.fact("uncertainty"));
-  if (name == "percent") return percent(share_of(cause));
-  if (name == "share_percent") return percent(cause.fact("share"), 2);
-  if (name == "looks") return looks(cause);
-  if (name == "damping" && cause.unit != "%")
-    return fmt::format("looks like a ratio of {} instead of none",
-                       with_uncertainty(cause.value, cause.fact("uncertainty")));
-  if (name == "damping") return looks(cause);
-  if (name == "runs")
-    return fmt::format("runs {} too {}", percent(std::abs(share_of(cause))),
-                       cause.value > 0.0 ? "fast" : "slow");
-  if (name == "shift") return shift(cause);
-  if (name == "late") return cause.value > 0.0 ? "late" : "early";
-  if (name == "later") return cause.value > 0.0 ? "later" : "earlier";
-  if (name == "impacts" && std::isnan(cause.value) && cause.fact("share") == 1.0)
-    return "All impacts are";
-  if (name == "impacts") return fmt::format("Impact {} is", plain(cause.value, 9));
-  if (name == "number")
-    return plain(std::isnan(cause.value) ? cause.fact("impact") : cause.value, 9);
-  if (name == "quantity") return quantity(cause);
-  if (name == "unit_text") return unit_text(cause);
-  if (name == "text") return cause.text;
-  if (name == "floor") return std::isnan(cause.fact(name)) ? "" : scientific(cause.fact(name));
-  return plain(cause.fact(name), name == "expected" ? 6 : 3);
-}
-
-// A part without brackets; nothing where a word in it is not known.
-std::optional<std::string> filled_part(std::string_view part, const Diagnosis& cause) {
-  std::string text;
-  bool complete = true;
-  for (std::size_t at = 0; at < part.size();) {
-    if (part[at] != '{') {
-      text += part[at++];
-      continue;
-    }
-    const auto end = part.find('}', at);
-    const auto found = word(part.substr(at + 1, end - at - 1), cause);
-    complete = complete && !found.empty();
-    text += found;
-    at = end + 1;
-  }
-  if (!complete) return {};
-  return text;
-}
-
-std::string filled(std::string_view pattern, const Diagnosis& cause) {
-  std::string text;
-  while (!pattern.empty()) {
-    const bool optional = pattern.front() == '[';
-    const auto end = optional ? pattern.find(']') : std::min(pattern.find('['), pattern.size());
-    const auto part = pattern.substr(optional ? 1 : 0, end - (optional ? 1 : 0));
-    if (const auto known = filled_part(part, cause))
-      text += *known;
-    else if (!optional)
-      text += "?";
-    pattern.remove_prefix(optional ? end + 1 : end);
-  }
-  return text;
-}
-
-std::string gain_text(const Diagnosis& cause) {
-  const double gain = cause.fact("gain");
-  if (!(gain >= 2.0)) return {};
-  const auto times = [](double factor) {
-    return factor < 1000.0 ? fmt::format("{:.0f}", factor) : short_number(factor, 1);
-  };
-  auto text = fmt::format(" ({} times closer", times(gain));
-  const double other = cause.fact("runner-up-gain");
-  if (!cause.runner_up.empty() && cause.runner_up != cause.code && other >= 2.0)
-    text += fmt::format("; {}: {} times", cause.runner_up, times(other));
-  return text + ")";
-}
-
 bool surely_has(const Diagnosis& found, Effect effect) {
   const auto* cause = find_cause(found.code);
   return cause != nullptr && cause->effect == effect && found.confidence >= sure;
@@ -378,13 +243,6 @@ const Cause* find_cause(std::string_view code) {
   const auto row =
       std::ranges::find(all_causes, code, [](const Cause& cause) { return cause.code.name(); });
   return row == all_causes.end() ? nullptr : &*row;
-}
-
-std::string sentence_of(const Diagnosis& found) {
-  const auto* cause = find_cause(found.code);
-  if (cause == nullptr) return {};
-  return fmt::format("{}{}: {}", filled(cause->what, found), gain_text(found),
-                     filled(cause->cure, found));
 }
 
 bool brings_about(const Diagnosis& cause, const Diagnosis& implied) {

@@ -13,8 +13,8 @@ struct Limit {
   bool wrong = false;     ///< they converge, and not to the reference
   double distance = 0.0;  ///< largest |u - u*| over its envelope of the finest history's sample
   /// Largest rms difference between the finest history and those of at most twice its step, over
-  /// the rms of its own error. A method of order p has 2^p - 1 there, noise sqrt(2), a wrong limit
-  /// a number that tends to zero. Infinite where nothing could be compared.
+  /// the rms of its own error. It is 2^p - 1 for a method of order p, sqrt(2) for noise, and
+  /// tends to 0 for a wrong limit. Infinite where nothing could be compared.
   double difference = std::numeric_limits<double>::infinity();
   double order = std::numeric_limits<double>::quiet_NaN();  ///< with which differences fall
   int files = 0;  ///< histories within eight times the finest step, the finest among them

@@ -30,7 +30,7 @@ using MotionOf =
 ///
 /// Searched by Gauss-Newton steps from a few sizes of each value; a parameter that takes whole
 /// numbers alone from 0 to 50. About 100 calls of `motion_of` a pair of parameters.
-std::vector<StartParameter> start_parameters(const Opening& opening,
+std::vector<StartParameter> start_parameters(const FirstRows& opening,
                                              const model::ImpactProblem<>& problem,
                                              const model::Motion& motion,
                                              std::span<const StartParameter> parameters,

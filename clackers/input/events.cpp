@@ -1,4 +1,4 @@
-#include "clackers/input/events.hpp"
+#include "clackers/input/history.hpp"
 
 #include <fmt/format.h>
 

@@ -70,4 +70,15 @@ struct History {
 /// file of numbers (not-an-array); FileError when a file cannot be read.
 History read_history(const Source& source, const HistoryOptions& options);
 
+/// Reads a list of impacts from any source: a column t and, where they are known, impulse, u1,
+/// v1-, v1+, u2, ... (v-, v+ for one mass); one column alone needs no name. Other columns are left
+/// out. What is not given of an impact is NaN; a quantity that no mass has is an empty vector. No
+/// rows: there were no impacts. With several `contacts` a column contact names one of them, from
+/// 0.
+///
+/// Throws InputError as read_history does, for times that descend, and for contacts that are missing
+/// or none of the problem's; FileError when a file cannot be read.
+std::vector<model::Impact> read_events(const Source& source, int dof, int contacts = 1,
+                                       const std::atomic<bool>* interrupt = nullptr);
+
 }  // namespace clackers::input

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "clackers/input/events.hpp"
 #include "clackers/input/testing/test_file.hpp"
 
 namespace clackers::input {

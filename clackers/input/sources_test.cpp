@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <limits>
 
-#include "clackers/input/events.hpp"
 #include "clackers/input/history.hpp"
 #include "clackers/input/testing/test_columns.hpp"
 #include "clackers/input/testing/test_file.hpp"

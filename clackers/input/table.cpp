@@ -6,7 +6,6 @@
 #include "clackers/base/error.hpp"
 #include "clackers/input/numbers/number_table.hpp"
 #include "clackers/input/text/input_file.hpp"
-#include "clackers/input/text/separation.hpp"
 #include "clackers/input/text/text_table.hpp"
 
 namespace clackers::input {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/treatment.hpp"

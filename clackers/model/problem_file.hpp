@@ -42,4 +42,43 @@ model::ImpactProblem<> problem_from_text(std::string_view text, const std::strin
 /// The same of a file. Throws FileError (cannot-read) too.
 model::ImpactProblem<> read_problem(const std::string& path);
 
+// A problem as other programs read it. Numbers read back to the same double.
+
+/// The json object `problem`, as `show CASE --format json` has it:
+///
+///     {"M": [[1, 0], [0, 2]], "C": [[...]], "K": [[...]],
+///      "contacts": [{"direction": [1, -1], "gap": 0, "restitution": 1}],
+///      "start": {"t": 0, "u": [...], "v": [...]}, "end": 20}
+///
+/// for M a + C v + K u = 0 from `start` to `end`, g = direction . u - gap >= 0 and
+/// dg/dt(+) = -restitution dg/dt(-); SI units. Where the problem has them,
+///
+///      "loads": [{"dof": 1, "amplitude": 2, "frequency": 3, "phase": 0}],
+///      "springs": [{"direction": [1, -1], "gap": 0, "stiffness": 400}],
+///
+/// add the forces amplitude cos(frequency t + phase) on the right, dof from 1, and
+/// stiffness min(direction . u - gap, 0) direction on the left. Throws InputError (linear-only) for
+/// any other load or nonlinear force.
+std::string problem_json(const model::ImpactProblem<>& problem);
+
+/// A file of that object: {"schema": "clackers/problem/1", "case": name, "problem": {...}}.
+std::string problem_file_json(std::string_view case_name, const model::ImpactProblem<>& problem);
+
+/// The same as lines key=values, numbers separated by blanks, always in this order:
+///
+///     dof=2
+///     contacts=1
+///     t=0
+///     end=20
+///     u=0.11 0
+///     v=0 1
+///     M1=1 0        a line for each row of M; then C1, C2, K1, K2
+///     direction1=1 -1
+///     gap1=0
+///     restitution1=1
+///
+/// with the last three lines for each contact, then lines load1=dof amplitude frequency phase and
+/// spring1=direction gap stiffness for each load and spring. Throws as problem_json does.
+std::string problem_file_text(const model::ImpactProblem<>& problem);
+
 }  // namespace clackers::model

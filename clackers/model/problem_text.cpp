@@ -1,4 +1,4 @@
-#include "clackers/model/problem_text.hpp"
+#include "clackers/model/problem_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "clackers/model/problem_text.hpp"
+#include "clackers/model/problem_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include "clackers/base/json.hpp"
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/model/harmonic_load.hpp"
-#include "clackers/model/problem_file.hpp"
 
 namespace clackers::model {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "clackers/judge/cost/profile_tasks.hpp"
+#include "clackers/judge/cost/performance_profile.hpp"
 #include "clackers/record/record.hpp"
 
 namespace clackers::record {

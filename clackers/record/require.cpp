@@ -6,10 +6,10 @@
 #include <limits>
 #include <optional>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/base/number.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/judge/convergence/judge.hpp"
 
 namespace clackers::record {

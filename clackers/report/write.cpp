@@ -9,14 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "clackers/base/suggest.hpp"
+#include "clackers/base/check.hpp"
 #include "clackers/record/record_json.hpp"
 #include "clackers/report/columns.hpp"
-#include "clackers/report/junit/junit.hpp"
-#include "clackers/report/latex/latex.hpp"
-#include "clackers/report/rows/rows.hpp"
 #include "clackers/report/text/plot.hpp"
-#include "clackers/report/text/text.hpp"
+#include "clackers/report/writers.hpp"
 
 namespace clackers::report {
 namespace {

@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/base/text.hpp"
 
 namespace clackers::solvers {

@@ -8,7 +8,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/files.hpp"
-#include "clackers/model/problem_text.hpp"
+#include "clackers/model/problem_file.hpp"
 #include "clackers/solvers/process.hpp"
 
 namespace clackers::solvers {

@@ -9,7 +9,7 @@
 #include "clackers/base/codes.hpp"
 #include "clackers/diagnose/diagnose.hpp"
 #include "clackers/judge/convergence/judge.hpp"
-#include "clackers/judge/convergence/step_levels.hpp"
+#include "clackers/judge/convergence/step_ladder.hpp"
 
 namespace clackers::study {
 namespace {

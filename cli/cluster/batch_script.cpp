@@ -1,4 +1,4 @@
-#include "cli/cluster/batch_script.hpp"
+#include "cli/cluster/run_on_ranks.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/campaign_actions.hpp"
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <variant>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/campaign/store.hpp"
 #include "clackers/report/write.hpp"

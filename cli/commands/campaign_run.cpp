@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "clackers/base/jobs/work_queue.hpp"
-#include "clackers/campaign/plan.hpp"
 #include "clackers/campaign/run.hpp"
 #include "clackers/report/write.hpp"
 #include "cli/cluster/run_on_ranks.hpp"

@@ -7,7 +7,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/solvers/process.hpp"
-#include "cli/cluster/batch_script.hpp"
+#include "cli/cluster/run_on_ranks.hpp"
 #include "cli/commands/campaign_actions.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/interrupt.hpp"

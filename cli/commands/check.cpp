@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "cli/command.hpp"
 #include "cli/files/record_output.hpp"
 #include "cli/files/report_page.hpp"
@@ -16,7 +16,6 @@
 #include "cli/interrupt.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/requirements.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {

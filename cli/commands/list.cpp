@@ -5,14 +5,14 @@
 #include <memory>
 #include <vector>
 
-#include "clackers/base/suggest.hpp"
+#include "clackers/base/check.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/files/results.hpp"
 #include "cli/options.hpp"
-#include "paper/table.hpp"
+#include "paper/catalogue.hpp"
 
 namespace clackers::cli {
 namespace {

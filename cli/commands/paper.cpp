@@ -15,7 +15,6 @@
 #include "cli/progress_line.hpp"
 #include "paper/catalogue.hpp"
 #include "paper/reproduce.hpp"
-#include "paper/table.hpp"
 
 namespace clackers::cli {
 namespace {

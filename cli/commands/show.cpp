@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/record/provenance.hpp"
 #include "clackers/report/write.hpp"

@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/solvers/program.hpp"
 #include "clackers/study/options.hpp"
@@ -27,7 +27,6 @@
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/progress_line.hpp"
-#include "cli/requirements.hpp"
 #include "cli/values.hpp"
 
 namespace clackers::cli {

@@ -1,11 +1,11 @@
-#include "cli/files/input_files.hpp"
+#include "cli/files/paths.hpp"
 
 #include <fmt/format.h>
 
 #include "clackers/base/error.hpp"
 #include "clackers/input/text/input_file.hpp"
-#include "clackers/input/text/separation.hpp"
 #include "clackers/input/text/text_lines.hpp"
+#include "clackers/input/text/text_table.hpp"
 #include "clackers/record/record_json.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/values.hpp"

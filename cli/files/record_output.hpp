@@ -6,7 +6,7 @@
 
 #include "clackers/report/write.hpp"
 #include "clackers/study/baseline.hpp"
-#include "cli/files/input_files.hpp"
+#include "cli/files/paths.hpp"
 #include "cli/files/results.hpp"
 
 namespace clackers::cli {

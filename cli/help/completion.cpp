@@ -1,4 +1,4 @@
-#include "cli/help/completion.hpp"
+#include "cli/help/help.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -7,7 +7,7 @@
 
 #include "clackers/cases/case.hpp"
 #include "clackers/tables/listing.hpp"
-#include "paper/table.hpp"
+#include "paper/catalogue.hpp"
 
 namespace clackers::cli {
 namespace {

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/command.hpp"
 
@@ -28,5 +29,15 @@ std::string overall_usage(const Grammar& grammar);
 
 /// An option as --help heads it: "--samples n", "CASE".
 std::string heading(const Option& option);
+
+/// What may stand in place of the last of `words`, the words behind the program's name up to the
+/// cursor: lines of a candidate, a tab and what it is, or ":files" where a file is meant. bash
+/// splits words at "=", and takes what stands behind it.
+std::vector<std::string> completions(const Grammar& grammar, std::vector<std::string> words);
+
+/// Writes what an installed program brings along for the shell into `folder`, as it lies below
+/// share/: man/man1/*.1, bash-completion/completions/clackers and zsh/site-functions/_clackers.
+/// Throws FileError.
+void write_shell_files(const Grammar& grammar, const std::string& folder);
 
 }  // namespace clackers::cli

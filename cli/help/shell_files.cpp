@@ -1,4 +1,4 @@
-#include "cli/help/shell_files.hpp"
+#include "cli/help/help.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "cli/files/output_file.hpp"
-#include "cli/help/help.hpp"
 
 namespace clackers::cli {
 namespace {

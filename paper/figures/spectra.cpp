@@ -6,7 +6,7 @@
 #include <complex>
 #include <numbers>
 
-#include "clackers/exact/quantities/indicators.hpp"
+#include "clackers/exact/quantities/quantities.hpp"
 #include "clackers/exact/quantities/spectrum.hpp"
 #include "paper/catalogue.hpp"
 #include "paper/figures/curves.hpp"

@@ -7,12 +7,12 @@
 #include <string_view>
 
 #include "clackers/cases/case.hpp"
-#include "clackers/exact/quantities/indicators.hpp"
+#include "clackers/exact/quantities/quantities.hpp"
 #include "clackers/record/provenance.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/markup.hpp"
+#include "paper/catalogue.hpp"
 #include "paper/rendering/assets.hpp"
-#include "paper/table.hpp"
 
 namespace clackers::paper {
 namespace {

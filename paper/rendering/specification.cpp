@@ -1,4 +1,4 @@
-#include "paper/rendering/specification.hpp"
+#include "paper/rendering/page.hpp"
 
 #include <fmt/format.h>
 

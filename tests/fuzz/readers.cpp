@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "clackers/cases/case.hpp"
-#include "clackers/input/events.hpp"
 #include "clackers/input/history.hpp"
 #include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
-#include "cli/files/input_files.hpp"
+#include "cli/files/paths.hpp"
 #include "cli/values.hpp"
 #include "target.hpp"
 

@@ -1,4 +1,4 @@
-#include "clackers/campaign/specification/sampling.hpp"
+#include "clackers/campaign/specification.hpp"
 
 #include <bit>
 #include <boost/random/sobol.hpp>

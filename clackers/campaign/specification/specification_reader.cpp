@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/files.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/base/toml_reader.hpp"
 #include "clackers/campaign/specification.hpp"
-#include "clackers/campaign/specification/sampling.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/solvers/program.hpp"

@@ -1,4 +1,4 @@
-#include "clackers/campaign/store/sql_rows.hpp"
+#include "clackers/campaign/store/sqlite.hpp"
 
 #include <cmath>
 #include <utility>

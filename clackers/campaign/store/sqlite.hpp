@@ -3,12 +3,12 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "clackers/record/sheet.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
-
 // The only file that calls SQLite.
 namespace clackers::campaign {
 
@@ -77,5 +77,32 @@ class Sqlite {
 
 /// A name as SQL writes it: "set_N", "metric:u-maximum".
 std::string quoted_name(std::string_view name);
+
+/// One writer of a database at a time: a lock on the file "PATH.lock", which the system releases when
+/// the process ends, however it ends.
+class WriterLock {
+ public:
+  /// Throws InputError (database-busy) while another one holds it, FileError (cannot-write) where the
+  /// file cannot be made.
+  explicit WriterLock(const std::string& path);
+  ~WriterLock();
+  WriterLock(const WriterLock&) = delete;
+  WriterLock& operator=(const WriterLock&) = delete;
+
+ private:
+  std::string file_;
+  int descriptor_ = -1;
+};
+
+/// The rows of a statement; the database must outlive it.
+std::unique_ptr<record::RowSource> sql_rows(const std::string& schema, const std::string& title,
+                                            std::vector<record::Column> columns,
+                                            Statement statement);
+
+/// The columns of numbers alone, `columns` being those of the statement; what is empty is NaN.
+/// `count` is the number of rows.
+std::unique_ptr<record::RowSource> sql_numbers(const std::string& schema, const std::string& title,
+                                               const std::vector<record::Column>& columns,
+                                               Statement statement, long long count);
 
 }  // namespace clackers::campaign

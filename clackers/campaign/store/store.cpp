@@ -8,9 +8,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/campaign/store/schema.hpp"
-#include "clackers/campaign/store/sql_rows.hpp"
 #include "clackers/campaign/store/sqlite.hpp"
-#include "clackers/campaign/store/writer_lock.hpp"
 
 namespace clackers::campaign {
 namespace {

@@ -1,4 +1,4 @@
-#include "clackers/campaign/store/writer_lock.hpp"
+#include "clackers/campaign/store/sqlite.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

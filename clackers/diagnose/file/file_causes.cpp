@@ -3,8 +3,8 @@
 
 namespace clackers::diagnose {
 
-// A file that is read in the wrong way, or in the wrong unit of time, says nothing else.
-std::vector<Diagnosis> file_causes(const Question& question) {
+// If columns or the unit of time are wrong, no other cause is tested.
+std::vector<Diagnosis> file_causes(const DiagnosisInput& question) {
   const auto files = samples_of(question);
   if (files.empty()) return {};
   if (auto causes = reading_causes(files); !causes.empty()) return causes;

@@ -68,7 +68,7 @@ RowDistance FileSample::distance_of(const model::Trajectory& other) const {
   return distance(other, reference_, 1);
 }
 
-std::vector<FileSample> samples_of(const Question& question) {
+std::vector<FileSample> samples_of(const DiagnosisInput& question) {
   constexpr std::size_t most = 8;
   std::vector<FileSample> files;
   const auto count = question.histories.size(), kept = std::min(count, most);

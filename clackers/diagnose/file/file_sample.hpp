@@ -53,14 +53,15 @@ class FileSample {
 };
 
 /// At most eight of the histories, the finest first, the coarsest last.
-std::vector<FileSample> samples_of(const Question& question);
+std::vector<FileSample> samples_of(const DiagnosisInput& question);
 
 /// The families of file_causes(). Each looks at samples_of(), the finest first, none empty.
 std::vector<Diagnosis> reading_causes(const std::vector<FileSample>& files);
 std::vector<Diagnosis> time_causes(const std::vector<FileSample>& files);
 std::vector<Diagnosis> velocity_causes(const std::vector<FileSample>& files,
-                                       const Question& question);
+                                       const DiagnosisInput& question);
 std::vector<Diagnosis> number_causes(const std::vector<FileSample>& files);
-std::vector<Diagnosis> row_causes(const std::vector<FileSample>& files, const Question& question);
+std::vector<Diagnosis> row_causes(const std::vector<FileSample>& files,
+                                  const DiagnosisInput& question);
 
 }  // namespace clackers::diagnose

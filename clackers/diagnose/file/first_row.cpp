@@ -44,7 +44,7 @@ model::Trajectory flight_rows(const model::Trajectory& rows, const model::Motion
 
 }  // namespace
 
-FirstRow::FirstRow(const Opening& opening, const model::ImpactProblem<>& problem,
+FirstRow::FirstRow(const FirstRows& opening, const model::ImpactProblem<>& problem,
                    const model::Motion& motion)
     : opening_(opening),
       problem_(problem),

@@ -13,7 +13,7 @@ namespace clackers::diagnose {
 /// (reading.hpp).
 class FirstRow {
  public:
-  FirstRow(const Opening& opening, const model::ImpactProblem<>& problem,
+  FirstRow(const FirstRows& opening, const model::ImpactProblem<>& problem,
            const model::Motion& motion);
 
   std::size_t masses() const { return masses_; }
@@ -21,7 +21,7 @@ class FirstRow {
   double time() const { return opening_.rows.t.front(); }
   /// Step of the solver, or where it is not known the time between the first rows; 0 for one row.
   double step() const { return step_; }
-  const Opening& opening() const { return opening_; }
+  const FirstRows& opening() const { return opening_; }
   const model::Motion& motion() const { return motion_; }
   const model::ImpactProblem<>& problem() const { return problem_; }
   /// NaN for displacements that the file does not have.
@@ -50,7 +50,7 @@ class FirstRow {
  private:
   double flight_distance(std::span<const double> u) const;
 
-  const Opening& opening_;
+  const FirstRows& opening_;
   const model::ImpactProblem<>& problem_;
   const model::Motion& motion_;
   std::size_t masses_;

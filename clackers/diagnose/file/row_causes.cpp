@@ -76,7 +76,7 @@ std::optional<Diagnosis> resampled(const std::vector<FileSample>& files, bool by
 }
 
 // A start with v = 0 that was accepted, since the velocities of the case are small.
-std::optional<Diagnosis> starts_at_rest(const FileSample& file, const Question& question) {
+std::optional<Diagnosis> starts_at_rest(const FileSample& file, const DiagnosisInput& question) {
   const auto& history = file.history();
   if (history.opening.v.empty() || history.first != 0.0) return {};
   constexpr double visible = 1e-9, agreeing = 0.3;
@@ -90,7 +90,7 @@ std::optional<Diagnosis> starts_at_rest(const FileSample& file, const Question& 
     largest = std::max(largest, std::abs(start.v[at]) / file.scale().v[at]);
   }
   if (!(largest > visible + 2.0 * history.facts.floor)) return {};
-  Opening opening;
+  FirstRows opening;
   opening.rows = history.opening;
   opening.has_u.assign(masses, true);
   const FirstRow row(opening, question.problem, question.motion);
@@ -107,7 +107,8 @@ std::optional<Diagnosis> starts_at_rest(const FileSample& file, const Question& 
 
 }  // namespace
 
-std::vector<Diagnosis> row_causes(const std::vector<FileSample>& files, const Question& question) {
+std::vector<Diagnosis> row_causes(const std::vector<FileSample>& files,
+                                  const DiagnosisInput& question) {
   std::vector<Diagnosis> all;
   if (auto cause = ends_early(files, question.by_tolerance)) all.push_back(*cause);
   if (auto cause = starts_at_rest(files.front(), question)) all.push_back(*cause);

@@ -72,7 +72,7 @@ std::optional<Diagnosis> start_at_half_steps(const FirstRow& row) {
 
 }  // namespace
 
-std::optional<Diagnosis> diagnose_start(const Opening& opening,
+std::optional<Diagnosis> diagnose_start(const FirstRows& opening,
                                         const model::ImpactProblem<>& problem,
                                         const model::Motion& motion) {
   if (opening.rows.t.empty()) return {};

@@ -16,7 +16,7 @@ using testing::exact_rows;
 
 std::optional<Diagnosis> cause_of(const cases::Case& problem, const model::Trajectory& rows,
                                   double step, std::vector<std::string> columns = {}) {
-  Opening opening;
+  FirstRows opening;
   opening.step = step;
   opening.rows = rows;
   opening.has_u.assign(std::size_t(rows.dof), true);
@@ -49,7 +49,7 @@ TEST(StartCause, SaysNothingOfARightStart) {
       for (const int digits : {3, 6, 17}) {
         auto rows = exact_rows(problem, step);
         testing::print(rows, digits);
-        Opening opening{step, rows, std::vector<bool>(std::size_t(rows.dof), true), 0.0, {}};
+        FirstRows opening{step, rows, std::vector<bool>(std::size_t(rows.dof), true), 0.0, {}};
         opening.printed_floor = testing::facts_of(problem, rows, step, digits).floor;
         EXPECT_EQ(code_of(diagnose_start(opening, problem.problem, *problem.motion)), "");
       }

@@ -183,7 +183,7 @@ bool flight_agrees(const FirstRow& row, const Diagnosis& cause, const model::Mot
 
 }  // namespace
 
-std::vector<StartParameter> start_parameters(const Opening& opening,
+std::vector<StartParameter> start_parameters(const FirstRows& opening,
                                              const model::ImpactProblem<>& problem,
                                              const model::Motion& motion,
                                              std::span<const StartParameter> parameters,

@@ -25,7 +25,7 @@ std::string found_for(const char* name, const model::Trajectory& rows) {
       return nullptr;
     }
   };
-  const Opening opening{0.01, rows, std::vector<bool>(std::size_t(rows.dof), true), 0.0, {}};
+  const FirstRows opening{0.01, rows, std::vector<bool>(std::size_t(rows.dof), true), 0.0, {}};
   std::string text;
   for (const auto& one :
        start_parameters(opening, problem.problem, *problem.motion, parameters, motion_of)) {

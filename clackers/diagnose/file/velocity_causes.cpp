@@ -103,7 +103,7 @@ std::optional<Diagnosis> at_half_steps(const std::vector<FileSample>& files, boo
 }
 
 // u and v both on lines, that of v by more than half an order lower.
-std::optional<Diagnosis> of_lower_order(const Question& question) {
+std::optional<Diagnosis> of_lower_order(const DiagnosisInput& question) {
   constexpr double least_difference = 0.6, whole = 0.25;
   const auto& u = question.displacement;
   const auto& v = question.velocity;
@@ -125,7 +125,7 @@ std::optional<Diagnosis> of_lower_order(const Question& question) {
 }  // namespace
 
 std::vector<Diagnosis> velocity_causes(const std::vector<FileSample>& files,
-                                       const Question& question) {
+                                       const DiagnosisInput& question) {
   if (auto cause = at_half_steps(files, question.by_tolerance)) return {*cause};
   if (auto cause = of_lower_order(question)) return {*cause};
   return {};

@@ -5,7 +5,7 @@
 
 namespace clackers::diagnose {
 
-std::vector<Diagnosis> energy_causes(const Question& question) {
+std::vector<Diagnosis> energy_causes(const DiagnosisInput& question) {
   // Histories say it better: system/ fits them.
   if (!question.histories.empty() || question.by_tolerance) return {};
   constexpr double least_loss = 0.01;

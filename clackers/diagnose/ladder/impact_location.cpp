@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "clackers/measure/errors/mechanics.hpp"
-#include "clackers/measure/errors/vectors.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -67,9 +66,9 @@ class Locator {
     found.duration = opening->t - closing->t;
     found.delay = found.duration * opening_speed / (found.closing + opening_speed);
     const auto now = moved(after, closing->t - after.t);
-    const Eigen::VectorXd push = motion_.response(contact.direction);
+    const Eigen::VectorXd response = motion_.response(contact.direction);
     const Eigen::VectorXd expected = closing->v + (1.0 + contact.restitution) * found.closing /
-                                                      contact.direction.dot(push) * push;
+                                                      contact.direction.dot(response) * response;
     found.defect = difference(now.u - closing->u, now.v - expected) / found.closing;
     return found;
   }

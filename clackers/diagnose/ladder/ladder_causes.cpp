@@ -5,7 +5,7 @@
 
 namespace clackers::diagnose {
 
-std::vector<Diagnosis> ladder_causes(const Question& question) {
+std::vector<Diagnosis> ladder_causes(const DiagnosisInput& question) {
   std::vector<Diagnosis> all;
   const auto add = [&](std::vector<Diagnosis> found) {
     std::ranges::move(found, std::back_inserter(all));

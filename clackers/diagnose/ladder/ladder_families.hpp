@@ -20,16 +20,16 @@ inline Diagnosis diagnosis_of(Code code, double value, std::string unit) {
 
 /// impact-at-step-end, impact-interpolated, impact-tolerance, contact-compliant: how the impacts of
 /// all histories were located.
-std::vector<Diagnosis> location_causes(const Question& question);
+std::vector<Diagnosis> location_causes(const DiagnosisInput& question);
 /// wrong-limit.
 std::vector<Diagnosis> limit_causes(const Limit& limit);
 /// noise-floor.
-std::vector<Diagnosis> noise_causes(const Question& question);
+std::vector<Diagnosis> noise_causes(const DiagnosisInput& question);
 /// commensurate-steps, unstable-coarse-steps. `impacts_at_steps`: impact-at-step-end was found.
-std::vector<Diagnosis> step_causes(const Question& question, bool impacts_at_steps);
+std::vector<Diagnosis> step_causes(const DiagnosisInput& question, bool impacts_at_steps);
 /// contact-in-tension.
-std::vector<Diagnosis> tension_causes(const Question& question);
+std::vector<Diagnosis> tension_causes(const DiagnosisInput& question);
 /// numerical-damping, from the energies of the scores, where no histories are kept.
-std::vector<Diagnosis> energy_causes(const Question& question);
+std::vector<Diagnosis> energy_causes(const DiagnosisInput& question);
 
 }  // namespace clackers::diagnose

@@ -7,7 +7,7 @@
 
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
-#include "clackers/measure/errors/vectors.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -79,7 +79,7 @@ std::optional<Diagnosis> at_step(const std::vector<LocatedImpacts>& files) {
 }
 
 // Impacts that err by a lower power of the step than the flights between them, and more.
-std::optional<Diagnosis> interpolated(const Question& question,
+std::optional<Diagnosis> interpolated(const DiagnosisInput& question,
                                       const std::vector<LocatedImpacts>& files) {
   // Below these neither is followed any better.
   constexpr double least_impact = 1e-8, least_flight = 3e-8;
@@ -116,7 +116,7 @@ double error_at(const measure::Ladder& ladder, double step) {
 
 // Delays far below a step, or the spacing of an adaptive solver's rows, that do not depend on the
 // step or tolerance and make much of the finest errors.
-std::optional<Diagnosis> tolerance(const Question& question,
+std::optional<Diagnosis> tolerance(const DiagnosisInput& question,
                                    const std::vector<LocatedImpacts>& files) {
   constexpr std::size_t least_files = 3, most_compared = 4;
   // A delay anywhere below the tolerance scatters by a factor 3 in its logarithm, so that the slope
@@ -150,7 +150,7 @@ std::optional<Diagnosis> tolerance(const Question& question,
 }
 
 // Contacts of one duration in all files that hold several rows of it, the finest among them.
-std::optional<Diagnosis> compliant(const Question& question,
+std::optional<Diagnosis> compliant(const DiagnosisInput& question,
                                    const std::vector<LocatedImpacts>& files) {
   // Between a spring's 2/pi and the 1 of an impact that comes late.
   constexpr double largest_closed_speed = 0.85;
@@ -197,7 +197,7 @@ std::optional<Diagnosis> compliant(const Question& question,
 
 }  // namespace
 
-std::vector<Diagnosis> location_causes(const Question& question) {
+std::vector<Diagnosis> location_causes(const DiagnosisInput& question) {
   std::vector<LocatedImpacts> all, delayed;
   for (const auto& seen : question.histories) {
     all.push_back(locate_impacts(seen, question.problem));

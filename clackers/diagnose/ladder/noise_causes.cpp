@@ -4,7 +4,7 @@
 
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
-#include "clackers/measure/errors/vectors.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -52,7 +52,7 @@ double printing_of(const Observation& seen) {
 }
 
 // The same white noise in files of different steps, and much of the finest one's error.
-std::optional<Diagnosis> in_rows(const Question& question) {
+std::optional<Diagnosis> in_rows(const DiagnosisInput& question) {
   const auto scale = question.motion.peak().u;
   const auto& finest = question.histories.back();
   const double noise = white_noise(finest, question.motion, scale);
@@ -76,7 +76,7 @@ std::optional<Diagnosis> in_rows(const Question& question) {
 // Errors that go up and down without falling over the finest three octaves, where impacts are
 // located well: a limit would settle, a method of order 1/2 would fall by 2.8. Two of three values
 // of a random sequence are turning points, at most two of one that passes zero once.
-std::optional<Diagnosis> in_ladder(const Question& question) {
+std::optional<Diagnosis> in_ladder(const DiagnosisInput& question) {
   constexpr double saturated = 0.3, above_floor = 30.0, most_factor = 2.5;
   std::vector<const measure::RunScore*> runs;  // finest first
   for (auto level = question.ladder.rbegin(); level != question.ladder.rend(); ++level)
@@ -117,7 +117,7 @@ std::optional<Diagnosis> in_ladder(const Question& question) {
 
 }  // namespace
 
-std::vector<Diagnosis> noise_causes(const Question& question) {
+std::vector<Diagnosis> noise_causes(const DiagnosisInput& question) {
   if (question.histories.empty() || question.ladder.empty()) return {};
   if (auto found = in_rows(question)) return {*found};
   if (auto found = in_ladder(question)) return {*found};

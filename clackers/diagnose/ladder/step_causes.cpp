@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "clackers/diagnose/ladder/ladder_families.hpp"
-#include "clackers/measure/errors/vectors.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -30,7 +30,8 @@ std::vector<const measure::RunScore*> runs_of(const measure::Ladder& ladder) {
 // Runs whose steps divide the times of impacts, where that makes their errors smaller than those of
 // their neighbours, or where there are no other runs to compare with. Where impacts act at steps
 // their errors are by rounding 0 or those of a whole step.
-void commensurate(const Question& question, bool impacts_at_steps, std::vector<Diagnosis>& found) {
+void commensurate(const DiagnosisInput& question, bool impacts_at_steps,
+                  std::vector<Diagnosis>& found) {
   const auto known = question.motion.impact_count(question.motion.end());
   if (known == 0 || question.by_tolerance) return;
   // Of random steps 2 % come as near with one impact, 0.04 % with two at unrelated times.
@@ -67,7 +68,7 @@ void commensurate(const Question& question, bool impacts_at_steps, std::vector<D
 }
 
 // Runs at the coarse end that failed or left all bounds, and finer ones that did not.
-void unstable(const Question& question, std::vector<Diagnosis>& found) {
+void unstable(const DiagnosisInput& question, std::vector<Diagnosis>& found) {
   if (question.by_tolerance) return;
   auto runs = runs_of(question.ladder);
   std::ranges::stable_sort(runs, std::greater{}, &measure::RunScore::step);
@@ -92,7 +93,7 @@ void unstable(const Question& question, std::vector<Diagnosis>& found) {
 
 }  // namespace
 
-std::vector<Diagnosis> step_causes(const Question& question, bool impacts_at_steps) {
+std::vector<Diagnosis> step_causes(const DiagnosisInput& question, bool impacts_at_steps) {
   std::vector<Diagnosis> found;
   commensurate(question, impacts_at_steps, found);
   unstable(question, found);

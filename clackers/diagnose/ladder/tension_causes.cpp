@@ -5,7 +5,6 @@
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
-#include "clackers/measure/errors/vectors.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -91,7 +90,7 @@ bool holds(const std::vector<double>& steps, const std::vector<double>& shares) 
 
 }  // namespace
 
-std::vector<Diagnosis> tension_causes(const Question& question) {
+std::vector<Diagnosis> tension_causes(const DiagnosisInput& question) {
   if (question.problem.contacts.size() != 1) return {};
   constexpr double least_share = 0.03;
   constexpr int least_rows = 12, least_rows_each = 4;

@@ -21,7 +21,7 @@ bool is_served(const model::ImpactProblem<>& problem) {
 
 }  // namespace
 
-FitQuestion fit_question(const Question& question) {
+FitQuestion fit_question(const DiagnosisInput& question) {
   FitQuestion made{question.problem, question.motion, question.by_tolerance, {}, {}};
   if (!is_served(question.problem)) return made;
   made.smooth = smooth_parameters(question.problem);

@@ -324,7 +324,7 @@ bool can_be_varied(const model::ImpactProblem<>& problem) {
 
 }  // namespace
 
-std::vector<Diagnosis> system_causes(const Question& asked) {
+std::vector<Diagnosis> system_causes(const DiagnosisInput& asked) {
   if (!can_be_varied(asked.problem)) return {};
   auto question = fit_question(asked);
   if (question.files.empty()) return {};

@@ -82,9 +82,9 @@ std::optional<std::vector<double>> simulated(const Variation& variation,
   if (!motion) return std::nullopt;
   const auto n = std::size_t(variation.problem.dof());
   // Rows less than a rounding before the start are at the start.
-  const double care = 1e-9 * (last - start);
+  const double rounding = 1e-9 * (last - start);
   std::size_t before = 0;
-  while (before < times.size() && times[before] < start - care) ++before;
+  while (before < times.size() && times[before] < start - rounding) ++before;
   for (std::size_t i = before; i < times.size(); ++i) times[i] = std::max(times[i], start);
   std::vector<double> u(times.size() * n, std::numeric_limits<double>::quiet_NaN());
   motion->sample(std::span(times).subspan(before), std::span(u).subspan(before * n), {});

@@ -113,7 +113,7 @@ struct Files {
     velocity = found.velocity;
   }
 
-  Question question() const {
+  DiagnosisInput question() const {
     return {problem.problem,
             *problem.motion,
             histories,

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "clackers/exact/assembly/limits.hpp"
 #include "clackers/exact/assembly/modal_shape.hpp"
+#include "clackers/exact/assembly/shaped_parameters.hpp"
 #include "clackers/exact/pair/high_precision.hpp"
 
 namespace clackers::exact {

@@ -1,4 +1,4 @@
-#include "clackers/exact/assembly/buildings.hpp"
+#include "clackers/exact/assembly/assemblies.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/exact/assembly/building_shape.hpp"
-#include "clackers/exact/assembly/limits.hpp"
+#include "clackers/exact/assembly/shaped_parameters.hpp"
 #include "clackers/exact/pair/high_precision.hpp"
 
 namespace clackers::exact {

@@ -1,4 +1,4 @@
-#include "clackers/exact/assembly/combine.hpp"
+#include "clackers/exact/assembly/modal_shape.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "clackers/exact/assembly/combine.cpp"

@@ -1,4 +1,4 @@
-#include "clackers/exact/assembly/limits.hpp"
+#include "clackers/exact/assembly/shaped_parameters.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/exact/assembly/combine.hpp"
 #include "clackers/numerics/sincospi.hpp"
 
 namespace clackers::exact {

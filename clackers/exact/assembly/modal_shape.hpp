@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "clackers/exact/assembly/flight_shape.hpp"
@@ -37,5 +38,11 @@ class ModalShape : public FlightShape {
   std::vector<numerics::DoubleDouble> frequencies_;  // of the columns [rad/s]
   double sigma_ = 0.0;
 };
+
+/// out[i] = factors[0] columns[0][i] + factors[1] columns[1][i] + ... for i < count, added from left
+/// to right: the same bits on every processor. With `bypass_cache` for an output larger than the
+/// caches. At least one column.
+void combine(const double* const* columns, const double* factors, std::size_t column_count,
+             std::size_t count, double* out, bool bypass_cache);
 
 }  // namespace clackers::exact

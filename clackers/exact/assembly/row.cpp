@@ -1,4 +1,4 @@
-#include "clackers/exact/assembly/row.hpp"
+#include "clackers/exact/assembly/assemblies.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/assembly/limits.hpp"
 #include "clackers/exact/assembly/modal_shape.hpp"
+#include "clackers/exact/assembly/shaped_parameters.hpp"
 #include "clackers/exact/pair/admissibility.hpp"
 #include "clackers/exact/pair/high_precision.hpp"
 

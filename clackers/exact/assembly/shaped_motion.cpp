@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/pair/flight_phase.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::exact {
 

@@ -1,6 +1,6 @@
 #ifdef CLACKERS_HAS_ARB
 
-#include "clackers/exact/certified/decimals.hpp"
+#include "clackers/exact/certified/digits.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 #include "clackers/base/error.hpp"
 
 #ifdef CLACKERS_HAS_ARB
-#include "clackers/exact/certified/decimals.hpp"
 #include "clackers/exact/certified/enclosure.hpp"
 #endif
 

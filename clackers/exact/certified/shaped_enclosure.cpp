@@ -5,8 +5,8 @@
 #include <cmath>
 #include <variant>
 
+#include "clackers/exact/assembly/assemblies.hpp"
 #include "clackers/exact/assembly/assembly.hpp"
-#include "clackers/exact/assembly/row.hpp"
 
 namespace clackers::certified {
 

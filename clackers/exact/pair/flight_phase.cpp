@@ -1,4 +1,4 @@
-#include "clackers/exact/pair/flight_phase.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
 
 #include <fmt/format.h>
 

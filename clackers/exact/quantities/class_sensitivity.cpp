@@ -3,8 +3,8 @@
 #include <complex>
 #include <optional>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/numerics/exp2.hpp"
 #include "clackers/numerics/sincospi.hpp"

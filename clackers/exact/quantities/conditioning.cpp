@@ -1,4 +1,4 @@
-#include "clackers/exact/quantities/conditioning.hpp"
+#include "clackers/exact/quantities/quantities.hpp"
 
 #include <algorithm>
 #include <cmath>

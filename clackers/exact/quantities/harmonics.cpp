@@ -1,4 +1,4 @@
-#include "clackers/exact/quantities/harmonics.hpp"
+#include "clackers/exact/quantities/quantities.hpp"
 
 #include <cmath>
 #include <numbers>

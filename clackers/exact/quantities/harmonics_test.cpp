@@ -1,4 +1,4 @@
-#include "clackers/exact/quantities/harmonics.hpp"
+#include "clackers/exact/quantities/quantities.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
-#include "clackers/exact/quantities/indicators.hpp"
 
 namespace clackers::exact {
 namespace {

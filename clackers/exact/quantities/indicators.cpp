@@ -1,4 +1,4 @@
-#include "clackers/exact/quantities/indicators.hpp"
+#include "clackers/exact/quantities/quantities.hpp"
 
 #include <fmt/format.h>
 

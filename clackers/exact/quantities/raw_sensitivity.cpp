@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/exact/pair/parameters.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/numerics/exp2.hpp"

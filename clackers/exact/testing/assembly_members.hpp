@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "clackers/exact/assembly/alternating.hpp"
+#include "clackers/exact/assembly/assemblies.hpp"
 #include "clackers/exact/assembly/assembly.hpp"
-#include "clackers/exact/assembly/buildings.hpp"
-#include "clackers/exact/assembly/row.hpp"
 #include "clackers/exact/testing/mass_simulator.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 

@@ -1,4 +1,4 @@
-#include "clackers/input/text/separation.hpp"
+#include "clackers/input/text/text_table.hpp"
 
 namespace clackers::input {
 namespace {

@@ -10,7 +10,6 @@
 #include "clackers/base/codes.hpp"
 #include "clackers/base/constants.hpp"
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
-#include "clackers/judge/convergence/judge_evidence.hpp"
 #include "clackers/judge/convergence/ladder_fit.hpp"
 
 namespace clackers::judge {

@@ -1,4 +1,4 @@
-#include "clackers/judge/convergence/judge_evidence.hpp"
+#include "clackers/judge/convergence/judge.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "clackers/judge/convergence/step_levels.hpp"
+#include "clackers/judge/convergence/step_ladder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "clackers/judge/cost/work_precision.hpp"
 
 namespace clackers::judge {
 
@@ -37,5 +41,14 @@ std::vector<MethodProfile> performance_profile(const CostTable& table);
 /// The share of all tasks solved within `ratio` times the best cost; infinity asks for all that are
 /// solved. Throws InputError for a ratio below 1.
 double share_within(const MethodProfile& profile, double ratio);
+
+/// Adds to a table the tasks of one problem: the errors 0.1, 0.01, ... down to the smallest that some
+/// method reaches on it, each named "NAME: error in u <= 1e-03". `ladders` has one a method of the
+/// table, an empty one where it did not run; what a method needs for a task is work_for().
+void add_tasks(CostTable& table, std::string_view name, std::span<const measure::Ladder> ladders,
+               Counter counter);
+
+/// Whether a profile can be made: there are tasks, and nothing costs nothing.
+bool has_ratios(const CostTable& table);
 
 }  // namespace clackers::judge

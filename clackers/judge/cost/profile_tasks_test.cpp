@@ -1,4 +1,4 @@
-#include "clackers/judge/cost/profile_tasks.hpp"
+#include "clackers/judge/cost/performance_profile.hpp"
 
 #include <gtest/gtest.h>
 

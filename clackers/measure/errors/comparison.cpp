@@ -7,12 +7,11 @@
 #include <limits>
 
 #include "clackers/base/constants.hpp"
-#include "clackers/measure/errors/history_check.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/measure/errors/meter.hpp"
-#include "clackers/measure/errors/vectors.hpp"
+#include "clackers/measure/impacts/collision_finder.hpp"
 #include "clackers/measure/impacts/impact_finder.hpp"
 #include "clackers/measure/impacts/impact_matcher.hpp"
-#include "clackers/measure/impacts/jump_limits.hpp"
 
 namespace clackers::measure {
 namespace {

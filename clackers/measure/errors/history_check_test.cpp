@@ -1,4 +1,4 @@
-#include "clackers/measure/errors/history_check.hpp"
+#include "clackers/measure/errors/comparison.hpp"
 
 #include <gtest/gtest.h>
 

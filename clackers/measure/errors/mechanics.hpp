@@ -1,9 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <iterator>
+#include <span>
 #include <vector>
 
 #include "clackers/model/impact_problem.hpp"
+#include "clackers/model/motion.hpp"
+#include "clackers/model/sink.hpp"
 
 namespace clackers::measure {
 
@@ -62,6 +67,83 @@ class MechanicalEnergy {
   }
 
   Rows mass_, stiffness_;
+};
+
+inline std::vector<double> entries(const Eigen::VectorXd& vector) {
+  return {vector.data(), vector.data() + vector.size()};
+}
+
+/// The upper median; `values` must not be empty.
+inline double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// What jumps at an impact.
+enum class JumpingQuantity { velocity, acceleration };
+
+/// The integral over time of |v - v*|, or of its square, mass by mass, by the trapezoidal rule
+/// over a run's output times and, on both sides of them, its reported impacts. Valid across jumps.
+///
+/// - True velocities at output times are right limits.
+/// - Where a reported impact at time s lies in the same interval between output times as its true
+///   impact at t*, left limits are compared with left limits and right with right; between s and t*
+///   one motion has jumped and the other has not, which adds |s - t*| times that difference.
+///   Comparing both limits at s alone would count a jump over half an interval.
+/// - Where a reported impact has no true one in its interval, both its limits are compared with the
+///   true velocity at s.
+/// - An interval with a true impact and no reported one contributes by the rule over output times.
+/// - Where an impact is reported at an output time, its limits stand for the state delivered there,
+///   which may be of either side.
+///
+/// The same rule serves accelerations, which take the place of velocities in all calls then.
+class VelocityError {
+ public:
+  /// The motion must outlive this.
+  explicit VelocityError(const model::Motion& reference,
+                         JumpingQuantity quantity = JumpingQuantity::velocity);
+
+  /// Takes the states at output times with the true velocities, right limits, row-major (time,
+  /// mass). Times ascend. No impact taken later may lie before the last but one of them.
+  void take(std::span<const double> t, std::span<const double> v,
+            std::span<const double> v_reference);
+  void take(double t, std::span<const double> v, std::span<const double> v_reference) {
+    take({&t, 1}, v, v_reference);
+  }
+  /// Takes an impact after the output times before it, before or after an output time equal to its
+  /// own.
+  void take(const model::ReportedImpact& impact);
+  /// The integral [m] of one mass up to the last output time.
+  double integral(int mass) const;
+  /// The integral of the square [m^2/s].
+  double integral_of_square(int mass) const;
+
+ private:
+  struct Jump {
+    double t = 0.0;
+    std::vector<double> before, after;
+  };
+  using Errors = std::vector<double>;
+
+  void take_first(double t, const double* v, const double* v_reference);
+  void close();
+  void pass(const Jump& jump, double& from, Errors& error);
+  const model::MotionImpact* join(double from);
+  std::span<const double> part(const model::Kinematics& now) const;
+  void add(double length, const Errors& left, const Errors& right);
+
+  const model::Motion& reference_;
+  JumpingQuantity quantity_;
+  std::size_t dof_;
+  long long known_;                  ///< number of true impacts
+  int taken_ = 0;                    ///< output times so far, counted up to 2
+  double from_ = 0.0, to_ = 0.0;     ///< the interval between output times that is still open
+  Errors from_error_, to_error_;     ///< after `from_`, and of the state delivered at `to_`
+  std::vector<Jump> jumps_, later_;  ///< reported within (from_, to_], and after to_
+  long long next_true_ = 1;          ///< no true impact before this one can be joined any more
+  model::MotionImpact true_impact_;  ///< the one numbered next_true_, when fetched
+  Errors sum_, squares_;
 };
 
 }  // namespace clackers::measure

@@ -7,7 +7,6 @@
 
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/measure/errors/score.hpp"
-#include "clackers/measure/errors/velocity_error.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
 

@@ -1,4 +1,4 @@
-#include "clackers/measure/errors/velocity_error.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
 
 #include <gtest/gtest.h>
 

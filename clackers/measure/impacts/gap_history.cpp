@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "clackers/base/constants.hpp"
-#include "clackers/measure/errors/vectors.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
 
 namespace clackers::measure {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "clackers/base/constants.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
-#include "clackers/measure/errors/vectors.hpp"
 #include "clackers/measure/impacts/gap_history.hpp"
 
 namespace clackers::measure {

@@ -1,4 +1,4 @@
-#include "clackers/measure/impacts/jump_limits.hpp"
+#include "clackers/measure/impacts/collision_finder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include "clackers/measure/impacts/jump_limits.hpp"
 #include "clackers/base/constants.hpp"
+#include "clackers/measure/impacts/collision_finder.hpp"
 
 #include <gtest/gtest.h>
 

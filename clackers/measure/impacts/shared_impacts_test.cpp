@@ -4,9 +4,8 @@
 
 #include <vector>
 
-#include "clackers/exact/assembly/alternating.hpp"
+#include "clackers/exact/assembly/assemblies.hpp"
 #include "clackers/exact/assembly/assembly.hpp"
-#include "clackers/exact/assembly/row.hpp"
 
 namespace clackers::measure {
 namespace {

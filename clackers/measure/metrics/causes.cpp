@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "clackers/base/error.hpp"
-#include "clackers/measure/metrics/detuning.hpp"
-#include "clackers/measure/metrics/synchrony.hpp"
 
 namespace clackers::measure {
 namespace {

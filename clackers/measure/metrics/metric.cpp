@@ -6,17 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "clackers/base/suggest.hpp"
+#include "clackers/base/check.hpp"
 #include "clackers/measure/metrics/causes.hpp"
-#include "clackers/measure/metrics/distance/filled_graph.hpp"
-#include "clackers/measure/metrics/distance/hybrid_arc.hpp"
-#include "clackers/measure/metrics/distance/undone_jumps.hpp"
-#include "clackers/measure/metrics/impacts/event_report.hpp"
-#include "clackers/measure/metrics/impacts/flight_error.hpp"
-#include "clackers/measure/metrics/impacts/phase_error.hpp"
-#include "clackers/measure/metrics/norm_error.hpp"
-#include "clackers/measure/metrics/structure_error.hpp"
-#include "clackers/measure/metrics/synchrony.hpp"
+#include "clackers/measure/metrics/definitions.hpp"
 
 namespace clackers::measure {
 namespace {

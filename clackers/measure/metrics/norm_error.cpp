@@ -1,9 +1,9 @@
-#include "clackers/measure/metrics/norm_error.hpp"
+#include "clackers/measure/metrics/definitions.hpp"
 
 #include <cmath>
 
+#include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/measure/errors/meter.hpp"
-#include "clackers/measure/errors/velocity_error.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
 namespace clackers::measure {

@@ -1,4 +1,4 @@
-#include "clackers/measure/metrics/norm_error.hpp"
+#include "clackers/measure/metrics/definitions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "clackers/measure/metrics/penalty_split.hpp"
+#include "clackers/measure/metrics/causes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "clackers/measure/metrics/synchrony.hpp"
+#include "clackers/measure/metrics/causes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "clackers/measure/metrics/synchrony.hpp"
+#include "clackers/measure/metrics/causes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/quantities/conditioning.hpp"
+#include "clackers/exact/quantities/quantities.hpp"
 #include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/methods/registry.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "clackers/measure/errors/vectors.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/model/motion.hpp"
 #include "clackers/model/trajectory.hpp"
 

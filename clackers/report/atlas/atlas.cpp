@@ -5,7 +5,6 @@
 #include "clackers/base/error.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/atlas/survey_data.hpp"
-#include "clackers/report/html/figure_specifications.hpp"
 #include "clackers/report/html/figures.hpp"
 #include "clackers/report/html/page.hpp"
 #include "clackers/report/html/plot_style.hpp"

@@ -1,4 +1,4 @@
-#include "clackers/report/html/counters.hpp"
+#include "clackers/report/html/figures.hpp"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,7 @@
 #include "clackers/judge/cost/work_precision.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/report/columns.hpp"
-#include "clackers/report/html/counters.hpp"
+#include "clackers/report/html/figures.hpp"
 #include "clackers/report/write.hpp"
 
 namespace clackers::report {

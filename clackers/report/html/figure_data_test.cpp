@@ -11,7 +11,7 @@
 #include "clackers/base/json.hpp"
 #include "clackers/judge/cost/work_precision.hpp"
 #include "clackers/record/reduced_curve.hpp"
-#include "clackers/report/html/figure_specifications.hpp"
+#include "clackers/report/html/figures.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/testing/sample_record.hpp"
 

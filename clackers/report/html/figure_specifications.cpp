@@ -1,4 +1,4 @@
-#include "clackers/report/html/figure_specifications.hpp"
+#include "clackers/report/html/figures.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 
 #include "clackers/base/json.hpp"
 #include "clackers/report/assets.hpp"
-#include "clackers/report/html/counters.hpp"
 #include "clackers/report/html/figure_data.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/write.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "clackers/report/assets.hpp"
-#include "clackers/report/html/counters.hpp"
 #include "clackers/report/html/figure_data.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/markup.hpp"

@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
 #include "clackers/report/html/figure_data.hpp"
-#include "clackers/report/html/figure_specifications.hpp"
 #include "clackers/report/html/figures.hpp"
-#include "clackers/report/html/head.hpp"
 #include "clackers/report/html/page.hpp"
-#include "clackers/report/html/subjects.hpp"
 #include "clackers/report/html/tables.hpp"
 #include "clackers/report/markup.hpp"
 #include "clackers/report/words/words.hpp"

@@ -5,12 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/json.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/figure_data.hpp"
-#include "clackers/report/html/figure_specifications.hpp"
-#include "clackers/report/html/head.hpp"
+#include "clackers/report/html/figures.hpp"
+#include "clackers/report/html/page.hpp"
 #include "clackers/report/html/tables.hpp"
 #include "clackers/report/markup.hpp"
 #include "clackers/report/words/words.hpp"

@@ -7,6 +7,7 @@
 
 #include "clackers/record/record.hpp"
 #include "clackers/report/assets.hpp"
+#include "clackers/report/html/tables.hpp"
 
 namespace clackers::report {
 
@@ -30,5 +31,17 @@ struct Page {
 /// One self-contained page that opens without a network: style, libraries and figures inside. Its
 /// content security policy allows the scripts of this library and nothing else.
 std::string page_html(const Page& page, const record::Provenance& from);
+
+/// A section for each subject of a case: finding, facts, levels, what one would conclude without the
+/// exact solution, and metrics.
+std::string subjects_html(const record::CaseRecord& problem, const Place& place);
+
+// What stands above the sections of a record.
+
+/// What the case is, how long, and its steps.
+std::string lead_html(const record::CaseRecord& problem);
+
+/// The verdict over all, and what it rests on.
+std::string overall_html(const record::Record& record);
 
 }  // namespace clackers::report

@@ -6,9 +6,7 @@
 
 #include "clackers/base/number.hpp"
 #include "clackers/report/html/figure_data.hpp"
-#include "clackers/report/html/figure_specifications.hpp"
 #include "clackers/report/html/figures.hpp"
-#include "clackers/report/html/head.hpp"
 #include "clackers/report/html/page.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/html/tables.hpp"

@@ -1,4 +1,4 @@
-#include "clackers/report/html/subjects.hpp"
+#include "clackers/report/html/page.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "clackers/report/junit/junit.hpp"
+#include "clackers/report/writers.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include <ostream>
 
 #include "clackers/report/format.hpp"
-#include "clackers/report/rows/rows.hpp"
 #include "clackers/report/rows/rows_numbers.hpp"
+#include "clackers/report/writers.hpp"
 
 namespace clackers::report {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "clackers/base/json.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/report/rows/rows.hpp"
 #include "clackers/report/rows/rows_numbers.hpp"
+#include "clackers/report/writers.hpp"
 
 namespace clackers::report {
 namespace {

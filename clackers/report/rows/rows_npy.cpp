@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/report/rows/rows.hpp"
+#include "clackers/report/writers.hpp"
 
 namespace clackers::report {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
-#include "clackers/report/rows/rows.hpp"
 #include "clackers/report/text/table.hpp"
+#include "clackers/report/writers.hpp"
 
 namespace clackers::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "clackers/report/rows/rows.hpp"
+#include "clackers/report/writers.hpp"
 
 #include <gtest/gtest.h>
 

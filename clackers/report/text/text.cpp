@@ -1,4 +1,4 @@
-#include "clackers/report/text/text.hpp"
+#include "clackers/report/writers.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "clackers/study/check/refused_start.hpp"
+#include "clackers/study/check/initial_state.hpp"
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ cases::Settings changed(cases::Settings values,
 }
 
 // "N=5,xi1=0.25"; empty where no parameters start the case so.
-std::string settings_of(const diagnose::Opening& opening, const cases::Case& problem) {
+std::string settings_of(const diagnose::FirstRows& opening, const cases::Case& problem) {
   std::vector<diagnose::StartParameter> parameters;
   for (const auto& [name, value] : problem.values) parameters.push_back({name, value});
   const auto motion_of = [&](std::span<const diagnose::StartParameter> values)
@@ -44,7 +44,7 @@ std::string settings_of(const diagnose::Opening& opening, const cases::Case& pro
 
 }  // namespace
 
-void refuse_start(const std::string& name, const diagnose::Opening& opening,
+void refuse_start(const std::string& name, const diagnose::FirstRows& opening,
                   const cases::Case& problem, const StartDifference& most) {
   const auto& case_name = problem.entry->name;
   const auto start = fmt::format(
@@ -64,7 +64,7 @@ void refuse_start(const std::string& name, const diagnose::Opening& opening,
       "not-this-case");
 }
 
-void refuse_reading(const std::string& name, const diagnose::Opening& opening,
+void refuse_reading(const std::string& name, const diagnose::FirstRows& opening,
                     const cases::Case& problem) {
   const auto cause = diagnose::diagnose_start(opening, problem.problem, *problem.motion);
   if (!cause || cause->code == Code("starts-at-rest").name()) return;

@@ -1,4 +1,4 @@
-#include "clackers/tables/listing/amplification.hpp"
+#include "clackers/tables/listing/show_sheets.hpp"
 
 #include <fmt/format.h>
 

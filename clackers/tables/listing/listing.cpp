@@ -5,8 +5,8 @@
 #include <array>
 #include <functional>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/codes.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"

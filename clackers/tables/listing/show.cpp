@@ -5,9 +5,8 @@
 
 #include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
-#include "clackers/model/problem_text.hpp"
+#include "clackers/model/problem_file.hpp"
 #include "clackers/tables/listing.hpp"
-#include "clackers/tables/listing/amplification.hpp"
 #include "clackers/tables/listing/show_sheets.hpp"
 #include "clackers/tables/respond.hpp"
 

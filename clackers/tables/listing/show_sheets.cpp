@@ -5,9 +5,7 @@
 #include <algorithm>
 
 #include "clackers/exact/pair/closed_form.hpp"
-#include "clackers/exact/quantities/conditioning.hpp"
-#include "clackers/exact/quantities/harmonics.hpp"
-#include "clackers/exact/quantities/indicators.hpp"
+#include "clackers/exact/quantities/quantities.hpp"
 
 namespace clackers::tables {
 namespace {

@@ -1,4 +1,4 @@
-#include "clackers/tables/respond/digit_rows.hpp"
+#include "clackers/tables/respond.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "clackers/tables/respond/impact_finder.hpp"
+#include "clackers/tables/respond/timed_rows.hpp"
 
 #include <limits>
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <memory>
 
+#include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/base/suggest.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/tables/respond/timed_rows.hpp"
 

@@ -8,7 +8,7 @@
 #include "clackers/judge/convergence/fit/range.hpp"
 #include "clackers/judge/convergence/fit/two_terms.hpp"
 #include "clackers/judge/convergence/fit/window.hpp"
-#include "clackers/measure/errors/vectors.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
 
 namespace clackers::judge {
 namespace {

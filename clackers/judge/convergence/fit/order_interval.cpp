@@ -1,4 +1,4 @@
-#include "clackers/judge/convergence/fit/order_interval.hpp"
+#include "clackers/judge/convergence/fit/range.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "clackers/base/codes.hpp"
-#include "clackers/judge/convergence/fit/order_interval.hpp"
 #include "clackers/judge/convergence/fit/two_terms.hpp"
 
 namespace clackers::judge {

@@ -1,4 +1,4 @@
-#include "clackers/measure/metrics/distance/filled_graph.hpp"
+#include "clackers/measure/metrics/definitions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "clackers/measure/metrics/distance/hybrid_arc.hpp"
+#include "clackers/measure/metrics/definitions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/measure/errors/vectors.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 
 namespace clackers::measure {

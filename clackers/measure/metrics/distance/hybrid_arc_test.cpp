@@ -1,4 +1,4 @@
-#include "clackers/measure/metrics/distance/hybrid_arc.hpp"
+#include "clackers/measure/metrics/definitions.hpp"
 
 #include <gtest/gtest.h>
 

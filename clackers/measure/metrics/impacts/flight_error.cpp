@@ -1,4 +1,4 @@
-#include "clackers/measure/metrics/impacts/flight_error.hpp"
+#include "clackers/measure/metrics/definitions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -136,7 +136,7 @@ function drawWork(system) {
   return drawInPanel("work");
 }
 
-// ---- Opening and closing.
+// ---- FirstRows and closing.
 
 function marked() {
   for (const old of grid.querySelectorAll(".opened")) old.classList.remove("opened");

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <span>
 
-#include "clackers/input/events.hpp"
+#include "clackers/input/history.hpp"
 #include "clackers/record/notes.hpp"
 #include "clackers/study/check/history/prepared_history.hpp"
 

@@ -11,7 +11,6 @@
 #include "clackers/judge/convergence/judge.hpp"
 #include "clackers/record/notes.hpp"
 #include "clackers/study/check/initial_state.hpp"
-#include "clackers/study/check/refused_start.hpp"
 
 namespace clackers::study {
 namespace {
@@ -78,11 +77,11 @@ class Preparation {
     }
   }
 
-  diagnose::Opening take_opening() const {
+  diagnose::FirstRows take_opening() const {
     const auto& m = h_.motion;
     const auto rows = std::min(m.t.size(), diagnose::most_opening_rows);
     const auto numbers = std::ptrdiff_t(rows * std::size_t(m.dof));
-    diagnose::Opening opening;
+    diagnose::FirstRows opening;
     opening.rows.dof = m.dof;
     opening.rows.t.assign(m.t.begin(), m.t.begin() + std::ptrdiff_t(rows));
     opening.rows.u.assign(m.u.begin(), m.u.begin() + numbers);
@@ -135,7 +134,7 @@ class Preparation {
     file_.last = m.t.back();
   }
 
-  void require_start(const diagnose::Opening& opening) {
+  void require_start(const diagnose::FirstRows& opening) {
     const auto row = first_row();
     const auto most = start_difference(row, problem_);
     file_.start_error = most.relative;

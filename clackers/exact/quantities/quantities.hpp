@@ -4,6 +4,33 @@
 
 namespace clackers::exact {
 
+/// |a_n|, n = 0, 1, ..., of the fast mass of the elastic undamped motion: over the period T,
+/// u2/u2(0) = sum of a_n cos(2 n Omega t) up to signs, with |a_0| = 2/(pi X) the mean and |a_n| =
+/// (4X/pi)/|X^2 - 4n^2|; docs/manual/explanation/derivations/energy-and-spectrum.md. `odd` is X. Largest for 2n = X - 1 (n = 1 for X
+/// = 1). Relative error at most 2^-51. Throws InputError unless n is a whole number from 0 to 1e15.
+double harmonic_amplitude(double odd, double n);
+
+/// The n of the largest: (X - 1)/2, or 1 for X = 1.
+double peak_harmonic(double odd);
+
+/// The paper's indicators of a pair. "Non-trivially contributing" (Eq. 11) needs a threshold: the
+/// harmonics of the fast mass counted are those with at least `threshold` of the spectral peak, of
+/// the elastic undamped motion; docs/manual/explanation/derivations/energy-and-spectrum.md.
+struct Indicators {
+  double threshold = 0.0;         ///< of the spectral peak
+  double stiffness_ratio = 1.0;   ///< I_ms, Eq. (10): fast over slow damped frequency
+  double longest_period = 0.0;    ///< T_L = pi / Omega [s]
+  double highest_harmonic = 0.0;  ///< n_eps = T_L / T_S, a whole number
+  double shortest_period = 0.0;   ///< T_S = pi / (n_eps Omega) [s]
+  double oscillations = 0.0;      ///< I_OC = t_end / T_S, Eq. (23)
+  bool bound_holds = true;        ///< Eq. (11): I_ms >= T_L / T_S
+};
+
+/// `odd` is the frequency ratio fast over slow, `omega` the damped frequency of the slow mass
+/// [1/s], `end` in s. Throws InputError unless 0 < threshold < 1,
+/// and where more than 5e14 harmonics would reach it.
+Indicators indicators(double odd, double omega, double end, double threshold);
+
 /// What becomes of small errors at the impacts of a synchronized pair, and so which errors
 /// a user may attribute to a solver. Relative means: against the decaying amplitude of the motion.
 enum class Conditioning {

@@ -8,6 +8,27 @@
 
 namespace clackers::report {
 
+/// A record for a person, at most style.width characters a line: of each case a table of methods,
+/// one of histories with the metrics of the finest, and a sentence for each finding; of several cases
+/// the performance profile; what changed since a baseline; a last line with the verdict and the next
+/// command.
+void write_text(const record::Record& record, std::ostream& out, const Style& style,
+                const study::BaselineComparison* changes);
+
+/// A record as LaTeX fragments for \input: of each case a table of its methods (tab:clackers-CASE)
+/// and one of its histories (tab:clackers-check-CASE), with the package booktabs. Findings are notes
+/// below.
+void write_latex(const record::Record& record, std::ostream& out, const Style& style,
+                 const study::BaselineComparison* changes);
+
+/// A record as JUnit XML, which continuous-integration systems show: a suite a case, a test a
+/// subject. A subject that disagrees is a failure with its finding; one that refused the case or
+/// stays undecided is skipped with the reason; one that was interrupted is an error. `time` is
+/// processor time [s]. What was measured stands in properties, as numbers that read back to the same
+/// double. What changed since a baseline is the output of the suite.
+void write_junit(const record::Record& record, std::ostream& out, const Style& style,
+                 const study::BaselineComparison* changes);
+
 // The ways to write rows. All read row by row, or block by block where the rows are numbers, and
 // stop early when the stream fails. csv and json never print -0.
 
