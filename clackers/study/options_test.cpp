@@ -7,11 +7,9 @@ namespace {
 
 TEST(VerifyOptions, AreSetByName) {
   VerifyRequest request;
-  set_options(request, {{"levels", 3},
-                        {"coarsest", 0.25},
-                        {"samples-per-level", 5},
-                        {"budget", 7.5},
-                        {"jobs", 2}});
+  set_options(
+      request,
+      {{"levels", 3}, {"coarsest", 0.25}, {"samples-per-level", 5}, {"budget", 7.5}, {"jobs", 2}});
   EXPECT_EQ(request.plan.levels, 3);
   EXPECT_EQ(request.plan.coarsest, 0.25);
   EXPECT_EQ(request.plan.samples_per_level, 5);
