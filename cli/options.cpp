@@ -1,13 +1,21 @@
 #include "cli/options.hpp"
 
+#include <fmt/format.h>
+
 namespace clackers::cli {
 
-void add_common_options(Command& command, CommonOptions& options) {
-  command
-      .add_option("--format", options.format,
-                  "table (for people, 80 columns), csv or json (for programs; numbers read back to "
-                  "the same double). Default: table.")
-      ->option_text("table|csv|json");
+void add_common_options(Command& command, CommonOptions& options, report::Content content) {
+  const auto formats = report::formats_of(content);
+  std::string names, notes;
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    names += fmt::format("{}{}", i == 0 ? "" : "|", formats[i].name);
+    notes += fmt::format("{}{} ({})",
+                         i == 0                    ? ""
+                         : i + 1 == formats.size() ? " or "
+                                                   : ", ",
+                         formats[i].name, formats[i].note);
+  }
+  command.add_option("--format", options.format, notes + ". Default: table.")->option_text(names);
   command
       .add_option("--out", options.out,
                   "Write the result to FILE instead of standard output, whole or not at all.")
@@ -42,15 +50,6 @@ void add_report_option(Command& command, std::string& path) {
                   "Also write a page with verdicts, figures and provenance that opens without a "
                   "network, whole or not at all.")
       ->writes_file("FILE.html");
-}
-
-void add_verdict_formats(Command& command) {
-  command.get_option("--format")
-      ->description(
-          "table (for people, 80 columns), csv or json (for programs; numbers read back to the "
-          "same double), junit (xml for continuous integration) or latex (a table). Default: "
-          "table.")
-      ->option_text("table|csv|json|junit|latex");
 }
 
 }  // namespace clackers::cli

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "clackers/report/write.hpp"
 #include "cli/command.hpp"
 
 namespace clackers::cli {
@@ -14,7 +15,9 @@ struct CommonOptions {
 };
 
 /// Adds --format, --out, --quiet and --no-color. `options` must outlive the parsing.
-void add_common_options(Command& command, CommonOptions& options);
+/// `content` decides which formats there are.
+void add_common_options(Command& command, CommonOptions& options,
+                        report::Content content = report::Content::rows);
 
 /// Adds --set, which may stand several times.
 void add_set_option(Command& command, std::vector<std::string>& settings);
@@ -24,8 +27,5 @@ void add_problem_option(Command& command, std::string& path);
 
 /// Adds --report of commands that assess. `path` must outlive the parsing.
 void add_report_option(Command& command, std::string& path);
-
-/// Says in the help of --format that commands that assess know more formats.
-void add_verdict_formats(Command& command);
 
 }  // namespace clackers::cli

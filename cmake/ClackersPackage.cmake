@@ -23,7 +23,7 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME clackers)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION math)
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION
   "Exact motions of colliding masses, and verdicts on time-integration methods (command)
-The command clackers prints exact motions with their collisions and judges
+The command clackers prints exact motions with their impacts and judges
 time-integration methods against them.")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libclackers0)

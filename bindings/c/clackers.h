@@ -185,7 +185,7 @@ typedef struct clackers_constant {
 CLACKERS_API clackers_status clackers_motion_constant_count(const clackers_motion* motion,
                                                             size_t* count);
 
-/** Constant `index` = 0, 1, ..., count - 1. */
+/** Quantity `index` = 0, 1, ..., count - 1. */
 CLACKERS_API clackers_status clackers_motion_constant_at(const clackers_motion* motion,
                                                          size_t index, clackers_constant* constant);
 

@@ -15,12 +15,12 @@ std::size_t count_of(const cases::Case& test_case) {
 }
 
 // Constants come first, then indicators.
-const cases::Constant& constant_of(const cases::Case& test_case, std::size_t index) {
+const Quantity& constant_of(const cases::Case& test_case, std::size_t index) {
   const auto derived = test_case.constants.size();
   return index < derived ? test_case.constants[index] : test_case.indicators[index - derived];
 }
 
-const cases::Constant& constant_of(const cases::Case& test_case, std::string_view name) {
+const Quantity& constant_of(const cases::Case& test_case, std::string_view name) {
   if (name == "collisions") name = "impacts";  // its former name
   std::vector<std::string> names;
   for (std::size_t i = 0; i < count_of(test_case); ++i) {

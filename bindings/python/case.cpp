@@ -22,7 +22,7 @@ std::shared_ptr<Case> make(py::handle name, const py::dict& parameters, py::hand
   return std::make_shared<Case>(cases::make(text, read_settings(text, parameters), share));
 }
 
-py::dict values(const std::vector<cases::Constant>& constants) {
+py::dict values(const std::vector<Quantity>& constants) {
   py::dict all;
   for (const auto& constant : constants) all[py::str(constant.name)] = constant.value;
   return all;

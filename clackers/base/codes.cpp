@@ -48,7 +48,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"one-sample-a-level", "reason",
      "There is one step a level, and the errors go up and down: scatter cannot be distinguished from order. "
      "Add three steps between each two, in the ratio 2^(1/4) (h, h/1.19, h/1.41, h/1.68, h/2)."},
-    {"more-neighbours", "reason",
+    {"more-samples", "reason",
      "The errors scatter so much that the order is uncertain. "
      "Use more samples per level: eight in the ratio 2^(1/8) halve the uncertainty of two."},
     {"errors-cancel", "reason",

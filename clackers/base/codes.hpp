@@ -22,7 +22,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "exact", "proper", "reduced", "irregular", "stagnating", "divergent", "undecided",
     "contact-stiffness", "tolerance-floor", "unexplained-floor", "too-few-levels",
     "contact-not-resolved", "no-convergence-yet", "larger-than-motion", "simultaneous-impacts", "one-sample-a-level",
-    "more-neighbours", "errors-cancel", "error-grows-again", "no-fixed-order", "wrong-limit",
+    "more-samples", "errors-cancel", "error-grows-again", "no-fixed-order", "wrong-limit",
     "improper-convergence", "differences-turn", "run-failed", "energy-growth", "error-growth",
     "diverged", "newton-failed", "complementarity-failed", "step-too-small", "too-many-impacts",
     "agrees", "disagrees", "not-claimed", "not-a-number", "not-finite", "out-of-range",
@@ -54,6 +54,24 @@ std::span<const CodeEntry> code_table();
 
 /// The row of a code, or nullptr for an unknown one.
 const CodeEntry* find_code(std::string_view name);
+
+constexpr std::string_view name_of_entry(std::string_view name) { return name; }
+constexpr std::string_view name_of_entry(const auto& entry) { return entry.code; }
+
+/// A name of the table `entries`: texts, or rows with a member `code`. A misspelled one does not compile.
+template <const auto& entries>
+class NameOf {
+ public:
+  consteval NameOf(const char* name) : name_(name) {
+    for (const auto& entry : entries)
+      if (name_of_entry(entry) == name_) return;
+    throw "no such name in the table";
+  }
+  constexpr std::string_view name() const { return name_; }
+
+ private:
+  std::string_view name_;
+};
 
 /// A name of `code_names`. A misspelled one does not compile.
 class Code {

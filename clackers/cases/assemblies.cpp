@@ -15,7 +15,7 @@ using exact::ShapedMotion;
 // What every synchronized motion has, after its own constants.
 void add_common_constants(Case& test_case, const ShapedMotion& motion, double sigma, double eta) {
   const auto& c = motion.flight();
-  for (const Constant& constant : std::initializer_list<Constant>{
+  for (const Quantity& constant : std::initializer_list<Quantity>{
            {"sigma", sigma, "1/s", "common rate of decay"},
            {"eta", eta, "", "restitution"},
            {"T", c.period.hi, "s", "time between impacts"},

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/base/note.hpp"
 #include "clackers/base/parameter.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
@@ -22,21 +23,14 @@ struct CaseEntry {
 
 using clackers::Settings;
 
-/// A derived constant with its unit and meaning.
-struct Constant {
-  std::string name;
-  double value = 0.0;
-  std::string unit, meaning;
-};
-
 /// A problem together with its reference.
 struct Case {
   const CaseEntry* entry = nullptr;
   Settings values;  ///< all parameters, in the entry's order
   model::ImpactProblem<> problem;
   std::shared_ptr<const model::Motion> motion;
-  std::vector<Constant> constants;     ///< derived: m2, k2, omega_D2, r*, margin, ...
-  std::vector<Constant> indicators;    ///< I_ms, T_L, T_S, I_OC, with their threshold
+  std::vector<Quantity> constants;     ///< derived: m2, k2, omega_D2, r*, margin, ...
+  std::vector<Quantity> indicators;    ///< I_ms, T_L, T_S, I_OC, with their threshold
   std::vector<double> damped_periods;  ///< of the free masses [s]
 };
 

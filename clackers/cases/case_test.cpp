@@ -12,7 +12,7 @@
 namespace clackers::cases {
 namespace {
 
-double constant(const std::vector<Constant>& list, std::string_view name) {
+double constant(const std::vector<Quantity>& list, std::string_view name) {
   for (const auto& c : list)
     if (c.name == name) return c.value;
   ADD_FAILURE() << "no constant " << name;
@@ -293,7 +293,7 @@ TEST(Cases, IndicatorsNameTheirThreshold) {
 }
 
 TEST(Cases, SayWhatAnErrorMayBeBlamedOn) {
-  const auto find = [](const Case& test_case, std::string_view name) -> const Constant* {
+  const auto find = [](const Case& test_case, std::string_view name) -> const Quantity* {
     for (const auto& c : test_case.constants)
       if (c.name == name) return &c;
     return nullptr;

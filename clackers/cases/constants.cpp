@@ -15,13 +15,13 @@ namespace {
 
 double restitution(const Case& test_case) { return test_case.problem.contacts.front().restitution; }
 
-Constant number_of_impacts(const Case& test_case) {
+Quantity number_of_impacts(const Case& test_case) {
   return {"impacts", double(test_case.motion->impact_count(test_case.motion->end())), "",
           "number of impacts up to t_end"};
 }
 
 // What a user may attribute to the solver: docs/manual/explanation/derivations/conditioning.md.
-std::vector<Constant> conditioning_of(const Case& test_case, const exact::PairConstants& c,
+std::vector<Quantity> conditioning_of(const Case& test_case, const exact::PairConstants& c,
                                       double r) {
   const double eta = restitution(test_case);
   const double rate = exact::detuning_rate(c.ratio, r);
@@ -32,7 +32,7 @@ std::vector<Constant> conditioning_of(const Case& test_case, const exact::PairCo
                "conditioning: neutral; an error at one impact, relative to the motion, is as "
                "large at the next"}};
     case exact::Conditioning::growing: {
-      std::vector<Constant> list{
+      std::vector<Quantity> list{
           {"perturbation_growth", eta > 0.0 ? 1.0 / eta : endless, "",
            "conditioning: growing; an error relative to the motion is multiplied by 1/eta at "
            "each impact, after k by eta^-k"}};
@@ -55,14 +55,14 @@ std::vector<Constant> conditioning_of(const Case& test_case, const exact::PairCo
 
 }  // namespace
 
-std::vector<Constant> pair_constants(const Case& test_case, const exact::PairConstants& c,
+std::vector<Quantity> pair_constants(const Case& test_case, const exact::PairConstants& c,
                                      double r) {
   const auto limit = c.ratio.is_inverse
                          ? "limit of m2/m1, the slow mass over the fast one; the closed "
                            "form holds below it (sharp form of Eq. 18)"
                          : "limit of the mass ratio r; the closed form holds below it "
                            "(sharp form of Eq. 18)";
-  std::vector<Constant> list{
+  std::vector<Quantity> list{
       {"m1", c.m1, "kg", "mass 1, above"},
       {"m2", c.m2, "kg", "mass 2, below"},
       {"k1", c.k1, "N/m", "stiffness of mass 1"},
@@ -96,9 +96,9 @@ std::vector<Constant> pair_constants(const Case& test_case, const exact::PairCon
   return list;
 }
 
-std::vector<Constant> single_mass_constants(const Case& test_case, double xi1) {
+std::vector<Quantity> single_mass_constants(const Case& test_case, double xi1) {
   const double omega_d = std::sqrt((1.0 - xi1) * (1.0 + xi1));
-  std::vector<Constant> list{{"m1", 1.0, "kg", "the mass"},
+  std::vector<Quantity> list{{"m1", 1.0, "kg", "the mass"},
                              {"k1", 1.0, "N/m", "its stiffness"},
                              {"c1", 2.0 * xi1, "N s/m", "its damping"},
                              {"xi1", xi1, "", "its damping ratio"},
@@ -122,7 +122,7 @@ std::vector<Constant> single_mass_constants(const Case& test_case, double xi1) {
   return list;
 }
 
-std::vector<Constant> indicator_constants(double odd, double omega, double end, double threshold) {
+std::vector<Quantity> indicator_constants(double odd, double omega, double end, double threshold) {
   const auto i = exact::indicators(odd, omega, end, threshold);
   return {
       {"threshold", i.threshold, "",

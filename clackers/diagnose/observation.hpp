@@ -4,18 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "clackers/base/note.hpp"
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/model/trajectory.hpp"
 
 namespace clackers::diagnose {
-
-/// How a column of a history is printed.
-struct ColumnDigits {
-  std::string name;  ///< "t", "u1", "v2"
-  int digits = 0;
-  bool single = false;     ///< every number is one of single precision
-  double half_unit = 0.0;  ///< largest rounding error of printing, in the column's unit
-};
 
 /// What is known of a history beside its numbers.
 struct FileFacts {
@@ -23,7 +16,7 @@ struct FileFacts {
   double spacing = 0.0;         ///< median time between rows [s]
   double floor = 0.0;           ///< part of u_error that printing alone may make
   double time_half_unit = 0.0;  ///< of printing t [s]
-  std::vector<ColumnDigits> columns;
+  std::vector<PrintedColumn> columns;
   /// Names of all columns in the file's order, as they were read; empty: t, u1, v1, u2, v2, ...
   std::vector<std::string> order{};
   double contact_time = 0.0;  ///< median length of the contacts in it [s], 0 for instants

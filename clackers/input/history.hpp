@@ -5,17 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "clackers/base/note.hpp"
 #include "clackers/input/source.hpp"
 #include "clackers/model/trajectory.hpp"
 
 namespace clackers::input {
-
-/// Something a reader should know of a source. A code and its numbers, as study/notes.hpp lists them.
-struct ReadNote {
-  std::string code;
-  std::vector<double> numbers{};
-  std::string text{};
-};
 
 /// What is known of a source before it is read.
 struct HistoryOptions {
@@ -30,29 +24,21 @@ struct HistoryOptions {
   std::function<void(double share)> progress{};
 };
 
-/// How the numbers of one column are printed, or would be with as few digits as they need.
-struct ColumnPrint {
-  std::string name;
-  int digits = 0;          ///< the most significant digits of any of its numbers
-  bool single = false;     ///< more than nine digits, yet all are single-precision numbers
-  double half_unit = 0.0;  ///< largest rounding error by printing, in the column's unit; 0: none
-};
-
 /// A time history as it stands in its source.
 struct History {
   /// Masses without a column u: their u is 0 and means nothing. v and a are empty unless there is a
   /// column for every mass. Impacts are not reported.
   model::Trajectory motion;
-  std::vector<bool> has_u;           ///< one entry a mass
-  bool has_time = true;              ///< false: times are n step
-  std::vector<std::string> names;    ///< of all columns in their order, "_" for a skipped one
-  std::vector<ColumnPrint> columns;  ///< those that were used, time first if there is one
+  std::vector<bool> has_u;             ///< one entry a mass
+  bool has_time = true;                ///< false: times are n step
+  std::vector<std::string> names;      ///< of all columns in their order, "_" for a skipped one
+  std::vector<PrintedColumn> columns;  ///< those that were used, time first if there is one
   /// Rounding error of the times by printing [s]; 0 when they are equally spaced to the last digit,
   /// since such times were hardly rounded.
   double time_half_unit = 0.0;
   double spacing = 0.0;    ///< median time between rows [s]
   std::string not_finite;  ///< where the first such number stands, a sentence; empty for none
-  std::vector<ReadNote> notes;
+  std::vector<Note> notes;
 };
 
 /// Reads a history from a text file, a NumPy file (.npy, known by its first bytes) or columns in

@@ -64,7 +64,7 @@ class Finder {
 
 // All or nothing: what is known of some masses only is left out, with a note.
 void require_all(std::vector<HistoryColumns::Column>& columns, const std::string& code,
-                 std::vector<ReadNote>& notes) {
+                 std::vector<Note>& notes) {
   const auto given = [](const HistoryColumns::Column& c) { return c.has_value(); };
   if (std::ranges::all_of(columns, given)) return;
   if (std::ranges::any_of(columns, given)) notes.push_back({.code = code});
@@ -74,7 +74,7 @@ void require_all(std::vector<HistoryColumns::Column>& columns, const std::string
 }  // namespace
 
 HistoryColumns history_columns(const std::string& path, const std::vector<std::string>& names,
-                               const HistoryOptions& options, std::vector<ReadNote>& notes) {
+                               const HistoryOptions& options, std::vector<Note>& notes) {
   Finder finder(path, names);
   HistoryColumns columns;
   columns.t = finder.find({"t", "time"});

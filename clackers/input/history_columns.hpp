@@ -21,6 +21,6 @@ struct HistoryColumns {
 /// Finds the columns by their names (lower case) and notes which are left out. Throws InputError
 /// with `path` for one that stands twice, no u at all, and no t unless options.step is given.
 HistoryColumns history_columns(const std::string& path, const std::vector<std::string>& names,
-                               const HistoryOptions& options, std::vector<ReadNote>& notes);
+                               const HistoryOptions& options, std::vector<Note>& notes);
 
 }  // namespace clackers::input

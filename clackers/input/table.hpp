@@ -48,7 +48,7 @@ class Table {
   /// What part of the table has been read, in [0, 1]; 0 where that is not known.
   virtual double share() const = 0;
   /// What a reader should know of the table, once its last row was read.
-  virtual std::vector<ReadNote> notes() const { return {}; }
+  virtual std::vector<Note> notes() const { return {}; }
 
  protected:
   explicit Table(std::string name) : name_(std::move(name)) {}

@@ -10,7 +10,7 @@
 
 namespace clackers::record {
 
-/// A code of record::Note: what it says, and what its numbers and its text are.
+/// A code of Note: what it says, and what its numbers and its text are.
 struct NoteEntry {
   std::string_view code, meaning;
   std::string_view numbers;  ///< in their order, "; " between them; empty for none
@@ -44,19 +44,7 @@ inline constexpr auto note_entries = std::to_array<NoteEntry>({
 });
 // clang-format on
 
-/// A code of `note_entries`. A misspelled one does not compile.
-class NoteCode {
- public:
-  consteval NoteCode(const char* code) : code_(code) {
-    bool known = false;
-    for (const auto& entry : note_entries) known = known || entry.code == code_;
-    if (!known) throw "no such code in note_entries";
-  }
-  constexpr std::string_view name() const { return code_; }
-
- private:
-  std::string_view code_;
-};
+using NoteCode = NameOf<note_entries>;
 
 inline Note note(NoteCode code, std::vector<double> numbers = {}, std::string text = {}) {
   return {std::string(code.name()), std::move(numbers), std::move(text)};

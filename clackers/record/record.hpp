@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "clackers/base/judgement.hpp"
+#include "clackers/base/note.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/judge/convergence/assessment.hpp"
 #include "clackers/judge/convergence/step_ladder.hpp"
@@ -26,15 +27,6 @@ std::string_view to_string(Mismatch mismatch);
 // The one record of every study: verify and check fill it, for one case or for several; every
 // output format, --report and --baseline reads it.
 namespace clackers::record {
-
-/// A number with its unit and meaning.
-struct Quantity {
-  std::string name;  ///< "omega_D1"
-  double value = 0.0;
-  std::string unit;  ///< "rad/s", empty when dimensionless
-  std::string meaning;
-  std::string text{};  ///< of a parameter that is a word: "chain"; the value is NaN then
-};
 
 /// What was run, where and by what: enough to run it again.
 struct Provenance {
@@ -83,27 +75,11 @@ struct Curve {
   std::vector<std::vector<double>> y;  ///< one row a mass
 };
 
-/// How a column of a history is printed.
-struct PrintedColumn {
-  std::string name;
-  int digits = 0;
-  bool single = false;     ///< numbers of single precision
-  double half_unit = 0.0;  ///< largest rounding error of printing, in the column's unit
-};
-
 enum class StepSource { data, name, option };          ///< where a history's step comes from
 enum class ImpactSource { events, history, unknown };  ///< unknown: neither reported nor found
 
 std::string_view to_string(StepSource source);    ///< "data", "name", "option"
 std::string_view to_string(ImpactSource source);  ///< "events", "history", "unknown"
-
-/// Something a reader should know of a history: a code and its numbers; report/words makes the
-/// sentence. `text` holds a name where the note needs one (a column, a code of a step source).
-struct Note {
-  std::string code;             ///< "rows-beyond-end", "columns-not-used", ...
-  std::vector<double> numbers;  ///< in the order that the code's entry in notes.hpp gives
-  std::string text;
-};
 
 /// What a history file holds beside its errors.
 struct HistoryFile {

@@ -26,6 +26,8 @@ constexpr auto infinity = "inf", minus_infinity = "-inf", not_a_number = "nan";
 
 // Texts among the numbers of a diagnosis.
 constexpr auto text_key = "text", runner_up_key = "runner-up";
+// The name of "more-samples" in records of earlier versions.
+constexpr auto former_code = "more-neighbours";
 
 /// Collects the fields of one struct as a json object.
 class Writer {
@@ -222,6 +224,15 @@ class Reader {
     constexpr std::string_view former = "collisions";
     if (const auto at = x.code.find(former); at != std::string::npos)
       x.code.replace(at, former.size(), "impacts");
+    if (x.code == former_code) x.code = Code("more-samples").name();
+  }
+  template <class T>
+  requires std::same_as<T, judge::LadderFit> || std::same_as<T, judge::Assessment>
+  static void read(const Json& json, const std::string& where, T& x) {
+    Reader reader(json, where);
+    fields(reader, x);
+    reader.finish();
+    if (x.reason == former_code) x.reason = Code("more-samples").name();
   }
   static void read(const Json& json, const std::string&, Json& x) { x = json; }
   template <class T>

@@ -132,7 +132,11 @@ TEST(RecordJson, ReadsRecordsOfEarlierVersions) {
   subject["levels"][0]["runs"][1].erase("printed");
   subject["assessment"]["evidence"] = Json::array(
       {{{"code", "other-collisions"}, {"verdict", "disagrees"}, {"numbers", {4, 6, 1}}}});
+  subject["assessment"]["reason"] = "more-neighbours";
+  subject["assessment"]["displacement"]["reason"] = "more-neighbours";
   const auto read = record_from_json(json_text(json)).cases[0].subjects[0];
+  EXPECT_EQ(read.assessment.reason, "more-samples");
+  EXPECT_EQ(read.assessment.displacement.reason, "more-samples");
   EXPECT_EQ(read.resolution, Resolution::step);
   EXPECT_TRUE(read.diagnoses.empty());
   EXPECT_EQ(read.levels[0].runs[1].printed, "");

@@ -37,23 +37,24 @@ void write_record_json(const record::Record& record, std::ostream& out, const St
 struct FormatRow {
   Format format;
   std::string name;
-  RowWriter rows;        ///< nullptr: rows do not have it
-  RecordWriter record;   ///< nullptr: records do not have it
-  bool shows_changes;    ///< since a baseline
-  bool numbers = false;  ///< of rows only where all are numbers
+  std::string_view note;  ///< for the help
+  RowWriter rows;         ///< nullptr: rows do not have it
+  RecordWriter record;    ///< nullptr: records do not have it
+  bool shows_changes;     ///< since a baseline
+  bool numbers = false;   ///< of rows only where all are numbers
 };
 
 /// All formats; a new one is a row here and its writer.
 const FormatRow table[] = {
-    {Format::table, "table", write_table, write_text, true},
-    {Format::csv, "csv", [](auto& rows, auto& out, auto&) { write_csv(rows, out); }, write_runs,
-     false},
-    {Format::json, "json", [](auto& rows, auto& out, auto&) { write_json(rows, out); },
+    {Format::table, "table", "for people, 80 columns", write_table, write_text, true},
+    {Format::csv, "csv", "numbers read back to the same double",
+     [](auto& rows, auto& out, auto&) { write_csv(rows, out); }, write_runs, false},
+    {Format::json, "json", "the same", [](auto& rows, auto& out, auto&) { write_json(rows, out); },
      write_record_json, false},
-    {Format::npy, "npy", [](auto& rows, auto& out, auto&) { write_npy(rows, out); }, nullptr, false,
-     true},
-    {Format::junit, "junit", nullptr, write_junit, true},
-    {Format::latex, "latex", nullptr, write_latex, false},
+    {Format::npy, "npy", "a NumPy structured array of float64, one field a column",
+     [](auto& rows, auto& out, auto&) { write_npy(rows, out); }, nullptr, false, true},
+    {Format::junit, "junit", "XML for continuous integration", nullptr, write_junit, true},
+    {Format::latex, "latex", "tables", nullptr, write_latex, false},
 };
 
 const FormatRow& row_of(Format format) {
@@ -68,6 +69,13 @@ bool has(const FormatRow& row, Content content) {
 }
 
 }  // namespace
+
+std::vector<FormatNote> formats_of(Content content) {
+  std::vector<FormatNote> notes;
+  for (const auto& row : table)
+    if (has(row, content)) notes.push_back({row.name, row.note});
+  return notes;
+}
 
 Format format_from(std::string_view text, Content content) {
   std::vector<std::string> names;

@@ -17,6 +17,12 @@ enum class Format { table, csv, json, npy, junit, latex };
 /// What there is to write: rows, rows of numbers alone, or a record.
 enum class Content { rows, numbers, verdicts };
 
+/// Name of a format and what it is, for the help.
+struct FormatNote {
+  std::string_view name, note;
+};
+std::vector<FormatNote> formats_of(Content content);
+
 /// Throws InputError with did-you-mean for any text but the formats of the content.
 Format format_from(std::string_view text, Content content = Content::rows);
 

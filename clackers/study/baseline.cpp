@@ -37,7 +37,7 @@ std::string plan_options(const record::RefinementPlan& plan) {
 }
 
 // Numbers are compared bit by bit: a record reads back to the same doubles.
-bool same(const record::Quantity& a, const record::Quantity& b) {
+bool same(const Quantity& a, const Quantity& b) {
   return a.name == b.name && a.text == b.text && (a.value == b.value || !a.text.empty());
 }
 

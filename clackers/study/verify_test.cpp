@@ -134,7 +134,7 @@ TEST(Verify, HoldsTheProblemAndItsProvenance) {
   EXPECT_EQ(problem.parameters[2].unit, "s");
   EXPECT_FALSE(problem.parameters[2].meaning.empty());
   const auto has = [&](std::string_view name) {
-    return std::ranges::count(problem.constants, name, &record::Quantity::name) == 1;
+    return std::ranges::count(problem.constants, name, &Quantity::name) == 1;
   };
   EXPECT_TRUE(has("omega_D1") && has("I_ms"));
   EXPECT_EQ(problem.end, 8.0);

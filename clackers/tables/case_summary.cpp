@@ -21,8 +21,6 @@ double fast_period(const cases::Case& problem) {
   return largest > 0.0 ? 2.0 * std::numbers::pi / std::sqrt(largest) : problem.motion->end();
 }
 
-record::Quantity quantity(const cases::Constant& c) { return {c.name, c.value, c.unit, c.meaning}; }
-
 }  // namespace
 
 record::CaseSummary summary_of(const cases::Case& problem) {
@@ -34,14 +32,15 @@ record::CaseSummary summary_of(const cases::Case& problem) {
     const auto& parameter = problem.entry->parameters[i];
     const auto& value = problem.values[i].second;
     auto& added = summary.parameters.emplace_back(
-        record::Quantity{parameter.name, NAN, parameter.unit, parameter.meaning});
+        Quantity{parameter.name, NAN, parameter.unit, parameter.meaning});
     if (value.is_word())
       added.text = value.text();
     else
       added.value = value;
   }
-  for (const auto& c : problem.constants) summary.constants.push_back(quantity(c));
-  for (const auto& c : problem.indicators) summary.constants.push_back(quantity(c));
+  summary.constants = problem.constants;
+  summary.constants.insert(summary.constants.end(), problem.indicators.begin(),
+                           problem.indicators.end());
   summary.end = problem.motion->end();
   summary.fast_period = fast_period(problem);
   summary.impact_count = problem.motion->impact_count(summary.end);

@@ -170,12 +170,7 @@ void add_campaign(Grammar& root) {
       ->option_text("runs|subjects");
   app->add_flag("--times", options->times,
                 "Export the processor times as well, which differ from machine to machine.");
-  add_common_options(*app, options->common);
-  app->get_option("--format")
-      ->description(
-          "table (for people), csv or json (numbers read back to the same double), or, of export, npy "
-          "(NumPy, only the columns of numbers). Default: table.")
-      ->option_text("table|csv|json|npy");
+  add_common_options(*app, options->common, report::Content::numbers);
   app->run = [options](const std::string& line) { return run(*options, line); };
 }
 

@@ -231,13 +231,7 @@ void add_respond(Grammar& root) {
                   "Also write a page with the response and the motion as an animation, which opens "
                   "without a network, whole or not at all.")
       ->writes_file("FILE.html");
-  add_common_options(*app, options->common);
-  app->get_option("--format")
-      ->description(
-          "table (for people, 80 columns), csv or json (numbers read back to the same double), npy "
-          "(a NumPy structured array of float64, one field a column; side is -1, 0 or 1; not with "
-          "--digits). Default: table.")
-      ->option_text("table|csv|json|npy");
+  add_common_options(*app, options->common, report::Content::numbers);
   app->run = [options](const std::string& line) { return run(*options, line); };
 }
 

@@ -208,8 +208,7 @@ void add_verify(Grammar& root) {
          "An earlier record (--format json) of the same cases and steps, - for standard input: "
          "lists what changed since. The exit code follows from the verdicts only.")
       ->reads_file("FILE.json");
-  add_common_options(*app, options->common);
-  add_verdict_formats(*app);
+  add_common_options(*app, options->common, report::Content::verdicts);
   app->run = [options](const std::string& line) { return run(*options, line); };
 }
 

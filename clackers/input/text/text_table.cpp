@@ -152,8 +152,8 @@ double TextTable::share() const {
   return size > 0 ? double(lines_.consumed()) / double(size) : 0.0;
 }
 
-std::vector<ReadNote> TextTable::notes() const {
-  std::vector<ReadNote> notes;
+std::vector<Note> TextTable::notes() const {
+  std::vector<Note> notes;
   if (from_comment_) notes.push_back({.code = "columns-from-comment"});
   if (lines_.ends_without_line_feed())
     notes.push_back({.code = "last-line-incomplete", .numbers = {double(lines_.number())}});

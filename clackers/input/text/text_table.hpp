@@ -50,7 +50,7 @@ class TextTable : public Table {
   std::size_t expected_rows() const override;
   double share() const override;
   /// Names that stood in a comment, and a last line without its end.
-  std::vector<ReadNote> notes() const override;
+  std::vector<Note> notes() const override;
 
  private:
   bool next_content();

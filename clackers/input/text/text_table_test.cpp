@@ -30,8 +30,7 @@ Rows read(const std::string& bytes, const Names& names = {}, TableKind kind = Ta
       table.rows.back().push_back(number.value);
     }
   }
-  table.from_comment =
-      std::ranges::count(reader.notes(), "columns-from-comment", &ReadNote::code) > 0;
+  table.from_comment = std::ranges::count(reader.notes(), "columns-from-comment", &Note::code) > 0;
   return table;
 }
 

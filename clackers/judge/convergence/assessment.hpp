@@ -1,8 +1,12 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "clackers/base/codes.hpp"
 #include "clackers/base/judgement.hpp"
 
 namespace clackers::judge {
@@ -33,6 +37,14 @@ struct LadderFit {
   std::vector<double> steps, errors;  ///< of the upper envelope, a value a level
 };
 
+inline constexpr auto evidence_names = std::to_array<std::string_view>(
+    {"impacts-miscounted", "printed-digits", "within-tolerance", "beyond-tolerance",
+     "tolerance-not-resolved", "other-start", "other-impacts", "sparse-rows", "wrong-limit",
+     "ends-early", "commensurate-steps", "errors-cancel", "unstable-coarse-steps",
+     "steps-per-contact", "simultaneous-impacts", "more-samples", "velocity-order-lower",
+     "error-over-tolerance"});
+using EvidenceCode = NameOf<evidence_names>;
+
 /// A fact, beside the fits, that the verdict rests on. Its numbers by code:
 ///
 ///     impacts-miscounted      step [s], impacts matched, expected, extra
@@ -50,14 +62,17 @@ struct LadderFit {
 ///     unstable-coarse-steps   largest step below those that failed [s]
 ///     steps-per-contact       contact time over the finest step, contact time [s]
 ///     simultaneous-impacts    instant [s], contacts, error before it and after it
-///     more-neighbours         order of the envelope, its spread
+///     more-samples         order of the envelope, its spread
 ///     velocity-order-lower    order of the velocities, of the displacements
 ///     error-over-tolerance    mean, least and largest error over tolerance, along the line
 struct Evidence {
-  std::string code;
-  Verdict verdict = Verdict::not_claimed;  ///< of this alone
+  std::string code;                        ///< one of `evidence_names`
+  Verdict verdict = Verdict::not_claimed;  ///< of this only
   std::vector<double> numbers;
 };
+inline Evidence evidence(EvidenceCode code, Verdict verdict, std::vector<double> numbers = {}) {
+  return {std::string(code.name()), verdict, std::move(numbers)};
+}
 
 /// What of a claim is contradicted, where the verdict is `disagrees`.
 enum class Mismatch {

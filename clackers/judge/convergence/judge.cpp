@@ -202,7 +202,7 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
       facts.finest && !claim.is_made() && ladder.size() == 1 && ladder.front().runs.size() == 1;
   if (!one_history) found.reason = fit.reason;
   if (found.verdict == Verdict::undecided && fit.on_envelope)
-    found.reason = Code("more-neighbours").name();
+    found.reason = Code("more-samples").name();
   for (const auto& evidence : found.evidence) {
     if (evidence.code == "sparse-rows") found.reason = Code("sparse-rows").name();
     if (severity(evidence.verdict) <= severity(found.verdict)) continue;

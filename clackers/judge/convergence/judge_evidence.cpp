@@ -19,9 +19,8 @@ bool miscounts(const measure::RunScore& run) {
 
 Evidence miscount(const measure::RunScore& run) {
   const auto& found = *run.impacts;
-  return {"impacts-miscounted",
-          Verdict::disagrees,
-          {run.step, double(found.matched), double(found.expected), double(found.extra)}};
+  return evidence("impacts-miscounted", Verdict::disagrees,
+                  {run.step, double(found.matched), double(found.expected), double(found.extra)});
 }
 
 // The first run of the two finest levels that did not find the impacts it should. Where the errors
@@ -60,35 +59,29 @@ std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFi
 
 Evidence tolerance_evidence(const measure::RunScore& finest, double limit, double printed_floor) {
   const double error = finest.u_error;
-  Evidence found{{}, Verdict::not_claimed, {error, limit, printed_floor}};
-  if (!(std::abs(error - limit) > printed_floor)) {
-    found.code = "tolerance-not-resolved";
-    found.verdict = Verdict::undecided;
-  } else {
-    found.code = error <= limit ? "within-tolerance" : "beyond-tolerance";
-    found.verdict = error <= limit ? Verdict::agrees : Verdict::disagrees;
-  }
-  return found;
+  const std::vector<double> numbers{error, limit, printed_floor};
+  if (!(std::abs(error - limit) > printed_floor))
+    return evidence("tolerance-not-resolved", Verdict::undecided, numbers);
+  if (error <= limit) return evidence("within-tolerance", Verdict::agrees, numbers);
+  return evidence("beyond-tolerance", Verdict::disagrees, numbers);
 }
 
 // Why the history is of another motion than the case's.
 std::optional<Evidence> other_motion(const measure::RunScore& finest, const HistoryFacts& facts) {
   if (facts.first > 0.0 && facts.start_error > far_start)
-    return Evidence{"other-start", Verdict::disagrees, {facts.start_error}};
+    return evidence("other-start", Verdict::disagrees, {facts.start_error});
   if (!facts.rows_resolve_impacts || !miscounts(finest)) return {};
   const auto& found = *finest.impacts;
-  return Evidence{"other-impacts",
-                  Verdict::disagrees,
-                  {double(found.matched), double(found.expected), double(found.extra)}};
+  return evidence("other-impacts", Verdict::disagrees,
+                  {double(found.matched), double(found.expected), double(found.extra)});
 }
 
 std::optional<Evidence> ends_early(const HistoryFacts& facts) {
   if (!(facts.end > 0.0)) return {};
   const bool before_impacts = facts.expected > 0 && facts.expected_to_last == 0;
   if (facts.last >= early_end * facts.end && !before_impacts) return {};
-  return Evidence{"ends-early",
-                  Verdict::undecided,
-                  {facts.last, facts.end, double(facts.expected_to_last), double(facts.expected)}};
+  return evidence("ends-early", Verdict::undecided,
+                  {facts.last, facts.end, double(facts.expected_to_last), double(facts.expected)});
 }
 
 std::optional<Evidence> velocity_order(const Assessment& fits) {
@@ -96,7 +89,7 @@ std::optional<Evidence> velocity_order(const Assessment& fits) {
   if (!u.has_line || !v.has_line) return {};
   const double lower = u.order - v.order;
   if (!(lower > lower_velocity_order && lower > u.spread + v.spread)) return {};
-  return Evidence{"velocity-order-lower", Verdict::not_claimed, {v.order, u.order}};
+  return evidence("velocity-order-lower", Verdict::not_claimed, {v.order, u.order});
 }
 
 std::optional<Evidence> error_over_tolerance(const measure::Ladder& ladder, const LadderFit& fit) {
@@ -115,8 +108,8 @@ std::optional<Evidence> error_over_tolerance(const measure::Ladder& ladder, cons
       ++runs;
     }
   if (runs == 0) return {};
-  return Evidence{
-      "error-over-tolerance", Verdict::not_claimed, {std::exp(sum / runs), least, most}};
+  return evidence("error-over-tolerance", Verdict::not_claimed,
+                  {std::exp(sum / runs), least, most});
 }
 
 bool claims_convergence(const Claim& claim) {
@@ -128,23 +121,23 @@ bool claims_convergence(const Claim& claim) {
 std::vector<Evidence> of_the_fit(const LadderFit& fit, const measure::Ladder& ladder,
                                  const Claim& claim, const Facts& facts) {
   std::vector<Evidence> all;
-  const auto note = [&](std::string_view code, std::vector<double> numbers) {
-    all.push_back({std::string(code), Verdict::not_claimed, std::move(numbers)});
+  const auto note = [&](EvidenceCode code, std::vector<double> numbers) {
+    all.push_back(evidence(code, Verdict::not_claimed, std::move(numbers)));
   };
   if (fit.coincident_share >= least_reported_share)
-    note(Code("commensurate-steps").name(), {fit.coincident_share});
-  if (fit.cancel_step > 0.0) note(Code("errors-cancel").name(), {fit.cancel_step});
-  if (fit.stable_step > 0.0) note(Code("unstable-coarse-steps").name(), {fit.stable_step});
+    note("commensurate-steps", {fit.coincident_share});
+  if (fit.cancel_step > 0.0) note("errors-cancel", {fit.cancel_step});
+  if (fit.stable_step > 0.0) note("unstable-coarse-steps", {fit.stable_step});
   if (fit.reason == Code("simultaneous-impacts").name() && facts.shared)
-    note(fit.reason, {facts.shared->instant.t, double(facts.shared->instant.contacts),
-                      facts.shared->error_before, facts.shared->error_after});
+    note("simultaneous-impacts", {facts.shared->instant.t, double(facts.shared->instant.contacts),
+                                  facts.shared->error_before, facts.shared->error_after});
   const bool unresolved = fit.reason == Code("contact-not-resolved").name();
   if (facts.contact_time > 0.0 && !facts.by_tolerance &&
       (unresolved || fit.behaviour == Behaviour::stagnating))
     note("steps-per-contact", {facts.contact_time / finest_run(ladder).step, facts.contact_time});
   const double order = claim.behaviour == Behaviour::irregular ? claim.order : fit.order;
   if (fit.on_envelope && fit.spread > envelope_order_tolerance * order)
-    note(Code("more-neighbours").name(), {fit.order, fit.spread});
+    note("more-samples", {fit.order, fit.spread});
   return all;
 }
 
@@ -167,10 +160,10 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   const double printed = facts.finest ? facts.finest->printed_floor : 0.0;
   const bool claimed = claim.is_made();
   if (fit.reason == Code("printed-digits").name())
-    all.push_back({fit.reason, of_behaviour, {finest.u_error, printed}});
+    all.push_back(evidence("printed-digits", of_behaviour, {finest.u_error, printed}));
   if (claimed) add(miscounted(ladder, fit, claim));
   // Whatever the order, it is that of another motion.
-  const Evidence wrong_limit{std::string(Code("wrong-limit").name()), Verdict::disagrees, {}};
+  const auto wrong_limit = evidence("wrong-limit", Verdict::disagrees);
   if (facts.wrong_limit && claims_convergence(claim)) all.push_back(wrong_limit);
   if (facts.tolerance) add(tolerance_evidence(finest, *facts.tolerance, printed));
   for (auto& found : of_the_fit(fit, ladder, claim, facts)) all.push_back(std::move(found));
@@ -180,7 +173,7 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   add(ends_early(*facts.finest));
   if (claimed) return all;  // an expected divergence may lead to another motion
   if (!facts.tolerance && finest.impacts && !facts.finest->rows_resolve_impacts)
-    all.push_back({"sparse-rows", Verdict::not_claimed, {}});
+    all.push_back(evidence("sparse-rows", Verdict::not_claimed, {}));
   add(other_motion(finest, *facts.finest));
   if (facts.wrong_limit) all.push_back(wrong_limit);
   return all;

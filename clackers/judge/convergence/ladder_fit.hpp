@@ -86,7 +86,7 @@ inline constexpr double settling_share = 0.5;
 /// The envelope decides: undecided for one run a level; stagnating where the raw points of the last
 /// four levels are flat; irregular where the line of the largest error of each level (leading levels
 /// with errors as large as the motion left out) falls by more than its own spread; divergent where it
-/// rises by as much; else undecided (more-neighbours).
+/// rises by as much; else undecided (more-samples).
 ///
 /// Throws InputError for steps that are not positive, for negative errors and for levels that do
 /// not descend (view() of error_ladder.hpp).

@@ -9,7 +9,6 @@
 #include "clackers/base/constants.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/measure/errors/meter.hpp"
-#include "clackers/measure/impacts/collision_finder.hpp"
 #include "clackers/measure/impacts/impact_finder.hpp"
 #include "clackers/measure/impacts/impact_matcher.hpp"
 

@@ -1,4 +1,4 @@
-#include "clackers/measure/impacts/collision_finder.hpp"
+#include "clackers/measure/impacts/impact_finder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "clackers/base/constants.hpp"
-#include "clackers/measure/impacts/collision_finder.hpp"
+#include "clackers/measure/impacts/impact_finder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 namespace clackers::measure {
 
 /// Displacement [m], velocity [m/s] or acceleration [m/s^2].
-enum class Quantity { u, v, a };
+enum class Component { u, v, a };
 
 /// How the error e(t) of one mass becomes a number, over the history's output times from t0 to t1:
 ///
@@ -34,9 +34,9 @@ enum class Quantity { u, v, a };
 enum class Norm { max, l1, l2, end };
 
 /// The error of each mass; not measured where the history lacks the quantity.
-MetricValue norm_error(const Comparison& comparison, Quantity quantity, Norm norm);
+MetricValue norm_error(const Comparison& comparison, Component quantity, Norm norm);
 /// The same relative to the largest envelope of the reference over the run.
-MetricValue relative_norm_error(const Comparison& comparison, Quantity quantity, Norm norm);
+MetricValue relative_norm_error(const Comparison& comparison, Component quantity, Norm norm);
 
 // Errors of the whole structure over the history's output times.
 

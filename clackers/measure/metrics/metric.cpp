@@ -20,12 +20,12 @@ struct NormRow {
 };
 
 struct QuantityRow {
-  Quantity quantity;
+  Component quantity;
   std::string_view name, unit;
 };
 
 constexpr QuantityRow quantities[] = {
-    {Quantity::u, "u", "m"}, {Quantity::v, "v", "m/s"}, {Quantity::a, "a", "m/s^2"}};
+    {Component::u, "u", "m"}, {Component::v, "v", "m/s"}, {Component::a, "a", "m/s^2"}};
 constexpr NormRow norms[] = {{Norm::max, "max", "max |{0} - {0}*| over rows", false},
                              {Norm::l1, "l1", "mean of |{0} - {0}*| over time", true},
                              {Norm::l2, "l2", "root mean square of {0} - {0}* over time", true},
@@ -41,7 +41,7 @@ void add_norms(std::vector<Metric>& table) {
         Metric row{.name = absolute,
                    .unit = unit,
                    .definition = fmt::format(fmt::runtime(definition), symbol),
-                   .across_jumps = quantity == Quantity::u || across_jumps_of_v,
+                   .across_jumps = quantity == Component::u || across_jumps_of_v,
                    .source = "common",
                    .in_reports = false,
                    .measure = {}};

@@ -13,13 +13,13 @@ struct Columns {
   std::span<const double> found, reference;
 };
 
-Columns columns_of(const Comparison& comparison, Quantity quantity) {
+Columns columns_of(const Comparison& comparison, Component quantity) {
   switch (quantity) {
-    case Quantity::u:
+    case Component::u:
       return {comparison.history().u, comparison.reference_u()};
-    case Quantity::v:
+    case Component::v:
       return {comparison.history().v, comparison.reference_v()};
-    case Quantity::a:
+    case Component::a:
       return {comparison.history().a, comparison.reference_a()};
   }
   return {};
@@ -77,13 +77,13 @@ void integrate(const VelocityError& error, Norms& norms) {
   }
 }
 
-template <Quantity quantity>
+template <Component quantity>
 Norms norms_of(const Comparison& comparison) {
   const auto columns = columns_of(comparison, quantity);
   const auto dof = comparison.dof();
   const std::vector<double> zeros(dof);
   Norms norms{zeros, zeros, zeros, zeros};
-  if constexpr (quantity == Quantity::u)
+  if constexpr (quantity == Component::u)
     norms.max.assign(comparison.meter().u_errors().begin(), comparison.meter().u_errors().end());
   else
     for (std::size_t i = 0; i < columns.found.size(); ++i)
@@ -92,9 +92,9 @@ Norms norms_of(const Comparison& comparison) {
   const auto last = columns.found.size() - dof;
   for (std::size_t j = 0; j < dof; ++j)
     norms.end[j] = std::abs(columns.found[last + j] - columns.reference[last + j]);
-  if constexpr (quantity == Quantity::u)
+  if constexpr (quantity == Component::u)
     integrate(comparison, columns, norms);
-  else if constexpr (quantity == Quantity::v)
+  else if constexpr (quantity == Component::v)
     integrate(comparison.meter().velocity(), norms);
   else
     integrate(integrate_accelerations(comparison, columns), norms);
@@ -106,24 +106,24 @@ Norms norms_of(const Comparison& comparison) {
 
 }  // namespace
 
-MetricValue norm_error(const Comparison& comparison, Quantity quantity, Norm norm) {
+MetricValue norm_error(const Comparison& comparison, Component quantity, Norm norm) {
   switch (quantity) {
-    case Quantity::u:
-      return measured(comparison.shared(norms_of<Quantity::u>).of(norm));
-    case Quantity::v:
+    case Component::u:
+      return measured(comparison.shared(norms_of<Component::u>).of(norm));
+    case Component::v:
       if (!comparison.has_velocities()) return not_measured("The history has no velocities.");
-      return measured(comparison.shared(norms_of<Quantity::v>).of(norm));
-    case Quantity::a:
+      return measured(comparison.shared(norms_of<Component::v>).of(norm));
+    case Component::a:
       break;
   }
   if (!comparison.has_accelerations()) return not_measured("The history has no accelerations.");
-  return measured(comparison.shared(norms_of<Quantity::a>).of(norm));
+  return measured(comparison.shared(norms_of<Component::a>).of(norm));
 }
 
-MetricValue relative_norm_error(const Comparison& comparison, Quantity quantity, Norm norm) {
-  const auto envelope = quantity == Quantity::u   ? comparison.u_envelope()
-                        : quantity == Quantity::v ? comparison.v_envelope()
-                                                  : comparison.a_envelope();
+MetricValue relative_norm_error(const Comparison& comparison, Component quantity, Norm norm) {
+  const auto envelope = quantity == Component::u   ? comparison.u_envelope()
+                        : quantity == Component::v ? comparison.v_envelope()
+                                                   : comparison.a_envelope();
   return relative_to(norm_error(comparison, quantity, norm), envelope);
 }
 

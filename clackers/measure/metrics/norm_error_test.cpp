@@ -16,8 +16,8 @@ constexpr double half_pi = 0.5 * std::numbers::pi;
 const ToyMotion reference;
 const auto problem = toy_problem();
 
-std::vector<double>& column(model::Trajectory& history, Quantity quantity) {
-  return quantity == Quantity::u ? history.u : quantity == Quantity::v ? history.v : history.a;
+std::vector<double>& column(model::Trajectory& history, Component quantity) {
+  return quantity == Component::u ? history.u : quantity == Component::v ? history.v : history.a;
 }
 
 void expect(const MetricValue& found, double first, double second) {
@@ -30,7 +30,7 @@ void expect(const MetricValue& found, double first, double second) {
 
 // Errors 0.1, -0.2, 0.4 of mass 1 and 0, 0, 0.3 of mass 2 at 0, 0.5 and 1.5; envelopes 1 and 0.5.
 TEST(NormError, IsWhatAHandComputes) {
-  for (const auto quantity : {Quantity::u, Quantity::v, Quantity::a}) {
+  for (const auto quantity : {Component::u, Component::v, Component::a}) {
     auto history = history_of(reference, {0.0, 0.5, 1.5});
     auto& x = column(history, quantity);
     x[0] += 0.1;
@@ -46,7 +46,7 @@ TEST(NormError, IsWhatAHandComputes) {
     expect(relative_norm_error(comparison, quantity, Norm::l2), std::sqrt((0.0125 + 0.1) / 1.5),
            2.0 * std::sqrt(0.045 / 1.5));
     expect(norm_error(comparison, quantity, Norm::end), 0.4, 0.3);
-    for (const auto other : {Quantity::u, Quantity::v, Quantity::a}) {
+    for (const auto other : {Component::u, Component::v, Component::a}) {
       if (other == quantity) continue;
       for (const auto norm : {Norm::max, Norm::l1, Norm::l2, Norm::end})
         expect(norm_error(comparison, other, norm), 0.0, 0.0);
@@ -57,7 +57,7 @@ TEST(NormError, IsWhatAHandComputes) {
 TEST(NormError, IsAMeanOverTheHistoryAlone) {
   auto history = history_of(reference, {0.5, 1.5});
   history.u[2] += 0.2;
-  expect(norm_error({history, reference, problem}, Quantity::u, Norm::l1), 0.1, 0.0);
+  expect(norm_error({history, reference, problem}, Component::u, Norm::l1), 0.1, 0.0);
 }
 
 // The velocities of mass 1 differ by 2 from pi/2 to the history's jump 0.1 s later, those of mass
@@ -66,11 +66,12 @@ TEST(NormError, CountsAShiftedJumpForTheTimeBetween) {
   auto history = history_of(reference, {1.0, half_pi, half_pi, 2.2});
   history.t[1] = history.t[2] = half_pi + 0.1;
   const Comparison comparison(history, reference, problem);
-  expect(norm_error(comparison, Quantity::v, Norm::l1), 0.2 / 1.2, 0.1 / 1.2);
-  expect(norm_error(comparison, Quantity::v, Norm::l2), std::sqrt(0.4 / 1.2), std::sqrt(0.1 / 1.2));
-  expect(norm_error(comparison, Quantity::v, Norm::max), 1.0 + std::cos(0.1),
+  expect(norm_error(comparison, Component::v, Norm::l1), 0.2 / 1.2, 0.1 / 1.2);
+  expect(norm_error(comparison, Component::v, Norm::l2), std::sqrt(0.4 / 1.2),
+         std::sqrt(0.1 / 1.2));
+  expect(norm_error(comparison, Component::v, Norm::max), 1.0 + std::cos(0.1),
          0.5 + 0.5 * std::cos(0.1));
-  expect(norm_error(comparison, Quantity::v, Norm::end), 0.0, 0.0);
+  expect(norm_error(comparison, Component::v, Norm::end), 0.0, 0.0);
 }
 
 TEST(NormError, OfAccelerationsLooksAtTheirOwnJumps) {
@@ -78,7 +79,7 @@ TEST(NormError, OfAccelerationsLooksAtTheirOwnJumps) {
   for (std::size_t i = 2; i < 4; ++i) history.a[i] += 0.5;  // left limits
   for (std::size_t i = 4; i < 6; ++i) history.a[i] -= 0.25;
   const double first = 0.5 * (half_pi - 1.0) * 0.5, second = 0.5 * (2.2 - half_pi) * 0.25;
-  expect(norm_error({history, reference, problem}, Quantity::a, Norm::l1), (first + second) / 1.2,
+  expect(norm_error({history, reference, problem}, Component::a, Norm::l1), (first + second) / 1.2,
          (first + second) / 1.2);
 }
 
@@ -86,13 +87,13 @@ TEST(NormError, OfAccelerationsLooksAtTheirOwnJumps) {
 TEST(NormError, TakesJumpsAtTheEndsOfAHistory) {
   const double last = 3.0 * half_pi;
   auto history = history_of(reference, {half_pi, half_pi, 2.5, last, last});
-  expect(norm_error({history, reference, problem}, Quantity::v, Norm::l1), 0.0, 0.0);
+  expect(norm_error({history, reference, problem}, Component::v, Norm::l1), 0.0, 0.0);
   history.v[0] += 5.0;
   history.v[8] += 9.0;
-  expect(norm_error({history, reference, problem}, Quantity::v, Norm::l1), 0.0, 0.0);
+  expect(norm_error({history, reference, problem}, Component::v, Norm::l1), 0.0, 0.0);
   history.v[2] += 0.2;
   history.v[6] += 0.4;
-  expect(norm_error({history, reference, problem}, Quantity::v, Norm::l1),
+  expect(norm_error({history, reference, problem}, Component::v, Norm::l1),
          (0.1 * (2.5 - half_pi) + 0.2 * (last - 2.5)) / (last - half_pi), 0.0);
 }
 
@@ -112,7 +113,7 @@ TEST(NormError, IsThatOfARunJudgedWhileItHappens) {
   }
   const auto score = sink.score({});
   EXPECT_GT(score.v_error, 1e-3);
-  EXPECT_NEAR(relative_norm_error(comparison, Quantity::v, Norm::l1).value, score.v_error, 1e-14);
+  EXPECT_NEAR(relative_norm_error(comparison, Component::v, Norm::l1).value, score.v_error, 1e-14);
   EXPECT_EQ(score.impacts->matched, comparison.impact_score().matched);
 }
 
@@ -121,8 +122,9 @@ TEST(NormError, SaysWhatTheHistoryLacks) {
   history.v.clear();
   history.a.clear();
   const Comparison comparison(history, reference, problem);
-  EXPECT_EQ(norm_error(comparison, Quantity::v, Norm::l1).reason, "The history has no velocities.");
-  EXPECT_EQ(relative_norm_error(comparison, Quantity::a, Norm::max).reason,
+  EXPECT_EQ(norm_error(comparison, Component::v, Norm::l1).reason,
+            "The history has no velocities.");
+  EXPECT_EQ(relative_norm_error(comparison, Component::a, Norm::max).reason,
             "The history has no accelerations.");
 }
 
@@ -137,7 +139,7 @@ class StillMass : public ToyMotion {
 TEST(NormError, IsRelativeToNothingWhereAMassDoesNotMove) {
   const StillMass still;
   const auto history = history_of(still, {0.0, 1.0});
-  const auto found = relative_norm_error({history, still, problem}, Quantity::u, Norm::max);
+  const auto found = relative_norm_error({history, still, problem}, Component::u, Norm::max);
   EXPECT_TRUE(std::isnan(found.value));
   EXPECT_NE(found.reason.find("mass 2"), std::string::npos) << found.reason;
 }

@@ -84,8 +84,7 @@ std::string notes_html(const record::CaseRecord& problem) {
              : "<h3>What limits the assessment</h3>\n<ul class=\"remarks\">\n" + out + "</ul>\n";
 }
 
-std::string quantities_html(const std::string& caption,
-                            const std::vector<record::Quantity>& quantities) {
+std::string quantities_html(const std::string& caption, const std::vector<Quantity>& quantities) {
   if (quantities.empty()) return {};
   std::vector<std::vector<std::string>> rows;
   for (const auto& quantity : quantities)

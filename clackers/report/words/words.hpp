@@ -63,7 +63,7 @@ inline constexpr std::size_t most_shown_diagnoses = 3;
 /// The notes on the histories of a subject, one for each code; the finest history stands for
 /// others with the same.
 std::vector<std::string> note_texts(const record::Subject& subject);
-std::string note_text(const record::Note& note);
+std::string note_text(const Note& note);
 
 /// The failed runs of a program: for each kind of failure, three at most, how many runs, the first of
 /// them, and what it printed last; empty for other subjects.

@@ -127,72 +127,72 @@ std::string behaviour_sentence(const record::Subject& subject) {
 
 // What explains a fit, behind its sentence: numbers as the table in assessment.hpp has them.
 std::string remark(const record::Subject& subject, const judge::Evidence& evidence) {
-  const auto& code = evidence.code;
+  const auto is = [&](judge::EvidenceCode code) { return evidence.code == code.name(); };
   const auto number = [&](std::size_t i) {
     return i < evidence.numbers.size() ? evidence.numbers[i] : std::nan("");
   };
   const auto text = [&](std::size_t i) { return short_number(number(i), 3); };
-  if (code == "commensurate-steps")
+  if (is("commensurate-steps"))
     return fmt::format(
         "{:.0f} % of the runs are at the rounding floor because their steps divide the time "
         "between impacts.",
         100.0 * number(0));
-  if (code == "errors-cancel")
+  if (is("errors-cancel"))
     return fmt::format("The signed error passes zero near {}.",
                        resolution_text(subject, number(0)));
-  if (code == "unstable-coarse-steps")
+  if (is("unstable-coarse-steps"))
     return fmt::format("Runs above {} fail or grow without bound.",
                        resolution_text(subject, number(0)));
-  if (code == "steps-per-contact") return fmt::format("A contact has {} steps.", text(0));
-  if (code == "more-neighbours")
+  if (is("steps-per-contact")) return fmt::format("A contact has {} steps.", text(0));
+  if (is("more-samples"))
     return fmt::format("The order is uncertain by ±{}: use more samples per level.", text(1));
-  if (code == "velocity-order-lower")
+  if (is("velocity-order-lower"))
     return fmt::format("Velocities converge with order {:.2f}.", number(0));
-  if (code == "error-over-tolerance")
+  if (is("error-over-tolerance"))
     return fmt::format("It is {} times the tolerance ({} to {}).", text(0), text(1), text(2));
   return {};
 }
 
 // The numbers of an Evidence as its table in assessment.hpp has them.
 std::string evidence_sentence(const record::Subject& subject, const judge::Evidence& evidence) {
-  const auto& code = evidence.code;
+  const auto is = [&](judge::EvidenceCode code) { return evidence.code == code.name(); };
   const auto number = [&](std::size_t i) {
     return i < evidence.numbers.size() ? evidence.numbers[i] : std::nan("");
   };
   const auto text = [&](std::size_t i, int digits = 3) { return short_number(number(i), digits); };
-  if (code == "impacts-miscounted")
+  if (is("impacts-miscounted"))
     return fmt::format("Wrong impacts at {}: {} of {} matched, {} extra.",
                        resolution_text(subject, number(0)), text(1, 15), text(2, 15), text(3, 15));
-  if (code == "printed-digits")
+  if (is("printed-digits"))
     return fmt::format(
         "Limited by the printed digits: the error in u of the finest history is {}, printing alone "
         "may make {}.",
         scientific(number(0)), scientific(number(1)));
-  if (code == "within-tolerance")
+  if (is("within-tolerance"))
     return fmt::format("Within the tolerance: the error in u is {}, the tolerance {}.", text(0),
                        text(1));
-  if (code == "beyond-tolerance")
+  if (is("beyond-tolerance"))
     return fmt::format("Beyond the tolerance: the error in u is {}, the tolerance {}.", text(0),
                        text(1));
-  if (code == "tolerance-not-resolved")
+  if (is("tolerance-not-resolved"))
     return fmt::format(
         "The printed digits are too few for this tolerance: the error in u is {}, the tolerance {}, "
         "printing alone may make {}.",
         text(0), text(1), scientific(number(2)));
-  if (code == "other-start")
+  if (is("other-start"))
     return fmt::format("Another motion: the first row differs by {} of the envelope.", text(0, 2));
-  if (code == "other-impacts")
+  if (is("other-impacts"))
     return fmt::format("Another motion: {} of {} impacts matched, {} extra.", text(0, 15),
                        text(1, 15), text(2, 15));
-  if (code == "ends-early")
+  if (is("ends-early"))
     return fmt::format("The history ends at {} s of {} s, with {} of {} impacts.", text(0), text(1),
                        text(2, 15), text(3, 15));
-  if (code == "simultaneous-impacts")
+  if (is("simultaneous-impacts"))
     return fmt::format(
         "At t = {} s, where {} contacts close at once, the error in u goes from {} to {}.", text(0),
         text(1), scientific(number(2)), scientific(number(3)));
-  if (code == "sparse-rows") return "The rows are too far apart to find the impacts in them.";
-  return meaning_of(code);
+  if (is("sparse-rows")) return "The rows are too far apart to find the impacts in them.";
+  return meaning_of(evidence.code);
 }
 
 const record::Run* first_failure(const record::Subject& subject) {

@@ -89,7 +89,7 @@ std::string hint_text(const record::Subject& subject) {
         least_levels, with_unit(subject, finer(subject, runs.back()->step, least_levels - levels)));
   const bool single = std::ranges::all_of(
       subject.levels, [](const record::Level& level) { return level.runs.size() == 1; });
-  const bool scatters = fit.reason == "one-sample-a-level" || fit.reason == "more-neighbours" ||
+  const bool scatters = fit.reason == "one-sample-a-level" || fit.reason == "more-samples" ||
                         fit.reason == Code("no-convergence-yet").name();
   if (single && scatters && subject.resolution == record::Resolution::step) {
     std::vector<double> between;

@@ -14,13 +14,13 @@ using record::NoteCode;
 
 // The notes of one code.
 struct Group {
-  const record::Note* note = nullptr;  ///< of the finest history that has it
-  const record::Run* run = nullptr;    ///< that history
+  const Note* note = nullptr;        ///< of the finest history that has it
+  const record::Run* run = nullptr;  ///< that history
   long long files = 0;
   bool same = true;  ///< in all of them the same sentence
 };
 
-std::string printed_digits(const record::Note& note, const std::vector<double>& n) {
+std::string printed_digits(const Note& note, const std::vector<double>& n) {
   const bool is_single = n[1] == 1.0;
   const double share = n[3], slack = n[4];
   const auto measured =
@@ -48,7 +48,7 @@ std::string impacts_from_history(const std::vector<double>& n) {
 
 }  // namespace
 
-std::string note_text(const record::Note& note) {
+std::string note_text(const Note& note) {
   auto n = note.numbers;
   n.resize(std::max<std::size_t>(n.size(), 5), std::nan(""));
   const auto text = [&](std::size_t i, int digits = 6) { return short_number(n[i], digits); };

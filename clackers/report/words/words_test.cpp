@@ -65,12 +65,12 @@ TEST(AssessmentText, EvidenceIsGivenWithItsNumbers) {
   auto subject = assessed(Behaviour::proper);
   subject.assessment.evidence = {{"impacts-miscounted", Verdict::disagrees, {0.05, 5, 6, 1}}};
   EXPECT_TRUE(has(assessment_text(subject), "h = 0.05 s: 5 of 6 matched, 1 extra."));
-  for (const auto* code :
-       {"printed-digits", "within-tolerance", "beyond-tolerance", "tolerance-not-resolved",
-        "other-start", "other-impacts", "sparse-rows"}) {
-    subject.assessment.evidence = {{code, Verdict::undecided, {1e-3, 2e-3, 3e-3}}};
+  for (const auto code : std::to_array<judge::EvidenceCode>(
+           {"printed-digits", "within-tolerance", "beyond-tolerance", "tolerance-not-resolved",
+            "other-start", "other-impacts", "sparse-rows"})) {
+    subject.assessment.evidence = {judge::evidence(code, Verdict::undecided, {1e-3, 2e-3, 3e-3})};
     EXPECT_GT(assessment_text(subject).size(), assessment_text(assessed(Behaviour::proper)).size())
-        << code;
+        << code.name();
   }
 }
 
@@ -104,7 +104,7 @@ TEST(AssessmentText, RemarksFollowTheFit) {
                                  {"errors-cancel", Verdict::not_claimed, {0.003}},
                                  {"unstable-coarse-steps", Verdict::not_claimed, {0.02}},
                                  {"steps-per-contact", Verdict::not_claimed, {21.0, 0.01}},
-                                 {"more-neighbours", Verdict::not_claimed, {1.1, 0.49}},
+                                 {"more-samples", Verdict::not_claimed, {1.1, 0.49}},
                                  {"velocity-order-lower", Verdict::not_claimed, {0.999, 2.0}}};
   const auto text = assessment_text(subject);
   EXPECT_TRUE(text.starts_with("Converges irregularly")) << text;

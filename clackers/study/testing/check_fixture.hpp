@@ -66,7 +66,7 @@ class Check : public testing::Test {
 };
 
 inline bool has(const record::Run& run, std::string_view code) {
-  return std::ranges::count(run.file->notes, code, &record::Note::code) > 0;
+  return std::ranges::count(run.file->notes, code, &Note::code) > 0;
 }
 
 }  // namespace clackers::study

@@ -36,7 +36,7 @@ record::Sheet parameter_sheet(const cases::Case& test_case) {
 }
 
 record::Sheet constant_sheet(std::string schema, std::string title,
-                             const std::vector<cases::Constant>& constants) {
+                             const std::vector<Quantity>& constants) {
   record::Sheet sheet{std::move(schema),
                       std::move(title),
                       {{"name", "", ""}, {"value", "", ""}, {"unit", "", ""}, {"meaning", "", ""}},

@@ -85,15 +85,13 @@ class Measurement {
   }
 
   void observe(const measure::Comparison& comparison) {
-    diagnose::FileFacts facts{.step = 0.0,
-                              .spacing = file_.spacing,
-                              .floor = file_.printed_floor,
-                              .time_half_unit = history_.data.time_half_unit,
-                              .columns = {},
-                              .order = history_.data.names,
-                              .contact_time = file_.contact_time};
-    for (const auto& column : file_.columns)
-      facts.columns.push_back({column.name, column.digits, column.single, column.half_unit});
+    const diagnose::FileFacts facts{.step = 0.0,
+                                    .spacing = file_.spacing,
+                                    .floor = file_.printed_floor,
+                                    .time_half_unit = history_.data.time_half_unit,
+                                    .columns = file_.columns,
+                                    .order = history_.data.names,
+                                    .contact_time = file_.contact_time};
     observation_ = diagnose::observe(comparison, facts);
   }
 

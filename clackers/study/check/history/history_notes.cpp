@@ -13,8 +13,7 @@ void add_digits(record::HistoryFile& file, const measure::RunScore& score) {
   // Fifteen digits err less than the arithmetic of a run of any length.
   const double rounding = 1e-15 * double(file.rows);
   if (file.printed_floor <= std::min(rounding, 1e-12)) return;
-  const auto column =
-      std::ranges::find(file.columns, file.printed_by, &record::PrintedColumn::name);
+  const auto column = std::ranges::find(file.columns, file.printed_by, &PrintedColumn::name);
   file.notes.push_back(
       record::note("printed-digits",
                    {double(column->digits), double(column->single), file.printed_floor,

@@ -21,13 +21,11 @@ class Preparation {
               const record::CaseSummary& summary)
       : task_(task), problem_(problem), summary_(summary), h_(std::move(history)) {
     file_.file = input::given_name(task.file);
-    for (auto& read : h_.notes)
-      file_.notes.push_back({std::move(read.code), std::move(read.numbers), std::move(read.text)});
+    file_.notes = std::move(h_.notes);
     file_.has_velocities = !h_.motion.v.empty();
     file_.has_u = h_.has_u;
     file_.spacing = h_.spacing;
-    for (const auto& c : h_.columns)
-      file_.columns.push_back({c.name, c.digits, c.single, c.half_unit});
+    file_.columns = h_.columns;
   }
 
   PreparedHistory run() {
@@ -65,7 +63,7 @@ class Preparation {
   void find_printed_floor() {
     const auto envelope = problem_.motion->peak();
     for (int j = 0; j < h_.motion.dof; ++j) {
-      const auto at = std::ranges::find_if(h_.columns, [&](const input::ColumnPrint& c) {
+      const auto at = std::ranges::find_if(h_.columns, [&](const PrintedColumn& c) {
         return c.name == fmt::format("u{}", j + 1) || c.name == "u";
       });
       const double rounding = at == h_.columns.end() ? 0.0 : at->half_unit;
