@@ -5,7 +5,7 @@
 
 #include "clackers/base/files.hpp"
 #include "clackers/base/json.hpp"
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 #include "paper/catalogue.hpp"
 #include "paper/rendering/page.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "clackers/campaign/specification.hpp"
 #include "clackers/campaign/store.hpp"
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/record/sheet.hpp"
 
 // The atlas: the campaign that ships with the product, its page, and results of others in it.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "clackers/measure/errors/comparison.hpp"
-#include "clackers/record/metric_result.hpp"
 #include "clackers/record/record.hpp"
 
 namespace clackers::record {

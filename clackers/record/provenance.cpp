@@ -1,4 +1,4 @@
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 
 #include <fmt/format.h>
 #include <sys/utsname.h>

@@ -1,4 +1,4 @@
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,6 @@
 #include "clackers/judge/convergence/assessment.hpp"
 #include "clackers/judge/convergence/step_ladder.hpp"
 #include "clackers/measure/errors/score.hpp"
-#include "clackers/record/metric_result.hpp"
 #include "clackers/record/profile.hpp"
 #include "clackers/record/schematic.hpp"
 #include "clackers/record/self_result.hpp"
@@ -27,6 +26,16 @@ std::string_view to_string(Mismatch mismatch);
 // The one record of every study: verify and check fill it, for one case or for several; every
 // output format, --report and --baseline reads it.
 namespace clackers::record {
+
+/// A metric of one history.
+struct MetricResult {
+  std::string name, unit;
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> masses;  ///< mass by mass, empty for a metric of the whole structure
+  std::string reason;          ///< why it was not measured
+  /// false: it need not tend to zero for a history that converges, since its velocities jump.
+  bool across_jumps = true;
+};
 
 /// What was run, where and by what: enough to run it again.
 struct Provenance {
@@ -212,5 +221,12 @@ std::string_view verdict_word(const Record& record);
 /// Of that word: interrupted 130, disagrees 1, undecided 3, else 0; 4 where every run of all solvers
 /// failed.
 int exit_code(const Record& record);
+
+/// Who computes here and now: version, compiler, machine, processor, date. What the machine
+/// does not provide stays "unknown".
+Provenance provenance(std::string command);
+
+/// The processor's name in the text of /proc/cpuinfo, or "unknown".
+std::string processor_name(const std::string& cpuinfo);
 
 }  // namespace clackers::record

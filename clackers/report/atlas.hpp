@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/record/sheet.hpp"
 
 // The page of a campaign: a matrix of verdicts, methods by rows and systems by columns.

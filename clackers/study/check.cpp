@@ -9,7 +9,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/record/notes.hpp"
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/study/check/history/history_run.hpp"
 #include "clackers/study/check/named_resolution.hpp"

@@ -14,7 +14,7 @@
 #include "clackers/base/jobs/work_queue.hpp"
 #include "clackers/judge/convergence/step_ladder.hpp"
 #include "clackers/methods/registry.hpp"
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/solvers/program.hpp"
 #include "clackers/study/method_candidate.hpp"

@@ -6,7 +6,7 @@
 
 #include "clackers/base/files.hpp"
 #include "clackers/campaign/run.hpp"
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/report/write.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/atlas_folder.hpp"

@@ -8,7 +8,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/case.hpp"
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/tables/listing.hpp"
 #include "clackers/tables/respond.hpp"

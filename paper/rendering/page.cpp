@@ -8,7 +8,7 @@
 
 #include "clackers/cases/case.hpp"
 #include "clackers/exact/quantities/quantities.hpp"
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/markup.hpp"
 #include "paper/catalogue.hpp"

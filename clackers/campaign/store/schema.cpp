@@ -7,7 +7,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/campaign/store.hpp"
-#include "clackers/record/provenance.hpp"
+#include "clackers/record/record.hpp"
 
 namespace clackers::campaign {
 namespace {

@@ -16,7 +16,7 @@ study::SystemStudy::Subject subject_of(const MethodEntry& method,
 }  // namespace
 
 PreparedSystem::PreparedSystem(const Specification& specification, System system)
-    : specification_(specification), system_(std::move(system)) {
+    : system_(std::move(system)) {
   study::SystemRequest request;
   request.plan = specification.ladder();
   request.metrics = !specification.metrics().empty();

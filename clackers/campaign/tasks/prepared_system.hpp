@@ -14,7 +14,6 @@ namespace clackers::campaign {
 /// A system ready to run, or why it is none.
 class PreparedSystem {
  public:
-  /// The specification must outlive it.
   PreparedSystem(const Specification& specification, System system);
 
   const System& system() const { return system_; }
@@ -31,7 +30,6 @@ class PreparedSystem {
  private:
   const record::CaseRecord* refused(std::string name, const InputError& why);
 
-  const Specification& specification_;
   System system_;
   std::optional<study::SystemStudy> study_;
   std::optional<InputError> refusal_;
