@@ -8,8 +8,7 @@ MODULES = {
               ["system", "impact_problem", "motion", "run", "sink", "trajectory"]),
     "cases": ("Cases", "Named problems with their reference solutions.", ["case"]),
     "exact": ("Reference solutions", "Exact motions in closed form.",
-              ["parameters", "closed_form", "admissibility", "indicators", "conditioning", "energy", "sensitivity",
-               "spectrum"]),
+              ["parameters", "closed_form", "admissibility", "quantities", "energy", "sensitivity", "spectrum"]),
     "methods": ("Methods", "Time integrators and contact treatments, and the interface of a new method.",
                 ["method", "registry"]),
 }
