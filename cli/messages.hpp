@@ -18,8 +18,7 @@ void report_error(std::string_view message, std::string_view code);
 
 /// Runs `write`, which writes one of several results: a file that fails is reported and does not
 /// stop the others. True when written.
-template <class Write>
-bool try_to_write(const Write& write) {
+bool try_to_write(const auto& write) {
   try {
     write();
     return true;

@@ -16,8 +16,7 @@ void forget_error() noexcept;
 clackers_status remember_error(clackers_status status, std::string_view text, Code code) noexcept;
 
 /// Runs `work` and turns whatever it throws into a status and the error of this thread.
-template <class Work>
-clackers_status guarded(const Work& work) noexcept {
+clackers_status guarded(const auto& work) noexcept {
   try {
     forget_error();
     work();

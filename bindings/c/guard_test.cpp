@@ -8,8 +8,7 @@
 namespace clackers::c_api {
 namespace {
 
-template <class Thrown>
-clackers_status status_of(const Thrown& thrown) {
+clackers_status status_of(const auto& thrown) {
   return guarded([&] { throw thrown; });
 }
 

@@ -51,8 +51,7 @@ void refuse_masked(std::string_view who, std::string_view name, py::handle value
          "not-a-number");
 }
 
-template <class Matrix>
-Doubles read_only_copy(const Matrix& values, std::vector<py::ssize_t> shape) {
+Doubles read_only_copy(const auto& values, std::vector<py::ssize_t> shape) {
   Doubles array(std::move(shape));
   auto* to = array.mutable_data();
   for (Eigen::Index i = 0; i < values.rows(); ++i)

@@ -120,8 +120,7 @@ py::tuple response(const Case& test_case, py::handle t, py::handle side, const p
 }
 
 // `of(t)` of every time, as arrays u, v and a.
-template <class Of>
-py::tuple one_by_one(std::string_view who, const Case& test_case, py::handle t, const Of& of) {
+py::tuple one_by_one(std::string_view who, const Case& test_case, py::handle t, const auto& of) {
   const Times times(who, t);
   const auto dof = test_case.motion->dof();
   for (const double time : times.values()) require_inside(who, time, test_case.motion->end());

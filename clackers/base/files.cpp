@@ -21,8 +21,7 @@ namespace {
 }
 
 // Repeats a system call that a signal interrupted.
-template <class Call>
-auto call_again(const Call& call) {
+auto call_again(const auto& call) {
   auto result = call();
   while (result < 0 && errno == EINTR) result = call();
   return result;

@@ -49,8 +49,7 @@ class TomlReader {
   const toml::array* tables(const toml::table& root, const char* key) const;
 
   /// What `work` returns; an InputError of it gets the place of the node.
-  template <class Work>
-  auto at(const toml::node& node, const Work& work) const {
+  auto at(const toml::node& node, const auto& work) const {
     try {
       return work();
     } catch (const InputError& error) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,6 +19,7 @@
 #include "clackers/base/text.hpp"
 #include "clackers/base/toml_reader.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::model {
 
@@ -70,8 +70,7 @@ struct ToArray {
   void operator()(auto value) const { array.push_back(std::move(value)); }
 };
 
-template <class Put>
-void convert(const Json& value, const std::string& name, int depth, const Put& put) {
+void convert(const Json& value, const std::string& name, int depth, const auto& put) {
   constexpr int deepest = 8;
   if (value.is_object() && depth < deepest) {
     toml::table table;
@@ -303,11 +302,8 @@ void require_plausible(const std::string& name, const model::ImpactProblem<>& pr
   constexpr double light = 3e8, most_phase = 1e7, least_phase = 1e-4;
   if (const double v = problem.start.v.cwiseAbs().maxCoeff(); v > light)
     fail(fmt::format("a start velocity of {:.3g} m/s is above that of light.", v));
-  const VectorXd squares =
-      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(
-          problem.system.stiffness, problem.system.mass, Eigen::EigenvaluesOnly)
-          .eigenvalues();
-  const double highest = std::sqrt(std::max(0.0, squares.maxCoeff()));
+  const double square = numerics::highest_square(problem.system.stiffness, problem.system.mass);
+  const double highest = std::sqrt(std::max(0.0, square));
   if (const double phase = highest * problem.end; phase > most_phase)
     fail(fmt::format(
         "the highest natural frequency, {:.3g} rad/s, oscillates {:.3g} times up to end = "

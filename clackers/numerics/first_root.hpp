@@ -87,8 +87,7 @@ inline NextZero next_zero(const LocalBound& f) {
 
 /// The root between s + zero.lo and s + zero.hi, of a function that falls there, by the zeros of its
 /// Taylor polynomials of third degree. Not a number where they leave that interval.
-template <class Function>
-double falling_root(Function&& f, double s, LocalBound now, const NextZero& zero) {
+double falling_root(auto&& f, double s, LocalBound now, const NextZero& zero) {
   const double from = s + zero.lo * (1.0 - 1e-12), to = s + zero.hi;
   for (int step = 0; step < 8; ++step) {
     // Newton's step for the polynomial from the zero of its parabola.
@@ -114,8 +113,7 @@ double falling_root(Function&& f, double s, LocalBound now, const NextZero& zero
 /// shorter than `shortest`, so a dip below 0 of less than curvature shortest^2 / 8 may remain
 /// unnoticed. `f(s)` returns a LocalBound, whose value is negative only where f is. Undecided after
 /// `most_steps` steps, or where f is not finite.
-template <class Function>
-FirstRoot first_root(Function&& f, double from, double until, double shortest, int most_steps) {
+FirstRoot first_root(auto&& f, double from, double until, double shortest, int most_steps) {
   using enum FirstRoot::Status;
   double s = from;
   LocalBound now = f(s);

@@ -1,5 +1,6 @@
 #include "clackers/numerics/modal_flight.hpp"
 #include "clackers/base/constants.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -106,13 +107,12 @@ std::optional<ModalSystem> ModalSystem::make(const MatrixXd& mass, const MatrixX
     // special weight, has those of both if there are any.
     const double c = damping.cwiseAbs().maxCoeff(), k = stiffness.cwiseAbs().maxCoeff();
     for (const double weight : {0.0, c > 0.0 ? 0.6180339887498949 * (k > 0.0 ? k : c) / c : 0.0}) {
-      const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(stiffness + weight * damping,
-                                                                      mass);
-      if (solver.info() != Eigen::Success) return std::nullopt;
-      basis = solver.eigenvectors();
+      const auto modes = normal_modes(stiffness + weight * damping, mass);
+      if (!modes) return std::nullopt;
+      basis = modes->shapes;
       modal_damping = basis.transpose() * damping * basis;
       modal_stiffness = basis.transpose() * stiffness * basis;
-      if (weight == 0.0) modal_stiffness = solver.eigenvalues().asDiagonal();
+      if (weight == 0.0) modal_stiffness = modes->squares.asDiagonal();
       if (coupled_blocks(modal_damping, modal_stiffness).size() == std::size_t(n)) break;
     }
   }

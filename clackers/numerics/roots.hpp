@@ -19,8 +19,7 @@ struct Bracket {
 /// rounding of the ends), few for a smooth function.
 /// Method ITP: I. F. D. Oliveira, R. H. C. Takahashi, ACM Trans. Math. Softw. 47 (1), 5 (2020),
 /// with k1 = 0.2 / (first width), k2 = 2, n0 = 1.
-template <class Function>
-Bracket shrink(Function&& f, Bracket k, double width) {
+Bracket shrink(auto&& f, Bracket k, double width) {
   const double epsilon = 0.5 * width, k1 = 0.2 / k.width();
   // Half of the width that bisection would have left, n0 = 1 step ago: no step may do worse.
   double allowance =

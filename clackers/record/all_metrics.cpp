@@ -1,6 +1,5 @@
 #include "clackers/record/all_metrics.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +7,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/exact/penalized/penalized_motion.hpp"
 #include "clackers/measure/metrics/metric.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::record {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 // Of a contact spring that throws two free masses apart in this time.
 double stiffness_of(const model::ImpactProblem<>& problem, double contact_time) {
   const auto& b = problem.contacts.front().direction;
-  const double inverse_effective_mass = b.dot(problem.system.mass.ldlt().solve(b));
+  const double inverse_effective_mass = b.dot(numerics::solved(problem.system.mass, b).col(0));
   return std::pow(std::numbers::pi / contact_time, 2) / inverse_effective_mass;
 }
 

@@ -16,8 +16,7 @@ concept Like = std::same_as<std::remove_const_t<T>, Base>;
 // members, so that none is forgotten. archive.added(name, member) is a field that records of earlier
 // versions lack.
 
-template <class Archive>
-void fields(Archive& archive, Like<Quantity> auto& x) {
+void fields(auto& archive, Like<Quantity> auto& x) {
   archive("name", x.name);
   archive("value", x.value);
   archive("unit", x.unit);
@@ -25,8 +24,7 @@ void fields(Archive& archive, Like<Quantity> auto& x) {
   archive.added("text", x.text);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Provenance> auto& x) {
+void fields(auto& archive, Like<Provenance> auto& x) {
   archive("command", x.command);
   archive("version", x.version);
   archive("compiler", x.compiler);
@@ -35,34 +33,29 @@ void fields(Archive& archive, Like<Provenance> auto& x) {
   archive("date", x.date);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Schematic::Block> auto& x) {
+void fields(auto& archive, Like<Schematic::Block> auto& x) {
   archive("column", x.column);
   archive("height", x.height);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Schematic::Spring> auto& x) {
+void fields(auto& archive, Like<Schematic::Spring> auto& x) {
   archive("one", x.one);
   archive("other", x.other);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Schematic::Touch> auto& x) {
+void fields(auto& archive, Like<Schematic::Touch> auto& x) {
   archive("left", x.left);
   archive("right", x.right);
   archive("gap", x.gap);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Schematic> auto& x) {
+void fields(auto& archive, Like<Schematic> auto& x) {
   archive("blocks", x.blocks);
   archive("springs", x.springs);
   archive("contacts", x.contacts);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<CaseSummary> auto& x) {
+void fields(auto& archive, Like<CaseSummary> auto& x) {
   archive("name", x.name);
   archive("summary", x.summary);
   archive("equations", x.equations);
@@ -76,15 +69,13 @@ void fields(Archive& archive, Like<CaseSummary> auto& x) {
   archive.added("drawing", x.drawing);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<RefinementPlan> auto& x) {
+void fields(auto& archive, Like<RefinementPlan> auto& x) {
   archive("coarsest", x.coarsest);
   archive("levels", x.levels);
   archive("samples_per_level", x.samples_per_level);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Refinement> auto& x) {
+void fields(auto& archive, Like<Refinement> auto& x) {
   archive("finer_levels", x.finer_levels);
   archive("coarser_levels", x.coarser_levels);
   archive("samples_per_level", x.samples_per_level);
@@ -92,29 +83,25 @@ void fields(Archive& archive, Like<Refinement> auto& x) {
   archive("next_seconds", x.next_seconds);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Curve> auto& x) {
+void fields(auto& archive, Like<Curve> auto& x) {
   archive("t", x.t);
   archive("y", x.y);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<PrintedColumn> auto& x) {
+void fields(auto& archive, Like<PrintedColumn> auto& x) {
   archive("name", x.name);
   archive("digits", x.digits);
   archive("single_precision", x.single);
   archive("half_unit", x.half_unit);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Note> auto& x) {
+void fields(auto& archive, Like<Note> auto& x) {
   archive("code", x.code);
   archive("numbers", x.numbers);
   archive("text", x.text);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<HistoryFile> auto& x) {
+void fields(auto& archive, Like<HistoryFile> auto& x) {
   archive("file", x.file);
   archive("rows", x.rows);
   archive("rows_beyond_end", x.rows_beyond);
@@ -136,8 +123,7 @@ void fields(Archive& archive, Like<HistoryFile> auto& x) {
   archive("history", x.history);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<MetricResult> auto& x) {
+void fields(auto& archive, Like<MetricResult> auto& x) {
   archive("name", x.name);
   archive("unit", x.unit);
   archive("value", x.value);
@@ -146,8 +132,7 @@ void fields(Archive& archive, Like<MetricResult> auto& x) {
   archive("across_jumps", x.across_jumps);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<model::Work> auto& x) {
+void fields(auto& archive, Like<model::Work> auto& x) {
   archive("steps", x.steps);
   archive("force_evaluations", x.force_evaluations);
   archive("factorizations", x.factorizations);
@@ -155,8 +140,7 @@ void fields(Archive& archive, Like<model::Work> auto& x) {
   archive("event_searches", x.event_searches);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<measure::ImpactScore> auto& x) {
+void fields(auto& archive, Like<measure::ImpactScore> auto& x) {
   archive("expected", x.expected);
   archive("found", x.found);
   archive("matched", x.matched);
@@ -166,8 +150,7 @@ void fields(Archive& archive, Like<measure::ImpactScore> auto& x) {
   archive("rounding_floor", x.rounding_floor);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<measure::RunScore> auto& x) {
+void fields(auto& archive, Like<measure::RunScore> auto& x) {
   archive("step", x.step);
   archive("finished", x.finished);
   archive("failure_code", x.failure_code);
@@ -184,8 +167,7 @@ void fields(Archive& archive, Like<measure::RunScore> auto& x) {
 }
 
 /// The fields of the score stand beside the others.
-template <class Archive>
-void fields(Archive& archive, Like<Run> auto& x) {
+void fields(auto& archive, Like<Run> auto& x) {
   fields(archive, x.score);
   archive("file", x.file);
   archive("metrics", x.metrics);
@@ -194,21 +176,18 @@ void fields(Archive& archive, Like<Run> auto& x) {
   archive.added("motion", x.motion);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Level> auto& x) {
+void fields(auto& archive, Like<Level> auto& x) {
   archive("step", x.step);
   archive("runs", x.runs);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Claim> auto& x) {
+void fields(auto& archive, Like<Claim> auto& x) {
   archive("behaviour", x.behaviour);
   archive("order", x.order);
   archive("reason", x.reason);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<judge::LadderFit> auto& x) {
+void fields(auto& archive, Like<judge::LadderFit> auto& x) {
   archive("behaviour", x.behaviour);
   archive("reason", x.reason);
   archive("has_line", x.has_line);
@@ -231,15 +210,13 @@ void fields(Archive& archive, Like<judge::LadderFit> auto& x) {
   archive("errors", x.errors);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<judge::Evidence> auto& x) {
+void fields(auto& archive, Like<judge::Evidence> auto& x) {
   archive("code", x.code);
   archive("verdict", x.verdict);
   archive("numbers", x.numbers);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<judge::Assessment> auto& x) {
+void fields(auto& archive, Like<judge::Assessment> auto& x) {
   archive("displacement", x.displacement);
   archive("velocity", x.velocity);
   archive("impact_time", x.impact_time);
@@ -249,22 +226,19 @@ void fields(Archive& archive, Like<judge::Assessment> auto& x) {
   archive("evidence", x.evidence);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<judge::SelfConvergence> auto& x) {
+void fields(auto& archive, Like<judge::SelfConvergence> auto& x) {
   archive("differences", x.differences);
   archive("proper", x.proper);
   archive("estimate", x.estimate);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<judge::SelfAgainstReference> auto& x) {
+void fields(auto& archive, Like<judge::SelfAgainstReference> auto& x) {
   archive("false_convergence", x.false_convergence);
   archive("reason", x.reason);
   archive("error_ratio", x.error_ratio);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<judge::Richardson> auto& x) {
+void fields(auto& archive, Like<judge::Richardson> auto& x) {
   archive("bounded", x.bounded);
   archive("reason", x.reason);
   archive("value", x.value);
@@ -273,8 +247,7 @@ void fields(Archive& archive, Like<judge::Richardson> auto& x) {
   archive("level", x.level);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<SelfResult> auto& x) {
+void fields(auto& archive, Like<SelfResult> auto& x) {
   archive("order", x.order);
   archive("without_reference", x.self);
   archive("errors", x.errors);
@@ -283,8 +256,7 @@ void fields(Archive& archive, Like<SelfResult> auto& x) {
   archive("extrapolation_error", x.extrapolation_error);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Subject> auto& x) {
+void fields(auto& archive, Like<Subject> auto& x) {
   archive("kind", x.kind);
   archive("name", x.name);
   archive.added("integrator", x.integrator);
@@ -303,14 +275,12 @@ void fields(Archive& archive, Like<Subject> auto& x) {
   archive.added("diagnoses", x.diagnoses);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<judge::ProfileStep> auto& x) {
+void fields(auto& archive, Like<judge::ProfileStep> auto& x) {
   archive("ratio", x.ratio);
   archive("share", x.share);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<judge::MethodProfile> auto& x) {
+void fields(auto& archive, Like<judge::MethodProfile> auto& x) {
   archive("method", x.method);
   archive("ratios", x.ratios);
   archive("steps", x.steps);
@@ -318,15 +288,13 @@ void fields(Archive& archive, Like<judge::MethodProfile> auto& x) {
   archive("failed", x.failed);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Profile> auto& x) {
+void fields(auto& archive, Like<Profile> auto& x) {
   archive("counter", x.counter);
   archive("tasks", x.tasks);
   archive("methods", x.methods);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<CaseRecord> auto& x) {
+void fields(auto& archive, Like<CaseRecord> auto& x) {
   archive("problem", x.problem);
   archive("plan", x.plan);
   archive("response", x.response);
@@ -334,8 +302,7 @@ void fields(Archive& archive, Like<CaseRecord> auto& x) {
   archive("profiles", x.profiles);
 }
 
-template <class Archive>
-void fields(Archive& archive, Like<Record> auto& x) {
+void fields(auto& archive, Like<Record> auto& x) {
   archive("command", x.command);
   archive("provenance", x.provenance);
   archive("cases", x.cases);

@@ -36,12 +36,8 @@ class Writer {
   void operator()(const char* name, const T& x) {
     object_[name] = written(x);
   }
-  template <class T>
-  void added(const char* name, const T& x) {
-    (*this)(name, x);
-  }
-  template <class T>
-  static Json written(const T& x) {
+  void added(const char* name, const auto& x) { (*this)(name, x); }
+  static Json written(const auto& x) {
     Writer writer;
     fields(writer, x);
     return std::move(writer.object_);
@@ -110,8 +106,7 @@ class Reader {
     ++known_;
   }
   /// A field that records of earlier versions lack keeps its default there.
-  template <class T>
-  void added(const char* name, T& x) {
+  void added(const char* name, auto& x) {
     if (object_.contains(name)) (*this)(name, x);
   }
   /// Call after the last field.
@@ -248,8 +243,7 @@ class Reader {
       x.push_back(std::move(item));
     }
   }
-  template <class T>
-  static void read(const Json& json, const std::string& where, T& x) {
+  static void read(const Json& json, const std::string& where, auto& x) {
     Reader reader(json, where);
     fields(reader, x);
     reader.finish();

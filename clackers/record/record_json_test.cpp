@@ -47,10 +47,7 @@ struct FieldCount {
   void operator()(const char*, const T&) {
     ++count;
   }
-  template <class T>
-  void added(const char*, const T&) {
-    ++count;
-  }
+  void added(const char*, const auto&) { ++count; }
   std::size_t count = 0;
 };
 template <class T>

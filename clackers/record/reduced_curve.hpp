@@ -13,8 +13,7 @@ inline constexpr std::size_t most_points = 1000;
 
 /// The points 0, ..., n-1 that a figure of `rows` curves needs, ascending: all of them, or at most
 /// `most`, of every stretch the lowest and the highest point of each curve. `value(row, point)`.
-template <class Value>
-std::vector<std::size_t> kept_points(std::size_t n, std::size_t rows, const Value& value,
+std::vector<std::size_t> kept_points(std::size_t n, std::size_t rows, const auto& value,
                                      std::size_t most = most_points) {
   std::vector<std::size_t> kept;
   const bool all = n <= most;

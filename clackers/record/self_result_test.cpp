@@ -12,8 +12,7 @@ namespace {
 using Values = std::vector<double>;
 
 // Runs of two neighbouring steps a level, six halvings from 0.1 s, the value of one mass each.
-template <class Value>
-std::vector<judge::ResponseLevel> runs_of(const Value& value) {
+std::vector<judge::ResponseLevel> runs_of(const auto& value) {
   std::vector<judge::ResponseLevel> levels;
   for (int j = 0; j < 6; ++j) {
     levels.emplace_back();

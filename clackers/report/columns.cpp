@@ -72,10 +72,7 @@ Cell line(const Row& row) {
   return is_assessed(row) && fit.has_line ? number(fit.*member) : Cell();
 }
 
-template <class Whole>
-Cell count(Whole value) {
-  return value > 0 ? Cell(static_cast<long long>(value)) : Cell();
-}
+Cell count(auto value) { return value > 0 ? Cell(static_cast<long long>(value)) : Cell(); }
 
 template <record::Resolution resolved_by>
 Cell resolution(const Row& row) {

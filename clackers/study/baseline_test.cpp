@@ -52,8 +52,7 @@ record::Record record_of(const std::vector<std::string>& names) {
 }
 
 // What compare finds when one record of one method is changed.
-template <class Change>
-SubjectChange after(const Change& change) {
+SubjectChange after(const auto& change) {
   const auto before = record_of({"rk4"});
   auto now = before;
   change(now.cases[0].subjects.front());

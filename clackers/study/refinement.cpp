@@ -1,11 +1,9 @@
 #include "clackers/study/refinement.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
 
+#include "clackers/base/number.hpp"
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 #include "clackers/judge/convergence/judge.hpp"
 #include "clackers/judge/convergence/ladder_fit.hpp"
@@ -60,9 +58,7 @@ NextPlan with_finer(record::RefinementPlan plan, int more, double end) {
 }  // namespace
 
 double default_coarsest(double fast_period, double end) {
-  // The decimal number itself, so that it is the double of what one would type.
-  const double rounded = std::stod(fmt::format("{:.1e}", fast_period / default_steps_per_period));
-  return std::min(rounded, end);
+  return std::min(rounded(fast_period / default_steps_per_period, 2), end);
 }
 
 int default_levels(double coarsest, double end) {

@@ -29,8 +29,7 @@ class RunRecorder : public model::Sink {
   const std::vector<double>& last_u() const { return last_u_; }
 
  private:
-  template <class Item>
-  bool pass(const Item& item) {
+  bool pass(const auto& item) {
     return (store_ == nullptr || store_->take(item)) && errors_.take(item);
   }
 

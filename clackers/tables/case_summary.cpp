@@ -1,9 +1,10 @@
 #include "clackers/tables/case_summary.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::tables {
 namespace {
@@ -15,9 +16,7 @@ constexpr long long most_impact_times = 1000;
 double fast_period(const cases::Case& problem) {
   if (!problem.damped_periods.empty()) return *std::ranges::min_element(problem.damped_periods);
   const auto& system = problem.problem.system;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-      system.stiffness, system.mass, Eigen::EigenvaluesOnly);
-  const double largest = modes.eigenvalues().maxCoeff();
+  const double largest = numerics::highest_square(system.stiffness, system.mass);
   return largest > 0.0 ? 2.0 * std::numbers::pi / std::sqrt(largest) : problem.motion->end();
 }
 

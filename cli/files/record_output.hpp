@@ -14,8 +14,7 @@ namespace clackers::cli {
 /// The record of --baseline, which is of the same study; nothing for an empty path. Called before the
 /// work: what cannot be compared must not be found out afterwards. Throws as read_baseline and
 /// study::require_same_study do.
-template <class Request>
-std::optional<record::Record> baseline_of(const std::string& path, const Request& request) {
+std::optional<record::Record> baseline_of(const std::string& path, const auto& request) {
   if (path.empty()) return {};
   auto baseline = read_baseline(path);
   study::require_same_study(request, baseline);

@@ -18,8 +18,7 @@ using namespace clackers;
 // As large as no rank takes unasked, so that it goes another way than short messages.
 const std::string announcement(100000, 'x');
 
-template <class Next>
-void write_blocks(const std::string& path, Next next) {
+void write_blocks(const std::string& path, auto next) {
   std::ofstream file(path);
   while (const auto block = next()) file << block->first << ' ' << block->last << '\n';
 }

@@ -128,8 +128,7 @@ std::pair<double, double> medians(const methods::Method& method, const cases::Ca
 class ImpactOrder : public testing::TestWithParam<std::string> {
  protected:
   // Calls `measure` for the cases that the method takes and that have steps for its order.
-  template <class Measure>
-  void for_each_case(const Measure& measure) const {
+  void for_each_case(const auto& measure) const {
     int measured = 0;
     for (const auto& task : tasks()) {
       const auto test_case = cases::make(task.name, task.settings);

@@ -10,9 +10,8 @@ namespace clackers::diagnose::testing {
 namespace {
 
 // Rows of a solver at six steps, halved from `turn` radians on, with velocities of which `change` makes those of the file.
-template <class Change>
 Files files_with(const cases::Case& test_case, const std::string& solver, double turn,
-                 const Change& change) {
+                 const auto& change) {
   Files files{test_case};
   const double end = test_case.problem.end;
   double h = turn / fastest(test_case);

@@ -41,8 +41,7 @@ inline Vec hermite(Vec y0, Vec d0, Vec y1, Vec d1, double h, double tau) {
 
 /// Bisection of a function that is positive at 0 and negative at h, to a bracket of `width`, whose
 /// `share` is returned: 1/2 its middle, 1 its end.
-template <class Function>
-double bisect(Function f, double h, double width, double share = 0.5) {
+double bisect(auto f, double h, double width, double share = 0.5) {
   double low = 0.0, high = h;
   while (high - low > width) {
     const double middle = 0.5 * (low + high);

@@ -11,8 +11,7 @@
 namespace clackers::test {
 
 /// "message [code]" of the Error that `call` throws, or "accepted".
-template <class Call>
-std::string refusal_of(const Call& call) {
+std::string refusal_of(const auto& call) {
   try {
     call();
   } catch (const Error& error) {

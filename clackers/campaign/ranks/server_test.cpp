@@ -16,8 +16,7 @@ constexpr int size = 5;
 constexpr long long tasks = 1000;
 
 // Runs `work` in a thread for each rank but 0.
-template <class Work>
-std::vector<std::thread> other_ranks(test::LocalRanks& ranks, Work work) {
+std::vector<std::thread> other_ranks(test::LocalRanks& ranks, auto work) {
   std::vector<std::thread> threads;
   for (int rank = 1; rank < size; ++rank)
     threads.emplace_back([&ranks, work, rank] { work(ranks[rank]); });

@@ -1,10 +1,11 @@
 #include "clackers/diagnose/file/first_row.hpp"
 #include "clackers/base/constants.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 namespace clackers::diagnose {
 namespace {
@@ -117,7 +118,7 @@ double FirstRow::own_flight_distance() const {
   if (!has_v() || !complete()) return unknown;
   const auto& system = problem_.system;
   const auto size = Eigen::Index(masses_);
-  const Eigen::MatrixXd inverse = system.mass.inverse();
+  const Eigen::MatrixXd inverse = numerics::inverse(system.mass);
   const Eigen::MatrixXd stiffness = inverse * system.stiffness, damping = inverse * system.damping;
   const double rate = std::max(std::sqrt(stiffness.cwiseAbs().rowwise().sum().maxCoeff()),
                                damping.cwiseAbs().rowwise().sum().maxCoeff());

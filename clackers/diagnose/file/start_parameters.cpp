@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "clackers/diagnose/file/first_row.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -122,7 +123,7 @@ class Search {
         if (after.size() != left.size()) return {};
         slopes.col(i) = (after - left) / change;
       }
-      const Eigen::VectorXd change = -slopes.colPivHouseholderQr().solve(left);
+      const Eigen::VectorXd change = -numerics::least_squares(slopes, left);
       if (!change.allFinite()) return {};
       Eigen::VectorXd next;
       Values moved;

@@ -1,11 +1,11 @@
 #include "clackers/diagnose/ladder/impact_location.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -79,9 +79,7 @@ class Locator {
 
  private:
   static double highest_frequency(const model::SmoothSystem<>& system) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-        system.stiffness, system.mass, Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(1e-6, modes.eigenvalues().maxCoeff()));
+    return std::sqrt(std::max(1e-6, numerics::highest_square(system.stiffness, system.mass)));
   }
 
   measure::FreeMotion motion_;

@@ -1,4 +1,3 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -24,9 +24,8 @@ std::vector<double> distinct(std::vector<double> values, double apart) {
 // Power of the step that a measure follows: the median of the slopes between all pairs of files at
 // least a factor 1.3 apart (Theil and Sen), which single lucky steps do not move. Nothing for less
 // than a factor `range` of the step.
-template <class Measure>
 std::optional<double> power_of_step(const std::vector<LocatedImpacts>& files, double range,
-                                    const Measure& measure) {
+                                    const auto& measure) {
   std::vector<double> x, y, slopes;
   for (const auto& file : files) {
     const double value = measure(file);
@@ -187,7 +186,7 @@ std::optional<Diagnosis> compliant(const DiagnosisInput& question,
   found.evidence = {{"penetration", speed / w}};
   if (question.problem.contacts.size() == 1) {
     const auto& contact = question.problem.contacts.front();
-    const Eigen::VectorXd push = question.problem.system.mass.llt().solve(contact.direction);
+    const Eigen::VectorXd push = numerics::solved(question.problem.system.mass, contact.direction);
     const double mass = 1.0 / contact.direction.dot(push);
     found.evidence.push_back({"stiffness", mass * w * w});
   }

@@ -1,9 +1,11 @@
 #include "clackers/diagnose/system/least_squares.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::diagnose {
 
@@ -107,9 +109,7 @@ class Solver {
       else
         slopes.col(k).setZero();
     }
-    Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes);
-    qr.setThreshold(1e-7);
-    step_ = qr.solve(Eigen::Map<const VectorXd>(left.data(), size));
+    step_ = numerics::least_squares(slopes, Eigen::Map<const VectorXd>(left.data(), size), 1e-7);
     spread_ = VectorXd::Zero(count);
     for (Index k = 0; k < count; ++k) {
       step_[k] = norms[k] > least_effect ? step_[k] / norms[k] : 0.0;

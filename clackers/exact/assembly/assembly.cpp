@@ -29,8 +29,7 @@ double draw(std::uint64_t bits, int place, std::uint64_t count) {
 
 // Solves S g = right by forward substitution in double-double; only as many of the last values are
 // kept as a row can need.
-template <class Right>
-std::vector<double> solve(const AssemblyData& data, std::size_t window, const Right& right) {
+std::vector<double> solve(const AssemblyData& data, std::size_t window, const auto& right) {
   std::vector<double> solution(data.dof());
   std::vector<DoubleDouble> last(window);
   for (std::size_t i = 0; i < data.dof(); ++i) {

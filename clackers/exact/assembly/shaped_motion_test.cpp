@@ -111,8 +111,7 @@ TEST(Buildings, ThreeAgainstTwoStoreysThriceAsFastAgreeWithTheSimulation) {
 }
 
 // The first impact of a simulation that starts within a flight.
-template <class Parameters>
-double first_impact(const Parameters& p) {
+double first_impact(const auto& p) {
   return MassSimulator(raw_of(p)).next(100)->t.template convert_to<double>();
 }
 

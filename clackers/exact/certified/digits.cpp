@@ -44,8 +44,7 @@ struct Digits::State {
 
 namespace {
 
-template <class Text>
-Digits::KinematicTexts texts_of(const KinematicBalls& balls, Text text,
+Digits::KinematicTexts texts_of(const KinematicBalls& balls, auto text,
                                 const std::optional<Fraction>& fraction) {
   Digits::KinematicTexts out;
   for (const auto& [from, to] :

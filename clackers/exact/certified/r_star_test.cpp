@@ -85,8 +85,7 @@ Ball curvature(const Ball& X, const Ball& r, const Ball& x) {
 }
 
 // `holds` for balls that together cover [low, high], halved where it is not seen yet.
-template <class Holds>
-bool everywhere(double low, double high, Holds holds, int depth = 12) {
+bool everywhere(double low, double high, auto holds, int depth = 12) {
   if (holds(hull(low, high))) return true;
   if (depth == 0) return false;
   const double middle = low + 0.5 * (high - low);

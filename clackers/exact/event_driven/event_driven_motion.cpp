@@ -1,11 +1,11 @@
 #include "clackers/exact/event_driven/event_driven_motion.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "clackers/base/error.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 #include "clackers/numerics/modal_form.hpp"
 
 namespace clackers::exact {
@@ -76,7 +76,7 @@ class EventDrivenMotion::Builder {
     return true;
   }
   void prepare_contacts() {
-    const auto inverse_mass = problem_.system.mass.inverse().eval();
+    const auto inverse_mass = numerics::inverse(problem_.system.mass);
     for (const auto& contact : problem_.contacts) {
       Row row;
       row.law = &contact;

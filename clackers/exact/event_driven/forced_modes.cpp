@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -12,6 +10,7 @@
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::exact {
 
@@ -25,8 +24,7 @@ namespace {
 // Symmetric; a product such as S' K S leaves 1e-12 of the largest eigenvalue.
 void require_no_negative_eigenvalue(std::string_view who, const char* name, const Matrix& x,
                                     const char* reason) {
-  const Vector values =
-      Eigen::SelfAdjointEigenSolver<Matrix>(x, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector values = numerics::symmetric_eigenvalues(x);
   if (!(values.minCoeff() >= -1e-12 * values.cwiseAbs().maxCoeff()))
     throw InputError(fmt::format("{}: {} has the eigenvalue {:.6g}; allowed: none below 0. {}", who,
                                  name, values.minCoeff(), reason),
@@ -59,7 +57,7 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
   system_ = std::move(*system);
   for (int order = 0; order <= 3; ++order) derivatives_.push_back(system_.derivative(order));
   inverse_ = system_.inverse();
-  const Matrix inverse_mass = mass_.llt().solve(Matrix::Identity(dof(), dof()));
+  const Matrix inverse_mass = numerics::solved(mass_, Matrix::Identity(dof(), dof()));
   impulse_response_ = inverse_.rightCols(dof()) * inverse_mass;
   add_forces(problem, inverse_mass, who);
   find_residuals();

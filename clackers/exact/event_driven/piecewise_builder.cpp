@@ -12,6 +12,7 @@
 #include "clackers/exact/event_driven/piecewise_motion.hpp"
 #include "clackers/numerics/first_root.hpp"
 #include "clackers/numerics/lcp.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::exact {
 
@@ -289,7 +290,7 @@ class PiecewiseMotion::Builder {
       rates.row(c) = rows_[i].rate().transpose();
       pressed[c] = problem_.contacts[i].direction.dot(a_before);
     }
-    law = law.inverse().eval();
+    law = numerics::inverse(law);
     for (Index c = 0; c < count; ++c)
       law.col(c) *= 1.0 + problem_.contacts[active[std::size_t(c)]].restitution;
     rates = law * rates;  // -impulses by z

@@ -102,8 +102,7 @@ struct Followed {
 };
 
 // Impacts and states at every `spacing` seconds are those of the simulation within their bounds.
-template <class Simulator>
-void expect_simulated(const PiecewiseMotion& motion, Simulator simulator, double spacing,
+void expect_simulated(const PiecewiseMotion& motion, auto simulator, double spacing,
                       Followed& seen) {
   long long k = 0;
   for (int i = 1; spacing * i <= motion.end(); ++i) {

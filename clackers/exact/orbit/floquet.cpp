@@ -1,9 +1,9 @@
 // The linear map of perturbations over one period of a forced pair.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "clackers/exact/orbit/forced_pair.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::exact {
 
@@ -38,7 +38,7 @@ std::array<std::complex<double>, 4> ForcedPair::floquet_multipliers() const {
   R(3, 3) -= impulse / m2;
   const Vector4d b(1.0, -1.0, 0.0, 0.0);
   const Matrix4d map = (R + (after - R * before) * b.transpose() / b.dot(before)) * flight;
-  const Eigen::Vector4cd values = map.eigenvalues();
+  const Eigen::VectorXcd values = numerics::eigenvalues(map);
   std::array<std::complex<double>, 4> sorted{values[0], values[1], values[2], values[3]};
   std::ranges::sort(sorted, [](const auto& x, const auto& y) {
     if (std::abs(x) != std::abs(y)) return std::abs(x) > std::abs(y);

@@ -92,8 +92,7 @@ class ForcedPair : public Flights {
   void begin(double T, double n, double eta);
   void complete(Mass& mass) const;
   void require_accurate(std::string_view who) const;
-  template <class Parameters>
-  void require_open(std::string_view who, const Parameters& p) const;
+  void require_open(std::string_view who, const auto& p) const;
   MassState mass_state(const Mass& mass, const Bounded& s) const;
   // Nothing where the gap stays open from one impact to the next.
   std::optional<Closing> closing() const;

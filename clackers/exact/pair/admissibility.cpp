@@ -16,8 +16,7 @@ using std::numbers::pi;
 
 // The zero of an increasing function between a point where it is negative and one where it is
 // not, to the last bit.
-template <class Function>
-double rising_zero(const Function& f, double below, double above) {
+double rising_zero(const auto& f, double below, double above) {
   for (;;) {
     const double middle = below + 0.5 * (above - below);
     if (!(below < middle && middle < above)) return above;

@@ -317,8 +317,7 @@ TEST(ClosedForm, ManyTimesAreTheSameAsOneByOneWithAndWithoutAccelerations) {
   }
 }
 
-template <class Call>
-void expect_refused(Call call, std::string_view code, std::string_view part) {
+void expect_refused(auto call, std::string_view code, std::string_view part) {
   try {
     call();
     FAIL() << "not refused; expected [" << code << "]";

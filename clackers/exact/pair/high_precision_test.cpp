@@ -15,8 +15,7 @@ using namespace testing_oracle;
 using model::Side;
 
 // The message and code of a refusal.
-template <class Call>
-std::string refusal(Call call) {
+std::string refusal(auto call) {
   try {
     call();
     return "accepted";

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,6 +9,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 #include "clackers/numerics/modal_flight.hpp"
 #include "clackers/numerics/roots.hpp"
 
@@ -81,11 +80,11 @@ PenalizedMotion::Regime PenalizedMotion::regime(bool closed) const {
   const auto& b = contact_.direction;
   if (closed) {
     made.stiffness += stiffness_ * b * b.transpose();
-    made.static_displacement = made.stiffness.ldlt().solve(stiffness_ * contact_.gap * b);
+    made.static_displacement = numerics::solved(made.stiffness, stiffness_ * contact_.gap * b);
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(made.stiffness, system_.mass);
-  made.shapes = solver.eigenvectors();
-  const VectorXd squares = solver.eigenvalues();
+  const auto modes = numerics::normal_modes(made.stiffness, system_.mass).value();
+  made.shapes = modes.shapes;
+  const auto& squares = modes.squares;
   const double slowest = squares.minCoeff() - sigma_ * sigma_;
   if (!(slowest > 0.0))
     refuse(penalized_name, "square of the slowest damped frequency", slowest, "more than 0",

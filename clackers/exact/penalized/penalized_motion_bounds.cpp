@@ -1,12 +1,12 @@
 // Envelopes, error bounds and contacts of a penalized motion.
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/penalized/penalized_motion.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::exact {
 
@@ -74,7 +74,8 @@ model::Kinematics PenalizedMotion::error_bound(double t) const {
   model::Kinematics result;
   result.u = bound.head(n);
   result.v = bound.tail(n);
-  const MatrixXd stiffness_over_mass = (system_.mass.inverse() * of(phase).stiffness).cwiseAbs();
+  const MatrixXd stiffness_over_mass =
+      (numerics::inverse(system_.mass) * of(phase).stiffness).cwiseAbs();
   result.a =
       2.0 * sigma_ * result.v + stiffness_over_mass * result.u + 8.0 * epsilon * envelope(t).a;
   return result;

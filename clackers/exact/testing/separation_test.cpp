@@ -26,8 +26,7 @@ struct Instant {
 
 // `visit` is given N, xi1, an instant and u1 - u2 there. Flights j pi - pi/2 to j pi + pi/2: those of
 // even j are the first case of Eq. (A.6), those of odd j the second.
-template <class Visit>
-void at_instants(int first_flight, Visit visit) {
+void at_instants(int first_flight, auto visit) {
   for (const int N : {1, 2, 5, 20})
     for (const double xi1 : {0.0, 0.1, 0.6}) {
       const SynchronizedPair pair({.xi1 = xi1, .X = 4.0 * N + 1.0, .r = 3.0, .t_end = 40.0});

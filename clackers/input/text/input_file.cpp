@@ -24,8 +24,7 @@ namespace {
 }
 
 // Repeats a system call that a signal interrupted, unless the signal asked to stop.
-template <class Call>
-auto call_again(const std::atomic<bool>* interrupt, const Call& call) {
+auto call_again(const std::atomic<bool>* interrupt, const auto& call) {
   while (true) {
     if (interrupt != nullptr && *interrupt) throw Error("interrupted", "interrupted");
     const auto result = call();

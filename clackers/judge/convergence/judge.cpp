@@ -15,8 +15,7 @@
 namespace clackers::judge {
 namespace {
 
-template <class Measure>
-LadderFit fit(const measure::Ladder& ladder, const FitContext& context, const Measure& measure) {
+LadderFit fit(const measure::Ladder& ladder, const FitContext& context, const auto& measure) {
   std::vector<ErrorLevel> errors;
   for (const auto& level : ladder) {
     errors.emplace_back();
@@ -36,8 +35,7 @@ ErrorPoint impact_time_error(const measure::RunScore& run) {
 }
 
 // Whether the energy at the end is wrong, as asked, in most runs of both finest levels.
-template <class Wrong>
-bool energy_is(const measure::Ladder& ladder, Wrong wrong) {
+bool energy_is(const measure::Ladder& ladder, auto wrong) {
   if (ladder.size() < 2) return false;
   return std::all_of(ladder.end() - 2, ladder.end(), [&](const measure::Level& level) {
     const auto run_is = [&](const measure::RunScore& run) { return run.finished && wrong(run); };

@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "clackers/numerics/linear_algebra.hpp"
+
 namespace clackers::measure {
 MechanicalEnergy::Rows MechanicalEnergy::rows_of(const Eigen::MatrixXd& matrix) {
   Rows rows;
@@ -19,7 +21,7 @@ MechanicalEnergy::Rows MechanicalEnergy::rows_of(const Eigen::MatrixXd& matrix) 
 FreeMotion::FreeMotion(const model::SmoothSystem<>& system)
     : system_(system),
       inverse_mass_(
-          system.mass.llt().solve(Eigen::MatrixXd::Identity(system.dof(), system.dof()))) {}
+          numerics::solved(system.mass, Eigen::MatrixXd::Identity(system.dof(), system.dof()))) {}
 
 Eigen::VectorXd FreeMotion::acceleration(double t, const Eigen::VectorXd& u,
                                          const Eigen::VectorXd& v) const {

@@ -59,8 +59,7 @@ SynchronyLoss watch(int impacts, Error&& error, Momentum&& momentum) {
   return watch.loss();
 }
 
-template <class Error>
-SynchronyLoss watch(int impacts, Error&& error) {
+SynchronyLoss watch(int impacts, auto&& error) {
   return watch(impacts, error, [](int) { return NAN; });
 }
 

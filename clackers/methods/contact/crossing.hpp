@@ -42,8 +42,7 @@ struct GapCubic {
 /// place of the step; its open end is returned. A touch less deep than `rounding` is none.
 /// `budget` bounds the evaluations spent on halving; when it is used up, a piece that ends
 /// violated is taken as one crossing and a piece that ends open as none.
-template <class At>
-std::optional<double> first_crossing(const At& at, const GapSample& a, const GapSample& b,
+std::optional<double> first_crossing(const auto& at, const GapSample& a, const GapSample& b,
                                      double rounding, int& budget) {
   const GapCubic cubic(a, b);
   if (cubic.stays_above(-rounding)) return std::nullopt;

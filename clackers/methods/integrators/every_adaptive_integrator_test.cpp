@@ -16,8 +16,7 @@ struct AdaptiveRun {
   std::unique_ptr<AnyStepper<Dof>> stepper;
   std::vector<model::State<Dof>> states;
 
-  template <class Problem>
-  AdaptiveRun(const std::string& name, const Problem& problem, double tolerance)
+  AdaptiveRun(const std::string& name, const auto& problem, double tolerance)
       : stepper(
             integrator(name)->stepper(problem.system, plan_adaptive(name, start, end, tolerance))),
         states{problem.exact(start)} {

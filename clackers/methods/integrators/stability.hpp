@@ -8,8 +8,7 @@ namespace clackers::methods {
 /// The end of the interval of omega h, from 0 on, on which an undamped motion does not grow; 0 if it
 /// grows in every step however short. `radius(x)` is the factor of its growth in a step with
 /// omega h = x.
-template <class Radius>
-double stability_limit(const Radius& radius) {
+double stability_limit(const auto& radius) {
   const auto grows = [&](double x) { return radius(x) > 1.0 + 1e-12; };
   double stable = 0.1;
   if (grows(stable)) return 0.0;

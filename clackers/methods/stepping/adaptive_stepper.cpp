@@ -10,10 +10,7 @@ namespace {
 
 constexpr double safety = 0.9, most_growth = 10.0, most_shrinking = 0.2;
 
-template <class Vector>
-double largest(const Vector& x) {
-  return x.cwiseAbs().maxCoeff();
-}
+double largest(const auto& x) { return x.cwiseAbs().maxCoeff(); }
 
 // 0 where there is nothing to divide by.
 double over(double x, double scale) { return scale > 0.0 ? x / scale : 0.0; }

@@ -72,8 +72,7 @@ class MotionEquation {
 
   /// Calls `steps` with a function that does the same as accelerate(); where there is neither load
   /// nor nonlinear force it is two products. One branch a step and not one an evaluation.
-  template <class Steps>
-  void with_acceleration(Steps&& steps) {
+  void with_acceleration(auto&& steps) {
     if (is_free_) {
       steps([this](double, const Vector& u, const Vector& v, Vector& a) {
         a.noalias() = by_u_ * u;
@@ -141,8 +140,7 @@ class MotionEquation {
 
   /// The map of a linear system over h that build(LinearStep&) fills; made only once until it is
   /// dropped.
-  template <class Build>
-  const LinearStep& linear_step(double h, const Build& build) {
+  const LinearStep& linear_step(double h, const auto& build) {
     auto& first = linear_steps_[0];
     if (first.h == h) [[likely]]
       return first;

@@ -37,8 +37,7 @@ class TimeLoop {
   }
 
   /// From `start`, where the stepper has been started. Returns the number of steps.
-  template <class Treatment>
-  long long run(Treatment& treatment, const State& start, Recorder<Dof>& out) {
+  long long run(auto& treatment, const State& start, Recorder<Dof>& out) {
     states_[0] = start;
     if (!out.append(start)) return 0;
     std::size_t length = shortest;
@@ -95,8 +94,7 @@ class TimeLoop {
   // After an event: what is made beyond the next one is lost.
   static constexpr std::size_t shortest = 8;
 
-  template <class Treatment>
-  bool last_step(Treatment& treatment, Recorder<Dof>& out) {
+  bool last_step(auto& treatment, Recorder<Dof>& out) {
     const State& before = states_[0];
     if (!make_last_step(treatment.stepper(), out)) return false;
     if (!treatment.is_quiet(before, now_)) {

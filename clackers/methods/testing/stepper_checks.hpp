@@ -389,8 +389,7 @@ inline void goes_back_into_a_block(const std::string& specification) {
   }
 }
 
-template <class Problem>
-void keeps_its_order_when_restarted(const std::string& specification, const Problem& problem) {
+void keeps_its_order_when_restarted(const std::string& specification, const auto& problem) {
   const double order = integrator(specification)->facts().smooth_order;
   const auto error = [&](double h) {
     const int steps = int(std::lround(1.25 / h));

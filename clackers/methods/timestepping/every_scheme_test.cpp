@@ -36,8 +36,7 @@ class EveryScheme : public testing::TestWithParam<std::string> {
 };
 
 // Root mean square errors of a run from t = 1 on the exact motion, for 3.5 <= t <= 6.
-template <class Problem>
-Errors errors(const std::string& name, const Problem& exact, double h) {
+Errors errors(const std::string& name, const auto& exact, double h) {
   const auto steps = std::lround(5.0 / h);
   model::ImpactProblem<> p{exact.system, {}, exact.exact(1.0), 6.0};
   const auto [path, outcome] = run(name, p, 5.0 / double(steps));
@@ -54,8 +53,7 @@ Errors errors(const std::string& name, const Problem& exact, double h) {
   return {std::sqrt(2.0 * sum.u / double(steps)), std::sqrt(2.0 * sum.v / double(steps))};
 }
 
-template <class Problem>
-void expect_order(const std::string& name, const Problem& exact) {
+void expect_order(const std::string& name, const auto& exact) {
   const double order = method(name)->facts().smooth_order;
   const auto u = asymptotic_order([&](double h) { return errors(name, exact, h).u; }, 0.125,
                                   finest(order), 1e-12);

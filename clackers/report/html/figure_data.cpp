@@ -42,8 +42,7 @@ bool is_drawable(const measure::RunScore& score) {
   return score.finished && score.u_error > 0.0 && std::isfinite(score.u_error);
 }
 
-template <class Use>
-void for_each_run(const record::CaseRecord& problem, const Use& use) {
+void for_each_run(const record::CaseRecord& problem, const auto& use) {
   for (const auto& subject : problem.subjects)
     for (const auto& level : subject.levels)
       for (const auto& run : level.runs) use(run.score);

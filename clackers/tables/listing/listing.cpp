@@ -17,8 +17,7 @@ namespace {
 const record::Column name_column{"name", "", "as typed"};
 const record::Column summary_column{"summary", "", "in one line"};
 
-template <class Parameters>
-std::string with_defaults(const Parameters& parameters) {
+std::string with_defaults(const auto& parameters) {
   std::string text;
   for (const auto& p : parameters)
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", p.name, p.default_text());

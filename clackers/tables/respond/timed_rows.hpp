@@ -72,8 +72,7 @@ class TimedRows : public record::NumberRows {
 };
 
 /// A fill that evaluates one time after another: `values(t, side, row)`.
-template <class Values>
-TimedRows::Fill one_by_one(Values values) {
+TimedRows::Fill one_by_one(auto values) {
   return
       [values](std::span<const double> times, model::Side side, double* row, std::size_t stride) {
         for (const double t : times) {

@@ -91,8 +91,7 @@ PhaseMarks impact_marks(const Comparison& comparison, std::size_t mass) {
 }
 
 // One number a mass from its marks; not measured where it is NaN.
-template <class OfMarks>
-MetricValue over_masses(const Comparison& comparison, const char* missing, OfMarks&& of_marks) {
+MetricValue over_masses(const Comparison& comparison, const char* missing, auto&& of_marks) {
   std::vector<double> masses;
   for (std::size_t mass = 0; mass < comparison.dof(); ++mass) {
     const auto marks = phase_marks(comparison, mass);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+// Eigen's decompositions of matrices of any size, each compiled here alone: instantiating one takes
+// a compiler seconds.
+namespace clackers::numerics {
+
+/// The inverse by LU with partial pivoting.
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
+
+/// X of A X = B for a symmetric positive definite A.
+Eigen::MatrixXd solved(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// x that makes |A x - b| least, by QR with column pivoting; pivots below `threshold` times the
+/// largest count as 0. A negative threshold is Eigen's own.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                              double threshold = -1.0);
+
+/// Modes of undamped vibration: K X = M X diag(squares), X' M X = 1, squares ascending.
+struct NormalModes {
+  Eigen::VectorXd squares;  ///< of angular frequencies [rad^2/s^2]
+  Eigen::MatrixXd shapes;
+};
+/// Nothing where they are not found. K is symmetric, M positive definite as well.
+std::optional<NormalModes> normal_modes(const Eigen::MatrixXd& stiffness,
+                                        const Eigen::MatrixXd& mass);
+/// The largest of `squares` alone.
+double highest_square(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+
+/// Ascending.
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
+
+}  // namespace clackers::numerics
