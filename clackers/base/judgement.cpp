@@ -30,26 +30,18 @@ std::string_view name_of(const Table& table, Value value) {
   return std::ranges::find(table, value, &Table::value_type::first)->second;
 }
 
-template <class Table>
-auto read(const Table& table, std::string_view text, std::string_view what,
-          std::string_view allowed) {
-  const auto row = std::ranges::find(table, text, &Table::value_type::second);
-  if (row == table.end()) refuse("clackers", what, text, allowed, {}, "unknown-name");
-  return row->first;
-}
-
 }  // namespace
 
 std::string_view to_string(Behaviour behaviour) { return name_of(behaviours, behaviour); }
 std::string_view to_string(Verdict verdict) { return name_of(verdicts, verdict); }
 
 Behaviour behaviour_from(std::string_view text) {
-  return read(behaviours, text, "behaviour",
-              "exact, proper, reduced, irregular, stagnating, divergent, undecided");
-}
-
-Verdict verdict_from(std::string_view text) {
-  return read(verdicts, text, "verdict", "agrees, disagrees, not claimed, undecided");
+  const auto row = std::ranges::find(behaviours, text, &decltype(behaviours)::value_type::second);
+  if (row == behaviours.end())
+    refuse("clackers", "behaviour", text,
+           "exact, proper, reduced, irregular, stagnating, divergent, undecided", {},
+           "unknown-name");
+  return row->first;
 }
 
 }  // namespace clackers

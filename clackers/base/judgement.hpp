@@ -28,6 +28,5 @@ std::string_view to_string(Verdict verdict);  ///< "agrees", "disagrees", "not c
 
 /// The reverse of to_string. Throws InputError for any other text.
 Behaviour behaviour_from(std::string_view text);
-Verdict verdict_from(std::string_view text);
 
 }  // namespace clackers

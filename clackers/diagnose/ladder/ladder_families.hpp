@@ -21,8 +21,6 @@ inline Diagnosis diagnosis_of(Code code, double value, std::string unit) {
 /// impact-at-step-end, impact-interpolated, impact-tolerance, contact-compliant: how the impacts of
 /// all histories were located.
 std::vector<Diagnosis> location_causes(const DiagnosisInput& question);
-/// wrong-limit.
-std::vector<Diagnosis> limit_causes(const Limit& limit);
 /// noise-floor.
 std::vector<Diagnosis> noise_causes(const DiagnosisInput& question);
 /// commensurate-steps, unstable-coarse-steps. `impacts_at_steps`: impact-at-step-end was found.

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "clackers/base/constants.hpp"
-#include "clackers/numerics/realization.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::tables {
 namespace {

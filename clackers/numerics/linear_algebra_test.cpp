@@ -1,4 +1,4 @@
-#include "clackers/numerics/realization.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 #include <gtest/gtest.h>
 
