@@ -40,7 +40,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "masses-exchanged", "sign-reversed", "velocity-at-half-steps", "velocity-order-lower",
     "starts-at-rest", "impact-missed", "impact-doubled", "impact-impulse-wrong",
     "impact-at-step-end", "impact-interpolated", "impact-tolerance", "contact-compliant",
-    "contact-in-tension", "single-precision", "noise-floor", "commensurate-steps",
+    "contact-in-tension", "output-offset", "output-drifts", "step-without-effect", "steps-contradict-rows", "odd-file", "single-precision", "noise-floor", "commensurate-steps",
     "numerical-damping", "period-error", "unstable-coarse-steps", "ends-early", "output-resampled",
     "cannot-write", "cannot-read", "no-renderer", "render-failed", "program-failed",
     "program-timeout", "program-output", "callable-failed",

@@ -5,12 +5,21 @@
 #include <vector>
 
 #include "clackers/diagnose/causes.hpp"
+#include "clackers/diagnose/ladder/sanity.hpp"
 
 namespace clackers::diagnose {
 namespace {
 
 bool is_unreadable(const Diagnosis& found) {
   return find_cause(found.code)->group == CauseGroup::reading;
+}
+
+/// Of the fit of a system to exact flights; a method's own error leaves less.
+constexpr double gain_of_exact_flights = 1e6;
+
+bool is_of_digits(const Diagnosis& found) {
+  return found.code == Code("printed-digits").name() ||
+         found.code == Code("single-precision").name();
 }
 
 void add(std::vector<Diagnosis>& all, std::vector<Diagnosis> more) {
@@ -26,14 +35,30 @@ void add(std::vector<Diagnosis>& all, std::vector<Diagnosis> more) {
 
 }  // namespace
 
-std::vector<Diagnosis> diagnose(const DiagnosisInput& question) {
+std::vector<Diagnosis> diagnose(const DiagnosisInput& asked) {
   std::vector<Diagnosis> found;
-  if (!question.is_this_system) add(found, file_causes(question));
-  const bool is_readable = std::ranges::none_of(found, is_unreadable);
-  if (is_readable) {
+  if (!asked.is_this_system) add(found, file_causes(asked));
+  const auto says = [&](auto is) { return std::ranges::any_of(found, is); };
+  // Rounded numbers agree where those that were computed do not.
+  auto broken = says(is_of_digits) ? std::nullopt : no_ladder(asked);
+  if (broken && broken->code != Code("step-without-effect").name()) return {*broken};
+  if (!says(is_unreadable)) {
+    auto question = asked;
+    // Histories that are one tell what the finest tells alone.
+    if (broken) {
+      question.histories = asked.histories.last(1);
+      question.limit = {};
+    }
     if (!question.is_this_system) add(found, system_causes(question));
-    add(found, ladder_causes(question));
+    // Exact flights of another system differ by roundings as well.
+    if (says([](const Diagnosis& one) { return one.fact("gain") > gain_of_exact_flights; }))
+      broken.reset();
+    if (!broken) add(found, ladder_causes(asked));
   }
+  if (broken) add(found, {*broken});
+  // Errors that scatter are no matter of the period.
+  if (asked.displacement.behaviour == Behaviour::irregular || asked.displacement.on_envelope)
+    std::erase_if(found, [](const Diagnosis& one) { return one.code == "period-error"; });
   std::vector<Diagnosis> kept;
   std::ranges::copy_if(found, std::back_inserter(kept), [&](const Diagnosis& implied) {
     return std::ranges::none_of(

@@ -55,6 +55,14 @@ constexpr auto all_causes = std::to_array<Cause>({
      "last time of the history",
      "The history ends at {value} s[ of {expected} s]",
      "run to the end of the case, or set its end (t_end or a_t)."},
+    {"output-offset", Group::output, Effect::other_system, "m",
+     "displacement of the file minus the true one",
+     "{text} is {value_pm} m too large in all rows[ after the first], while the motion is right",
+     "check what is added where results are printed."},
+    {"output-drifts", Group::output, Effect::other_system, "m/s",
+     "rate with which the displacement of the file leaves the true one",
+     "{text} drifts by {value_pm} m/s, while the motion is right",
+     "check what is added where results are printed."},
     {"time-shifted", Group::time, Effect::open, "steps or s",
      "time of the file minus the true one",
      "Every state stands {shift} too {late}",
@@ -105,7 +113,7 @@ constexpr auto all_causes = std::to_array<Cause>({
      "check effective masses and the factor 1 + eta."},
     {"impact-at-step-end", Group::impacts, Effect::open, "steps",
      "mean delay of impacts",
-     "Impacts are applied at the {text} of the step in which they happen",
+     "Impacts are applied at the {text} of the step in which they happen[, or {steps} steps later]",
      "locate the impact within the step; the order is one otherwise."},
     {"impact-interpolated", Group::impacts, Effect::open, "1",
      "order of the impact times",
@@ -123,6 +131,18 @@ constexpr auto all_causes = std::to_array<Cause>({
      "impulse in tension over impulse in compression",
      "The contact pulls[, with {share_percent} of its impulse in tension]",
      "let the contact force act only in compression."},
+    {"step-without-effect", Group::ladder, Effect::no_ladder, "",
+     "",
+     "The {text} has no effect: all {files} histories agree to rounding at their common times",
+     "let the solver use it; of a solver with a fixed tolerance judge tolerances, with {tolerance} in the command, or --tolerances."},
+    {"steps-contradict-rows", Group::ladder, Effect::no_ladder, "",
+     "",
+     "The steps contradict the rows: the smaller the step of a history, the farther its rows are apart",
+     "give the steps in the order of the files; they seem reversed."},
+    {"odd-file", Group::ladder, Effect::open, "1",
+     "error of the file over that of its neighbours",
+     "One history of {files}, h = {step} s, does not belong to the others: its error is {value} times theirs. The verdict is that of the others",
+     "run that one again."},
     {"wrong-limit", Group::ladder, Effect::open, "1",
      "distance of the limit over the envelope",
      "The histories converge[ with order {order}] to another motion[, {value} of the envelope away]",
@@ -179,7 +199,8 @@ const std::vector<Implication>& implications() {
                     of_system = of_group(CauseGroup::system), of_gap = of_group(CauseGroup::gap),
                     of_impacts = of_group(CauseGroup::impacts),
                     of_time = of_group(CauseGroup::time), of_method = of_group(CauseGroup::method),
-                    of_ladder = of_group(CauseGroup::ladder);
+                    of_ladder = Codes{"wrong-limit", "noise-floor", "commensurate-steps"},
+                    of_output = of_group(CauseGroup::output);
   static const std::vector<Implication> table{
       // Numbers that are not those of the case: nothing fitted to them means anything.
       {unreadable, all({of_system,
@@ -189,6 +210,13 @@ const std::vector<Implication>& implications() {
                         of_method,
                         of_ladder,
                         {"velocity-at-half-steps", "velocity-order-lower"}})},
+      {of_output, all({of_system,
+                       of_gap,
+                       of_impacts,
+                       of_time,
+                       of_method,
+                       of_ladder,
+                       {"velocity-order-lower", "output-resampled"}})},
       {of_system, all({of_method, {"wrong-limit", "noise-floor"}})},
       // Each impact early or late by what the closing speed makes of the gap.
       {of_gap, all({of_impacts, of_time, of_method, {"wrong-limit", "noise-floor"}})},
@@ -256,5 +284,7 @@ bool brings_about(const Diagnosis& cause, const Diagnosis& implied) {
 bool is_other_system(const Diagnosis& found) { return surely_has(found, Effect::other_system); }
 
 bool is_noise(const Diagnosis& found) { return surely_has(found, Effect::noise); }
+
+bool denies_ladder(const Diagnosis& found) { return surely_has(found, Effect::no_ladder); }
 
 }  // namespace clackers::diagnose

@@ -63,14 +63,15 @@ struct Diagnosis {
 inline constexpr double least_confidence = 0.5;
 
 /// What a cause is found in, for the rules of which cause brings about another.
-enum class CauseGroup { reading, system, gap, impacts, time, method, ladder, other };
+enum class CauseGroup { reading, output, system, gap, impacts, time, method, ladder, other };
 
 /// What a cause says of the system that was solved.
 enum class CauseEffect {
   open,
   other_system,  ///< it is another one: no refinement leads to the motion of the case
   method,        ///< nothing: it lies in the method, its steps or its output
-  noise          ///< nothing: a floor is noise, not another motion
+  noise,         ///< nothing: a floor is noise, not another motion
+  no_ladder      ///< nothing: the histories show no order, whatever their errors
 };
 
 /// All that is said of one cause beside its detection. {name} in a sentence is the value, a fact or the
@@ -103,5 +104,8 @@ bool is_other_system(const Diagnosis& found);
 
 /// Whether a cause that is sure means that a floor is noise, not another motion.
 bool is_noise(const Diagnosis& found);
+
+/// Whether a cause that is sure means that no order can be read from the histories.
+bool denies_ladder(const Diagnosis& found);
 
 }  // namespace clackers::diagnose

@@ -8,6 +8,7 @@
 
 #include "clackers/base/codes.hpp"
 #include "clackers/diagnose/diagnose.hpp"
+#include "clackers/diagnose/ladder/sanity.hpp"
 #include "clackers/judge/convergence/judge.hpp"
 #include "clackers/judge/convergence/step_ladder.hpp"
 
@@ -259,30 +260,49 @@ void SubjectStudy::decide() {
   }
   std::ranges::stable_sort(observations_, std::greater{},
                            [](const diagnose::Observation& history) { return history.facts.step; });
-  const auto limit = diagnose::limit_of(observations_, problem_.problem.problem, motion);
+  std::span<const diagnose::Observation> histories = observations_;
+  auto ladder = ladder_;
+  std::optional<diagnose::OddRun> odd;
+  if (!is_method()) odd = diagnose::odd_run(ladder);
+  if (odd) {
+    auto& runs = ladder[odd->level].runs;
+    const double step = runs[odd->run].step;
+    runs.erase(runs.begin() + std::ptrdiff_t(odd->run));
+    if (runs.empty()) ladder.erase(ladder.begin() + std::ptrdiff_t(odd->level));
+    const auto others = std::ranges::stable_partition(
+        observations_, [&](const diagnose::Observation& one) { return one.facts.step == step; });
+    histories = {others.begin(), others.end()};
+  }
+  const auto limit = diagnose::limit_of(histories, problem_.problem.problem, motion);
   facts.wrong_limit = !is_method() && limit.wrong;
   auto& assessment = subject_.assessment;
-  assessment = judge::judge(ladder_, subject_.claim, facts);
+  assessment = judge::judge(ladder, subject_.claim, facts);
   if (is_method() && observations_.empty()) return;
   subject_.diagnoses = diagnose::diagnose({.problem = problem_.problem.problem,
                                            .motion = motion,
-                                           .histories = observations_,
-                                           .ladder = ladder_,
+                                           .histories = histories,
+                                           .ladder = ladder,
                                            .displacement = assessment.displacement,
                                            .velocity = assessment.velocity,
                                            .limit = limit,
                                            .by_tolerance = by_tolerance(),
                                            .is_this_system = is_method()});
   if (is_method()) return;
+  if (odd) subject_.diagnoses.push_back(odd->found);
+  const auto broken = std::ranges::find_if(subject_.diagnoses, diagnose::denies_ladder);
+  if (broken != subject_.diagnoses.end()) {
+    facts.no_ladder = broken->code;
+    facts.wrong_limit = false;
+  }
   // Files of another system converge to another motion, also where too few of them show it; what
   // diagnosis finds in the rows of files, their errors may not show.
   const bool other =
       facts.wrong_limit || std::ranges::any_of(subject_.diagnoses, diagnose::is_other_system);
   const bool noise = std::ranges::any_of(subject_.diagnoses, diagnose::is_noise);
-  if (other == facts.wrong_limit && !noise) return;
+  if (other == facts.wrong_limit && !noise && facts.no_ladder.empty()) return;
   facts.wrong_limit = other;
   facts.noise = noise;
-  assessment = judge::judge(ladder_, subject_.claim, facts);
+  assessment = judge::judge(ladder, subject_.claim, facts);
 }
 
 void SubjectStudy::explain() {
@@ -291,7 +311,9 @@ void SubjectStudy::explain() {
 }
 
 NextPlan SubjectStudy::next() const {
-  if (by_tolerance() || !facts_.levels.empty() || repeated_ >= most_repeated) return {};
+  if (by_tolerance() || !facts_.levels.empty() || repeated_ >= most_repeated ||
+      std::ranges::any_of(subject_.diagnoses, diagnose::denies_ladder))
+    return {};
   auto open = subject_;
   if (!is_method() && open.assessment.displacement.behaviour == Behaviour::undecided)
     open.assessment.verdict = Verdict::undecided;

@@ -78,13 +78,17 @@ def generate(one, system, folder, solvers):
     folder.mkdir(parents=True, exist_ok=True)
     files = files_of(one, system, folder)
     lines = []
-    for path, _, words in files:
+    odd, odd_words = one.get("odd", (-1, ""))
+    for i, (path, h, words) in enumerate(files):
         events = f" events={path}.events" if one.get("events") else ""
+        words = one.get("every-file", words).format(h=h)
+        words += f" {odd_words}" if i == odd else ""
         lines.append(f"{path} {words} {system['solver']} {one['solver']}{events}\n")
     program = [scipy_python(), HERE / "scipy_solvers.py"] if "method=scipy-" in one["solver"] else [solvers]
     subprocess.run(program, input="".join(lines), text=True, check=True, timeout=300)
     command = ["check", *(str(path) for path, _, _ in files), *shlex.split(system["check"]),
-               *shlex.split(one.get("check", "").replace("{steps}", ",".join(repr(h) for _, h, _ in files)))]
+               *shlex.split(one.get("check", "").replace("{steps}", ",".join(repr(h) for _, h, _ in files))
+                           .replace("{reversed}", ",".join(repr(h) for _, h, _ in reversed(files))))]
     for path, _, _ in files if one.get("events") else ():
         command += ["--events", f"{path}.events"]
     return command

@@ -68,6 +68,7 @@ inline void spoil(std::vector<State>& rows, const System& s, const Options& o, d
     State& x = rows[i];
     for (double* p : {&x.u.x, &x.u.y}) *p = *p * u + amplitude * noise(++count);
     for (double* p : {&x.v.x, &x.v.y}) *p = *p * v + amplitude * noise(++count);
+    x.u.x += o.number("drift", 0.0) * x.t + (i > 0 ? o.number("offset", 0.0) : 0.0);
     x.u.x *= first;
     x.v.x *= first;
     x.u.y *= second;

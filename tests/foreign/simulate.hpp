@@ -82,7 +82,8 @@ inline State locate(const System& s, const Options& o, const Step& step, const S
 inline History run_steps(System s, const Options& o, double h, long n) {
   const Step step = make_step(o);
   const std::string how = o.text("contact", "exact");
-  const bool at_end = how == "end-of-step", at_start = how == "start-of-step";
+  const bool at_end = how == "end-of-step", at_start = how == "start-of-step",
+             at_next = how == "next-step";
   const bool rigid = s.contact && s.spring == 0.0;
   const double missed = o.number("miss", 0.0);
   const auto guard = [&](Vec u) { return o.has("detect-u1") ? u.x : s.gap(u); };
@@ -97,7 +98,7 @@ inline History run_steps(System s, const Options& o, double h, long n) {
   x.a = s.acceleration(x.u, x.v, false);
   out.rows.push_back(x);
   out.nodes.push_back(x);
-  bool armed = true;
+  bool armed = true, waiting = false;
   int number = 0;
   for (long i = 1; i <= n; ++i) {
     double left = h;
@@ -111,7 +112,11 @@ inline History run_steps(System s, const Options& o, double h, long n) {
       const bool crossed = rigid && armed && guard(y.u) < 0.0;
       if (crossed && ++number == missed) {
         armed = false;
-      } else if (crossed && at_end) {
+      } else if (crossed && at_next && !waiting) {
+        --number;
+        waiting = true;
+      } else if (crossed && (at_end || at_next)) {
+        waiting = false;
         if (s.speed(y.v) < 0.0) {
           apply_impact(s, o, y, number);
           out.impacts.push_back(y);

@@ -87,6 +87,7 @@ inline void change(System& s, const Options& o) {
   s.C.d *= o.number("c2*", 1.0) * o.number("c*", 1.0);
   s.eta = o.number("solver-eta", s.eta);
   if (o.has("rest")) s.v0 = {};
+  s.v0 = o.number("v0*", 1.0) * s.v0;
   if (o.has("no-contact")) s.contact = false;
   s.clearance = o.number("clearance", 0.0);
   s.spring = o.number("spring", 0.0);

@@ -10,8 +10,8 @@ std::vector<Diagnosis> file_causes(const DiagnosisInput& question) {
   if (auto causes = reading_causes(files); !causes.empty()) return causes;
   auto causes = time_causes(files);
   if (!causes.empty() && causes.front().code == "time-unit") return causes;
-  for (auto& family :
-       {velocity_causes(files, question), number_causes(files), row_causes(files, question)})
+  for (auto& family : {output_causes(files, question), velocity_causes(files, question),
+                       number_causes(files), row_causes(files, question)})
     causes.insert(causes.end(), family.begin(), family.end());
   return causes;
 }

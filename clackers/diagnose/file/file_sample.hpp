@@ -58,6 +58,8 @@ std::vector<FileSample> samples_of(const DiagnosisInput& question);
 /// The families of file_causes(). Each looks at samples_of(), the finest first, none empty.
 std::vector<Diagnosis> reading_causes(const std::vector<FileSample>& files);
 std::vector<Diagnosis> time_causes(const std::vector<FileSample>& files);
+std::vector<Diagnosis> output_causes(const std::vector<FileSample>& files,
+                                     const DiagnosisInput& question);
 std::vector<Diagnosis> velocity_causes(const std::vector<FileSample>& files,
                                        const DiagnosisInput& question);
 std::vector<Diagnosis> number_causes(const std::vector<FileSample>& files);

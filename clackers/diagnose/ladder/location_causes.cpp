@@ -54,9 +54,13 @@ std::optional<Diagnosis> at_step(const std::vector<LocatedImpacts>& files) {
     }
   const auto different = distinct(delays, 0.02);
   const double mean = sum / double(delays.size()), sign = mean > 0.0 ? 1.0 : -1.0;
-  const auto outside =
-      std::ranges::count_if(delays, [&](double x) { return sign * x < -0.05 || sign * x > 1.05; });
-  if (20 * outside > std::ssize(delays) || !(std::abs(mean) > 0.05)) return {};
+  const auto beyond = [&](double least, double most) {
+    return std::ranges::count_if(delays,
+                                 [&](double x) { return sign * x < least || sign * x > most; });
+  };
+  constexpr double late_steps = 2.05;
+  if (20 * beyond(-0.05, late_steps) > std::ssize(delays) || !(std::abs(mean) > 0.05)) return {};
+  const bool is_later = 20 * beyond(-0.05, 1.05) > std::ssize(delays);
   const bool spread = different.size() >= 3 && different.back() - different.front() > 0.05;
   // A tolerance below half the finest step is an eighth of a step four times as long, at most.
   double largest = 0.0;
@@ -68,12 +72,14 @@ std::optional<Diagnosis> at_step(const std::vector<LocatedImpacts>& files) {
       largest = std::max(largest, std::abs(impact.delay) / file.step);
   }
   const auto power = power_of_step(files, 3.0, rms_delay);
-  if (has_coarse && largest < 0.2 && !(power && *power > 0.6)) return {};
+  if (power ? !(*power > 0.6) : has_coarse && largest < 0.2) return {};
+  if (is_later && !power) return {};
   if (!spread && files.size() > 1) return {};
   auto found = diagnosis_of(Code("impact-at-step-end"), mean, "steps");
   found.confidence = spread && has_coarse ? 0.95 : spread ? 0.8 : 0.6;
   found.evidence = {{"files", double(files.size())}, {"step", files.back().step}};
   found.text = mean > 0.0 ? "end" : "start";
+  if (is_later) found.evidence.push_back({"steps", 1.0});
   return found;
 }
 
@@ -113,6 +119,21 @@ double error_at(const measure::Ladder& ladder, double step) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+// Whether all impacts happen at one gap: another gap or output, not a tolerance in time.
+bool have_one_gap(const std::vector<LocatedImpacts>& files) {
+  constexpr std::size_t least_impacts = 3;
+  constexpr double same_gap = 0.1;
+  const auto& impacts = files.back().impacts;
+  double sum = 0.0, least = INFINITY, most = -INFINITY;
+  for (const auto& impact : impacts) {
+    const double gap = impact.delay * impact.closing;
+    sum += gap / double(impacts.size());
+    least = std::min(least, gap);
+    most = std::max(most, gap);
+  }
+  return impacts.size() >= least_impacts && most - least < same_gap * std::abs(sum);
+}
+
 // Delays far below a step, or the spacing of an adaptive solver's rows, that do not depend on the
 // step or tolerance and make much of the finest errors.
 std::optional<Diagnosis> tolerance(const DiagnosisInput& question,
@@ -124,6 +145,7 @@ std::optional<Diagnosis> tolerance(const DiagnosisInput& question,
   const double largest_slope = question.by_tolerance ? 0.15 : 1.3;
   const auto power = power_of_step(files, range, rms_delay);
   if (!power || files.size() < least_files || std::abs(*power) > largest_slope) return {};
+  if (have_one_gap(files)) return {};
   double largest = 0.0;
   for (const auto& file : files)
     for (const auto& impact : file.impacts) largest = std::max(largest, std::abs(impact.delay));
@@ -211,9 +233,15 @@ std::vector<Diagnosis> location_causes(const DiagnosisInput& question) {
   if (add(compliant(question, all))) return found;
   // Of coarse files the flights may hide what fine ones show.
   constexpr std::size_t enough = 5;
+  // Rows much farther apart than the steps show chords, not impacts.
+  constexpr double most_steps_a_row = 8.0;
+  const bool has_rows_of_steps = std::ranges::all_of(question.histories, [](const auto& file) {
+    return file.facts.spacing < most_steps_a_row * file.facts.step;
+  });
   if (!delayed.empty() && (2 * delayed.size() >= all.size() || delayed.size() >= enough)) {
     // Delays of a tolerance ladder have no step to be measured in.
-    if (!question.by_tolerance && 2 * delayed.size() >= all.size() && add(at_step(delayed)))
+    if (!question.by_tolerance && has_rows_of_steps && 2 * delayed.size() >= all.size() &&
+        add(at_step(delayed)))
       return found;
     if (add(tolerance(question, delayed))) return found;
   }

@@ -26,7 +26,7 @@ constexpr double least_file_fall = 1.3;
 /// A value that a method's error makes moves by 40 % at least from one file to the next, whose step
 /// is 1.8 times as large, where it falls with the power 0.6 or more.
 constexpr double constant_change = 0.15;
-/// A shift this near to a whole number of steps is one.
+/// A shift this near to a whole number of half steps is one.
 constexpr double whole_share = 0.03;
 
 struct Trial {
@@ -238,8 +238,10 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
   int files = 1;
   const bool in_steps = is_shift(best) && !question.by_tolerance && finest.step > 0.0;
   const double steps = in_steps ? best.d / finest.step : 0.0;
-  const bool whole = in_steps && std::abs(std::round(steps)) >= 1.0 &&
-                     std::abs(steps - std::round(steps)) <= whole_share;
+  // Beside frequencies and damping the error of first-order methods looks like half a step.
+  const double halves = attempt == tried ? std::round(2.0 * steps) : 2.0 * std::round(steps);
+  const bool whole =
+      in_steps && std::abs(halves) >= 1.0 && std::abs(steps - 0.5 * halves) <= whole_share;
   bool grows = false;
   for (std::size_t i = 1; i < std::min<std::size_t>(question.files.size(), 3); ++i) {
     const auto& other = question.files[i];

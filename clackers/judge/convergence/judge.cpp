@@ -212,6 +212,10 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
     else if (evidence.code != "impacts-miscounted")
       found.reason.clear();
   }
+  if (!facts.no_ladder.empty() && found.verdict == Verdict::not_claimed) {
+    found.verdict = Verdict::undecided;
+    found.reason = facts.no_ladder;
+  }
   if (found.verdict == Verdict::disagrees) found.mismatch = mismatch_of(fit, claim, facts);
 }
 
@@ -238,6 +242,12 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const Facts&
   found.impact_time = fit(ladder, context, impact_time_error);
 
   found.displacement = behaviour_of(measured, ladder, claim, facts);
+  if (!facts.no_ladder.empty())
+    for (auto* one : {&found.displacement, &found.velocity, &found.impact_time}) {
+      one->behaviour = Behaviour::undecided;
+      one->has_line = false;
+      one->reason = facts.no_ladder;
+    }
   found.evidence =
       evidence_of(found, compare(found.displacement, claim, facts), ladder, claim, facts);
   decide(found, claim, ladder, facts);

@@ -53,6 +53,8 @@ struct Facts {
   /// The differences between the histories shrink regularly where their errors do not: they converge
   /// to another limit than the true motion.
   bool wrong_limit = false;
+  /// Code of why the runs show no order, whatever their errors; empty where they may.
+  std::string no_ladder{};
   bool noise = false;  ///< a floor of the runs is noise, as their rows show
   /// Where contacts that share masses close together, if they do, and what the error does there.
   std::optional<measure::SharedImpacts> shared{};

@@ -171,8 +171,9 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   if (facts.by_tolerance) add(error_over_tolerance(ladder, fit));
   if (!facts.finest) return all;
   add(ends_early(*facts.finest));
-  if (claimed) return all;  // an expected divergence may lead to another motion
-  if (!facts.tolerance && finest.impacts && !facts.finest->rows_resolve_impacts)
+  // An expected divergence may lead to another motion; a tolerance that is met is met.
+  if (claimed || facts.tolerance) return all;
+  if (finest.impacts && !facts.finest->rows_resolve_impacts)
     all.push_back(evidence("sparse-rows", Verdict::not_claimed, {}));
   add(other_motion(finest, *facts.finest));
   if (facts.wrong_limit) all.push_back(wrong_limit);

@@ -1,0 +1,128 @@
+#include "clackers/diagnose/ladder/sanity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/base/constants.hpp"
+#include "clackers/diagnose/ladder/error_curve.hpp"
+#include "clackers/diagnose/ladder/ladder_families.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/measure/errors/meter.hpp"
+#include "clackers/numerics/line_fit.hpp"
+
+namespace clackers::diagnose {
+namespace {
+
+/// Roundings that two evaluations of one interpolant may differ by, relative to the envelope.
+/// Integrators of other steps differ by more, even where their formula is exact.
+constexpr double same_roundings = 8.0;
+constexpr std::size_t least_common_rows = 10;
+constexpr double above_rounding = 10.0;
+
+// Whether two histories agree to rounding at all times that they have in common, of which there are
+// enough. The first row is the start of both.
+bool agree(const Observation& one, const Observation& other, const Eigen::VectorXd& scale) {
+  const auto &a = one.sample, &b = other.sample;
+  const auto dof = std::size_t(a.dof);
+  const double same_time = 1e-9 * std::min(one.facts.spacing, other.facts.spacing);
+  std::size_t common = 0;
+  for (std::size_t i = 1, j = 1; i < a.t.size() && j < b.t.size();) {
+    if (std::abs(a.t[i] - b.t[j]) > same_time) {
+      ++(a.t[i] < b.t[j] ? i : j);
+      continue;
+    }
+    for (std::size_t mass = 0; mass < dof; ++mass)
+      if (std::abs(a.u[i * dof + mass] - b.u[j * dof + mass]) >
+          same_roundings * epsilon * scale[Eigen::Index(mass)])
+        return false;
+    ++common, ++i, ++j;
+  }
+  return common >= least_common_rows;
+}
+
+// The coarsest and the finest history and their neighbours: what agrees there agrees between.
+bool step_has_no_effect(const DiagnosisInput& question) {
+  const auto& files = question.histories;
+  const auto scale = question.motion.peak();
+  const auto& finest = files.back();
+  const double floor = std::max({finest.facts.floor, epsilon * double(finest.rows),
+                                 measure::relative_bound(question.motion, scale, finest.last)});
+  if (!(ErrorCurve(finest, question.motion, scale.u).largest() > above_rounding * floor))
+    return false;
+  const auto n = files.size();
+  return agree(files[0], files[1], scale.u) && agree(files[n - 2], files[n - 1], scale.u) &&
+         agree(files[0], files[n - 1], scale.u);
+}
+
+// Whether rows stand the farther apart the smaller the step that was given for them.
+bool labels_are_reversed(std::span<const Observation> files) {
+  constexpr std::size_t least_files = 3;
+  constexpr double least_change = 1.05, same_product = 0.02;
+  if (files.size() < least_files) return false;
+  const double product = files[0].facts.step * files[0].facts.spacing;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto& facts = files[i].facts;
+    if (std::abs(facts.step * facts.spacing / product - 1.0) > same_product) return false;
+    if (i > 0 && !(facts.spacing > least_change * files[i - 1].facts.spacing)) return false;
+  }
+  return true;
+}
+
+Diagnosis sure_cause(Code code, const DiagnosisInput& question) {
+  auto found = diagnosis_of(code, NAN, "");
+  found.confidence = 1.0;
+  found.text = question.by_tolerance ? "tolerance" : "step";
+  found.evidence = {{"files", double(question.histories.size())}};
+  return found;
+}
+
+}  // namespace
+
+std::optional<Diagnosis> no_ladder(const DiagnosisInput& question) {
+  if (question.is_this_system || question.histories.size() < 2) return {};
+  if (!question.by_tolerance && labels_are_reversed(question.histories))
+    return sure_cause("steps-contradict-rows", question);
+  if (step_has_no_effect(question)) return sure_cause("step-without-effect", question);
+  return {};
+}
+
+std::optional<OddRun> odd_run(const measure::Ladder& ladder) {
+  constexpr std::size_t least_runs = 6;
+  // In natural logarithms: how far the others scatter, and how far above them the odd one lies.
+  constexpr double largest_scatter = 0.35, least_distance = 1.6, least_lead = 8.0;
+  std::vector<double> x, y;
+  std::vector<OddRun> runs;
+  for (std::size_t level = 0; level < ladder.size(); ++level)
+    for (std::size_t i = 0; i < ladder[level].runs.size(); ++i) {
+      const auto& run = ladder[level].runs[i];
+      if (!run.finished || !(run.u_error > above_rounding * run.rounding_floor)) continue;
+      x.push_back(std::log(run.step));
+      y.push_back(std::log(run.u_error));
+      runs.push_back({level, i, {}});
+    }
+  if (runs.size() < least_runs) return {};
+  // The one whose absence leaves the others nearest to a line.
+  std::size_t odd = 0;
+  double least = infinity, distance = 0.0;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    auto others_x = x, others_y = y;
+    others_x.erase(others_x.begin() + std::ptrdiff_t(k));
+    others_y.erase(others_y.begin() + std::ptrdiff_t(k));
+    const auto line = numerics::fit_line(others_x, others_y);
+    const double scatter = std::max(line.largest_above, line.largest_below);
+    if (!(scatter < least)) continue;
+    least = scatter;
+    odd = k;
+    distance = y[k] - line.at(x[k]);
+  }
+  if (!(least < largest_scatter && distance > least_distance && distance > least_lead * least))
+    return {};
+  auto& found = runs[odd];
+  found.found = diagnosis_of("odd-file", std::exp(distance), "1");
+  found.found.confidence = 1.0;
+  found.found.evidence = {{"step", ladder[found.level].runs[found.run].step},
+                          {"files", double(runs.size())}};
+  return found;
+}
+
+}  // namespace clackers::diagnose
