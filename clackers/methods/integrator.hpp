@@ -29,6 +29,12 @@ class AnyStepper {
   /// Starts at `from`, or starts again after a jump in velocity: what the integrator remembers of
   /// the steps before no longer holds.
   virtual void restart(const State& from) = 0;
+  /// Goes on from `now`, the end of a partial step of s from `from`: with the memory of that step
+  /// where an integrator says that its acceleration is not that of the state, else by restart().
+  virtual void go_on(const State& from, double s, const State& now) {
+    static_cast<void>(from), static_cast<void>(s);
+    restart(now);
+  }
   /// Fills states[i], i >= 1, from states[0], the state at step `first` of the plan; times are counted,
   /// or an adaptive one's own. Returns the number of steps: up to one that failed or ends the plan.
   virtual std::size_t advance(long long first, std::span<State> states) = 0;

@@ -43,6 +43,18 @@ bool is_as_smooth(const judge::LadderFit& fit, double smooth_order) {
           fit.order >= (1.0 - judge::order_tolerance) * smooth_order);
 }
 
+// What a cause leaves of a claim: impacts at the ends of steps are of first order, and scatter;
+// another system is not the one that was claimed, however good the order of the flights is.
+Verdict least_verdict(const diagnose::Diagnosis& cause, const Claim& claim) {
+  if (cause.code == Code("impact-at-step-end").name() && cause.confidence >= diagnose::sure &&
+      (claim.behaviour == Behaviour::exact ||
+       (claim.behaviour == Behaviour::proper && claim.order > 1.5)))
+    return Verdict::disagrees;
+  const auto* row = diagnose::find_cause(cause.code);
+  return row->effect == diagnose::CauseEffect::other_system ? Verdict::undecided
+                                                            : Verdict::not_claimed;
+}
+
 judge::HistoryFacts facts_of(const record::HistoryFile& file, const model::Motion& motion) {
   return {.rows = file.rows,
           .printed_floor = file.printed_floor,
@@ -299,7 +311,15 @@ void SubjectStudy::decide() {
   const bool other =
       facts.wrong_limit || std::ranges::any_of(subject_.diagnoses, diagnose::is_other_system);
   const bool noise = std::ranges::any_of(subject_.diagnoses, diagnose::is_noise);
-  if (other == facts.wrong_limit && !noise && facts.no_ladder.empty()) return;
+  for (const auto& cause : subject_.diagnoses)
+    if (const auto least = least_verdict(cause, subject_.claim);
+        facts.least_verdict == Verdict::not_claimed || least == Verdict::disagrees) {
+      facts.least_verdict = least;
+      facts.cause_against = cause.code;
+    }
+  if (other == facts.wrong_limit && !noise && facts.no_ladder.empty() &&
+      facts.least_verdict == Verdict::not_claimed)
+    return;
   facts.wrong_limit = other;
   facts.noise = noise;
   assessment = judge::judge(ladder, subject_.claim, facts);

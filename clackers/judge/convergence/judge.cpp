@@ -116,9 +116,13 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
     }
     fit.reason = Code("printed-digits").name();
   }
-  if (claim.behaviour == Behaviour::reduced && fit.behaviour == Behaviour::proper &&
-      std::abs(fit.order - claim.order) <= order_tolerance * claim.order)
-    fit.behaviour = Behaviour::reduced;
+  const bool is_of_claimed_order =
+      std::abs(fit.order - claim.order) <= order_tolerance * claim.order;
+  if (is_of_claimed_order &&
+      ((claim.behaviour == Behaviour::reduced && fit.behaviour == Behaviour::proper) ||
+       (claim.behaviour == Behaviour::proper && fit.behaviour == Behaviour::irregular &&
+        fit.scatter < proper_scatter)))
+    fit.behaviour = claim.behaviour;
   return fit;
 }
 
@@ -133,7 +137,28 @@ Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
   return fit.on_envelope && fit.spread > most * claimed ? Verdict::undecided : Verdict::agrees;
 }
 
-Verdict compare_floor(const LadderFit& fit, const Claim& claim) {
+// Whether errors are those of contacts of few steps, whose upper envelope falls while some are
+// resolved by chance, whatever floor follows.
+bool is_above_floor(const LadderFit& fit, const Facts& facts) {
+  constexpr double enough_steps = 128.0;
+  return facts.contact_time > 0.0 && facts.contact_time < enough_steps * fit.smallest_step;
+}
+
+// Whether the order of a line is that of its coarse range: errors not far below the motion itself,
+// which fall faster from level to level.
+bool is_still_coarse(const LadderFit& fit) {
+  constexpr double large = 0.1, least_rise = 0.05;
+  const auto rate = [&](int i) {
+    const auto at = std::size_t(i);
+    return std::log(fit.errors[at] / fit.errors[at + 1]) /
+           std::log(fit.steps[at] / fit.steps[at + 1]);
+  };
+  const int last = fit.last_level - 1;
+  return fit.first_level < last && std::size_t(fit.last_level) < fit.errors.size() &&
+         fit.errors.back() > large && rate(last) > rate(fit.first_level) + least_rise;
+}
+
+Verdict compare_floor(const LadderFit& fit, const Claim& claim, const Facts& facts) {
   const bool has_floor =
       fit.behaviour == Behaviour::stagnating ||
       (fit.floor_step > 0.0 && fit.reason == claim.reason && !claim.reason.empty());
@@ -143,7 +168,8 @@ Verdict compare_floor(const LadderFit& fit, const Claim& claim) {
   // Errors that fall for certain have no floor; of no order that a method has, they bend towards one
   // or still come from their coarse range.
   if (!has_floor)
-    return shows_a_line(fit) && (fit.order <= fit.spread || fit.order < lowest_real_order)
+    return shows_a_line(fit) && (fit.order <= fit.spread || fit.order < lowest_real_order ||
+                                 is_above_floor(fit, facts))
                ? Verdict::undecided
                : Verdict::disagrees;
   return claim.reason.empty() || fit.reason == claim.reason ? Verdict::agrees : Verdict::disagrees;
@@ -153,7 +179,7 @@ Verdict compare(const LadderFit& fit, const Claim& claim, const Facts& facts) {
   if (!claim.is_made()) return Verdict::not_claimed;
   if (fit.behaviour == Behaviour::undecided) return Verdict::undecided;
   if (claim.behaviour == Behaviour::stagnating && fit.behaviour != Behaviour::exact)
-    return compare_floor(fit, claim);
+    return compare_floor(fit, claim, facts);
   if (fit.reason == Code("printed-digits").name() && !fit.has_line) return Verdict::undecided;
   if (fit.behaviour == Behaviour::exact)
     return claim.behaviour == Behaviour::exact ? Verdict::agrees : Verdict::undecided;
@@ -165,6 +191,8 @@ Verdict compare(const LadderFit& fit, const Claim& claim, const Facts& facts) {
   if (line && line_claimed) {
     const double tolerance = facts.by_tolerance ? tolerance_proportional : order_tolerance;
     const auto found = compare_order(fit, claim.order, tolerance);
+    if (found == Verdict::disagrees && fit.order < claim.order && is_still_coarse(fit))
+      return Verdict::undecided;
     // Reduced claims less than proper; both are told by the order alone.
     return found == Verdict::agrees && fit.behaviour != claim.behaviour && !facts.by_tolerance
                ? Verdict::disagrees
@@ -199,8 +227,13 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
   const bool one_history =
       facts.finest && !claim.is_made() && ladder.size() == 1 && ladder.front().runs.size() == 1;
   if (!one_history) found.reason = fit.reason;
-  if (found.verdict == Verdict::undecided && fit.on_envelope)
-    found.reason = Code("more-samples").name();
+  const bool is_open = found.verdict == Verdict::undecided;
+  if (is_open && fit.on_envelope) found.reason = Code("more-samples").name();
+  if (is_open && claim.behaviour == Behaviour::stagnating && shows_a_line(fit) &&
+      is_above_floor(fit, facts))
+    found.reason = Code("contact-not-resolved").name();
+  if (is_open && found.reason.empty() && shows_a_line(fit) && is_still_coarse(fit))
+    found.reason = Code("too-few-levels").name();
   for (const auto& evidence : found.evidence) {
     if (evidence.code == "sparse-rows") found.reason = Code("sparse-rows").name();
     if (severity(evidence.verdict) <= severity(found.verdict)) continue;
@@ -211,6 +244,10 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
       found.reason = evidence.code;
     else if (evidence.code != "impacts-miscounted")
       found.reason.clear();
+  }
+  if (claim.is_made() && severity(facts.least_verdict) > severity(found.verdict)) {
+    found.verdict = facts.least_verdict;
+    found.reason = facts.cause_against;
   }
   if (!facts.no_ladder.empty() && found.verdict == Verdict::not_claimed) {
     found.verdict = Verdict::undecided;

@@ -17,6 +17,9 @@ namespace clackers::judge {
 inline constexpr double order_tolerance = 0.1;
 inline constexpr double envelope_order_tolerance = 0.25;
 
+/// Errors within this factor of a line of the claimed order are proper, as claimed.
+inline constexpr double proper_scatter = 2.0;
+
 /// A run that ends with less or more than these shares of the true energy has not followed the
 /// motion, whatever its error relative to an envelope: beyond a factor 2 amplitudes are off by 0.29
 /// of themselves at least.
@@ -53,6 +56,9 @@ struct Facts {
   /// The differences between the histories shrink regularly where their errors do not: they converge
   /// to another limit than the true motion.
   bool wrong_limit = false;
+  /// Code of a cause that its claim cannot stand beside, and the least verdict that it leaves.
+  std::string cause_against{};
+  Verdict least_verdict = Verdict::not_claimed;
   /// Code of why the runs show no order, whatever their errors; empty where they may.
   std::string no_ladder{};
   bool noise = false;  ///< a floor of the runs is noise, as their rows show

@@ -162,7 +162,7 @@ class EventDriven::Loop {
       return ended(out.fail("too-many-impacts", from_.t,
                             "impacts accumulate, closer than rounding of the time can separate"));
     if (!is_changed) return Handled::unchanged;
-    stepper().restart(now);
+    stepper().go_on(from_, t1 - from_.t, now);
     return Handled::changed;
   }
 

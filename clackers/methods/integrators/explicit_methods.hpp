@@ -31,6 +31,9 @@ struct VelocityVerlet : ExplicitStep {
 
 /// (1 - alpha_m) a1 + alpha_m a0 = a(t0, u0, v0), u1 and v1 by Newmark's formulas
 struct ExplicitAlpha : ExplicitStep {
+  /// A restart between steps costs its regularity: a1 belongs to an earlier instant than u1.
+  static constexpr bool keeps_acceleration = true;
+
   double alpha_m, beta, gamma, limit;
 
   Facts facts() const { return {.smooth_order = 2.0, .stability_limit = limit}; }

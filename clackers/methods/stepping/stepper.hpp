@@ -85,6 +85,17 @@ class Stepper final : public AnyStepper<Dof> {
     return part_;
   }
 
+  void go_on(const State& from, double s, const State& now) override {
+    if constexpr (requires { Integrator::keeps_acceleration; }) {
+      if (s > 0.0) {
+        partial(from, s);
+        memory_ = part_memory_;
+        return;
+      }
+    }
+    AnyStepper<Dof>::go_on(from, s, now);
+  }
+
   bool failed() const override { return equation_.failed(); }
   Code failure() const override { return equation_.failure(); }
   void reset() override { equation_.set_tally({}); }

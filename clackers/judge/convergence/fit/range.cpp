@@ -96,6 +96,8 @@ LadderFit with_line(const Range& range, const Window& found) {
   fit.last_level = found.last;
   fit.largest_step = found.largest_step;
   fit.smallest_step = found.smallest_step;
+  // A line that goes on below the floor shows that there is none.
+  if (fit.smallest_step < fit.floor_step) fit.floor = fit.floor_step = 0.0;
   return fit;
 }
 
