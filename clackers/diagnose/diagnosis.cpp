@@ -134,7 +134,7 @@ constexpr auto all_causes = std::to_array<Cause>({
     {"step-without-effect", Group::ladder, Effect::no_ladder, "",
      "",
      "The {text} has no effect: all {files} histories agree to rounding at their common times",
-     "let the solver use it; of a solver with a fixed tolerance judge tolerances, with {tolerance} in the command, or --tolerances."},
+     "let the solver use it; of one with a fixed tolerance judge several tolerances, by --tolerances."},
     {"steps-contradict-rows", Group::ladder, Effect::no_ladder, "",
      "",
      "The steps contradict the rows: the smaller the step of a history, the farther its rows are apart",

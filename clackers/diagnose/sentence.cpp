@@ -89,7 +89,6 @@ std::string word(std::string_view name, const Diagnosis& cause) {
   if (name == "quantity") return quantity(cause);
   if (name == "unit_text") return unit_text(cause);
   if (name == "text") return cause.text;
-  if (name == "tolerance") return "{tolerance}";
   if (name == "floor") return std::isnan(cause.fact(name)) ? "" : scientific(cause.fact(name));
   return plain(cause.fact(name), name == "expected" ? 6 : 3);
 }

@@ -42,6 +42,22 @@ std::optional<double> power_of_step(const std::vector<LocatedImpacts>& files, do
 
 double rms_delay(const LocatedImpacts& file) { return file.rms_delay(); }
 
+// Whether the impacts of all files happen at one gap: another gap or output, not another time.
+bool have_one_gap(const std::vector<LocatedImpacts>& files) {
+  constexpr double same_gap = 0.1;
+  double sum = 0.0, least = INFINITY, most = -INFINITY;
+  int impacts = 0;
+  for (const auto& file : files)
+    for (const auto& impact : file.impacts) {
+      const double gap = impact.delay * impact.closing;
+      sum += gap;
+      least = std::min(least, gap);
+      most = std::max(most, gap);
+      ++impacts;
+    }
+  return files.size() > 1 && most - least < same_gap * std::abs(sum) / impacts;
+}
+
 // Impacts applied at a step: delays between 0 and h, or -h and 0, spread over that range, in
 // proportion to the step.
 std::optional<Diagnosis> at_step(const std::vector<LocatedImpacts>& files) {
@@ -72,7 +88,8 @@ std::optional<Diagnosis> at_step(const std::vector<LocatedImpacts>& files) {
       largest = std::max(largest, std::abs(impact.delay) / file.step);
   }
   const auto power = power_of_step(files, 3.0, rms_delay);
-  if (power ? !(*power > 0.6) : has_coarse && largest < 0.2) return {};
+  if (have_one_gap(files)) return {};
+  if (has_coarse && largest < 0.2 && !(power && *power > 0.6)) return {};
   if (is_later && !power) return {};
   if (!spread && files.size() > 1) return {};
   auto found = diagnosis_of(Code("impact-at-step-end"), mean, "steps");
@@ -117,21 +134,6 @@ double error_at(const measure::Ladder& ladder, double step) {
     for (const auto& run : level.runs)
       if (run.finished && std::abs(run.step - step) <= 1e-9 * step) return run.u_error;
   return std::numeric_limits<double>::quiet_NaN();
-}
-
-// Whether all impacts happen at one gap: another gap or output, not a tolerance in time.
-bool have_one_gap(const std::vector<LocatedImpacts>& files) {
-  constexpr std::size_t least_impacts = 3;
-  constexpr double same_gap = 0.1;
-  const auto& impacts = files.back().impacts;
-  double sum = 0.0, least = INFINITY, most = -INFINITY;
-  for (const auto& impact : impacts) {
-    const double gap = impact.delay * impact.closing;
-    sum += gap / double(impacts.size());
-    least = std::min(least, gap);
-    most = std::max(most, gap);
-  }
-  return impacts.size() >= least_impacts && most - least < same_gap * std::abs(sum);
 }
 
 // Delays far below a step, or the spacing of an adaptive solver's rows, that do not depend on the

@@ -172,33 +172,41 @@ void print_named(const record::CaseRecord& problem, bool is_named, std::ostream&
     print_wrapped((is_named ? who + ": " : "") + text_of(found), out, style);
 }
 
-void print_findings(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
+void print_findings(const record::CaseRecord& problem, const OpeningLine& opening,
+                    std::ostream& out, const Style& style) {
   // The name of the only subject of `check` says nothing.
   const bool is_named = problem.plan.levels > 0 || problem.subjects.size() > 1;
   for (const auto& texts : {&finding, &false_convergence})
-    print_named(problem, is_named, out, style, [&](const record::Subject& subject) {
-      const auto found = texts(subject);
-      return found ? std::vector{*found} : std::vector<Finding>{};
-    });
+    if (!(opening.has_finding && texts == &finding))
+      print_named(problem, is_named, out, style, [&](const record::Subject& subject) {
+        const auto found = texts(subject);
+        return found ? std::vector{*found} : std::vector<Finding>{};
+      });
 }
 
 // Causes stand before the numbers.
-void print_diagnoses(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
+void print_diagnoses(const record::CaseRecord& problem, const OpeningLine& opening,
+                     std::ostream& out, const Style& style) {
   const bool is_named = problem.plan.levels > 0 || problem.subjects.size() > 1;
-  print_named(problem, is_named, out, style, diagnosis_texts);
+  print_named(problem, is_named, out, style, [&](const record::Subject& subject) {
+    auto texts = diagnosis_texts(subject);
+    if (opening.has_cause) texts.erase(texts.begin());
+    return texts;
+  });
 }
 
-void print_case(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
+void print_case(const record::CaseRecord& problem, const OpeningLine& opening, std::ostream& out,
+                const Style& style) {
   print_wrapped(case_text(problem.problem), out, style);
   print_wrapped(length_text(problem.problem), out, style);
   if (const auto plan = plan_text(problem); !plan.empty()) print_wrapped(plan, out, style);
-  print_diagnoses(problem, out, style);
+  print_diagnoses(problem, opening, out, style);
   const bool is_check = problem.plan.levels == 0;
-  if (is_check) print_findings(problem, out, style);
+  if (is_check) print_findings(problem, opening, out, style);
   print_methods(problem, out, style);
   print_failures(problem, out, style);
   print_histories(problem, out, style);
-  if (!is_check) print_findings(problem, out, style);
+  if (!is_check) print_findings(problem, opening, out, style);
 }
 
 // Over all cases, by force evaluations where they are counted.
@@ -266,10 +274,13 @@ void write_text(const record::Record& record, std::ostream& out, const Style& st
   if (record.interrupted)
     print_wrapped("INTERRUPTED: only what was finished is shown [interrupted]", out, style,
                   TextColor::yellow);
-  const char* between = "";
+  const auto line = verdict_line(record);
+  const auto opening = opening_line(record);
+  print_wrapped(opening.text, out, style, color_of(line.word));
+  const char* between = "\n";
   for (const auto& problem : record.cases) {
     out << between;
-    print_case(problem, out, style);
+    print_case(problem, opening, out, style);
     between = "\n";
   }
   if (record.cases.size() > 1) print_profile(record, out, style);
@@ -277,9 +288,7 @@ void write_text(const record::Record& record, std::ostream& out, const Style& st
     out << '\n';
     write_changes(*changes, out, style);
   }
-  const auto line = verdict_line(record);
   out << '\n';
-  if (!line.counts.empty()) print_wrapped(line.counts, out, style);
   // A command is for copying, so it is not broken; of one that is too long only the change is named.
   auto last = fmt::format("Verdict: {}. Next: {}", line.word, line.next);
   if (display_width(printable(last)) > std::size_t(std::max(style.width, 20)))

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -161,6 +162,33 @@ std::string plan_text(const record::CaseRecord& problem) {
       short_number(adaptive->levels.back().step, 3));
   const bool are_all = std::ranges::all_of(problem.subjects, is_adaptive);
   return are_all ? tolerances : fmt::format("{}; adaptive: {}", steps, tolerances);
+}
+
+OpeningLine opening_line(const record::Record& record) {
+  const auto word = record::verdict_word(record);
+  OpeningLine line;
+  line.text = fmt::format("{}{}: ", char(std::toupper(word.front())), word.substr(1));
+  const bool is_alone = record.cases.size() == 1 && record.cases.front().subjects.size() == 1;
+  if (!is_alone) {
+    auto counts = verdict_line(record).counts;
+    if (const auto colon = counts.find(':'); colon != std::string::npos) {
+      counts.front() = 'o';
+      counts[colon] = ',';
+    }
+    line.text += counts;
+    return line;
+  }
+  const auto& subject = record.cases.front().subjects.front();
+  if (!subject.diagnoses.empty() && word != "agrees") {
+    line.has_cause = true;
+    line.text += text_of(diagnosis_text(subject.diagnoses.front()));
+  } else if (const auto found = finding(subject)) {
+    line.has_finding = true;
+    line.text += text_of(*found);
+  } else {
+    line.text += fmt::format("{}, as claimed.", fit_text(subject.assessment.displacement));
+  }
+  return line;
 }
 
 VerdictLine verdict_line(const record::Record& record) {

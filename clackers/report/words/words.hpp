@@ -74,6 +74,14 @@ std::string printed_text(std::string_view printed);
 /// What errors are relative to, in every caption of errors in u, v and energy.
 inline constexpr auto error_scale_text = "relative to the largest envelope and energy";
 
+/// The first line of a report: the verdict and what decided it. `cause` and `finding` say which text
+/// of the only subject it holds already.
+struct OpeningLine {
+  std::string text;  ///< "Agrees: converges with order 4.00 ±0.01, as claimed."
+  bool has_cause = false, has_finding = false;
+};
+OpeningLine opening_line(const record::Record& record);
+
 /// The last line of a report.
 struct VerdictLine {
   std::string word;           ///< "agrees", "disagrees", "undecided", "not claimed", "interrupted"
