@@ -184,7 +184,7 @@ class Files(unittest.TestCase):
 
     def test_the_ending_says_what_is_written(self):
         starts = {"a.html": "<!DOCTYPE html>", "a.json": "{", "a.csv": "case,", "a.xml": "<?xml", "a.tex": "%",
-                  "a.txt": "three-parameter", "A.HTML": "<!DOCTYPE html>"}
+                  "a.txt": "Agrees: ", "A.HTML": "<!DOCTYPE html>"}
         for name, start in starts.items():
             with self.subTest(name):
                 METHODS.save(self.folder / name)

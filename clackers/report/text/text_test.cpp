@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"
@@ -88,7 +89,7 @@ TEST(Text, OnlyVerdictsAskedForAreShownAndAllAreCounted) {
   EXPECT_TRUE(has(text, "Only disagrees: 2 of 12 methods.")) << text;
   EXPECT_TRUE(has(text, "penalty, 2 methods\nnewmark"));
   EXPECT_FALSE(has(text, "event-driven"));
-  EXPECT_TRUE(has(text, "Of 12 methods: 10 agree, 2 disagree"));
+  EXPECT_TRUE(text.starts_with("Disagrees: of 12 methods, 10 agree, 2 disagree")) << text;
   const auto none = text_of_record(record_of_many(), {.only = {"undecided", "not claimed"}});
   EXPECT_TRUE(has(none, "Only undecided or not claimed: 0 of 12 methods.")) << none;
 }
@@ -106,6 +107,38 @@ TEST(Text, OfHistoriesTheCauseAndTheAnswerStandBeforeTheNumbers) {
   text = text_of_record(record);
   EXPECT_TRUE(has(text, "tolerance"));
   EXPECT_FALSE(has(text, "h = "));
+}
+
+// No output says at its end, or as a cause, what its first line denies.
+TEST(Text, OpensWithTheVerdictAndNeverContradictsIt) {
+  auto agreed = sample_check();
+  agreed.cases.front().subjects.front().assessment.verdict = Verdict::agrees;
+  agreed.cases.front().subjects.front().diagnoses.clear();
+  for (const auto& record : {sample_check(), sample_of_all(), record_of_many(), agreed}) {
+    const auto lines = lines_of(text_of_record(record));
+    const auto word = std::string(record::verdict_word(record));
+    auto opening = word + ": ";
+    opening.front() = char(std::toupper(opening.front()));
+    EXPECT_TRUE(lines.front().starts_with(opening)) << lines.front();
+    EXPECT_TRUE(lines.back().starts_with("Verdict: " + word)) << lines.back();
+    for (const auto& cause : diagnose::causes()) {
+      const bool denies = word == "agrees" && cause.effect == diagnose::CauseEffect::other_system;
+      EXPECT_FALSE(denies &&
+                   has(text_of_record(record), "[" + std::string(cause.code.name()) + "]"));
+    }
+  }
+}
+
+TEST(Text, SaysACauseOnceInTheFirstLine) {
+  auto record = sample_check();
+  auto& causes = record.cases.front().subjects.front().diagnoses;
+  causes = {{"restitution-differs", 0.97, "1", 0.9, {}, "", ""}};
+  const auto& cause = causes.front();
+  const auto text = text_of_record(record);
+  const auto mark = "[" + cause.code + "]";
+  const auto first = text.find(mark);
+  EXPECT_LT(first, text.find(record.cases.front().problem.name));
+  EXPECT_EQ(text.find(mark, first + 1), std::string::npos) << text;
 }
 
 TEST(Text, AnInterruptedRecordIsMarked) {
