@@ -89,8 +89,7 @@ TEST(Text, OnlyVerdictsAskedForAreShownAndAllAreCounted) {
   EXPECT_TRUE(has(text, "Only disagrees: 2 of 12 methods.")) << text;
   EXPECT_TRUE(has(text, "penalty, 2 methods\nnewmark"));
   EXPECT_FALSE(has(text, "event-driven"));
-  EXPECT_TRUE(has(text, "
-Interrupted: of 12 methods, 10 agree, 2 disagree.")) << text;
+  EXPECT_TRUE(has(text, "\nInterrupted: of 12 methods, 10 agree, 2 disagree.")) << text;
   const auto none = text_of_record(record_of_many(), {.only = {"undecided", "not claimed"}});
   EXPECT_TRUE(has(none, "Only undecided or not claimed: 0 of 12 methods.")) << none;
 }
