@@ -145,7 +145,7 @@ constexpr auto all_causes = std::to_array<Cause>({
      "run that one again."},
     {"wrong-limit", Group::ladder, Effect::open, "1",
      "distance of the limit over the envelope",
-     "The histories converge[ with order {order}] to another motion[, {value} of the envelope away]",
+     "The histories converge[ with order {order}] to another motion[, {value} of the envelope away][; they are right until impact {impact}, t = {time} s, and wrong from there]",
      "check parameters and equations; smaller steps will not help."},
     {"noise-floor", Group::ladder, Effect::noise, "1",
      "error of the floor over the envelope",

@@ -98,6 +98,26 @@ double extrapolated_distance(const Octaves& e, double floor) {
   return stays ? distance : 0.0;
 }
 
+// The last impact of the reference before which the error is no more than a small part of its largest.
+void find_departure(const ErrorCurve& finest, const model::Motion& motion, Limit& limit) {
+  constexpr double small_part = 0.02, least_part_of_run = 0.05;
+  constexpr long long most_impacts = 2000;
+  const double small = small_part * finest.largest();
+  for (std::size_t row = 0; row < finest.size(); ++row) {
+    const auto error = finest.at_row(row);
+    for (const double one : error)
+      if (std::abs(one) > small) {
+        const auto count = std::min(motion.impact_count(finest.time(row)), most_impacts);
+        if (count == 0) return;
+        const double t = motion.impact(count).t;
+        if (t < least_part_of_run * motion.end()) return;
+        limit.departure = count;
+        limit.departure_time = t;
+        return;
+      }
+  }
+}
+
 double order_of(const std::vector<Difference>& differences, double finest) {
   // C (h^p - h0^p) for the p of the least squares line through log d against log h; the finest
   // step's own part is left out by taking only files of at least twice its step.
@@ -200,7 +220,10 @@ Limit limit_of(std::span<const Observation> histories, const model::ImpactProble
   const bool falls = limit.files >= 3 && keeps_error && earlier > 1.5 * octave;
   limit.wrong = octave <= most(no_order, small_difference) ||
                 (octave <= most(largest_order, largest_difference) && falls);
-  if (limit.wrong) return limit;
+  if (limit.wrong) {
+    find_departure(curves.front(), motion, limit);
+    return limit;
+  }
   // Every history of the finest octave that has its three coarser ones must say the same.
   int elsewhere = 0, chains = 0;
   for (std::size_t i = 0; i < curves.size() && steps[i] < 1.9 * h; ++i)

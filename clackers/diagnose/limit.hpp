@@ -17,6 +17,10 @@ struct Limit {
   /// tends to 0 for a wrong limit. Infinite where nothing could be compared.
   double difference = std::numeric_limits<double>::infinity();
   double order = std::numeric_limits<double>::quiet_NaN();  ///< with which differences fall
+  /// The impact up to which the finest history is right, from 1, and its instant [s]; 0 where it is
+  /// wrong from the start, or before its first impact.
+  long long departure = 0;
+  double departure_time = 0.0;
   int files = 0;  ///< histories within eight times the finest step, the finest among them
 };
 

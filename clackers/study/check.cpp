@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "clackers/base/check.hpp"
@@ -183,6 +184,18 @@ Claim claim_from(std::string_view text) {
   if (!claim.is_made())
     refuse("check", "--expect", text, "proper, reduced, irregular, exact, stagnating or divergent",
            "Nothing to expect: leave --expect out.", "bad-syntax");
+  if (claim.behaviour == Behaviour::stagnating && colon != std::string_view::npos) {
+    claim.reason = text.substr(colon + 1);
+    constexpr auto reasons =
+        std::to_array<Code>({"contact-stiffness", "tolerance-floor", "noise-floor",
+                             "printed-digits", "simultaneous-impacts", "unexplained-floor"});
+    if (std::ranges::find(reasons, claim.reason, &Code::name) == reasons.end())
+      refuse("check", "reason of --expect", claim.reason,
+             "contact-stiffness, tolerance-floor, noise-floor, printed-digits, "
+             "simultaneous-impacts or unexplained-floor",
+             {}, "unknown-name");
+    return claim;
+  }
   if (has_line != (colon != std::string_view::npos))
     refuse("check", "--expect", text,
            has_line ? "a behaviour with its order, as in proper:2"

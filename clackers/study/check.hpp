@@ -39,8 +39,8 @@ struct CheckRequest {
 /// ends is a failed run of its level.
 ///
 /// judge::judge gives behaviour and verdict. Its claim is `expect`; without it the verdict goes by
-/// the tolerance, and the finest history disagrees where it misses an impact, has one too many, or
-/// begins far from the reference.
+/// the tolerance; without both the finest history disagrees where it misses an impact, has one too
+/// many, or begins far from the reference.
 ///
 /// Throws InputError for what read_history refuses, histories none of which is finite, one that
 /// starts from another state than the case (not-this-case), and options that do not fit the files;
@@ -48,8 +48,8 @@ struct CheckRequest {
 record::Record check(const CheckRequest& request, const Progress& progress = {},
                      const std::atomic<bool>* interrupt = nullptr);
 
-/// "proper:2", "irregular:1", "exact": a behaviour and, where it needs one, an order. Throws
-/// InputError for any other text.
+/// "proper:2", "irregular:1", "exact", "stagnating:contact-stiffness": a behaviour and, where it
+/// needs one, an order, or the reason of a floor. Throws InputError for any other text.
 Claim claim_from(std::string_view text);
 
 }  // namespace clackers::study

@@ -132,8 +132,11 @@ TEST(CheckExpectation, IsABehaviourWithAnOrderWhereItNeedsOne) {
   EXPECT_EQ(claim_from("irregular:1.5").order, 1.5);
   EXPECT_EQ(claim_from("exact").behaviour, Behaviour::exact);
   for (const auto* text : {"proper", "proper:", "proper:x", "proper:2x", "exact:2", "undecided",
-                           "proper:0", "proper:-1", "proper:nan", "nothing", ""})
+                           "proper:0", "proper:-1", "proper:nan", "nothing", "",
+                           "stagnating:", "stagnating:2", "stagnating:wrong-limit"})
     EXPECT_THROW(claim_from(text), InputError) << text;
+  EXPECT_EQ(claim_from("stagnating").reason, "");
+  EXPECT_EQ(claim_from("stagnating:contact-stiffness").reason, "contact-stiffness");
 }
 
 }  // namespace

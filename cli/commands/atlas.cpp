@@ -177,8 +177,8 @@ void add_atlas(Grammar& root) {
       ->option_text("COMMAND");
   app->add_option("--expect", options->expect,
                   "What your program should show: proper:2, reduced:1, irregular:1, exact, "
-                  "stagnating or divergent. Default: nothing is claimed.")
-      ->option_text("BEHAVIOUR[:ORDER]");
+                  "stagnating[:REASON] or divergent. Default: nothing is claimed.")
+      ->option_text("BEHAVIOUR[:ORDER|REASON]");
   app->add_option("--author", options->author,
                   "Author of the results, shown on the page. Default: METHOD.")
       ->option_text("NAME");

@@ -144,8 +144,8 @@ void add_check(Grammar& root) {
       ->option_text("a,b,...");
   app->add_option("--expect", options->expect,
                   "What the histories should show: proper:2, reduced:1, irregular:1, exact, "
-                  "stagnating or divergent.")
-      ->option_text("BEHAVIOUR[:ORDER]");
+                  "stagnating[:REASON] or divergent.")
+      ->option_text("BEHAVIOUR[:ORDER|REASON]");
   app->add_option("--tolerance", options->tolerance,
                   "Largest error in u, relative to the largest envelope, of the finest history.")
       ->option_text("x");

@@ -29,11 +29,10 @@ void add_program_options(Command& command, ProgramOptions& options) {
           "file without folder and extension.")
       ->option_text("NAME");
   command
-      .add_option(
-          "--expect", options.expect,
-          "What programs should show: proper:2, reduced:1, irregular:1, exact, stagnating or "
-          "divergent. Default: nothing is claimed.")
-      ->option_text("BEHAVIOUR[:ORDER]");
+      .add_option("--expect", options.expect,
+                  "What programs should show: proper:2, reduced:1, irregular:1, exact, "
+                  "stagnating[:REASON] or divergent. Default: nothing is claimed.")
+      ->option_text("BEHAVIOUR[:ORDER|REASON]");
   command
       .add_option(
           "--tolerances", options.tolerances,

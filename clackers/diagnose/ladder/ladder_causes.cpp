@@ -13,7 +13,13 @@ std::vector<Diagnosis> limit_causes(const Limit& limit) {
   if (!limit.wrong) return {};
   auto found = diagnosis_of(Code("wrong-limit"), limit.distance, "1");
   found.confidence = limit.files >= 3 ? 0.95 : 0.8;
-  if (std::isfinite(limit.order)) found.evidence.push_back({"order", limit.order});
+  // Differences that do not fall have no order.
+  constexpr double least_order = 0.5;
+  if (limit.order > least_order) found.evidence.push_back({"order", limit.order});
+  if (limit.departure > 0) {
+    found.evidence.push_back({"impact", double(limit.departure)});
+    found.evidence.push_back({"time", limit.departure_time});
+  }
   found.evidence.push_back({"files", double(limit.files)});
   return {found};
 }

@@ -66,6 +66,14 @@ TEST_P(LadderCauses, AnotherStiffnessIsAWrongLimit) {
   only(files_of(plan, "method=rk4", problem), "wrong-limit");
 }
 
+TEST_P(LadderCauses, AFaultThatBeginsLateIsRightUntilItsImpact) {
+  const auto late = only(files_of(plan, "method=rk4 at=2 impulse-at=1.2"), "wrong-limit");
+  EXPECT_EQ(late.fact("impact"), 2.0);
+  EXPECT_EQ(late.fact("time"), plan.problem.motion->impact(2).t);
+  const auto early = only(files_of(plan, "method=rk4 c*=1.1"), "wrong-limit");
+  EXPECT_TRUE(std::isnan(early.fact("impact")));
+}
+
 TEST_P(LadderCauses, ImpactsAtTheEndOfStepsAreLateByHalfAStepInTheMean) {
   for (const std::string method : {"exact", "newmark"}) {
     const auto found =
