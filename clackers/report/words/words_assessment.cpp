@@ -191,6 +191,9 @@ std::string evidence_sentence(const record::Subject& subject, const judge::Evide
     return fmt::format(
         "At t = {} s, where {} contacts close at once, the error in u goes from {} to {}.", text(0),
         text(1), scientific(number(2)), scientific(number(3)));
+  // A cause of another system says it with its number.
+  if (is("wrong-limit"))
+    return is_explained(subject) ? "" : "The histories converge to another motion.";
   if (is("sparse-rows")) return "The rows are too far apart to find the impacts in them.";
   return meaning_of(evidence.code);
 }
