@@ -43,13 +43,15 @@ bool is_as_smooth(const judge::LadderFit& fit, double smooth_order) {
           fit.order >= (1.0 - judge::order_tolerance) * smooth_order);
 }
 
-// What a cause leaves of a claim: impacts at the ends of steps are of first order, and scatter;
+// What a cause leaves of a claim to converge: impacts at the ends of steps are of first order, and scatter;
 // another system is not the one that was claimed, however good the order of the flights is.
 Verdict least_verdict(const diagnose::Diagnosis& cause, const Claim& claim) {
   if (cause.code == Code("impact-at-step-end").name() && cause.confidence >= diagnose::sure &&
       (claim.behaviour == Behaviour::exact ||
        (claim.behaviour == Behaviour::proper && claim.order > 1.5)))
     return Verdict::disagrees;
+  if (claim.behaviour == Behaviour::stagnating || claim.behaviour == Behaviour::divergent)
+    return Verdict::not_claimed;
   const auto* row = diagnose::find_cause(cause.code);
   return row->effect == diagnose::CauseEffect::other_system ? Verdict::undecided
                                                             : Verdict::not_claimed;

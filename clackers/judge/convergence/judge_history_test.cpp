@@ -132,5 +132,44 @@ TEST(JudgeHistories, AFloorOfCompliantContactsAgreesWithAnExpectedFloor) {
   EXPECT_EQ(found.reason, "contact-stiffness");
 }
 
+TEST(JudgeHistories, ACauseAgainstAClaimIsTheLeastVerdict) {
+  const auto judged = [&](Verdict least, const Claim& claim) {
+    return judge(
+        levels(2.0), claim,
+        {.finest = HistoryFacts{}, .cause_against = "gap-differs", .least_verdict = least});
+  };
+  EXPECT_EQ(judged(Verdict::undecided, proper_2).verdict, Verdict::undecided);
+  EXPECT_EQ(judged(Verdict::undecided, proper_2).reason, "gap-differs");
+  EXPECT_EQ(judged(Verdict::disagrees, proper_2).verdict, Verdict::disagrees);
+  EXPECT_EQ(judged(Verdict::not_claimed, proper_2).verdict, Verdict::agrees);
+  EXPECT_EQ(judged(Verdict::disagrees, {}).verdict, Verdict::not_claimed);
+}
+
+TEST(JudgeHistories, NoLadderShowsNoOrder) {
+  for (const auto& claim : {proper_2, Claim{}}) {
+    const auto found =
+        judge(levels(2.0), claim, {.finest = HistoryFacts{}, .no_ladder = "step-without-effect"});
+    EXPECT_EQ(found.verdict, Verdict::undecided);
+    EXPECT_EQ(found.reason, "step-without-effect");
+    for (const auto& fit : {found.displacement, found.velocity}) {
+      EXPECT_EQ(fit.behaviour, Behaviour::undecided);
+      EXPECT_FALSE(fit.has_line);
+    }
+  }
+  const auto met =
+      judge(levels(2.0), {}, {.tolerance = 1.0, .finest = HistoryFacts{}, .no_ladder = "odd-file"});
+  EXPECT_EQ(met.verdict, Verdict::agrees);
+}
+
+TEST(JudgeHistories, ContactsOfFewStepsDoNotDenyAFloor) {
+  const auto judged = [&](double steps) {
+    const double contact = steps * levels(1.0).back().runs.back().step;
+    return judge(levels(1.0), any_floor, {.contact_time = contact, .finest = HistoryFacts{}});
+  };
+  EXPECT_EQ(judged(100.0).verdict, Verdict::undecided);
+  EXPECT_EQ(judged(100.0).reason, "contact-not-resolved");
+  EXPECT_EQ(judged(200.0).verdict, Verdict::disagrees);
+}
+
 }  // namespace
 }  // namespace clackers::judge

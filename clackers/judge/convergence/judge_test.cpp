@@ -424,5 +424,20 @@ TEST(Judge, AClaimedFloorIsOpenWhileErrorsFallByNoOrder) {
   EXPECT_EQ(judge(scores(power(1.0)), floor_claim).verdict, Verdict::disagrees);
 }
 
+TEST(Judge, LargeErrorsOfOneOrderDecide) {
+  const auto line = judge(scores([](double h) { return 1.9 * h; }, {.levels = 4, .coarsest = 0.5}),
+                          {Behaviour::proper, 2.0, {}});
+  EXPECT_EQ(line.verdict, Verdict::disagrees);
+}
+
+TEST(Judge, ErrorsWithinAFactorTwoOfTheClaimedLineAreProper) {
+  const auto scattered = [](double factor) {
+    return [draw = Scatter(factor, 7)](double h) mutable { return h * h * draw(); };
+  };
+  const Claim second{Behaviour::proper, 2.0, {}};
+  EXPECT_EQ(judge(scores(scattered(1.9)), second).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(scattered(8.0)), second).verdict, Verdict::disagrees);
+}
+
 }  // namespace
 }  // namespace clackers::judge
