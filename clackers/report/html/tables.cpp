@@ -54,14 +54,20 @@ bool is_check(const record::CaseRecord& problem, const Place& place) {
 
 std::string diagnoses_html(const record::CaseRecord& problem, const Place& place) {
   std::string out;
+  bool are_faults = false;
   for (std::size_t i = 0; i < problem.subjects.size(); ++i) {
     const auto& subject = problem.subjects[i];
+    are_faults =
+        are_faults || (!subject.diagnoses.empty() && subject.assessment.verdict != Verdict::agrees);
     const auto name = problem.subjects.size() == 1 ? std::string()
                                                    : linked(escape(subject.name), place, i) + ": ";
     for (const auto& cause : diagnosis_texts(subject))
       out += fmt::format("<li>{}{}</li>\n", name, finding_html(cause));
   }
-  return out.empty() ? out : "<ul class=\"remarks diagnoses\">\n" + out + "</ul>\n";
+  // Of methods that are what they claim causes explain, and accuse nobody.
+  return out.empty() ? out
+                     : fmt::format("<ul class=\"remarks{}\">\n{}</ul>\n",
+                                   are_faults ? " diagnoses" : "", out);
 }
 
 namespace {
