@@ -283,9 +283,10 @@ void SubjectStudy::decide() {
     const double step = runs[odd->run].step;
     runs.erase(runs.begin() + std::ptrdiff_t(odd->run));
     if (runs.empty()) ladder.erase(ladder.begin() + std::ptrdiff_t(odd->level));
-    const auto others = std::ranges::stable_partition(
-        observations_, [&](const diagnose::Observation& one) { return one.facts.step == step; });
-    histories = {others.begin(), others.end()};
+    const auto others = std::stable_partition(
+        observations_.begin(), observations_.end(),
+        [&](const diagnose::Observation& one) { return one.facts.step == step; });
+    histories = histories.subspan(std::size_t(others - observations_.begin()));
   }
   const auto limit = diagnose::limit_of(histories, problem_.problem.problem, motion);
   facts.wrong_limit = !is_method() && limit.wrong;
