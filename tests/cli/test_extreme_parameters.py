@@ -22,7 +22,7 @@ CORNERS = [
 class Corners(CommandTest):
     def result(self, *arguments, codes=(0, 1, 2, 3)):
         """A run that ends in time, with a documented code and no failure of ours."""
-        done = run(*arguments, timeout=30)
+        done = run(*arguments, timeout=120)
         self.assertIn(done.returncode, codes, (arguments, done.stderr))
         self.assertNotIn("[internal-error]", done.stderr, arguments)
         if done.returncode == 2:
