@@ -11,6 +11,7 @@
 #include "clackers/base/judgement.hpp"
 #include "clackers/base/note.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
+#include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/judge/convergence/assessment.hpp"
 #include "clackers/judge/convergence/step_ladder.hpp"
 #include "clackers/measure/errors/score.hpp"
@@ -161,6 +162,8 @@ struct Subject {
   std::optional<SelfResult> self_convergence;
   /// Causes of what the runs show, strongest first; empty where nothing was found or looked for.
   std::vector<diagnose::Diagnosis> diagnoses;
+  /// The first impacts of the finest history, as its rows show them; empty where they do not.
+  std::vector<diagnose::LocatedImpact> impacts;
 
   /// The run that error history and metrics of the subject are taken from: the finest one that has
   /// them; nullptr where none has.

@@ -171,6 +171,13 @@ void fields(auto& archive, Like<SelfResult> auto& x) {
        "extrapolation_error", x.extrapolation_error);
 }
 
+void fields(auto& archive, Like<diagnose::LocatedImpact> auto& x) {
+  each(archive, "t", x.t, "contact", x.contact, "closing_speed", x.closing, "opening_speed",
+       x.opening, "restitution", x.restitution, "restitution_error", x.restitution_error,
+       "momentum_defect", x.momentum_defect, "delay", x.delay, "delay_steps", x.delay_steps,
+       "duration", x.duration, "closed_speed", x.closed_speed, "defect", x.defect);
+}
+
 void fields(auto& archive, Like<Subject> auto& x) {
   each(archive, "kind", x.kind, "name", x.name);
   archive.added("integrator", x.integrator);
@@ -182,6 +189,7 @@ void fields(auto& archive, Like<Subject> auto& x) {
   archive.added("refinement", x.refinement);
   each(archive, "assessment", x.assessment, "self_convergence", x.self_convergence);
   archive.added("diagnoses", x.diagnoses);
+  archive.added("impacts", x.impacts);
 }
 
 void fields(auto& archive, Like<judge::ProfileStep> auto& x) {

@@ -38,6 +38,7 @@ set(page
   ${report_dir}/page/history.vl.json
   ${report_dir}/page/work.vl.json
   ${report_dir}/page/curves.vl.json
+  ${report_dir}/page/impacts.vl.json
   ${report_dir}/page/profile.vl.json
   ${report_dir}/page/atlas/atlas.html
   ${report_dir}/page/atlas/atlas.css

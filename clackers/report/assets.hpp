@@ -22,7 +22,7 @@ std::string_view hash_of(std::string_view script);
 
 /// Vega-Lite specifications with "$placeholders".
 extern const std::string_view response_vl_json, convergence_vl_json, history_vl_json, work_vl_json,
-    profile_vl_json, curves_vl_json;
+    profile_vl_json, curves_vl_json, impacts_vl_json;
 extern const std::string_view atlas_ladder_vl_json, atlas_map_vl_json, atlas_work_vl_json;
 extern const std::string_view history_rows_vl_json;  ///< a layer for response_vl_json
 

@@ -320,6 +320,26 @@ record::Sheet run_sheet(std::span<const record::CaseRecord> cases, bool with_met
   return sheet;
 }
 
+record::Sheet impact_sheet(const record::Subject& subject) {
+  record::Sheet sheet{"clackers/impacts/1",
+                      "Impacts of the finest history, read from its rows",
+                      {{"t", "s", "where the flight before the impact closes the gap"},
+                       {"contact", "", "from 1"},
+                       {"closing", "m/s", "closing speed of the gap"},
+                       {"opening", "m/s", "speed with which the gap opens again"},
+                       {"restitution", "", "opening over closing speed"},
+                       {"±", "", "what flights between rows leave of it"},
+                       {"momentum defect", "",
+                        "part of the change of momentum that no impulse along the contact makes"},
+                       {"late", "steps", "delay of the impact; below 0 it comes too early"}},
+                      {}};
+  for (const auto& one : subject.impacts)
+    sheet.rows.push_back({one.t, (long long)(one.contact) + 1, one.closing, one.opening,
+                          one.restitution, one.restitution_error, one.momentum_defect,
+                          one.delay_steps});
+  return sheet;
+}
+
 record::Sheet list_columns() {
   record::Sheet sheet{"clackers/columns/1",
                       "Columns of csv and json",

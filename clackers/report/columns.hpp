@@ -82,6 +82,9 @@ Table level_table(const record::CaseRecord& problem, const record::Subject& subj
 /// any run are columns "metric:NAME" behind the others.
 record::Sheet run_sheet(std::span<const record::CaseRecord> cases, bool with_metrics = true);
 
+/// The impacts of the subject's finest history as its rows show them.
+record::Sheet impact_sheet(const record::Subject& subject);
+
 /// What `clackers list columns` shows.
 record::Sheet list_columns();
 

@@ -31,6 +31,7 @@ struct Style {
   bool color = false;
   int width = 80;
   bool all_metrics = false;         ///< of histories, not only those marked for reports
+  bool impacts = false;             ///< of histories, as a table
   std::vector<std::string> only{};  ///< verdicts to show, "disagrees"; empty: all
 };
 

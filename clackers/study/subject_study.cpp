@@ -8,6 +8,7 @@
 
 #include "clackers/base/codes.hpp"
 #include "clackers/diagnose/diagnose.hpp"
+#include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/sanity.hpp"
 #include "clackers/judge/convergence/judge.hpp"
 #include "clackers/judge/convergence/step_ladder.hpp"
@@ -303,6 +304,8 @@ void SubjectStudy::decide() {
                                            .by_tolerance = by_tolerance(),
                                            .is_this_system = is_method()});
   if (is_method()) return;
+  if (!histories.empty())
+    subject_.impacts = diagnose::locate_impacts(histories.back(), problem_.problem.problem).impacts;
   if (odd) subject_.diagnoses.push_back(odd->found);
   const auto broken = std::ranges::find_if(subject_.diagnoses, diagnose::denies_ladder);
   if (broken != subject_.diagnoses.end()) {

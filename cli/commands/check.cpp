@@ -26,6 +26,7 @@ struct CheckOptions {
   std::vector<std::string> files, settings, events, requirements;
   std::string case_name, columns, steps, tolerances, expect, tolerance, metrics, report, baseline,
       problem;
+  bool impacts = false;
 };
 
 // The parts between commas. Throws InputError for an empty one.
@@ -76,7 +77,7 @@ int run(const CheckOptions& options, const std::string& line) {
   Results results(options.common, OnInterrupt::stop, report::Content::verdicts);
   const auto record = run_check(options, request);
   const RecordOutput output(record, baseline, options.common,
-                            {.all_metrics = options.metrics == "all"});
+                            {.all_metrics = options.metrics == "all", .impacts = options.impacts});
   const bool written = !page.wanted() || page.write(output.html());
   try {
     output.write(results);
@@ -108,11 +109,12 @@ void add_check(Grammar& root) {
            "both limits of a jump. Several files are levels of one method and give an order. "
            "Exit code 0 when the history agrees or nothing is expected, 1 when it disagrees or is "
            "of another motion, 3 when undecided.",
-       .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
-                "           [--columns t,u1,...] [--events FILE]\n"
-                "           [--steps h1,h2,...|--tolerances a,b,...]\n"
-                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
-                "           [--metrics all] [--baseline FILE.json] [--report FILE.html]\n"});
+       .usage =
+           "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
+           "           [--columns t,u1,...] [--events FILE]\n"
+           "           [--steps h1,h2,...|--tolerances a,b,...]\n"
+           "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
+           "           [--metrics all] [--impacts] [--baseline FILE.json] [--report FILE.html]\n"});
   app->add_option("FILE", options->files, "Time histories, text or .npy; - for standard input.")
       ->reads_file("");
   app->add_option("--case", options->case_name,
@@ -154,6 +156,9 @@ void add_check(Grammar& root) {
          "all: every metric in the table, not only those that reports show first (clackers "
          "list metrics). csv and json always hold all.")
       ->option_text("all");
+  app->add_flag("--impacts", options->impacts,
+                "A table of the impacts of the finest history: speeds, restitution, momentum, "
+                "lateness. json always holds it.");
   add_require_option(*app, options->requirements);
   add_report_option(*app, options->report);
   app->add_option(

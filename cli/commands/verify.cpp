@@ -113,7 +113,7 @@ int run(const Options& options, const std::string& line) {
   check(options);
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
-  const RecordView view{false, verdicts_to_show(options)};
+  const RecordView view{.only = verdicts_to_show(options)};
   // Before the work: where it cannot go must not be found out afterwards.
   Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
   const auto baseline = baseline_of(options.baseline, request);

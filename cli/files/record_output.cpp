@@ -18,6 +18,7 @@ std::string RecordOutput::html() const { return report::html(record_, changes())
 void RecordOutput::write(Results& to) const {
   auto style = to.style();
   style.all_metrics = view_.all_metrics;
+  style.impacts = view_.impacts;
   style.only = view_.only;
   report::write(record_, to.format(), to.stream(), style, changes());
   to.finish();

@@ -23,7 +23,7 @@ std::optional<record::Record> baseline_of(const std::string& path, const auto& r
 
 /// What tables on a terminal show of a record.
 struct RecordView {
-  bool all_metrics = false;
+  bool all_metrics = false, impacts = false;
   std::vector<std::string> only{};  ///< verdicts; empty: all
 };
 

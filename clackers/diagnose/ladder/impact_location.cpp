@@ -19,7 +19,9 @@ constexpr std::size_t most_closed_rows = 8;
 class Locator {
  public:
   explicit Locator(const model::ImpactProblem<>& problem)
-      : motion_(problem.system), frequency_(highest_frequency(problem.system)) {}
+      : motion_(problem.system),
+        mass_(problem.system.mass),
+        frequency_(highest_frequency(problem.system)) {}
 
   double frequency() const { return frequency_; }
 
@@ -61,15 +63,24 @@ class Locator {
     LocatedImpact found;
     found.t = closing->t;
     found.closing = -contact.gap_rate(closing->v);
-    const double opening_speed = contact.gap_rate(opening->v);
-    if (!(found.closing > 0.0 && opening_speed > 0.0)) return {};
+    found.opening = contact.gap_rate(opening->v);
+    if (!(found.closing > 0.0 && found.opening > 0.0)) return {};
+    found.restitution = found.opening / found.closing;
     found.duration = opening->t - closing->t;
-    found.delay = found.duration * opening_speed / (found.closing + opening_speed);
+    found.delay = found.duration * found.opening / (found.closing + found.opening);
     const auto now = moved(after, closing->t - after.t);
     const Eigen::VectorXd response = motion_.response(contact.direction);
     const Eigen::VectorXd expected = closing->v + (1.0 + contact.restitution) * found.closing /
                                                       contact.direction.dot(response) * response;
     found.defect = difference(now.u - closing->u, now.v - expected) / found.closing;
+    const Eigen::VectorXd stale =
+        (after.t - found.t) * motion_.response(motion_.system().damping * (expected - closing->v));
+    if (stale.squaredNorm() > 0.0)
+      found.stale_share = (now.v - expected).dot(stale) / stale.squaredNorm();
+    const Eigen::VectorXd jump = opening->v - closing->v, momentum = mass_ * jump;
+    const double impulse = contact.direction.dot(jump) / contact.direction.dot(response);
+    const Eigen::VectorXd rest = jump - impulse * response;
+    found.momentum_defect = std::sqrt(std::max(0.0, rest.dot(mass_ * rest)) / jump.dot(momentum));
     return found;
   }
 
@@ -83,6 +94,7 @@ class Locator {
   }
 
   measure::FreeMotion motion_;
+  const Eigen::MatrixXd& mass_;
   double frequency_;
 };
 
@@ -160,6 +172,10 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
     auto one = locator.located(locator.row(rows, around->before), locator.row(rows, around->after),
                                contact);
     if (!one) continue;
+    one->contact = impact.contact;
+    one->delay_steps = one->delay / (seen.facts.step > 0.0 ? seen.facts.step : seen.facts.spacing);
+    // The flights on both sides; what they lose is known below.
+    one->restitution_error = rows.t[around->after] - rows.t[around->before];
     one->closed_speed = closed_speed(rows, *around, locator, contact);
     found.impacts.push_back(*one);
   }
@@ -183,6 +199,9 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
   }
   found.uncertainty = measure::median(gaps);
   found.flight_defect = measure::median(defects);
+  for (auto& impact : found.impacts)
+    impact.restitution_error *=
+        (1.0 + impact.restitution) * found.flight_defect * speed / impact.closing;
   return found;
 }
 

@@ -14,16 +14,27 @@ namespace clackers::diagnose {
 /// one such instant; one applied d seconds late has gone past it and needs d / eta to come back.
 /// What happened before does not enter.
 struct LocatedImpact {
-  double t = 0.0;         ///< where the flight before it closes the gap [s]
-  double closing = 0.0;   ///< closing speed there [m/s], positive
-  double delay = 0.0;     ///< of the impact [s]; negative where it came too early
-  double duration = 0.0;  ///< from closing to opening [s]
+  double t = 0.0;        ///< where the flight before it closes the gap [s]
+  int contact = 0;       ///< row of ImpactProblem::contacts
+  double closing = 0.0;  ///< closing speed there [m/s], positive
+  double opening = 0.0;  ///< speed with which the flight after it opens the gap [m/s], positive
+  double restitution = 0.0, restitution_error = 0.0;  ///< opening over closing, and its half width
+  /// Part of the change of momentum that an impulse along the contact cannot give: |p - J b| over
+  /// |p|, p = M (v(+) - v(-)), in the norm of the kinetic energy. 0 for one mass.
+  double momentum_defect = 0.0;
+  double delay = 0.0;        ///< of the impact [s]; negative where it came too early
+  double delay_steps = 0.0;  ///< the same in steps of the history
+  double duration = 0.0;     ///< from closing to opening [s]
   /// Mean speed of the gap at the closed rows, over that at which it closes, or opens where it
   /// does: 2/pi in a spring, 1 where masses fly on until an impulse turns them. NaN for no such row.
   double closed_speed = std::numeric_limits<double>::quiet_NaN();
   /// Distance of the state after from what the impact law makes of the state before, both at t,
   /// in velocity: |w du| + |dv| over the closing speed, w the highest frequency.
   double defect = 0.0;
+  /// Part of (row after - impact) M^-1 C (v(+) - v(-)) that the velocity after it has too much: what
+  /// stays of the acceleration before the impact where a step after it still uses that, 1/2 for the
+  /// trapezoidal rule. NaN without damping.
+  double stale_share = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The impacts of one history that could be located.

@@ -144,6 +144,23 @@ Json history(const record::CaseRecord& problem) {
   return out;
 }
 
+Json impact_table(const record::CaseRecord& problem) {
+  Json out = Json::array();
+  for (const auto& subject : problem.subjects)
+    for (std::size_t k = 0; k < subject.impacts.size(); ++k) {
+      const auto& impact = subject.impacts[k];
+      out.push_back({{"method", subject.name},
+                     {"k", k + 1},
+                     {"contact", impact.contact + 1},
+                     {"t", rounded(impact.t)},
+                     {"restitution", rounded(impact.restitution)},
+                     {"least", rounded(impact.restitution - impact.restitution_error)},
+                     {"most", rounded(impact.restitution + impact.restitution_error)},
+                     {"late", rounded(impact.delay_steps)}});
+    }
+  return out;
+}
+
 Json work(const record::CaseRecord& problem, const std::vector<ShownCounter>& counters) {
   Json out = Json::array();
   for (const auto& subject : problem.subjects)
@@ -290,6 +307,7 @@ Json figure_data(const record::CaseRecord& problem) {
           {"levels", levels(problem)},
           {"slopes", slopes(problem)},
           {"history", history(problem)},
+          {"impact_table", impact_table(problem)},
           {"work", work(problem, counters)},
           {"front", front(problem, counters)},
           {"profile", profile_data(problem.profiles, {&problem, 1})}};

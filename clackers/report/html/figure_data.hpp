@@ -14,6 +14,7 @@ namespace clackers::report {
 ///
 ///     response, history_rows   displacements, exact and of the finest history
 ///     impacts               exact times
+///     impact_table             restitution and lateness of the impacts of histories
 ///     runs                     every run
 ///     levels                   the upper envelope of each subject, without levels that the fit
 ///                              calls unusable

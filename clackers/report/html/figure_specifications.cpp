@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "clackers/base/json.hpp"
@@ -112,6 +113,18 @@ Json mass_scales(const record::CaseRecord& problem) {
   return {{"masses", names}, {"mass_colors", colors}, {"mass_dashes", dashes}};
 }
 
+// Of all impacts, and so wide that rounding does not fill it; empty without any.
+Json restitution_range(const record::CaseRecord& problem) {
+  constexpr double margin = 0.01;
+  double least = INFINITY, most = -INFINITY;
+  for (const auto& subject : problem.subjects)
+    for (const auto& impact : subject.impacts) {
+      least = std::min(least, impact.restitution - margin);
+      most = std::max(most, impact.restitution + margin);
+    }
+  return least < most ? Json{least, most} : Json::array();
+}
+
 }  // namespace
 
 Json specification_of(std::string_view text, const std::vector<std::string>& methods, Json values) {
@@ -141,6 +154,9 @@ Json figure_specifications(const record::CaseRecord& problem) {
   if (has_convergence(problem))
     all["convergence"] = specification_of(assets::convergence_vl_json, names, step);
   if (has_history) all["history"] = specification_of(assets::history_vl_json, names, step);
+  if (const auto range = restitution_range(problem); !range.empty())
+    all["impacts"] =
+        specification_of(assets::impacts_vl_json, names, {{"restitution_range", range}});
   if (const auto counters = counters_of(problem); !counters.empty()) {
     auto values = counter_values(counters, "");
     values.update(step);

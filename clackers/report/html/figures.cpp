@@ -181,6 +181,24 @@ FigureText history_text(const record::CaseRecord& problem, const Place& place) {
           mass_choice(problem, place)};
 }
 
+FigureText impacts_text() {
+  return {
+      "impacts",
+      "impact_table",
+      "Restitution and lateness",
+      "Of each impact of the finest history, read from the rows around it: the speed after over "
+      "the speed before, and the delay in steps, against time in seconds.",
+      "A right solver keeps one restitution for each contact, and lateness near zero; lateness "
+      "between 0 and 1 means impacts at the ends of steps. Filled: restitution, with bars of what flights between "
+      "rows leave open; open: lateness. Speeds and momentum stand in the table of impacts below.",
+      {}};
+}
+
+bool has_impact_table(const record::CaseRecord& problem) {
+  return std::ranges::any_of(problem.subjects,
+                             [](const auto& subject) { return !subject.impacts.empty(); });
+}
+
 std::string player_html(int& number, const record::CaseRecord& problem, const Place& place) {
   return fill(
       assets::player_html,
@@ -257,6 +275,7 @@ std::string figures_html(const record::CaseRecord& problem, const Place& place, 
   if (has_convergence(problem)) out += figure_html(number, place, convergence_text(problem));
   if (std::ranges::any_of(problem.subjects, has_error_history))
     out += figure_html(number, place, history_text(problem, place));
+  if (has_impact_table(problem)) out += figure_html(number, place, impacts_text());
   std::string pair;
   if (const auto counters = counters_of(problem); !counters.empty())
     pair += figure_html(number, place, work_text(counters, place));

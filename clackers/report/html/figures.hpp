@@ -53,7 +53,7 @@ ShownCounter first_shown(const std::vector<ShownCounter>& counters);
 std::string counter_choice(const std::vector<ShownCounter>& counters, std::string_view figure);
 
 /// The Vega-Lite specifications of a case by the name of the figure: "response", and where there is
-/// something to show "convergence", "history", "work" and "profile". usermeta.counters are the titles
+/// something to show "convergence", "history", "impacts", "work" and "profile". usermeta.counters are the titles
 /// of a figure's counters. Each names its data sets; colours are variables of page.css.
 nlohmann::ordered_json figure_specifications(const record::CaseRecord& problem);
 

@@ -37,7 +37,9 @@ bool is_text(const record::Sheet& sheet) {
          std::holds_alternative<std::string>(sheet.rows[0][0]);
 }
 
-std::string table_html(const record::Sheet& sheet) {
+}  // namespace
+
+std::string sheet_html(const record::Sheet& sheet) {
   if (is_text(sheet))
     return fmt::format("<pre tabindex=\"0\">{}</pre>\n", cell_html(sheet.rows[0][0]));
   std::vector<HtmlColumn> columns;
@@ -55,6 +57,8 @@ std::string table_html(const record::Sheet& sheet) {
   }
   return html_table(sheet.title, {}, columns, rows);
 }
+
+namespace {
 
 // A row a point that has a value and is not cut off.
 Json points(const record::Sheet& sheet) {
@@ -127,7 +131,7 @@ std::string html(std::span<const record::Sheet> sheets, const std::string& name,
       auto link = section;
       link[0] = char(std::toupper(static_cast<unsigned char>(link[0])));
       page.sections.push_back({fmt::format("{}-{}", section, page.sections.size() + 1), link,
-                               sheet.title, table_html(sheet)});
+                               sheet.title, sheet_html(sheet)});
     }
   }
   page.sections.push_back({"again", "Run again", "Run it again", again_html(from)});

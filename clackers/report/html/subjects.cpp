@@ -159,6 +159,12 @@ std::string metrics_html(const record::Subject& subject) {
          not_measured_html(run->metrics) + "</details>\n";
 }
 
+std::string impacts_html(const record::Subject& subject) {
+  if (subject.impacts.empty()) return {};
+  return fmt::format("<details class=\"metrics\"><summary>Impacts</summary>\n{}</details>\n",
+                     sheet_html(impact_sheet(subject)));
+}
+
 std::string text_html(const record::Subject& subject) {
   if (const auto found = finding(subject)) return fmt::format("<p>{}</p>\n", finding_html(*found));
   return fmt::format("<p>{}</p>\n", escape(assessment_text(subject)));
@@ -179,6 +185,7 @@ std::string subjects_html(const record::CaseRecord& problem, const Place& place)
                                        {"facts", facts_html(subject)},
                                        {"levels", levels_html(problem, subject)},
                                        {"self", self_html(subject)},
+                                       {"impacts", impacts_html(subject)},
                                        {"metrics", metrics_html(subject)}});
   }
   return out;

@@ -29,6 +29,9 @@ std::string html_table(std::string_view label, std::string_view caption, const T
                        const std::function<std::string(const Row&)>& name_of,
                        std::string_view style = {});
 
+/// A sheet as a table; a single cell of text as it is.
+std::string sheet_html(const record::Sheet& sheet);
+
 /// Where in a page a case or a subject stands.
 struct Place {
   std::string suffix;  ///< behind ids and names of figures: "-2" of the second of several cases

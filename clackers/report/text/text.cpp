@@ -143,6 +143,17 @@ void print_failures(const record::CaseRecord& problem, std::ostream& out, const 
     }
 }
 
+void print_impacts(const record::Subject& subject, std::ostream& out, const Style& style) {
+  out << '\n';
+  if (subject.impacts.empty())
+    return print_wrapped(
+        "The rows show no impact: they need velocities, and several rows between impacts.", out,
+        style);
+  const auto sheet = impact_sheet(subject);
+  record::SheetRows rows(sheet);
+  write_table(rows, out, style);
+}
+
 void print_histories(const record::CaseRecord& problem, std::ostream& out, const Style& style) {
   const auto table = summary_table(problem, record::SubjectKind::histories);
   if (table.rows.empty()) return;
@@ -160,6 +171,7 @@ void print_histories(const record::CaseRecord& problem, std::ostream& out, const
     for (const auto& note : notes) print_wrapped(note, out, style);
     const auto* shown = subject.shown_run();
     if (shown != nullptr && !shown->metrics.empty()) print_metrics(*shown, out, style);
+    if (style.impacts) print_impacts(subject, out, style);
   }
 }
 
