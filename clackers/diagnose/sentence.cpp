@@ -43,6 +43,17 @@ std::string looks(const Diagnosis& cause) {
                      with_uncertainty(scale * cause.value, scale * uncertainty));
 }
 
+std::string load(const Diagnosis& cause) {
+  if (cause.text == "missing") return "is missing";
+  const auto amplitude = with_uncertainty(cause.value, cause.fact("uncertainty"));
+  const double late = cause.fact("time"), uncertainty = cause.fact("uncertainty");
+  const auto when =
+      fmt::format("comes {} s too {}", plain(std::abs(late)), late > 0.0 ? "late" : "early");
+  if (std::isnan(late)) return fmt::format("has {} times its amplitude", amplitude);
+  if (std::abs(cause.value - 1.0) < std::max(1e-3, 3.0 * uncertainty)) return when;
+  return fmt::format("has {} times its amplitude and {}", amplitude, when);
+}
+
 std::string shift(const Diagnosis& cause) {
   const double size = std::abs(cause.value);
   const auto number = with_uncertainty(size, cause.fact("uncertainty"));
@@ -78,6 +89,7 @@ std::string word(std::string_view name, const Diagnosis& cause) {
   if (name == "runs")
     return fmt::format("runs {} too {}", percent(std::abs(share_of(cause))),
                        cause.value > 0.0 ? "fast" : "slow");
+  if (name == "load") return load(cause);
   if (name == "shift") return shift(cause);
   if (name == "late") return cause.value > 0.0 ? "late" : "early";
   if (name == "later") return cause.value > 0.0 ? "later" : "earlier";

@@ -172,6 +172,26 @@ std::optional<Diagnosis> tolerance(const DiagnosisInput& question,
   return found;
 }
 
+// One share of the acceleration before the impacts in the steps after them, in all files.
+std::optional<Diagnosis> not_renewed(const std::vector<LocatedImpacts>& files) {
+  constexpr double least_share = 0.2, most_share = 1.1, same = 0.15;
+  constexpr std::size_t enough = 6;
+  std::vector<double> shares;
+  for (const auto& file : files)
+    for (const auto& impact : file.impacts)
+      if (std::isfinite(impact.stale_share)) shares.push_back(impact.stale_share);
+  if (files.size() < 2 || shares.size() < enough) return {};
+  const double share = measure::median(shares);
+  const auto alike =
+      std::ranges::count_if(shares, [&](double x) { return std::abs(x - share) < same * share; });
+  if (share < least_share || share > most_share || 5 * alike < 4 * std::ssize(shares)) return {};
+  auto found = diagnosis_of(Code("acceleration-not-renewed"), share, "1");
+  found.confidence = 0.95;
+  found.text = "after impacts";
+  found.evidence = {{"files", double(files.size())}};
+  return found;
+}
+
 // Contacts of one duration in all files that hold several rows of it, the finest among them.
 std::optional<Diagnosis> compliant(const DiagnosisInput& question,
                                    const std::vector<LocatedImpacts>& files) {
@@ -232,7 +252,7 @@ std::vector<Diagnosis> location_causes(const DiagnosisInput& question) {
     return !found.empty();
   };
   if (std::ranges::all_of(all, [](const auto& file) { return file.impacts.empty(); })) return {};
-  if (add(compliant(question, all))) return found;
+  if (add(compliant(question, all)) || add(not_renewed(all))) return found;
   // Of coarse files the flights may hide what fine ones show.
   constexpr std::size_t enough = 5;
   // Rows much farther apart than the steps show chords, not impacts.

@@ -9,6 +9,7 @@
 #include "clackers/diagnose/system/fit_files.hpp"
 #include "clackers/diagnose/system/hypotheses.hpp"
 #include "clackers/diagnose/system/limits.hpp"
+#include "clackers/diagnose/system/measured_causes.hpp"
 
 namespace clackers::diagnose {
 
@@ -327,7 +328,7 @@ bool can_be_varied(const model::ImpactProblem<>& problem) {
 }  // namespace
 
 std::vector<Diagnosis> system_causes(const DiagnosisInput& asked) {
-  if (!can_be_varied(asked.problem)) return {};
+  if (!can_be_varied(asked.problem)) return measured_causes(asked);
   auto question = fit_question(asked);
   if (question.files.empty()) return {};
   const auto dof = question.problem.dof();
@@ -363,7 +364,8 @@ std::vector<Diagnosis> system_causes(const DiagnosisInput& asked) {
                             tried_at_step_ends, question))
       return {*cause};
   }
-  return smooth_limits(question);
+  auto limits = smooth_limits(question);
+  return limits.empty() ? measured_causes(asked) : limits;
 }
 
 }  // namespace clackers::diagnose

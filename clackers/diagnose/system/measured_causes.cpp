@@ -1,0 +1,420 @@
+#include "clackers/diagnose/system/measured_causes.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "clackers/diagnose/ladder/impact_location.hpp"
+#include "clackers/diagnose/ladder/ladder_families.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/line_fit.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
+
+namespace clackers::diagnose {
+namespace {
+
+using System = model::SmoothSystem<>;
+using measure::FreeState;
+
+/// From one history to another, of at least this many times its step, a value stays.
+constexpr double least_other_step = 1.8, same_share = 0.1;
+
+// One way in which the flights may be those of another system: linear in each of its parameters.
+struct FlightChange {
+  Diagnosis cause;  ///< without its numbers
+  std::vector<std::function<void(System&, double)>> parameters;
+  double frequency = 0.0;  ///< of a load [rad/s]
+};
+
+std::string place_of(Eigen::Index i, Eigen::Index j) {
+  return i == j ? fmt::format("between mass {} and the ground", i + 1)
+                : fmt::format("between masses {} and {}", i + 1, j + 1);
+}
+
+// A spring or damper between i and j, or i and the ground for i = j, by its share.
+void add_links(std::vector<FlightChange>& all, Code code, Eigen::MatrixXd System::*member,
+               const System& system) {
+  const Eigen::MatrixXd& matrix = system.*member;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = i; j < matrix.rows(); ++j) {
+      const double size = i == j ? matrix.row(i).sum() : -matrix(i, j);
+      if (!(std::abs(size) > 1e-9 * matrix.cwiseAbs().maxCoeff())) continue;
+      FlightChange one{diagnosis_of(code, NAN, "%"), {}};
+      one.cause.text = place_of(i, j);
+      one.parameters.push_back([=](System& changed, double d) {
+        auto& to = changed.*member;
+        to(i, i) += d * size;
+        if (i == j) return;
+        to(j, j) += d * size;
+        to(i, j) -= d * size;
+        to(j, i) -= d * size;
+      });
+      all.push_back(std::move(one));
+    }
+}
+
+void add_force(System& system, const model::HarmonicForce& force) {
+  system.add_load = [before = system.add_load, added = model::HarmonicLoad({force})](
+                        double t, std::span<double> sum) {
+    if (before) before(t, sum);
+    added(t, sum);
+  };
+}
+
+std::vector<FlightChange> changes_of(const System& system) {
+  std::vector<FlightChange> all;
+  add_links(all, Code("stiffness-differs"), &System::stiffness, system);
+  add_links(all, Code("damping-differs"), &System::damping, system);
+  const auto add = [&](Code code, std::string unit, int mass) -> FlightChange& {
+    all.push_back({diagnosis_of(code, NAN, std::move(unit)), {}});
+    all.back().cause.evidence.push_back({"mass", mass + 1.0});
+    return all.back();
+  };
+  for (int mass = 0; mass < system.dof(); ++mass) {
+    add(Code("mass-differs"), "%", mass).parameters.push_back([=](System& changed, double d) {
+      changed.mass(mass, mass) /= 1.0 - d;  // forces act by 1 / mass
+    });
+    add(Code("constant-force"), "N", mass).parameters.push_back([=](System& changed, double d) {
+      add_force(changed, {mass, d, 0.0, 0.0});
+    });
+  }
+  const auto* load = system.add_load.target<model::HarmonicLoad>();
+  if (load == nullptr) return all;
+  for (const auto& force : load->forces()) {
+    auto& one = add(Code("load-differs"), "1", force.dof);
+    one.frequency = force.frequency;
+    for (const double phase : {0.0, -0.5 * M_PI})
+      if (phase == 0.0 || force.frequency > 0.0)
+        one.parameters.push_back([=](System& changed, double d) {
+          add_force(changed,
+                    {force.dof, d * force.amplitude, force.frequency, force.phase + phase});
+        });
+  }
+  return all;
+}
+
+// Pairs of neighbouring rows with no impact near them.
+std::vector<std::size_t> flights_in(const model::Trajectory& rows, double longest) {
+  constexpr std::size_t most = 300;
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i + 1 < rows.t.size(); ++i) {
+    const double s = rows.t[i + 1] - rows.t[i];
+    if (!(s > 0.0) || s > longest) continue;
+    const auto near = [&](const model::Impact& impact) {
+      return impact.t > rows.t[i] - 3.0 * s && impact.t < rows.t[i + 1] + 3.0 * s;
+    };
+    if (!rows.impacts || std::ranges::none_of(*rows.impacts, near)) found.push_back(i);
+  }
+  if (found.size() <= most) return found;
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < most; ++k) kept.push_back(found[k * found.size() / most]);
+  return kept;
+}
+
+// What flights lack of the case's equations: in sqrt(m) v, a row a flight and mass, and what each
+// parameter of each change makes of it.
+struct FlightFit {
+  Eigen::VectorXd lack;
+  Eigen::MatrixXd columns;
+};
+
+class Mover {
+ public:
+  Mover(const System& system, double fastest) : motion_(system), fastest_(fastest) {}
+  Eigen::VectorXd velocity(FreeState state, double s) const {
+    const int steps = 1 + int(std::abs(s) * fastest_ / 0.05);
+    for (int i = 0; i < steps; ++i) state = motion_.moved(state, s / steps);
+    return state.v;
+  }
+
+ private:
+  measure::FreeMotion motion_;
+  double fastest_;
+};
+
+FlightFit flight_fit(const Observation& seen, const System& system,
+                     const std::vector<FlightChange>& changes) {
+  FlightFit fit;
+  const double fastest =
+      std::sqrt(std::max(1e-6, numerics::highest_square(system.stiffness, system.mass)));
+  const auto& whole = seen.sample;
+  if (whole.v.empty()) return fit;
+  const double longest = 0.5 / fastest;
+  auto flights = flights_in(whole, longest);
+  constexpr std::size_t enough = 40;
+  const auto& rows = flights.size() < enough && !seen.opening.v.empty() ? seen.opening : whole;
+  if (&rows != &whole) flights = flights_in(rows, longest);
+  if (flights.size() < enough) return fit;
+  const auto dof = system.dof();
+  const Eigen::ArrayXd weight = system.mass.diagonal().array().sqrt();
+  const auto state = [&](std::size_t i) {
+    const auto at = std::ptrdiff_t(i) * dof;
+    return FreeState{rows.t[i], Eigen::Map<const Eigen::VectorXd>(rows.u.data() + at, dof),
+                     Eigen::Map<const Eigen::VectorXd>(rows.v.data() + at, dof)};
+  };
+  const auto moved = [&](const System& by) {
+    const Mover mover(by, fastest);
+    Eigen::VectorXd all(std::ssize(flights) * dof);
+    for (std::size_t k = 0; k < flights.size(); ++k) {
+      const auto i = flights[k];
+      const double s = rows.t[i + 1] - rows.t[i];
+      all.segment(Eigen::Index(k) * dof, dof) = mover.velocity(state(i), s).array() * weight / s;
+    }
+    return all;
+  };
+  const Eigen::VectorXd right = moved(system);
+  fit.lack.resize(right.size());
+  for (std::size_t k = 0; k < flights.size(); ++k) {
+    const auto i = flights[k];
+    fit.lack.segment(Eigen::Index(k) * dof, dof) =
+        state(i + 1).v.array() * weight / (rows.t[i + 1] - rows.t[i]);
+  }
+  fit.lack -= right;
+  std::vector<Eigen::VectorXd> columns;
+  constexpr double small = 1e-5;
+  for (const auto& change : changes)
+    for (const auto& parameter : change.parameters) {
+      auto changed = system;
+      parameter(changed, small);
+      columns.emplace_back((moved(changed) - right) / small);
+    }
+  fit.columns.resize(right.size(), std::ssize(columns));
+  for (std::size_t k = 0; k < columns.size(); ++k) fit.columns.col(Eigen::Index(k)) = columns[k];
+  return fit;
+}
+
+// Some changes fitted together: their parameters one after the other.
+struct Fitted {
+  std::vector<std::size_t> changes;
+  Eigen::VectorXd values, uncertainty;
+  double gain = 0.0;
+};
+
+class FlightFits {
+ public:
+  FlightFits(const Observation& seen, const System& system,
+             const std::vector<FlightChange>& changes)
+      : fit_(flight_fit(seen, system, changes)) {
+    for (const auto& change : changes) {
+      first_.push_back(next_);
+      next_ += std::ssize(change.parameters);
+      count_.push_back(std::ssize(change.parameters));
+    }
+    if (!known()) return;
+    gram_ = fit_.columns.transpose() * fit_.columns;
+    onto_ = fit_.columns.transpose() * fit_.lack;
+    square_ = fit_.lack.squaredNorm();
+  }
+
+  bool known() const { return fit_.lack.size() > 0; }
+
+  Fitted of(std::vector<std::size_t> changes) const {
+    std::vector<Eigen::Index> at;
+    for (const auto change : changes)
+      for (Eigen::Index k = 0; k < count_[change]; ++k) at.push_back(first_[change] + k);
+    const Eigen::MatrixXd part = gram_(at, at);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(part);
+    Fitted found{std::move(changes), {}, {}, 0.0};
+    if (solver.rank() < part.rows()) return found;
+    found.values = solver.solve(Eigen::VectorXd(onto_(at)));
+    double left = (fit_.lack - fit_.columns(Eigen::all, at) * found.values).squaredNorm();
+    found.gain = std::sqrt(square_ / std::max(left, 1e-300));
+    left /= double(fit_.lack.size());
+    found.uncertainty =
+        (4.0 * left *
+         solver.solve(Eigen::MatrixXd::Identity(part.rows(), part.rows())).diagonal().array())
+            .sqrt();
+    return found;
+  }
+
+ private:
+  FlightFit fit_;
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd onto_;
+  double square_ = 0.0;
+  Eigen::Index next_ = 0;
+  std::vector<Eigen::Index> first_, count_;
+};
+
+// The change, or two of them, that leave least; nothing where another one leaves little more.
+std::optional<Fitted> best_of(const FlightFits& fits, std::size_t changes) {
+  constexpr double least_gain = 5.0, least_lead = 2.0;
+  std::vector<Fitted> tried;
+  const auto lead = [&]() -> std::optional<Fitted> {
+    std::ranges::sort(tried, std::greater{}, &Fitted::gain);
+    if (tried.empty() || tried.front().gain < least_gain) return {};
+    if (tried.size() > 1 && tried.front().gain < least_lead * tried[1].gain) return {};
+    return tried.front();
+  };
+  for (std::size_t i = 0; i < changes; ++i) tried.push_back(fits.of({i}));
+  const auto one = lead();
+  const double alone = tried.empty() ? 0.0 : tried.front().gain;
+  tried.clear();
+  for (std::size_t i = 0; i < changes; ++i)
+    for (std::size_t j = i + 1; j < changes; ++j) tried.push_back(fits.of({i, j}));
+  // Two changes always leave less than one.
+  constexpr double worth_two = 3.0;
+  const auto two = lead();
+  return two && two->gain > worth_two * alone ? two : one;
+}
+
+// The diagnosis of one change by its values.
+Diagnosis diagnosis_by(const FlightChange& change, std::span<const double> values,
+                       double uncertainty) {
+  auto cause = change.cause;
+  const double scale = cause.unit == "%" ? 100.0 : 1.0;
+  cause.value = scale * values[0];
+  if (cause.code == Code("mass-differs").name()) cause.value /= 1.0 - values[0];
+  if (cause.code == Code("load-differs").name()) {
+    // (1 + a) cos + b sin: amplitude and lateness.
+    constexpr double noticeable_lag = 1e-4;  // [rad]
+    const double lag = values.size() > 1 ? values[1] : 0.0;
+    cause.value = std::hypot(1.0 + values[0], lag);
+    const double late = std::atan2(lag, 1.0 + values[0]) / change.frequency;
+    if (std::abs(lag) > noticeable_lag && cause.value > 0.1)
+      cause.evidence.push_back({"time", late});
+    if (cause.value < std::max(0.02, 3.0 * uncertainty)) cause.text = "missing";
+  }
+  cause.evidence.push_back({"uncertainty", scale * uncertainty});
+  return cause;
+}
+
+std::vector<Diagnosis> flight_causes(const DiagnosisInput& question, const Observation& finest,
+                                     const Observation& other) {
+  const auto& system = question.problem.system;
+  if (system.nonlinear || system.dof() > 40) return {};
+  const auto changes = changes_of(system);
+  const FlightFits fits(finest, system, changes), others(other, system, changes);
+  if (!fits.known() || !others.known()) return {};
+  const auto best = best_of(fits, changes.size());
+  if (!best) return {};
+  const auto again = others.of(best->changes);
+  if (again.values.size() == 0) return {};
+  std::vector<Diagnosis> found;
+  Eigen::Index at = 0;
+  for (const auto change : best->changes) {
+    const auto count = std::ssize(changes[change].parameters);
+    const auto values = best->values.segment(at, count);
+    const double apart = (again.values.segment(at, count) - values).norm();
+    const double spread =
+        best->uncertainty.segment(at, count).norm() + again.uncertainty.segment(at, count).norm();
+    if (apart > same_share * values.norm() + spread || values.norm() < 2.0 * spread) return {};
+    found.push_back(diagnosis_by(changes[change], {values.data(), std::size_t(count)},
+                                 std::max(apart, best->uncertainty[at])));
+    found.back().confidence = 0.95;
+    found.back().evidence.insert(found.back().evidence.begin(), {"gain", best->gain});
+    found.back().evidence.push_back({"files", 2.0});
+    at += count;
+  }
+  return found;
+}
+
+// Of the impacts of one contact: the median of a measure, and half the width of what holds 2/3 of it.
+struct Measured {
+  double value = 0.0, spread = 0.0, error = 0.0;
+  std::size_t count = 0;
+};
+
+Measured measured(const LocatedImpacts& file, int contact, double LocatedImpact::*member) {
+  std::vector<double> values, errors, apart;
+  for (const auto& impact : file.impacts)
+    if (impact.contact == contact) {
+      values.push_back(impact.*member);
+      errors.push_back(impact.restitution_error);
+    }
+  Measured found;
+  found.count = values.size();
+  if (values.empty()) return found;
+  found.value = measure::median(values);
+  found.error = measure::median(errors);
+  for (const double value : values) apart.push_back(std::abs(value - found.value));
+  found.spread = measure::median(std::move(apart));
+  return found;
+}
+
+// How restitution changes with the closing speed [s/m]; nothing where a line does not show it.
+std::optional<double> slope_over_speed(const LocatedImpacts& file, int contact) {
+  constexpr std::size_t enough = 4;
+  constexpr double least_range = 0.01, largest_rest = 0.2, times_as_fast = 1.2;
+  std::vector<double> speeds, values;
+  for (const auto& impact : file.impacts)
+    if (impact.contact == contact) {
+      speeds.push_back(impact.closing);
+      values.push_back(impact.restitution);
+    }
+  if (speeds.size() < enough) return {};
+  const auto [slowest, fastest] = std::ranges::minmax(speeds);
+  const auto [least, most] = std::ranges::minmax(values);
+  if (most - least < least_range || fastest < times_as_fast * slowest) return {};
+  const auto line = numerics::fit_line(speeds, values);
+  for (std::size_t i = 0; i < speeds.size(); ++i)
+    if (std::abs(values[i] - line.at(speeds[i])) > largest_rest * (most - least)) return {};
+  return line.slope;
+}
+
+std::vector<Diagnosis> impact_causes(const DiagnosisInput& question, const Observation& finest,
+                                     const Observation& other) {
+  const auto& problem = question.problem;
+  const auto fine = locate_impacts(finest, problem), coarse = locate_impacts(other, problem);
+  std::vector<Diagnosis> found;
+  const auto of_contact = [&](Code code, int contact, double value) {
+    auto cause = diagnosis_of(code, value, "1");
+    cause.confidence = 0.95;
+    if (problem.contacts.size() > 1) cause.evidence.push_back({"contact", contact + 1.0});
+    return cause;
+  };
+  constexpr double above_error = 10.0, noticeable = 1e-4;
+  for (int contact = 0; contact < std::ssize(problem.contacts); ++contact) {
+    const double eta = problem.contacts[std::size_t(contact)].restitution;
+    const auto now = measured(fine, contact, &LocatedImpact::restitution),
+               again = measured(coarse, contact, &LocatedImpact::restitution);
+    if (now.count < 2 || again.count < 2) continue;
+    const double off = now.value - eta, off_again = again.value - eta;
+    if (std::abs(off) > std::max(noticeable, above_error * now.error) &&
+        now.spread < same_share * std::abs(off) &&
+        std::abs(off_again - off) < same_share * std::abs(off)) {
+      auto cause = of_contact(Code("restitution-differs"), contact, now.value);
+      cause.evidence.push_back({"expected", eta});
+      cause.evidence.push_back({"uncertainty", std::abs(off - off_again) + now.error + now.spread});
+      cause.evidence.push_back({"files", 2.0});
+      found.push_back(std::move(cause));
+    } else if (const auto slope = slope_over_speed(fine, contact);
+               slope && slope_over_speed(coarse, contact)) {
+      found.push_back(of_contact(Code("restitution-varies"), contact, *slope));
+      found.back().unit = "s/m";
+      found.back().evidence.push_back({"files", 2.0});
+    }
+    const auto momentum = measured(fine, contact, &LocatedImpact::momentum_defect),
+               repeated = measured(coarse, contact, &LocatedImpact::momentum_defect);
+    if (momentum.value > std::max(noticeable, above_error * momentum.error) &&
+        std::abs(repeated.value - momentum.value) < same_share * momentum.value) {
+      auto cause = of_contact(Code("momentum-not-kept"), contact, momentum.value);
+      cause.evidence.push_back({"files", 2.0});
+      found.push_back(std::move(cause));
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<Diagnosis> measured_causes(const DiagnosisInput& question) {
+  if (!question.limit.wrong || question.histories.empty()) return {};
+  const auto& finest = question.histories.back();
+  const auto other = std::ranges::find_if(
+      question.histories.rbegin(), question.histories.rend(), [&](const Observation& one) {
+        return one.facts.step > least_other_step * finest.facts.step;
+      });
+  if (other == question.histories.rend()) return {};
+  auto found = flight_causes(question, finest, *other);
+  // Of equations that differ impacts are not where the case's have them.
+  if (found.empty()) found = impact_causes(question, finest, *other);
+  return found;
+}
+
+}  // namespace clackers::diagnose
