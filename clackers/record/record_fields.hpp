@@ -175,7 +175,8 @@ void fields(auto& archive, Like<diagnose::LocatedImpact> auto& x) {
   each(archive, "t", x.t, "contact", x.contact, "closing_speed", x.closing, "opening_speed",
        x.opening, "restitution", x.restitution, "restitution_error", x.restitution_error,
        "momentum_defect", x.momentum_defect, "delay", x.delay, "delay_steps", x.delay_steps,
-       "duration", x.duration, "closed_speed", x.closed_speed, "defect", x.defect);
+       "duration", x.duration, "closed_speed", x.closed_speed, "defect", x.defect, "stale_share",
+       x.stale_share);
 }
 
 void fields(auto& archive, Like<Subject> auto& x) {

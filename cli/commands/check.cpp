@@ -109,12 +109,12 @@ void add_check(Grammar& root) {
            "both limits of a jump. Several files are levels of one method and give an order. "
            "Exit code 0 when the history agrees or nothing is expected, 1 when it disagrees or is "
            "of another motion, 3 when undecided.",
-       .usage =
-           "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
-           "           [--columns t,u1,...] [--events FILE]\n"
-           "           [--steps h1,h2,...|--tolerances a,b,...]\n"
-           "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
-           "           [--metrics all] [--impacts] [--baseline FILE.json] [--report FILE.html]\n"});
+       .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
+                "           [--columns t,u1,...] [--events FILE]\n"
+                "           [--steps h1,h2,...|--tolerances a,b,...]\n"
+                "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
+                "           [--metrics all] [--impacts] [--report FILE.html]\n"
+                "           [--baseline FILE.json]\n"});
   app->add_option("FILE", options->files, "Time histories, text or .npy; - for standard input.")
       ->reads_file("");
   app->add_option("--case", options->case_name,

@@ -1,4 +1,5 @@
 """check: histories of other programs and what is found in them."""
+import csv
 import json
 import math
 import os
@@ -163,6 +164,29 @@ class Formats(CheckTest):
     def test_table_ends_with_the_verdict_and_what_to_do(self):
         last = run("check", self.history("exact.csv")).stdout.splitlines()[-1]
         self.assertRegex(last, r"\AVerdict: not claimed\. Next: ")
+
+
+class Impacts(CheckTest):
+    def test_of_the_exact_motion_keep_restitution_momentum_and_time(self):
+        found = self.checked(self.history("exact.csv"))["cases"][0]["subjects"][0]["impacts"]
+        exact = [float(row["t"]) for row in csv.DictReader(self.hits.splitlines())]
+        self.assertEqual(len(found), len(exact))
+        for impact, t in zip(found, exact):
+            self.assertAlmostEqual(impact["t"], t, delta=1e-9)
+            self.assertAlmostEqual(impact["restitution"], 1.0, delta=1e-9)
+            self.assertAlmostEqual(impact["momentum_defect"], 0.0, delta=1e-7)
+            self.assertAlmostEqual(impact["delay_steps"], 0.0, delta=1e-6)
+
+    def test_stand_in_a_table_when_asked(self):
+        file = self.history("exact.csv")
+        self.assertNotIn("Impacts of the finest", run("check", file).stdout)
+        lines = run("check", file, "--impacts").stdout.splitlines()
+        start = lines.index("Impacts of the finest history, read from its rows")
+        self.assertIn("restitution", " ".join(lines[start:start + 4]))
+        self.assertEqual(sum(line.lstrip()[:1].isdigit() for line in lines[start:start + 12]), 6)
+        self.assertLessEqual(max(map(len, lines)), 80)
+        displacements = self.history("u.csv", columns=("t", "u1", "u2"))
+        self.assertIn("The rows show no impact", run("check", displacements, "--impacts").stdout)
 
 
 class Steps(CheckTest):

@@ -25,7 +25,7 @@ class Help(CommandTest):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
         own = {"list": [], "explain": [], "show": ["--problem", "--set", "--threshold", "--report"],
                "check": ["--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
-                         "--tolerance", "--tolerances", "--metrics", "--report", "--require", "--baseline"],
+                         "--tolerance", "--tolerances", "--metrics", "--impacts", "--report", "--require", "--baseline"],
                "paper": [],
                "campaign": ["--database", "--shard", "--jobs", "--yes", "--slurm", "--shards", "--sbatch", "--dry-run",
                             "--table", "--times"],

@@ -138,6 +138,18 @@ TEST(FigureData, HistoriesHaveTheRowsOfTheFinest) {
   EXPECT_TRUE(data["work"].empty());
 }
 
+TEST(FigureData, ImpactsAreNumberedFromOneWithTheirBars) {
+  const auto rows = figure_data(sample_check().cases[0])["impact_table"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0]["k"], 1);
+  EXPECT_EQ(rows[1]["contact"], 2);
+  EXPECT_EQ(rows[1]["t"], 4.7124);
+  EXPECT_EQ(rows[0]["restitution"], 0.9);
+  EXPECT_EQ(rows[0]["least"], 0.899);
+  EXPECT_EQ(rows[0]["most"], 0.901);
+  EXPECT_EQ(rows[1]["late"], 0.75);
+}
+
 TEST(ProfileData, LinesBeginAtTheLeastCostAndEndTogether) {
   const std::vector<record::Profile> profiles{{"steps",
                                                {"a", "b"},
@@ -176,12 +188,15 @@ TEST(FigureSpecifications, ThereIsOneForWhatCanBeDrawn) {
   auto check = sample_check().cases[0];
   auto all = figure_specifications(check);
   EXPECT_TRUE(all.contains("history") && all.contains("convergence"));
+  const auto wide = json_text(all.at("impacts"));
+  EXPECT_NE(wide.find("[0.89,0.96]"), std::string::npos) << "a hundredth around 0.9 and 0.95";
   EXPECT_FALSE(all.contains("work") || all.contains("profile"));
   check.subjects[0].levels.erase(check.subjects[0].levels.begin());
   check.subjects[0].levels[0].runs[0].error_history = {};
+  check.subjects[0].impacts.clear();
   all = figure_specifications(check);
   EXPECT_FALSE(all.contains("convergence")) << "one point is no line";
-  EXPECT_FALSE(all.contains("history"));
+  EXPECT_FALSE(all.contains("history") || all.contains("impacts"));
 }
 
 TEST(FigureSpecifications, DataOfSeveralCasesIsToldApart) {

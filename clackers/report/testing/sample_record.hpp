@@ -272,6 +272,20 @@ inline record::Record sample_check() {
   subject.levels = {{0.02, {sample_history_run("/a/long/way/to/coarse.csv", 0.02)}},
                     {0.01, {sample_history_run("fine.csv", 0.01)}}};
   subject.levels[0].runs[0].file->notes.push_back(record::note("starts-late", {0.02}));
+  subject.impacts = {{.t = 1.5707,
+                      .contact = 0,
+                      .closing = 0.8,
+                      .opening = 0.72,
+                      .restitution = 0.9,
+                      .restitution_error = 1e-3,
+                      .momentum_defect = 0.02,
+                      .delay_steps = 0.25},
+                     {.t = 4.7124,
+                      .contact = 1,
+                      .closing = 0.5,
+                      .opening = 0.475,
+                      .restitution = 0.95,
+                      .delay_steps = 0.75}};
   auto& assessment = subject.assessment;
   assessment.displacement.behaviour = Behaviour::undecided;
   assessment.displacement.reason = "too-few-levels";

@@ -185,6 +185,17 @@ TEST(Text, HistoriesHaveFilesNotesAndMetrics) {
   EXPECT_FALSE(has(all, "--metrics all"));
 }
 
+TEST(Text, ImpactsAreShownWhenAsked) {
+  EXPECT_FALSE(has(text_of_record(sample_check()), "Impacts of the finest history"));
+  const auto text = text_of_record(sample_check(), {.impacts = true});
+  EXPECT_TRUE(has(text, "Impacts of the finest history, read from its rows")) << text;
+  EXPECT_TRUE(has(text, "4.7124"));
+  EXPECT_TRUE(has(text, "0.475"));
+  auto without = sample_check();
+  without.cases[0].subjects[0].impacts.clear();
+  EXPECT_TRUE(has(text_of_record(without, {.impacts = true}), "The rows show no impact"));
+}
+
 TEST(Text, ColourIsPrintedOnlyWhenAsked) {
   EXPECT_FALSE(has(text_of_record(sample_record()), "\x1b"));
   const auto text = text_of_record(sample_record(), {.color = true});

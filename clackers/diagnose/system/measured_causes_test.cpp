@@ -1,0 +1,190 @@
+#include "clackers/diagnose/system/measured_causes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+
+#include "clackers/diagnose/testing/histories.hpp"
+#include "clackers/diagnose/testing/method_rows.hpp"
+#include "clackers/exact/event_driven/event_driven_motion.hpp"
+#include "clackers/exact/event_driven/piecewise_motion.hpp"
+#include "clackers/model/harmonic_load.hpp"
+
+namespace clackers::diagnose::testing {
+namespace {
+
+using Problem = model::ImpactProblem<>;
+
+// Masses between springs to the ground, each coupled to the next one; two pairs of them meet.
+Problem chain(bool loaded) {
+  Problem p;
+  p.system.mass = Eigen::Vector4d(1.2, 1.7, 1.1, 1.5).asDiagonal();
+  p.system.stiffness = Eigen::Vector4d(28.0, 31.0, 24.0, 36.0).asDiagonal();
+  for (int i = 0; i < 3; ++i)
+    p.system.stiffness.block<2, 2>(i, i) += Eigen::Matrix2d{{3.0, -3.0}, {-3.0, 3.0}};
+  p.system.damping = 0.01 * p.system.stiffness + 0.02 * p.system.mass;
+  if (loaded) p.system.add_load = model::HarmonicLoad({{0, 2.0, 4.0, 0.3}});
+  p.start = {0.0, Eigen::Vector4d(0.08, 0.03, 0.05, 0.01), Eigen::Vector4d::Zero()};
+  p.contacts = {model::contact_between(4, 0, 1, 0.8), model::contact_between(4, 2, 3, 0.8)};
+  p.contacts[0].gap = -0.04;
+  p.contacts[1].gap = -0.04;
+  p.end = 12.0;
+  return p;
+}
+
+Files files_of(const Problem& right) {
+  Files files;
+  files.problem.problem = right;
+  files.problem.motion = std::make_shared<exact::PiecewiseMotion>(right);
+  return files;
+}
+
+struct ChainFault {
+  const char* name;
+  std::function<void(Problem&)> put;
+  std::vector<Diagnosis> found;  ///< code, value, unit, confidence unused, evidence, text
+};
+
+const std::vector<ChainFault>& chain_faults() {
+  const auto load = [](double factor, double late) {
+    return [=](Problem& p) {
+      p.system.add_load = model::HarmonicLoad({{0, 2.0 * factor, 4.0, 0.3 - 4.0 * late}});
+    };
+  };
+  static const std::vector<ChainFault> all{
+      {"spring to the ground",
+       [](Problem& p) { p.system.stiffness(1, 1) += 0.03 * 31.0; },
+       {{"stiffness-differs", 3.0, "%", 0, {}, "between mass 2 and the ground"}}},
+      {"spring between masses",
+       [](Problem& p) {
+         p.system.stiffness.block<2, 2>(1, 1) += 0.3 * Eigen::Matrix2d{{1.0, -1.0}, {-1.0, 1.0}};
+       },
+       {{"stiffness-differs", 10.0, "%", 0, {}, "between masses 2 and 3"}}},
+      {"damper",
+       [](Problem& p) { p.system.damping(1, 1) += 0.2 * (0.31 + 0.034); },
+       {{"damping-differs", 20.0, "%", 0, {}, "between mass 2 and the ground"}}},
+      {"mass",
+       [](Problem& p) { p.system.mass(2, 2) *= 0.98; },
+       {{"mass-differs", -2.0, "%", 0, {{"mass", 3.0}}}}},
+      {"weaker load", load(0.8, 0.0), {{"load-differs", 0.8, "1", 0, {{"mass", 1.0}}}}},
+      {"late load", load(1.0, 0.05), {{"load-differs", 1.0, "1", 0, {{"time", 0.05}}}}},
+      {"no load",
+       [](Problem& p) { p.system.add_load = nullptr; },
+       {{"load-differs", 0.0, "1", 0, {}, "missing"}}},
+      {"constant force",
+       [](Problem& p) {
+         p.system.add_load = model::HarmonicLoad({{0, 2.0, 4.0, 0.3}, {1, 0.3, 0.0, 0.0}});
+       },
+       {{"constant-force", 0.3, "N", 0, {{"mass", 2.0}}}}},
+      {"two springs",
+       [](Problem& p) {
+         p.system.stiffness(0, 0) *= 1.05;
+         p.system.stiffness(3, 3) *= 0.96;
+       },
+       {{"stiffness-differs", 100.0 * 0.05 * 31.0 / 28.0, "%"},
+        {"stiffness-differs", -100.0 * 0.04 * 39.0 / 36.0, "%"}}},
+      {"restitution of one contact",
+       [](Problem& p) { p.contacts[1].restitution = 0.75; },
+       {{"restitution-differs", 0.75, "1", 0, {{"contact", 2.0}}}}},
+  };
+  return all;
+}
+
+TEST(MeasuredCauses, OneWrongLinkMassLoadOrContactOfAChainIsNamed) {
+  const auto right = chain(true);
+  for (const auto* method : {"rk4", "newmark"})
+    for (const auto& fault : chain_faults()) {
+      SCOPED_TRACE(std::string(method) + ": " + fault.name);
+      auto wrong = right;
+      fault.put(wrong);
+      auto files = files_of(right);
+      for (const double h : {0.01, 0.005, 0.0025}) files.add(run(method, wrong, h), h);
+      const auto found = measured_causes(files.question());
+      ASSERT_EQ(found.size(), fault.found.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        const auto& expected = fault.found[i];
+        EXPECT_EQ(found[i].code, expected.code);
+        EXPECT_EQ(found[i].unit, expected.unit);
+        EXPECT_NEAR(found[i].value, expected.value,
+                    std::max(0.005, 0.02 * std::abs(expected.value)));
+        EXPECT_TRUE(expected.text.empty() || found[i].text == expected.text) << found[i].text;
+        for (const auto& [name, value] : expected.evidence)
+          EXPECT_NEAR(found[i].fact(name), value, 0.02 * value) << name;
+      }
+    }
+}
+
+TEST(MeasuredCauses, ARightSolverHasNone) {
+  const auto right = chain(true);
+  for (const auto* method : {"rk4", "newmark"}) {
+    auto files = files_of(right);
+    for (const double h : {0.01, 0.005, 0.0025}) files.add(run(method, right, h), h);
+    auto question = files.question();
+    question.limit.wrong = true;  // measured all the same
+    EXPECT_EQ(codes(measured_causes(question)), "") << method;
+  }
+}
+
+model::Trajectory rows_of(const exact::EventDrivenMotion& motion, double h) {
+  model::Trajectory rows;
+  rows.dof = motion.dof();
+  for (int n = 0; n * h <= motion.end() * (1.0 + 1e-12); ++n)
+    rows.t.push_back(std::min(n * h, motion.end()));
+  rows.u.resize(rows.t.size() * std::size_t(rows.dof));
+  rows.v.resize(rows.u.size());
+  motion.sample(rows.t, rows.u, rows.v);
+  return rows;
+}
+
+TEST(MeasuredCauses, AnImpulseThatOneMassFeelsMoreKeepsNoMomentum) {
+  const auto right = chain(false);
+  const auto wrong =
+      exact::EventDrivenMotion::make(right, {.impulse_factor = {1.0, 0.9, 1.0, 1.0}}, right.end);
+  ASSERT_TRUE(wrong);
+  auto files = files_of(right);
+  for (const double h : {0.02, 0.01}) files.add(rows_of(*wrong, h), h);
+  const auto found = measured_causes(files.question());
+  const auto* momentum = find(found, "momentum-not-kept");
+  ASSERT_NE(momentum, nullptr) << codes(found);
+  // J b + d e2, d = -J / 10: (1 / 10) |e2 - b (e2 . w) / (b . w)| over |J b| in the norm of 1 / m.
+  const double m1 = 1.2, m2 = 1.7;
+  EXPECT_NEAR(momentum->value, 0.1 / std::sqrt(1.0 / m1 + 1.0 / m2) / std::sqrt(m1 + m2), 0.01);
+  EXPECT_EQ(momentum->fact("contact"), 1.0);
+}
+
+// One mass on a stop whose restitution falls with the speed.
+model::Trajectory slower_when_fast(const Problem& right, double slope, double h) {
+  model::Trajectory rows;
+  rows.dof = 1;
+  auto now = right;
+  double next = 0.0;
+  while (now.start.t < right.end) {
+    const auto flight = *exact::EventDrivenMotion::make(now, {}, right.end);
+    const double last = flight.impacts().empty() ? right.end : flight.impacts()[0].t;
+    for (; next < last; next += h) {
+      rows.t.push_back(next);
+      flight.sample({&next, 1}, {&rows.u.emplace_back(), 1}, {&rows.v.emplace_back(), 1});
+    }
+    double u = 0.0, v = 0.0;
+    flight.sample({&last, 1}, {&u, 1}, {&v, 1});
+    const double closing = v / right.contacts[0].restitution;
+    now.start = {
+        last, Eigen::VectorXd::Zero(1),
+        Eigen::VectorXd::Constant(1, (right.contacts[0].restitution - slope * closing) * closing)};
+  }
+  return rows;
+}
+
+TEST(MeasuredCauses, RestitutionThatFallsWithTheSpeedIsASlope) {
+  auto right = methods::runs::mass_on_stop(1.0, 0.02, 1.0, 0.0, 1.0, 0.9, 20.0);
+  auto files = files_of(right);
+  for (const double h : {0.02, 0.01}) files.add(slower_when_fast(right, 0.1, h), h);
+  const auto found = measured_causes(files.question());
+  ASSERT_EQ(codes(found), "restitution-varies");
+  EXPECT_NEAR(found[0].value, -0.1, 0.005);
+  EXPECT_EQ(found[0].unit, "s/m");
+}
+
+}  // namespace
+}  // namespace clackers::diagnose::testing
