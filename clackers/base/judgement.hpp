@@ -12,15 +12,18 @@ enum class Behaviour { exact, proper, reduced, irregular, stagnating, divergent,
 /// What was found against what is claimed.
 enum class Verdict { agrees, disagrees, not_claimed, undecided };
 
-/// What a method promises of its displacement error through impacts.
+/// What a method promises of its errors through impacts: of the displacement's, and of the velocity's
+/// where its order is another.
 struct Claim {
-  Behaviour behaviour = Behaviour::undecided;  ///< undecided: nothing is claimed
+  Behaviour behaviour = Behaviour::undecided;  ///< undecided: nothing is claimed of displacements
   /// Order of the error, or of its upper envelope when irregular. 0 when stagnating.
   double order = 0.0;
   /// Code of the reason when the behaviour needs one ("contact-stiffness"), otherwise empty.
   std::string reason;
+  double velocity_order = 0.0;  ///< 0: nothing is claimed of velocities
 
-  bool is_made() const { return behaviour != Behaviour::undecided; }
+  bool is_made() const { return behaviour != Behaviour::undecided || velocity_order > 0.0; }
+  bool operator==(const Claim&) const = default;
 };
 
 std::string_view to_string(Behaviour behaviour);

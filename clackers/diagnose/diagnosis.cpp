@@ -270,6 +270,8 @@ const std::vector<Implication>& implications() {
       {{"impact-tolerance"}, {"noise-floor", "impact-interpolated", "time-shifted", "wrong-limit"}},
       // Delays that vary little with the step look like a small change of the system.
       {{"impact-tolerance", "impact-at-step-end"}, of_system, 0.1},
+      // Without half of the acceleration a velocity is that of half a step before.
+      {{"acceleration-not-renewed"}, of_time},
       {{"velocity-at-half-steps"},
        {"velocity-order-lower", "contact-in-tension", "impact-at-step-end", "impact-interpolated"}},
       {{"output-resampled"},

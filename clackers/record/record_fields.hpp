@@ -123,6 +123,7 @@ void fields(auto& archive, Like<Level> auto& x) { each(archive, "step", x.step, 
 
 void fields(auto& archive, Like<Claim> auto& x) {
   each(archive, "behaviour", x.behaviour, "order", x.order, "reason", x.reason);
+  archive.added("velocity_order", x.velocity_order);
 }
 
 void fields(auto& archive, Like<judge::LadderFit> auto& x) {
@@ -190,7 +191,7 @@ void fields(auto& archive, Like<Subject> auto& x) {
   archive.added("refinement", x.refinement);
   each(archive, "assessment", x.assessment, "self_convergence", x.self_convergence);
   archive.added("diagnoses", x.diagnoses);
-  archive.added("impacts", x.impacts);
+  archive.added("impact_table", x.impacts);
 }
 
 void fields(auto& archive, Like<judge::ProfileStep> auto& x) {

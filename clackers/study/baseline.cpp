@@ -191,9 +191,7 @@ SubjectChange change_of(const record::Subject& before, const record::Subject& no
 
 bool operator==(const Finding& a, const Finding& b) {
   return a.refused == b.refused && a.complete == b.complete && a.verdict == b.verdict &&
-         a.behaviour == b.behaviour && a.reason == b.reason &&
-         a.claim.behaviour == b.claim.behaviour && a.claim.order == b.claim.order &&
-         a.claim.reason == b.claim.reason;
+         a.behaviour == b.behaviour && a.reason == b.reason && a.claim == b.claim;
 }
 
 bool SubjectChange::any() const {

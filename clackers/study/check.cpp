@@ -175,14 +175,27 @@ record::Record check(const CheckRequest& request, const Progress& progress,
 }
 
 Claim claim_from(std::string_view text) {
-  const auto colon = text.find(':');
+  constexpr std::string_view velocity = "velocity:";
+  const auto order_of = [](std::string_view order) {
+    const double value = finite_number(order).value_or(0.0);
+    if (!(value > 0.0 && value <= 20.0))
+      refuse("check", "order of --expect", order, "0 < order <= 20");
+    return value;
+  };
   Claim claim;
+  if (const auto at = text.find(velocity); at == 0 || (at < text.size() && text[at - 1] == ',')) {
+    if (at > 0) claim = claim_from(text.substr(0, at - 1));
+    claim.velocity_order = order_of(text.substr(at + velocity.size()));
+    return claim;
+  }
+  const auto colon = text.find(':');
   claim.behaviour = behaviour_from(text.substr(0, colon));
   const bool has_line = claim.behaviour == Behaviour::proper ||
                         claim.behaviour == Behaviour::reduced ||
                         claim.behaviour == Behaviour::irregular;
   if (!claim.is_made())
-    refuse("check", "--expect", text, "proper, reduced, irregular, exact, stagnating or divergent",
+    refuse("check", "--expect", text,
+           "proper, reduced, irregular, exact, stagnating, divergent or velocity",
            "Nothing to expect: leave --expect out.", "bad-syntax");
   if (claim.behaviour == Behaviour::stagnating && colon != std::string_view::npos) {
     claim.reason = text.substr(colon + 1);
@@ -202,10 +215,7 @@ Claim claim_from(std::string_view text) {
                     : fmt::format("{} without an order", to_string(claim.behaviour)),
            {}, "bad-syntax");
   if (!has_line) return claim;
-  const auto order = text.substr(colon + 1);
-  claim.order = finite_number(order).value_or(0.0);
-  if (!(claim.order > 0.0 && claim.order <= 20.0))
-    refuse("check", "order of --expect", order, "0 < order <= 20");
+  claim.order = order_of(text.substr(colon + 1));
   return claim;
 }
 

@@ -49,7 +49,8 @@ record::Record check(const CheckRequest& request, const Progress& progress = {},
                      const std::atomic<bool>* interrupt = nullptr);
 
 /// "proper:2", "irregular:1", "exact", "stagnating:contact-stiffness": a behaviour and, where it
-/// needs one, an order, or the reason of a floor. Throws InputError for any other text.
+/// needs one, an order, or the reason of a floor; "velocity:1" or "proper:2,velocity:1":
+/// the order of the velocities. Throws InputError for any other text.
 Claim claim_from(std::string_view text);
 
 }  // namespace clackers::study

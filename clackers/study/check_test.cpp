@@ -136,6 +136,9 @@ TEST(CheckExpectation, IsABehaviourWithAnOrderWhereItNeedsOne) {
                            "stagnating:", "stagnating:2", "stagnating:wrong-limit"})
     EXPECT_THROW(claim_from(text), InputError) << text;
   EXPECT_EQ(claim_from("stagnating").reason, "");
+  EXPECT_EQ(claim_from("velocity:1").behaviour, Behaviour::undecided);
+  EXPECT_EQ(claim_from("proper:2,velocity:1.5").order, 2.0);
+  EXPECT_EQ(claim_from("proper:2,velocity:1.5").velocity_order, 1.5);
   EXPECT_EQ(claim_from("stagnating:contact-stiffness").reason, "contact-stiffness");
 }
 

@@ -304,6 +304,10 @@ void SubjectStudy::decide() {
                                            .by_tolerance = by_tolerance(),
                                            .is_this_system = is_method()});
   if (is_method()) return;
+  if (subject_.claim.velocity_order > 0.0)
+    std::erase_if(subject_.diagnoses, [](const diagnose::Diagnosis& found) {
+      return found.code == Code("velocity-order-lower").name();
+    });
   if (!histories.empty())
     subject_.impacts = diagnose::locate_impacts(histories.back(), problem_.problem.problem).impacts;
   if (odd) subject_.diagnoses.push_back(odd->found);

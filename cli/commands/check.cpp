@@ -146,7 +146,8 @@ void add_check(Grammar& root) {
       ->option_text("a,b,...");
   app->add_option("--expect", options->expect,
                   "What the histories should show: proper:2, reduced:1, irregular:1, exact, "
-                  "stagnating[:REASON] or divergent.")
+                  "stagnating[:REASON] or divergent; velocity:1, alone or behind a comma, for the "
+                  "order of the velocities.")
       ->option_text("BEHAVIOUR[:ORDER|REASON]");
   app->add_option("--tolerance", options->tolerance,
                   "Largest error in u, relative to the largest envelope, of the finest history.")

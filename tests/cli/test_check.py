@@ -168,7 +168,7 @@ class Formats(CheckTest):
 
 class Impacts(CheckTest):
     def test_of_the_exact_motion_keep_restitution_momentum_and_time(self):
-        found = self.checked(self.history("exact.csv"))["cases"][0]["subjects"][0]["impacts"]
+        found = self.checked(self.history("exact.csv"))["cases"][0]["subjects"][0]["impact_table"]
         exact = [float(row["t"]) for row in csv.DictReader(self.hits.splitlines())]
         self.assertEqual(len(found), len(exact))
         for impact, t in zip(found, exact):

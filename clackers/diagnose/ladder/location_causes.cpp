@@ -12,6 +12,8 @@
 namespace clackers::diagnose {
 namespace {
 
+using measure::FreeState;
+
 // Impacts at mirrored positions of a motion have one delay, so equal ones count once.
 std::vector<double> distinct(std::vector<double> values, double apart) {
   std::ranges::sort(values);
@@ -172,24 +174,59 @@ std::optional<Diagnosis> tolerance(const DiagnosisInput& question,
   return found;
 }
 
-// One share of the acceleration before the impacts in the steps after them, in all files.
-std::optional<Diagnosis> not_renewed(const std::vector<LocatedImpacts>& files) {
+// A share of the acceleration that steps lack or keep, one and the same in most of them.
+std::optional<Diagnosis> one_share(const std::vector<double>& shares, std::size_t enough,
+                                   const char* where, std::size_t files) {
   constexpr double least_share = 0.2, most_share = 1.1, same = 0.15;
-  constexpr std::size_t enough = 6;
-  std::vector<double> shares;
-  for (const auto& file : files)
-    for (const auto& impact : file.impacts)
-      if (std::isfinite(impact.stale_share)) shares.push_back(impact.stale_share);
-  if (files.size() < 2 || shares.size() < enough) return {};
+  if (files < 2 || shares.size() < enough) return {};
   const double share = measure::median(shares);
   const auto alike =
       std::ranges::count_if(shares, [&](double x) { return std::abs(x - share) < same * share; });
   if (share < least_share || share > most_share || 5 * alike < 4 * std::ssize(shares)) return {};
   auto found = diagnosis_of(Code("acceleration-not-renewed"), share, "1");
   found.confidence = 0.95;
-  found.text = "after impacts";
-  found.evidence = {{"files", double(files.size())}};
+  found.text = where;
+  found.evidence = {{"files", double(files)}};
   return found;
+}
+
+// Steps after impacts that go on with the acceleration before them.
+std::optional<Diagnosis> not_renewed(const std::vector<LocatedImpacts>& files) {
+  std::vector<double> shares;
+  for (const auto& file : files)
+    for (const auto& impact : file.impacts)
+      if (std::isfinite(impact.stale_share)) shares.push_back(impact.stale_share);
+  return one_share(shares, 6, "after impacts", files.size());
+}
+
+// First steps without the acceleration at the start. Velocities of half steps lack as much of it in
+// every step, rows of half steps a part of the displacement as well.
+std::optional<Diagnosis> not_started(const DiagnosisInput& question) {
+  constexpr double least_step = 1e-5, largest_rest = 0.1, largest_way = 0.6;
+  const measure::FreeMotion motion(question.problem.system);
+  const auto& start = question.problem.start;
+  std::vector<double> shares;
+  for (const auto& seen : question.histories) {
+    const auto& rows = seen.opening.v.empty() ? seen.sample : seen.opening;
+    if (rows.v.empty() || rows.t.size() < 3) continue;
+    const double s = rows.t[1] - start.t;
+    if (!(s > 0.0) || s > 1.5 * seen.facts.step || rows.t[0] != start.t) continue;
+    if (rows.impacts && !rows.impacts->empty() && rows.impacts->front().t < rows.t[2]) continue;
+    const auto row = [&](std::size_t i) {
+      const auto at = std::ptrdiff_t(i) * rows.dof;
+      return FreeState{rows.t[i], Eigen::Map<const Eigen::VectorXd>(rows.u.data() + at, rows.dof),
+                       Eigen::Map<const Eigen::VectorXd>(rows.v.data() + at, rows.dof)};
+    };
+    const auto first = motion.moved(start, s), second = motion.moved(row(1), rows.t[2] - rows.t[1]);
+    const Eigen::VectorXd gained = first.v - start.v, lack = first.v - row(1).v;
+    if (gained.norm() < least_step * first.v.norm()) continue;
+    const double rest =
+        (second.v - row(2).v).norm() + (second.u - row(2).u).norm() / (rows.t[2] - rows.t[1]);
+    const bool is_of_start = rest < largest_rest * lack.norm() &&
+                             (first.u - row(1).u).norm() < largest_way * s * gained.norm();
+    shares.push_back(is_of_start ? lack.dot(gained) / gained.squaredNorm() : 0.0);
+  }
+  return one_share(shares, 2, "at the start", shares.size());
 }
 
 // Contacts of one duration in all files that hold several rows of it, the finest among them.
@@ -251,6 +288,7 @@ std::vector<Diagnosis> location_causes(const DiagnosisInput& question) {
     if (one) found.push_back(std::move(*one));
     return !found.empty();
   };
+  if (add(not_started(question))) return found;
   if (std::ranges::all_of(all, [](const auto& file) { return file.impacts.empty(); })) return {};
   if (add(compliant(question, all)) || add(not_renewed(all))) return found;
   // Of coarse files the flights may hide what fine ones show.

@@ -42,7 +42,7 @@ inline constexpr auto evidence_names = std::to_array<std::string_view>(
      "tolerance-not-resolved", "other-start", "other-impacts", "sparse-rows", "wrong-limit",
      "ends-early", "commensurate-steps", "errors-cancel", "unstable-coarse-steps",
      "steps-per-contact", "simultaneous-impacts", "more-samples", "velocity-order-lower",
-     "error-over-tolerance"});
+     "velocity-order", "error-over-tolerance"});
 using EvidenceCode = NameOf<evidence_names>;
 
 /// A fact, beside the fits, that the verdict rests on. Its numbers by code:
@@ -64,6 +64,7 @@ using EvidenceCode = NameOf<evidence_names>;
 ///     simultaneous-impacts    instant [s], contacts, error before it and after it
 ///     more-samples         order of the envelope, its spread
 ///     velocity-order-lower    order of the velocities, of the displacements
+///     velocity-order          order of the velocities, its spread, the claimed one
 ///     error-over-tolerance    mean, least and largest error over tolerance, along the line
 struct Evidence {
   std::string code;                        ///< one of `evidence_names`

@@ -133,8 +133,8 @@ Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
   const double reach = fit.on_envelope ? fit.spread + tolerance * claimed : fit.spread;
   if (off > tolerance * claimed) return off > reach ? Verdict::disagrees : Verdict::undecided;
   const bool few = fit.last_level - fit.first_level + 1 < enough_octaves;
-  const double most = few ? envelope_spread : wide_envelope_spread;
-  return fit.on_envelope && fit.spread > most * claimed ? Verdict::undecided : Verdict::agrees;
+  const double most = !fit.on_envelope ? line_spread : few ? envelope_spread : wide_envelope_spread;
+  return fit.spread > most * claimed ? Verdict::undecided : Verdict::agrees;
 }
 
 // Whether errors are those of contacts of few steps, whose upper envelope falls while some are
@@ -176,7 +176,7 @@ Verdict compare_floor(const LadderFit& fit, const Claim& claim, const Facts& fac
 }
 
 Verdict compare(const LadderFit& fit, const Claim& claim, const Facts& facts) {
-  if (!claim.is_made()) return Verdict::not_claimed;
+  if (claim.behaviour == Behaviour::undecided) return Verdict::not_claimed;
   if (fit.behaviour == Behaviour::undecided) return Verdict::undecided;
   if (claim.behaviour == Behaviour::stagnating && fit.behaviour != Behaviour::exact)
     return compare_floor(fit, claim, facts);
@@ -199,6 +199,13 @@ Verdict compare(const LadderFit& fit, const Claim& claim, const Facts& facts) {
                : found;
   }
   return fit.behaviour == claim.behaviour ? Verdict::agrees : Verdict::disagrees;
+}
+
+// Of velocities only the order is claimed, that of a line or of an envelope.
+Evidence velocity_evidence(const LadderFit& fit, const Claim& claim, const Facts& facts) {
+  const Claim line{shows_a_line(fit) ? fit.behaviour : Behaviour::proper, claim.velocity_order, {}};
+  return evidence("velocity-order", compare(fit, line, facts),
+                  {fit.order, fit.spread, claim.velocity_order});
 }
 
 Mismatch mismatch_of(const LadderFit& fit, const Claim& claim, const Facts& facts) {
@@ -272,9 +279,11 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const Facts&
   const auto measured = fit(ladder, context, [](const measure::RunScore& run) {
     return ErrorPoint{.error = run.u_error, .floor = run.rounding_floor};
   });
+  if (claim.velocity_order > 0.0) context.claimed_order = claim.velocity_order;
   found.velocity = fit(ladder, context, [](const measure::RunScore& run) {
     return ErrorPoint{.error = run.v_error, .floor = run.rounding_floor};
   });
+  context.claimed_order = claim.order;
   context.saturation = std::numeric_limits<double>::infinity();
   found.impact_time = fit(ladder, context, impact_time_error);
 
@@ -287,6 +296,8 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const Facts&
     }
   found.evidence =
       evidence_of(found, compare(found.displacement, claim, facts), ladder, claim, facts);
+  if (claim.velocity_order > 0.0)
+    found.evidence.push_back(velocity_evidence(found.velocity, claim, facts));
   decide(found, claim, ladder, facts);
   return found;
 }

@@ -25,6 +25,9 @@ inline constexpr double proper_scatter = 2.0;
 /// of themselves at least.
 inline constexpr double least_energy_ratio = 0.5, largest_energy_ratio = 2.0;
 
+/// A line whose order is uncertain by more than this share of the claim decides nothing.
+inline constexpr double line_spread = 1.0 / 3.0;
+
 /// An envelope whose order is uncertain by more than this share of the claim decides nothing.
 inline constexpr double envelope_spread = 0.5;
 /// Over this many octaves a wider interval still tells an order from its neighbours.

@@ -167,7 +167,7 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   if (facts.wrong_limit && claims_convergence(claim)) all.push_back(wrong_limit);
   if (facts.tolerance) add(tolerance_evidence(finest, *facts.tolerance, printed));
   for (auto& found : of_the_fit(fit, ladder, claim, facts)) all.push_back(std::move(found));
-  add(velocity_order(fits));
+  if (!(claim.velocity_order > 0.0)) add(velocity_order(fits));
   if (facts.by_tolerance) add(error_over_tolerance(ladder, fit));
   if (!facts.finest) return all;
   add(ends_early(*facts.finest));

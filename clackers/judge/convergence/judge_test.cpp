@@ -66,6 +66,39 @@ TEST(Judge, WhatIsClaimedAndFoundAgrees) {
   EXPECT_TRUE(found.evidence.empty());
 }
 
+TEST(Judge, TheOrderOfVelocitiesIsAClaimOfItsOwn) {
+  auto runs = scores(power(2.0));
+  every_run(runs, 0, [](measure::RunScore& run) { run.v_error = 0.3 * run.step; });
+  const auto verdict = [&](Claim claim) { return judge(runs, claim).verdict; };
+  const auto undecided = Behaviour::undecided, proper = Behaviour::proper;
+  EXPECT_EQ(verdict({undecided, 0.0, {}, 1.0}), Verdict::agrees);
+  EXPECT_EQ(verdict({undecided, 0.0, {}, 2.0}), Verdict::disagrees);
+  EXPECT_EQ(verdict({proper, 2.0, {}, 1.0}), Verdict::agrees);
+  EXPECT_EQ(verdict({proper, 2.0, {}, 2.0}), Verdict::disagrees);
+  EXPECT_EQ(verdict({proper, 1.0, {}, 1.0}), Verdict::disagrees);
+  const auto found = judge(runs, {undecided, 0.0, {}, 1.0});
+  ASSERT_EQ(found.evidence.size(), 1u);
+  EXPECT_EQ(found.evidence[0].code, "velocity-order");
+  EXPECT_NEAR(found.evidence[0].numbers.at(0), 1.0, 1e-9);
+  EXPECT_EQ(found.evidence[0].numbers.at(2), 1.0);
+  EXPECT_EQ(judge(runs, second).evidence.at(0).code, "velocity-order-lower");
+  every_run(runs, 0, [](measure::RunScore& run) { run.v_error = 1e-3; });
+  EXPECT_EQ(verdict({proper, 2.0, {}, 1.0}), Verdict::disagrees);
+}
+
+TEST(Judge, ALineOfAWideIntervalDecidesNothing) {
+  // One run a level, of order two until a term of order one rules.
+  const auto bent = [](double term) {
+    return judge(scores([=](double h) { return h * h + term * h; }, {.levels = 5, .samples = 1}),
+                 second);
+  };
+  EXPECT_EQ(bent(3e-4).verdict, Verdict::agrees);
+  const auto wide = bent(1e-3);
+  EXPECT_EQ(wide.verdict, Verdict::undecided);
+  EXPECT_NEAR(wide.displacement.order, 1.91, 0.01);
+  EXPECT_GT(wide.displacement.spread, 2.0 / 3.0);
+}
+
 TEST(Judge, AnotherOrderDisagreesInBothDirections) {
   const auto lower = judge(scores(power(1.0)), second);
   EXPECT_EQ(lower.verdict, Verdict::disagrees);

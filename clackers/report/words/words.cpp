@@ -119,10 +119,14 @@ std::string fit_text(const judge::LadderFit& fit) {
 
 std::string claim_text(const Claim& claim) {
   if (!claim.is_made()) return "nothing";
+  const auto velocity = claim.velocity_order > 0.0 ? fmt::format("velocities of order {}",
+                                                                 short_number(claim.velocity_order))
+                                                   : std::string();
+  if (claim.behaviour == Behaviour::undecided) return velocity;
   auto text = std::string(to_string(claim.behaviour));
   if (claim.order > 0.0) text += fmt::format(", order {}", short_number(claim.order));
   if (!claim.reason.empty()) text += fmt::format(" [{}]", claim.reason);
-  return text;
+  return velocity.empty() ? text : text + ", " + velocity;
 }
 
 std::string case_text(const record::CaseSummary& problem, std::string_view space) {

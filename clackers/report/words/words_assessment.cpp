@@ -184,6 +184,9 @@ std::string evidence_sentence(const record::Subject& subject, const judge::Evide
   if (is("other-impacts"))
     return fmt::format("Another motion: {} of {} impacts matched, {} extra.", text(0, 15),
                        text(1, 15), text(2, 15));
+  if (is("velocity-order"))
+    return fmt::format("Velocities converge with order {:.2f} ± {}, expected {}.", number(0),
+                       text(1, 2), text(2));
   if (is("ends-early"))
     return fmt::format("The history ends at {} s of {} s, with {} of {} impacts.", text(0), text(1),
                        text(2, 15), text(3, 15));

@@ -26,7 +26,8 @@ cases::Settings changed(cases::Settings values,
 // "N=5,xi1=0.25"; empty where no parameters start the case so.
 std::string settings_of(const diagnose::FirstRows& opening, const cases::Case& problem) {
   std::vector<diagnose::StartParameter> parameters;
-  for (const auto& [name, value] : problem.values) parameters.push_back({name, value});
+  for (const auto& [name, value] : problem.values)
+    if (!value.is_word()) parameters.push_back({name, value});
   const auto motion_of = [&](std::span<const diagnose::StartParameter> values)
       -> std::shared_ptr<const model::Motion> {
     try {

@@ -79,13 +79,14 @@ LadderFit diverges(const LadderFit& fit) {
 
 LadderFit with_line(const Range& range, const Window& found) {
   auto fit = range.blank;
-  const auto points = raw_points(range.levels, found.first, found.last);
+  // What bends may be rounding.
+  int last = found.last;
+  while (last - found.first > 1 && range.level(last).may_bend) --last;
+  const auto points = raw_points(range.levels, found.first, last);
   const auto interval = order_interval(points.x, points.y);
   fit.has_line = true;
   fit.order = found.line.slope;
   fit.spread = std::max({found.line.slope_spread, interval.half_width(), drift(found)});
-  int last = found.last;
-  while (last - found.first > 1 && range.level(last).may_bend) --last;
   if (last < found.last)
     if (const auto above = window(range.levels, found.first, last))
       fit.spread += std::abs(above->line.slope - fit.order);
