@@ -8,6 +8,7 @@ Environment: CLACKERS, the command; FOREIGN_SOLVERS, the program of solvers.cpp 
 import argparse
 import concurrent.futures
 import functools
+import json
 import os
 import pathlib
 import shlex
@@ -31,10 +32,15 @@ def load(folder=HERE):
         for entry in tomllib.loads(file.read_text())["set"]:
             entry = {**named.get(entry.pop("like", None), {}), **entry}
             named[entry["name"]] = entry
-            for layout in entry.get("layouts", ["5"]):
-                one = {**entry, "layout": layout, "group": file.stem}
-                one["name"] = f"{entry['name']}/{layout}"
-                sets.append(one)
+            for words, says, *system in entry.pop("vary", [["", 0]]):
+                kind = {**entry, "system": (system or [entry["system"]])[0]}
+                if words or system:
+                    kind["name"] = "-".join([entry["name"], *system, *words.split()])
+                    kind["solver"] = f"{entry['solver']} {words}"
+                    kind["says"] = entry.get("says", {}) if says == 0 else says
+                named[kind["name"]] = kind
+                for layout in kind.get("layouts", ["5"]):
+                    sets.append({**kind, "layout": layout, "group": file.stem, "name": f"{kind['name']}/{layout}"})
     names = [one["name"] for one in sets]
     repeated = {name for name in names if names.count(name) > 1}
     if repeated:
@@ -64,6 +70,27 @@ def files_of(one, system, folder):
     return files
 
 
+def add_problems(systems, wanted, folder, clackers):
+    """Writes the problem of each wanted system as numbers (assemblies/problem.hpp); adds `problem` and `end`."""
+    for name in sorted(wanted):
+        system = systems[name]
+        words = shlex.split(system["check"].format(here=HERE))
+        system["check"] = shlex.join(words)
+        case = [] if "--problem" in words or "--case" in words else ["three-parameter"]
+        shown = subprocess.run([clackers, "show", *case, *(w for w in words if w != "--case"), "--format", "json"],
+                               capture_output=True, text=True, check=True)
+        p = json.loads(shown.stdout)["problem"]
+        contacts, loads = p["contacts"], p.get("loads", [])
+        rows = [[len(p["M"]), len(contacts), len(loads), p["end"]], *p["M"], *p["C"], *p["K"],
+                p["start"]["u"], p["start"]["v"],
+                *([*c["direction"], c["gap"], c["restitution"]] for c in contacts),
+                *([x["dof"], x["amplitude"], x["frequency"], x["phase"]] for x in loads)]
+        path = folder / f"{name}.problem"
+        path.write_text("\n".join(" ".join(map(repr, row)) for row in rows))
+        system["problem"] = f"problem={path}"
+        system.setdefault("end", p["end"])
+
+
 @functools.cache
 def scipy_python():
     """An interpreter that has SciPy; empty for none."""
@@ -73,31 +100,64 @@ def scipy_python():
     return ""
 
 
-def generate(one, system, folder, solvers):
-    """Writes the files of a set; returns the command line of check."""
+def program_of(one, solvers):
+    for name, program in (("scipy", [scipy_python(), HERE / "scipy_solvers.py"]),
+                          ("octave", ["octave", "--no-gui", "-qf", HERE / "octave_solvers.m"])):
+        if f"method={name}-" in one["solver"]:
+            return program
+    return [solvers]
+
+
+def needs_problem(one, systems):
+    return "solver" not in systems[one["system"]] or "method=octave-" in one["solver"]
+
+
+def prepare(one, system, folder):
+    """(lines of the solver, command line of check) of a set."""
     folder.mkdir(parents=True, exist_ok=True)
     files = files_of(one, system, folder)
     lines = []
+    told = system["problem"] if "method=octave-" in one["solver"] else system.get("solver", system.get("problem"))
     odd, odd_words = one.get("odd", (-1, ""))
     for i, (path, h, words) in enumerate(files):
         events = f" events={path}.events" if one.get("events") else ""
         words = one.get("every-file", words).format(h=h)
         words += f" {odd_words}" if i == odd else ""
-        lines.append(f"{path} {words} {system['solver']} {one['solver']}{events}\n")
-    program = [scipy_python(), HERE / "scipy_solvers.py"] if "method=scipy-" in one["solver"] else [solvers]
-    subprocess.run(program, input="".join(lines), text=True, check=True, timeout=300)
+        lines.append(f"{path} {words} {told} {one['solver']}{events}\n")
     command = ["check", *(str(path) for path, _, _ in files), *shlex.split(system["check"]),
                *shlex.split(one.get("check", "").replace("{steps}", ",".join(repr(h) for _, h, _ in files))
                            .replace("{reversed}", ",".join(repr(h) for _, h, _ in reversed(files))))]
     for path, _, _ in files if one.get("events") else ():
         command += ["--events", f"{path}.events"]
+    return lines, command
+
+
+def solve(program, lines):
+    subprocess.run(program, input="".join(lines), text=True, check=True, timeout=600,
+                   env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
+
+
+def generate(one, system, folder, solvers):
+    """Writes the files of a set; returns the command line of check."""
+    lines, command = prepare(one, system, folder)
+    solve(program_of(one, solvers), lines)
     return command
+
+
+def solve_with_octave(sets, systems, folders, jobs):
+    """Histories of all sets by few runs of Octave, which starts slowly."""
+    lines = [line for one, folder in zip(sets, folders) if "method=octave-" in one["solver"]
+             for line in prepare(one, systems[one["system"]], folder)[0]]
+    parts = [lines[i::jobs] for i in range(jobs) if lines[i::jobs]]
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(lambda part: solve(program_of({"solver": "method=octave-"}, ""), part), parts))
 
 
 def judge(one, system, folder, solvers, clackers):
     """(answer, faults) of a set; its files are removed."""
     try:
-        command = generate(one, system, folder, solvers)
+        done_before = "method=octave-" in one["solver"]
+        command = prepare(one, system, folder)[1] if done_before else generate(one, system, folder, solvers)
         done = subprocess.run([clackers, *command, "--format", "json"], capture_output=True, text=True,
                               timeout=300)
     finally:
@@ -137,6 +197,7 @@ def report(results, shown, markdown):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", action="append", help="sets whose name contains this (repeatable)")
+    parser.add_argument("--group", action="append", help="sets of this file (repeatable)")
     parser.add_argument("--markdown", action="store_true")
     parser.add_argument("--failures", action="store_true", help="print only sets judged otherwise")
     parser.add_argument("--keep", type=pathlib.Path, help="write the files here and print the commands")
@@ -152,6 +213,10 @@ def main():
         sets = [one for one in sets if any(word in one["name"] for word in options.only)]
     if not scipy_python():
         sets = [one for one in sets if "method=scipy-" not in one["solver"]]
+    if not shutil.which("octave"):
+        sets = [one for one in sets if "method=octave-" not in one["solver"]]
+    if options.group:
+        sets = [one for one in sets if one["group"] in options.group]
     if options.list:
         for one in sets:
             print(f"{one['name']} ({one['system']}): {expert(one)}\n    {one.get('why', '')}")
@@ -161,18 +226,23 @@ def main():
     with tempfile.TemporaryDirectory(prefix="foreign-") as temporary:
         scratch = pathlib.Path(temporary)
         solvers = os.environ.get("FOREIGN_SOLVERS") or compile_solvers(scratch)
+        place = options.keep or scratch
+        place.mkdir(parents=True, exist_ok=True)
+        add_problems(systems, {one["system"] for one in sets if needs_problem(one, systems)}, place.resolve(), clackers)
         if options.keep:
             for one in sets:
                 command = generate(one, systems[one["system"]], options.keep / one["name"].replace("/", "-"), solvers)
                 print(f"# {one['name']}: {expert(one)}\n{shlex.join([clackers, *command])}")
             return 0
 
-        def work(item):
-            place, one = item
-            return (one, *judge(one, systems[one["system"]], scratch / str(place), solvers, clackers))
+        folders = [scratch / str(i) for i in range(len(sets))]
+        solve_with_octave(sets, systems, folders, options.jobs)
+
+        def work(one, folder):
+            return (one, *judge(one, systems[one["system"]], folder, solvers, clackers))
 
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            results = list(pool.map(work, enumerate(sets)))
+            results = list(pool.map(work, sets, folders))
     shown = [result for result in results if result[2]] if options.failures else results
     report(results, shown, options.markdown)
     right = sum(not wrong for *_, wrong in results)

@@ -95,7 +95,7 @@ inline History run_steps(System s, const Options& o, double h, long n) {
   State x;
   x.u = s.u0;
   x.v = s.v0;
-  x.a = s.acceleration(x.u, x.v, false);
+  if (!o.has("a0-zero")) x.a = s.acceleration(x.u, x.v, false);
   out.rows.push_back(x);
   out.nodes.push_back(x);
   bool armed = true, waiting = false;

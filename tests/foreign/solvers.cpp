@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "printed.hpp"
+#include "assemblies/run.hpp"
 
 namespace {
 
@@ -77,6 +77,22 @@ void write(const std::string& path, const std::vector<State>& rows, const System
   std::ofstream(path, std::ios::binary) << text;
 }
 
+/// The table of a solver of any number of masses.
+void write_assembly(const std::string& path, const Options& o) {
+  const auto table = assemblies::printed(o);
+  const std::size_t width = o.has("no-velocities") ? 1 : 2;
+  std::string text = "t";
+  for (std::size_t i = 1; i < table[0].size(); ++i)
+    text += (i % width == 0 && width == 2 ? ",v" : ",u") + std::to_string((i + width - 1) / width);
+  text += '\n';
+  for (const auto& row : table)
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      append(text, row[i], o, i == 0);
+      text += i + 1 < row.size() ? ',' : '\n';
+    }
+  std::ofstream(path, std::ios::binary) << text;
+}
+
 /// Impacts as the solver reports them.
 void write_events(const std::string& path, const History& history) {
   std::ofstream out(path);
@@ -89,6 +105,7 @@ void solve_line(const std::string& line) {
   const auto blank = line.find(' ');
   const std::string path = line.substr(0, blank);
   const Options o(blank == std::string::npos ? "" : line.substr(blank));
+  if (o.has("problem")) return write_assembly(path, o);
   const System s = make_system(o);
   const long n = std::lround(o.number("n", 1000.0));
   History history;
