@@ -3,13 +3,13 @@
 % Octave 7 finds events by a chord between printed rows; that is its own, no fault added here.
 1;
 
-function value = word(words, name, otherwise)
-  value = otherwise;
+function value = word(words, name, fallback)
+  value = fallback;
   for i = 1:numel(words)
     pair = strsplit(words{i}, "=");
     if strcmp(pair{1}, name)
       value = pair{end};
-      if ! ischar(otherwise)
+      if ! ischar(fallback)
         value = str2double(value);
         if numel(pair) == 1, value = 1; end
       end
@@ -22,16 +22,18 @@ function p = read_problem(words)
   x = fscanf(file, "%g");
   fclose(file);
   n = x(1); p.n = n; p.contacts = x(2); p.end = x(4);
+  blocks = {[n, n], [n, n], [n, n], [1, n], [1, n], [p.contacts, n + 2], [x(3), 4]};
   at = 4;
-  function block = take(rows, columns)
-    block = reshape(x(at + 1:at + rows * columns), columns, rows)';
-    at += rows * columns;
+  for i = 1:numel(blocks)
+    size = blocks{i};
+    blocks{i} = reshape(x(at + 1:at + prod(size)), size(2), size(1))';
+    at += prod(size);
   end
-  p.M = take(n, n); p.C = take(n, n); p.K = take(n, n);
-  p.u0 = take(1, n)'; p.v0 = take(1, n)';
-  contacts = take(p.contacts, n + 2); loads = take(x(3), 4);
+  [p.M, p.C, p.K, u0, v0, contacts, loads] = blocks{:};
+  p.u0 = u0'; p.v0 = v0';
   p.G = contacts(:, 1:n); p.gap = contacts(:, n + 1); p.eta = contacts(:, n + 2);
-  p.eta(:) = word(words, "solver-eta", p.eta(1));
+  other = word(words, "solver-eta", NaN);
+  if ! isnan(other), p.eta(:) = other; end
   p.K(1, 1) *= word(words, "k11*", 1);
   p.C *= word(words, "c*", 1);
   p.L = zeros(n, rows(loads));

@@ -27,11 +27,13 @@ inline void apply_impacts(const Problem& p, const Options& o, Row& x,
     }
     const Vector P = solve(inertia, right);
     for (std::size_t k = 0; k < contacts.size(); ++k) {
-      Vector jump = P[k] * solve(p.M, p.contacts[contacts[k]].direction);
-      if (o.has("impulse-on-one"))
+      const Vector& direction = p.contacts[contacts[k]].direction;
+      Vector jump = P[k] * solve(p.M, direction);
+      const double whole = dot(direction, jump);
+      if (o.has("impulse-on-one") || o.has("wall"))
         for (std::size_t i = 0; i < jump.size(); ++i)
-          if (p.contacts[contacts[k]].direction[i] < 0.0) jump[i] = 0.0;
-      x.v = x.v + jump;
+          if (direction[i] < 0.0) jump[i] = 0.0;
+      x.v = x.v + (o.has("wall") ? whole / dot(direction, jump) : 1.0) * jump;
     }
   };
   if (o.has("one-after-another")) {
