@@ -52,6 +52,13 @@ class BadInput(CheckTest):
         self.refused("check", self.history("still.csv", change=still), code="not-this-case",
                      says="v1 starts at 0")
 
+    def test_from_another_state_than_that_of_a_problem_file_is_refused_as_well(self):
+        rows = run("respond", "piecewise", "--step", "0.01", "--format", "csv").stdout.splitlines()
+        cells = rows[1].split(",")
+        rows[1] = ",".join(cells[:1] + [x and str(float(x) + 0.3) for x in cells[1:]])
+        self.refused("check", self.write("piece.csv", "\n".join(rows)), "--case", "piecewise", code="not-this-case",
+                     says="that of piecewise at")
+
     def test_whose_cause_is_plain_names_cause_and_cure(self):
         def millimetres(row):
             return {name: x if name == "t" else 1000 * x for name, x in row.items()}

@@ -84,6 +84,16 @@ TEST_P(LadderCauses, ImpactsAtTheEndOfStepsAreLateByHalfAStepInTheMean) {
   }
 }
 
+TEST_P(LadderCauses, AnAccelerationThatIsNotRenewedLacksInTheNextStep) {
+  for (const std::string where : {"after impacts", "at the start"}) {
+    const auto* word = where == "at the start" ? " a0-zero" : " stale";
+    const auto found =
+        only(files_of(plan, std::string("method=newmark") + word), "acceleration-not-renewed");
+    EXPECT_EQ(found.text, where);
+    EXPECT_NEAR(found.value, 0.5, 0.02) << where;
+  }
+}
+
 TEST_P(LadderCauses, ImpactsAtTheStartOfStepsAreEarly) {
   const auto found =
       only(files_of(plan, "method=newmark contact=start-of-step"), "impact-at-step-end");

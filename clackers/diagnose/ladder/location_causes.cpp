@@ -182,7 +182,7 @@ std::optional<Diagnosis> one_share(const std::vector<double>& shares, std::size_
   const double share = measure::median(shares);
   const auto alike =
       std::ranges::count_if(shares, [&](double x) { return std::abs(x - share) < same * share; });
-  if (share < least_share || share > most_share || 5 * alike < 4 * std::ssize(shares)) return {};
+  if (share < least_share || share > most_share || 4 * alike < 3 * std::ssize(shares)) return {};
   auto found = diagnosis_of(Code("acceleration-not-renewed"), share, "1");
   found.confidence = 0.95;
   found.text = where;

@@ -19,8 +19,7 @@ inline void apply_impacts(const Problem& p, const Options& o, Row& x,
     for (const auto c : contacts) {
       inertia.emplace_back();
       for (const auto d : contacts)
-        inertia.back().push_back(
-            dot(p.contacts[c].direction, solve(p.M, p.contacts[d].direction)));
+        inertia.back().push_back(dot(p.contacts[c].direction, solve(p.M, p.contacts[d].direction)));
       const double closing = -p.speed(c, x.v);
       const double eta = p.contacts[c].eta - o.number("eta-slope", 0.0) * closing;
       right.push_back(factor * (1.0 + eta) * closing);

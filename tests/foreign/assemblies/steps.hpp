@@ -16,8 +16,8 @@ struct Row {
 using Map = std::function<Row(const Problem&, const Row&, double)>;
 
 /// Newmark's update with generalized-alpha's equilibrium; am = af = 0 is Newmark itself.
-inline Row alpha_step(const Problem& p, const Row& x, double h, double beta, double gamma, double am,
-                      double af) {
+inline Row alpha_step(const Problem& p, const Row& x, double h, double beta, double gamma,
+                      double am, double af) {
   const Vector u = x.u + h * x.v + h * h * (0.5 - beta) * x.a, v = x.v + h * (1.0 - gamma) * x.a;
   const Vector right = p.force(x.t + (1.0 - af) * h) - am * (p.M * x.a) -
                        p.C * ((1.0 - af) * v + af * x.v) - p.K * ((1.0 - af) * u + af * x.u);
