@@ -327,7 +327,17 @@ void SubjectStudy::decide() {
       facts.least_verdict = least;
       facts.cause_against = cause.code;
     }
-  if (other == facts.wrong_limit && !noise && facts.no_ladder.empty() &&
+  // What single precision makes is a floor that the digits alone do not tell.
+  bool single = false;
+  for (const auto& cause : subject_.diagnoses)
+    if (const double floor = cause.fact("floor");
+        cause.code == Code("single-precision").name() && floor > 0.0) {
+      single = true;
+      facts.finest->printed_floor = std::max(facts.finest->printed_floor, floor);
+      for (auto& level : ladder)
+        for (auto& run : level.runs) run.rounding_floor = std::max(run.rounding_floor, floor);
+    }
+  if (other == facts.wrong_limit && !noise && !single && facts.no_ladder.empty() &&
       facts.least_verdict == Verdict::not_claimed)
     return;
   facts.wrong_limit = other;
