@@ -145,7 +145,10 @@ std::string gain_text(const Diagnosis& cause) {
   const auto times = [](double factor) {
     return factor < 1000.0 ? fmt::format("{:.0f}", factor) : short_number(factor, 1);
   };
-  auto text = fmt::format(" ({} times closer", times(gain));
+  constexpr double explains_all = 50.0;
+  auto text = gain < explains_all
+                  ? fmt::format(" ({} of the error stays unexplained", percent(1.0 / gain, 2))
+                  : fmt::format(" ({} times closer", times(gain));
   const double other = cause.fact("runner-up-gain");
   if (!cause.runner_up.empty() && cause.runner_up != cause.code && other >= 2.0)
     text += fmt::format("; {}: {} times", cause.runner_up, times(other));

@@ -26,6 +26,13 @@ TEST(DiagnosisText, HasValueUncertaintyGainAndCure) {
             "[restitution-differs]");
 }
 
+TEST(DiagnosisText, TellsWhatShareOfTheErrorStaysUnexplained) {
+  Diagnosis cause{"damping-differs", 10.0, "%", 0.9, {{"gain", 49.0}}, "", ""};
+  EXPECT_TRUE(has(text(cause), " (2 % of the error stays unexplained): ")) << text(cause);
+  cause.evidence[0].value = 50.0;
+  EXPECT_TRUE(has(text(cause), " (50 times closer): ")) << text(cause);
+}
+
 TEST(DiagnosisText, RelativeChangesAreInPercent) {
   Diagnosis cause{"frequency-differs", 0.00498, "1", 0.9, {{"mass", 2.0}}, "", ""};
   EXPECT_TRUE(text(cause).starts_with("The natural frequency of mass 2 differs by +0.498 %: "))
