@@ -32,6 +32,12 @@ Option* Option::writes_file(std::string text) {
   return option_text(std::move(text));
 }
 
+Option* Option::divides(const std::vector<std::string>& list, std::vector<std::size_t>& at) {
+  divided = &list;
+  starts = &at;
+  return this;
+}
+
 namespace {
 
 Option* add(Command& command, Option option) {

@@ -22,6 +22,9 @@ struct Option {
   std::string explanation;
   std::string placeholder{};  ///< of the value: "n", "table|csv|json"
   ValueKind kind = ValueKind::text;
+  /// Of an option that divides a list of arguments: the list, and its length at each value.
+  const std::vector<std::string>* divided = nullptr;
+  std::vector<std::size_t>* starts = nullptr;
 
   bool is_flag() const { return std::holds_alternative<bool*>(target); }
   bool repeats() const { return std::holds_alternative<std::vector<std::string>*>(target); }
@@ -33,6 +36,8 @@ struct Option {
   /// The value is the name of a file that the command reads or writes.
   Option* reads_file(std::string text);
   Option* writes_file(std::string text);
+  /// Each value holds for the arguments of `list` behind it; `at` gets how many are before it.
+  Option* divides(const std::vector<std::string>& list, std::vector<std::size_t>& at);
 };
 
 /// What stands above the options of a command's help.

@@ -85,6 +85,7 @@ class Parser {
     // A shell variable that was not set; it does not stand for the default.
     if (value.empty())
       refuse_syntax(fmt::format("{} is given an empty value.", option.name), command_);
+    if (option.divided != nullptr) option.starts->push_back(option.divided->size());
     if (auto* const* many = std::get_if<std::vector<std::string>*>(&option.target)) {
       (*many)->push_back(value);
       return;

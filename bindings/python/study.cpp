@@ -88,13 +88,17 @@ py::tuple verify(const std::vector<std::string>& methods, const std::vector<Call
   });
 }
 
-py::tuple check(const py::list& histories, const py::list& events, const CaseChoice& chosen,
-                const std::vector<double>& steps, const std::vector<double>& tolerances,
-                const std::vector<std::string>& columns, const std::optional<std::string>& expect,
-                std::optional<double> tolerance, const std::string& command,
-                const py::object& progress) {
+py::tuple check(const std::vector<std::pair<std::string, py::list>>& subjects,
+                const py::list& events, const CaseChoice& chosen, const std::vector<double>& steps,
+                const std::vector<double>& tolerances, const std::vector<std::string>& columns,
+                const std::optional<std::string>& expect, std::optional<double> tolerance,
+                const std::string& command, const py::object& progress) {
   study::CheckRequest request;
-  for (const auto history : histories) request.files.push_back(source_of(history));
+  request.subjects.clear();
+  for (const auto& [name, histories] : subjects) {
+    auto& subject = request.subjects.emplace_back(study::NamedHistories{{}, name});
+    for (const auto history : histories) subject.files.push_back(source_of(history));
+  }
   for (const auto list : events) request.events.push_back(source_of(list));
   request.case_name = chosen.first;
   request.settings = read_settings("case", chosen.second);
@@ -115,7 +119,7 @@ py::tuple check(const py::list& histories, const py::list& events, const CaseCho
 void bind_study(py::module_& core) {
   core.def("verify", &verify, py::arg("methods"), py::arg("callables"), py::arg("cases"),
            py::arg("expect"), py::arg("options"), py::arg("command"), py::arg("progress"));
-  core.def("check", &check, py::arg("histories"), py::arg("events"), py::arg("case"),
+  core.def("check", &check, py::arg("subjects"), py::arg("events"), py::arg("case"),
            py::arg("steps"), py::arg("tolerances"), py::arg("columns"), py::arg("expect"),
            py::arg("tolerance"), py::arg("command"), py::arg("progress"));
   core.def("tolerances_from", &solvers::tolerances_from, py::arg("text"));

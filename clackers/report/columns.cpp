@@ -84,6 +84,10 @@ bool is_by_step(const record::Subject& subject) {
   return subject.resolution == record::Resolution::step;
 }
 
+bool is_history(const record::Subject& subject) {
+  return subject.kind == record::SubjectKind::histories;
+}
+
 Cell steps_per_fast_period(const Row& row) {
   if (!is_by_step(*row.subject)) return {};
   const double step = row.score.runs > 0 ? row.score.step : std::nan("");
@@ -140,7 +144,7 @@ constexpr auto error = Kind::error;
 // clang-format off
 const Column all[] = {
     {"case", "", "case", "", "name of the case", name, true, [](const Row& row) { return text(row.problem->problem.name); }},
-    {"method", "", "method", "", "as typed; \"histories\" for files that check reads", name, true, [](const Row& row) { return text(row.subject->name); }},
+    {"method", "", "method", "", "as typed; \"histories\" for files that check reads without a --name", name, true, [](const Row& row) { return text(row.subject->name); }},
     {"complete", "", "complete", "", "no: interrupted before the last level", word, true, [](const Row& row) { return yes_or_no(row.subject->complete); }},
     {"claim", "", "claimed", "", "behaviour, order and reason that the method claims, or --expect", word, true, [](const Row& row) { return text(claim_text(row.subject->claim)); }},
     {"claim_behaviour", "", "claimed", "", "behaviour that is claimed; empty where nothing is", word, true, [](const Row& row) { return row.subject->claim.behaviour != Behaviour::undecided ? text(to_string(row.subject->claim.behaviour)) : Cell(); }},
@@ -267,6 +271,7 @@ bool is_of_subject(const Column& asked) { return &asked < &column(first_of_run);
 Table summary_table(const record::CaseRecord& problem, record::SubjectKind kind,
                     const std::vector<std::string>& only) {
   const bool methods = kind == record::SubjectKind::method;
+  const bool is_alone = problem.subjects.size() == 1;
   const bool by_step = std::ranges::all_of(problem.subjects, is_by_step);
   Table table{methods
                   ? named({"method", "u_error", "order_range", "impacts", "impact_time_error",
@@ -274,11 +279,18 @@ Table summary_table(const record::CaseRecord& problem, record::SubjectKind kind,
                   : named({"file_name", "rows", by_step ? "step" : "tolerance", "digits", "u_error",
                            "v_error", "impacts", "impact_time_error", "impact_source"}),
               {}};
+  // Nothing but the number of steps is known of the work of others.
+  if (methods && std::ranges::all_of(problem.subjects, is_history))
+    std::erase(table.columns, &column("force_evaluations"));
+  if (!methods && !is_alone) {
+    std::erase(table.columns, &column("impact_source"));
+    table.columns.insert(table.columns.begin() + 1, &column("method"));
+  }
   for (const auto& group : groups_of(problem, only)) {
     if (methods && group.is_headed) table.heads.push_back({table.rows.size(), group});
     for (const auto* subject : group.subjects) {
-      // A program is a method of others.
-      if ((subject->kind != record::SubjectKind::histories) != methods) continue;
+      // A program is a method of others, and so are several sets of histories.
+      if (is_history(*subject) ? methods && is_alone : !methods) continue;
       if (methods)
         table.rows.push_back(subject_row(problem, *subject));
       else

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <span>
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
@@ -27,18 +29,36 @@ void require_one_each(const char* option, std::size_t given, std::size_t files) 
          fmt::format("one a history, {} here, in the same order", files), {}, "wrong-size");
 }
 
-void validate(const CheckRequest& request) {
-  if (request.files.empty())
+// The histories of all subjects.
+std::vector<input::Source> files_of(const CheckRequest& request) {
+  std::vector<input::Source> files;
+  for (const auto& subject : request.subjects)
+    files.insert(files.end(), subject.files.begin(), subject.files.end());
+  return files;
+}
+
+void validate_subjects(const std::vector<NamedHistories>& subjects) {
+  if (subjects.empty() || (subjects.size() == 1 && subjects[0].files.empty()))
     throw InputError("check needs a FILE with a time history.", "bad-syntax");
+  for (const auto& [files, name] : subjects) {
+    if (std::ranges::count(subjects, name, &NamedHistories::name) > 1)
+      refuse("check", "--name", name, "each name once, with all its files behind it", {},
+             "bad-syntax");
+    if (files.empty())
+      refuse("check", "--name", name, "a name with one FILE or more behind it", {}, "bad-syntax");
+  }
+}
+
+void validate(const CheckRequest& request) {
+  validate_subjects(request.subjects);
+  const auto files = files_of(request);
   const auto is_input = [](const input::Source& source) { return path_of(source) == "-"; };
-  if (std::ranges::count_if(request.files, is_input) +
-          std::ranges::count_if(request.events, is_input) >
-      1)
+  if (std::ranges::count_if(files, is_input) + std::ranges::count_if(request.events, is_input) > 1)
     throw InputError("check: - is given more than once; allowed: standard input for one file.",
                      "bad-syntax");
-  require_one_each("--events", request.events.size(), request.files.size());
-  require_one_each("--steps", request.steps.size(), request.files.size());
-  require_one_each("--tolerances", request.tolerances.size(), request.files.size());
+  require_one_each("--events", request.events.size(), files.size());
+  require_one_each("--steps", request.steps.size(), files.size());
+  require_one_each("--tolerances", request.tolerances.size(), files.size());
   if (!request.steps.empty() && !request.tolerances.empty())
     throw InputError("check: --steps and --tolerances; allowed: one of them.", "bad-syntax");
   for (const double step : request.steps) require_step("check --steps", step);
@@ -65,13 +85,14 @@ struct Entry {
 
 std::vector<Entry> read_all(const CheckRequest& request, const StudyCase& problem,
                             const Progress& progress, const std::atomic<bool>* interrupt) {
+  const auto files = files_of(request);
   double total = 0.0;
-  for (const auto& file : request.files) total += cost_of(file);
+  for (const auto& file : files) total += cost_of(file);
   ProgressMeter meter(total, progress);
   std::vector<Entry> entries;
-  for (std::size_t i = 0; i < request.files.size(); ++i) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
     HistoryTask task;
-    task.file = request.files[i];
+    task.file = files[i];
     if (!request.events.empty()) task.events = request.events[i];
     if (!request.steps.empty()) task.step = request.steps[i];
     if (!request.tolerances.empty()) task.step = request.tolerances[i];
@@ -95,9 +116,9 @@ std::vector<Entry> read_all(const CheckRequest& request, const StudyCase& proble
   return entries;
 }
 
-// Steps or tolerances of all runs; those that were given count before names and rows. True for
-// tolerances that are found in the names.
-bool choose_steps(std::vector<Entry>& entries, const StudyCase& problem) {
+// Steps or tolerances of all runs of a subject; those that were given count before names and rows.
+// True for tolerances that are found in the names.
+bool choose_steps(std::span<Entry> entries, const StudyCase& problem) {
   std::vector<NamedHistory> set;
   for (const auto& entry : entries)
     if (!entry.step_is_given) set.push_back({entry.named, entry.measured.run.file->spacing});
@@ -120,22 +141,47 @@ bool choose_steps(std::vector<Entry>& entries, const StudyCase& problem) {
   return by_tolerance;
 }
 
-void require_different_steps(const std::vector<Entry>& entries) {
+void require_different_steps(const std::string& who, std::span<const Entry> entries) {
   const auto step = [](const Entry& entry) { return entry.measured.run.score.step; };
   const auto [least, most] = std::ranges::minmax_element(entries, {}, step);
   if (entries.size() < 2 || step(*most) > 1.001 * step(*least)) return;
-  refuse("check", "step of every history", step(*most),
+  refuse(who, "step of every history", step(*most),
          "different steps, since several histories are levels of one method",
          "Name the steps with --steps h1,h2,... in the order of the files.");
 }
 
 // Not one of the histories is finite: the finest says why.
-void require_finite(const std::vector<Entry>& entries) {
+void require_finite(std::span<const Entry> entries) {
   const auto is_finished = [](const Entry& entry) { return entry.measured.run.score.finished; };
   if (std::ranges::any_of(entries, is_finished)) return;
   const auto finest = std::ranges::min_element(
       entries, {}, [](const Entry& entry) { return entry.measured.run.score.step; });
   throw InputError(finest->measured.run.score.failure, "not-finite");
+}
+
+record::Subject assessed(const CheckRequest& request, const std::string& name,
+                         std::span<Entry> entries, const StudyCase& problem) {
+  const bool is_alone = request.subjects.size() == 1;
+  record::Subject subject;
+  subject.kind = record::SubjectKind::histories;
+  subject.name = name;
+  subject.claim = request.expect.value_or(Claim{});
+  subject.tolerance = request.tolerance;
+  const bool by_tolerance = choose_steps(entries, problem) || !request.tolerances.empty();
+  if (by_tolerance) subject.resolution = record::Resolution::tolerance;
+  require_finite(entries);
+  require_different_steps(is_alone ? "check" : "check --name " + name, entries);
+  SubjectStudy study(problem, std::move(subject));
+  for (auto& entry : entries) {
+    auto& score = entry.measured.run.score;
+    const double step = score.step;
+    // Their only cost that can be compared.
+    if (!is_alone && !by_tolerance)
+      score.work.steps = std::max(1LL, std::llround(entry.measured.run.file->last / step));
+    study.take({{step, 0, by_tolerance ? step : 0.0}}, std::move(entry.measured));
+  }
+  study.assess(no_refinement);
+  return study.finish();
 }
 
 }  // namespace
@@ -146,27 +192,16 @@ record::Record check(const CheckRequest& request, const Progress& progress,
   const auto problem = study_case(cases::make(
       request.case_name.empty() ? cases::default_case() : request.case_name, request.settings));
   auto entries = read_all(request, problem, progress, interrupt);
-  record::Subject subject;
-  subject.kind = record::SubjectKind::histories;
-  subject.name = "histories";
-  subject.claim = request.expect.value_or(Claim{});
-  subject.tolerance = request.tolerance;
-  const bool by_tolerance = choose_steps(entries, problem) || !request.tolerances.empty();
-  if (by_tolerance) subject.resolution = record::Resolution::tolerance;
-  require_finite(entries);
-  require_different_steps(entries);
-  SubjectStudy study(problem, std::move(subject));
-  for (auto& entry : entries) {
-    const double step = entry.measured.run.score.step;
-    study.take({{step, 0, by_tolerance ? step : 0.0}}, std::move(entry.measured));
-  }
-  study.assess(no_refinement);
-
   record::CaseRecord result;
+  std::span<Entry> rest = entries;
+  for (const auto& [files, name] : request.subjects) {
+    result.subjects.push_back(assessed(request, name, rest.first(files.size()), problem));
+    rest = rest.subspan(files.size());
+  }
   result.problem = problem.summary;
   result.plan = no_refinement;
   result.response = reduced(tables::response_curve(problem.problem, tables::response_points));
-  result.subjects.push_back(study.finish());
+  if (result.subjects.size() > 1) result.profiles = record::profiles_of({&result, 1});
   record::Record record;
   record.command = "check";
   record.provenance = record::provenance(request.command);

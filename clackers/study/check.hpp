@@ -13,23 +13,30 @@
 
 namespace clackers::study {
 
+/// Histories of one solver; several are levels of one ladder.
+struct NamedHistories {
+  std::vector<input::Source> files;
+  std::string name = "histories";
+};
+
 /// What `clackers check` is asked for.
 struct CheckRequest {
-  /// One or more; several are levels of one method. "-" is standard input, one of them at most.
-  std::vector<input::Source> files;
+  /// Each with its own name and one history or more. "-" is standard input, one of all files at most.
+  std::vector<NamedHistories> subjects = std::vector<NamedHistories>(1);
   std::string case_name;  ///< empty: the default case
   cases::Settings settings;
-  std::vector<std::string> columns;   ///< names of the columns; empty: those of the files
+  std::vector<std::string> columns;  ///< names of the columns; empty: those of the files
+  // Over the histories of all subjects, in their order:
   std::vector<input::Source> events;  ///< impacts: none, or one a history
   std::vector<double> steps;          ///< none, or one a history [s]
   std::vector<double> tolerances;     ///< none, or one a history instead of a step, of (0, 1)
-  std::optional<Claim> expect;
-  std::optional<double> tolerance;  ///< largest allowed u_error, 0 < tolerance
-  std::string command;              ///< as typed
+  std::optional<Claim> expect;        ///< of every subject
+  std::optional<double> tolerance;    ///< largest allowed u_error, 0 < tolerance
+  std::string command;                ///< as typed
 };
 
-/// Assesses histories of any program against the exact motion of a case: a record of one case with
-/// one subject, the histories.
+/// Assesses histories of any program against the exact motion of a case: a record of one case. Of
+/// several subjects the numbers of steps are their work.
 ///
 /// A run's step is the one of `steps`; else the one in the source's name (h0.01.csv, dt=1e-3.npy,
 /// N400.csv; named_steps()); else the median time between rows. `tolerances`, or names like
@@ -42,7 +49,7 @@ struct CheckRequest {
 /// the tolerance; without both the finest history disagrees where it misses an impact, has one too
 /// many, or begins far from the reference.
 ///
-/// Throws InputError for what read_history refuses, histories none of which is finite, one that
+/// Throws InputError for what read_history refuses, subjects without a finite history, one that
 /// starts from another state than the case (not-this-case), and options that do not fit the files;
 /// FileError for files that cannot be read; Error (interrupted) when `interrupt` becomes true.
 record::Record check(const CheckRequest& request, const Progress& progress = {},

@@ -13,7 +13,7 @@ namespace {
 
 TEST_F(Check, FillsARecordOfOneCaseAndOneSubject) {
   CheckRequest request;
-  request.files = {write(0.01)};
+  request.subjects[0].files = {write(0.01)};
   request.command = "clackers check";
   const auto record = check(request);
   EXPECT_EQ(record.command, "check");
@@ -27,7 +27,7 @@ TEST_F(Check, FillsARecordOfOneCaseAndOneSubject) {
   EXPECT_EQ(subject.assessment.verdict, Verdict::not_claimed);
   const auto* run = subject.shown_run();
   ASSERT_NE(run, nullptr);
-  EXPECT_EQ(run->file->file, path_of(request.files[0]));
+  EXPECT_EQ(run->file->file, path_of(request.subjects[0].files[0]));
   EXPECT_EQ(run->file->rows, 2001);
   EXPECT_LT(run->score.u_error, 1e-14);
   EXPECT_EQ(run->score.impacts->matched, 6);
@@ -38,7 +38,8 @@ TEST_F(Check, FillsARecordOfOneCaseAndOneSubject) {
 
 TEST_F(Check, SeveralHistoriesAreLevelsCoarsestFirst) {
   CheckRequest request;
-  for (const double h : {0.005, 0.01, 0.0025, 0.00125}) request.files.push_back(write(h, 1.0));
+  for (const double h : {0.005, 0.01, 0.0025, 0.00125})
+    request.subjects[0].files.push_back(write(h, 1.0));
   request.expect = claim_from("proper:2");
   const auto& record = check(request);
   const auto& subject = record.cases[0].subjects[0];
@@ -49,9 +50,42 @@ TEST_F(Check, SeveralHistoriesAreLevelsCoarsestFirst) {
   EXPECT_NEAR(subject.assessment.displacement.order, 2.0, 0.01);
 }
 
+TEST_F(Check, SeveralSubjectsStandInOneRecordWithAProfile) {
+  CheckRequest request;
+  request.subjects = {{{write(0.01, 2.0), write(0.005, 2.0)}, "rough"},
+                      {{write(0.01, 1.0), write(0.0025, 1.0)}, "fine"}};
+  request.steps = {0.01, 0.005, 0.01, 0.0025};
+  request.expect = claim_from("proper:2");
+  const auto found = check(request).cases.at(0);
+  ASSERT_EQ(found.subjects.size(), 2u);
+  EXPECT_EQ(found.subjects[0].name, "rough");
+  EXPECT_EQ(found.subjects[1].name, "fine");
+  EXPECT_EQ(found.subjects[1].levels[1].step, 0.0025);
+  // 20 s; the work is known by steps only.
+  EXPECT_EQ(found.subjects[1].levels[1].runs[0].score.work.steps, 8000);
+  for (const auto& subject : found.subjects) EXPECT_EQ(subject.claim.order, 2.0);
+  ASSERT_EQ(found.profiles.size(), 1u);
+  EXPECT_EQ(found.profiles[0].counter, "steps");
+  EXPECT_EQ(found.profiles[0].methods[1].method, "fine");
+}
+
+TEST_F(Check, EverySubjectHasItsNameAndHistories) {
+  CheckRequest request;
+  const auto file = write(0.01);
+  request.subjects = {{{file}, "A"}, {{file}, "A"}};
+  EXPECT_REFUSED(check(request), "bad-syntax", "--name = A; allowed: each name once");
+  request.subjects[1] = {{}, "B"};
+  EXPECT_REFUSED(check(request), "bad-syntax", "--name = B; allowed: a name with one FILE");
+  request.subjects[1].files = {file, file};
+  EXPECT_REFUSED(check(request), "out-of-range", "check --name B: step of every history");
+  request.steps = {0.01, 0.005};
+  EXPECT_REFUSED(check(request), "wrong-size", "--steps = 2 of them; allowed: one a history, 3");
+}
+
 TEST_F(Check, NeighbouringStepsAreOneLevel) {
   CheckRequest request;
-  for (const double h : {0.02, 0.0175, 0.015, 0.01, 0.0085}) request.files.push_back(write(h, 1.0));
+  for (const double h : {0.02, 0.0175, 0.015, 0.01, 0.0085})
+    request.subjects[0].files.push_back(write(h, 1.0));
   const auto record = check(request);
   const auto& levels = record.cases[0].subjects[0].levels;
   ASSERT_EQ(levels.size(), 2u);
@@ -61,8 +95,8 @@ TEST_F(Check, NeighbouringStepsAreOneLevel) {
 
 TEST_F(Check, AHistoryThatIsNotFiniteIsAFailedRun) {
   CheckRequest request;
-  for (const double h : {0.005, 0.0025}) request.files.push_back(write(h, 1.0));
-  request.files.push_back(write(0.01, 1.0, "\n20.0,inf,0,0,0\n"));
+  for (const double h : {0.005, 0.0025}) request.subjects[0].files.push_back(write(h, 1.0));
+  request.subjects[0].files.push_back(write(0.01, 1.0, "\n20.0,inf,0,0,0\n"));
   const auto record = check(request);
   const auto& levels = record.cases[0].subjects[0].levels;
   ASSERT_EQ(levels.size(), 3u);
@@ -72,13 +106,13 @@ TEST_F(Check, AHistoryThatIsNotFiniteIsAFailedRun) {
   EXPECT_EQ(score.failure_code, "not-finite");
   EXPECT_NE(score.failure.find("u1 = \"inf\""), std::string::npos) << score.failure;
   EXPECT_TRUE(levels[1].runs[0].score.finished);
-  request.files = {request.files[2]};
+  request.subjects[0].files = {request.subjects[0].files[2]};
   EXPECT_REFUSED(check(request), "not-finite", "u1 = \"inf\"");
 }
 
 TEST_F(Check, TolerancesAreLevels) {
   CheckRequest request;
-  for (const double h : {0.01, 0.005, 0.0025}) request.files.push_back(write(h, 1.0));
+  for (const double h : {0.01, 0.005, 0.0025}) request.subjects[0].files.push_back(write(h, 1.0));
   request.tolerances = {1e-3, 1e-5, 1e-7};
   const auto record = check(request);
   const auto& subject = record.cases[0].subjects[0];
@@ -94,14 +128,14 @@ TEST_F(Check, TolerancesAreLevels) {
 
 TEST_F(Check, ALastLineWithoutLineFeedIsNoted) {
   CheckRequest request;
-  request.files = {write(0.01, 0.0, "")};
+  request.subjects[0].files = {write(0.01, 0.0, "")};
   const auto record = check(request);
   EXPECT_TRUE(has(*record.cases[0].subjects[0].shown_run(), "last-line-incomplete"));
 }
 
 TEST_F(Check, ProgressRisesToOne) {
   CheckRequest request;
-  request.files = {write(0.01), write(0.005)};
+  request.subjects[0].files = {write(0.01), write(0.005)};
   std::vector<double> shares;
   check(request, [&](double share) { shares.push_back(share); });
   ASSERT_FALSE(shares.empty());
@@ -111,7 +145,7 @@ TEST_F(Check, ProgressRisesToOne) {
 
 TEST_F(Check, StopsAfterAnInterrupt) {
   CheckRequest request;
-  request.files = {write(0.01)};
+  request.subjects[0].files = {write(0.01)};
   const std::atomic<bool> interrupt = true;
   try {
     check(request, {}, &interrupt);
@@ -123,7 +157,7 @@ TEST_F(Check, StopsAfterAnInterrupt) {
 
 TEST_F(Check, StandardInputServesOneFile) {
   CheckRequest request;
-  request.files = {"-", "-"};
+  request.subjects[0].files = {"-", "-"};
   EXPECT_THROW(check(request), InputError);
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "clackers/base/check.hpp"
@@ -23,7 +24,8 @@ namespace {
 
 struct CheckOptions {
   CommonOptions common;
-  std::vector<std::string> files, settings, events, requirements;
+  std::vector<std::string> files, names, settings, events, requirements;
+  std::vector<std::size_t> starts;  // of each name in the files
   std::string case_name, columns, steps, tolerances, expect, tolerance, metrics, report, baseline,
       problem;
   bool impacts = false;
@@ -43,9 +45,26 @@ std::vector<std::string> parts_of(std::string_view option, std::string_view text
   return parts;
 }
 
+// Each name with the files behind it.
+std::vector<study::NamedHistories> subjects_of(const CheckOptions& options) {
+  const auto& [files, starts] = std::tie(options.files, options.starts);
+  if (options.names.empty()) return {{.files = {files.begin(), files.end()}}};
+  if (starts.front() > 0)
+    refuse("check", "FILE before the first --name", files.front(),
+           "every FILE behind the --name of its solver", {}, "bad-syntax");
+  std::vector<study::NamedHistories> subjects;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const auto end = i + 1 < starts.size() ? starts[i + 1] : files.size();
+    subjects.push_back(
+        {{files.begin() + std::ptrdiff_t(starts[i]), files.begin() + std::ptrdiff_t(end)},
+         options.names[i]});
+  }
+  return subjects;
+}
+
 study::CheckRequest request_of(const CheckOptions& options, const std::string& line) {
   study::CheckRequest request;
-  request.files.assign(options.files.begin(), options.files.end());
+  request.subjects = subjects_of(options);
   request.case_name = case_of(options.case_name, options.problem);
   request.settings = read_settings(options.settings, options.problem);
   if (!options.columns.empty()) request.columns = parts_of("--columns", options.columns);
@@ -101,15 +120,18 @@ void add_check(Grammar& root) {
                    "  clackers check node.out --columns t,u1,u2 --events hits.csv "
                    "--tolerance 1e-3\n"
                    "  clackers check h*.npy --expect proper:2\n"
+                   "  clackers check --name A a*.csv --name B b*.csv --report both.html\n"
                    "  ./solver | clackers check - --case stop\n",
        .about =
            "Assesses time histories that any program wrote, against the exact motion of a case. "
            "Text with comma, semicolon, tab or blank separation, or NumPy's format (.npy); columns "
            "t, u1, v1, a1, u2, ... by header, fields or --columns; a time that appears twice has "
-           "both limits of a jump. Several files are levels of one method and give an order. "
+           "both limits of a jump. Several files are levels of one method and give an order; with --name several "
+           "methods stand in one table. "
            "Exit code 0 when the history agrees or nothing is expected, 1 when it disagrees or is "
            "of another motion, 3 when undecided.",
        .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
+                "  clackers check --name A FILE ... --name B FILE ... [...]\n"
                 "           [--columns t,u1,...] [--events FILE]\n"
                 "           [--steps h1,h2,...|--tolerances a,b,...]\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
@@ -117,6 +139,12 @@ void add_check(Grammar& root) {
                 "           [--baseline FILE.json]\n"});
   app->add_option("FILE", options->files, "Time histories, text or .npy; - for standard input.")
       ->reads_file("");
+  app->add_option("--name", options->names,
+                  "The name of the solver that wrote the FILEs behind it, up to the next --name: "
+                  "several solvers are judged in one table and page. Options with one value a "
+                  "file count over all files.")
+      ->option_text("NAME")
+      ->divides(options->files, options->starts);
   app->add_option("--case", options->case_name,
                   "The case (clackers list cases). Default: three-parameter.")
       ->option_text("CASE");

@@ -88,6 +88,42 @@ class Verdicts(CheckTest):
         self.assertLess(self.runs(record)[0]["v_error"], 1e-12)
 
 
+class Names(CheckTest):
+    def files(self):
+        """Two steps of the exact motion, as two solvers write them."""
+        return self.history("a0.01.csv"), self.history("b0.02.csv", every=2), self.history("b0.01.csv")
+
+    def test_make_subjects_of_the_files_behind_them(self):
+        one, *two = self.files()
+        record = self.checked("--name", "A", one, "--name", "B", *two, "--steps", "0.01,0.02,0.01")
+        subjects = record["cases"][0]["subjects"]
+        self.assertEqual([subject["name"] for subject in subjects], ["A", "B"])
+        self.assertEqual([[level["step"] for level in subject["levels"]] for subject in subjects],
+                         [[0.01], [0.02, 0.01]])
+        with open(SCHEMA) as file:
+            jsonschema.validate(record, json.load(file))
+        text = run("check", "--name", "A", one, "--name=B", *two).stdout
+        self.assertRegex(text, "\\ANot claimed: of 2 methods, 2 not claimed.\n")
+        self.assertRegex(text, "(?m)^B .* not claimed$")
+        self.assertRegex(text, "(?m)^b0.02.csv  B ")
+
+    def test_are_compared_with_a_baseline(self):
+        one, *two = self.files()
+        before = self.write("before.json", run("check", "--name", "A", one, "--format", "json").stdout)
+        text = run("check", "--name", "A", one, "--name", "B", *two, "--baseline", before).stdout
+        self.assertIn("1 of 2 methods\nchanged", text)
+        self.assertIn("B: is new", text)
+
+    def test_out_of_place_are_refused(self):
+        one, *two = self.files()
+        for arguments, says in (((one, "--name", "B", *two), "FILE before the first --name = " + one),
+                                (("--name", "A", "--name", "B", *two), "--name = A; allowed: a name with one FILE"),
+                                (("--name", "A", one, "--name", "A", *two), "--name = A; allowed: each name once")):
+            self.refused("check", *arguments, code="bad-syntax", says=says)
+        self.refused("check", "--name", "A", one, "--name", "B", *two, "--steps", "0.01,0.02", code="wrong-size",
+                     says="2 of them; allowed: one a history, 3 here")
+
+
 class Formats(CheckTest):
     def test_output_of_respond_is_valid_input(self):
         record = self.checked(self.write("r.csv", self.response))

@@ -177,7 +177,7 @@ TEST(OneScore, IsThatOfTheMethodTheCallableAndTheFile) {
       const Columns columns(*methods::method(name), test_case, expected.step);
       study::CheckRequest file;
       file.case_name = case_name;
-      file.files = {columns.history};
+      file.subjects[0].files = {columns.history};
       file.events = {columns.events};
       file.steps = {expected.step};
       const auto checked = study::check(file);

@@ -41,6 +41,18 @@ class Arrays(unittest.TestCase):
         self.assertAlmostEqual(record.diagnoses[0].value, 0.9, delta=1e-6)
         self.assertGreater(record.diagnoses[0].gain, 100)
 
+    def test_a_mapping_from_names_has_a_subject_for_each(self):
+        right, wrong = ([event_driven(PROBLEM, h, restitution=eta) for h in (0.02, 0.01)] for eta in (1.0, 0.9))
+        record = clackers.check({"right": right, "wrong": wrong[1]}, case=CASE, step=[0.02, 0.01, 0.01])
+        subjects = record.subjects
+        self.assertEqual([(each.name, each.verdict) for each in subjects],
+                         [("right", "not claimed"), ("wrong", "disagrees")])
+        self.assertEqual(record.table()["step"].tolist(), [0.02, 0.01, 0.01])
+        by_step = clackers.check({"a": {0.02: right[0], 0.01: right[1]}, "b": {0.01: wrong[1]}}, case=CASE)
+        self.assertEqual(by_step.table()["step"].tolist(), [0.02, 0.01, 0.01])
+        with self.assertRaisesRegex(clackers.InputError, "--name = right; allowed: a name with one FILE or more"):
+            clackers.check({"right": {}, "wrong": wrong}, case=CASE)
+
     def test_every_form_gives_the_same_error(self):
         t, u, v = event_driven(PROBLEM, 0.05)
         forms = {
@@ -200,7 +212,7 @@ class Refusals(unittest.TestCase):
         "a step of 0": (lambda: dict(t=exact()[0], u=exact()[1], step=0.0), "step-not-positive", "0"),
         "a tolerance of 0": (lambda: dict(t=exact()[0], u=exact()[1], tolerance=0.0), "out-of-range", "0"),
         "two of one step": (lambda: dict(t=[exact()[:2], exact()[:2]]), "out-of-range", "different steps"),
-        "keys that are text": (lambda: dict(t={"a": exact()[:2]}), "not-a-number", "key"),
+        "a name beside a step": (lambda: dict(t={"a": exact()[:2], 0.1: exact()[:2]}), "not-a-number", "key"),
         "keys beside steps": (lambda: dict(t={0.1: exact()[:2]}, step=0.1), "bad-syntax", "step"),
         "impacts that are text": (lambda: dict(t=exact()[0], u=exact()[1], impacts=["a"]), "not-a-number", "impacts"),
         "impacts backwards": (lambda: dict(t=exact()[0], u=exact()[1], impacts=[2.0, 1.0]), "not-sorted", ""),

@@ -120,7 +120,7 @@ def verify(
     progress: Callable[[float], object] | None,
 ) -> tuple[Record | None, BaseException | None]: ...
 def check(
-    histories: Sequence[Source],
+    subjects: Sequence[tuple[str, Sequence[Source]]],
     events: Sequence[Source],
     case: tuple[str, dict[str, float | str]],
     steps: Sequence[float],

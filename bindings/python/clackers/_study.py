@@ -149,6 +149,8 @@ def check(
     (time, dof) or (dof, time), (time,) for one mass; the column of a mass that is not known is NaN. A time that appears twice has both limits of a jump. ``check(history)`` takes whatever a callable of
     ``clackers.verify`` may return, or the path of a file (text, or NumPy's npy). Several histories are levels
     of one method and give an order: a list of histories or paths, or a mapping from steps [s] to them.
+    Several methods are judged in one record: a mapping from their names to the histories of each. Options with
+    one value a history then count over all histories.
 
     Options::
 
@@ -175,7 +177,10 @@ def check(
     chosen = _cases("check", case, parameters)
     if len(chosen) != 1:
         _core.refuse("check", "case", f"{len(chosen)} of them", "one case", "", "wrong-size")
-    given, keys = _histories(t, u, v, a)
+    named: Mapping[str, object] = t if u is None and _is_named(t) else {"histories": t}
+    parts = {title: _histories(histories, u, v, a) for title, histories in named.items()}
+    given = [history for histories, _ in parts.values() for history in histories]
+    keys = [key for _, steps in parts.values() for key in steps or ()] or None
     if keys is not None and (step is not None or tolerances is not None):
         _core.refuse("check", "step", "steps beside a mapping", "steps as keys, or step and tolerances", "", "bad-syntax")
     titles = _titles(name, len(given))
@@ -203,7 +208,7 @@ def check(
         steps = _core.read_vector("check", "step", step).tolist()
     with _ProgressLine("check", progress) as report:
         core, stop = _core.check(
-            histories=sources,
+            subjects=[(title, [sources.pop(0) for _ in histories]) for title, (histories, _) in parts.items()],
             events=[each for each in reported if each is not None],
             case=chosen[0],
             steps=steps,
@@ -212,7 +217,7 @@ def check(
             expect=None if expect is None else _core.read_text("check", "expect", expect),
             tolerance=None if tolerance is None else _core.read_number("check", "tolerance", tolerance),
             command=_line(
-                "check", _positional(given, keys, u, v, a), parameters, step=step, tolerances=tolerances, case=case,
+                "check", _positional(given, keys, u, v, a) if named is not t else ["histories"], parameters, step=step, tolerances=tolerances, case=case,
                 expect=expect, tolerance=tolerance, columns=columns, name=name,
             ),
             progress=report,
@@ -309,6 +314,11 @@ def _is_history(value: object) -> bool:
     if _is_path(value) or isinstance(value, (tuple, Mapping)) or hasattr(value, "t"):
         return True
     return isinstance(value, list) and bool(value) and all(hasattr(part, "t") or isinstance(part, Mapping) for part in value)
+
+
+def _is_named(value: object) -> TypeGuard[Mapping[str, object]]:
+    """Histories of several methods: their names are keys, and no name of a column is."""
+    return isinstance(value, Mapping) and "t" not in value and bool(value) and all(isinstance(key, str) for key in value)
 
 
 def _histories(t: object, u: object, v: object, a: object) -> tuple[list[object], list[float] | None]:

@@ -19,7 +19,7 @@ ShownCounter shown(judge::Counter counter) {
 
 bool is_counted(const record::CaseRecord& problem, judge::Counter counter) {
   for (const auto& subject : problem.subjects) {
-    if (subject.kind != record::SubjectKind::method) continue;
+    if (record::is_solver(subject.kind)) continue;
     for (const auto& level : subject.levels)
       for (const auto& run : level.runs)
         if (run.score.finished && judge::cost(run.score, counter) > 0.0) return true;

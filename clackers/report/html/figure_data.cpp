@@ -183,7 +183,7 @@ Json work(const record::CaseRecord& problem, const std::vector<ShownCounter>& co
 Json front(const record::CaseRecord& problem, const std::vector<ShownCounter>& counters) {
   measure::Ladder all;
   for (const auto& subject : problem.subjects)
-    if (subject.kind == record::SubjectKind::method)
+    if (!record::is_solver(subject.kind))
       for (auto& level : record::ladder_of(subject)) all.push_back(std::move(level));
   Json out = Json::array();
   for (const auto& counter : counters)

@@ -83,8 +83,11 @@ std::string failures_html(const record::CaseRecord& problem, const Place& place)
 
 std::string notes_html(const record::CaseRecord& problem) {
   std::string out;
-  for (const auto& subject : problem.subjects)
-    for (const auto& note : note_texts(subject)) out += fmt::format("<li>{}</li>\n", escape(note));
+  for (const auto& subject : problem.subjects) {
+    const auto who = problem.subjects.size() > 1 ? escape(subject.name) + ": " : std::string();
+    for (const auto& note : note_texts(subject))
+      out += fmt::format("<li>{}{}</li>\n", who, escape(note));
+  }
   return out.empty()
              ? out
              : "<h3>What limits the assessment</h3>\n<ul class=\"remarks\">\n" + out + "</ul>\n";

@@ -82,7 +82,8 @@ bool is_in_reports(const record::MetricResult& metric) {
   return row != measure::metrics().end() && row->in_reports;
 }
 
-void print_metrics(const record::Run& run, std::ostream& out, const Style& style) {
+void print_metrics(const std::string& who, const record::Run& run, std::ostream& out,
+                   const Style& style) {
   Cells rows;
   std::vector<std::string> missing;
   std::size_t hidden = 0;
@@ -106,7 +107,7 @@ void print_metrics(const record::Run& run, std::ostream& out, const Style& style
                     {fmt::format("{}", fmt::join(masses, "  "))}});
   }
   out << '\n';
-  print_table({{"metric"}, {"value", true}, {"unit"}, {"mass by mass"}}, rows, out, style);
+  print_table({{who + "metric"}, {"value", true}, {"unit"}, {"mass by mass"}}, rows, out, style);
   if (has_mark)
     print_wrapped("* need not tend to zero while impacts are a little early or late.", out, style);
   if (!missing.empty())
@@ -143,13 +144,15 @@ void print_failures(const record::CaseRecord& problem, std::ostream& out, const 
     }
 }
 
-void print_impacts(const record::Subject& subject, std::ostream& out, const Style& style) {
+void print_impacts(const std::string& who, const record::Subject& subject, std::ostream& out,
+                   const Style& style) {
   out << '\n';
   if (subject.impacts.empty())
     return print_wrapped(
-        "The rows show no impact: they need velocities, and several rows between impacts.", out,
-        style);
-  const auto sheet = impact_sheet(subject);
+        who + "The rows show no impact: they need velocities, and several rows between impacts.",
+        out, style);
+  auto sheet = impact_sheet(subject);
+  sheet.title = who + sheet.title;
   record::SheetRows rows(sheet);
   write_table(rows, out, style);
 }
@@ -166,12 +169,13 @@ void print_histories(const record::CaseRecord& problem, std::ostream& out, const
       out, style);
   for (const auto& subject : problem.subjects) {
     if (subject.kind != record::SubjectKind::histories) continue;
+    const auto who = problem.subjects.size() > 1 ? subject.name + ": " : std::string();
     const auto notes = note_texts(subject);
     if (!notes.empty()) out << '\n';
-    for (const auto& note : notes) print_wrapped(note, out, style);
+    for (const auto& note : notes) print_wrapped(who + note, out, style);
     const auto* shown = subject.shown_run();
-    if (shown != nullptr && !shown->metrics.empty()) print_metrics(*shown, out, style);
-    if (style.impacts) print_impacts(subject, out, style);
+    if (shown != nullptr && !shown->metrics.empty()) print_metrics(who, *shown, out, style);
+    if (style.impacts) print_impacts(who, subject, out, style);
   }
 }
 

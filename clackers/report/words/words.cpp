@@ -76,7 +76,8 @@ std::optional<NextOption> deciding_option(const record::CaseRecord& problem,
 
 // "proper:2" for histories without a claim that show an order; empty without one.
 std::string expectation(const record::Record& record) {
-  if (record.command != "check" || record::counts(record).not_claimed == 0) return {};
+  const auto counts = record::counts(record);
+  if (record.command != "check" || counts.not_claimed == 0 || counts.total() > 1) return {};
   const auto& fit = record.cases.front().subjects.front().assessment.displacement;
   const double half = 0.5 * std::round(2.0 * fit.order);
   const bool is_plain = half > 0.0 && std::abs(fit.order - half) <= 0.1;
@@ -214,7 +215,7 @@ VerdictLine verdict_line(const record::Record& record) {
     if (count > 0)
       parts +=
           fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, count == 1 ? singular : plural);
-  if (!is_check)
+  if (!is_check || all.total() > 1)
     line.counts = fmt::format("Of {}: {}.",
                               record.cases.size() == 1
                                   ? counted(all.total(), "method")
