@@ -99,8 +99,8 @@ double extrapolated_distance(const Octaves& e, double floor) {
 }
 
 // The last impact of the reference before which the error is no more than a small part of its largest.
-void find_departure(const ErrorCurve& finest, const model::Motion& motion, Limit& limit) {
-  constexpr double small_part = 0.02, least_part_of_run = 0.05;
+std::optional<Departure> departure_of(const ErrorCurve& finest, const model::Motion& motion) {
+  constexpr double small_part = 0.02;
   constexpr long long most_impacts = 2000;
   const double small = small_part * finest.largest();
   for (std::size_t row = 0; row < finest.size(); ++row) {
@@ -108,14 +108,10 @@ void find_departure(const ErrorCurve& finest, const model::Motion& motion, Limit
     for (const double one : error)
       if (std::abs(one) > small) {
         const auto count = std::min(motion.impact_count(finest.time(row)), most_impacts);
-        if (count == 0) return;
-        const double t = motion.impact(count).t;
-        if (t < least_part_of_run * motion.end()) return;
-        limit.departure = count;
-        limit.departure_time = t;
-        return;
+        return Departure{count, count > 0 ? motion.impact(count).t : finest.time(row)};
       }
   }
+  return {};
 }
 
 double order_of(const std::vector<Difference>& differences, double finest) {
@@ -173,7 +169,7 @@ std::optional<Octaves> octaves_from(const std::vector<ErrorCurve>& curves,
 Limit limit_of(std::span<const Observation> histories, const model::ImpactProblem<>& problem,
                const model::Motion& motion) {
   Limit limit;
-  if (histories.size() < 2) return limit;
+  if (histories.empty()) return limit;
   const auto scale = motion.peak();
   std::vector<ErrorCurve> curves;  // finest first
   std::vector<double> steps;
@@ -183,6 +179,8 @@ Limit limit_of(std::span<const Observation> histories, const model::ImpactProble
     curves.emplace_back(histories[i], motion, scale.u);
     steps.push_back(step);
   }
+  limit.departure = departure_of(curves.front(), motion);
+  if (histories.size() < 2) return limit;
   const auto& finest = histories.back();
   const double h = steps.front();
   limit.distance = curves.front().largest();
@@ -220,10 +218,7 @@ Limit limit_of(std::span<const Observation> histories, const model::ImpactProble
   const bool falls = limit.files >= 3 && keeps_error && earlier > 1.5 * octave;
   limit.wrong = octave <= most(no_order, small_difference) ||
                 (octave <= most(largest_order, largest_difference) && falls);
-  if (limit.wrong) {
-    find_departure(curves.front(), motion, limit);
-    return limit;
-  }
+  if (limit.wrong) return limit;
   // Every history of the finest octave that has its three coarser ones must say the same.
   int elsewhere = 0, chains = 0;
   for (std::size_t i = 0; i < curves.size() && steps[i] < 1.9 * h; ++i)

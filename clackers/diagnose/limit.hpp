@@ -1,12 +1,19 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "clackers/diagnose/observation.hpp"
 #include "clackers/model/motion.hpp"
 
 namespace clackers::diagnose {
+
+/// Where a history leaves the reference solution.
+struct Departure {
+  long long impact = 0;  ///< the last impact up to which it is right, from 1; 0: none
+  double time = 0.0;     ///< of that impact, else of the first row that is wrong [s]
+};
 
 /// What histories of different steps converge to.
 struct Limit {
@@ -17,10 +24,9 @@ struct Limit {
   /// tends to 0 for a wrong limit. Infinite where nothing could be compared.
   double difference = std::numeric_limits<double>::infinity();
   double order = std::numeric_limits<double>::quiet_NaN();  ///< with which differences fall
-  /// The impact up to which the finest history is right, from 1, and its instant [s]; 0 where it is
-  /// wrong from the start, or before its first impact.
-  long long departure = 0;
-  double departure_time = 0.0;
+  /// Where the error of the finest history exceeds a small part of its largest. Also known of one
+  /// history, and of one whose limit is right.
+  std::optional<Departure> departure;
   int files = 0;  ///< histories within eight times the finest step, the finest among them
 };
 

@@ -12,6 +12,7 @@
 #include "clackers/base/note.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
+#include "clackers/diagnose/limit.hpp"
 #include "clackers/judge/convergence/assessment.hpp"
 #include "clackers/judge/convergence/step_ladder.hpp"
 #include "clackers/measure/errors/score.hpp"
@@ -162,6 +163,8 @@ struct Subject {
   std::optional<SelfResult> self_convergence;
   /// Causes of what the runs show, strongest first; empty where nothing was found or looked for.
   std::vector<diagnose::Diagnosis> diagnoses;
+  /// Where the finest history leaves the exact motion; nothing for one that is not of another motion.
+  std::optional<diagnose::Departure> departure;
   /// The first impacts of the finest history, as its rows show them; empty where they do not.
   std::vector<diagnose::LocatedImpact> impacts;
 

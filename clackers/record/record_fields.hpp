@@ -180,6 +180,10 @@ void fields(auto& archive, Like<diagnose::LocatedImpact> auto& x) {
        x.stale_share);
 }
 
+void fields(auto& archive, Like<diagnose::Departure> auto& x) {
+  each(archive, "impact", x.impact, "time", x.time);
+}
+
 void fields(auto& archive, Like<Subject> auto& x) {
   each(archive, "kind", x.kind, "name", x.name);
   archive.added("integrator", x.integrator);
@@ -191,6 +195,7 @@ void fields(auto& archive, Like<Subject> auto& x) {
   archive.added("refinement", x.refinement);
   each(archive, "assessment", x.assessment, "self_convergence", x.self_convergence);
   archive.added("diagnoses", x.diagnoses);
+  archive.added("departure", x.departure);
   archive.added("impact_table", x.impacts);
 }
 

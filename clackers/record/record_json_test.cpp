@@ -66,8 +66,8 @@ using Structs =
                    HistoryFile, MetricResult, model::Work, measure::ImpactScore, measure::RunScore,
                    Level, Claim, judge::LadderFit, judge::Evidence, judge::Assessment,
                    judge::SelfConvergence, judge::SelfAgainstReference, judge::Richardson,
-                   SelfResult, diagnose::LocatedImpact, Subject, judge::ProfileStep,
-                   judge::MethodProfile, Profile, CaseRecord, Record>;
+                   SelfResult, diagnose::LocatedImpact, diagnose::Departure, Subject,
+                   judge::ProfileStep, judge::MethodProfile, Profile, CaseRecord, Record>;
 TYPED_TEST_SUITE(RecordFields, Structs);
 
 TYPED_TEST(RecordFields, HoldEveryMember) {

@@ -320,6 +320,10 @@ void SubjectStudy::decide() {
   // diagnosis finds in the rows of files, their errors may not show.
   const bool other =
       facts.wrong_limit || std::ranges::any_of(subject_.diagnoses, diagnose::is_other_system);
+  const bool has_other_impacts = std::ranges::any_of(assessment.evidence, [](const auto& found) {
+    return found.code == judge::EvidenceCode("other-impacts").name();
+  });
+  subject_.departure = other || has_other_impacts ? limit.departure : std::nullopt;
   const bool noise = std::ranges::any_of(subject_.diagnoses, diagnose::is_noise);
   for (const auto& cause : subject_.diagnoses)
     if (const auto least = least_verdict(cause, subject_.claim);

@@ -107,6 +107,18 @@ class Names(CheckTest):
         self.assertRegex(text, "(?m)^B .* not claimed$")
         self.assertRegex(text, "(?m)^b0.02.csv  B ")
 
+    def test_say_who_leaves_the_exact_motion_first(self):
+        # The masses pass through each other from the second impact on.
+        def through(row):
+            sign = (-1)**sum(hits[1] <= t < row["t"] for t in hits)
+            return {name: value if name in ("t", "side") else sign * value for name, value in row.items()}
+        hits = [float(row["t"]) for row in rows(self.hits)]
+        files = "--name", "A", self.history("through.csv", change=through), "--name", "B", self.history("exact.csv")
+        left, right = (subject["departure"] for subject in self.checked(*files, exit_code=1)["cases"][0]["subjects"])
+        self.assertEqual((left["impact"], left["time"], right), (2, hits[1], None))
+        self.assertIn("First to leave the exact motion: A at t = 4.72 s (impact 2); B stays within",
+                      run("check", *files, "--format", "table").stdout)
+
     def test_are_compared_with_a_baseline(self):
         one, *two = self.files()
         before = self.write("before.json", run("check", "--name", "A", one, "--format", "json").stdout)

@@ -124,6 +124,7 @@ inline Record sample_record() {
        "t,u2",
        "damping-differs"},
       {"wrong-limit", std::numeric_limits<double>::quiet_NaN(), "", 0.5, {}, "", ""}};
+  method.departure = {2, 4.7181};
   method.impacts = {{1.5727, 0, 0.5, 0.25, 0.5, 1e-9, 0.01, 3e-3, 0.3, 9e-3, 0.6366, 2e-4, tiny},
                     {4.7181, 1, 2.0, 1.0, 0.5, 1e-8, 0.02, -1e-3, -0.1, -3e-3, NAN, 5e-4, NAN}};
   auto histories = method;

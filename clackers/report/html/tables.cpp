@@ -175,7 +175,9 @@ std::string finding_html(const Finding& found) {
 }
 
 std::string verdicts_html(const record::CaseRecord& problem, const Place& place) {
-  auto out = is_check(problem, place) ? std::string() : diagnoses_html(problem, place);
+  const auto first = departure_text(problem);
+  auto out = first.empty() ? first : fmt::format("<p>{}</p>\n", escape(first));
+  if (!is_check(problem, place)) out += diagnoses_html(problem, place);
   const auto methods = summary_table(problem, record::SubjectKind::method);
   if (!methods.rows.empty())
     out += html_table(

@@ -102,6 +102,9 @@ std::vector<std::string> change_texts(const study::SubjectChange& change);
 
 /// "h = 0.01 s", or "tolerance 1e-5" of a solver that is given one.
 std::string resolution_text(const record::Subject& subject, double step, int digits = 3);
+/// Of several solvers of others: which of them leaves the exact motion first, and which stays how
+/// close. Empty where none leaves it.
+std::string departure_text(const record::CaseRecord& problem);
 /// Whether a cause of that code is among those shown, so that nothing else need say it.
 bool is_shown_cause(const record::Subject& subject, std::string_view code);
 

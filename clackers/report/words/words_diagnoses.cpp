@@ -1,7 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "clackers/base/codes.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
+#include "clackers/report/format.hpp"
 #include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
@@ -21,6 +25,30 @@ bool is_shown_cause(const record::Subject& subject, std::string_view code) {
                                               cause.code == Code("single-precision").name();
                        return is_digits || cause.code == code;
                      });
+}
+
+std::string departure_text(const record::CaseRecord& problem) {
+  std::vector<const record::Subject*> left;
+  std::string others;
+  for (const auto& subject : problem.subjects) {
+    const double error = record::worst_of_finest(subject).worst.u_error;
+    if (subject.kind == record::SubjectKind::method || std::isnan(error)) continue;
+    if (subject.departure)
+      left.push_back(&subject);
+    else
+      others += fmt::format("; {} stays within {} of the largest envelope to its end", subject.name,
+                            scientific(error));
+  }
+  if (left.empty() || (left.size() == 1 && others.empty())) return {};
+  std::ranges::stable_sort(left, {}, [](const auto* one) { return one->departure->time; });
+  std::string text = "First to leave the exact motion";
+  for (const auto* one : left) {
+    const auto& [impact, time] = *one->departure;
+    text += fmt::format("{} {} at t = {} s ({})", one == left.front() ? ":" : "; then", one->name,
+                        short_number(time, 3),
+                        impact > 0 ? fmt::format("impact {}", impact) : "before any impact");
+  }
+  return text + others + ".";
 }
 
 std::vector<Finding> diagnosis_texts(const record::Subject& subject) {

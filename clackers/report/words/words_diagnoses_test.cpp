@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "clackers/diagnose/diagnosis.hpp"
+#include "clackers/report/testing/sample_record.hpp"
 #include "clackers/report/testing/written.hpp"
 #include "clackers/report/words/words.hpp"
 
@@ -57,6 +58,31 @@ TEST(DiagnosisText, NamesWhatTheCureNeeds) {
                   .starts_with("Displacements are 7 times those of the case: convert"));
   EXPECT_TRUE(text({"impact-missed", 3.0, "", 0.9, {{"time", 7.5}}, "", ""})
                   .starts_with("Impact 3 is missing (t = 7.5 s): "));
+}
+
+TEST(DepartureText, OrdersSolversByTheTimeTheyLeaveTheExactMotion) {
+  auto problem = sample_check().cases[0];
+  auto& subjects = problem.subjects;
+  subjects.resize(1);
+  subjects[0].name = "A";
+  subjects[0].departure = {2, 4.7181};
+  EXPECT_EQ(departure_text(problem), "");  // nothing to compare with
+  auto& run = subjects[0].levels.back().runs.back();
+  subjects[0].levels = {{run.score.step, {run}}};
+  subjects[0].levels[0].runs[0].score.u_error = 2.6e-7;
+  subjects.insert(subjects.end(), 2, subjects[0]);
+  subjects[1].name = "B";
+  subjects[1].departure = {0, 0.31};
+  subjects[2].name = "C";
+  subjects[2].departure.reset();
+  EXPECT_EQ(departure_text(problem),
+            "First to leave the exact motion: B at t = 0.31 s (before any impact); then A at t = "
+            "4.72 s (impact 2); C stays within 2.6e-7 of the largest envelope to its end.");
+  auto record = sample_check();
+  record.cases[0] = problem;
+  EXPECT_TRUE(has(written(record, Format::table), "First to leave the exact motion: B"));
+  subjects[0].departure = subjects[1].departure = {};
+  EXPECT_EQ(departure_text(problem), "");
 }
 
 TEST(DiagnosisText, SaysHowLateAShiftIs) {
