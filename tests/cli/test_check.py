@@ -116,7 +116,7 @@ class Names(CheckTest):
         files = "--name", "A", self.history("through.csv", change=through), "--name", "B", self.history("exact.csv")
         left, right = (subject["departure"] for subject in self.checked(*files, exit_code=1)["cases"][0]["subjects"])
         self.assertEqual((left["impact"], left["time"], right), (2, hits[1], None))
-        self.assertIn("First to leave the exact motion: A at t = 4.72 s (impact 2); B stays within",
+        self.assertIn("First to leave the exact motion: A at t = 4.72 s (impact 2); B stays on it to",
                       run("check", *files, "--format", "table").stdout)
 
     def test_are_compared_with_a_baseline(self):

@@ -31,13 +31,15 @@ std::string departure_text(const record::CaseRecord& problem) {
   std::vector<const record::Subject*> left;
   std::string others;
   for (const auto& subject : problem.subjects) {
-    const double error = record::worst_of_finest(subject).worst.u_error;
-    if (subject.kind == record::SubjectKind::method || std::isnan(error)) continue;
+    const auto score = record::worst_of_finest(subject).worst;
+    if (subject.kind == record::SubjectKind::method || std::isnan(score.u_error)) continue;
     if (subject.departure)
       left.push_back(&subject);
+    else if (score.u_error <= score.rounding_floor)
+      others += fmt::format("; {} stays on it to rounding", subject.name);
     else
       others += fmt::format("; {} stays within {} of the largest envelope to its end", subject.name,
-                            scientific(error));
+                            scientific(score.u_error));
   }
   if (left.empty() || (left.size() == 1 && others.empty())) return {};
   std::ranges::stable_sort(left, {}, [](const auto* one) { return one->departure->time; });
