@@ -97,7 +97,7 @@ void check_and_report(std::string_view bytes) {
     constexpr std::string_view mark = "events\n";
     const bool events = sections[i].starts_with(mark);
     files.push_back(std::make_unique<MemoryFile>(sections[i].substr(events ? mark.size() : 0)));
-    (events ? request.events : request.files).push_back(files.back()->path());
+    (events ? request.events : request.subjects.front().files).push_back(files.back()->path());
   }
   write_all(study::check(request));
 }
