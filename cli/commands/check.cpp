@@ -10,6 +10,8 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/report/write.hpp"
+#include "clackers/study/check/against.hpp"
 #include "cli/command.hpp"
 #include "cli/files/record_output.hpp"
 #include "cli/files/report_page.hpp"
@@ -24,8 +26,8 @@ namespace {
 
 struct CheckOptions {
   CommonOptions common;
-  std::vector<std::string> files, names, settings, events, requirements;
-  std::vector<std::size_t> starts;  // of each name in the files
+  std::vector<std::string> files, names, against, settings, events, requirements;
+  std::vector<std::size_t> starts, against_starts;  // of each name, of --against, in the files
   std::string case_name, columns, steps, tolerances, expect, tolerance, metrics, report, baseline,
       problem;
   bool impacts = false;
@@ -43,6 +45,12 @@ std::vector<std::string> parts_of(std::string_view option, std::string_view text
     if (more) text.remove_prefix(comma + 1);
   }
   return parts;
+}
+
+std::vector<double> numbers_of(std::string_view option, std::string_view text) {
+  std::vector<double> numbers;
+  for (const auto& part : parts_of(option, text)) numbers.push_back(read_number(option, part));
+  return numbers;
 }
 
 // Each name with the files behind it.
@@ -69,12 +77,9 @@ study::CheckRequest request_of(const CheckOptions& options, const std::string& l
   request.settings = read_settings(options.settings, options.problem);
   if (!options.columns.empty()) request.columns = parts_of("--columns", options.columns);
   request.events.assign(options.events.begin(), options.events.end());
-  if (!options.steps.empty())
-    for (const auto& part : parts_of("--steps", options.steps))
-      request.steps.push_back(read_number("--steps", part));
+  if (!options.steps.empty()) request.steps = numbers_of("--steps", options.steps);
   if (!options.tolerances.empty())
-    for (const auto& part : parts_of("--tolerances", options.tolerances))
-      request.tolerances.push_back(read_number("--tolerances", part));
+    request.tolerances = numbers_of("--tolerances", options.tolerances);
   if (!options.expect.empty()) request.expect = study::claim_from(options.expect);
   if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
   if (!options.metrics.empty() && options.metrics != "all")
@@ -83,12 +88,45 @@ study::CheckRequest request_of(const CheckOptions& options, const std::string& l
   return request;
 }
 
+// Without an exact motion: the exit code is that of the tolerance.
+int run_against(const CheckOptions& options) {
+  using Given = std::pair<const char*, bool>;
+  for (const auto& [name, is_given] :
+       {Given{"--name", !options.names.empty()}, Given{"--case", !options.case_name.empty()},
+        Given{"--set", !options.settings.empty()}, Given{"--problem", !options.problem.empty()},
+        Given{"--events", !options.events.empty()}, Given{"--expect", !options.expect.empty()},
+        Given{"--tolerances", !options.tolerances.empty()},
+        Given{"--metrics", !options.metrics.empty()}, Given{"--impacts", options.impacts},
+        Given{"--require", !options.requirements.empty()},
+        Given{"--report", !options.report.empty()}, Given{"--baseline", !options.baseline.empty()},
+        Given{"a second --against", options.against.size() > 1}})
+    if (is_given)
+      refuse("check", "--against", fmt::format("beside {}", name),
+             "--columns, --steps, --tolerance, --format and --out beside it",
+             "There is no exact motion to judge by.", "bad-syntax");
+  study::AgainstRequest request;
+  const auto middle = options.files.begin() + std::ptrdiff_t(options.against_starts.front());
+  request.sets[0].assign(options.files.begin(), middle);
+  request.sets[1].assign(options.against.begin(), options.against.end());
+  request.sets[1].insert(request.sets[1].end(), middle, options.files.end());
+  if (!options.columns.empty()) request.columns = parts_of("--columns", options.columns);
+  if (!options.steps.empty()) request.steps = numbers_of("--steps", options.steps);
+  if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
+  Results results(options.common, OnInterrupt::stop);
+  const auto found = study::check_against(request, &interrupt_flag());
+  report::write(found.sheets, "clackers/against/1", results.format(), results.stream(),
+                results.style());
+  results.finish();
+  return found.is_within ? 0 : 1;
+}
+
 record::Record run_check(const CheckOptions& options, const study::CheckRequest& request) {
   ProgressLine progress("check", options.common.quiet);
   return study::check(request, progress.callback(), &interrupt_flag());
 }
 
 int run(const CheckOptions& options, const std::string& line) {
+  if (!options.against.empty()) return run_against(options);
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
   const auto baseline = baseline_of(options.baseline, request);
@@ -132,6 +170,7 @@ void add_check(Grammar& root) {
            "of another motion, 3 when undecided.",
        .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
                 "  clackers check --name A FILE ... --name B FILE ... [...]\n"
+                "  clackers check FILE ... --against FILE ... [--tolerance x]\n"
                 "           [--columns t,u1,...] [--events FILE]\n"
                 "           [--steps h1,h2,...|--tolerances a,b,...]\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
@@ -145,6 +184,12 @@ void add_check(Grammar& root) {
                   "file count over all files.")
       ->option_text("NAME")
       ->divides(options->files, options->starts);
+  app->add_option("--against", options->against,
+                  "Compare the FILEs before it with those behind it, of a motion that nobody "
+                  "knows: displacements of the finest two at common times, and each set with "
+                  "itself. --tolerance is the largest difference over the largest displacement.")
+      ->reads_file("FILE ...")
+      ->divides(options->files, options->against_starts);
   app->add_option("--case", options->case_name,
                   "The case (clackers list cases). Default: three-parameter.")
       ->option_text("CASE");

@@ -136,6 +136,45 @@ class Names(CheckTest):
                      says="2 of them; allowed: one a history, 3 here")
 
 
+class Against(CheckTest):
+    def against(self, *arguments, exit_code=0):
+        done = run("check", *arguments, "--format", "json")
+        self.assertEqual((done.returncode, done.stderr), (exit_code, ""))
+        return [[dict(zip([column["name"] for column in sheet["columns"]], row)) for row in sheet["rows"]]
+                for sheet in json.loads(done.stdout)["sheets"]]
+
+    def test_another_set_is_compared_at_common_times_and_with_itself(self):
+        exact = self.history("exact.csv", every=2)
+        # The finest of the converging files is (8 h)^2 sin t away in u1, h = 0.01/16; its rows are every 0.01 s.
+        h = 0.01 / 16
+        files = self.converging(levels=5)
+        masses, sets = self.against(*files, "--against", exact)
+        self.assertAlmostEqual(masses[0]["difference"], (8 * h)**2, delta=1e-4 * h**2)
+        self.assertAlmostEqual(math.sin(masses[0]["time"])**2, 1, delta=1e-3)
+        self.assertEqual((masses[0]["since"], masses[1]["difference"]), (None, 0))
+        self.assertAlmostEqual(sets[0]["order"], 2, delta=0.01)
+        self.assertEqual((sets[1]["histories"], sets[1]["order"]), (1, None))
+
+    def test_a_difference_that_is_visible_has_its_first_time(self):
+        late = self.history("late.csv", change=lambda row: row | {"u2": row["u2"] + 0.01 * (row["t"] > 7.005)})
+        masses, _ = self.against(late, "--against", self.history("exact.csv"))
+        self.assertEqual([mass["since"] for mass in masses], [None, 7.01])
+
+    def test_the_exit_code_is_that_of_the_tolerance(self):
+        files = self.converging(levels=1) + ["--against", self.history("exact.csv")]
+        self.against(*files, "--tolerance", "0.0065")
+        self.against(*files, "--tolerance", "0.0063", exit_code=1)
+        self.assertIn("Agreement is no proof", run("check", *files).stdout)
+
+    def test_what_cannot_be_compared_is_refused(self):
+        exact, other = self.history("exact.csv"), self.history("other.csv", change=lambda row: row | {"t": 1.001 * row["t"]})
+        self.refused("check", exact, "--against", exact, "--case", "stop", code="bad-syntax", says="beside --case")
+        self.refused("check", "--against", exact, code="bad-syntax", says="a FILE before it and one behind it")
+        self.refused("check", exact, "--against", other, code="wrong-size", says="write both at the same times")
+        self.refused("check", exact, "--against", self.history("one.csv", columns=("t", "u1")), code="no-column", says="no u2")
+        self.refused("check", exact, "--against", other, exact, "--steps", "0.1,0.2", code="wrong-size", says="3 here")
+
+
 class Formats(CheckTest):
     def test_output_of_respond_is_valid_input(self):
         record = self.checked(self.write("r.csv", self.response))

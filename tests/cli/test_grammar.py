@@ -24,7 +24,7 @@ class Help(CommandTest):
     def test_describes_every_option_of_the_grammar(self):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
         own = {"list": [], "explain": [], "show": ["--problem", "--set", "--threshold", "--report"],
-               "check": ["--name", "--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
+               "check": ["--name", "--against", "--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
                          "--tolerance", "--tolerances", "--metrics", "--impacts", "--report", "--require", "--baseline"],
                "paper": [],
                "campaign": ["--database", "--shard", "--jobs", "--yes", "--slurm", "--shards", "--sbatch", "--dry-run",
