@@ -277,6 +277,8 @@ const std::vector<Implication>& implications() {
       {{"output-resampled"},
        {"velocity-order-lower", "impact-interpolated", "impact-at-step-end", "contact-in-tension",
         "noise-floor"}},
+      // The velocity of a row at an impact is either limit.
+      {{"commensurate-steps"}, {"velocity-order-lower"}},
       {{"printed-digits"}, {"noise-floor", "impact-tolerance"}},
       {{"single-precision"}, {"printed-digits", "noise-floor", "impact-tolerance"}},
       {{"wrong-limit"}, of_method},

@@ -61,8 +61,10 @@ class Problem:
         G = self.G[active]
         impulse = numpy.linalg.solve(G @ self.inverse @ G.T, -(1 + self.eta[active]) * (G @ x[n:]))
         jump = self.inverse @ G.T @ impulse
-        if one_mass:
+        if one_mass:  # as from a wall: restitution is right, momentum is not
+            whole = G @ jump
             jump[1:] = 0.0
+            jump[0] *= (whole / (G @ jump))[0]
         x[n:] += jump
 
 
@@ -100,7 +102,7 @@ def run(words):
             rows.extend(answer.sol(reached).T if len(reached) else [])
         else:
             times.extend(answer.t)
-            rows.extend(answer.y.T)
+            rows.extend(answer.y.T if len(answer.t) else [])
         if answer.status != 1 or impacts > 200:
             break
         first = min((found[0], i) for i, found in enumerate(answer.t_events) if len(found))[1]
@@ -108,7 +110,7 @@ def run(words):
         if "last-row" in number:
             state = numpy.array(rows[-1])
         gaps, speeds = p.G @ state[:n] - p.gap, p.G @ state[n:]
-        active = [i for i in range(len(gaps)) if i == first or (gaps[i] < 1e-4 and speeds[i] < 0)]
+        active = [i for i in range(len(gaps)) if i == first or (gaps[i] < 1e-4 + 10 * tolerance and speeds[i] < 0)]
         p.strike(state, active, "one-mass" in number)
         impacts += 1
         if not path:

@@ -56,7 +56,8 @@ class Locator {
   }
 
   std::optional<LocatedImpact> located(const FreeState& before, const FreeState& after,
-                                       const model::Contact<>& contact) const {
+                                       const model::Contact<>& contact,
+                                       const std::vector<model::Contact<>>& contacts) const {
     const double reach = 2.0 * (after.t - before.t);
     const auto closing = closed(before, contact, reach), opening = closed(after, contact, -reach);
     if (!closing || !opening) return {};
@@ -75,13 +76,29 @@ class Locator {
     found.defect = difference(now.u - closing->u, now.v - expected) / found.closing;
     const Eigen::VectorXd stale =
         (after.t - found.t) * motion_.response(motion_.system().damping * (expected - closing->v));
-    if (stale.squaredNorm() > 0.0)
+    constexpr double in_time = 0.05;
+    if (stale.squaredNorm() > 0.0 && std::abs(found.delay) < in_time * (after.t - found.t))
       found.stale_share = (now.v - expected).dot(stale) / stale.squaredNorm();
-    const Eigen::VectorXd jump = opening->v - closing->v, momentum = mass_ * jump;
-    const double impulse = contact.direction.dot(jump) / contact.direction.dot(response);
-    const Eigen::VectorXd rest = jump - impulse * response;
-    found.momentum_defect = std::sqrt(std::max(0.0, rest.dot(mass_ * rest)) / jump.dot(momentum));
+    // What flies on for that long before it is struck has another speed by then.
+    const auto later = moved(*closing, found.duration);
+    found.restitution_error = std::abs(contact.gap_rate(later.v) + found.closing) / found.closing;
+    const Eigen::VectorXd jump = opening->v - closing->v;
+    found.momentum_defect = beside_impulses(jump, contacts) / kinetic(jump);
     return found;
+  }
+
+  double kinetic(const Eigen::VectorXd& v) const { return std::sqrt(v.dot(mass_ * v)); }
+
+  // What impulses along all contacts leave of a change of velocities.
+  double beside_impulses(const Eigen::VectorXd& jump,
+                         const std::vector<model::Contact<>>& contacts) const {
+    Eigen::MatrixXd along(jump.size(), std::ssize(contacts));
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      along.col(Eigen::Index(c)) = motion_.response(contacts[c].direction);
+    const Eigen::MatrixXd weighted = along.transpose() * mass_;
+    const Eigen::VectorXd impulses =
+        (weighted * along).completeOrthogonalDecomposition().solve(weighted * jump);
+    return kinetic(jump - along * impulses);
   }
 
   double difference(const Eigen::VectorXd& u, const Eigen::VectorXd& v) const {
@@ -154,7 +171,7 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
   const auto& sample = seen.sample;
   if (sample.v.empty() || !sample.impacts || problem.contacts.empty()) return found;
   const Locator locator(problem);
-  std::vector<double> times;
+  std::vector<double> times, lengths;
   for (const auto& impact : *sample.impacts) times.push_back(impact.t);
   const auto alone = [&](double from, double to) {
     return std::ranges::upper_bound(times, to) - std::ranges::lower_bound(times, from);
@@ -170,12 +187,12 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
     const auto around = rows_around(rows, impact.t, locator, contact);
     if (!around || alone(rows.t[around->before], rows.t[around->after]) > 1) continue;
     auto one = locator.located(locator.row(rows, around->before), locator.row(rows, around->after),
-                               contact);
+                               contact, problem.contacts);
     if (!one) continue;
     one->contact = impact.contact;
     one->delay_steps = one->delay / (seen.facts.step > 0.0 ? seen.facts.step : seen.facts.spacing);
     // The flights on both sides; what they lose is known below.
-    one->restitution_error = rows.t[around->after] - rows.t[around->before];
+    lengths.push_back(rows.t[around->after] - rows.t[around->before]);
     one->closed_speed = closed_speed(rows, *around, locator, contact);
     found.impacts.push_back(*one);
   }
@@ -199,9 +216,11 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
   }
   found.uncertainty = measure::median(gaps);
   found.flight_defect = measure::median(defects);
-  for (auto& impact : found.impacts)
-    impact.restitution_error *=
-        (1.0 + impact.restitution) * found.flight_defect * speed / impact.closing;
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    auto& impact = found.impacts[i];
+    impact.restitution_error +=
+        lengths[i] * (1.0 + impact.restitution) * found.flight_defect * speed / impact.closing;
+  }
   return found;
 }
 

@@ -18,8 +18,9 @@ struct LocatedImpact {
   int contact = 0;       ///< row of ImpactProblem::contacts
   double closing = 0.0;  ///< closing speed there [m/s], positive
   double opening = 0.0;  ///< speed with which the flight after it opens the gap [m/s], positive
-  double restitution = 0.0, restitution_error = 0.0;  ///< opening over closing, and its half width
-  /// Part of the change of momentum that an impulse along the contact cannot give: |p - J b| over
+  /// Opening over closing, and its half width: of the flights on both sides, and of a late impact.
+  double restitution = 0.0, restitution_error = 0.0;
+  /// Part of the change of momentum that impulses along the contacts cannot give: |p - G^T J| over
   /// |p|, p = M (v(+) - v(-)), in the norm of the kinetic energy. 0 for one mass.
   double momentum_defect = 0.0;
   double delay = 0.0;        ///< of the impact [s]; negative where it came too early

@@ -75,15 +75,19 @@ std::vector<FlightChange> changes_of(const System& system) {
     all.back().cause.evidence.push_back({"mass", mass + 1.0});
     return all.back();
   };
+  const auto* load = system.add_load.target<model::HarmonicLoad>();
   for (int mass = 0; mass < system.dof(); ++mass) {
     add(Code("mass-differs"), "%", mass).parameters.push_back([=](System& changed, double d) {
       changed.mass(mass, mass) /= 1.0 - d;  // forces act by 1 / mass
     });
+    const auto is_here = [&](const model::HarmonicForce& force) {
+      return force.dof == mass && force.frequency == 0.0;
+    };
+    if (load != nullptr && std::ranges::any_of(load->forces(), is_here)) continue;
     add(Code("constant-force"), "N", mass).parameters.push_back([=](System& changed, double d) {
       add_force(changed, {mass, d, 0.0, 0.0});
     });
   }
-  const auto* load = system.add_load.target<model::HarmonicLoad>();
   if (load == nullptr) return all;
   for (const auto& force : load->forces()) {
     auto& one = add(Code("load-differs"), "1", force.dof);
@@ -243,24 +247,24 @@ class FlightFits {
 
 // The change, or two of them, that leave least; nothing where another one leaves little more.
 std::optional<Fitted> best_of(const FlightFits& fits, std::size_t changes) {
-  constexpr double least_gain = 5.0, least_lead = 2.0;
+  constexpr double least_gain = 5.0, least_gain_of_two = 20.0, least_lead = 2.0;
   std::vector<Fitted> tried;
-  const auto lead = [&]() -> std::optional<Fitted> {
+  const auto lead = [&](double least) -> std::optional<Fitted> {
     std::ranges::sort(tried, std::greater{}, &Fitted::gain);
-    if (tried.empty() || tried.front().gain < least_gain) return {};
+    if (tried.empty() || tried.front().gain < least) return {};
     if (tried.size() > 1 && tried.front().gain < least_lead * tried[1].gain) return {};
     return tried.front();
   };
   for (std::size_t i = 0; i < changes; ++i) tried.push_back(fits.of({i}));
-  const auto one = lead();
+  const auto one = lead(least_gain);
   const double alone = tried.empty() ? 0.0 : tried.front().gain;
   tried.clear();
   for (std::size_t i = 0; i < changes; ++i)
     for (std::size_t j = i + 1; j < changes; ++j) tried.push_back(fits.of({i, j}));
-  // Two changes always leave less than one.
-  constexpr double worth_two = 3.0;
-  const auto two = lead();
-  return two && two->gain > worth_two * alone ? two : one;
+  // Two changes always leave less than one, and what the method's own error leaves is no change.
+  constexpr double worth_two = 3.0, enough_alone = 300.0;
+  const auto two = lead(least_gain_of_two);
+  return two && two->gain > worth_two * alone && alone < enough_alone ? two : one;
 }
 
 // The diagnosis of one change by its values.
@@ -304,6 +308,9 @@ std::vector<Diagnosis> flight_causes(const DiagnosisInput& question, const Obser
     const double spread =
         best->uncertainty.segment(at, count).norm() + again.uncertainty.segment(at, count).norm();
     if (apart > same_share * values.norm() + spread || values.norm() < 2.0 * spread) return {};
+    // No spring, damper or mass is below zero.
+    constexpr double least_share = -1.05;
+    if (changes[change].cause.unit == "%" && values[0] < least_share) return {};
     found.push_back(diagnosis_by(changes[change], {values.data(), std::size_t(count)},
                                  std::max(apart, best->uncertainty[at])));
     found.back().confidence = 0.95;
@@ -404,7 +411,9 @@ std::vector<Diagnosis> impact_causes(const DiagnosisInput& question, const Obser
 }  // namespace
 
 std::vector<Diagnosis> measured_causes(const DiagnosisInput& question) {
-  if (!question.limit.wrong || question.histories.empty()) return {};
+  if (question.histories.empty() ||
+      !(question.limit.wrong || question.displacement.behaviour == Behaviour::stagnating))
+    return {};
   const auto& finest = question.histories.back();
   const auto other = std::ranges::find_if(
       question.histories.rbegin(), question.histories.rend(), [&](const Observation& one) {

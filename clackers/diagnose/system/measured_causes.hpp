@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "clackers/diagnose/diagnose.hpp"
@@ -15,5 +16,9 @@ namespace clackers::diagnose {
 /// locate_impacts() reads them. A cause has the same value in two histories of different steps; what
 /// a method does falls with the step.
 std::vector<Diagnosis> measured_causes(const DiagnosisInput& question);
+
+/// The case's own motion at other times, of any system: by whole or half steps, or by one number of
+/// seconds, in the two finest files.
+std::optional<Diagnosis> shifted_time(const DiagnosisInput& question);
 
 }  // namespace clackers::diagnose

@@ -328,7 +328,10 @@ bool can_be_varied(const model::ImpactProblem<>& problem) {
 }  // namespace
 
 std::vector<Diagnosis> system_causes(const DiagnosisInput& asked) {
-  if (!can_be_varied(asked.problem)) return measured_causes(asked);
+  if (!can_be_varied(asked.problem)) {
+    if (auto shift = shifted_time(asked)) return {*shift};
+    return measured_causes(asked);
+  }
   auto question = fit_question(asked);
   if (question.files.empty()) return {};
   const auto dof = question.problem.dof();
