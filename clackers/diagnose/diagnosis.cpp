@@ -306,6 +306,10 @@ const Cause* find_cause(std::string_view code) {
 }
 
 bool brings_about(const Diagnosis& cause, const Diagnosis& implied) {
+  // Times that are late by steps have the right limit.
+  if (cause.unit == "steps" && cause.code == Code("time-shifted").name() &&
+      implied.code == Code("wrong-limit").name())
+    return false;
   return cause.code != implied.code &&
          std::ranges::any_of(implications(), [&](const Implication& rule) {
            return contains(rule.causes, cause.code) && contains(rule.implied, implied.code) &&

@@ -289,7 +289,10 @@ void SubjectStudy::decide() {
         [&](const diagnose::Observation& one) { return one.facts.step == step; });
     histories = histories.subspan(std::size_t(others - observations_.begin()));
   }
-  const auto limit = diagnose::limit_of(histories, problem_.problem.problem, motion);
+  auto limit = diagnose::limit_of(histories, problem_.problem.problem, motion);
+  // What a solver with tolerances keeps fixed, as an absolute one, ends in so small an error.
+  constexpr double of_fixed_tolerances = 1e-5;
+  if (by_tolerance() && limit.distance < of_fixed_tolerances) limit.wrong = false;
   facts.wrong_limit = !is_method() && limit.wrong;
   auto& assessment = subject_.assessment;
   assessment = judge::judge(ladder, subject_.claim, facts);
@@ -316,10 +319,13 @@ void SubjectStudy::decide() {
     facts.no_ladder = broken->code;
     facts.wrong_limit = false;
   }
-  // Files of another system converge to another motion, also where too few of them show it; what
-  // diagnosis finds in the rows of files, their errors may not show.
-  const bool other =
-      facts.wrong_limit || std::ranges::any_of(subject_.diagnoses, diagnose::is_other_system);
+  // Files of another system converge to another motion, also where too few of them show it, and those
+  // of impacts found to a fixed tolerance do not; what diagnosis finds in the rows, errors may not show.
+  const auto is_located = [](const diagnose::Diagnosis& found) {
+    return found.code == Code("impact-tolerance").name();
+  };
+  const bool other = (facts.wrong_limit && std::ranges::none_of(subject_.diagnoses, is_located)) ||
+                     std::ranges::any_of(subject_.diagnoses, diagnose::is_other_system);
   const bool has_other_impacts = std::ranges::any_of(assessment.evidence, [](const auto& found) {
     return found.code == judge::EvidenceCode("other-impacts").name();
   });

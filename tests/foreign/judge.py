@@ -198,6 +198,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", action="append", help="sets whose name contains this (repeatable)")
     parser.add_argument("--group", action="append", help="sets of this file (repeatable)")
+    parser.add_argument("--without", action="store_true", help="all sets but those of --group")
     parser.add_argument("--markdown", action="store_true")
     parser.add_argument("--failures", action="store_true", help="print only sets judged otherwise")
     parser.add_argument("--keep", type=pathlib.Path, help="write the files here and print the commands")
@@ -216,7 +217,7 @@ def main():
     if not shutil.which("octave"):
         sets = [one for one in sets if "method=octave-" not in one["solver"]]
     if options.group:
-        sets = [one for one in sets if one["group"] in options.group]
+        sets = [one for one in sets if (one["group"] in options.group) != options.without]
     if options.list:
         for one in sets:
             print(f"{one['name']} ({one['system']}): {expert(one)}\n    {one.get('why', '')}")

@@ -22,6 +22,12 @@ MAY_SAY = {"digits=12": ["printed-digits"], "digits=9": ["printed-digits"], "eve
 ANY = ["exact", "proper", "reduced", "irregular", "stagnating", "divergent", "undecided"]
 SYSTEMS = ["N2", "N0", "N5", "N1-undamped", "N2-damped", "N2-undamped", "stop", "stop-half", "symmetric",
            "symmetric-0.7", "synchronized", "synchronized-X7", "exact-data", "sdof"]
+# Any number of masses, contacts and loads (assemblies/).
+MANY = ["forced", "shaken", "frame", "chain", "driven-stop", "tower", "row3", "row5", "row7-0.8", "row10", "buildings",
+        "buildings-0.8", "alternating", "assembly2", "assembly4"]
+MANY_METHODS = ["method=rk4", "method=newmark", "method=newmark beta=0", "method=generalized-alpha rho=0.8",
+                "method=hht alpha=-0.1", "method=midpoint", "method=rk3", "method=dopri5", "method=series"]
+MANY_PRINTS = ["", "digits=12", "no-velocities", "jumps", "digits=9"]
 
 
 def correct(name, system, layout, solver, coarsest, may_say):
@@ -52,6 +58,10 @@ def sets(systems, most=0):
     for (method, cause), system in itertools.product(CONTACTS.items(), SYSTEMS[:-1]):
         if system != "N5":
             add(method, system, next(layouts), 0.5 * next(finer), [cause])
+    prints = itertools.cycle(MANY_PRINTS)
+    for method, system in itertools.product(MANY_METHODS, MANY):
+        words, layout = next(prints), next(layouts)
+        add(f"{method} {words}".rstrip(), system, layout, 1.0 if layout == "12" else next(finer), MAY_SAY.get(words, []))
     for system in SYSTEMS:
         if not system.startswith("stop") and system != "sdof":
             result.append(correct(f"{len(result)}-adaptive-{system}", system, "tolerances", "spacing=0.01", 1.0, []))
