@@ -62,5 +62,16 @@ TEST(Diagnose, CausesComeStrongestFirst) {
   EXPECT_GT(all[0].confidence, all[1].confidence);
 }
 
+TEST(Diagnosis, LateStepsHideNoWrongLimitAndLateSecondsDo) {
+  Diagnosis late, limit;
+  late.code = "time-shifted";
+  limit.code = "wrong-limit";
+  late.confidence = limit.confidence = 0.95;
+  late.unit = "steps";
+  EXPECT_FALSE(brings_about(late, limit));
+  late.unit = "s";
+  EXPECT_TRUE(brings_about(late, limit));
+}
+
 }  // namespace
 }  // namespace clackers::diagnose::testing

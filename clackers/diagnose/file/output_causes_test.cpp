@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "clackers/diagnose/testing/ladder_sets.hpp"
+#include "clackers/diagnose/testing/method_rows.hpp"
+#include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::diagnose::testing {
 namespace {
@@ -33,6 +35,28 @@ TEST(OutputCauses, AreNoneOfMethodsAndOfOtherSystems) {
       EXPECT_FALSE(find(causes, "output-offset")) << i << ' ' << solver;
       EXPECT_FALSE(find(causes, "output-drifts")) << i << ' ' << solver;
     }
+}
+
+TEST(OutputCauses, UnderLoadsNeedRightVelocities) {
+  const auto problem = cases::make("forced-pair");
+  const auto found = [&](double offset, double force) {
+    Files files{problem};
+    auto solved = problem.problem;
+    const auto* load = solved.system.add_load.target<model::HarmonicLoad>();
+    auto forces = load->forces();
+    forces.push_back({0, force, 0.0, 0.0});
+    solved.system.add_load = model::HarmonicLoad(forces);
+    for (const double h : {0.018, 0.009, 0.0045}) {
+      auto rows = run("rk4", solved, h);
+      for (std::size_t i = 1; i < rows.t.size(); ++i) rows.u[2 * i] += offset;
+      files.add(rows, h);
+    }
+    return diagnose(files.question());
+  };
+  const auto offset = found(1e-3, 0.0), force = found(0.0, 1e-3);
+  ASSERT_TRUE(find(offset, "output-offset")) << codes(offset);
+  EXPECT_NEAR(find(offset, "output-offset")->value, 1e-3, 5e-5);
+  EXPECT_FALSE(find(force, "output-offset")) << codes(force);
 }
 
 }  // namespace

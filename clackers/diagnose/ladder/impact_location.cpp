@@ -82,7 +82,9 @@ class Locator {
     // What flies on for that long before it is struck has another speed by then.
     const auto later = moved(*closing, found.duration);
     found.restitution_error = std::abs(contact.gap_rate(later.v) + found.closing) / found.closing;
-    const Eigen::VectorXd jump = opening->v - closing->v;
+    // Both sides at the instant of the impulse.
+    const Eigen::VectorXd jump =
+        moved(*opening, found.delay - found.duration).v - moved(*closing, found.delay).v;
     found.momentum_defect = beside_impulses(jump, contacts) / kinetic(jump);
     return found;
   }

@@ -126,6 +126,62 @@ TEST(MeasuredCauses, ARightSolverHasNone) {
   }
 }
 
+TEST(MeasuredCauses, AConstantLoadThatIsMissingIsALoad) {
+  auto right = chain(true);
+  right.system.add_load = model::HarmonicLoad({{0, 2.0, 4.0, 0.3}, {1, 0.5, 0.0, 0.0}});
+  auto files = files_of(right);
+  for (const double h : {0.01, 0.005}) files.add(run("rk4", chain(true), h), h);
+  const auto found = measured_causes(files.question());
+  ASSERT_EQ(codes(found), "load-differs");
+  EXPECT_EQ(found[0].text, "missing");
+  EXPECT_EQ(found[0].fact("mass"), 2.0);
+}
+
+TEST(MeasuredCauses, ALoadThatExplainsAllStandsAlone) {
+  const auto right = chain(true);
+  auto wrong = right;
+  wrong.system.add_load = model::HarmonicLoad({{0, 2.2, 4.0, 0.3}});
+  auto files = files_of(right);
+  for (const double h : {0.004, 0.002, 0.001}) files.add(run("rk4", wrong, h), h);
+  EXPECT_EQ(codes(measured_causes(files.question())), "load-differs");
+}
+
+TEST(MeasuredCauses, AnotherGapIsNoFaultOfMomentumAndRestitution) {
+  const auto right = chain(true);
+  auto wrong = right;
+  for (auto& contact : wrong.contacts) contact.gap -= 0.004;
+  auto files = files_of(right);
+  for (const double h : {0.01, 0.005, 0.0025}) files.add(run("rk4", wrong, h), h);
+  EXPECT_EQ(codes(measured_causes(files.question())), "");
+}
+
+TEST(ShiftedTime, IsOfStepsOrSecondsAndOfNoLateLoad) {
+  const auto right = chain(true);
+  const auto shift_by = [&](const Problem& solved, double steps, double seconds) {
+    auto files = files_of(right);
+    for (const double h : {0.01, 0.005, 0.0025}) {
+      auto rows = run("rk4", solved, h);
+      for (double& t : rows.t) t += steps * h + seconds;
+      while (rows.t.back() > right.end) rows.t.pop_back();
+      rows.u.resize(rows.t.size() * 4);
+      rows.v.resize(rows.u.size());
+      files.add(rows, h);
+    }
+    return shifted_time(files.question());
+  };
+  const auto in_steps = shift_by(right, 1.0, 0.0), in_seconds = shift_by(right, 0.0, 0.003);
+  ASSERT_TRUE(in_steps);
+  EXPECT_EQ(in_steps->unit, "steps");
+  EXPECT_NEAR(in_steps->value, 1.0, 0.01);
+  ASSERT_TRUE(in_seconds);
+  EXPECT_EQ(in_seconds->unit, "s");
+  EXPECT_NEAR(in_seconds->value, 0.003, 1e-5);
+  auto late = right;
+  late.system.add_load = model::HarmonicLoad({{0, 2.0, 4.0, 0.1}});
+  EXPECT_FALSE(shift_by(late, 0.0, 0.0));
+  EXPECT_FALSE(shift_by(right, 0.0, 0.0));
+}
+
 model::Trajectory rows_of(const exact::EventDrivenMotion& motion, double h) {
   model::Trajectory rows;
   rows.dof = motion.dof();

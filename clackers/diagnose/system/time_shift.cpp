@@ -62,9 +62,8 @@ std::optional<Diagnosis> shifted_time(const DiagnosisInput& question) {
   auto cause = in_steps ? diagnosis_of(Code("time-shifted"), found.seconds / step, "steps")
                         : diagnosis_of(Code("time-shifted"), found.seconds, "s");
   cause.confidence = files > 1.0 ? 0.95 : 0.8;
-  cause.evidence = {{"gain", found.gain},
-                    {"uncertainty", in_steps ? spread / step : spread},
-                    {"files", files}};
+  cause.evidence = {
+      {"gain", found.gain}, {"uncertainty", in_steps ? spread / step : spread}, {"files", files}};
   return cause;
 }
 
