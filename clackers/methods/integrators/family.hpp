@@ -33,10 +33,10 @@ using Values = std::span<const double>;
 /// Stepper asks for.
 template <class Family>
 struct Member {
-  std::string_view name, summary;
+  std::string name, summary;
   std::vector<Range> parameters;
   std::function<Family(Values)> method;
-  std::string_view card;
+  std::string card;
 };
 
 template <class Family>
@@ -73,11 +73,7 @@ class FamilyIntegrator final : public Integrator {
 template <class Family>
 Row row(const Member<Family>& member) {
   Row row;
-  row.entry = {std::string(member.name),
-               "integrator",
-               std::string(member.summary),
-               {},
-               std::string(member.card)};
+  row.entry = {member.name, "integrator", member.summary, {}, member.card};
   for (const auto& range : member.parameters)
     row.entry.parameters.push_back({std::string(range.name),
                                     range.value,

@@ -1,4 +1,9 @@
+#include <fmt/format.h>
+
+#include <array>
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include "clackers/base/constants.hpp"
 #include "clackers/methods/integrators/families.hpp"
@@ -8,9 +13,44 @@
 namespace clackers::methods {
 namespace {
 
-// The backward difference formula of k steps and order k.
-Multistep backward(std::size_t k, const Multistep::Coefficients& d, double limit, double radius) {
-  return {.steps = k, .d = d, .e = {}, .order = double(k), .limit = limit, .radius = radius};
+// A backward difference formula, its formula and how it is stable and dissipates in words.
+struct Backward {
+  Multistep::Coefficients d;
+  std::string_view formula, stability, dissipation;
+  double limit, radius;
+};
+
+// The one of k steps and order k.
+Member<Multistep> backward(std::size_t k, const Backward& x) {
+  constexpr std::array words{"no", "one", "two", "three", "four", "five", "six"};
+  std::string memory = "none.";
+  if (k == 2)
+    memory = "u and v of one step; the first step, also after an impact, is average acceleration.";
+  if (k > 2)
+    memory = fmt::format(
+        "u and v of {0} steps; the first {0}, also after an impact, are of Dormand and Prince.",
+        words[k - 1]);
+  return {fmt::format("bdf{}", k),
+          fmt::format("{}backward difference formula of order {}",
+                      k == 1 ? "backward Euler, the " : "", words[k]),
+          {},
+          [k, d = x.d, limit = x.limit, radius = x.radius](Values) {
+            return Multistep{
+                .steps = k, .d = d, .e = {}, .order = double(k), .limit = limit, .radius = radius};
+          },
+          fmt::format(
+              R"(The backward difference formula of order {0} for x = (u, v), x' = (v, a(t, u, v)):
+
+    {1} = h x'(t0 + h, x1)
+
+Order       {0}.
+Stability   {2}
+Dissipation {3}
+Memory      {4}
+Cost        one back-substitution a step; one or two factorizations for each (system, h).
+Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.1 (1996).
+)",
+              k, x.formula, x.stability, x.dissipation, memory)};
 }
 
 }  // namespace
@@ -66,109 +106,40 @@ Memory      u and v of two steps; the first two, also after an impact, are avera
 Cost        one back-substitution a step; two factorizations for each (system, h).
 Source      K. C. Park, J. Appl. Mech. 42, 464-470 (1975).
 )"},
-      {"bdf1",
-       "backward Euler, the backward difference formula of order one",
-       {},
-       [](Values) {
-         return backward(1, {1.0, -1.0}, always, 0.0);
-       },
-       R"(The backward difference formula of order 1 for x = (u, v), x' = (v, a(t, u, v)):
-
-    1 x1 - 1 x0 = h x'(t0 + h, x1)
-
-Order       1.
-Stability   for every h.
-Dissipation strong, at all frequencies.
-Memory      none.
-Cost        one back-substitution a step; one or two factorizations for each (system, h).
-Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.1 (1996).
-)"},
-      {"bdf2",
-       "backward difference formula of order two",
-       {},
-       [](Values) {
-         return backward(2, {1.5, -2.0, 0.5}, always, 0.0);
-       },
-       R"(The backward difference formula of order 2 for x = (u, v), x' = (v, a(t, u, v)):
-
-    1.5 x1 - 2 x0 + 0.5 x_-1 = h x'(t0 + h, x1)
-
-Order       2.
-Stability   for every h.
-Dissipation of high frequencies, strong.
-Memory      u and v of one step; the first step, also after an impact, is average acceleration.
-Cost        one back-substitution a step; one or two factorizations for each (system, h).
-Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.1 (1996).
-)"},
-      {"bdf3",
-       "backward difference formula of order three",
-       {},
-       [](Values) {
-         return backward(3, {11.0 / 6, -3.0, 1.5, -1.0 / 3}, 0.0, nan);
-       },
-       R"(The backward difference formula of order 3 for x = (u, v), x' = (v, a(t, u, v)):
-
-    11 / 6 x1 - 3 x0 + 1.5 x_-1 - 1 / 3 x_-2 = h x'(t0 + h, x1)
-
-Order       3.
-Stability   none: without damping, motion with omega h < 1.94 grows.
-Dissipation of high frequencies; low ones grow.
-Memory      u and v of two steps; the first two, also after an impact, are of Dormand and Prince.
-Cost        one back-substitution a step; one or two factorizations for each (system, h).
-Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.1 (1996).
-)"},
-      {"bdf4",
-       "backward difference formula of order four",
-       {},
-       [](Values) {
-         return backward(4, {25.0 / 12, -4.0, 3.0, -4.0 / 3, 0.25}, 0.0, nan);
-       },
-       R"(The backward difference formula of order 4 for x = (u, v), x' = (v, a(t, u, v)):
-
-    25 / 12 x1 - 4 x0 + 3 x_-1 - 4 / 3 x_-2 + 0.25 x_-3 = h x'(t0 + h, x1)
-
-Order       4.
-Stability   none: without damping, motion with omega h < 4.72 grows.
-Dissipation of high frequencies; low ones grow.
-Memory      u and v of three steps; the first three, also after an impact, are of Dormand and Prince.
-Cost        one back-substitution a step; one or two factorizations for each (system, h).
-Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.1 (1996).
-)"},
-      {"bdf5",
-       "backward difference formula of order five",
-       {},
-       [](Values) {
-         return backward(5, {137.0 / 60, -5.0, 5.0, -10.0 / 3, 1.25, -0.2}, 0.710807671015, nan);
-       },
-       R"(The backward difference formula of order 5 for x = (u, v), x' = (v, a(t, u, v)):
-
-    137 / 60 x1 - 5 x0 + 5 x_-1 - 10 / 3 x_-2 + 1.25 x_-3 - 0.2 x_-4 = h x'(t0 + h, x1)
-
-Order       5.
-Stability   omega h <= 0.711.
-Dissipation of high frequencies, beyond the interval of growth.
-Memory      u and v of four steps; the first four, also after an impact, are of Dormand and Prince.
-Cost        one back-substitution a step; one or two factorizations for each (system, h).
-Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.1 (1996).
-)"},
-      {"bdf6",
-       "backward difference formula of order six",
-       {},
-       [](Values) {
-         return backward(6, {147.0 / 60, -6.0, 7.5, -20.0 / 3, 3.75, -1.2, 1.0 / 6}, 0.843138162097,
-                         nan);
-       },
-       R"(The backward difference formula of order 6 for x = (u, v), x' = (v, a(t, u, v)):
-
-    147 / 60 x1 - 6 x0 + 7.5 x_-1 - 20 / 3 x_-2 + 3.75 x_-3 - 1.2 x_-4 + 1 / 6 x_-5 = h x'(t0 + h, x1)
-
-Order       6.
-Stability   omega h <= 0.843.
-Dissipation of high frequencies, beyond the interval of growth.
-Memory      u and v of five steps; the first five, also after an impact, are of Dormand and Prince.
-Cost        one back-substitution a step; one or two factorizations for each (system, h).
-Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, V.1 (1996).
-)"},
+      backward(
+          1,
+          {{1.0, -1.0}, "1 x1 - 1 x0", "for every h.", "strong, at all frequencies.", always, 0.0}),
+      backward(2, {{1.5, -2.0, 0.5},
+                   "1.5 x1 - 2 x0 + 0.5 x_-1",
+                   "for every h.",
+                   "of high frequencies, strong.",
+                   always,
+                   0.0}),
+      backward(3, {{11.0 / 6, -3.0, 1.5, -1.0 / 3},
+                   "11 / 6 x1 - 3 x0 + 1.5 x_-1 - 1 / 3 x_-2",
+                   "none: without damping, motion with omega h < 1.94 grows.",
+                   "of high frequencies; low ones grow.",
+                   0.0,
+                   nan}),
+      backward(4, {{25.0 / 12, -4.0, 3.0, -4.0 / 3, 0.25},
+                   "25 / 12 x1 - 4 x0 + 3 x_-1 - 4 / 3 x_-2 + 0.25 x_-3",
+                   "none: without damping, motion with omega h < 4.72 grows.",
+                   "of high frequencies; low ones grow.",
+                   0.0,
+                   nan}),
+      backward(5, {{137.0 / 60, -5.0, 5.0, -10.0 / 3, 1.25, -0.2},
+                   "137 / 60 x1 - 5 x0 + 5 x_-1 - 10 / 3 x_-2 + 1.25 x_-3 - 0.2 x_-4",
+                   "omega h <= 0.711.",
+                   "of high frequencies, beyond the interval of growth.",
+                   0.710807671015,
+                   nan}),
+      backward(6,
+               {{147.0 / 60, -6.0, 7.5, -20.0 / 3, 3.75, -1.2, 1.0 / 6},
+                "147 / 60 x1 - 6 x0 + 7.5 x_-1 - 20 / 3 x_-2 + 3.75 x_-3 - 1.2 x_-4 + 1 / 6 x_-5",
+                "omega h <= 0.843.",
+                "of high frequencies, beyond the interval of growth.",
+                0.843138162097,
+                nan}),
   });
 }
 
