@@ -1,7 +1,10 @@
 #include "clackers/study/check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -89,21 +92,19 @@ study::CheckRequest request_of(const CheckOptions& options, const std::string& l
 }
 
 // Without an exact motion: the exit code is that of the tolerance.
-int run_against(const CheckOptions& options) {
-  using Given = std::pair<const char*, bool>;
-  for (const auto& [name, is_given] :
-       {Given{"--name", !options.names.empty()}, Given{"--case", !options.case_name.empty()},
-        Given{"--set", !options.settings.empty()}, Given{"--problem", !options.problem.empty()},
-        Given{"--events", !options.events.empty()}, Given{"--expect", !options.expect.empty()},
-        Given{"--tolerances", !options.tolerances.empty()},
-        Given{"--metrics", !options.metrics.empty()}, Given{"--impacts", options.impacts},
-        Given{"--require", !options.requirements.empty()},
-        Given{"--report", !options.report.empty()}, Given{"--baseline", !options.baseline.empty()},
-        Given{"a second --against", options.against.size() > 1}})
-    if (is_given)
-      refuse("check", "--against", fmt::format("beside {}", name),
-             "--columns, --steps, --tolerance, --format and --out beside it",
-             "There is no exact motion to judge by.", "bad-syntax");
+int run_against(const CheckOptions& options, const Command& command) {
+  constexpr auto fitting = std::to_array<std::string_view>(
+      {"--against", "--columns", "--steps", "--tolerance", "--format", "--out"});
+  const auto is_wrong = [&](const Option& option) {
+    return std::ranges::find(fitting, option.name) == fitting.end() &&
+           (!option.values().empty() || (option.name == "--impacts" && options.impacts));
+  };
+  const auto wrong = std::ranges::find_if(command.options, is_wrong);
+  if (wrong != command.options.end() || options.against.size() > 1)
+    refuse("check", "--against",
+           "beside " + (options.against.size() > 1 ? "a second one" : wrong->name),
+           fmt::format("once, beside {}", fmt::join(fitting.begin() + 1, fitting.end(), ", ")),
+           "There is no exact motion to judge by.", "bad-syntax");
   study::AgainstRequest request;
   const auto middle = options.files.begin() + std::ptrdiff_t(options.against_starts.front());
   request.sets[0].assign(options.files.begin(), middle);
@@ -125,8 +126,8 @@ record::Record run_check(const CheckOptions& options, const study::CheckRequest&
   return study::check(request, progress.callback(), &interrupt_flag());
 }
 
-int run(const CheckOptions& options, const std::string& line) {
-  if (!options.against.empty()) return run_against(options);
+int run(const CheckOptions& options, const Command& command, const std::string& line) {
+  if (!options.against.empty()) return run_against(options, command);
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
   const auto baseline = baseline_of(options.baseline, request);
@@ -241,7 +242,7 @@ void add_check(Grammar& root) {
          "what changed since. The exit code follows from the verdicts only.")
       ->reads_file("FILE.json");
   add_common_options(*app, options->common, report::Content::verdicts);
-  app->run = [options](const std::string& line) { return run(*options, line); };
+  app->run = [options, app](const std::string& line) { return run(*options, *app, line); };
 }
 
 }  // namespace clackers::cli

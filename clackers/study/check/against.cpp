@@ -79,37 +79,34 @@ std::vector<std::vector<std::size_t>> common_rows(
   return rows;
 }
 
-// The order with which the differences between levels fall, at the times that all of them have.
+// The differences between levels at the times that all of them have.
 std::vector<record::Cell> self_row(const char* name, const Levels& levels, double size) {
-  std::vector<record::Cell> row{std::string(name), (long long)(levels.size()), levels.back().step};
-  const auto add_empty = [&](std::string reason) {
-    row.insert(row.end(), {std::monostate{}, std::monostate{}, std::move(reason)});
-    return row;
-  };
   constexpr std::size_t least_levels = 5;
-  if (levels.size() < least_levels) return add_empty("five histories or more give an order");
-  const double ratio = levels[0].step / levels[1].step;
   std::vector<const model::Trajectory*> histories;
+  double least = INFINITY, most = 0.0;  // ratio of steps
   for (std::size_t i = 0; i < levels.size(); ++i) {
     histories.push_back(&levels[i].history.motion);
-    if (i > 0 &&
-        !(std::abs(levels[i - 1].step / levels[i].step / ratio - 1.0) < 0.01 && ratio > 1.0))
-      return add_empty("steps of one ratio give an order");
+    if (i == 0) continue;
+    least = std::min(least, levels[i - 1].step / levels[i].step);
+    most = std::max(most, levels[i - 1].step / levels[i].step);
   }
+  std::vector<record::Cell> row{name, (long long)(levels.size()), levels.back().step};
+  row.resize(5);
+  row.emplace_back("five histories with one ratio of steps give an order");
+  if (levels.size() < least_levels || !(least > 1.0 && most <= 1.01 * least)) return row;
   const auto rows = common_rows(histories);
   std::vector<judge::ResponseLevel> runs;
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    const auto& u = histories[k]->u;
-    const auto dof = std::size_t(histories[k]->dof);
     judge::Response run{levels[k].step, {}, std::numeric_limits<double>::epsilon() * size};
+    const auto dof = std::size_t(histories[k]->dof);
     for (const auto& at : rows)
-      run.values.insert(run.values.end(), u.begin() + std::ptrdiff_t(at[k] * dof),
-                        u.begin() + std::ptrdiff_t((at[k] + 1) * dof));
+      for (std::size_t mass = 0; mass < dof; ++mass)
+        run.values.push_back(histories[k]->u[at[k] * dof + mass]);
     runs.push_back({std::move(run)});
   }
   const auto fit = judge::self_convergence(runs, {.size = size}).differences;
-  if (!fit.has_line) return add_empty(std::string(to_string(fit.behaviour)));
-  row.insert(row.end(), {fit.order, fit.spread, std::string(to_string(fit.behaviour))});
+  row.back() = std::string(to_string(fit.behaviour));
+  if (fit.has_line) row[3] = fit.order, row[4] = fit.spread;
   return row;
 }
 
@@ -123,6 +120,8 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
     refuse(against_name, "--steps", fmt::format("{} of them", request.steps.size()),
            fmt::format("one a history, {} here, in the same order", ours.size() + theirs.size()),
            {}, "wrong-size");
+  if (path_of(ours.front()) == "-")
+    refuse(against_name, "FILE", "-", "a file, since the first is read twice", {}, "bad-syntax");
   for (const double step : request.steps) require_step("check --steps", step);
   if (request.tolerance) require_positive("check", "--tolerance", *request.tolerance);
   input::HistoryOptions options{.columns = request.columns, .interrupt = interrupt};
@@ -148,43 +147,33 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
                         {"since", "s", "first time of a relative difference above 1e-3"}},
                        {}};
   const auto dof = std::size_t(a.dof);
-  double size = 0.0, largest = 0.0, at_time = 0.0, visible = INFINITY;
+  double size = 0.0, largest = 0.0;
   for (std::size_t mass = 0; mass < dof; ++mass) {
-    double peak = 0.0, difference = 0.0, time = 0.0, from = INFINITY;
+    double peak = 0.0, difference = 0.0, time = 0.0;
+    record::Cell since;
     for (const auto& at : rows)
       peak = std::max({peak, std::abs(a.u[at[0] * dof + mass]), std::abs(b.u[at[1] * dof + mass])});
     for (const auto& at : rows) {
+      const double t = a.t[at[0]];
       const double off = std::abs(a.u[at[0] * dof + mass] - b.u[at[1] * dof + mass]);
-      if (off > visible_difference * peak) from = std::min(from, a.t[at[0]]);
-      if (off > difference) {
-        difference = off;
-        time = a.t[at[0]];
-      }
+      if (off > visible_difference * peak && since.index() == 0) since = t;
+      if (off > difference) difference = off, time = t;
     }
     const double relative = peak > 0.0 ? difference / peak : 0.0;
     size = std::max(size, peak);
-    visible = std::min(visible, from);
-    if (relative > largest) {
-      largest = relative;
-      at_time = time;
-    }
-    masses.rows.push_back({(long long)(mass) + 1, difference, relative, time,
-                           std::isfinite(from) ? record::Cell(from) : record::Cell()});
+    largest = std::max(largest, relative);
+    masses.rows.push_back({(long long)(mass) + 1, difference, relative, time, since});
   }
   AgainstResult result;
   result.is_within = !request.tolerance || largest <= *request.tolerance;
+  const auto limit = !request.tolerance
+                         ? std::string()
+                         : fmt::format(", {} the tolerance of {}",
+                                       result.is_within ? "within" : "beyond", *request.tolerance);
   masses.title = fmt::format(
-      "The two differ by up to {} of the largest displacement, at t = {} s; {}. {}{} "
-      "common times, nothing interpolated. Agreement is no proof: both may be wrong the "
-      "same way.",
-      scientific(largest), short_number(at_time, 3),
-      std::isfinite(visible) ? fmt::format("first by more than {} at t = {} s", visible_difference,
-                                           short_number(visible, 3))
-                             : fmt::format("nowhere by more than {}", visible_difference),
-      !request.tolerance ? ""
-                         : fmt::format("{} the tolerance of {}. ",
-                                       result.is_within ? "Within" : "Beyond", *request.tolerance),
-      rows.size());
+      "The two differ by up to {} of the largest displacement{}, at {} common times; nothing is "
+      "interpolated. Agreement is no proof: both may be wrong the same way.",
+      scientific(largest), limit, rows.size());
   record::Sheet sets{"clackers/self-convergence/1",
                      "Each set by itself, from the differences between its histories",
                      {{"set", "", "before or behind --against"},

@@ -13,7 +13,7 @@ namespace clackers::study {
 
 /// What `clackers check --against` is asked for: two sets of histories of one motion that nobody knows.
 struct AgainstRequest {
-  /// Files, each set a ladder of one solver; not standard input, since a file is read twice.
+  /// Each set a ladder of one solver. The first file is read twice, so it is not standard input.
   std::array<std::vector<input::Source>, 2> sets;
   std::vector<std::string> columns;  ///< names of the columns; empty: those of the files
   std::vector<double> steps;         ///< none, or one a history, over both sets [s]
