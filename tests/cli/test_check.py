@@ -106,6 +106,9 @@ class Names(CheckTest):
         self.assertRegex(text, "\\ANot claimed: of 2 methods, 2 not claimed.\n")
         self.assertRegex(text, "(?m)^B .* not claimed$")
         self.assertRegex(text, "(?m)^b0.02.csv  B ")
+        latex = run("check", "--name", "A", one, "--name=B", *two, "--format", "latex").stdout
+        self.assertIn("a\\_t = 1). Of each method", latex)
+        self.assertIn("\\par B: No events file", latex)
 
     def test_say_who_leaves_the_exact_motion_first(self):
         # The masses pass through each other from the second impact on.

@@ -96,10 +96,11 @@ void write_table(const Table& table, const std::vector<std::string>& marks, cons
 void write_methods(const record::CaseRecord& problem, bool interrupted, std::ostream& out) {
   const auto table = summary_table(problem, record::SubjectKind::method);
   if (table.rows.empty()) return;
-  Frame frame{fmt::format("{}: {}. Of each method the worst run of the finest level; errors {}, "
+  const auto plan = plan_text(problem);
+  Frame frame{fmt::format("{}{}. Of each method the worst run of the finest level; errors {}, "
                           "order with its 95\\,\\% interval, impacts matched/exact.{}",
-                          tex_text(case_text(problem.problem)), tex_text(plan_text(problem)),
-                          error_scale_text,
+                          tex_text(case_text(problem.problem)),
+                          plan.empty() ? "" : ": " + tex_text(plan), error_scale_text,
                           interrupted ? " Interrupted: only what was finished is shown." : ""),
               problem.problem.name,
               {}};
@@ -128,12 +129,16 @@ void write_histories(const record::CaseRecord& problem, std::ostream& out) {
               {}};
   for (const auto& subject : problem.subjects) {
     if (subject.kind != record::SubjectKind::histories) continue;
-    for (const auto& cause : diagnosis_texts(subject))
-      frame.notes += fmt::format("  \\par {}\n", tex_text(text_of(cause)));
-    frame.notes += fmt::format("  \\par Verdict: {}. {}\n", record::verdict_word(subject),
-                               tex_text(text_of(finding(subject).value_or(Finding{}))));
+    const auto who = problem.subjects.size() > 1 ? tex_text(subject.name) + ": " : std::string();
+    // Of several, verdicts and causes stand below the table of all.
+    if (who.empty()) {
+      for (const auto& cause : diagnosis_texts(subject))
+        frame.notes += fmt::format("  \\par {}\n", tex_text(text_of(cause)));
+      frame.notes += fmt::format("  \\par Verdict: {}. {}\n", record::verdict_word(subject),
+                                 tex_text(text_of(finding(subject).value_or(Finding{}))));
+    }
     for (const auto& note : note_texts(subject))
-      frame.notes += fmt::format("  \\par {}\n", tex_text(note));
+      frame.notes += fmt::format("  \\par {}{}\n", who, tex_text(note));
   }
   write_table(table, {}, frame, out);
 }

@@ -81,6 +81,8 @@ TEST(DepartureText, OrdersSolversByTheTimeTheyLeaveTheExactMotion) {
   auto record = sample_check();
   record.cases[0] = problem;
   EXPECT_TRUE(has(written(record, Format::table), "First to leave the exact motion: B"));
+  subjects[2].levels[0].runs[0].score.u_error = 0.0;
+  EXPECT_TRUE(has(departure_text(problem), "; C stays on it to rounding."));
   subjects[0].departure = subjects[1].departure = {};
   EXPECT_EQ(departure_text(problem), "");
 }
