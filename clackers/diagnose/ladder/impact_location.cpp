@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
@@ -139,17 +140,20 @@ std::optional<Rows> rows_around(const model::Trajectory& rows, double t, const L
   return {};
 }
 
-// LocatedImpact::closed_speed of the rows between these two.
+// LocatedImpact::closed_speed of the rows between these two: 1 where one step makes most of the change,
+// as no spring does.
 double closed_speed(const model::Trajectory& rows, const Rows& around, const Locator& locator,
                     const model::Contact<>& contact) {
   const double closing = -contact.gap_rate(locator.row(rows, around.before).v);
   const double opening = contact.gap_rate(locator.row(rows, around.after).v);
-  double sum = 0.0;
+  constexpr double most_of_it = 0.6;
+  double sum = 0.0, last = -closing;
   int closed = 0;
   for (auto i = around.before + 1; i < around.after; ++i) {
     const auto state = locator.row(rows, i);
-    if (contact.gap_at(state.u) >= 0.0) continue;
     const double rate = contact.gap_rate(state.v);
+    if (rate - std::exchange(last, rate) > most_of_it * (closing + opening)) return 1.0;
+    if (contact.gap_at(state.u) >= 0.0) continue;
     sum += rate < 0.0 ? -rate / closing : rate / opening;
     ++closed;
   }
