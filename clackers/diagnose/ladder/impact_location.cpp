@@ -1,5 +1,6 @@
 #include "clackers/diagnose/ladder/impact_location.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
