@@ -44,11 +44,21 @@ inline void apply_impacts(const Problem& p, const Options& o, Row& x,
   if (!o.has("stale")) x.a = p.acceleration(x.u, x.v, x.t);
 }
 
+/// The part of a step within which contacts belong to one impact: large where they share masses, so
+/// that an integrator's own error of their instants separates none.
+inline double togetherness(const Problem& p) {
+  for (std::size_t c = 0; c < p.contacts.size(); ++c)
+    for (std::size_t d = 0; d < c; ++d)
+      if (dot(p.contacts[c].direction, solve(p.M, p.contacts[d].direction)) != 0.0) return 0.7;
+  return 0.05;
+}
+
 /// n steps of h; impacts located on the step map, or applied at the end of the step. Contacts that
 /// are nearly closed where the first one closes belong to the same impact.
 inline std::vector<Row> run(Problem p, const Options& o, double h, long n) {
   const Map step = make_map(o);
   const bool at_end = o.text("contact", "exact") == "end-of-step";
+  const double together = togetherness(p);
   std::vector<Row> rows;
   Row x{0.0, p.u0, p.v0, p.acceleration(p.u0, p.v0, 0.0)};
   if (o.has("a0-zero")) x.a = Vector(p.u0.size());
@@ -78,7 +88,7 @@ inline std::vector<Row> run(Problem p, const Options& o, double h, long n) {
       }
       for (std::size_t c = 0; c < armed.size(); ++c) {
         const double closing = -p.speed(c, y.v);
-        if (!crossed.empty() && armed[c] && closing > 0.0 && p.gap(c, y.u) < 0.05 * h * closing)
+        if (!crossed.empty() && armed[c] && closing > 0.0 && p.gap(c, y.u) < together * h * closing)
           active.push_back(c);
       }
       if (!active.empty() && ++number != o.number("miss", 0.0)) {
