@@ -59,7 +59,8 @@ class Locator {
 
   std::optional<LocatedImpact> located(const FreeState& before, const FreeState& after,
                                        const model::Contact<>& contact,
-                                       const std::vector<model::Contact<>>& contacts) const {
+                                       const std::vector<model::Contact<>>& contacts,
+                                       const std::vector<int>& together) const {
     const double reach = 2.0 * (after.t - before.t);
     const auto closing = closed(before, contact, reach), opening = closed(after, contact, -reach);
     if (!closing || !opening) return {};
@@ -72,9 +73,7 @@ class Locator {
     found.duration = opening->t - closing->t;
     found.delay = found.duration * found.opening / (found.closing + found.opening);
     const auto now = moved(after, closing->t - after.t);
-    const Eigen::VectorXd response = motion_.response(contact.direction);
-    const Eigen::VectorXd expected = closing->v + (1.0 + contact.restitution) * found.closing /
-                                                      contact.direction.dot(response) * response;
+    const Eigen::VectorXd expected = struck(closing->v, contacts, together);
     found.defect = difference(now.u - closing->u, now.v - expected) / found.closing;
     const Eigen::VectorXd stale =
         (after.t - found.t) * motion_.response(motion_.system().damping * (expected - closing->v));
@@ -89,6 +88,22 @@ class Locator {
         moved(*opening, found.delay - found.duration).v - moved(*closing, found.delay).v;
     found.momentum_defect = beside_impulses(jump, contacts) / kinetic(jump);
     return found;
+  }
+
+  // Velocities after the contacts of these numbers were struck at once.
+  Eigen::VectorXd struck(const Eigen::VectorXd& v, const std::vector<model::Contact<>>& contacts,
+                         const std::vector<int>& numbers) const {
+    const auto count = std::ssize(numbers);
+    Eigen::MatrixXd along(v.size(), count), inertia(count, count);
+    Eigen::VectorXd asked(count);
+    for (Eigen::Index c = 0; c < count; ++c) {
+      const auto& contact = contacts[std::size_t(numbers[std::size_t(c)])];
+      along.col(c) = motion_.response(contact.direction);
+      asked[c] = -(1.0 + contact.restitution) * contact.gap_rate(v);
+    }
+    for (Eigen::Index c = 0; c < count; ++c)
+      inertia.row(c) = contacts[std::size_t(numbers[std::size_t(c)])].direction.transpose() * along;
+    return v + along * inertia.completeOrthogonalDecomposition().solve(asked);
   }
 
   double kinetic(const Eigen::VectorXd& v) const { return std::sqrt(v.dot(mass_ * v)); }
@@ -183,6 +198,22 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
   const auto alone = [&](double from, double to) {
     return std::ranges::upper_bound(times, to) - std::ranges::lower_bound(times, from);
   };
+  // `own` and the contacts of other impacts between two times; empty where one of them comes twice.
+  const auto contacts_between = [&](double from, double to, int own) {
+    std::vector<int> numbers{own};
+    bool has_own = false;
+    for (auto k = std::size_t(std::ranges::lower_bound(times, from) - times.begin());
+         k < times.size() && times[k] <= to; ++k) {
+      const int contact = (*sample.impacts)[k].contact;
+      const bool is_own = contact == own && !std::exchange(has_own, true);
+      if (is_own) continue;
+      if (contact < 0 || std::size_t(contact) >= problem.contacts.size() ||
+          std::ranges::find(numbers, contact) != numbers.end())
+        return std::vector<int>();
+      numbers.push_back(contact);
+    }
+    return numbers;
+  };
   for (std::size_t k = 0; k < times.size() && found.impacts.size() < most_located_impacts; ++k) {
     const auto& impact = (*sample.impacts)[k];
     const auto& rows =
@@ -192,9 +223,12 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
     if (impact.contact < 0 || std::size_t(impact.contact) >= problem.contacts.size()) continue;
     const auto& contact = problem.contacts[std::size_t(impact.contact)];
     const auto around = rows_around(rows, impact.t, locator, contact);
-    if (!around || alone(rows.t[around->before], rows.t[around->after]) > 1) continue;
+    if (!around) continue;
+    const auto together =
+        contacts_between(rows.t[around->before], rows.t[around->after], impact.contact);
+    if (together.empty()) continue;
     auto one = locator.located(locator.row(rows, around->before), locator.row(rows, around->after),
-                               contact, problem.contacts);
+                               contact, problem.contacts, together);
     if (!one) continue;
     one->contact = impact.contact;
     one->delay_steps = one->delay / (seen.facts.step > 0.0 ? seen.facts.step : seen.facts.spacing);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -49,8 +50,10 @@ struct LocatedImpacts {
 
   double rms_delay() const;
   double rms_defect() const;
-  /// Whether delays are more than what flights between rows show.
-  bool is_resolved() const { return !impacts.empty() && rms_delay() > 5.0 * uncertainty; }
+  /// Whether delays are more than what flights between rows, and roundings, show.
+  bool is_resolved() const {
+    return !impacts.empty() && rms_delay() > std::max(5.0 * uncertainty, 1e-7 * step);
+  }
 };
 
 /// Empty without velocities, and where rows are too far apart to hold single flights.

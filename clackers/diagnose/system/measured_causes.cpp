@@ -411,9 +411,10 @@ std::vector<Diagnosis> impact_causes(const DiagnosisInput& question, const Obser
 }  // namespace
 
 std::vector<Diagnosis> measured_causes(const DiagnosisInput& question) {
-  if (question.histories.empty() ||
-      !(question.limit.wrong || question.displacement.behaviour == Behaviour::stagnating))
-    return {};
+  const auto& fit = question.displacement;
+  const bool is_elsewhere = question.limit.wrong || fit.behaviour == Behaviour::stagnating ||
+                            fit.reason == Code("larger-than-motion").name();
+  if (question.histories.empty() || !is_elsewhere) return {};
   const auto& finest = question.histories.back();
   const auto other = std::ranges::find_if(
       question.histories.rbegin(), question.histories.rend(), [&](const Observation& one) {
