@@ -39,6 +39,18 @@ Assessment assessed(const measure::Ladder& ladder, const Claim& claim = {},
 const Claim proper_2{Behaviour::proper, 2.0, {}}, exact{Behaviour::exact, 0.0, {}},
     any_floor{Behaviour::stagnating, 0.0, {}};
 
+TEST(JudgeHistories, AnEarlyEndDecidesNothing) {
+  const auto until = [](double last, long long impacts) {
+    const HistoryFacts finest{
+        .last = last, .end = 20.0, .expected_to_last = impacts, .expected = 6};
+    return assessed(levels(2.0), proper_2, {}, finest);
+  };
+  EXPECT_EQ(until(18.0, 5).verdict, Verdict::agrees);
+  EXPECT_EQ(until(17.9, 5).verdict, Verdict::undecided);
+  EXPECT_EQ(until(17.9, 5).reason, "ends-early");
+  EXPECT_EQ(until(19.0, 0).verdict, Verdict::undecided);
+}
+
 TEST(JudgeHistories, GoByTheExpectation) {
   EXPECT_EQ(assessed(levels(2.0), proper_2).verdict, Verdict::agrees);
   EXPECT_EQ(assessed(levels(1.0), proper_2).verdict, Verdict::disagrees);

@@ -47,6 +47,34 @@ TEST(LadderFit, GrowthThatSlowsDownALittleIsStillDivergent) {
                    Behaviour::divergent, "error-growth");
 }
 
+TEST(LadderFit, OneNumberOverThreeOctavesIsAFloorThoughContactsHaveFewSteps) {
+  const auto flat = ladder([](double h) { return 0.2 + 1e-3 * h; });
+  const double finest = flat.back().back().step;
+  EXPECT_BEHAVIOUR(fit_ladder(flat, {.contact_time = 15.0 * finest}), Behaviour::stagnating,
+                   "contact-stiffness");
+  EXPECT_BEHAVIOUR(fit_ladder(flat, {.contact_time = 9.0 * finest}), Behaviour::undecided,
+                   "contact-not-resolved");
+  const auto falling = ladder([](double h) { return 0.2 + 10.0 * h; });
+  EXPECT_BEHAVIOUR(fit_ladder(falling, {.contact_time = 15.0 * finest}), Behaviour::undecided,
+                   "contact-not-resolved");
+}
+
+TEST(LadderFit, StepsOfUnstableRunsAreNamed) {
+  const auto fit = fit_ladder(ladder([](double h) { return h > 0.011 ? 1e9 : h * h; }), {});
+  EXPECT_GT(fit.stable_step, 0.009);
+  EXPECT_LT(fit.stable_step, 0.011);
+  EXPECT_EQ(fit_ladder(ladder([](double h) { return h * h; }), {}).stable_step, 0.0);
+}
+
+TEST(LadderFit, TheFloorOfRoundingBeginsAtItsFirstLevel) {
+  auto runs = ladder([](double h) { return h * h; });
+  for (std::size_t i = 5; i < runs.size(); ++i)
+    for (auto& point : runs[i]) point = {point.step, 1e-7, 1e-7};
+  const auto fit = fit_ladder(runs, {});
+  EXPECT_EQ(fit.floor_step, runs[5].front().step);
+  EXPECT_EQ(fit.floor, 1e-7);
+}
+
 TEST(LadderFit, APureLineIsProperWithItsOrderAndConstant) {
   for (const double q : {1.0, 2.0, 4.0}) {
     const auto fit = fit_ladder(ladder([&](double h) { return 3.0 * pow(h, q); }, {.levels = 6}),

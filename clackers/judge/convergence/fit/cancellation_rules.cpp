@@ -85,7 +85,6 @@ RuleResult cancellation(const Range& range, const FitContext& context) {
 }
 
 RuleResult grows_again(const Range& range, const FitContext&) {
-  if (range.clear_levels() < shortest_window) return {};
   int least = range.first;
   for (int i = range.first; i <= range.clear; ++i)
     if (range.level(i).error < range.level(least).error) least = i;
