@@ -59,6 +59,17 @@ TEST(LadderFit, OneNumberOverThreeOctavesIsAFloorThoughContactsHaveFewSteps) {
                    "contact-not-resolved");
 }
 
+TEST(LadderFit, FewRunsAboveRoundingHaveAnIntervalOfThemAll) {
+  // One run a level, of which the finest three may bend by rounding.
+  auto runs = ladder([](double h) { return std::pow(h, 4); }, {.levels = 5, .samples = 1});
+  for (std::size_t i = 2; i < runs.size(); ++i)
+    runs[i].front() = {runs[i].front().step, 0.99 * runs[i].front().error,
+                       0.02 * runs[i].front().error};
+  const auto fit = fit_ladder(runs, {.claimed_order = 4.0});
+  EXPECT_EQ(fit.last_level, 4);
+  EXPECT_LT(fit.spread, 1.0);
+}
+
 TEST(LadderFit, StepsOfUnstableRunsAreNamed) {
   const auto fit = fit_ladder(ladder([](double h) { return h > 0.011 ? 1e9 : h * h; }), {});
   EXPECT_GT(fit.stable_step, 0.009);

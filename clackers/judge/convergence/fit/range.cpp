@@ -79,10 +79,12 @@ LadderFit diverges(const LadderFit& fit) {
 
 LadderFit with_line(const Range& range, const Window& found) {
   auto fit = range.blank;
+  constexpr std::size_t enough_to_bend = 5;
   // What bends may be rounding.
   int last = found.last;
   while (last - found.first > 1 && range.level(last).may_bend) --last;
-  const auto points = raw_points(range.levels, found.first, last);
+  auto points = raw_points(range.levels, found.first, last);
+  if (points.x.size() < enough_to_bend) points = raw_points(range.levels, found.first, found.last);
   const auto interval = order_interval(points.x, points.y);
   fit.has_line = true;
   fit.order = found.line.slope;
