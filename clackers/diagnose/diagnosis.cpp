@@ -219,7 +219,8 @@ constexpr double less_sure = 0.25;
 // Each of `causes` brings about what each of `implied` describes.
 struct Implication {
   Codes causes, implied;
-  double least_lead = -less_sure;  ///< in confidence, of a cause over what it replaces
+  double least_lead = -less_sure;    ///< in confidence, of a cause over what it replaces
+  std::string_view other_than = {};  ///< not where the cause has this unit
 };
 
 const std::vector<Implication>& implications() {
@@ -256,7 +257,9 @@ const std::vector<Implication>& implications() {
             {"wrong-limit", "noise-floor", "impact-impulse-wrong", "contact-in-tension"}})},
       {{"impact-impulse-wrong"}, all({of_method, {"wrong-limit", "noise-floor"}})},
       {{"time-shifted", "time-drifts"},
-       all({of_method, {"wrong-limit", "noise-floor", "impact-tolerance", "impact-at-step-end"}})},
+       all({of_method, {"noise-floor", "impact-tolerance", "impact-at-step-end"}})},
+      // Times that are late by steps have the right limit.
+      {{"time-shifted", "time-drifts"}, {"wrong-limit"}, -less_sure, "steps"},
       {{"contact-compliant"},
        all({of_system,
             of_time,
@@ -306,13 +309,10 @@ const Cause* find_cause(std::string_view code) {
 }
 
 bool brings_about(const Diagnosis& cause, const Diagnosis& implied) {
-  // Times that are late by steps have the right limit.
-  if (cause.unit == "steps" && cause.code == Code("time-shifted").name() &&
-      implied.code == Code("wrong-limit").name())
-    return false;
   return cause.code != implied.code &&
          std::ranges::any_of(implications(), [&](const Implication& rule) {
            return contains(rule.causes, cause.code) && contains(rule.implied, implied.code) &&
+                  (rule.other_than.empty() || cause.unit != rule.other_than) &&
                   cause.confidence >= implied.confidence + rule.least_lead;
          });
 }

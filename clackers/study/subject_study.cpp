@@ -341,7 +341,7 @@ void SubjectStudy::decide() {
   bool single = false;
   for (const auto& cause : subject_.diagnoses)
     if (const double floor = cause.fact("floor");
-        cause.code == Code("single-precision").name() && floor > 0.0) {
+        cause.code == Code("single-precision").name() && floor > 0.0 && facts.finest) {
       single = true;
       facts.finest->printed_floor = std::max(facts.finest->printed_floor, floor);
       for (auto& level : ladder)

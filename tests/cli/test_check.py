@@ -159,9 +159,14 @@ class Against(CheckTest):
         self.assertEqual((sets[1]["histories"], sets[1]["order"]), (1, None))
 
     def test_a_difference_that_is_visible_has_its_first_time(self):
-        late = self.history("late.csv", change=lambda row: row | {"u2": row["u2"] + 0.01 * (row["t"] > 7.005)})
-        masses, _ = self.against(late, "--against", self.history("exact.csv"))
+        def compared(by):
+            late = self.history("late.csv", change=lambda row: row | {"u2": row["u2"] + by * (row["t"] > 7.005)})
+            return self.against(late, "--against", self.history("exact.csv"))[0]
+
+        masses = compared(0.01)
         self.assertEqual([mass["since"] for mass in masses], [None, 7.01])
+        visible = 0.01 * 1e-3 / masses[1]["relative"]
+        self.assertEqual([compared(share * visible)[1]["since"] for share in (0.9, 1.1)], [None, 7.01])
 
     def test_the_exit_code_is_that_of_the_tolerance(self):
         files = self.converging(levels=1) + ["--against", self.history("exact.csv")]

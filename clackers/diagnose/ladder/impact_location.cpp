@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "clackers/measure/errors/mechanics.hpp"
-#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -23,16 +22,9 @@ class Locator {
   explicit Locator(const model::ImpactProblem<>& problem)
       : motion_(problem.system),
         mass_(problem.system.mass),
-        frequency_(highest_frequency(problem.system)) {}
+        frequency_(measure::highest_frequency(problem.system)) {}
 
   double frequency() const { return frequency_; }
-
-  FreeState row(const model::Trajectory& rows, std::size_t i) const {
-    const auto n = Eigen::Index(rows.dof);
-    const auto at = i * std::size_t(rows.dof);
-    return {rows.t[i], Eigen::Map<const Eigen::VectorXd>(rows.u.data() + at, n),
-            Eigen::Map<const Eigen::VectorXd>(rows.v.data() + at, n)};
-  }
 
   // Steps of w h <= 0.02 cost 0.02^5 / 120 = 3e-11 of the state each.
   FreeState moved(FreeState state, double s) const {
@@ -125,10 +117,6 @@ class Locator {
   }
 
  private:
-  static double highest_frequency(const model::SmoothSystem<>& system) {
-    return std::sqrt(std::max(1e-6, numerics::highest_square(system.stiffness, system.mass)));
-  }
-
   measure::FreeMotion motion_;
   const Eigen::MatrixXd& mass_;
   double frequency_;
@@ -139,11 +127,11 @@ struct Rows {
   std::size_t before, after;
 };
 
-std::optional<Rows> rows_around(const model::Trajectory& rows, double t, const Locator& locator,
+std::optional<Rows> rows_around(const model::Trajectory& rows, double t,
                                 const model::Contact<>& contact) {
   const auto near = std::size_t(std::ranges::upper_bound(rows.t, t) - rows.t.begin());
   const auto side = [&](std::size_t i, double sign) {
-    const auto state = locator.row(rows, i);
+    const auto state = measure::row_state(rows, i);
     return contact.gap_at(state.u) >= 0.0 && sign * contact.gap_rate(state.v) > 0.0;
   };
   auto before = near;
@@ -158,15 +146,15 @@ std::optional<Rows> rows_around(const model::Trajectory& rows, double t, const L
 
 // LocatedImpact::closed_speed of the rows between these two: 1 where one step makes most of the change,
 // as no spring does.
-double closed_speed(const model::Trajectory& rows, const Rows& around, const Locator& locator,
+double closed_speed(const model::Trajectory& rows, const Rows& around,
                     const model::Contact<>& contact) {
-  const double closing = -contact.gap_rate(locator.row(rows, around.before).v);
-  const double opening = contact.gap_rate(locator.row(rows, around.after).v);
+  const double closing = -contact.gap_rate(measure::row_state(rows, around.before).v);
+  const double opening = contact.gap_rate(measure::row_state(rows, around.after).v);
   constexpr double most_of_it = 0.6;
   double sum = 0.0, last = -closing;
   int closed = 0;
   for (auto i = around.before + 1; i < around.after; ++i) {
-    const auto state = locator.row(rows, i);
+    const auto state = measure::row_state(rows, i);
     const double rate = contact.gap_rate(state.v);
     if (rate - std::exchange(last, rate) > most_of_it * (closing + opening)) return 1.0;
     if (contact.gap_at(state.u) >= 0.0) continue;
@@ -222,19 +210,20 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
             : sample;
     if (impact.contact < 0 || std::size_t(impact.contact) >= problem.contacts.size()) continue;
     const auto& contact = problem.contacts[std::size_t(impact.contact)];
-    const auto around = rows_around(rows, impact.t, locator, contact);
+    const auto around = rows_around(rows, impact.t, contact);
     if (!around) continue;
     const auto together =
         contacts_between(rows.t[around->before], rows.t[around->after], impact.contact);
     if (together.empty()) continue;
-    auto one = locator.located(locator.row(rows, around->before), locator.row(rows, around->after),
-                               contact, problem.contacts, together);
+    auto one = locator.located(measure::row_state(rows, around->before),
+                               measure::row_state(rows, around->after), contact, problem.contacts,
+                               together);
     if (!one) continue;
     one->contact = impact.contact;
     one->delay_steps = one->delay / (seen.facts.step > 0.0 ? seen.facts.step : seen.facts.spacing);
     // The flights on both sides; what they lose is known below.
     lengths.push_back(rows.t[around->after] - rows.t[around->before]);
-    one->closed_speed = closed_speed(rows, *around, locator, contact);
+    one->closed_speed = closed_speed(rows, *around, contact);
     found.impacts.push_back(*one);
   }
   if (found.impacts.empty()) return found;
@@ -246,7 +235,7 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
   for (std::size_t i = 0; i + 1 < rows.t.size(); i += stride) {
     const double s = rows.t[i + 1] - rows.t[i];
     if (!(s > 0.0) || alone(rows.t[i] - s, rows.t[i + 1] + s) > 0) continue;
-    const auto from = locator.row(rows, i), to = locator.row(rows, i + 1);
+    const auto from = measure::row_state(rows, i), to = measure::row_state(rows, i + 1);
     const auto now = locator.moved(from, s);
     gaps.push_back(std::abs(problem.contacts.front().direction.dot(now.u - to.u)) / speed);
     defects.push_back(locator.difference(now.u - to.u, now.v - to.v) / speed / s);

@@ -12,8 +12,6 @@
 namespace clackers::diagnose {
 namespace {
 
-using measure::FreeState;
-
 // Impacts at mirrored positions of a motion have one delay, so equal ones count once.
 std::vector<double> distinct(std::vector<double> values, double apart) {
   std::ranges::sort(values);
@@ -212,18 +210,13 @@ std::optional<Diagnosis> not_started(const DiagnosisInput& question) {
     const double s = rows.t[1] - start.t;
     if (!(s > 0.0) || s > 1.5 * seen.facts.step || rows.t[0] != start.t) continue;
     if (rows.impacts && !rows.impacts->empty() && rows.impacts->front().t < rows.t[2]) continue;
-    const auto row = [&](std::size_t i) {
-      const auto at = std::ptrdiff_t(i) * rows.dof;
-      return FreeState{rows.t[i], Eigen::Map<const Eigen::VectorXd>(rows.u.data() + at, rows.dof),
-                       Eigen::Map<const Eigen::VectorXd>(rows.v.data() + at, rows.dof)};
-    };
-    const auto first = motion.moved(start, s), second = motion.moved(row(1), rows.t[2] - rows.t[1]);
-    const Eigen::VectorXd gained = first.v - start.v, lack = first.v - row(1).v;
+    const auto one = measure::row_state(rows, 1), two = measure::row_state(rows, 2);
+    const auto first = motion.moved(start, s), second = motion.moved(one, two.t - one.t);
+    const Eigen::VectorXd gained = first.v - start.v, lack = first.v - one.v;
     if (gained.norm() < least_step * first.v.norm()) continue;
-    const double rest =
-        (second.v - row(2).v).norm() + (second.u - row(2).u).norm() / (rows.t[2] - rows.t[1]);
+    const double rest = (second.v - two.v).norm() + (second.u - two.u).norm() / (two.t - one.t);
     const bool is_of_start = rest < largest_rest * lack.norm() &&
-                             (first.u - row(1).u).norm() < largest_way * s * gained.norm();
+                             (first.u - one.u).norm() < largest_way * s * gained.norm();
     shares.push_back(is_of_start ? lack.dot(gained) / gained.squaredNorm() : 0.0);
   }
   return one_share(shares, 2, "at the start", shares.size());

@@ -35,12 +35,6 @@ Impulses impulses_of(const Observation& seen, const model::ImpactProblem<>& prob
   const auto& rows = rows_of(seen);
   const measure::FreeMotion motion(problem.system);
   const double mass = 1.0 / contact.direction.dot(motion.response(contact.direction));
-  const auto n = std::size_t(rows.dof);
-  const auto state = [&](std::size_t i) {
-    return measure::FreeState{
-        rows.t[i], Eigen::Map<const Eigen::VectorXd>(rows.u.data() + i * n, Eigen::Index(n)),
-        Eigen::Map<const Eigen::VectorXd>(rows.v.data() + i * n, Eigen::Index(n))};
-  };
   const double first = seen.sample.impacts->front().t;
   double flight_force = 0.0, speed = 0.0;
   int flights = 0;
@@ -48,7 +42,7 @@ Impulses impulses_of(const Observation& seen, const model::ImpactProblem<>& prob
   for (std::size_t i = 0; i + 1 < rows.t.size() && sum.rows < most_rows; ++i) {
     const double s = rows.t[i + 1] - rows.t[i];
     if (!(s > 0.0)) continue;
-    const auto from = state(i), to = state(i + 1);
+    const auto from = measure::row_state(rows, i), to = measure::row_state(rows, i + 1);
     speed = std::max(speed, std::abs(contact.gap_rate(from.v)));
     const double impulse = mass * contact.gap_rate(to.v - motion.moved(from, s).v);
     if (contact.gap_at(from.u) > 0.0 && contact.gap_at(to.u) > 0.0) {

@@ -13,7 +13,6 @@
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/numerics/line_fit.hpp"
-#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -144,8 +143,7 @@ class Mover {
 FlightFit flight_fit(const Observation& seen, const System& system,
                      const std::vector<FlightChange>& changes) {
   FlightFit fit;
-  const double fastest =
-      std::sqrt(std::max(1e-6, numerics::highest_square(system.stiffness, system.mass)));
+  const double fastest = measure::highest_frequency(system);
   const auto& whole = seen.sample;
   if (whole.v.empty()) return fit;
   const double longest = 0.5 / fastest;
@@ -156,18 +154,14 @@ FlightFit flight_fit(const Observation& seen, const System& system,
   if (flights.size() < enough) return fit;
   const auto dof = system.dof();
   const Eigen::ArrayXd weight = system.mass.diagonal().array().sqrt();
-  const auto state = [&](std::size_t i) {
-    const auto at = std::ptrdiff_t(i) * dof;
-    return FreeState{rows.t[i], Eigen::Map<const Eigen::VectorXd>(rows.u.data() + at, dof),
-                     Eigen::Map<const Eigen::VectorXd>(rows.v.data() + at, dof)};
-  };
   const auto moved = [&](const System& by) {
     const Mover mover(by, fastest);
     Eigen::VectorXd all(std::ssize(flights) * dof);
     for (std::size_t k = 0; k < flights.size(); ++k) {
       const auto i = flights[k];
       const double s = rows.t[i + 1] - rows.t[i];
-      all.segment(Eigen::Index(k) * dof, dof) = mover.velocity(state(i), s).array() * weight / s;
+      all.segment(Eigen::Index(k) * dof, dof) =
+          mover.velocity(measure::row_state(rows, i), s).array() * weight / s;
     }
     return all;
   };
@@ -176,7 +170,7 @@ FlightFit flight_fit(const Observation& seen, const System& system,
   for (std::size_t k = 0; k < flights.size(); ++k) {
     const auto i = flights[k];
     fit.lack.segment(Eigen::Index(k) * dof, dof) =
-        state(i + 1).v.array() * weight / (rows.t[i + 1] - rows.t[i]);
+        measure::row_state(rows, i + 1).v.array() * weight / (rows.t[i + 1] - rows.t[i]);
   }
   fit.lack -= right;
   std::vector<Eigen::VectorXd> columns;

@@ -1,6 +1,8 @@
 #include "clackers/measure/errors/mechanics.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 
 #include "clackers/numerics/linear_algebra.hpp"
 
@@ -16,6 +18,16 @@ MechanicalEnergy::Rows MechanicalEnergy::rows_of(const Eigen::MatrixXd& matrix) 
     rows.ends.push_back(rows.values.size());
   }
   return rows;
+}
+
+FreeState row_state(const model::Trajectory& rows, std::size_t i) {
+  const auto dof = Eigen::Index(rows.dof), at = Eigen::Index(i) * dof;
+  return {rows.t[i], Eigen::Map<const Eigen::VectorXd>(rows.u.data() + at, dof),
+          Eigen::Map<const Eigen::VectorXd>(rows.v.data() + at, dof)};
+}
+
+double highest_frequency(const model::SmoothSystem<>& system) {
+  return std::sqrt(std::max(1e-6, numerics::highest_square(system.stiffness, system.mass)));
 }
 
 FreeMotion::FreeMotion(const model::SmoothSystem<>& system)

@@ -9,10 +9,17 @@
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
 #include "clackers/model/sink.hpp"
+#include "clackers/model/trajectory.hpp"
 
 namespace clackers::measure {
 
 using FreeState = model::State<model::any_dof>;
+
+/// Row `i` of a history that has velocities.
+FreeState row_state(const model::Trajectory& rows, std::size_t i);
+
+/// Highest undamped natural frequency without contact, at least 1e-3 [rad/s].
+double highest_frequency(const model::SmoothSystem<>& system);
 
 /// How a structure moves while nothing collides, from its equation of motion alone.
 class FreeMotion {
