@@ -14,6 +14,7 @@
 #include <string_view>
 #include <utility>
 
+#include "clackers/base/input_file.hpp"
 #include "clackers/solvers/process.hpp"
 
 namespace clackers::cli {
@@ -113,6 +114,7 @@ void handle(int signal, void (*handler)(int), int flags) {
 }  // namespace
 
 void catch_signals() {
+  end_reading_on(interrupted);
   // No SA_RESTART: a read that waits for a person must wake up.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal, on_stop, 0);
   for (const int signal : {SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPWR,

@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "clackers/base/error.hpp"
@@ -40,6 +41,8 @@ int guarded(const std::vector<std::string>& arguments) {
   } catch (const std::bad_alloc&) {
     report_error("not enough memory for this request; ask for less.", "out-of-memory");
     return 4;
+  } catch (const std::system_error& error) {
+    return report(error, "system-failed", 4);
   } catch (const std::exception& error) {
     report_error(fmt::format("a mistake in the program: {}. Please report it with your command.",
                              error.what()),

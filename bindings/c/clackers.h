@@ -35,7 +35,7 @@ extern "C" {
 typedef int32_t clackers_status;
 enum {
   CLACKERS_OK = 0,
-  CLACKERS_REFUSED = 1,       /**< an argument is not allowed; nothing was done */
+  CLACKERS_REFUSED = 1,       /**< an argument is not allowed, or a file cannot be read */
   CLACKERS_OUT_OF_MEMORY = 2, /**< ask for less */
   CLACKERS_INTERNAL_ERROR = 3 /**< a mistake of the library; please report it */
 };

@@ -21,13 +21,11 @@ clackers_status guarded(const auto& work) noexcept {
     forget_error();
     work();
     return CLACKERS_OK;
-  } catch (const InputError& error) {
+  } catch (const Error& error) {
     return remember_error(CLACKERS_REFUSED, error.what(), error.code());
   } catch (const std::bad_alloc&) {
     return remember_error(CLACKERS_OUT_OF_MEMORY, "clackers: out of memory; ask for less.",
                           "out-of-memory");
-  } catch (const Error& error) {
-    return remember_error(CLACKERS_INTERNAL_ERROR, error.what(), error.code());
   } catch (const std::exception& error) {
     return remember_error(CLACKERS_INTERNAL_ERROR, error.what(), "internal-error");
   } catch (...) {

@@ -21,7 +21,7 @@ TEST(Guard, EveryExceptionBecomesAStatusWithTextAndCode) {
   EXPECT_STREQ(clackers_last_error(), "clackers: out of memory; ask for less.");
   EXPECT_STREQ(clackers_last_error_code(), "out-of-memory");
 
-  EXPECT_EQ(status_of(FileError("b: gone.", "cannot-read")), CLACKERS_INTERNAL_ERROR);
+  EXPECT_EQ(status_of(FileError("b: gone.", "cannot-read")), CLACKERS_REFUSED);
   EXPECT_STREQ(clackers_last_error(), "b: gone.");
   EXPECT_STREQ(clackers_last_error_code(), "cannot-read");
 

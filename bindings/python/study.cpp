@@ -2,7 +2,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -57,8 +56,8 @@ std::map<std::string, double> read_options(const py::dict& given) {
       const bool is_whole = option.kind == study::VerifyOption::Kind::whole;
       const double number =
           is_whole ? double(read_whole("verify", name, value)) : read_number("verify", name, value);
-      if (is_whole && !(number >= 1.0 && number <= std::numeric_limits<int>::max()))
-        refuse("verify", name, number, "1 or more");
+      if (is_whole && !(number >= 1.0 && number <= option.most))
+        refuse("verify", name, number, "1 to " + std::to_string(option.most));
       numbers[std::string(option.name)] = number;
     }
   return numbers;

@@ -339,6 +339,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "The scheduler did not take the job. The message has what it printed."},
     {"out-of-memory", "failure",
      "There was not enough memory for the request; ask for less."},
+    {"system-failed", "failure",
+     "The operating system refused a thread, a folder or a file descriptor. The message has its reason; try again, or raise the limit."},
     {"internal-error", "failure",
      "A mistake in the program itself. Please report it with the command that led to it."},
     {"interrupted", "failure",

@@ -46,7 +46,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "cannot-write", "cannot-read", "no-renderer", "render-failed", "program-failed",
     "program-timeout", "program-output", "callable-failed",
     "callable-output", "foreign-folder", "too-many-runs", "not-a-campaign", "other-campaign",
-    "other-version", "database-busy", "shard-missing", "no-mpi", "scheduler-failed", "out-of-memory", "internal-error", "interrupted",
+    "other-version", "database-busy", "shard-missing", "no-mpi", "scheduler-failed", "out-of-memory", "system-failed", "internal-error", "interrupted",
 });
 // clang-format on
 

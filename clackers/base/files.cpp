@@ -8,16 +8,14 @@
 #include <system_error>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/input_file.hpp"
 
 namespace clackers {
 namespace {
 
-[[noreturn]] void fail(const char* what, const std::string& path, int error, Code code,
-                       std::string_view hint = {}) {
-  throw FileError(
-      fmt::format("cannot {} {}: {}.{}{}", what, path, std::generic_category().message(error),
-                  hint.empty() ? "" : " ", hint),
-      code);
+[[noreturn]] void fail_to_write(const std::string& path, int error) {
+  throw FileError(fmt::format("cannot write {}: {}.", path, std::generic_category().message(error)),
+                  "cannot-write");
 }
 
 // Repeats a system call that a signal interrupted.
@@ -34,32 +32,17 @@ void Descriptor::close() {
 }
 
 std::string read_file(const std::string& path, std::string_view hint, std::size_t most) {
-  const Descriptor file(
-      call_again([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY); }));
-  if (!file.is_open()) fail("read", path, errno, "cannot-read", hint);
-  constexpr std::size_t block = 1 << 16;
-  std::string bytes;
-  for (std::size_t size = 0;;) {
-    bytes.resize(size + block);
-    const auto count =
-        call_again([&] { return ::read(file.number(), bytes.data() + size, block); });
-    if (count < 0) fail("read", path, errno, "cannot-read", hint);
-    size += static_cast<std::size_t>(count);
-    if (size > most) fail("read", path, EFBIG, "cannot-read", hint);
-    if (count > 0) continue;
-    bytes.resize(size);
-    return bytes;
-  }
+  return InputFile(path == "-" ? "./-" : path, nullptr, hint).rest(most);
 }
 
 void write_file(const std::string& path, std::string_view bytes) {
   const Descriptor file(call_again(
       [&] { return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); }));
-  if (!file.is_open()) fail("write", path, errno, "cannot-write");
+  if (!file.is_open()) fail_to_write(path, errno);
   while (!bytes.empty()) {
     const auto count =
         call_again([&] { return ::write(file.number(), bytes.data(), bytes.size()); });
-    if (count < 0) fail("write", path, errno, "cannot-write");
+    if (count < 0) fail_to_write(path, errno);
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }
 }

@@ -28,14 +28,15 @@ class Descriptor {
   int number_;
 };
 
-/// What a file of this program or of a person may have [bytes], so that /dev/zero cannot fill the
-/// memory.
-inline constexpr std::size_t longest_file = std::size_t{1} << 30;
+/// Bytes that a text of a person or a program may have, and a file of any kind: /dev/zero must not
+/// fill the memory.
+inline constexpr std::size_t longest_text = std::size_t{1} << 24,
+                             longest_file = std::size_t{1} << 30;
 
 /// The whole of a file. Throws FileError (cannot-read) with its name, the system's reason and `hint`
-/// for one that cannot be read or has more than `most` bytes.
+/// for one that cannot be read or has more than `most` bytes; Error (interrupted), see InputFile.
 std::string read_file(const std::string& path, std::string_view hint = {},
-                      std::size_t most = longest_file);
+                      std::size_t most = longest_text);
 
 /// Writes a whole file. Throws FileError (cannot-write) with its name and the system's reason.
 void write_file(const std::string& path, std::string_view bytes);

@@ -21,7 +21,10 @@ TEST(Files, MessageHasNameReasonAndHint) {
   EXPECT_REFUSED(read_file("/no/such/file", "Name another."), "cannot-read",
                  "cannot read /no/such/file: No such file or directory. Name another.");
   EXPECT_REFUSED(read_file("/"), "cannot-read", "cannot read /: Is a directory.");
-  EXPECT_REFUSED(read_file("/dev/zero", {}, 100000), "cannot-read", "File too large");
+  for (const std::size_t most : {std::size_t{100000}, longest_text})
+    EXPECT_REFUSED(
+        read_file("/dev/zero", "Name another.", most), "cannot-read",
+        "cannot read /dev/zero: it is too large; allowed: " + std::to_string(most) + " bytes.");
   EXPECT_REFUSED(write_file("/no/such/file", "x"), "cannot-write",
                  "cannot write /no/such/file: No such file or directory.");
   EXPECT_REFUSED(write_file("/dev/full", "x"), "cannot-write", "No space left on device");

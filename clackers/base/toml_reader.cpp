@@ -7,11 +7,51 @@
 #include <cmath>
 
 #include "clackers/base/check.hpp"
+#include "clackers/base/files.hpp"
 #include "clackers/base/number.hpp"
 
 namespace clackers {
+namespace {
+
+// The last character of the text in quotes that begins at `i`.
+std::size_t end_of_quotes(std::string_view text, std::size_t i) {
+  const std::string mark(3, text[i]);
+  const bool is_long = text.substr(i, 3) == mark;
+  for (i += is_long ? 3 : 1; i < text.size(); ++i)
+    if (text[i] == '\\' && mark[0] == '"')
+      ++i;
+    else if (!is_long && (text[i] == mark[0] || text[i] == '\n'))
+      return i;
+    else if (is_long && text.substr(i, 3) == mark)  // two more belong to it
+      return i + 2 + std::min<std::size_t>(text.substr(i + 3, 2).find_first_not_of(mark), 2);
+  return i;
+}
+
+void require_short_keys(std::string_view text, const std::string& name) {
+  int points = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"' || text[i] == '\'')
+      i = end_of_quotes(text, i);
+    else if (text[i] == '#')
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    else if (std::string_view(",=[]{}\n").find(text[i]) != std::string_view::npos)
+      points = 0;
+    else if (text[i] == '.' && ++points == most_parts)
+      throw InputError(
+          fmt::format("{}:{}: a key has more than {} parts.", name,
+                      1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(i), '\n'),
+                      most_parts),
+          "bad-syntax");
+  }
+}
+
+}  // namespace
 
 toml::table toml_from(std::string_view text, const std::string& name) {
+  if (text.size() > longest_text)
+    throw InputError(fmt::format("{}: {} bytes; allowed: {}.", name, text.size(), longest_text),
+                     "bad-syntax");
+  require_short_keys(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

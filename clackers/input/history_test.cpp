@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "clackers/input/testing/test_file.hpp"
+#include "clackers/base/testing/test_file.hpp"
 
 namespace clackers::input {
 namespace {

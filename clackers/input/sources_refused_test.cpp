@@ -4,9 +4,9 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "clackers/base/testing/test_file.hpp"
 #include "clackers/input/history.hpp"
 #include "clackers/input/testing/test_columns.hpp"
-#include "clackers/input/testing/test_file.hpp"
 
 namespace clackers::input {
 namespace {

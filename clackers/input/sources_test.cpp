@@ -5,9 +5,9 @@
 #include <initializer_list>
 #include <limits>
 
+#include "clackers/base/testing/test_file.hpp"
 #include "clackers/input/history.hpp"
 #include "clackers/input/testing/test_columns.hpp"
-#include "clackers/input/testing/test_file.hpp"
 
 namespace clackers::input {
 namespace {

@@ -4,8 +4,8 @@
 #include <cctype>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/input_file.hpp"
 #include "clackers/input/numbers/number_table.hpp"
-#include "clackers/input/text/input_file.hpp"
 #include "clackers/input/text/text_table.hpp"
 
 namespace clackers::input {

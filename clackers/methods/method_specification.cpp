@@ -36,8 +36,8 @@ class Parser {
  private:
   [[noreturn]] void refuse(std::string_view why, Code code = "bad-syntax") const {
     throw InputError(
-        fmt::format("clackers: method \"{}\": {}; allowed: name:parameter=value,...+contact, for "
-                    "example newmark:beta=0.25+penalty:stiffness=1e6.",
+        fmt::format("clackers: method \"{}\": {}; allowed: name:parameter=value,...+contact "
+                    "without blanks, for example newmark:beta=0.25+penalty:stiffness=1e6.",
                     text_, why),
         code);
   }

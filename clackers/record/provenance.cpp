@@ -4,9 +4,10 @@
 #include <sys/utsname.h>
 #include <time.h>
 
-#include <fstream>
-#include <iterator>
 #include <thread>
+
+#include "clackers/base/error.hpp"
+#include "clackers/base/files.hpp"
 
 #ifndef CLACKERS_VERSION
 #error "the build gives CLACKERS_VERSION, the version of the project"
@@ -54,8 +55,12 @@ std::string processor_name(const std::string& cpuinfo) {
 }
 
 Provenance provenance(std::string command) {
-  std::ifstream file("/proc/cpuinfo");
-  const std::string cpuinfo{std::istreambuf_iterator<char>(file), {}};
+  std::string cpuinfo;
+  try {
+    cpuinfo = read_file("/proc/cpuinfo");
+  } catch (const FileError&) {
+    // The name stays unknown.
+  }
   return {std::move(command), CLACKERS_VERSION,        compiler_name(),
           machine_name(),     processor_name(cpuinfo), now_utc()};
 }

@@ -268,7 +268,9 @@ Json parsed(const std::string& text, const std::atomic<bool>* interrupt) {
   try {
     return parse_json(text, watch);
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("record: no json: {}", error.what()), "not-a-record");
+    std::string_view reason = error.what();
+    reason.remove_prefix(reason.find(']') + 1);  // "[json.exception.parse_error.101]"
+    throw InputError(fmt::format("record: no json:{}", reason), "not-a-record");
   }
 }
 

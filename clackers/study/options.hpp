@@ -14,10 +14,11 @@ inline constexpr double default_budget = 20.0;
 
 /// An option of verify that is a number: `--name value` of the command, `name=value` in Python.
 struct VerifyOption {
-  enum class Kind { whole, number, duration };  ///< whole: 1 or more; duration [s]
+  enum class Kind { whole, number, duration };  ///< whole: from 1; duration [s]
   std::string_view name;                        ///< "samples-per-level"; Python has underscores
   std::string_view former;                      ///< an earlier name that is still taken, or empty
   Kind kind;
+  int most;                      ///< of a whole number
   std::string_view placeholder;  ///< of the value in the help: "n"
   std::string_view meaning;      ///< with the default
   void (*set)(VerifyRequest& request, double value);

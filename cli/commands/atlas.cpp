@@ -75,7 +75,7 @@ int submit(const AtlasOptions& options, const std::string& line) {
     store.sign(
         {options.author.empty() ? options.submit : options.author, record::provenance(line)});
   }
-  file.stream() << read_file(database);
+  file.stream() << read_file(database, {}, longest_file);
   file.commit();
   if (!options.common.quiet)
     note(fmt::format("Wrote {}: {} tasks. Merge them into an atlas with: clackers atlas --merge {}",

@@ -92,7 +92,7 @@ std::string AtlasFolder::place_of(const std::string& file) const {
 
 void AtlasFolder::take_in(const std::vector<std::string>& files) const {
   if (!files.empty()) make_folder(results());
-  for (const auto& file : files) write_whole(place_of(file), read_file(file));
+  for (const auto& file : files) write_whole(place_of(file), read_file(file, {}, longest_file));
 }
 
 void AtlasFolder::write_page(const std::string& html) const { write_whole(page(), html); }

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -48,8 +47,7 @@ std::map<std::string, double> numbers_of(const Options& options) {
     const std::string key(option.name), name = "--" + key;
     const auto& text = options.numbers.at(key);
     if (text.empty()) continue;
-    numbers[key] = option.kind == Kind::whole
-                       ? double(read_whole(name, text, 1, std::numeric_limits<int>::max()))
+    numbers[key] = option.kind == Kind::whole      ? double(read_whole(name, text, 1, option.most))
                    : option.kind == Kind::duration ? read_duration(name, text)
                                                    : read_number(name, text);
   }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "clackers/base/error.hpp"
-#include "clackers/input/text/input_file.hpp"
+#include "clackers/base/input_file.hpp"
 #include "clackers/input/text/text_lines.hpp"
 #include "clackers/input/text/text_table.hpp"
 #include "clackers/record/record_json.hpp"
@@ -31,20 +31,7 @@ std::vector<double> read_times(const std::string& path, double end) {
 }
 
 record::Record read_baseline(const std::string& path) {
-  input::InputFile file(path, &interrupt_flag());
-  std::string text;
-  std::size_t size = 0, count = 0;
-  do {
-    size += count;
-    if (size > record::longest_record)
-      throw InputError(fmt::format("baseline {}: is longer than {} bytes; allowed: json as written "
-                                   "by clackers verify or check with --format json.",
-                                   path, record::longest_record),
-                       "not-a-record");
-    text.resize(size + (1 << 16));
-    count = file.read(text.data() + size, text.size() - size);
-  } while (count > 0);
-  text.resize(size);
+  const auto text = InputFile(path).rest(record::longest_record);
   try {
     return record::record_from_json(text, &interrupt_flag());
   } catch (const InputError& error) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/files.hpp"
@@ -58,10 +59,7 @@ class SpecificationReader : public TomlReader {
   }
   void add_method(const toml::node& node, MethodEntry entry) {
     // A program without a name has that of its file.
-    const auto same = [&](const MethodEntry& known) {
-      return entry.name.empty() ? known.text == entry.text : known.name == entry.name;
-    };
-    if (std::ranges::any_of(out_.methods_, same))
+    if (!known_.insert(entry.name.empty() ? "file of " + entry.text : entry.name).second)
       fail(node, fmt::format("method = {}; allowed: each method once.", entry.text), "bad-syntax");
     out_.methods_.push_back(std::move(entry));
   }
@@ -269,6 +267,7 @@ class SpecificationReader : public TomlReader {
   }
 
   Specification& out_;
+  std::set<std::string> known_;  // names of methods
 };
 
 Specification Specification::from_toml(std::string_view text, const std::string& name) {

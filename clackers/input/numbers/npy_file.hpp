@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/base/input_file.hpp"
 #include "clackers/input/numbers/npy_header.hpp"
 #include "clackers/input/source.hpp"
-#include "clackers/input/text/input_file.hpp"
 
 namespace clackers::input {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <thread>
 
+#include "clackers/base/testing/test_file.hpp"
 #include "clackers/input/testing/npy_bytes.hpp"
-#include "clackers/input/testing/test_file.hpp"
 
 namespace clackers::input {
 namespace {

@@ -1,8 +1,8 @@
 #include "clackers/input/numbers/npy_header.hpp"
 
+#include "clackers/base/testing/test_file.hpp"
 #include "clackers/input/numbers/npy_file.hpp"
 #include "clackers/input/testing/npy_bytes.hpp"
-#include "clackers/input/testing/test_file.hpp"
 
 namespace clackers::input {
 namespace {

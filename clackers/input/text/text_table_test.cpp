@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "clackers/base/number.hpp"
-#include "clackers/input/testing/test_file.hpp"
+#include "clackers/base/testing/test_file.hpp"
 
 namespace clackers::input {
 namespace {

@@ -1,10 +1,12 @@
-#include "clackers/input/text/input_file.hpp"
+#include "clackers/base/input_file.hpp"
+
+#include <sys/stat.h>
 
 #include <array>
 
-#include "clackers/input/testing/test_file.hpp"
+#include "clackers/base/testing/test_file.hpp"
 
-namespace clackers::input {
+namespace clackers {
 namespace {
 
 std::string read(InputFile& file, std::size_t capacity) {
@@ -15,7 +17,7 @@ std::string read(InputFile& file, std::size_t capacity) {
 
 TEST(InputFile, ReadsItsFirstBytesAgain) {
   const TestFile test("abcdefgh");
-  InputFile opened(test.path(), nullptr);
+  InputFile opened(test.path());
   EXPECT_EQ(opened.first_bytes(4), "abcd");
   InputFile file(std::move(opened));
   EXPECT_EQ(file.size(), 8);
@@ -29,14 +31,14 @@ TEST(InputFile, ReadsItsFirstBytesAgain) {
 
 TEST(InputFile, HasFewerFirstBytesWhereItIsShort) {
   const TestFile test("ab");
-  InputFile file(test.path(), nullptr);
+  InputFile file(test.path());
   EXPECT_EQ(file.first_bytes(6), "ab");
   EXPECT_EQ(read(file, 6), "ab");
 }
 
 TEST(InputFile, ReadsFromAnyPlaceWithoutMoving) {
   const TestFile test("abcdefgh");
-  InputFile file(test.path(), nullptr);
+  InputFile file(test.path());
   std::array<char, 4> bytes{};
   EXPECT_EQ(file.read_all_at(3, bytes.data(), 4), 4u);
   EXPECT_EQ(std::string(bytes.data(), 4), "defg");
@@ -51,7 +53,7 @@ TEST(InputFile, OfStandardInputBeginsWhereItStands) {
   const TestFile test("abcdefgh");
   ASSERT_NE(std::freopen(test.path().c_str(), "r", stdin), nullptr);
   ASSERT_EQ(::lseek(STDIN_FILENO, 2, SEEK_SET), 2);
-  InputFile file("-", nullptr);
+  InputFile file("-");
   EXPECT_EQ(file.size(), 6);
   std::array<char, 2> bytes{};
   EXPECT_EQ(file.read_all_at(1, bytes.data(), 2), 2u);
@@ -59,5 +61,19 @@ TEST(InputFile, OfStandardInputBeginsWhereItStands) {
   EXPECT_EQ(read(file, 8), "cdefgh");
 }
 
+TEST(InputFile, WaitsForNobodyOnceAFlagIsUp) {
+  const TestFile test("ab");
+  const std::string pipe = test.path() + "-pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  static std::atomic<bool> interrupt;
+  end_reading_on(interrupt);
+  interrupt = true;
+  EXPECT_REFUSED(read_file(pipe), "interrupted", "");
+  EXPECT_EQ(read_file(test.path()), "ab") << "a regular file is there after a signal, too";
+  EXPECT_REFUSED(InputFile(test.path(), &interrupt).size(), "interrupted", "");
+  interrupt = false;
+  ::unlink(pipe.c_str());
+}
+
 }  // namespace
-}  // namespace clackers::input
+}  // namespace clackers
