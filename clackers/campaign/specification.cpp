@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace clackers::campaign {
@@ -60,12 +61,9 @@ Settings CaseSystems::settings(long long i) const {
 }
 
 System Specification::system(long long number) const {
-  auto left = number;
-  for (const auto& entry : cases_) {
-    if (left < entry.size()) return {number, entry.name, entry.settings(left)};
-    left -= entry.size();
-  }
-  throw std::out_of_range("no system of this number");
+  if (number < 0 || number >= systems_) throw std::out_of_range("no system of this number");
+  const auto& entry = *std::prev(std::ranges::upper_bound(cases_, number, {}, &CaseSystems::first));
+  return {number, entry.name, entry.settings(number - entry.first)};
 }
 
 std::vector<std::string> Specification::parameters() const {

@@ -52,6 +52,7 @@ struct CaseSystems {
   std::string name;
   std::vector<Axis> axes;
   Sample sample{};
+  long long first = 0;  ///< system of the specification
 
   long long size() const;
   /// The settings of system i; a pure function of this and i.

@@ -17,10 +17,12 @@ namespace clackers::report {
 struct AtlasPart {
   const record::Sheet* subjects = nullptr;
   record::RowSource* runs = nullptr;
+  std::string file{};         ///< of both, in messages
   std::string origin{};       ///< who computed it; empty: the campaign of the page itself
   record::Provenance from{};  ///< of the runs
   std::string options{};      ///< of `clackers verify`, for the same steps: "--levels 5"
-  /// What a command line says for a method that is no name of the catalogue: "--exec './solver {h}'".
+  /// What a command line says for a method that is no name of the catalogue: "--exec './solver {h}'". The
+  /// page shows it as its author's, not to be copied unread.
   std::map<std::string, std::string> calls{};
 };
 
@@ -40,7 +42,8 @@ void require_few_cells(long long cells);
 /// One self-contained page that opens without a network: the matrix, and for each cell its
 /// convergence, for each method maps over the parameters, for each system the Pareto front, and
 /// performance profiles. Figures are drawn when they are asked for. Throws InputError for parts without
-/// a subject, for more than most_cells, and for a part that names a method on a system twice.
+/// a subject, for more than most_cells, for a part that names a method on a system twice, and as
+/// NamedCells does.
 std::string atlas_page(std::span<const AtlasPart> parts, const AtlasText& text);
 
 }  // namespace clackers::report

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <set>
 
+#include "clackers/base/error.hpp"
 #include "clackers/base/files.hpp"
 #include "clackers/campaign/run.hpp"
 #include "clackers/record/record.hpp"
@@ -88,7 +90,13 @@ int submit(const AtlasOptions& options, const std::string& line) {
 std::vector<campaign::Store> others_of(const AtlasFolder& folder,
                                        const std::vector<std::string>& added) {
   auto files = folder.others();
-  for (const auto& file : added) std::erase(files, folder.place_of(file));
+  std::set<std::string> places;
+  for (const auto& file : added) {
+    if (!places.insert(folder.place_of(file)).second)
+      refuse("atlas", "--merge", file, "each name once",
+             "Two files would take one place in results; rename one.", "bad-syntax");
+    std::erase(files, folder.place_of(file));
+  }
   files.insert(files.end(), added.begin(), added.end());
   std::vector<campaign::Store> others;
   for (const auto& file : files)
@@ -122,9 +130,11 @@ int run(const AtlasOptions& options, const std::string& line) {
 
   auto store = campaign::Store::create_or_open(folder.database(), specification);
   const auto done = run_tasks(store, {}, jobs, options.common.quiet);
+  std::string page;
   if (store.finished().size() > 0)
-    folder.write_page(campaign::campaign_page(store, others, "atlas", record::provenance(line)));
+    page = campaign::campaign_page(store, others, "atlas", record::provenance(line));
   folder.take_in(options.merge);
+  if (!page.empty()) folder.write_page(page);
   print_verdicts(store, results);
   if (done.interrupted) {
     report_error("interrupted; what was finished is stored. The same command continues.",

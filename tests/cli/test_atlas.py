@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import shutil
 import signal
 import sqlite3
 import stat
@@ -151,15 +152,42 @@ class Refusals(AtlasTest):
             self.assertFalse(os.path.exists(self.folder_of_atlas))
 
     def test_of_results_that_somebody_changed(self):
-        for change, code, says in (("UPDATE runs SET level = 1000000000000", "out-of-range", "level"),
-                                   ("UPDATE subjects SET task = 7 WHERE task = 0", "not-a-campaign", "no task"),
-                                   ("ALTER TABLE subjects DROP COLUMN verdict", "not-a-campaign", "no column verdict"),
-                                   ("CREATE VIEW seen AS SELECT 1", "not-a-campaign", "views")):
-            self.submit("bathe")
+        self.submit("bathe")
+        os.rename(self.path("bathe.db"), self.path("good.db"))
+        for change, code, says in (
+                ("UPDATE runs SET level = 1000000000000", "out-of-range", "runs: level = 1"),
+                ("UPDATE runs SET level = 65", "out-of-range", "up to 64"),
+                ("UPDATE runs SET level = 1.5", "out-of-range", "a whole number"),
+                ("UPDATE runs SET level = 'x'", "not-a-number", 'runs: level = "x"'),
+                ("UPDATE runs SET u_error = -0.001", "out-of-range", "runs: u_error = -0.001"),
+                ("UPDATE runs SET u_error = 'none'", "not-a-number", "a number"),
+                ("UPDATE runs SET steps = 1e300", "out-of-range", "steps = 1e+300"),
+                ("UPDATE runs SET finished = printf('%.*c', 20000, 'x')", "out-of-range", "20000 bytes"),
+                ("UPDATE subjects SET v_error = -1", "out-of-range", "subjects: v_error"),
+                ("UPDATE subjects SET verdict = 'superb'", "unknown-name", "verdict = superb"),
+                ("UPDATE subjects SET claim_behaviour = 'superb'", "unknown-name", "proper"),
+                ("UPDATE subjects SET refusal = printf('%.*c', 20000, 'x')", "out-of-range", "20000 bytes"),
+                ("INSERT OR REPLACE INTO campaign VALUES ('author', printf('%.*c', 20000, 'x'))", "out-of-range", "origin"),
+                ("UPDATE subjects SET task = 7 WHERE task = 0", "not-a-campaign", "no task"),
+                ("UPDATE subjects SET method = '--exec=sh'", "not-a-campaign", "no task"),
+                ("UPDATE subjects SET \"case\" = 'x; sh'", "not-a-campaign", "no task"),
+                ("UPDATE subjects SET set_eta = 0.7", "not-a-campaign", "no task"),
+                ("UPDATE campaign SET value = 'methods = 1' WHERE key = 'specification'", "bad-syntax", "methods"),
+                ("ALTER TABLE subjects DROP COLUMN verdict", "not-a-campaign", "no column verdict"),
+                ("CREATE VIEW seen AS SELECT 1", "not-a-campaign", "views")):
+            shutil.copy(self.path("good.db"), self.path("bathe.db"))
             self.change(change)
             self.refused("atlas", "--specification", self.spec, "--out", self.folder_of_atlas, "--merge",
                          self.path("bathe.db"), code=code, says=("bathe.db", says))
-            self.assertFalse(os.path.exists(self.path("atlas/results")), change)
+            self.assertFalse(os.path.exists(self.folder_of_atlas), change)
+
+    def test_of_two_files_of_one_name(self):
+        self.submit("bathe")
+        os.mkdir(self.path("more"))
+        shutil.copy(self.path("bathe.db"), self.path("more/bathe.db"))
+        self.refused("atlas", "--specification", self.spec, "--out", self.folder_of_atlas, "--merge",
+                     self.path("bathe.db"), "--merge", self.path("more/bathe.db"), code="bad-syntax",
+                     says=("more/bathe.db", "each name once"))
 
     def test_that_were_refused_leave_the_atlas_as_it_was(self):
         self.atlas()
@@ -223,7 +251,9 @@ class Submissions(AtlasTest):
         place = {name: i for i, name in enumerate(data["fields"])}
         cell = data["cells"][-1]
         self.assertEqual(data["words"][cell[place["verdict"]]], "agrees")
-        self.assertEqual(data["methods"][3]["call"], f"--exec '{command}' --name ours --expect exact")
+        added = data["methods"][3]
+        self.assertEqual((added["call"], added["program"]), (f"--exec '{command}' --name ours --expect exact", True))
+        self.assertFalse(data["methods"][0]["program"])
         self.assertEqual(data["parts"][1]["origin"], "ours")
 
     def test_that_were_interrupted_leave_no_file(self):

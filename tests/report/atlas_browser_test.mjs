@@ -120,6 +120,8 @@ async function panels(page) {
   await cell(page, 8, 4).click();
   await drawn(page, "ladder");
   check("results of others say whose they are", (await panel.innerText()).includes("Results of A. <b>Author</b>, 2025-11-21"));
+  check("a command of others is not to be copied", await panel.locator("[data-copy]").count() === 0 &&
+    (await panel.locator("#panel-command").innerText()).includes("--exec './theirs <i>{h}</i>'"));
   check("whatever their file holds is text", await page.locator("main b").count() === 0);
 
   await page.locator('tbody th[data-m="0"]').click();

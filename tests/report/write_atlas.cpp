@@ -15,8 +15,9 @@ int main(int count, char** arguments) {
   other.subjects.rows.resize(1);
   other.runs.rows.resize(8);
   record::SheetRows first(own.runs), second(other.runs);
-  const std::array parts{report::sample_part(own, first),
-                         report::sample_part(other, second, "A. <b>Author</b>")};
+  std::array parts{report::sample_part(own, first),
+                   report::sample_part(other, second, "A. <b>Author</b>")};
+  parts[1].calls["newmark"] = "--exec './theirs <i>{h}</i>' --name newmark";
   std::ofstream file(arguments[1], std::ios::binary);
   file << report::atlas_page(parts, report::sample_atlas_text());
   file.close();

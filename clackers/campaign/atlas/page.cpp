@@ -9,7 +9,6 @@
 #include "clackers/base/text.hpp"
 #include "clackers/campaign/atlas.hpp"
 #include "clackers/report/atlas.hpp"
-#include "clackers/report/atlas/survey.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/words/words.hpp"
 
@@ -41,25 +40,55 @@ std::string call_of(const MethodEntry& entry, const std::string& name) {
   return call;
 }
 
-std::size_t place_of(const std::vector<record::Column>& columns, const std::string& name) {
-  return std::size_t(std::ranges::find(columns, name, &record::Column::name) - columns.begin());
+bool is_cell(const record::Cell& cell, const ParameterValue& value) {
+  if (value.is_word()) return cell == record::Cell(value.text());
+  const auto* whole = std::get_if<long long>(&cell);
+  return cell == record::Cell(double(value)) ||
+         (whole != nullptr && double(*whole) == double(value));
 }
 
-// How a command line names the programs of a specification, by their names in the rows of `subjects`.
+// Whether a row names this method and this system, and nothing else: a page makes commands of it.
+bool is_task(const record::Sheet& subjects, const std::vector<record::Cell>& row,
+             const MethodEntry& method, const System& system) {
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    const auto& name = subjects.columns[c].name;
+    if (name == "case" && row[c] != record::Cell(std::string(system.name))) return false;
+    if (name == "method" && row[c] != record::Cell(method.name) && !method.name.empty())
+      return false;
+    if (!name.starts_with("set_")) continue;
+    const auto set =
+        std::ranges::find(system.settings, name.substr(4), &Settings::value_type::first);
+    if (set == system.settings.end() ? row[c].index() != 0 : !is_cell(row[c], set->second))
+      return false;
+  }
+  return true;
+}
+
+// How a command line names the programs of a specification, by their names in the rows of `subjects`,
+// each of which is a task of the specification.
 std::map<std::string, std::string> calls_of(const Specification& specification,
-                                            const record::Sheet& subjects) {
+                                            const record::Sheet& subjects,
+                                            const std::string& path) {
   std::map<std::string, std::string> calls;
   const auto& methods = specification.methods();
-  const auto task = place_of(subjects.columns, "task");
-  const auto method = place_of(subjects.columns, "method");
+  const auto place_of = [&](const char* name) {
+    return std::size_t(std::ranges::find(subjects.columns, name, &record::Column::name) -
+                       subjects.columns.begin());
+  };
+  const auto task = place_of("task"), method = place_of("method");
   for (const auto& row : subjects.rows) {
     const auto* number = std::get_if<long long>(&row.at(task));
-    if (number == nullptr || *number < 0 || *number >= specification.tasks())
-      throw InputError("a row of subjects has no task of the specification", "not-a-campaign");
-    const auto& entry = methods[std::size_t(*number) % methods.size()];
+    const bool is_known = number != nullptr && *number >= 0 && *number < specification.tasks();
+    const auto count = static_cast<long long>(methods.size());
+    if (!is_known || !is_task(subjects, row, methods[std::size_t(*number % count)],
+                              specification.system(*number / count)))
+      throw InputError(
+          fmt::format("{}: a row of subjects is no task of the specification beside it.", path),
+          "not-a-campaign");
+    const auto& entry = methods[std::size_t(*number % count)];
     const auto* name = std::get_if<std::string>(&row.at(method));
-    if (entry.kind == MethodEntry::Kind::catalogue || name == nullptr) continue;
-    calls.try_emplace(*name, call_of(entry, *name));
+    if (entry.kind != MethodEntry::Kind::catalogue && name != nullptr)
+      calls.try_emplace(*name, call_of(entry, *name));
   }
   return calls;
 }
@@ -78,10 +107,11 @@ struct Part {
     auto [author, from] = store.origin();
     part = {&subjects,
             runs.get(),
+            store.path(),
             author,
             std::move(from),
             ladder_options(specification.ladder()),
-            calls_of(specification, subjects)};
+            calls_of(specification, subjects, store.path())};
   }
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
@@ -110,12 +140,9 @@ std::string ladder_options(const Ladder& ladder) {
 }
 
 void require_results(const Store& store) {
-  try {
-    const Part other(store);
-    report::survey_of({&other.part, 1});
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", store.path(), error.what()), error.code());
-  }
+  report::require_few_cells(store.finished().size());
+  const Part other(store);
+  report::atlas_page({&other.part, 1}, {});
 }
 
 std::string campaign_page(const Store& store, std::span<const Store> others,

@@ -135,6 +135,8 @@ class SpecificationReader : public TomlReader {
         added.axes.push_back(axis_of(added, entry, std::string(key.str()), node));
     in_file_order(added, values);
     count(added, values);
+    added.first = out_.systems_;
+    out_.systems_ += added.size();
     out_.cases_.push_back(std::move(added));
   }
   // Tables of toml++ are sorted by name; the file's order is that of lines and columns.
@@ -238,7 +240,7 @@ class SpecificationReader : public TomlReader {
   }
 
   // Counted in doubles first: the product may not fit.
-  void count(const CaseSystems& added, const toml::table& values) {
+  void count(const CaseSystems& added, const toml::table& values) const {
     double product = 1.0;
     std::size_t dimensions = 0;
     const bool is_grid = added.sample.kind == SampleKind::grid;
@@ -263,7 +265,6 @@ class SpecificationReader : public TomlReader {
     if (!(tasks <= most_tasks))
       fail(values, fmt::format("{:.3g} tasks with this case; allowed: up to 1e18.", tasks),
            "too-many-runs");
-    out_.systems_ += added.size();
   }
 
   Specification& out_;

@@ -113,8 +113,12 @@ Store Store::open(const std::string& path) {
   connection.database = Sqlite(path, OpenMode::read);
   const auto& database = connection.database;
   require_campaign(database);
-  connection.specification =
-      Specification::from_toml(value_of(database, "specification"), value_of(database, "file"));
+  try {
+    connection.specification =
+        Specification::from_toml(value_of(database, "specification"), value_of(database, "file"));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path, error.what()), error.code());
+  }
   connection.shard = value_of(database, "shard");
   connection.tables = tables_of(connection.specification);
   require_tables(database, connection.tables);

@@ -104,6 +104,21 @@ TEST(Atlas, RefusesNothingAndTheSameCellTwice) {
   EXPECT_REFUSED(page_of(atlas), "not-a-campaign", {"clackers campaign run"});
 }
 
+TEST(Atlas, CommandsHaveNoControlCharacters) {
+  auto atlas = sample_atlas(1, 1);
+  for (auto& row : atlas.subjects.rows)
+    if (row[2].index() != 0) row[2] = std::string("\x03 sh\n");
+  record::SheetRows runs(atlas.runs);
+  auto part = sample_part(atlas, runs);
+  part.calls["rk4"] = "--exec '\x1b[201~'";
+  const auto data = atlas_data(atlas_page({&part, 1}, sample_atlas_text()));
+  EXPECT_EQ(data["systems"][0]["command"],
+            "--case three-parameter --set 'N=\\x03 sh\\x0a,xi1=0.05'");
+  EXPECT_EQ(data["methods"][2]["call"], "--exec '\\x1b[201~'");
+  EXPECT_EQ(data["methods"][2]["program"], true);
+  EXPECT_EQ(data["methods"][4]["program"], false);
+}
+
 TEST(Atlas, RefusesMoreCellsThanAReaderTakesIn) {
   EXPECT_NO_THROW(require_few_cells(most_cells));
   auto atlas = sample_atlas(1, 1);

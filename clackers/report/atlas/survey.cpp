@@ -1,18 +1,40 @@
 #include "clackers/report/atlas/survey.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/judgement.hpp"
 #include "clackers/report/format.hpp"
 
 namespace clackers::report {
 namespace {
 
 constexpr std::string_view set_prefix = "set_";
-constexpr long long most_levels = 1000;
+constexpr std::size_t most_levels = 64, most_runs = 64;  // of a specification
+constexpr std::size_t longest_text = 10000;              // sentences of refusals have some 300
+
+// The words that a column may have; nothing for any text.
+const std::vector<std::string>* words_of(const std::string& column) {
+  static const auto behaviours = [] {
+    std::vector<std::string> words;
+    for (int i = 0; i <= int(Behaviour::undecided); ++i)
+      words.emplace_back(to_string(Behaviour(i)));
+    return words;
+  }();
+  static const std::vector<std::string> verdicts{"agrees",    "disagrees", "not claimed",
+                                                 "undecided", "refused",   "interrupted"};
+  if (column == "verdict") return &verdicts;
+  return column == "behaviour" || column == "claim_behaviour" ? &behaviours : nullptr;
+}
+
+void require_short(std::string_view who, std::string_view name, std::string_view text) {
+  if (text.size() > longest_text)
+    refuse(who, name, fmt::format("{} bytes", text.size()), fmt::format("up to {}", longest_text));
+}
 
 std::string cell_text(const record::Cell& cell) {
   if (const auto* real = std::get_if<double>(&cell)) return exact_number(*real);
@@ -25,8 +47,9 @@ SurveySystem system_of(const record::Sheet& sheet, const std::vector<record::Cel
                        const NamedCells& cells) {
   SurveySystem system{cells.text(row, "case"), {}};
   for (std::size_t c = 0; c < sheet.columns.size(); ++c)
-    if (sheet.columns[c].name.starts_with(set_prefix) && row[c].index() != 0)
-      system.settings.emplace_back(sheet.columns[c].name.substr(set_prefix.size()), row[c]);
+    if (const auto& column = sheet.columns[c].name;
+        column.starts_with(set_prefix) && !cells.text(row, column).empty())
+      system.settings.emplace_back(column.substr(set_prefix.size()), row[c]);
   return system;
 }
 
@@ -58,19 +81,20 @@ measure::RunScore run_of(const std::vector<record::Cell>& row, const NamedCells&
 // Runs come by their tasks in any order, the runs of a task coarsest first.
 void read_runs(const AtlasPart& part, const std::map<long long, std::size_t>& place_of_task,
                std::vector<SurveySubject>& subjects) {
-  const NamedCells cells(part.runs->columns());
+  const NamedCells cells(part.runs->columns(), part.file + ": runs");
   std::vector<record::Cell> row;
   while (part.runs->next(row)) {
-    const auto level = cells.whole(row, "level");
+    const auto level = std::size_t(cells.whole(row, "level", double(most_levels)));
     const auto found = place_of_task.find(cells.whole(row, "task"));
     if (found == place_of_task.end() || level < 1) continue;  // a refusal is a row without a level
-    if (level > most_levels)
-      refuse("atlas", "level", double(level), fmt::format("1 to {}", most_levels));
     auto& subject = subjects[found->second];
     subject.by_tolerance = !cells.text(row, "tolerance").empty();
-    if (subject.ladder.size() < std::size_t(level)) subject.ladder.resize(std::size_t(level));
-    auto& runs = subject.ladder[std::size_t(level - 1)];
+    if (subject.ladder.size() < level) subject.ladder.resize(level);
+    auto& runs = subject.ladder[level - 1];
     runs.runs.push_back(run_of(row, cells));
+    if (runs.runs.size() > most_runs)
+      refuse(cells.who(), "runs of a level", double(runs.runs.size()),
+             fmt::format("up to {}", most_runs));
     runs.step = runs.runs.front().step;
   }
 }
@@ -84,7 +108,8 @@ std::string SurveySystem::settings_text() const {
   return out;
 }
 
-NamedCells::NamedCells(const std::vector<record::Column>& columns) {
+NamedCells::NamedCells(const std::vector<record::Column>& columns, std::string who)
+    : who_(std::move(who)) {
   for (std::size_t c = 0; c < columns.size(); ++c) places_.try_emplace(columns[c].name, c);
 }
 
@@ -97,20 +122,34 @@ const record::Cell* NamedCells::find(const std::vector<record::Cell>& row,
 std::string NamedCells::text(const std::vector<record::Cell>& row,
                              const std::string& column) const {
   const auto* cell = find(row, column);
-  return cell == nullptr ? std::string() : cell_text(*cell);
+  if (cell == nullptr) return {};
+  auto text = cell_text(*cell);
+  require_short(who_, column, text);
+  const auto* words = words_of(column);
+  if (words != nullptr && std::ranges::find(*words, text) == words->end())
+    refuse(who_, column, text, fmt::format("{}", fmt::join(*words, ", ")), {}, "unknown-name");
+  return text;
 }
 
 double NamedCells::number(const std::vector<record::Cell>& row, const std::string& column) const {
   const auto* cell = find(row, column);
   if (cell == nullptr) return std::nan("");
-  if (const auto* whole = std::get_if<long long>(cell)) return double(*whole);
+  const auto* whole = std::get_if<long long>(cell);
   const auto* real = std::get_if<double>(cell);
-  return real == nullptr ? std::nan("") : *real;
+  if (whole == nullptr && real == nullptr)
+    refuse(who_, column, fmt::format("\"{}\"", text(row, column)), "a number", {}, "not-a-number");
+  const double value = whole != nullptr ? double(*whole) : *real;
+  if (value < 0.0 && column != "order") refuse(who_, column, value, "0 or more");
+  return value;
 }
 
-long long NamedCells::whole(const std::vector<record::Cell>& row, const std::string& column) const {
+long long NamedCells::whole(const std::vector<record::Cell>& row, const std::string& column,
+                            double most) const {
   const double value = number(row, column);
-  return std::isfinite(value) ? static_cast<long long>(value) : 0;
+  if (std::isnan(value)) return 0;
+  if (!(value <= most && value == std::floor(value)))
+    refuse(who_, column, value, fmt::format("a whole number up to {}", most));
+  return static_cast<long long>(value);
 }
 
 Survey survey_of(std::span<const AtlasPart> parts) {
@@ -118,7 +157,11 @@ Survey survey_of(std::span<const AtlasPart> parts) {
   std::map<std::string, std::size_t> systems, methods;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& sheet = *parts[p].subjects;
-    const NamedCells cells(sheet.columns);
+    const auto& from = parts[p].from;
+    for (const auto* text : {&parts[p].origin, &from.command, &from.version, &from.compiler,
+                             &from.machine, &from.processor, &from.date})
+      require_short(parts[p].file, "a text of its origin", *text);
+    const NamedCells cells(sheet.columns, parts[p].file + ": subjects");
     std::map<long long, std::size_t> place_of_task;
     std::map<std::pair<std::size_t, std::size_t>, bool> seen;
     for (std::size_t r = 0; r < sheet.rows.size(); ++r) {

@@ -46,20 +46,26 @@ struct Survey {
 /// Throws as atlas_page().
 Survey survey_of(std::span<const AtlasPart> parts);
 
-/// Reads cells by the names of their columns.
+/// Reads cells by the names of their columns. Rows may come from anybody: what no page can show throws
+/// InputError (not-a-number, out-of-range, unknown-name).
 class NamedCells {
  public:
-  explicit NamedCells(const std::vector<record::Column>& columns);
-  /// Text of a column that may be missing or empty.
+  /// `who` stands in messages: "FILE: runs".
+  NamedCells(const std::vector<record::Column>& columns, std::string who);
+  /// Text of a column that may be missing or empty; of behaviours and verdicts one of their words.
   std::string text(const std::vector<record::Cell>& row, const std::string& column) const;
-  /// A number; NaN where there is none.
+  /// A number, 0 or more but for an order; NaN where there is none.
   double number(const std::vector<record::Cell>& row, const std::string& column) const;
-  long long whole(const std::vector<record::Cell>& row, const std::string& column) const;
+  /// 0 where there is none; up to `most`.
+  long long whole(const std::vector<record::Cell>& row, const std::string& column,
+                  double most = 1e15) const;
+  const std::string& who() const { return who_; }
 
  private:
   const record::Cell* find(const std::vector<record::Cell>& row, const std::string& column) const;
 
   std::map<std::string, std::size_t, std::less<>> places_;
+  std::string who_;
 };
 
 }  // namespace clackers::report

@@ -52,14 +52,16 @@ Json system_json(const SurveySystem& system) {
   if (!system.settings.empty()) command += " --set " + shell_quoted(system.settings_text());
   return {{"case", valid_utf8(system.name)},
           {"set", settings_json(system)},
-          {"command", valid_utf8(command)}};
+          {"command", printable(command)}};
 }
 
 Json method_json(const SurveyMethod& method, const AtlasPart& part) {
   const auto call = part.calls.find(method.name);
+  const bool is_program = call != part.calls.end();
   return {{"name", valid_utf8(method.name)},
           {"treatment", method.treatment},
-          {"call", valid_utf8(call == part.calls.end() ? shell_quoted(method.name) : call->second)},
+          {"call", printable(is_program ? call->second : shell_quoted(method.name))},
+          {"program", is_program},
           {"part", method.part}};
 }
 
@@ -134,7 +136,8 @@ Json survey_data(const Survey& survey, std::span<const AtlasPart> parts) {
     data["methods"].push_back(method_json(method, parts[method.part]));
   for (const auto& system : survey.systems) data["systems"].push_back(system_json(system));
   std::vector<NamedCells> readers;
-  for (const auto& part : parts) readers.emplace_back(part.subjects->columns);
+  for (const auto& part : parts)
+    readers.emplace_back(part.subjects->columns, part.file + ": subjects");
   for (const auto& subject : survey.subjects) {
     const auto& row = parts[subject.part].subjects->rows[subject.row];
     const auto& read = readers[subject.part];

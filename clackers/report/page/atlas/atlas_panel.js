@@ -20,6 +20,9 @@ const factHtml = (term, text) => (text === "" || text === null ? "" : `<dt>${ter
 const codes = (text) => text.split(" ").filter(Boolean).map((code) => `<code>${escaped(code)}</code>`).join(" ");
 const commandHtml = (command) => `<div class="command"><pre id="panel-command">${escaped(command)}</pre>` +
   `<button type="button" data-copy="panel-command">Copy</button></div>`;
+// What the author of a file wrote for a shell is not to be copied unread.
+const foreignHtml = (command, author) => `<p class="below">A program, as ${escaped(author || "the specification")} calls it. Read the line before you run it.</p>` +
+  `<div class="command"><pre id="panel-command">${escaped(command)}</pre></div>`;
 const selectHtml = (id, name, list, chosenOne) => `<label>${name} <select id="${id}">${
   list.map(([key, text]) => `<option value="${escaped(key)}"${key === chosenOne ? " selected" : ""}>${escaped(text)}</option>`).join("")}</select></label>`;
 
@@ -51,7 +54,8 @@ function numbersHtml(cell) {
 }
 
 function showCell(cell) {
-  const behaviour = behaviourOf(cell), refusal = value(cell, "refusal"), part = atlas.parts[atlas.methods[cell[0]].part];
+  const behaviour = behaviourOf(cell), refusal = value(cell, "refusal");
+  const method = atlas.methods[cell[0]], part = atlas.parts[method.part];
   const head = `<p class="found"><span class="swatch b-${behaviour}">${sign(behaviour)}</span>${refusal ? "" : ` ${behaviour}`} ${badgeHtml(verdictOf(cell))}</p>`;
   const origin = part.origin ? `<p class="below">Results of ${escaped(part.origin)}, ${escaped(part.date)}, clackers ${escaped(part.version)}.</p>` : "";
   const drawable = !refusal && prepareLadder(cell);
@@ -61,7 +65,8 @@ function showCell(cell) {
   const legend = drawable ? `<p class="below">Points: runs. Line: the worst of each level. Dashed: the claimed slope.${
     beyond ? ` Not drawn: ${beyond} with an error above ${largestDrawn}.` : ""}</p>` : "";
   show("Method on a system", breakable(methodName(cell[0])), escaped(systemName(cell[1])),
-    head + origin + figure + legend + (refusal ? "" : numbersHtml(cell)) + "<h4>Compute it again</h4>" + commandHtml(commandOf(cell)));
+    head + origin + figure + legend + (refusal ? "" : numbersHtml(cell)) + "<h4>Compute it again</h4>" +
+    (method.program ? foreignHtml(commandOf(cell), part.origin) : commandHtml(commandOf(cell))));
   return drawable ? drawInPanel("ladder") : null;
 }
 
@@ -75,7 +80,7 @@ function showMethod(method) {
   const usable = cases.filter((name) => varyingOf[name].length > 0 && atlas.systems.some((system, i) => system.case === name && byPlace[method][i]));
   const claims = [...new Set(cells.map((cell) => value(cell, "claim").text).filter(Boolean))];
   const head = `<div class="chips">${list}</div><dl class="facts">${factHtml("Treatment", escaped(treatmentName(atlas.methods[method].treatment)))}` +
-    factHtml("Claimed", claims.map(escaped).join("; ")) + factHtml("More", `<code>clackers show ${escaped(atlas.methods[method].name)}</code>`) + "</dl>";
+    factHtml("Claimed", claims.map(escaped).join("; ")) + factHtml("More", atlas.methods[method].program ? "" : `<code>clackers show ${escaped(atlas.methods[method].name)}</code>`) + "</dl>";
   if (!usable.includes(mapChoice.case)) mapChoice.case = usable[0] ?? null;
   show("Method", breakable(methodName(method)), `${cells.length} systems`,
     head + (usable.length ? "<div id=\"map-controls\" class=\"controls\"></div><div id=\"map-figure\"></div>"
