@@ -203,7 +203,6 @@ void add_atlas(Grammar& root) {
           "The folder of the atlas; one of another command is refused. Default: "
           "clackers-atlas. With --submit the file.")
       ->option_text("FOLDER|FILE.db");
-  app->get_option("--out")->kind = ValueKind::text;
   app->run = [options](const std::string& line) { return run(*options, line); };
 }
 

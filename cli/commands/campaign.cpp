@@ -137,9 +137,10 @@ void add_campaign(Grammar& root) {
          "its figures, which opens without a network.")
       ->option_text("plan|run|submit|status|merge|export|query|report");
   app->add_option(
-      "FILE", options->files,
-      "The specification (plan, run, submit), or the database; then shards (merge) or a "
-      "statement (query).");
+         "FILE", options->files,
+         "The specification (plan, run, submit), or the database; then shards (merge) or a "
+         "statement (query).")
+      ->kind = ValueKind::input_file;
   app->add_option("--database", options->database,
                   "The database of run; made where there is none. Default: the specification's "
                   "name with the ending .db.")

@@ -73,6 +73,16 @@ class Folder(AtlasTest):
         verdicts = ("agrees", "disagrees", "not_claimed", "undecided", "refused")
         self.assertEqual(sum(int(counts[0][word]) for word in verdicts), 12)
 
+    def test_is_written_through_links(self):
+        self.atlas()
+        os.mkdir(self.path("elsewhere"))
+        os.rename(self.path("atlas/index.html"), self.path("elsewhere/page.html"))
+        os.symlink(self.path("elsewhere/page.html"), self.path("atlas/index.html"))
+        os.truncate(self.path("elsewhere/page.html"), 0)
+        self.atlas()
+        self.assertTrue(os.path.islink(self.path("atlas/index.html")))
+        self.assertTrue(self.text_of("elsewhere/page.html").endswith("</html>\n"))
+
     def test_says_what_it_wrote(self):
         done = run("atlas", "--specification", self.spec, "--out", self.folder_of_atlas)
         self.assertEqual((done.returncode, done.stderr), (0, f"Wrote {self.folder_of_atlas}/index.html\n"))
@@ -181,6 +191,14 @@ class Refusals(AtlasTest):
                          self.path("bathe.db"), code=code, says=("bathe.db", says))
             self.assertFalse(os.path.exists(self.folder_of_atlas), change)
 
+    def test_to_overwrite_what_is_read(self):
+        self.submit("bathe")
+        os.symlink(self.spec, self.path("link.toml"))
+        for command in (("atlas", "--specification", self.spec, "--submit", "rk4"), ("campaign", "report", self.spec),
+                        ("campaign", "export", self.spec, "--format", "csv")):
+            self.refused(*command, "--out", self.path("link.toml"), code="bad-syntax", says="would overwrite it")
+        self.assertEqual(self.text_of("spec.toml"), SPEC)
+
     def test_of_two_files_of_one_name(self):
         self.submit("bathe")
         os.mkdir(self.path("more"))
@@ -246,7 +264,11 @@ class Submissions(AtlasTest):
         command = f"{self.path('solver')} {{h}} 0.5"
         self.good("atlas", "--specification", self.spec, "--submit", "ours", "--exec", command, "--expect", "exact",
                   "--out", self.path("ours.db"), "--quiet")
+        self.write("solver", f"#!/bin/sh\ntouch '{self.path('started')}'\n")
         self.atlas("--merge", self.path("ours.db"))
+        for action in (("status",), ("export",), ("query", "SELECT 1"), ("report", "--out", self.path("page.html"), "--quiet")):
+            self.good("campaign", action[0], self.path("ours.db"), *action[1:])
+        self.assertFalse(os.path.exists(self.path("started")), "a program that a database names is not started")
         data = data_of(self.page())
         place = {name: i for i, name in enumerate(data["fields"])}
         cell = data["cells"][-1]

@@ -1,6 +1,7 @@
 """Names and headers made by somebody else must not reach a terminal as they are (CWE-150)."""
 import os
 import re
+import sqlite3
 import subprocess
 import unittest
 
@@ -66,6 +67,33 @@ class HostileText(CommandTest):
             self.clean("check", "-", stdin=os.fsencode(f"t,u1,u2\n0,1,{text}\n"), codes=(2,))
             self.clean("respond", "stop", "--times", "-", stdin=os.fsencode(text + "\n"), codes=(2,))
             self.clean("verify", "--baseline", "-", stdin=os.fsencode(f'{{"{text}": 1}}'), codes=(2,))
+
+    def test_in_databases(self):
+        with open(self.path("spec.toml"), "w") as file:
+            file.write('methods = ["rk4"]\n[ladder]\nlevels = 1\nsamples_per_level = 1\n[[cases]]\ncase = "stop"\n')
+        path = self.path("rk4.db")
+        self.good("atlas", "--specification", file.name, "--submit", "rk4", "--out", path, "--quiet")
+        text = " ".join(HOSTILE[:-1])  # SQLite has UTF-8
+        database = sqlite3.connect(path)
+        with database:
+            database.execute("UPDATE subjects SET reason = ?, refusal = ?, treatment = ?, claim = ?", (text,) * 4)
+            database.execute("INSERT OR REPLACE INTO campaign VALUES ('author', ?), ('file', ?)", (text, text))
+        database.close()
+        self.clean("campaign", "status", path, codes=(0,))
+        self.clean("campaign", "export", path, "--table", "subjects", codes=(0,), shows=r"\x1b[31m")
+        self.clean("campaign", "query", path, f"SELECT reason AS \"{text}\" FROM subjects", codes=(0,))
+        self.clean("campaign", "query", path, f"SELECT \"{text}\"()", codes=(2,))
+        self.clean("atlas", "--specification", file.name, "--merge", path, "--out", self.path("a"), codes=(0,))
+        self.clean("campaign", "plan", path, codes=(2,))
+
+    def test_in_problems_and_specifications(self):
+        for text in (" ".join(HOSTILE[:-1]), HOSTILE[-1]):
+            for content in (text, f'"{text}" = 1', f'methods = ["{text}"]\n[[cases]]\ncase = "{text}"',
+                            f'{{"{text}": 1}}', f"dof={text}"):
+                with open(self.path("x.toml"), "wb") as file:
+                    file.write(os.fsencode(content))
+                self.clean("campaign", "plan", file.name, codes=(2,))
+                self.clean("respond", "--problem", file.name, "--samples", "3", codes=(2,))
 
     def test_is_shown_escaped(self):
         self.clean("list", "\x1b[31m", shows=r"\x1b[31m", codes=(2,))

@@ -23,6 +23,9 @@ constexpr auto table = std::to_array<Target>({
     {"times", read_times, mutate_numbers},
     {"record", read_record, mutate_numbers},
     {"check", check_and_report, mutate_numbers},
+    {"problem", read_problem, mutate_numbers},
+    {"campaign", read_campaign, mutate_numbers},
+    {"atlas", show_results, mutate_numbers},
 });
 
 }  // namespace

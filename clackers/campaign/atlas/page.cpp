@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/files.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/campaign/atlas.hpp"
 #include "clackers/report/atlas.hpp"
@@ -140,6 +141,9 @@ std::string ladder_options(const Ladder& ladder) {
 }
 
 void require_results(const Store& store) {
+  if (const auto size = std::filesystem::file_size(store.path()); size > longest_file)
+    refuse(store.path(), "size", fmt::format("{} bytes", size),
+           fmt::format("up to {}", longest_file));
   report::require_few_cells(store.finished().size());
   const Part other(store);
   report::atlas_page({&other.part, 1}, {});

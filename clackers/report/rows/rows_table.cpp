@@ -95,7 +95,7 @@ void print_block(const std::vector<record::Column>& columns, const CellRow& row,
     auto text = columns[c].name + ": " + text_of(row[c], most_digits, 32);
     if (!columns[c].unit.empty()) text += ' ' + columns[c].unit;
     text.erase(text.find_last_not_of(' ') + 1);
-    for (const auto& line : wrap(text, width)) out << line << '\n';
+    for (const auto& line : wrap(text, width)) out << printable(line) << '\n';
   }
   out << '\n';
 }
