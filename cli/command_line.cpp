@@ -33,6 +33,12 @@ std::string help_of(const Command& command) {
 
 bool is_help(std::string_view word) { return word == "-h" || word == "--help"; }
 
+// "-- a comment of SQL" is none.
+bool is_option(std::string_view word) {
+  return word.size() > 1 && word.front() == '-' &&
+         word.substr(0, word.find('=')).find_first_of(" \t\n") == word.npos;
+}
+
 // Gives the words behind a command to its options and arguments.
 class Parser {
  public:
@@ -46,7 +52,7 @@ class Parser {
       if (!options_end && is_help(word)) return false;
       if (!options_end && word == "--")
         options_end = true;
-      else if (!options_end && word.size() > 1 && word.starts_with('-'))
+      else if (!options_end && is_option(word))
         take_option(word);
       else
         take_argument(word);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,7 +17,7 @@
 namespace clackers::campaign {
 
 /// PRAGMA user_version of the file; PRAGMA application_id says that it is a campaign ("clkr").
-inline constexpr int schema_version = 1;
+inline constexpr int schema_version = 2;
 inline constexpr int application_id = 0x636c6b72;
 
 /// The tables that are written as sheets.
@@ -27,8 +29,17 @@ struct Origin {
   record::Provenance from;
 };
 
+/// How far a campaign is.
+struct Counts {
+  long long tasks = 0, runs = 0;  ///< finished
+  std::map<std::string, long long> verdicts;
+};
+
 /// A database open for writing (one writer at a time, any number of readers) or for reading. Not
 /// thread-safe. A task is finished when its row stands in `subjects`.
+///
+/// What is opened may come from anybody: one with other tables and columns, views or triggers is
+/// refused (not-a-campaign), and so is what differs from the digests kept with it, by what reads it.
 class Store {
  public:
   /// Opens the database of this campaign for writing; makes it where there is no file. `shard` is kept
@@ -37,10 +48,9 @@ class Store {
   /// not read by others meanwhile: it works without shared memory, as on a network file system.
   static Store create_or_open(const std::string& path, const Specification& specification,
                               const std::string& shard = {});
-  /// Opens an existing database for reading. Throws as above; cannot-read where there is none.
-  /// Its tables are checked: one of a stranger may have views, triggers or other columns
-  /// (not-a-campaign).
-  static Store open(const std::string& path);
+  /// Opens an existing database for reading. Throws as above; cannot-read where there is none. Once
+  /// `interrupt` is true, every function of it ends with Error (interrupted).
+  static Store open(const std::string& path, const std::atomic<bool>* interrupt = nullptr);
 
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
@@ -58,16 +68,19 @@ class Store {
   /// FileError (cannot-write), and the database is as before.
   void write(std::span<const TaskRows> tasks);
   /// Adds the finished tasks of another database of the same campaign, which nobody may be writing;
-  /// returns how many were new. A transaction for each call.
-  long long merge(const std::string& path);
+  /// returns how many were new. A transaction for each call, of which nothing stays once `interrupt` is
+  /// true.
+  long long merge(const std::string& path, const std::atomic<bool>* interrupt = nullptr);
+
+  Counts counts() const;
 
   /// The rows of a table in the order of (task, run); `runs` with the columns of its subject before its
   /// own. With times, a column `seconds` behind. The store must outlive the rows.
   std::unique_ptr<record::RowSource> rows(TableName table, bool with_times = false) const;
   /// The columns of numbers alone, what is empty NaN: NumPy's format takes these.
   std::unique_ptr<record::RowSource> numbers(TableName table, bool with_times = false) const;
-  /// The rows of a statement in SQL that only reads; `kinds` of columns are any. Throws InputError
-  /// (bad-syntax) with what SQLite says.
+  /// The rows of a statement in SQL that only reads; `kinds` of columns are any. Throws
+  /// InputError (bad-syntax) with what SQLite says.
   std::unique_ptr<record::RowSource> query(const std::string& sql) const;
 
  private:

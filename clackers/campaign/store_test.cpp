@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "clackers/base/testing/refusal.hpp"
-#include "clackers/campaign/store/sqlite.hpp"
+#include "clackers/campaign/store/digest.hpp"
 #include "clackers/campaign/testing/database_fixture.hpp"
 
 namespace clackers::campaign {
@@ -20,12 +20,30 @@ class StoreTest : public test::DatabaseTest {
     TaskRows rows;
     rows.task = task;
     for (std::size_t i = 1; i < tables.subjects.size(); ++i)
-      rows.subject.emplace_back(double(task) + double(i) / 16.0);
+      rows.subject.push_back(cell(tables.subjects[i], double(task) + double(i) / 16.0));
     for (std::size_t run = 0; run < runs; ++run) {
-      rows.runs.emplace_back(tables.runs.size() - 2, record::Cell(double(run)));
+      auto& cells = rows.runs.emplace_back();
+      for (std::size_t i = 2; i < tables.runs.size(); ++i)
+        cells.push_back(cell(tables.runs[i], double(run)));
       rows.seconds.push_back(0.25);
     }
     return rows;
+  }
+  // A value that a column takes.
+  static record::Cell cell(const record::Column& column, double value) {
+    if (column.kind == record::ColumnKind::whole) return static_cast<long long>(value);
+    if (column.kind == record::ColumnKind::real) return value;
+    return "text of " + std::to_string(value);
+  }
+  // A database of the tasks 0, 1 and 2 that another program has changed.
+  Store changed(const std::string& statement) const {
+    if (!std::filesystem::exists(path("three.db"))) fill(path("three.db"), {0, 1, 2});
+    std::filesystem::copy_file(path("three.db"), path("a.db"),
+                               std::filesystem::copy_options::overwrite_existing);
+    const Sqlite database(path("a.db"), OpenMode::write);
+    database.execute("PRAGMA synchronous = OFF");
+    database.execute(statement);
+    return Store::open(path("a.db"));
   }
   static void fill(const std::string& file, std::initializer_list<long long> tasks) {
     auto store = Store::create_or_open(file, test::small());
@@ -119,13 +137,14 @@ TEST_F(StoreTest, RefusesWhatIsNoDatabaseOfThisCampaign) {
   EXPECT_REFUSED(open("other.db"), "not-a-campaign", "none of a campaign");
 
   fill(path("new.db"), {0});
-  Sqlite(path("new.db"), OpenMode::write).execute("PRAGMA user_version = 2");
-  EXPECT_REFUSED(open("new.db"), "other-version", "version 2", "allowed: 1");
+  Sqlite(path("new.db"), OpenMode::write).execute("PRAGMA user_version = 99");
+  EXPECT_REFUSED(open("new.db"), "other-version", "version 99", "allowed: 2");
   EXPECT_REFUSED(Store::open(path("new.db")), "other-version");
 
   fill(path("old.db"), {0});
-  Sqlite(path("old.db"), OpenMode::write)
-      .execute("UPDATE campaign SET value = '0.0.1' WHERE key = 'version'");
+  const Sqlite old(path("old.db"), OpenMode::write);
+  old.execute("UPDATE campaign SET value = '0.0.1' WHERE key = 'version'");
+  seal(old);
   EXPECT_REFUSED(open("old.db"), "other-version", "clackers 0.0.1");
   EXPECT_NO_THROW(Store::open(path("old.db")));
 
@@ -165,10 +184,109 @@ TEST_F(StoreTest, QueriesOnlyRead) {
   EXPECT_REFUSED(store.query("DELETE FROM runs"), "bad-syntax", "SELECT");
   EXPECT_REFUSED(store.query("SELEC 1"), "bad-syntax", "syntax error");
   EXPECT_REFUSED(store.query("SELECT 1; SELECT 2"), "bad-syntax", "one statement");
-  EXPECT_REFUSED(store.query(""), "bad-syntax", "one statement");
-  EXPECT_REFUSED(read(*store.query("ATTACH '" + path("x.db") + "' AS x")), "bad-syntax",
-                 "attached");
+  for (const auto* nothing : {"", " ", ";", "-- SELECT 1", "/* SELECT 1 */;", "--\n;;"})
+    EXPECT_REFUSED(store.query(nothing), "bad-syntax", "one statement");
+  for (const auto* commented : {"SELECT 1; -- two", "-- one\nSELECT 1", ";/* */ SELECT 1 -- two"})
+    EXPECT_EQ(read(*store.query(commented))[0][0], record::Cell(1LL)) << commented;
+  for (const auto* silent :
+       {"BEGIN", "SAVEPOINT a", "PRAGMA query_only=0", "PRAGMA writable_schema=1",
+        "PRAGMA temp_store_directory='x'", "PRAGMA user_version=7"})
+    EXPECT_REFUSED(store.query(silent), "bad-syntax", "that reads") << silent;
+  EXPECT_REFUSED(store.query("ATTACH '" + path("x.db") + "' AS x"), "bad-syntax", "that reads");
+  EXPECT_FALSE(read(*store.query("PRAGMA table_info('runs')")).empty());
   EXPECT_FALSE(std::filesystem::exists(path("x.db")));
+}
+
+constexpr auto endless =
+    "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x+1 FROM c) SELECT count(*) FROM c";
+
+TEST_F(StoreTest, InterruptEndsEndlessStatements) {
+  fill(path("a.db"), {0});
+  std::atomic<bool> interrupt{false};
+  const auto store = Store::open(path("a.db"), &interrupt);
+  const auto rows = store.query(endless);
+  interrupt = true;
+  EXPECT_REFUSED(read(*rows), "interrupted");
+  fill(path("b.db"), {0, 1});
+  auto other = Store::create_or_open(path("b.db"), test::small());
+  fill(path("c.db"), {2});
+  EXPECT_EQ(other.merge(path("c.db"), &interrupt), 1);  // too few rows to look
+}
+
+TEST_F(StoreTest, WaitingForAnotherProcessIsInterrupted) {
+  fill(path("a.db"), {0});
+  const Sqlite writer(path("a.db"), OpenMode::write);
+  writer.execute("BEGIN EXCLUSIVE");
+  const std::atomic<bool> interrupt{true};
+  EXPECT_REFUSED(Store::open(path("a.db"), &interrupt), "interrupted");
+}
+
+TEST_F(StoreTest, NothingOfAStrangerIsRun) {
+  const auto end = std::string(" AS ") + endless;
+  auto store = Store::create_or_open(path("b.db"), test::small());
+  for (const auto& added :
+       {"CREATE VIEW v" + end, "DROP TABLE subjects; CREATE VIEW subjects" + end,
+        "DROP TABLE campaign; CREATE VIEW campaign" + end,
+        std::string("CREATE TRIGGER t AFTER INSERT ON runs BEGIN DELETE FROM runs; END"),
+        std::string("CREATE VIRTUAL TABLE t USING fts5(x)"), std::string("CREATE TABLE t (x)"),
+        std::string("CREATE INDEX i ON runs (task + 1)"), std::string("DROP TABLE timings"),
+        std::string("ALTER TABLE runs ADD COLUMN more"),
+        std::string("ALTER TABLE runs RENAME COLUMN u_error TO uu"),
+        std::string("ALTER TABLE subjects ADD COLUMN more AS (1 + 1)")}) {
+    EXPECT_REFUSED(changed(added), "not-a-campaign", "a.db") << added;
+    EXPECT_REFUSED(Store::create_or_open(path("a.db"), test::small()), "not-a-campaign") << added;
+    EXPECT_REFUSED(store.merge(path("a.db")), "not-a-campaign") << added;
+  }
+}
+
+TEST_F(StoreTest, ChangedValuesAreNoticedByWhatReadsThem) {
+  const auto damaged = [](const auto& call) {
+    EXPECT_REFUSED(call(), "not-a-campaign", "damaged");
+  };
+  auto other = Store::create_or_open(path("b.db"), test::small());
+  for (const auto* statement :
+       {"UPDATE subjects SET verdict = NULL WHERE task = 1", "DELETE FROM subjects WHERE task = 0",
+        "UPDATE subjects SET u_error = u_error * (1 + 1e-15) WHERE task = 2",
+        "UPDATE subjects SET task = 7 WHERE task = 2", "UPDATE digests SET runs = 3 WHERE task = 1",
+        "DELETE FROM digests WHERE task = 2", "INSERT INTO subjects (task) VALUES (3)"}) {
+    const auto store = changed(statement);
+    damaged([&] { store.counts(); });
+    damaged([&] { store.rows(TableName::subjects); });
+    damaged([&] { store.numbers(TableName::runs); });
+    damaged([&] { store.query("SELECT * FROM SUBJECTS"); });
+    damaged([&] { other.merge(path("a.db")); });
+  }
+  for (const auto* statement :
+       {"UPDATE runs SET u_error = NULL WHERE run = 2",
+        "DELETE FROM runs WHERE task = 2 AND run = 1", "UPDATE runs SET run = 7 WHERE run = 2",
+        "UPDATE runs SET task = 0, run = 3 WHERE task = 1 AND run = 2"}) {
+    const auto store = changed(statement);
+    damaged([&] { store.rows(TableName::runs); });
+    damaged([&] { store.query("SELECT * FROM \"Runs\""); });
+    EXPECT_EQ(store.counts().runs, 6);
+    EXPECT_NO_THROW(store.rows(TableName::subjects));
+  }
+  const auto store = changed("UPDATE timings SET seconds = 0.5 WHERE task = 1 AND run = 1");
+  damaged([&] { store.rows(TableName::runs, true); });
+  EXPECT_NO_THROW(store.rows(TableName::runs));
+  for (const auto* statement : {"UPDATE campaign SET value = 'x' WHERE key = 'file'",
+                                "DELETE FROM campaign WHERE key = 'shard'"})
+    damaged([&] { changed(statement); });
+}
+
+TEST_F(StoreTest, ValuesThatSqliteChangesAreWhole) {
+  auto rows = rows_of(0);
+  const auto columns = tables_of(test::small()).runs;
+  for (std::size_t i = 2; i < columns.size(); ++i) {
+    auto& cell = rows.runs[0][i - 2];
+    if (columns[i].kind == record::ColumnKind::real) cell = i % 2 == 0 ? -0.0 : std::nan("");
+    if (columns[i].kind == record::ColumnKind::whole) cell = (1LL << 53) + 1;
+  }
+  {
+    auto store = Store::create_or_open(path("a.db"), test::small());
+    store.write(std::vector{rows});
+  }
+  EXPECT_EQ(read(*Store::open(path("a.db")).rows(TableName::runs)).size(), 2u);
 }
 
 TEST_F(StoreTest, RanksLeftBehindAreAdopted) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "clackers/base/number.hpp"
 #include "clackers/campaign/tasks/prepared_system.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/solvers/program.hpp"
@@ -39,6 +40,15 @@ Cell cell(const ParameterValue& value) {
   return value.is_word() ? Cell(value.text()) : Cell(double(value));
 }
 
+// As the database gives it back: the digits of a file are a number, or the word "single".
+Cell cell(const report::Column& column, const report::Row& row) {
+  auto value = column.get(row);
+  const auto* text = std::get_if<std::string>(&value);
+  if (text == nullptr || kind_of(column.kind) == ColumnKind::any) return value;
+  const auto number = whole_number(*text);
+  return number ? Cell(*number) : value;
+}
+
 std::vector<Cell> subject_cells(const Specification& specification, const System& system,
                                 const report::Row& row) {
   std::vector<Cell> cells{system.number};
@@ -48,14 +58,14 @@ std::vector<Cell> subject_cells(const Specification& specification, const System
       if (set == name) added = cell(value);
   }
   for (const auto& column : report::columns())
-    if (is_kept(column)) cells.push_back(column.get(row));
+    if (is_kept(column)) cells.push_back(cell(column, row));
   return cells;
 }
 
 std::vector<Cell> run_cells(const Specification& specification, const report::Row& row) {
   std::vector<Cell> cells;
   for (const auto& column : report::columns())
-    if (is_kept(column) && !is_of_subject(column)) cells.push_back(column.get(row));
+    if (is_kept(column) && !is_of_subject(column)) cells.push_back(cell(column, row));
   for (const auto& name : specification.metrics()) {
     auto& added = cells.emplace_back();
     for (const auto& metric : row.run->metrics)

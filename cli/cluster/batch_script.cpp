@@ -22,6 +22,14 @@ std::string quoted_value(std::string_view text) {
   return quoted + '"';
 }
 
+// An option as given, its value in quotes where sbatch would divide it.
+std::string quoted_option(const std::string& option) {
+  const auto equals = option.find('=');
+  const auto value = std::string_view(option).substr(std::min(equals, option.size() - 1) + 1);
+  if (value.find_first_of(" \t\"'\\#") == value.npos) return option;
+  return option.substr(0, equals + 1) + quoted_value(value);
+}
+
 std::string log_name(const BatchJob& job, std::string_view pattern) {
   std::string name;
   for (const char c : job.database) name.append(c == '%' ? 2 : 1, c);
@@ -44,7 +52,8 @@ std::string head(const BatchJob& job, std::string_view what,
   text += fmt::format("#SBATCH --job-name={}\n", quoted_value(fmt::format("{} {}", what, name)));
   text += "#SBATCH --ntasks=1\n";
   for (const auto& line : lines) text += fmt::format("#SBATCH --{}\n", line);
-  for (const auto& option : job.options) text += fmt::format("#SBATCH --{}\n", option);
+  for (const auto& option : job.options)
+    text += fmt::format("#SBATCH --{}\n", quoted_option(option));
   return text;
 }
 

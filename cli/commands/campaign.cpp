@@ -111,7 +111,7 @@ void add_campaign(Grammar& root) {
            "of "
            "threads, on their order or on interruptions. Under mpirun and srun the processes share "
            "the tasks. A specification reads:\n\n"
-           "  methods = [\"newmark\", \"rk4\", \"moreau-jean\"]  # or \"panel\", \"all\"\n"
+           "  methods = [\"newmark\", \"rk4\", \"moreau-jean\"]  # or [\"panel\"], [\"all\"]\n"
            "  [ladder]\n"
            "  levels = 5\n"
            "  [[cases]]\n"
@@ -143,7 +143,7 @@ void add_campaign(Grammar& root) {
       ->kind = ValueKind::input_file;
   app->add_option("--database", options->database,
                   "The database of run; made where there is none. Default: the specification's "
-                  "name with the ending .db.")
+                  "name with the ending .db, in the current folder.")
       ->option_text("FILE");
   app->add_option("--shard", options->shard,
                   "Run the i-th of n parts, into DATABASE.shard-i-of-n; for job arrays. merge adds "

@@ -41,13 +41,17 @@ int jobs_from(const std::string& text);
 campaign::RunSummary run_tasks(campaign::Store& store, const campaign::Shard& shard, int jobs,
                                bool quiet);
 
-/// The database of a specification: --database, or its file with the ending .db; of a shard its own.
+/// The database of a specification: --database, or the name of its file with the ending .db in the
+/// current folder; of a shard its own.
 std::string database_of(const CampaignOptions& options, const campaign::Shard& shard = {});
 
 /// The specification that is given. Throws InputError (too-many-runs) for a large one without --yes.
 campaign::Specification checked_specification(const CampaignOptions& options);
 
+/// A database for reading, which a signal ends.
+campaign::Store open_database(const std::string& path);
+
 /// Prints how far a database is: tasks, verdicts, and the command that goes on.
-void print_status(const CampaignOptions& options, const std::string& database);
+void print_status(const CampaignOptions& options, const campaign::Store& store);
 
 }  // namespace clackers::cli

@@ -2,8 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
-#include <variant>
+#include <iterator>
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
@@ -17,15 +16,6 @@
 
 namespace clackers::cli {
 namespace {
-
-using record::Cell;
-
-std::vector<std::vector<Cell>> all_rows(const campaign::Store& store, const std::string& sql) {
-  std::vector<std::vector<Cell>> rows;
-  const auto source = store.query(sql);
-  for (std::vector<Cell> row; source->next(row);) rows.push_back(row);
-  return rows;
-}
 
 // All tasks, or those of its shard.
 long long tasks_of(const campaign::Store& store) {
@@ -59,22 +49,18 @@ record::Sheet status_sheet(const campaign::Store& store) {
   record::Sheet sheet{
       "clackers/campaign-status/1", "", {{"quantity", "", ""}, {"value", "", ""}}, {}};
   const auto tasks = tasks_of(store);
-  long long finished = 0;
-  std::map<std::string, Cell> verdicts;
-  for (const auto& row :
-       all_rows(store, "SELECT verdict, count(*) FROM subjects GROUP BY verdict")) {
-    verdicts[std::get<std::string>(row[0])] = row[1];
-    finished += std::get<long long>(row[1]);
-  }
+  const auto counts = store.counts();
   sheet.rows.push_back({"tasks", tasks});
-  sheet.rows.push_back({"finished", finished});
-  sheet.rows.push_back({"runs", all_rows(store, "SELECT count(*) FROM runs").front().front()});
-  for (const auto* verdict : {"agrees", "disagrees", "not claimed", "undecided", "refused"})
-    sheet.rows.push_back({verdict, verdicts.contains(verdict) ? verdicts[verdict] : Cell(0LL)});
+  sheet.rows.push_back({"finished", counts.tasks});
+  sheet.rows.push_back({"runs", counts.runs});
+  for (const auto* verdict : {"agrees", "disagrees", "not claimed", "undecided", "refused"}) {
+    const auto found = counts.verdicts.find(verdict);
+    sheet.rows.push_back({verdict, found == counts.verdicts.end() ? 0LL : found->second});
+  }
   if (!store.shard().empty()) sheet.rows.push_back({"shard", store.shard()});
   const auto shards = campaign::shard_files(store.path()).size();
   if (shards > 0) sheet.rows.push_back({"shard files", static_cast<long long>(shards)});
-  sheet.rows.push_back({"next", next_command(store, finished == tasks)});
+  sheet.rows.push_back({"next", next_command(store, counts.tasks == tasks)});
   return sheet;
 }
 
@@ -82,24 +68,25 @@ record::Sheet status_sheet(const campaign::Store& store) {
 void require_all_shards(const campaign::Store& into, const std::vector<std::string>& files) {
   if (into.finished().size() == into.specification().tasks()) return;
   std::vector<bool> found;
-  std::string example;
   for (const auto& file : files) {
-    const auto name = campaign::Store::open(file).shard();
+    const auto name = open_database(file).shard();
     if (name.empty()) continue;
     const auto shard = campaign::shard_from(name);
     found.resize(std::max(found.size(), static_cast<std::size_t>(shard.count)));
     found[static_cast<std::size_t>(shard.index - 1)] = true;
   }
-  std::vector<std::string> missing;
-  for (std::size_t i = 0; i < found.size(); ++i)
-    if (!found[i]) missing.push_back(fmt::format("{}/{}", i + 1, found.size()));
-  if (missing.empty()) return;
+  constexpr std::ptrdiff_t most_named = 8;
+  const auto missing = std::ranges::count(found, false);
+  if (missing == 0) return;
+  std::vector<std::string> named;
+  for (auto at = found.begin(); std::ssize(named) < std::min(missing, most_named); ++at)
+    if (!*at) named.push_back(fmt::format("{}/{}", at - found.begin() + 1, found.size()));
   throw InputError(
       fmt::format(
-          "{}: {} of {} shards missing: {}. Name their files, or run them: clackers campaign "
+          "{}: {} of {} shards missing: {}{}. Name their files, or run them: clackers campaign "
           "run {} --shard {}",
-          into.path(), missing.size(), found.size(), fmt::join(missing, ", "),
-          into.specification().name(), missing.front()),
+          into.path(), missing, found.size(), fmt::join(named, ", "),
+          missing > most_named ? ", ..." : "", into.specification().name(), named.front()),
       "shard-missing");
 }
 
@@ -111,8 +98,11 @@ campaign::TableName table_from(const std::string& text) {
 
 }  // namespace
 
-void print_status(const CampaignOptions& options, const std::string& database) {
-  const auto store = campaign::Store::open(database);
+campaign::Store open_database(const std::string& path) {
+  return campaign::Store::open(path, &interrupt_flag());
+}
+
+void print_status(const CampaignOptions& options, const campaign::Store& store) {
   Results results(options.common, OnInterrupt::finish);
   const auto sheet = status_sheet(store);
   record::SheetRows rows(sheet);
@@ -121,7 +111,7 @@ void print_status(const CampaignOptions& options, const std::string& database) {
 }
 
 int show_status(const CampaignOptions& options, const std::string&) {
-  print_status(options, options.files.front());
+  print_status(options, open_database(options.files.front()));
   return 0;
 }
 
@@ -135,21 +125,21 @@ int merge_shards(const CampaignOptions& options, const std::string&) {
                                 database, database),
                     "cannot-read");
   {
-    const auto specification = campaign::Store::open(shards.front()).specification();
+    const auto specification = open_database(shards.front()).specification();
     auto store = campaign::Store::create_or_open(database, specification);
     require_all_shards(store, shards);
     for (const auto& shard : shards) {
-      const auto added = store.merge(shard);
+      const auto added = store.merge(shard, &interrupt_flag());
       if (!options.common.quiet) note(fmt::format("{}: {} tasks added", shard, added));
     }
   }
-  print_status(options, database);
+  print_status(options, open_database(database));
   return 0;
 }
 
 int export_rows(const CampaignOptions& options, const std::string&) {
   const auto table = table_from(options.table);
-  const auto store = campaign::Store::open(options.files.front());
+  const auto store = open_database(options.files.front());
   Results results(options.common, OnInterrupt::stop, report::Content::numbers);
   if (results.format() == report::Format::npy && results.is_terminal())
     throw InputError(
@@ -168,7 +158,7 @@ int query_database(const CampaignOptions& options, const std::string&) {
         "campaign query needs a database and a statement in quotes: clackers campaign query "
         "runs.db \"SELECT method, verdict, count(*) FROM subjects GROUP BY 1, 2\"",
         "bad-syntax");
-  const auto store = campaign::Store::open(options.files.front());
+  const auto store = open_database(options.files.front());
   Results results(options.common, OnInterrupt::stop);
   const auto rows = store.query(options.files[1]);
   write_rows(*rows, results, "query", options.common.quiet);

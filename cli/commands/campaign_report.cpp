@@ -15,7 +15,7 @@ int report_campaign(const CampaignOptions& options, const std::string& line) {
                                  "clackers campaign report {} --out page.html",
                                  options.files.front()),
                      "bad-syntax");
-  const auto store = campaign::Store::open(options.files.front());
+  const auto store = open_database(options.files.front());
   OutputFile file(options.common.out, OnInterrupt::stop);
   file.stream() << campaign::campaign_page(store, {}, "campaign report", record::provenance(line));
   file.commit();

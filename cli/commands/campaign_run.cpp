@@ -47,7 +47,8 @@ namespace {
 
 int report_end(const CampaignOptions& options, const std::string& database,
                const campaign::RunSummary& summary) {
-  print_status(options, database);
+  // The signal that ended the run does not end this.
+  print_status(options, campaign::Store::open(database));
   if (!summary.interrupted) return 0;
   report_error("interrupted; what was finished is stored. The same command continues.",
                "interrupted");
@@ -76,7 +77,8 @@ int run_ranks(const CampaignOptions& options, const campaign::Launch& launch,
 
 std::string database_of(const CampaignOptions& options, const campaign::Shard& shard) {
   auto path = options.database;
-  if (path.empty()) path = std::filesystem::path(options.files.front()).replace_extension(".db");
+  if (path.empty())
+    path = std::filesystem::path(options.files.front()).filename().replace_extension(".db");
   return campaign::shard_path(path, shard);
 }
 
@@ -100,6 +102,7 @@ int run_campaign(const CampaignOptions& options, const std::string&) {
   const auto shard =
       options.shard.empty() ? campaign::Shard{} : campaign::shard_from(options.shard);
   const auto database = database_of(options, shard);
+  const auto jobs = jobs_from(options.jobs);
   const auto launch = campaign::launch_of_process();
   // A shard is the work of one process, whatever started it.
   if (shard.is_all() && launch.ranks > 1) return run_ranks(options, launch, database);
@@ -108,7 +111,7 @@ int run_campaign(const CampaignOptions& options, const std::string&) {
   {
     auto store = campaign::Store::create_or_open(database, specification, options.shard);
     if (shard.is_all()) campaign::adopt_ranks(store);
-    summary = run_tasks(store, shard, jobs_from(options.jobs), options.common.quiet);
+    summary = run_tasks(store, shard, jobs, options.common.quiet);
   }
   return report_end(options, database, summary);
 }

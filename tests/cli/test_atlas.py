@@ -4,10 +4,10 @@ import os
 import re
 import shutil
 import signal
-import sqlite3
 import stat
 import unittest
 
+import databases
 from command import CommandTest, rows, run, start
 
 SPEC = """methods = ["newmark", "rk4", "newmark+penalty"]
@@ -89,11 +89,9 @@ class Folder(AtlasTest):
 
     def test_computes_nothing_twice(self):
         self.atlas()
-        database = sqlite3.connect(self.path("atlas/atlas.db"))
-        database.execute("DELETE FROM subjects WHERE task = 5")
-        database.execute("UPDATE subjects SET reason = 'kept' WHERE task = 4")
-        database.commit()
-        database.close()
+        databases.change(self.path("atlas/atlas.db"), "DELETE FROM subjects WHERE task = 5",
+                         "DELETE FROM runs WHERE task = 5", "DELETE FROM timings WHERE task = 5",
+                         "UPDATE subjects SET reason = 'kept' WHERE task = 4")
         self.atlas()
         kept = rows(self.good("campaign", "query", self.path("atlas/atlas.db"),
                               "SELECT task, reason FROM subjects WHERE task IN (4, 5)", "--format", "csv"))
@@ -178,13 +176,13 @@ class Refusals(AtlasTest):
                 ("UPDATE subjects SET claim_behaviour = 'superb'", "unknown-name", "proper"),
                 ("UPDATE subjects SET refusal = printf('%.*c', 20000, 'x')", "out-of-range", "20000 bytes"),
                 ("INSERT OR REPLACE INTO campaign VALUES ('author', printf('%.*c', 20000, 'x'))", "out-of-range", "origin"),
-                ("UPDATE subjects SET task = 7 WHERE task = 0", "not-a-campaign", "no task"),
+                ("UPDATE subjects SET task = 7 WHERE task = 0", "not-a-campaign", "damaged"),
                 ("UPDATE subjects SET method = '--exec=sh'", "not-a-campaign", "no task"),
                 ("UPDATE subjects SET \"case\" = 'x; sh'", "not-a-campaign", "no task"),
                 ("UPDATE subjects SET set_eta = 0.7", "not-a-campaign", "no task"),
                 ("UPDATE campaign SET value = 'methods = 1' WHERE key = 'specification'", "bad-syntax", "methods"),
                 ("ALTER TABLE subjects DROP COLUMN verdict", "not-a-campaign", "no column verdict"),
-                ("CREATE VIEW seen AS SELECT 1", "not-a-campaign", "views")):
+                ("CREATE VIEW seen AS SELECT 1", "not-a-campaign", "view seen")):
             shutil.copy(self.path("good.db"), self.path("bathe.db"))
             self.change(change)
             self.refused("atlas", "--specification", self.spec, "--out", self.folder_of_atlas, "--merge",
@@ -216,10 +214,7 @@ class Refusals(AtlasTest):
         self.atlas()
 
     def change(self, statement):
-        database = sqlite3.connect(self.path("bathe.db"))
-        with database:
-            database.execute(statement)
-        database.close()
+        databases.change(self.path("bathe.db"), statement)
 
     def test_of_a_method_that_there_is_not(self):
         self.refused("atlas", "--specification", self.spec, "--submit", "newmrak", "--out", self.path("x.db"),
@@ -250,10 +245,7 @@ class Submissions(AtlasTest):
 
     def test_with_numbers_below_the_normal_ones_are_shown(self):
         self.good("atlas", "--specification", self.spec, "--submit", "bathe", "--out", self.path("bathe.db"), "--quiet")
-        database = sqlite3.connect(self.path("bathe.db"))
-        with database:
-            database.execute("UPDATE runs SET u_error = 1e-310")
-        database.close()
+        databases.change(self.path("bathe.db"), "UPDATE runs SET u_error = 1e-310")
         self.atlas("--merge", self.path("bathe.db"))
         self.assertIn("1e-310", self.page())
 

@@ -1,13 +1,16 @@
 """clackers campaign: plan, run, status, merge, export, query, and what they refuse."""
 import json
 import os
+import random
 import resource
 import signal
 import sqlite3
 import subprocess
+import time
 import unittest
 
-from command import CommandTest, rows, run, start
+import databases
+from command import PROGRAM, CommandTest, environment, rows, run, start
 
 SPEC = """methods = ["newmark", "rk4", "newmark+penalty"]
 [ladder]
@@ -50,6 +53,10 @@ class Campaign(CommandTest):
         found = self.rows_of("campaign", "status", database or self.database)
         return {row["quantity"]: row["value"] for row in found}
 
+    @staticmethod
+    def remove_tasks(database, condition):
+        databases.change(database, *(f"DELETE FROM {table} WHERE {condition}" for table in ("runs", "timings", "subjects")))
+
     def count(self, sql):
         with sqlite3.connect(self.database) as database:
             return database.execute(sql).fetchone()[0]
@@ -74,16 +81,15 @@ class Use(Campaign):
         self.assertEqual(status["refused"], "3")
         self.assertEqual(status["next"], f"clackers campaign export {self.database} --format csv --out runs.csv")
         before = self.exported()
-        with sqlite3.connect(self.database) as database:
-            for table in ("subjects", "runs", "timings"):
-                database.execute(f"DELETE FROM {table} WHERE task % 3 = 1")
+        self.remove_tasks(self.database, "task % 3 = 1")
         self.assertEqual(self.status()["next"], f"clackers campaign run {self.spec} --database {self.database}")
         self.run_spec()
         self.assertEqual(self.exported(), before)
 
-    def test_database_has_the_name_of_the_specification(self):
-        self.good("campaign", "run", self.spec, "--quiet")
-        self.assertEqual(self.files(), ["spec.db", "spec.toml"])
+    def test_database_has_the_name_of_the_specification_in_the_current_folder(self):
+        os.mkdir(self.path("here"))
+        self.good("campaign", "run", "../spec.toml", "--quiet", cwd=self.path("here"))
+        self.assertEqual((self.files(), os.listdir(self.path("here"))), (["here", "spec.toml"], ["spec.db"]))
 
     def test_rows_are_the_same_for_any_jobs_and_shards(self):
         self.run_spec("--jobs", "1")
@@ -99,8 +105,7 @@ class Use(Campaign):
         status = self.status(part)
         self.assertEqual((status["tasks"], status["finished"], status["shard"]), ("6", "6", "2/3"))
         self.assertEqual(status["next"], f"clackers campaign merge {parts}")
-        with sqlite3.connect(part) as database:
-            database.execute("DELETE FROM subjects WHERE task = (SELECT max(task) FROM subjects)")
+        self.remove_tasks(part, "task = (SELECT max(task) FROM digests)")
         self.assertEqual(self.status(part)["next"],
                          f"clackers campaign run {self.spec} --database {parts} --shard 2/3")
         self.good("campaign", "run", self.spec, "--database", parts, "--shard", "2/3")
@@ -160,6 +165,14 @@ class Use(Campaign):
         self.assertEqual(verdicts["tasks"], verdicts["finished"])
         self.assertGreater(int(verdicts["agrees"]), int(verdicts["tasks"]) // 2)
 
+    def test_all_methods_may_stand_without_brackets(self):
+        counts = []
+        for methods in ('"all"', '["all"]'):
+            self.write("spec.toml", f'methods = {methods}\n[ladder]\nlevels = 1\n[[cases]]\ncase = "stop"\n')
+            counts.append(self.rows_of("campaign", "plan", self.spec)[1])
+        self.assertEqual(counts[0], counts[1])
+        self.assertGreater(int(counts[0]["value"]), 20)
+
     def test_programs_are_methods(self):
         solver = os.path.join(os.path.dirname(__file__), "../../examples/solvers/midpoint.py")
         self.write("spec.toml", 'methods = ["rk4", { exec = "python3 %s {case} {h} {out} {events}", name = "mine", '
@@ -200,6 +213,101 @@ class Use(Campaign):
         self.assertEqual(self.exported(self.path("killed.db")), expected)
 
 
+ENDLESS = "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x+1 FROM c) SELECT count(*) FROM c"
+
+
+class Hostile(Campaign):
+    """Databases of strangers, and damaged ones."""
+
+    def test_interrupt_ends_a_query_at_once(self):
+        self.run_spec()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = start("campaign", "query", self.database, ENDLESS, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True)
+            time.sleep(0.3)
+            process.send_signal(number)
+            sent = time.monotonic()
+            out, err = process.communicate(timeout=20)
+            self.assertEqual((process.returncode, out), (130, ""))
+            self.assertIn("[interrupted]", err)
+            self.assertLess(time.monotonic() - sent, 2)
+
+    def test_views_are_refused_by_every_command(self):
+        self.run_spec()
+        with sqlite3.connect(self.database) as database:
+            database.execute("DROP TABLE subjects")
+            database.execute(f"CREATE VIEW subjects AS {ENDLESS}")
+        for arguments in (("status", self.database), ("export", self.database), ("merge", self.path("a.db"), self.database),
+                          ("report", self.database, "--out", self.path("a.html")), ("query", self.database, "SELECT 1"),
+                          ("run", self.spec, "--database", self.database)):
+            self.refused("campaign", *arguments, code="not-a-campaign", says="view subjects")
+        self.assertEqual(self.files(), ["runs.db", "spec.toml"])
+
+    def test_statements_without_rows_are_refused(self):
+        self.run_spec()
+        for statement in ("BEGIN", "SAVEPOINT a", "PRAGMA query_only=0", "-- nothing", "--nothing at all", ";"):
+            for form in ("table", "csv", "json"):
+                self.refused("campaign", "query", self.database, statement, "--format", form, code="bad-syntax")
+        for statement in ("SELECT 1 AS x; -- a comment", "-- x = 1\nSELECT 1 AS x"):
+            self.assertEqual(self.rows_of("campaign", "query", self.database, statement), [{"x": "1"}])
+
+    def test_values_of_other_types_are_no_mistake_of_ours(self):
+        self.run_spec()
+        databases.change(self.database, "UPDATE subjects SET verdict = NULL WHERE task = 1",
+                         "UPDATE subjects SET verdict = 7 WHERE task = 2", "UPDATE runs SET u_error = 'x'")
+        self.assertEqual(self.status()["finished"], str(TASKS))
+        for arguments in (("export", self.database), ("run", self.spec, "--database", self.database),
+                          ("report", self.database, "--out", self.path("a.html"))):
+            done = run("campaign", *arguments)
+            self.assertIn(done.returncode, (0, 2), done.stderr)
+            self.assertNotIn("internal-error", done.stderr)
+
+    def outcome(self, database, *arguments):
+        done = run("campaign", *arguments, database, "--format", "csv")
+        self.assertNotIn("internal-error", done.stderr)
+        self.assertEqual(done.returncode == 0, done.stderr == "", done.stderr)
+        return done.stdout if done.returncode == 0 else None
+
+    def test_flipped_bytes_are_noticed_or_change_nothing(self):
+        self.run_spec()
+        asked = (("status",), ("export",), ("export", "--table", "subjects", "--times"))
+        other = self.path("other.db")
+        with open(self.database, "rb") as file:
+            whole = file.read()
+        with open(other, "wb") as file:
+            file.write(whole)
+        expected = [self.outcome(other, *arguments) for arguments in asked]
+        chance, noticed = random.Random(22), 0
+        for _ in range(24):
+            flipped = bytearray(whole)
+            flipped[chance.randrange(len(whole))] ^= 1 << chance.randrange(8)
+            with open(other, "wb") as file:
+                file.write(flipped)
+            for arguments, text in zip(asked, expected):
+                found = self.outcome(other, *arguments)
+                self.assertIn(found, (None, text))
+                noticed += found is None
+        self.assertGreater(noticed, 12)
+
+    def test_killed_writer_on_a_read_only_medium(self):
+        """SQLite cannot put the log in order there; the message says what to do."""
+        if os.geteuid() == 0 and not os.path.exists("/usr/sbin/setpriv") and not os.path.exists("/usr/bin/setpriv"):
+            self.skipTest("root may write everywhere")
+        self.run_spec()
+        with sqlite3.connect(self.database) as database:
+            database.execute("PRAGMA journal_mode = WAL")
+        database.close()
+        os.chmod(self.database, 0o444)
+        os.chmod(self.folder, 0o555)
+        self.addCleanup(os.chmod, self.folder, 0o755)
+        command = [PROGRAM, "campaign", "status", self.database]
+        if os.geteuid() == 0:
+            command = ["setpriv", "--reuid", "65534", "--clear-groups", *command]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=60, env=environment())
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("copy it", done.stderr)
+
+
 class BadInput(Campaign):
     def refused_spec(self, text, *says, code):
         self.refused("campaign", "run", self.write("bad.toml", text), code=code, says=says)
@@ -226,7 +334,8 @@ class BadInput(Campaign):
         self.refused("campaign", "plan", self.spec, "--jobs", "2", code="bad-syntax", says="takes no --jobs")
         self.refused("campaign", "plan", self.spec, self.spec, code="bad-syntax", says="one argument too many")
         self.refused("campaign", "run", self.spec, "--shard", "4/3", code="out-of-range", says="1 <= i <= n")
-        self.refused("campaign", "run", self.spec, "--jobs", "0", code="out-of-range")
+        self.refused("campaign", "run", self.spec, "--jobs", "0", code="out-of-range", cwd=self.folder)
+        self.assertEqual(self.files(), ["spec.toml"])
         self.run_spec()
         self.refused("campaign", "export", self.database, "--table", "rums", code="unknown-name", says='"runs"')
         self.refused("campaign", "query", self.database, code="bad-syntax", says="SELECT")
@@ -246,7 +355,7 @@ class BadInput(Campaign):
             database.execute("PRAGMA user_version = 7")
         self.refused("campaign", "run", self.spec, "--database", self.database, code="other-version", says="version 7")
         with sqlite3.connect(self.database) as database:
-            database.execute("PRAGMA user_version = 1")
+            database.execute("PRAGMA user_version = 2")
         with open(self.database, "r+b") as file:
             file.truncate(os.path.getsize(self.database) // 2)
         for action in (("run", self.spec, "--database", self.database), ("status", self.database),
@@ -271,7 +380,11 @@ class BadInput(Campaign):
         for i in (1, 4):
             self.run_spec("--shard", f"{i}/4")
         self.refused("campaign", "merge", self.database, code="shard-missing",
-                     says=("2 of 4 shards missing: 2/4, 3/4", "--shard 2/4"))
+                     says=("2 of 4 shards missing: 2/4, 3/4.", "--shard 2/4"))
+        self.run_spec("--shard", "999999/1000000")
+        said = self.refused("campaign", "merge", self.path("new.db"), self.database + ".shard-999999-of-1000000",
+                            code="shard-missing", says="999999 of 1000000 shards missing: 1/1000000")
+        self.assertLess(len(said), 600)
 
     def test_full_disk_loses_nothing_that_was_stored(self):
         self.write("spec.toml", SPEC.replace("points = 3", "points = 40"))

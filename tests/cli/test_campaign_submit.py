@@ -35,16 +35,25 @@ class Submit(CommandTest):
 
     def test_scripts(self):
         done = self.submit("--shards", "3", "--jobs", "2", "--sbatch", "time=10", "--sbatch", "partition=a",
-                           "--database", "it's 5%.db", "--dry-run")
+                           "--sbatch", "comment=it's \"a\" # b", "--sbatch", "exclusive", "--database", "it's 5%.db", "--dry-run")
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
         array, merge = self.text_of("it's 5%.db.sbatch"), self.text_of("it's 5%.db.merge.sbatch")
         for line in ("#!/bin/sh", "#SBATCH --array=1-3", "#SBATCH --cpus-per-task=2", "#SBATCH --requeue",
                      "#SBATCH --time=10", "#SBATCH --partition=a",
+                     '#SBATCH --comment="it\'s \\"a\\" # b"', "#SBATCH --exclusive",
                      f"#SBATCH --output=\"{self.folder}/it's 5%%.db.shard-%a.log\""):
             self.assertIn(line + "\n", array)
         self.assertIn("--time=10", merge)
         self.assertNotIn("--array", merge)
         self.assertFalse(os.path.exists(self.path("it's 5%.db")))
+
+    def test_default_names_are_in_the_current_folder(self):
+        os.mkdir(self.path("here"))
+        done = subprocess.run([PROGRAM, "campaign", "submit", "../spec.toml", "--slurm", "--shards", "2", "--dry-run"],
+                              cwd=self.path("here"), capture_output=True, text=True, timeout=60, env=environment())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.files(), ["here", "spec.toml"])
+        self.assertEqual(sorted(os.listdir(self.path("here"))), ["spec.db.merge.sbatch", "spec.db.sbatch"])
 
     def test_scripts_are_what_a_shell_runs(self):
         self.submit("--shards", "2", "--database", "it's 5%.db", "--dry-run")

@@ -1,10 +1,10 @@
 """Names and headers made by somebody else must not reach a terminal as they are (CWE-150)."""
 import os
 import re
-import sqlite3
 import subprocess
 import unittest
 
+import databases
 from command import PROGRAM, CommandTest, environment
 
 # What rewrites a terminal: C0 but the line feed, DEL, C1, separators and directions of text; and
@@ -74,11 +74,8 @@ class HostileText(CommandTest):
         path = self.path("rk4.db")
         self.good("atlas", "--specification", file.name, "--submit", "rk4", "--out", path, "--quiet")
         text = " ".join(HOSTILE[:-1])  # SQLite has UTF-8
-        database = sqlite3.connect(path)
-        with database:
-            database.execute("UPDATE subjects SET reason = ?, refusal = ?, treatment = ?, claim = ?", (text,) * 4)
-            database.execute("INSERT OR REPLACE INTO campaign VALUES ('author', ?), ('file', ?)", (text, text))
-        database.close()
+        databases.change(path, ("UPDATE subjects SET reason = ?, refusal = ?, treatment = ?, claim = ?", (text,) * 4),
+                         ("INSERT OR REPLACE INTO campaign VALUES ('author', ?), ('file', ?)", (text, text)))
         self.clean("campaign", "status", path, codes=(0,))
         self.clean("campaign", "export", path, "--table", "subjects", codes=(0,), shows=r"\x1b[31m")
         self.clean("campaign", "query", path, f"SELECT reason AS \"{text}\" FROM subjects", codes=(0,))

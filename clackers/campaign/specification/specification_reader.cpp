@@ -35,9 +35,11 @@ class SpecificationReader : public TomlReader {
 
   void read(const toml::table& root) {
     require_known(root, {"methods", "ladder", "metrics", "times", "cases"}, "");
-    for (const auto& node :
-         list(need(root, "methods", "a list of methods, [\"panel\"]"), "methods"))
-      add_methods(node);
+    const auto& methods = need(root, "methods", "a list of methods, [\"panel\"]");
+    if (methods.is_string())
+      add_methods(methods);
+    else
+      for (const auto& node : list(methods, "methods")) add_methods(node);
     if (const auto* node = root.get("ladder")) read_ladder(*node);
     if (const auto* node = root.get("metrics")) read_metrics(*node);
     if (const auto* node = root.get("times")) out_.times_runs_ = flag(*node, "times");

@@ -7,6 +7,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/campaign/store.hpp"
+#include "clackers/campaign/store/digest.hpp"
 #include "clackers/record/record.hpp"
 
 namespace clackers::campaign {
@@ -33,6 +34,15 @@ std::string sql_text(std::string_view text) {
   return out + "'";
 }
 
+[[noreturn]] void other_tables(const Sqlite& database, const std::string& what) {
+  throw InputError(
+      fmt::format(
+          "{}: this is no database that this version of clackers wrote for a campaign, or a "
+          "damaged one: {}. Run the campaign again into another file.",
+          database.path(), what),
+      "not-a-campaign");
+}
+
 const record::Column seconds_column{"seconds", "s", "processor time", record::ColumnKind::real};
 
 }  // namespace
@@ -45,17 +55,18 @@ std::string schema_of(const Specification& specification, const std::string& sha
     return fmt::format("INSERT INTO campaign VALUES ({}, {});\n", sql_text(key), sql_text(value));
   };
   return fmt::format(
-             "BEGIN IMMEDIATE;\n"
              "CREATE TABLE campaign (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;\n"
              "CREATE TABLE subjects ({});\n"
              "CREATE TABLE runs ({}, PRIMARY KEY (task, run)) WITHOUT ROWID;\n"
              "CREATE TABLE timings (task INTEGER, run INTEGER, seconds REAL, "
              "PRIMARY KEY (task, run)) WITHOUT ROWID;\n"
+             "CREATE TABLE digests (task INTEGER PRIMARY KEY, runs INTEGER, of_subjects INTEGER, "
+             "of_runs INTEGER, of_timings INTEGER);\n"
              "PRAGMA application_id = {};\nPRAGMA user_version = {};\n",
              subjects, definitions(tables.runs), application_id, schema_version) +
          row("specification", specification.text()) + row("file", specification.name()) +
          row("version", record::provenance("").version) +
-         row("tasks", fmt::format("{}", specification.tasks())) + row("shard", shard) + "COMMIT;\n";
+         row("tasks", fmt::format("{}", specification.tasks())) + row("shard", shard);
 }
 
 bool is_blank(const Sqlite& database) {
@@ -77,36 +88,34 @@ void require_campaign(const Sqlite& database) {
                     "another version of clackers.",
                     database.path(), version, schema_version),
         "other-version");
+  auto objects = database.prepare("SELECT type, name, rootpage FROM sqlite_master ORDER BY name");
+  std::vector<std::string> found;
+  while (objects.step()) {
+    const bool is_virtual = objects.whole(2) == 0;  // it has no page of its own
+    found.push_back((is_virtual ? "virtual " : "") + objects.text(0) + ' ' + objects.text(1));
+  }
+  const std::vector<std::string> expected{"table campaign", "table digests", "table runs",
+                                          "table subjects", "table timings"};
+  if (found != expected) other_tables(database, fmt::format("it has {}", fmt::join(found, ", ")));
 }
 
-void require_tables(const Sqlite& database, const Tables& tables) {
-  const auto damaged = [&](const std::string& what) {
-    throw InputError(
-        fmt::format(
-            "{}: the database of the campaign is damaged: {}. Create it again, or take another "
-            "file.",
-            database.path(), what),
-        "not-a-campaign");
-  };
-  if (database.whole("SELECT count(*) FROM sqlite_master WHERE type NOT IN ('table', 'index')") > 0)
-    damaged("it has views or triggers");
-  const auto names_of = [&](std::string_view table) {
-    std::vector<std::string> names;
-    auto statement =
-        database.prepare(fmt::format("SELECT name FROM pragma_table_info('{}')", table));
-    while (statement.step()) names.push_back(statement.text(0));
-    return names;
-  };
+void require_columns(const Sqlite& database, const Tables& tables) {
   for (const auto& [table, columns] :
        {std::pair{"subjects", &tables.subjects}, {"runs", &tables.runs}}) {
-    const auto names = names_of(table);
+    auto found =
+        database.prepare(fmt::format("SELECT name, hidden FROM pragma_table_xinfo('{}')", table));
     for (const auto& column : *columns)
-      if (std::ranges::find(names, column.name) == names.end())
-        damaged(fmt::format("{} has no column {}", table, column.name));
+      if (!found.step() || found.text(0) != column.name || found.whole(1) != 0)
+        other_tables(database, fmt::format("{} has no column {}", table, column.name));
+    if (found.step())
+      other_tables(database, fmt::format("{} has the column {}", table, found.text(0)));
   }
 }
 
-void require_same(const Sqlite& database, const Specification& specification) {
+void require_same(const Sqlite& database, const Specification& specification,
+                  const Tables& tables) {
+  require_campaign(database);
+  require_sealed(database);
   if (value_of(database, "specification") != specification.text())
     throw InputError(
         fmt::format("{}: the database holds another campaign, whose specification differs. Give "
@@ -121,6 +130,7 @@ void require_same(const Sqlite& database, const Specification& specification) {
                     "version may compute other numbers. Go on with {}, or give another --database.",
                     database.path(), version, ours, version),
         "other-version");
+  require_columns(database, tables);
 }
 
 std::string value_of(const Sqlite& database, const std::string& key) {

@@ -8,19 +8,20 @@
 
 namespace clackers::campaign {
 
-/// The statements that make the tables, in one transaction.
+/// The statements that make the tables and the rows of `campaign`.
 std::string schema_of(const Specification& specification, const std::string& shard);
 
 /// Whether a file was made but holds nothing yet, as one whose first writer was killed.
 bool is_blank(const Sqlite& database);
 /// Throws InputError unless this is a database of a campaign (not-a-campaign) in our version of the
-/// schema (other-version).
+/// schema (other-version), with the tables of schema_of() and nothing else: no view, trigger, index or
+/// virtual table.
 void require_campaign(const Sqlite& database);
-/// Throws InputError (not-a-campaign) for views, triggers, and tables with other columns.
-void require_tables(const Sqlite& database, const Tables& tables);
-/// Throws InputError unless it is of this specification (other-campaign), written by this version of
-/// clackers (other-version).
-void require_same(const Sqlite& database, const Specification& specification);
+/// Throws InputError (not-a-campaign) unless the tables have the columns of schema_of(), none computed.
+void require_columns(const Sqlite& database, const Tables& tables);
+/// Throws as the two above and require_sealed() do, and unless the database is of this specification
+/// (other-campaign), written by this version of clackers (other-version).
+void require_same(const Sqlite& database, const Specification& specification, const Tables& tables);
 /// A value of the table `campaign`; empty where there is none.
 std::string value_of(const Sqlite& database, const std::string& key);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -14,11 +15,17 @@ namespace clackers::campaign {
 
 enum class OpenMode { read, write };
 
+/// What messages name, and what ends a statement.
+struct Opened {
+  std::string path;
+  const std::atomic<bool>* interrupt = nullptr;
+};
+
 /// A prepared statement. The database must outlive it.
 class Statement {
  public:
-  Statement(sqlite3* database, sqlite3_stmt* statement, const std::string& path)
-      : database_(database), statement_(statement), path_(&path) {}
+  Statement(sqlite3* database, sqlite3_stmt* statement, const Opened& opened)
+      : database_(database), statement_(statement), opened_(&opened) {}
 
   /// The parameters from 1; text must live until the next step.
   void bind(int parameter, const record::Cell& cell);
@@ -32,7 +39,6 @@ class Statement {
   record::Cell cell(int column) const;
   long long whole(int column) const;
   std::string text(int column) const;
-  bool only_reads() const;
 
  private:
   struct Finalize {
@@ -41,37 +47,41 @@ class Statement {
 
   sqlite3* database_;
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
-  const std::string* path_;
+  const Opened* opened_;
 };
 
-/// An open SQLite file. Whatever fails throws: a full disk or one that cannot be written FileError
-/// (cannot-write), one that cannot be read FileError (cannot-read), a file that is no database or a
-/// damaged one InputError (not-a-campaign), a locked one InputError (database-busy), a statement that
-/// SQLite does not understand InputError (bad-syntax).
+/// An open SQLite file, with nothing in effect that its schema may bring along. Whatever fails throws: a
+/// full disk or one that cannot be written FileError (cannot-write), one that cannot be read FileError
+/// (cannot-read), a file that is no database or a damaged one InputError (not-a-campaign), a locked one
+/// InputError (database-busy), a statement that SQLite does not understand InputError (bad-syntax).
 class Sqlite {
  public:
   Sqlite() = default;  ///< of nothing
   /// `write` makes the file where there is none.
   Sqlite(const std::string& path, OpenMode mode);
 
-  const std::string& path() const { return *path_; }
-  /// Throws InputError (bad-syntax), also for more than one statement.
+  const std::string& path() const { return opened_->path; }
+  /// From here on a statement ends with Error (interrupted) soon after the flag became true; nullptr:
+  /// none does.
+  void end_on(const std::atomic<bool>* interrupt) const { opened_->interrupt = interrupt; }
+  /// Throws InputError (bad-syntax), also for more or less than one statement; comments may stand
+  /// around it.
   Statement prepare(std::string_view sql) const;
+  /// The same for a statement that only reads. Throws InputError (bad-syntax) for any other.
+  Statement prepare_reading(std::string_view sql) const;
   /// Several statements, separated by semicolons, none with rows.
   void execute(const std::string& sql) const;
   /// The number in the first column of the first row.
   long long whole(std::string_view sql) const;
   /// Rows changed by the last statement.
   long long changes() const;
-  /// From here on statements neither write nor open other files.
-  void only_read() const;
 
  private:
   struct Close {
     void operator()(sqlite3* database) const;
   };
 
-  std::unique_ptr<std::string> path_;  // statements point to it
+  std::unique_ptr<Opened> opened_;  // statements point to it
   std::unique_ptr<sqlite3, Close> database_;
 };
 

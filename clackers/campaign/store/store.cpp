@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 
 #include "clackers/base/error.hpp"
+#include "clackers/campaign/store/digest.hpp"
 #include "clackers/campaign/store/schema.hpp"
 #include "clackers/campaign/store/sqlite.hpp"
 
@@ -52,7 +55,7 @@ void require_file(const std::string& path) {
 struct Store::Connection {
   // The statements that add rows.
   struct Inserts {
-    Statement subject, run, timing;
+    Statement subject, run, timing, digest;
   };
 
   // After the last writer the database is one file, unless somebody reads it.
@@ -64,6 +67,15 @@ struct Store::Connection {
     } catch (const Error&) {
       // The next writer does it.
     }
+  }
+
+  // The rows of a table that are as they were written.
+  Selection checked(TableName table, bool with_times) const {
+    require_whole(database, "subjects");
+    if (table == TableName::runs) require_whole(database, "runs");
+    if (with_times) require_whole(database, "timings");
+    return table == TableName::runs ? runs_selection(tables, with_times)
+                                    : subjects_selection(tables, with_times);
   }
 
   std::unique_ptr<WriterLock> lock;
@@ -92,27 +104,33 @@ Store Store::create_or_open(const std::string& path, const Specification& specif
   const auto& database = connection.database;
   const bool is_new = is_blank(database);
   if (!is_new) {
-    require_campaign(database);
-    require_same(database, specification);
+    require_same(database, specification, connection.tables);
     connection.shard = value_of(database, "shard");
   }
   if (is_shard_file(path)) database.execute("PRAGMA locking_mode = EXCLUSIVE");
   database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
-  if (is_new) database.execute(schema_of(specification, shard));
+  if (is_new) {
+    Transaction transaction(database);
+    database.execute(schema_of(specification, shard));
+    seal(database);
+    transaction.commit();
+  }
   connection.inserts.emplace(Connection::Inserts{
       database.prepare(insert_into("subjects", connection.tables.subjects.size())),
       database.prepare(insert_into("runs", connection.tables.runs.size())),
-      database.prepare(insert_into("timings", 3))});
+      database.prepare(insert_into("timings", 3)), database.prepare(insert_into("digests", 5))});
   return Store(std::move(made));
 }
 
-Store Store::open(const std::string& path) {
+Store Store::open(const std::string& path, const std::atomic<bool>* interrupt) {
   require_file(path);
   auto made = std::make_unique<Connection>();
   auto& connection = *made;
   connection.database = Sqlite(path, OpenMode::read);
   const auto& database = connection.database;
+  database.end_on(interrupt);
   require_campaign(database);
+  require_sealed(database);
   try {
     connection.specification =
         Specification::from_toml(value_of(database, "specification"), value_of(database, "file"));
@@ -121,7 +139,7 @@ Store Store::open(const std::string& path) {
   }
   connection.shard = value_of(database, "shard");
   connection.tables = tables_of(connection.specification);
-  require_tables(database, connection.tables);
+  require_columns(database, connection.tables);
   return Store(std::move(made));
 }
 
@@ -138,42 +156,53 @@ TaskSet Store::finished() const {
 
 void Store::write(std::span<const TaskRows> tasks) {
   auto& connection = *connection_;
-  auto& [subject, run, timing] = connection.inserts.value();
+  auto& [subject, run, timing, kept] = connection.inserts.value();
   Transaction transaction(connection.database);
-  const auto bind = [](Statement& statement, int first, const std::vector<record::Cell>& cells) {
-    for (const auto& cell : cells) statement.bind(first++, cell);
+  // Adds a row to a table, and what stands behind its task to the digest.
+  const auto add = [](Statement& statement, Digest& digest, std::initializer_list<record::Cell> key,
+                      std::span<const record::Cell> cells) {
+    int column = 0;
+    for (const auto& cell : key) {
+      statement.bind(++column, cell);
+      if (column > 1) digest.add(cell);
+    }
+    for (const auto& cell : cells) {
+      statement.bind(++column, cell);
+      digest.add(cell);
+    }
+    statement.run();
   };
   for (const auto& rows : tasks) {
-    const record::Cell task = rows.task;
-    subject.bind(1, task);
-    bind(subject, 2, rows.subject);
-    subject.run();
+    const auto count = static_cast<long long>(rows.runs.size());
+    const Digest empty(rows.task, count);
+    Digest of_subjects = empty, of_runs = empty, of_timings = empty;
+    add(subject, of_subjects, {rows.task}, rows.subject);
     if (connection.database.changes() == 0) continue;
     for (std::size_t i = 0; i < rows.runs.size(); ++i) {
-      const record::Cell number = static_cast<long long>(i + 1);
-      run.bind(1, task);
-      run.bind(2, number);
-      bind(run, 3, rows.runs[i]);
-      run.run();
-      timing.bind(1, task);
-      timing.bind(2, number);
-      timing.bind(3, rows.seconds[i]);
-      timing.run();
+      const auto number = static_cast<long long>(i + 1);
+      const record::Cell seconds[] = {rows.seconds[i]};
+      add(run, of_runs, {rows.task, number}, rows.runs[i]);
+      add(timing, of_timings, {rows.task, number}, seconds);
     }
+    Digest unused = empty;
+    add(kept, unused, {rows.task, count, of_subjects.value(), of_runs.value(), of_timings.value()},
+        {});
   }
   transaction.commit();
 }
 
-long long Store::merge(const std::string& path) {
+long long Store::merge(const std::string& path, const std::atomic<bool>* interrupt) {
   require_file(path);
   const WriterLock lock(path);
   {
     const Sqlite other(path, OpenMode::write);
+    other.end_on(interrupt);
     if (is_blank(other)) return 0;
-    require_campaign(other);
-    require_same(other, specification());
+    require_same(other, specification(), connection_->tables);
+    for (const auto* table : {"subjects", "runs", "timings"}) require_whole(other, table);
   }
   const auto& database = connection_->database;
+  database.end_on(interrupt);
   auto attach = database.prepare("ATTACH ? AS other");
   const record::Cell name = path.starts_with('/') ? path : "./" + path;
   attach.bind(1, name);
@@ -181,7 +210,7 @@ long long Store::merge(const std::string& path) {
   long long added = 0;
   try {
     Transaction transaction(database);
-    for (const auto* table : {"runs", "timings"})
+    for (const auto* table : {"runs", "timings", "digests"})
       database.execute(
           fmt::format("INSERT INTO main.{0} SELECT * FROM other.{0} WHERE task NOT IN "
                       "(SELECT task FROM main.subjects)",
@@ -190,9 +219,11 @@ long long Store::merge(const std::string& path) {
     added = database.changes();
     transaction.commit();
   } catch (...) {
+    database.end_on(nullptr);
     database.execute("DETACH other");
     throw;
   }
+  database.end_on(nullptr);
   database.execute("DETACH other");
   return added;
 }
@@ -219,36 +250,48 @@ void Store::sign(const Origin& origin) {
     statement.bind(2, cells[1]);
     statement.run();
   }
+  seal(connection_->database);
   transaction.commit();
 }
 
+Counts Store::counts() const {
+  const auto& database = connection_->database;
+  require_whole(database, "subjects");
+  Counts counts;
+  auto statement = database.prepare(
+      "SELECT verdict, count(*), sum(runs) FROM subjects JOIN digests USING (task) GROUP BY verdict");
+  while (statement.step()) {
+    counts.verdicts[statement.text(0)] = statement.whole(1);
+    counts.tasks += statement.whole(1);
+    counts.runs += statement.whole(2);
+  }
+  return counts;
+}
+
 std::unique_ptr<record::RowSource> Store::rows(TableName table, bool with_times) const {
-  const auto& [lock, database, specification, shard, tables, inserts] = *connection_;
-  auto selection = table == TableName::runs ? runs_selection(tables, with_times)
-                                            : subjects_selection(tables, with_times);
+  const auto selection = connection_->checked(table, with_times);
   const std::string name = table == TableName::runs ? "runs" : "subjects";
-  return sql_rows("clackers/campaign-" + name + "/1", "", std::move(selection.columns),
-                  database.prepare(selection.sql));
+  return sql_rows("clackers/campaign-" + name + "/1", "", selection.columns,
+                  connection_->database.prepare(selection.sql));
 }
 
 std::unique_ptr<record::RowSource> Store::numbers(TableName table, bool with_times) const {
   const auto& database = connection_->database;
-  const auto& tables = connection_->tables;
-  const auto selection = table == TableName::runs ? runs_selection(tables, with_times)
-                                                  : subjects_selection(tables, with_times);
-  const auto count = database.whole(fmt::format("SELECT count(*) FROM ({})", selection.sql));
+  const auto selection = connection_->checked(table, with_times);
+  // A task that was refused has a row as well.
+  const auto count =
+      database.whole(table == TableName::runs ? "SELECT sum(max(runs, 1)) FROM digests"
+                                              : "SELECT count(*) FROM digests");
   return sql_numbers("clackers/campaign/1", "", selection.columns, database.prepare(selection.sql),
                      count);
 }
 
 std::unique_ptr<record::RowSource> Store::query(const std::string& sql) const {
   const auto& database = connection_->database;
-  database.only_read();
-  auto statement = database.prepare(sql);
-  if (!statement.only_reads())
-    throw InputError(
-        fmt::format("{}: \"{}\"; allowed: a statement that reads, such as SELECT.", path(), sql),
-        "bad-syntax");
+  auto statement = database.prepare_reading(sql);
+  // There are no views, so that a statement names the tables that it reads.
+  for (const auto* table : {"subjects", "runs", "timings"})
+    if (::strcasestr(sql.c_str(), table) != nullptr) require_whole(database, table);
   std::vector<record::Column> columns;
   for (int i = 0; i < statement.columns(); ++i)
     columns.push_back({statement.column_name(i), "", ""});

@@ -109,6 +109,7 @@ void write_table(record::RowSource& rows, std::ostream& out, const Style& style)
       out << colored(line, TextColor::bold, style) << '\n';
 
   const auto& columns = rows.columns();
+  if (columns.empty()) return;
   std::vector<CellRow> first;
   CellRow row;
   while (first.size() < rows_measured && rows.next(row)) first.push_back(row);
