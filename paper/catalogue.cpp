@@ -4,6 +4,7 @@
 #include <array>
 
 #include "clackers/base/check.hpp"
+#include "paper/claims/claim.hpp"
 
 namespace clackers::paper {
 namespace {
@@ -55,6 +56,7 @@ Figure make(const Entry& entry, const std::atomic<bool>* interrupt) {
   auto figure = entry.build(interrupt);
   figure.name = entry.name;
   figure.title = entry.title;
+  figure.claims = claims_beside(figure, interrupt);
   return figure;
 }
 

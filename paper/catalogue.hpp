@@ -27,7 +27,7 @@ std::span<const Entry> entries();
 /// InputError with did-you-mean for a name that does not exist.
 std::vector<Entry> chosen(const std::vector<std::string>& names);
 
-/// The figure of an entry, whole unless `interrupt` became true.
+/// The figure of an entry with its claims, whole unless `interrupt` became true.
 Figure make(const Entry& entry, const std::atomic<bool>* interrupt = nullptr);
 
 // The builders, by the file in figures/ that holds them.
@@ -52,13 +52,13 @@ Figure validation(const std::atomic<bool>* interrupt);  ///< validation.cpp: sec
 /// to the same double. A vertical line has an empty y.
 void write_csv(const Figure& figure, std::ostream& out);
 
-/// Every claim of the figures with its verdict, a row each.
-record::Sheet claims_of(const std::vector<Figure>& figures);
+/// Every claim of the figures with its verdict, a row each; for people without section and figure.
+record::Sheet claims_of(const std::vector<Figure>& figures, bool for_people = false);
 
 /// What `clackers list figures` shows.
 record::Sheet list_figures();
 
-/// "holds", "holds in part" (see Claim) or "differs".
+/// "holds", "holds where", "does not hold" or "not measurable".
 const char* verdict_of(const Claim& claim);
 
 }  // namespace clackers::paper

@@ -8,7 +8,7 @@
 
 namespace clackers::paper {
 
-/// How a line looks. Colour, dash and width differ together, so that a curve is known in grey too.
+/// How a line looks. Curves that meet differ in colour and in dash or width, so that each is known in grey too.
 struct Stroke {
   std::string color;               ///< "#0b62a4"; of assets.hpp
   std::vector<double> dash{1, 0};  ///< lengths of strokes and gaps
@@ -17,7 +17,7 @@ struct Stroke {
 
 /// Strokes that mean the same in every figure.
 inline Stroke first_mass() { return {light::m1, {1, 0}, 2.0}; }
-inline Stroke second_mass() { return {light::m2, {5, 2}, 1.3}; }
+inline Stroke second_mass() { return {light::m2, {1, 0}, 0.9}; }
 
 /// One curve, or what else is drawn into a panel.
 struct Series {
@@ -49,12 +49,17 @@ struct Panel {
   std::vector<Series> series;
 };
 
+enum class Verdict { holds, holds_where, does_not_hold, not_measurable };
+
 /// One sentence of the paper beside what was measured.
 struct Claim {
-  std::string says;      ///< the paper's statement, with its place: "Section 2.1: ..."
-  std::string measured;  ///< with the number and how it was found
-  bool holds = false;
-  bool in_part = false;  ///< holds only for some of what it is said of; `measured` says for what
+  std::string name;     ///< "eq13"; an anchor of the page and of the manual
+  int order = 0;        ///< in the paper
+  std::string section;  ///< of the paper: "Section 2.1, Main idea"
+  std::string says;     ///< the paper's statement
+  Verdict verdict = Verdict::does_not_hold;
+  std::string measured;   ///< with the numbers and how they were found; empty where nothing can be
+  std::string condition;  ///< where it holds, or because of what it is not measurable
 };
 
 /// A figure of the paper, or one it asks for: everything that picture, csv and page show.

@@ -40,8 +40,12 @@ void write_manifest(const std::vector<Drawn>& drawn, const std::string& command,
   for (const auto& item : drawn) {
     Json claims = Json::array();
     for (const auto& claim : item.figure.claims)
-      claims.push_back(
-          {{"says", claim.says}, {"measured", claim.measured}, {"verdict", verdict_of(claim)}});
+      claims.push_back({{"name", claim.name},
+                        {"section", claim.section},
+                        {"says", claim.says},
+                        {"verdict", verdict_of(claim)},
+                        {"condition", claim.condition},
+                        {"measured", claim.measured}});
     figures.push_back({{"name", item.figure.name},
                        {"title", item.figure.title},
                        {"caption", item.figure.caption},

@@ -26,20 +26,33 @@ void write_csv(const Figure& figure, std::ostream& out) {
 }
 
 const char* verdict_of(const Claim& claim) {
-  return !claim.holds ? "differs" : claim.in_part ? "holds in part" : "holds";
+  constexpr const char* words[] = {"holds", "holds where", "does not hold", "not measurable"};
+  return words[std::size_t(claim.verdict)];
 }
 
-record::Sheet claims_of(const std::vector<Figure>& figures) {
-  record::Sheet sheet{"paper/1",
+record::Sheet claims_of(const std::vector<Figure>& figures, bool for_people) {
+  record::Sheet sheet{"clackers/paper/1",
                       "The paper's claims and what was measured",
-                      {{"figure", "", "name of the figure"},
-                       {"verdict", "", "holds, holds in part, or differs"},
-                       {"claim", "", "what the paper says, and where"},
+                      {{"claim", "", "name of the claim"},
+                       {"section", "", "of the paper"},
+                       {"figure", "", "name of the figure beside which it stands"},
+                       {"verdict", "", "holds, holds where, does not hold, or not measurable"},
+                       {"says", "", "what the paper says"},
+                       {"condition", "", "where it holds, or because of what it is not measurable"},
                        {"measured", "", "what was found"}},
                       {}};
   for (const auto& figure : figures)
     for (const auto& claim : figure.claims)
-      sheet.rows.push_back({figure.name, verdict_of(claim), claim.says, claim.measured});
+      sheet.rows.push_back({claim.name, claim.section, figure.name, verdict_of(claim), claim.says,
+                            claim.condition, claim.measured});
+  if (!for_people) return sheet;
+  // 80 columns hold the verdict, the sentence, and what was found under its condition.
+  for (auto& row : sheet.rows) {
+    auto &condition = std::get<std::string>(row[5]), &measured = std::get<std::string>(row[6]);
+    if (!condition.empty()) measured = condition + (measured.empty() ? "." : ". ") + measured;
+    row = {row[0], row[3], row[4], row[6]};
+  }
+  sheet.columns = {sheet.columns[0], sheet.columns[3], sheet.columns[4], sheet.columns[6]};
   return sheet;
 }
 

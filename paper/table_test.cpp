@@ -39,15 +39,21 @@ TEST(Csv, PanelsOfOneLetterDifferByTheirNote) {
 TEST(Claims, EachIsARowWithItsVerdict) {
   Figure figure;
   figure.name = "fig0";
-  figure.claims = {
-      {"says", "found 1", true}, {"says more", "found 2", false}, {"c", "3", true, true}};
+  figure.claims = {{"a", 0, "2.1", "says", Verdict::holds, "found 1", ""},
+                   {"b", 1, "2.2", "says more", Verdict::does_not_hold, "found 2", ""},
+                   {"c", 2, "3", "third", Verdict::holds_where, "3", "x > 0"},
+                   {"d", 3, "3", "fourth", Verdict::not_measurable, "", "nobody knows"}};
   const auto sheet = claims_of({figure, figure});
-  ASSERT_EQ(sheet.rows.size(), 6u);
-  const std::vector<record::Cell> first{"fig0", "holds", "says", "found 1"},
-      second{"fig0", "differs", "says more", "found 2"};
+  ASSERT_EQ(sheet.rows.size(), 8u);
+  const std::vector<record::Cell> first{"a", "2.1", "fig0", "holds", "says", "", "found 1"};
   EXPECT_EQ(sheet.rows[0], first);
-  EXPECT_EQ(sheet.rows[4], second);
-  EXPECT_EQ(sheet.rows[5][1], record::Cell("holds in part"));
+  EXPECT_EQ(sheet.rows[5][3], record::Cell("does not hold"));
+  const auto short_sheet = claims_of({figure}, true);
+  ASSERT_EQ(short_sheet.columns.size(), 4u);
+  const std::vector<record::Cell> third{"c", "holds where", "third", "x > 0. 3"},
+      fourth{"d", "not measurable", "fourth", "nobody knows."};
+  EXPECT_EQ(short_sheet.rows[2], third);
+  EXPECT_EQ(short_sheet.rows[3], fourth);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ int run(const PaperOptions& options, const std::string& line) {
   const auto made = reproduce(options, chosen, folder, line);
   if (made.interrupted) throw Interrupted();
   folder.commit();
-  const auto sheet = paper::claims_of(made.figures);
+  const auto sheet = paper::claims_of(made.figures, results.format() == report::Format::table);
   record::SheetRows rows(sheet);
   report::write(rows, results.format(), results.stream(), results.style());
   results.finish();

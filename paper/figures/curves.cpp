@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "clackers/exact/event_driven/piecewise_motion.hpp"
+
 namespace clackers::paper {
 namespace {
 
@@ -51,27 +53,6 @@ std::vector<Instant> instants(const model::Motion& motion, double dt) {
 }
 
 }  // namespace
-
-FreeFlight::FreeFlight(const cases::Case& test_case, int mass) {
-  const auto i = mass - 1;
-  const auto& system = test_case.problem.system;
-  const double m = system.mass(i, i);
-  sigma_ = system.damping(i, i) / (2.0 * m);
-  omega_ = std::sqrt(system.stiffness(i, i) / m - sigma_ * sigma_);
-  a_ = test_case.problem.start.u[i];
-  b_ = (test_case.problem.start.v[i] + sigma_ * a_) / omega_;
-}
-
-double FreeFlight::u(double t) const {
-  const double angle = omega_ * t;
-  return std::exp(-sigma_ * t) * (a_ * std::cos(angle) + b_ * std::sin(angle));
-}
-
-double FreeFlight::v(double t) const {
-  const double angle = omega_ * t;
-  return std::exp(-sigma_ * t) * ((b_ * omega_ - sigma_ * a_) * std::cos(angle) -
-                                  (a_ * omega_ + sigma_ * b_) * std::sin(angle));
-}
 
 Series curve(const cases::Case& test_case, int mass, Quantity quantity, int points_per_half_turn) {
   const auto& motion = *test_case.motion;
@@ -125,26 +106,13 @@ Panel response_panel(const cases::Case& test_case, Quantity quantity, std::strin
 }
 
 Series without_contact(const cases::Case& test_case, int mass, const Series& like) {
-  const FreeFlight flight(test_case, mass);
+  auto problem = test_case.problem;
+  problem.contacts.clear();
+  const exact::PiecewiseMotion motion(problem);
   Series out = like;
-  std::ranges::transform(like.x, out.y.begin(), [&](double t) { return flight.u(t); });
+  std::ranges::transform(like.x, out.y.begin(),
+                         [&](double t) { return motion.at(t, model::Side::right).u[mass - 1]; });
   return out;
-}
-
-double largest_difference(const Series& first, const Series& other) {
-  if (first.x != other.x || first.y.size() != other.y.size())
-    throw std::logic_error("curves of different abscissae");
-  double largest = 0.0;
-  for (std::size_t i = 0; i < first.y.size(); ++i)
-    largest = std::max(largest, std::abs(first.y[i] - other.y[i]));
-  return largest;
-}
-
-int maxima(const Series& curve, double before) {
-  int count = 0;
-  for (std::size_t i = 1; i + 1 < curve.x.size() && curve.x[i] < before; ++i)
-    count += curve.y[i] > curve.y[i - 1] && curve.y[i] >= curve.y[i + 1];
-  return count;
 }
 
 double constant(const cases::Case& test_case, const std::string& name) {
@@ -153,7 +121,5 @@ double constant(const cases::Case& test_case, const std::string& name) {
       if (item.name == name) return item.value;
   throw std::logic_error("no constant " + name);
 }
-
-std::string number(double value) { return fmt::format("{:.3g}", value); }
 
 }  // namespace clackers::paper

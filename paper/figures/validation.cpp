@@ -22,7 +22,7 @@ struct Method {
 const std::vector<Method>& methods_shown() {
   static const std::vector<Method> table{{"newmark", {light::m1, {1, 0}, 1.8}},
                                          {"central-difference", {light::m2, {7, 3}, 1.8}},
-                                         {"generalized-alpha:rho=0.8", {light::m3, {2, 2}, 1.8}},
+                                         {"generalized-alpha:rho=0.2", {light::m3, {2, 2}, 1.8}},
                                          {"rk4", {light::m4, {8, 3, 2, 3}, 1.8}},
                                          {"newmark+reversal", {light::m7, {4, 2}, 1.4}},
                                          {"moreau-jean", {light::m8, {1, 0}, 1.1}}};
@@ -82,21 +82,9 @@ Figure convergence(std::span<const int> Ns, const std::atomic<bool>* interrupt) 
                  .logarithmic = true},
                 {.title = "error in u", .lowest = 1e-11, .highest = 10.0, .logarithmic = true},
                 {}};
-    Claim claim{
-        fmt::format("Section 2.3: numerical solutions of Eq. (25) converge to Eq. (26), N = {}.",
-                    Ns[i]),
-        fmt::format("Errors at the finest step, {:.2g} s:", finest), true};
     const auto& subjects = record.cases[0].subjects;
-    for (std::size_t m = 0; m < subjects.size(); ++m) {
-      const auto line = errors_of(subjects[m], methods_shown()[m]);
-      const bool reached = !line.x.empty() && line.x.back() < 1.01 * finest;
-      claim.holds = claim.holds && reached && converges(line);
-      claim.measured += fmt::format("{} {} {}", m == 0 ? "" : ",", line.name,
-                                    reached ? fmt::format("{:.1e}", line.y.back()) : "none");
-      panel.series.push_back(line);
-    }
-    claim.measured += ".";
-    figure.claims.push_back(std::move(claim));
+    for (std::size_t m = 0; m < subjects.size(); ++m)
+      panel.series.push_back(errors_of(subjects[m], methods_shown()[m]));
     figure.panels.push_back(std::move(panel));
   }
   figure.choices = {

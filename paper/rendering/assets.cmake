@@ -2,7 +2,7 @@
 # sheet, as one generated source file. Sets CLACKERS_PAPER_ASSETS to it.
 set(paper_dir ${PROJECT_SOURCE_DIR}/paper/rendering)
 set(paper_page ${paper_dir}/page/page.html ${paper_dir}/page/open_points.html ${paper_dir}/page/paper.css
-  ${paper_dir}/page/look.json ${paper_dir}/page/render.js)
+  ${paper_dir}/page/look.json ${PROJECT_SOURCE_DIR}/paper/claims/claims.json ${paper_dir}/page/render.js)
 set(paper_colors ${PROJECT_SOURCE_DIR}/clackers/report/page/page.css)
 set(CLACKERS_PAPER_ASSETS ${PROJECT_BINARY_DIR}/clackers_paper_assets.cpp)
 add_custom_command(

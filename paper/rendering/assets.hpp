@@ -5,7 +5,8 @@
 /// The files of page/, embedded by embed.cmake.
 namespace clackers::paper::assets {
 
-extern const std::string_view page_html, open_points_html, look_json;  ///< with {{slots}}
+extern const std::string_view page_html, open_points_html, look_json,
+    claims_json;                          ///< with {{slots}}
 extern const std::string_view paper_css;  ///< beside the report's style sheet
 extern const std::string_view render_js;  ///< run by node
 

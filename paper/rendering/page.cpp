@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <map>
+#include <regex>
 #include <string_view>
 
-#include "clackers/cases/case.hpp"
-#include "clackers/exact/quantities/quantities.hpp"
 #include "clackers/record/record.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/markup.hpp"
@@ -25,10 +25,17 @@ std::string label(const std::string& name) {
   return "Validation";
 }
 
-// The class is the first word.
+// The class is the last word of the verdict.
 std::string badge(std::string_view verdict) {
-  return fmt::format("<span class=\"badge {}\">{}</span>", verdict.substr(0, verdict.find(' ')),
+  return fmt::format("<span class=\"badge {}\">{}</span>", verdict.substr(verdict.rfind(' ') + 1),
                      verdict);
+}
+
+// Escaped, with each number and its unit, or "N = 1", on one line.
+std::string unbroken(const std::string& text) {
+  static const std::regex number(
+      R"((\S+ = )?(-|−)?\d[\d.]*(e[-+]?\d+)?,?( (rad/s|m/s|m s|kg m|per s|N/m|kg|m|s|%)(?![\w/]))?)");
+  return std::regex_replace(escape(text), number, "<span class=\"n\">$&</span>");
 }
 
 // Percent-encoded, as a data address asks.
@@ -53,11 +60,38 @@ std::string picture(const Drawn& drawn) {
 std::string claims(const std::vector<Claim>& list) {
   if (list.empty()) return {};
   std::string rows;
-  for (const auto& claim : list)
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
-                        escape(claim.says), escape(claim.measured), badge(verdict_of(claim)));
-  return "<div class=\"scroll\"><table class=\"claims\"><thead><tr><th scope=\"col\">the paper says</th><th scope=\"col\">measured</th><th scope=\"col\">verdict</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n";
+  for (const auto& claim : list) {
+    const auto condition =
+        claim.condition.empty()
+            ? ""
+            : fmt::format("<small>{}{}</small>",
+                          claim.verdict == Verdict::holds_where ? "where " : "because ",
+                          unbroken(claim.condition));
+    rows += fmt::format(
+        "<tr id=\"{}\"><th scope=\"row\"><small>{}</small>{}</th><td>{}</td><td>{}{}</td></tr>\n",
+        claim.name, claim.section, escape(claim.says), badge(verdict_of(claim)), condition,
+        unbroken(claim.measured));
+  }
+  return "<table class=\"claims\"><thead><tr><th scope=\"col\">the paper says</th><th scope=\"col\">verdict</th><th scope=\"col\">measured</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table>\n";
+}
+
+// Every claim with its verdict, by section of the paper.
+std::string contents_of_claims(const std::vector<Drawn>& drawn) {
+  std::vector<const Claim*> all;
+  for (const auto& item : drawn)
+    for (const auto& claim : item.figure.claims) all.push_back(&claim);
+  std::ranges::sort(all, {}, &Claim::order);
+  std::string out, section;
+  for (const auto* claim : all) {
+    if (claim->section != section)
+      out += fmt::format("{}<h3>{}</h3>\n<ul class=\"contents\">\n", out.empty() ? "" : "</ul>\n",
+                         claim->section);
+    section = claim->section;
+    out += fmt::format("<li><a href=\"#{}\">{}</a> {}</li>\n", claim->name, escape(claim->says),
+                       badge(verdict_of(*claim)));
+  }
+  return out.empty() ? out : out + "</ul>\n";
 }
 
 std::string choices(const std::vector<std::string>& list) {
@@ -83,36 +117,18 @@ std::string section(const Drawn& drawn) {
 }
 
 std::string overall(const std::vector<Drawn>& drawn) {
-  std::map<std::string_view, int> counts;
+  std::map<Verdict, std::pair<const char*, int>> counts;
   int all = 0;
   for (const auto& item : drawn)
-    for (const auto& claim : item.figure.claims) ++counts[verdict_of(claim)], ++all;
-  auto out = fmt::format("{} {} of {} claims", badge("holds"), counts["holds"], all);
-  for (const auto* verdict : {"holds in part", "differs"})
-    if (counts[verdict] > 0) out += fmt::format(" {} {}", badge(verdict), counts[verdict]);
+    for (const auto& claim : item.figure.claims) {
+      auto& [words, count] = counts[claim.verdict];
+      words = verdict_of(claim);
+      ++count, ++all;
+    }
+  auto out = fmt::format("Of {} claims", all);
+  for (const auto& [verdict, counted] : counts)
+    out += fmt::format(" {} {}", counted.second, badge(counted.first));
   return out;
-}
-
-// I_ms and T_L / T_S of the paper's system for some N, as words.
-std::string ratios(double threshold) {
-  std::string out;
-  for (const int N : {0, 1, 2, 5, 10, 20}) {
-    const double X = 4.0 * N + 1.0;
-    const auto found = exact::indicators(X, 1.0, 20.0, threshold);
-    out += fmt::format("{}N = {}: {:.0f} {} {:.0f}", out.empty() ? "" : ", ", N, X,
-                       found.bound_holds ? "≥" : "&lt;", found.highest_harmonic);
-  }
-  return out;
-}
-
-std::string open_points() {
-  std::string limits;
-  for (const double X : {5.0, 9.0, 21.0, 41.0, 81.0})
-    limits +=
-        fmt::format("{}{:.4f}", limits.empty() ? "" : ", ", cases::admissibility(X, 3.0).r_star);
-  return report::fill(
-      assets::open_points_html,
-      {{"ratios", ratios(0.1)}, {"ratios-fine", ratios(0.001)}, {"limits", limits}});
 }
 
 }  // namespace
@@ -130,8 +146,9 @@ std::string page(const std::vector<Drawn>& drawn, const std::string& command) {
                                                         std::string(assets::paper_css)},
                                           {"overall", overall(drawn)},
                                           {"contents", contents},
+                                          {"claims", contents_of_claims(drawn)},
                                           {"figures", figures},
-                                          {"answers", open_points()},
+                                          {"answers", std::string(assets::open_points_html)},
                                           {"command", escape(command)}});
 }
 

@@ -1,11 +1,6 @@
 #include "paper/rendering/page.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace clackers::paper {
 namespace {
@@ -19,7 +14,10 @@ Drawn drawn() {
   out.figure.name = "figA3";
   out.figure.title = "A <title>";
   out.figure.caption = "The caption & more";
-  out.figure.claims = {{"It says a < b", "1 < 2", true}, {"It says more", "0", false}};
+  out.figure.claims = {
+      {"eq2", 5, "Section 2.2, Detailed formulation", "It says a < b", Verdict::holds_where,
+       "1 < 2 with 4.5e-05 m/s", "N = 1"},
+      {"eq1", 3, "Section 2.1, Main idea", "It says more", Verdict::does_not_hold, "0", ""}};
   out.figure.choices = {"We took 3"};
   out.svg = "<svg a=\"1\">é#</svg>\n";
   out.files = {"figA3.svg"};
@@ -32,9 +30,10 @@ TEST(Page, ShowsPictureCaptionClaimsAndFiles) {
        {"Figure A.3. A &lt;title&gt;",
         "\"data:image/svg+xml,%3Csvg a=%221%22%3E%C3%A9%23%3C/svg%3E%0A\"",
         "The caption &amp; more", "It says a &lt; b",
-        "<span class=\"badge holds\">holds</span></td>",
-        "<span class=\"badge differs\">differs</span></td>", "We took 3",
-        "<a href=\"figA3.svg\">figA3.svg</a>", "1 of 2 claims", "clackers paper figA3 --out x"})
+        "<span class=\"badge where\">holds where</span></td>",
+        "<span class=\"badge hold\">does not hold</span></td>",
+        "<span class=\"n\">4.5e-05 m/s</span>", "where <span class=\"n\">N = 1</span>", "We took 3",
+        "<a href=\"figA3.svg\">figA3.svg</a>", "Of 2 claims 1 ", "clackers paper figA3 --out x"})
     EXPECT_TRUE(contains(text, part)) << part;
 }
 
@@ -52,22 +51,18 @@ TEST(Page, SaysWhereAPictureIsMissing) {
   EXPECT_FALSE(contains(text, "data:image/svg"));
 }
 
-// Found without the library: r* by a scan of its definition; floor(sqrt(81 + 17/0.1)/2) = 7,
-// floor(sqrt(81 + 17/0.001)/2) = 65, and for N = 0 floor(sqrt(31)/2) = 2.
-TEST(Page, OpenPointsHaveTheLimitsOfTheMassRatioAndTheHarmonicsOfTwoThresholds) {
-  const auto text = page({}, "");
-  std::string limits = "r* = ";
-  for (const double X : {5.0, 9.0, 21.0, 41.0, 81.0}) {
-    double least = 0.0;
-    for (int i = 1; i < 400'000; ++i) {
-      const double theta = 0.5 * std::numbers::pi * i / 400'000;
-      least = std::min(least, std::sin(X * theta) / (X * std::sin(theta)));
-    }
-    limits += fmt::format("{}{:.4f}", X == 5.0 ? "" : ", ", -1.0 / least);
-  }
-  for (const auto& part : {limits, std::string("N = 2: 9 ≥ 7"), std::string("N = 2: 9 &lt; 65"),
-                           std::string("N = 0: 1 &lt; 2")})
+TEST(Page, ClaimsAreListedBySectionInThePapersOrder) {
+  const auto text = page({drawn()}, "");
+  const auto at = [&](const char* part) {
     EXPECT_TRUE(contains(text, part)) << part;
+    return text.find(part);
+  };
+  EXPECT_LT(at("<h3>Section 2.1, Main idea</h3>"), at("<a href=\"#eq1\">It says more</a>"));
+  EXPECT_LT(at("<a href=\"#eq1\">It says more</a>"),
+            at("<h3>Section 2.2, Detailed formulation</h3>"));
+  EXPECT_LT(at("<h3>Section 2.2, Detailed formulation</h3>"),
+            at("<a href=\"#eq2\">It says a &lt; b</a>"));
+  EXPECT_LT(at("<a href=\"#eq2\">"), at("<tr id=\"eq2\">"));
 }
 
 }  // namespace

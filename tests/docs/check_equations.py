@@ -4,11 +4,11 @@
     check_equations.py ROOT          prints each fault, exits 1 if there is one
     check_equations.py ROOT --fix    first points links at the only file that has the name or the test
 
-A row is `| (n) | what it says | function | test | note |`. Each of (1)-(38) and (A.1)-(A.18) has
+A row is `| (n) | what it says | function | test | note | claims |`. Each of (1)-(38) and (A.1)-(A.18) has
 exactly one row. A function is a link [`Name`](header) to a header that contains every word of Name
 outside comments; otherwise the cell is `not realized: reason`. A test is a link [`Suite.Name`](source)
 to a source with that GoogleTest, or [`path`](path) to a file or folder of tests/. A note links to a
-heading of the page.
+heading of the page, claims to headings of claims.md, each of which has a link somewhere in the page.
 """
 import os
 import pathlib
@@ -16,11 +16,13 @@ import re
 import sys
 
 PAGE = pathlib.PurePosixPath("docs/manual/explanation/equations.md")
+CLAIMS = PAGE.with_name("claims.md")
 EQUATIONS = [f"({n})" for n in range(1, 39)] + [f"(A.{n})" for n in range(1, 19)]
 ROW = re.compile(r"^\| (\((?:A\.)?\d+\)) \|(.*)\|$")
 LINK = re.compile(r"\[(`?)([^\]`]+)\1\]\(([^)\s]+)\)")
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
+CLAIM = re.compile(r"^### (.*)$", re.MULTILINE)
 REFUSAL = re.compile(r"not realized: \S.*")
 
 
@@ -103,10 +105,10 @@ def fix(root):
 
 
 def check_row(root, cells, headings):
-    if len(cells) != 4:
-        yield f"has {len(cells) + 1} cells; wanted: equation, what it says, function, test, note"
+    if len(cells) != 5:
+        yield f"has {len(cells) + 1} cells; wanted: equation, what it says, function, test, note, claims"
         return
-    says, function, test, note = cells
+    says, function, test, note, claims = cells
     if not says:
         yield "does not say what the equation says"
     yield from check_function(root, function)
@@ -116,6 +118,15 @@ def check_row(root, cells, headings):
     for _, name, target in LINK.findall(note):
         if not target.startswith("#") or target[1:] not in headings:
             yield f"note {name}: no heading {target}"
+    if not LINK.findall(claims):
+        yield f"names no claim: `{claims}`"
+
+
+def check_claims(root, text):
+    """Every claim has a link; that links lead to claims check_links.py sees."""
+    for name in CLAIM.findall((root / CLAIMS).read_text(encoding="utf-8")):
+        if f"({CLAIMS.name}#{slug(name)})" not in text:
+            yield f"{PAGE}: no link to the claim {name}"
 
 
 def check_numbers(found):
@@ -138,7 +149,7 @@ def check(root):
             found.append(row.group(1))
             cells = [cell.strip() for cell in row.group(2).split("|")]
             errors += [f"{PAGE}:{number}: {row.group(1)} {fault}" for fault in check_row(root, cells, headings)]
-    return errors + list(check_numbers(found))
+    return errors + list(check_numbers(found)) + list(check_claims(root, text))
 
 
 def main():

@@ -48,16 +48,19 @@ class Checkers(unittest.TestCase):
             self.assertEqual(self.count(check, {"page.md": text})[0], number, text)
 
     def test_equation_faults_are_found(self):
-        good = "| (n) | a mass | [`Pair`](../../../clackers/pair.hpp) | [`Pairs.Swing`](../../../clackers/pair_test.cpp) | |"
+        good = "| (n) | a mass | [`Pair`](../../../clackers/pair.hpp) | [`Pairs.Swing`](../../../clackers/pair_test.cpp) | | [eq](claims.md#eq) |"
         for change, number in (
                 (("a mass", "a mass"), 0), (("(7)", "(6)"), 2), (("a mass", ""), 1), (("`Pair`", "`Omega`"), 1),
                 (("pair.hpp", "gone.hpp"), 1), (("Pairs.Swing", "Pairs.Rest"), 1), (("pair_test.cpp", "gone.cpp"), 1),
-                (("| |", "| [1](#1-no-such) |"), 1)):
+                (("| | [", "| [1](#1-no-such) | ["), 1), (("[eq](claims.md#eq)", "eq"), 1)):
             rows = [good.replace("(n)", equation) for equation in check_equations.EQUATIONS]
             rows[6] = rows[6].replace(*change)
-            files = {check_equations.PAGE.as_posix(): "\n".join(rows), "clackers/pair.hpp": "struct Pair;  // Omega\n",
+            files = {check_equations.PAGE.as_posix(): "\n".join(rows), check_equations.CLAIMS.as_posix(): "### eq\n",
+                     "clackers/pair.hpp": "struct Pair;  // Omega\n",
                      "clackers/pair_test.cpp": "TEST(Pairs, Swing) {}\n// TEST(Pairs, Rest)\n"}
             self.assertEqual(self.count(lambda root, _: check_equations.check(root), files)[0], number, change)
+            files[check_equations.CLAIMS.as_posix()] += "### eq-2\n"
+            self.assertEqual(self.count(lambda root, _: check_equations.check(root), files)[0], number + 1, change)
 
     def test_link_faults_are_found(self):
         for name, text, number in (
