@@ -7,7 +7,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/row.hpp"
-#include "clackers/exact/event_driven/piecewise_motion.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/exact/orbit/cradle.hpp"
 #include "clackers/exact/orbit/forced_pair.hpp"
 #include "clackers/exact/pair/closed_form.hpp"

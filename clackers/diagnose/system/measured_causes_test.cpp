@@ -7,8 +7,8 @@
 
 #include "clackers/diagnose/testing/histories.hpp"
 #include "clackers/diagnose/testing/method_rows.hpp"
-#include "clackers/exact/event_driven/event_driven_motion.hpp"
-#include "clackers/exact/event_driven/piecewise_motion.hpp"
+#include "clackers/exact/flights/event_driven_motion.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::diagnose::testing {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "clackers/exact/event_driven/event_driven_motion.hpp"
+#include "clackers/exact/flights/event_driven_motion.hpp"
 #include "clackers/model/impact_problem.hpp"
 
 namespace clackers::diagnose {

@@ -85,7 +85,8 @@ class TaylorSimulator {
     }
   }
 
-  // By the sign at sixteen places of a step, then by halving and Newton's method.
+  // By the sign at sixteen places of a step and at the turning points between them, then by halving
+  // and Newton's method.
   std::optional<Real> first_zero(std::size_t i, const Real& end) const {
     std::vector<Real> gaps;
     const auto b = row(i);
@@ -103,13 +104,29 @@ class TaylorSimulator {
     };
     constexpr int places = 16;
     Real low = 0;
+    gap(low);
+    bool falls = slope < 0;
     for (int n = 1; n <= places; ++n) {
       Real high = (end - start_) * n / places;
       if (gap(high) >= 0) {
-        low = high;
-        continue;
+        const bool fell = falls;
+        falls = slope < 0;
+        const Real place = high;
+        if (fell && !falls) {
+          Real before = low;
+          for (int halving = 0; halving < 80; ++halving) {
+            const Real middle = (before + high) / 2, value = gap(middle);
+            // Convex near its least value, which is above 0 then.
+            if (value > abs(slope) * (high - before)) break;
+            (slope < 0 ? before : high) = middle;
+          }
+        }
+        if (gap(high) >= 0) {
+          low = place;
+          continue;
+        }
       }
-      for (int halving = 0; halving < 20; ++halving) {
+      for (int halving = 0; halving < 60; ++halving) {
         const Real middle = (low + high) / 2;
         (gap(middle) >= 0 ? low : high) = middle;
       }

@@ -9,7 +9,8 @@
 namespace clackers::exact {
 
 /// M a + C v + K u = f(t) between impacts: modes of free vibration, complex ones where the damping
-/// couples them, and the steady response to harmonic forces. A state z has the modal displacements
+/// couples them, and the steady response to harmonic forces. Modes without stiffness have none to a
+/// constant force, which pushes them. A state z has the modal displacements
 /// first and then their rates; u, v and a are matrices times z, and M^-1 f more of a.
 ///
 /// The error of a flight is bounded by the defect of what was computed: the modes as they stand solve
@@ -48,15 +49,18 @@ class ForcedModes {
   Vector impulse(const Vector& direction) const;
   /// z of the steady response.
   Vector steady(double t) const;
-  /// z of the free motion s seconds later.
-  Vector advanced(const Vector& z, double s) const;
+  /// z of the motion without the steady response s seconds later; `push` 0 without constant forces on
+  /// modes that have no stiffness.
+  Vector advanced(const Vector& z, double s, double push = 1.0) const;
+  /// What those forces add to dz/dt.
+  const Vector& push() const { return push_; }
   /// dz/dt of the modes alone.
   Vector rate(const Vector& z) const;
   /// The acceleration [m/s^2] in the state z, steady response included, at t.
   Vector acceleration(const Vector& z, double t) const;
 
-  /// Over s seconds of free motion from z.
-  Sizes sizes(const Vector& z, double s) const;
+  /// Over s seconds of that motion from z.
+  Sizes sizes(const Vector& z, double s, double push = 1.0) const;
   /// |row z| with z between these sizes, where no mode grows.
   double bound(const Eigen::Ref<const Vector>& row, const Sizes& sizes) const;
   /// What rounding does to z in s seconds that begin with the free state z at t.
@@ -74,6 +78,7 @@ class ForcedModes {
   std::vector<Matrix> derivatives_;
   Matrix inverse_, impulse_response_;       // z by (u, v), and by impulses
   Matrix basis_residual_, force_residual_;  // of z: its own error, and the rate of it
+  Vector push_;
   std::vector<Force> forces_;
 };
 

@@ -9,8 +9,9 @@
 
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/event_driven/piecewise_motion.hpp"
-#include "clackers/numerics/first_root.hpp"
+#include "clackers/exact/flights/first_crossing.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
+#include "clackers/exact/flights/simultaneity.hpp"
 #include "clackers/numerics/lcp.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 
@@ -19,7 +20,6 @@ namespace clackers::exact {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using numerics::FirstRoot;
 
 namespace {
 
@@ -47,7 +47,15 @@ class PiecewiseMotion::Builder {
           MatrixXd::Zero(2 * m_.dof(), 2 * m_.dof()));
     // The start itself is given; what the change to modes rounds is that of a flight of no length.
     m_.flights_.back().covariance = m_.covariance_after(m_.flights_.back(), 0.0);
-    while (const auto t = next_contact()) collide(*t);
+    is_closed_.assign(rows_.size(), false);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const auto& contact = problem_.contacts[i];
+      const double size = contact.direction.cwiseAbs().dot(problem_.start.u.cwiseAbs());
+      is_closed_[i] = std::abs(contact.gap_at(problem_.start.u)) <=
+                      epsilon * double(m_.dof()) * (size + std::abs(contact.gap));
+    }
+    for (auto closings = next_contacts(); !closings.empty(); closings = next_contacts())
+      collide(closing_first(closings));
   }
 
  private:
@@ -82,13 +90,14 @@ class PiecewiseMotion::Builder {
     const auto now = modes().advanced(flight().free, s);
     const auto size = modes().sizes(now, m_.end_);
     const Eigen::Vector4d of_modes = rows_[i].by_state.transpose() * now;
+    const Eigen::Vector3d pushed = rows_[i].by_state.leftCols(3).transpose() * modes().push();
     numerics::LocalBound bound;
     bound.value = of_modes[0] - problem_.contacts[i].gap;
-    bound.slope = of_modes[1];
-    bound.second = of_modes[2];
-    bound.third = of_modes[3];
-    bound.curvature = modes().bound(rows_[i].by_state.col(2), size);
-    bound.third_bound = modes().bound(rows_[i].by_state.col(3), size);
+    bound.slope = of_modes[1] + pushed[0];
+    bound.second = of_modes[2] + pushed[1];
+    bound.third = of_modes[3] + pushed[2];
+    bound.curvature = modes().bound(rows_[i].by_state.col(2), size) + std::abs(pushed[1]);
+    bound.third_bound = modes().bound(rows_[i].by_state.col(3), size) + std::abs(pushed[2]);
     for (const auto& force : modes().forces()) {
       const std::complex<double> y = rows_[i].gap().cast<std::complex<double>>().dot(force.steady);
       const auto turned = y * std::polar(1.0, force.frequency * (flight().t + s));
@@ -104,104 +113,197 @@ class PiecewiseMotion::Builder {
     return bound;
   }
 
-  double gap_error(std::size_t i, const MatrixXd& covariance, const ForcedModes::Sizes& size,
-                   double t, double rate) const {
-    const double amplitude =
-        std::abs(problem_.contacts[i].gap) + modes().bound(rows_[i].gap(), size);
-    return m_.factor(m_.flights_.size() - 1) *
-               std::sqrt(rows_[i].gap().dot(covariance * rows_[i].gap())) +
-           epsilon * (double(m_.dof() + 4) * amplitude + 4.0 * t * std::abs(rate));
+  double gap_error(std::size_t i, const MatrixXd& covariance, double s) const {
+    const auto size = modes().sizes(flight().free, s);
+    return factor() * std::sqrt(rows_[i].gap().dot(covariance * rows_[i].gap())) +
+           gap_rounding(i, size);
+  }
+  double gap_rounding(std::size_t i, const ForcedModes::Sizes& size) const {
+    return epsilon * double(m_.dof() + 4) *
+           (std::abs(problem_.contacts[i].gap) + modes().bound(rows_[i].gap(), size));
+  }
+  double factor() const { return m_.factor(m_.flights_.size() - 1); }
+
+  // A contact that closes s seconds into the flight.
+  struct Closing {
+    std::size_t contact = 0;
+    double s = 0.0, gap_error = 0.0, time_error = 0.0;
+    double first() const { return s - time_error; }
+    double last() const { return s + time_error; }
+  };
+
+  // The flight is searched in windows, each twice as long as the one before, so that the error of
+  // gaps is bounded by about what it is.
+  std::vector<Closing> next_contacts() {
+    const double span = m_.end_ - flight().t;
+    if (rests_ || !(span > 0.0)) return {};
+    const double fastest = std::max({modes().system().fastest(), highest_force(), 1e-3 / span});
+    std::vector<double> from(rows_.size());
+    for (double to = std::min(span, 16.0 / fastest), begin = 0.0;;
+         begin = to, to = std::min(span, 2.0 * to)) {
+      const auto level = levels(to);
+      if (begin == 0.0) {
+        for (std::size_t i = 0; i < rows_.size(); ++i) from[i] = opening(i, level[i]);
+      }
+      auto closings = search(level, from, to);
+      if (!closings.empty() || to >= span) return closings;
+      for (auto& s : from) s = std::max(s, to);
+    }
   }
 
-  std::optional<double> next_contact() {
-    const double span = m_.end_ - flight().t;
-    if (rests_ || !(span > 0.0)) return std::nullopt;
-    std::optional<double> first;
+  // certain_gap times a bound on the error of each gap up to s seconds into the flight.
+  std::vector<double> levels(double s) const {
+    const VectorXd deviation = flight().covariance.diagonal().cwiseSqrt();
+    const auto carried = modes().sizes(deviation, s, 0.0), size = modes().sizes(flight().free, s);
+    const VectorXd local = modes().local_errors(flight().free, flight().t, s);
+    std::vector<double> level;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      // The smallest gap after the flight has begun to return to the contact.
-      double least = std::numeric_limits<double>::infinity(), where = 0.0;
-      const auto watched = [&](double s) {
-        const auto now = gap_ahead(i, s);
-        if (s > 0.0 && now.slope >= 0.0 && now.value >= 0.0 && now.value < least && returned_) {
-          least = now.value;
-          where = s;
-        }
-        if (now.slope < 0.0) returned_ = true;
-        return now;
-      };
-      returned_ = false;
-      const double fastest = std::max({modes().system().fastest(), highest_force(), 1e-3 / span});
-      const double until = first ? std::min(span, *first * (1.0 + 4.0 * epsilon)) : span;
-      const auto root =
-          numerics::first_root(watched, 0.0, until, 1e-7 / fastest, most_search_steps);
-      if (root.status == FirstRoot::Status::undecided)
-        throw InputError(
-            fmt::format("{}: the flight from t = {:.6g} s is too long to be searched for "
-                        "impacts: more than 1e6 steps. End the run earlier.",
-                        m_.who_, flight().t),
-            "out-of-range");
-      const double seen = root.status == FirstRoot::Status::found ? root.s : until;
-      if (where <= seen) require_no_graze(i, where, least);
-      if (root.status == FirstRoot::Status::found) first = std::min(root.s, first.value_or(root.s));
+      const double error =
+          modes().bound(rows_[i].gap(), carried) + rows_[i].gap().cwiseProduct(local).norm();
+      level.push_back(certain_gap * (factor() * error + gap_rounding(i, size)));
     }
-    return first;
+    return level;
   }
+
+  // From where on contact i is open for certain.
+  double opening(std::size_t i, double level) const {
+    auto gap = gap_ahead(i, 0.0);
+    if (is_closed_[i]) {
+      gap.value = 0.0;
+    } else if (gap.value > level || gap.slope < 0.0) {
+      return 0.0;
+    }
+    if (const auto s = departure(gap, level)) return *s;
+    refuse_closed(i, gap, level);
+  }
+
+  std::vector<Closing> search(const std::vector<double>& level, const std::vector<double>& from,
+                              double to) const {
+    std::vector<Closing> closings;
+    double until = to;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const auto gap = [&](double s) { return gap_ahead(i, s); };
+      const auto error = [&](double s) {
+        return gap_error(i, m_.covariance_after(flight(), s), s);
+      };
+      const auto found = first_crossing(gap, error, level[i], from[i], until, most_search_steps);
+      const double t = flight().t + found.s;
+      switch (found.status) {
+        case Crossing::Status::none:
+          break;
+        case Crossing::Status::undecided:
+          throw InputError(
+              fmt::format("{}: the flight from t = {:.6g} s is too long to be searched for "
+                          "impacts: more than 1e6 steps. End the run earlier.",
+                          m_.who_, flight().t),
+              "out-of-range");
+        case Crossing::Status::uncertain:
+          refuse_graze(i, t, found.gap, found.error);
+        case Crossing::Status::certain: {
+          const double rate = std::abs(gap(found.s).slope);
+          closings.push_back({i, found.s, found.error, found.error / rate + 4.0 * epsilon * t});
+          until = std::min(until, closings.back().last());
+        }
+      }
+    }
+    // Those up to `to` at most; the window that follows has the others.
+    std::erase_if(closings, [&](const Closing& c) { return c.s > to; });
+    std::ranges::stable_sort(closings, {}, &Closing::s);
+    return closings;
+  }
+
   double highest_force() const {
     double most = 0.0;
     for (const auto& force : modes().forces()) most = std::max(most, force.frequency);
     return most;
   }
 
-  void require_no_graze(std::size_t i, double s, double gap) const {
-    if (!std::isfinite(gap)) return;
-    const auto size = modes().sizes(flight().free, s);
-    const double error = gap_error(i, m_.covariance_after(flight(), s), size, flight().t + s, 0.0);
-    if (gap <= error) refuse_graze(i, flight().t + s, gap, error);
+  // The contacts that close first. Those that act on each other and whose order the errors do not
+  // show belong to them only if they close together for certain; the others come in flights of their
+  // own.
+  std::vector<Closing> closing_first(const std::vector<Closing>& closings) const {
+    std::vector<Closing> together{closings.front()};
+    const Closing& first = closings.front();
+    for (const Closing& next : std::span(closings).subspan(1)) {
+      if (next.first() > first.last()) continue;
+      const auto acts = std::ranges::find_if(
+          together, [&](const Closing& other) { return act_on_each_other(other, next); });
+      const bool is_same = next.s - first.s <= 4.0 * epsilon * (flight().t + first.s);
+      if (acts != together.end() && !close_together(problem_, acts->contact, next.contact))
+        throw InputError(
+            fmt::format(
+                "{}: contacts {} and {} close {:.3g} s apart near t = {:.9g} s, the error of "
+                "that is {:.3g} s, and the first impact changes the second; allowed: impacts "
+                "whose order is certain, or that are simultaneous by a symmetry of the "
+                "problem. Change a gap by more, or end the run earlier.",
+                m_.who_, std::min(acts->contact, next.contact) + 1,
+                std::max(acts->contact, next.contact) + 1, next.s - acts->s, flight().t + first.s,
+                acts->time_error + next.time_error),
+            "not-admissible");
+      if (acts != together.end() || is_same) together.push_back(next);
+    }
+    std::ranges::sort(together, {}, &Closing::contact);
+    return together;
   }
+  // Whether an impulse of one changes the gap rate of the other.
+  bool act_on_each_other(const Closing& a, const Closing& b) const {
+    const double coupling = std::abs(delassus(a.contact, b.contact));
+    return coupling >
+           8.0 * double(m_.dof()) * epsilon *
+               std::sqrt(delassus(a.contact, a.contact) * delassus(b.contact, b.contact));
+  }
+
   [[noreturn]] void refuse_graze(std::size_t i, double t, double gap, double error) const {
     throw InputError(
         fmt::format(
             "{}: contact {} comes within {:.3g} m near t = {:.9g} s without a certain impact, "
             "and the error there is {:.3g} m; allowed: motions whose impacts are certain. "
             "Change the gap by more, or end the run earlier.",
-            m_.who_, i + 1, gap, t, error),
+            m_.who_, i + 1, std::abs(gap), t, error),
         "not-admissible");
   }
 
-  [[noreturn]] void refuse_rest(std::size_t contact, double t) const {
-    throw InputError(
-        fmt::format("{}: contact {} stays closed from t = {:.9g} s on; allowed: contacts that open "
-                    "again at once, since sliding and resting contact are not supported. Give "
-                    "restitutions above 0, or end the run earlier.",
-                    m_.who_, contact + 1, t),
-        "not-admissible");
+  // A closed contact that does not open, or by less than the error.
+  [[noreturn]] void refuse_closed(std::size_t i, const numerics::LocalBound& gap,
+                                  double level) const {
+    const double t = flight().t, eta = problem_.contacts[i].restitution;
+    const double speed_size = modes().bound(rows_[i].rate(), modes().sizes(flight().free, 0.0));
+    const bool is_pressed = gap.second < -touching_share * gap.curvature;
+    if (!(gap.slope > touching_share * speed_size))
+      throw InputError(
+          fmt::format(
+              "{}: contact {} {} from t = {:.9g} s on; allowed: contacts that open again at "
+              "once, since sliding and resting contact are not supported. {}.",
+              m_.who_, i + 1, is_pressed ? "stays closed" : "touches at rest", t,
+              t == 0.0 ? "Start with the contact open"
+                       : "Give restitutions above 0, or end the run earlier"),
+          "not-admissible");
+    if (is_pressed && eta < 1.0)
+      throw InputError(
+          fmt::format(
+              "{}: impacts of contact {} accumulate at t = {:.9g} s, where it comes to rest; "
+              "allowed: impacts that rounding can separate. End the run earlier.",
+              m_.who_, i + 1, t + 2.0 * gap.slope / (-gap.second * (1.0 - eta))),
+          "not-admissible");
+    refuse_graze(i, t, is_pressed ? -0.5 * gap.slope * gap.slope / gap.second : gap.value, level);
   }
 
-  // Newton's law for the contacts that are closed at the end of the flight, s seconds long.
-  void collide(double s) {
-    const double t = flight().t + s;
-    const auto size = modes().sizes(flight().free, s);
+  // Newton's law for contacts that close together.
+  void collide(const std::vector<Closing>& closings) {
+    const double s = closings.front().s, t = flight().t + s;
     MatrixXd covariance = m_.covariance_after(flight(), s);
     VectorXd z = m_.total(flight(), t);
     const VectorXd v_before = modes().derivative(1) * z, a_before = modes().acceleration(z, t);
     std::vector<std::size_t> closed;
-    std::vector<double> time_errors(rows_.size());
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const double rate = rows_[i].rate().dot(z);
-      const double error = gap_error(i, covariance, size, t, rate);
-      if (!(gap(i, z) <= error) || !(rate <= no_rate(i, v_before))) continue;
-      // It would go beyond by rate^2 / (2 curvature) at least: more than the error, or nothing is certain.
-      const double depth = rate * rate / (2.0 * gap_ahead(i, s).curvature);
-      if (!(rate < 0.0 && depth > error)) refuse_graze(i, t, std::abs(gap(i, z)), error);
-      time_errors[i] = error / -rate + 4.0 * epsilon * t;
-      closed.push_back(i);
+    // Terms of second order over those of first order.
+    double nonlinear = 0.0;
+    for (const auto& closing : closings) {
+      closed.push_back(closing.contact);
+      const auto gap = gap_ahead(closing.contact, s);
+      const double delay = closing.gap_error / gap.slope;
+      nonlinear +=
+          std::abs(delay / gap.slope) * (std::abs(gap.second) + gap.third_bound * std::abs(delay));
     }
-    if (closed.empty())
-      throw InputError(
-          fmt::format("{}: the contact that closes at t = {:.9g} s has no speed there; "
-                      "allowed: impacts. Change its gap, or end the run earlier.",
-                      m_.who_, t),
-          "not-admissible");
     const auto impulses = solve(closed, z, t);
 
     const auto n = m_.dof();
@@ -210,33 +312,20 @@ class PiecewiseMotion::Builder {
     add_saltation(closed, impulses, z, a_before, saltation, time_error);
     time_error *= 4.0 * epsilon * std::max(t, s);
     covariance = saltation * covariance * saltation.transpose();
+    covariance *= std::pow(1.0 + 4.0 * nonlinear, 2);
     covariance.diagonal() += time_error.cwiseAbs2();
 
-    for (const auto i : closed)
-      m_.hits_.push_back({t, time_errors[i], impulses[Index(i)], int(i), m_.flights_.size() - 1});
+    for (const auto& closing : closings)
+      m_.hits_.push_back({t, closing.time_error, impulses[Index(closing.contact)],
+                          int(closing.contact), m_.flights_.size() - 1});
     for (const auto i : closed) z += rows_[i].impulse * impulses[Index(i)];
     begin(t, z, std::move(covariance));
-    const VectorXd v_after = modes().derivative(1) * z, a_after = modes().acceleration(z, t);
-    if (at_rest(v_after, v_before, z)) {
+    is_closed_.assign(rows_.size(), false);
+    for (const auto i : closed) is_closed_[i] = true;
+    if (at_rest(modes().derivative(1) * z, v_before, z)) {
       m_.flights_.back().free.setZero();
       rests_ = true;
-      return;
     }
-    for (const auto i : closed)
-      if (rows_[i].rate().dot(z) <= no_rate(i, v_before) &&
-          problem_.contacts[i].direction.dot(a_after) <= no_rate(i, a_before) + no_rate(i, a_after))
-        refuse_rest(i, t);
-    // Flights shorter than the rounding of time cannot be told apart.
-    if (s <= 64.0 * epsilon * t)
-      throw InputError(fmt::format("{}: impacts accumulate at t = {:.9g} s; allowed: impacts that "
-                                   "rounding of the time can separate. End the run earlier.",
-                                   m_.who_, t),
-                       "not-admissible");
-  }
-
-  // A gap rate that is rounding of velocities of this size.
-  double no_rate(std::size_t i, const VectorXd& velocities) const {
-    return touching_share * problem_.contacts[i].direction.norm() * velocities.norm();
   }
 
   // Nothing but rounding of the speed before the impact is left: a plastic impact at equilibrium.
@@ -313,7 +402,8 @@ class PiecewiseMotion::Builder {
   PiecewiseMotion& m_;
   numerics::LcpSolver lcp_;
   std::vector<Row> rows_;
-  bool returned_ = false, rests_ = false;
+  std::vector<bool> is_closed_;
+  bool rests_ = false;
 };
 
 PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, std::string_view who)

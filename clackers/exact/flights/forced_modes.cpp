@@ -1,4 +1,4 @@
-#include "clackers/exact/event_driven/forced_modes.hpp"
+#include "clackers/exact/flights/forced_modes.hpp"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <utility>
 
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
@@ -29,6 +30,22 @@ void require_no_negative_eigenvalue(std::string_view who, const char* name, cons
     throw InputError(fmt::format("{}: {} has the eigenvalue {:.6g}; allowed: none below 0. {}", who,
                                  name, values.minCoeff(), reason),
                      "not-positive-definite");
+}
+
+// Of a unit force on a mode without stiffness, s seconds after rest: the rate, and the displacement.
+std::pair<double, double> pushed(double sigma, double s) {
+  const double x = 2.0 * sigma * s;
+  if (x > 0.5) {
+    const double rate = -std::expm1(-x) / (2.0 * sigma);
+    return {rate, (s - rate) / (2.0 * sigma)};
+  }
+  // s^2 times 1/2! - x/3! + x^2/4! - ...
+  double term = 0.5, sum = 0.0;
+  for (int k = 3; std::abs(term) > 0.25 * epsilon; ++k) {
+    sum += term;
+    term *= -x / k;
+  }
+  return {s * (1.0 - x * sum), s * s * sum};
 }
 
 }  // namespace
@@ -66,9 +83,10 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
 // z' = A z + g e^(i w t) mode by mode.
 void ForcedModes::add_forces(const model::ImpactProblem<>& problem, const Matrix& inverse_mass,
                              std::string_view who) {
+  const Index n = dof();
+  push_ = Vector::Zero(2 * n);
   const auto* load = problem.system.add_load.target<model::HarmonicLoad>();
   if (load == nullptr) return;
-  const Index n = dof();
   for (const auto& f : load->forces()) {
     Force force;
     force.frequency = f.frequency;
@@ -83,6 +101,11 @@ void ForcedModes::add_forces(const model::ImpactProblem<>& problem, const Matrix
       const Complex load_of_mode = g[n + j] + (2.0 * mode.sigma + turn) * g[j];
       if (load_of_mode == 0.0 && g[j] == 0.0) continue;
       const double size = mode.omega_square + f.frequency * f.frequency;
+      if (size == 0.0) {
+        push_[j] += g[j].real();
+        push_[n + j] += g[n + j].real();
+        continue;
+      }
       if (!(std::abs(dynamic) > 1e-8 * size))
         throw InputError(
             fmt::format(
@@ -132,13 +155,18 @@ Vector ForcedModes::steady(double t) const {
   return z;
 }
 
-Vector ForcedModes::advanced(const Vector& z, double s) const {
+Vector ForcedModes::advanced(const Vector& z, double s, double push) const {
   const Index n = dof();
   Vector later(2 * n);
   for (Index j = 0; j < n; ++j) {
-    const auto now = numerics::advance(system_.modes()[std::size_t(j)], {z[j], z[n + j]}, s);
+    const auto& mode = system_.modes()[std::size_t(j)];
+    const auto now = numerics::advance(mode, {z[j], z[n + j]}, s);
     later[j] = now.y;
     later[n + j] = now.rate;
+    if (push == 0.0 || (push_[j] == 0.0 && push_[n + j] == 0.0)) continue;
+    const auto [rate, displacement] = pushed(mode.sigma, s);
+    later[j] += push * (push_[j] * s + push_[n + j] * displacement);
+    later[n + j] += push * push_[n + j] * rate;
   }
   return later;
 }
@@ -160,15 +188,21 @@ Vector ForcedModes::acceleration(const Vector& z, double t) const {
   return a;
 }
 
-// The energy of a mode, rate^2 + omega^2 y^2, does not grow.
-ForcedModes::Sizes ForcedModes::sizes(const Vector& z, double s) const {
+// The energy of a mode, rate^2 + omega^2 y^2, does not grow where nothing pushes it.
+ForcedModes::Sizes ForcedModes::sizes(const Vector& z, double s, double push) const {
   const Index n = dof();
   Sizes size{Vector(n), Vector(n)};
   for (Index j = 0; j < n; ++j) {
     const double omega = system_.modes()[std::size_t(j)].omega;
     size.rate[j] = std::hypot(z[n + j], omega * z[j]);
     size.y[j] = std::abs(z[j]) + s * std::abs(z[n + j]);
-    if (omega > 0.0) size.y[j] = std::min(size.y[j], size.rate[j] / omega);
+    if (omega > 0.0) {
+      size.y[j] = std::min(size.y[j], size.rate[j] / omega);
+    } else if (push > 0.0) {
+      const double added = pushed(system_.modes()[std::size_t(j)].sigma, s).first;
+      size.rate[j] += std::abs(push_[n + j]) * added;
+      size.y[j] += s * (std::abs(push_[j]) + std::abs(push_[n + j]) * added);
+    }
   }
   return size;
 }
@@ -223,7 +257,8 @@ Matrix ForcedModes::carried(const Matrix& covariance, double s) const {
   const Index n = dof();
   Vector unit = Vector::Zero(2 * n);
   unit.head(n).setOnes();
-  const Vector from_value = advanced(unit, s), from_rate = advanced(Vector::Ones(2 * n) - unit, s);
+  const Vector from_value = advanced(unit, s, 0.0),
+               from_rate = advanced(Vector::Ones(2 * n) - unit, s, 0.0);
   const auto mapped = [&](const Matrix& x) {
     Matrix y(2 * n, 2 * n);
     y.topRows(n) = from_value.head(n).asDiagonal() * x.topRows(n);

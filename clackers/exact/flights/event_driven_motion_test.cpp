@@ -1,4 +1,4 @@
-#include "clackers/exact/event_driven/event_driven_motion.hpp"
+#include "clackers/exact/flights/event_driven_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A piecewise motion as a reference solution: states, envelopes, bounds.
-#include "clackers/exact/event_driven/piecewise_motion.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
 
 #include <fmt/format.h>
 

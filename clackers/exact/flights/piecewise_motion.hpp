@@ -4,28 +4,28 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/exact/event_driven/forced_modes.hpp"
+#include "clackers/exact/flights/forced_modes.hpp"
 #include "clackers/model/motion.hpp"
 
 namespace clackers::exact {
 
 /// The motion of any linear structure with contacts, flight by flight: between impacts modes of free
 /// vibration and the steady response to harmonic forces, impacts located by steps that pass no
-/// contact (numerics/first_root.hpp). Contacts that close together, within the error of their
-/// gaps, obey Newton's law all at once: impulses p >= 0, b . v(+) >= -restitution b . v(-), one of
+/// contact (first_crossing.hpp). Contacts that close together (simultaneity.hpp) obey Newton's law all
+/// at once: impulses p >= 0, b . v(+) >= -restitution b . v(-), one of
 /// each pair an equality; a linear complementarity problem.
 ///
 /// error_bound() holds to first order in rounding: the errors of each flight, among them those of
 /// modes by what they leave of the equations, are carried on by the flights' own maps and through
-/// each impact by its saltation matrix. The whole motion is refused where errors of that size decide
-/// whether masses touch.
+/// each impact by its saltation matrix, increased by the terms of second order there. The whole motion
+/// is refused where errors of that size decide whether masses touch, or which contact closes first.
 /// Const, safe to share between threads. Source: piecewise modal superposition, common.
 class PiecewiseMotion : public model::Motion {
  public:
   /// Throws InputError for an invalid problem, a start at another time than 0, two contacts in the same
   /// direction, and as ForcedModes does; and where the motion is not available: masses that stay in
-  /// contact, a contact that is approached to less than the error, more than 1e5 flights, more than
-  /// 2 GB of errors.
+  /// contact, impacts that accumulate, a contact that is approached to less than the error, impacts
+  /// whose order decides and is not certain, more than 1e5 flights, more than 2 GB of errors.
   explicit PiecewiseMotion(const model::ImpactProblem<>& problem,
                            std::string_view who = "piecewise");
 
