@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
 
@@ -18,7 +19,19 @@ using numerics::Bounded;
 
 namespace {
 
+using Wide = numerics::BoundedOf<boost::multiprecision::number<
+    boost::multiprecision::cpp_bin_float<256, boost::multiprecision::digit_base_2>,
+    boost::multiprecision::et_off>>;
+
 constexpr double largest_phase = 1e12;
+/// Nearer to resonance, a rounding of a frequency moves the orbit by more than 1e4 roundings.
+constexpr double least_detuning = 1e-4;
+
+Bounded narrowed(const Wide& x) {
+  const auto value = static_cast<long double>(x.value);
+  return {value, static_cast<long double>(x.error) +
+                     std::numeric_limits<long double>::epsilon() * std::abs(value)};
+}
 constexpr int instants = 2048;
 
 void require_whole(std::string_view who, double n) {
@@ -72,24 +85,43 @@ std::vector<Change<BaseExcitedParameters>> changes() {
 
 }  // namespace
 
-void ForcedPair::begin(double T, double n, double eta) {
-  T_ = T;
-  n_ = n;
-  eta_ = eta;
-  nu_ = Bounded(2.0) * Bounded::pi() * n / T;
-}
+class ForcedPair::Constants {
+ public:
+  Constants(double T, double n, double eta)
+      : T_(T), nu_(Wide(2.0) * Wide::pi() * n / T), eta_(eta) {}
 
-// P, Q and the particular solution, from V and D.
-void ForcedPair::complete(Mass& mass) const {
-  const auto half = mass.w * T_ * 0.5, damped = mass.sigma * T_;
-  const auto sine = sin(half), growth = sinh(damped * 0.5);
-  const auto B = mass.V * (Bounded(1.0) + eta_) /
-                 (Bounded(4.0) * eta_ * mass.w * (growth * growth + sine * sine));
-  mass.P = B * Bounded(2.0) * sine * cos(half);
-  mass.Q = B * (expm1(damped) + Bounded(2.0) * sine * sine);
-  mass.p0 = mass.D - mass.P;
-  mass.p1 = (mass.V - mass.w * mass.Q + mass.sigma * mass.P) / nu_;
-}
+  const Wide& nu() const { return nu_; }
+  Wide half_phase(double omega) const { return Wide(omega) * T_ * 0.5; }
+
+  void require_detuned(std::string_view who, int i, double omega, const Wide& distance) const {
+    if (std::abs(distance.nearest()) >= least_detuning) return;
+    throw InputError(
+        fmt::format("{}: omega{} T = {:.6g} pi; allowed: away from resonance. Mass {} alone "
+                    "makes whole or half oscillations between impacts, and no force of finite "
+                    "amplitude keeps the orbit; change T or omega{} by a few percent.",
+                    who, i, (Wide(omega) * T_ / Wide::pi()).nearest(), i, i),
+        "not-admissible");
+  }
+
+  // P, Q and the particular solution, from V and D.
+  Mass complete(std::string_view who, int i, MassOf<Wide> mass) const {
+    const auto half = mass.w * T_ * 0.5, damped = mass.sigma * T_;
+    const auto sine = sin(half), growth = sinh(damped * 0.5);
+    const auto square = growth * growth + sine * sine;
+    require_detuned(who, i, mass.w.nearest(), sqrt(square));
+    const auto B = mass.V * (Wide(1.0) + eta_) / (Wide(4.0) * eta_ * mass.w * square);
+    mass.P = B * Wide(2.0) * sine * cos(half);
+    mass.Q = B * (expm1(damped) + Wide(2.0) * sine * sine);
+    mass.p0 = mass.D - mass.P;
+    mass.p1 = (mass.V - mass.w * mass.Q + mass.sigma * mass.P) / nu_;
+    return {narrowed(mass.m), narrowed(mass.w),  narrowed(mass.sigma),
+            narrowed(mass.D), narrowed(mass.V),  narrowed(mass.P),
+            narrowed(mass.Q), narrowed(mass.p0), narrowed(mass.p1)};
+  }
+
+ private:
+  Wide T_, nu_, eta_;
+};
 
 void ForcedPair::build(std::string_view who, const ForcedPairParameters& p) {
   require_scale(who, "m1", p.m1, 1e-30, 1e30);
@@ -104,12 +136,10 @@ void ForcedPair::build(std::string_view who, const ForcedPairParameters& p) {
   require_within(who, "D1", p.D1, -1e30, 1e30);
   require_within(who, "D2", p.D2, -1e30, 1e30);
   require_scale(who, "V1", p.V1, 1e-30, 1e30);
-  begin(p.T, p.n, p.eta);
-  const Bounded V2 = -(Bounded(p.m1) * p.V1 / p.m2);
-  masses_[0] = {p.m1, p.omega1, p.sigma1, p.D1, p.V1, {}, {}, {}, {}};
-  masses_[1] = {p.m2, p.omega2, p.sigma2, p.D2, V2, {}, {}, {}, {}};
-  for (auto& mass : masses_) complete(mass);
-  require_accurate(who);
+  const Constants constants = begin(p.T, p.n, p.eta);
+  const Wide V2 = -(Wide(p.m1) * p.V1 / p.m2);
+  masses_ = {constants.complete(who, 1, {p.m1, p.omega1, p.sigma1, p.D1, p.V1, {}, {}, {}, {}}),
+             constants.complete(who, 2, {p.m2, p.omega2, p.sigma2, p.D2, V2, {}, {}, {}, {}})};
 }
 
 void ForcedPair::build(std::string_view who, const BaseExcitedParameters& p) {
@@ -119,33 +149,27 @@ void ForcedPair::build(std::string_view who, const BaseExcitedParameters& p) {
   require_run(who, p.T, p.n, p.omega1, p.omega2, p.t_end);
   if (!(std::abs(p.A_g) >= 1e-30 && std::abs(p.A_g) <= 1e30))
     refuse(who, "A_g", p.A_g, "1e-30 <= |A_g| <= 1e+30");
-  begin(p.T, p.n, 1.0);
-  const auto velocity = [&](double omega) {
-    const auto half = Bounded(omega) * T_ * 0.5;
-    return Bounded(p.A_g) * omega * sin(half) /
-           (cos(half) * (Bounded(omega) + nu_) * (Bounded(omega) - nu_));
+  const Constants constants = begin(p.T, p.n, 1.0);
+  const auto velocity = [&](int i, double omega) {
+    const auto half = constants.half_phase(omega), cosine = cos(half);
+    constants.require_detuned(who, i, omega, sin(half));
+    constants.require_detuned(who, i, omega, cosine);
+    return Wide(p.A_g) * omega * sin(half) /
+           (cosine * (Wide(omega) + constants.nu()) * (Wide(omega) - constants.nu()));
   };
-  const auto V1 = velocity(p.omega1), V2 = velocity(p.omega2);
-  masses_[0] = {p.m1, p.omega1, 0.0, 0.0, V1, {}, {}, {}, {}};
-  masses_[1] = {-(Bounded(p.m1) * V1 / V2), p.omega2, 0.0, 0.0, V2, {}, {}, {}, {}};
-  for (auto& mass : masses_) complete(mass);
-  require_accurate(who);
+  const auto V1 = velocity(1, p.omega1), V2 = velocity(2, p.omega2);
+  const auto m2 = -(Wide(p.m1) * V1 / V2);
+  masses_ = {constants.complete(who, 1, {p.m1, p.omega1, 0.0, 0.0, V1, {}, {}, {}, {}}),
+             constants.complete(who, 2, {m2, p.omega2, 0.0, 0.0, V2, {}, {}, {}, {}})};
 }
 
-// Constants lose digits where a mass alone would make whole oscillations between impacts.
-void ForcedPair::require_accurate(std::string_view who) const {
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto& mass = masses_[i];
-    const auto size = std::abs(mass.P.value) + std::abs(mass.Q.value);
-    for (const auto* x : {&mass.V, &mass.P, &mass.Q, &mass.p0, &mass.p1})
-      if (!(x->error <= 0x1p-53L * std::max(size, std::abs(x->value))))
-        throw InputError(
-            fmt::format("{}: omega{} T = {:.6g} pi; allowed: away from resonance. Mass {} alone "
-                        "makes whole or half oscillations between impacts, and no force of finite "
-                        "amplitude keeps the orbit; change T or omega{} by a few percent.",
-                        who, i + 1, (mass.w * T_ / Bounded::pi()).nearest(), i + 1, i + 1),
-            "not-admissible");
-  }
+ForcedPair::Constants ForcedPair::begin(double T, double n, double eta) {
+  Constants constants(T, n, eta);
+  T_ = T;
+  nu_ = narrowed(constants.nu());
+  n_ = n;
+  eta_ = eta;
+  return constants;
 }
 
 // The gap starts at 0 and opens. |g''| and |g'''| are bounded for the whole flight, so the steps of first_root pass no

@@ -43,7 +43,7 @@ struct BaseExcitedParameters {
 class ForcedPair : public Flights {
  public:
   /// Throws InputError for parameters outside their ranges; where an undamped frequency makes whole
-  /// oscillations between impacts (not-admissible), or nearly so that the constants lose digits; and
+  /// oscillations between impacts give or take 1e-4 rad (not-admissible); and
   /// where the masses would meet earlier (not-admissible): when, by how much they would overlap, and
   /// what to change.
   explicit ForcedPair(const ForcedPairParameters& parameters, std::string_view who = "forced-pair");
@@ -73,11 +73,16 @@ class ForcedPair : public Flights {
   Limits limits(long long k) const override;
 
  private:
-  struct Mass {
-    Bounded m, w, sigma, D, V;
-    Bounded P, Q, p0, p1;  // p = p0 cos nu s + p1 sin nu s
-    Bounded square() const { return w * w + sigma * sigma; }
+  template <class Real>
+  struct MassOf {
+    Real m, w, sigma, D, V;
+    Real P, Q, p0, p1;  // p = p0 cos nu s + p1 sin nu s
+    Real square() const { return w * w + sigma * sigma; }
   };
+  using Mass = MassOf<Bounded>;
+  // Constants are computed with 256 bits.
+  class Constants;
+  Constants begin(double T, double n, double eta);
   struct Force {
     double amplitude, phase;
   };
@@ -89,9 +94,6 @@ class ForcedPair : public Flights {
   // What an orbit is, before its gap is looked at.
   void build(std::string_view who, const ForcedPairParameters& p);
   void build(std::string_view who, const BaseExcitedParameters& p);
-  void begin(double T, double n, double eta);
-  void complete(Mass& mass) const;
-  void require_accurate(std::string_view who) const;
   void require_open(std::string_view who, const auto& p) const;
   MassState mass_state(const Mass& mass, const Bounded& s) const;
   // Nothing where the gap stays open from one impact to the next.

@@ -364,6 +364,24 @@ TEST(BaseExcitedPair, IsTheSimulationWithNinetyDigits) {
   EXPECT_GE(members, trials(10));
 }
 
+// Resonance is a multiple of pi, not a phase that is large.
+TEST(BaseExcitedPair, IsRefusedAsResonanceOnlyNearIt) {
+  Box box(18);
+  int refused = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    BaseExcitedParameters p;
+    p.omega2 = box.uniform(0.5, 15.0);
+    p.T = box.uniform(1.0, 8.0);
+    if (trial % 4 == 0) p.omega2 = std::round(2.0 + p.omega2) * 3.14159265358979323846 / p.T;
+    const auto text = test::refusal_of([&] { ForcedPair{p}; });
+    const bool is_resonance = text.find("away from resonance") != std::string::npos;
+    const double turns = p.omega2 * p.T / 3.14159265358979323846;
+    EXPECT_EQ(is_resonance, std::abs(turns - std::round(turns)) < 1e-5) << p.omega2 << ' ' << p.T;
+    refused += is_resonance ? 1 : 0;
+  }
+  EXPECT_EQ(refused, 10);
+}
+
 TEST(BaseExcitedPair, IsRefusedWithASentence) {
   BaseExcitedParameters p;
   p.A_g = 1.0;
