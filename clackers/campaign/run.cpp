@@ -1,12 +1,16 @@
 #include "clackers/campaign/run.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
+#include "clackers/base/error.hpp"
 #include "clackers/base/jobs/work_queue.hpp"
 
 namespace clackers::campaign {
@@ -57,6 +61,19 @@ class Finished {
   bool ended_ = false;
 };
 
+// The first worker; the others are as many as the system allows.
+std::jthread started(const auto& work) {
+  try {
+    return std::jthread(work);
+  } catch (const std::system_error& error) {
+    throw FileError(
+        fmt::format("campaign: no thread can be started: {}. Raise the limit (ulimit -u), "
+                    "or wait until other processes have ended.",
+                    error.code().message()),
+        "system-failed");
+  }
+}
+
 }  // namespace
 
 RunSummary run_campaign(const Specification& specification, Store& store, TaskSource& source,
@@ -74,7 +91,7 @@ RunSummary run_campaign(const Specification& specification, Store& store, TaskSo
         if (auto rows = runner.run(task, &finished.stop)) finished.put(std::move(*rows));
     }
   };
-  std::jthread crew([&] {
+  const auto work = [&] {
     try {
       run_all(workers, static_cast<int>(workers), [&](std::size_t) {
         try {
@@ -88,7 +105,8 @@ RunSummary run_campaign(const Specification& specification, Store& store, TaskSo
       failure = std::current_exception();
     }
     finished.end();
-  });
+  };
+  std::jthread crew = started(work);
   RunSummary summary;
   auto last = Clock::now();
   try {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/files.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/solvers/process.hpp"
 #include "cli/cluster/run_on_ranks.hpp"
@@ -55,7 +56,15 @@ BatchJob job_of(const CampaignOptions& options) {
   return job;
 }
 
-void write_file(const std::string& path, const std::string& text) {
+// Only a script of an earlier call is replaced.
+void write_script(const std::string& path, const std::string& text) {
+  constexpr std::string_view first_lines = "#!/bin/sh\n#SBATCH --job-name=";
+  if (std::filesystem::exists(path) && !read_file(path).starts_with(first_lines))
+    throw FileError(
+        fmt::format("{}: there is another file of this name, which is no script of submit. "
+                    "Remove it, or give another --database.",
+                    path),
+        "cannot-write");
   OutputFile file(path, OnInterrupt::stop);
   file.stream() << text;
   file.commit();
@@ -113,8 +122,8 @@ int submit_campaign(const CampaignOptions& options, const std::string&) {
   // What the elements would refuse is refused now.
   checked_specification(options);
   const auto array = job.database + ".sbatch", merge = job.database + ".merge.sbatch";
-  write_file(array, array_script(job));
-  write_file(merge, merge_script(job));
+  write_script(array, array_script(job));
+  write_script(merge, merge_script(job));
   const auto say = [&](const std::string& sentence) {
     if (!options.common.quiet) note(sentence);
   };

@@ -55,6 +55,15 @@ class Submit(CommandTest):
         self.assertEqual(self.files(), ["here", "spec.toml"])
         self.assertEqual(sorted(os.listdir(self.path("here"))), ["spec.db.merge.sbatch", "spec.db.sbatch"])
 
+    def test_files_of_others_stay(self):
+        for name in ("spec.db.sbatch", "spec.db.merge.sbatch"):
+            with open(self.path(name), "w", encoding="utf-8") as file:
+                file.write("mine\n")
+            self.failed(self.submit("--shards", "2", "--dry-run"), "cannot-write", 4, "another file")
+            self.assertEqual(self.text_of(name), "mine\n")
+            os.remove(self.path(name))
+        self.assertEqual([self.submit("--shards", "2", "--dry-run").returncode for _ in range(2)], [0, 0])
+
     def test_scripts_are_what_a_shell_runs(self):
         self.submit("--shards", "2", "--database", "it's 5%.db", "--dry-run")
         for shard in "12":

@@ -102,6 +102,15 @@ ssize_t __read_chk(int file, void* to, size_t size, size_t room) {
 ssize_t write(int file, const void* from, size_t size) {
   return fails(WRITE) ? -1 : syscall(SYS_write, file, from, size);
 }
+ssize_t pread64(int file, void* to, size_t size, off64_t at) {
+  return fails(READ) ? -1 : syscall(SYS_pread64, file, to, size, at);
+}
+ssize_t pwrite64(int file, const void* from, size_t size, off64_t at) {
+  return fails(WRITE) ? -1 : syscall(SYS_pwrite64, file, from, size, at);
+}
+int ftruncate64(int file, off64_t size) {
+  return fails(WRITE) ? -1 : (int)syscall(SYS_ftruncate, file, size);
+}
 int rename(const char* from, const char* to) {
   return fails(RENAME) ? -1 : (int)syscall(SYS_rename, from, to);
 }
@@ -115,6 +124,7 @@ int mkdir(const char* path, mode_t mode) {
   return fails(RENAME) ? -1 : (int)syscall(SYS_mkdir, path, mode);
 }
 int fsync(int file) { return fails(FSYNC) ? -1 : (int)syscall(SYS_fsync, file); }
+int fdatasync(int file) { return fails(FSYNC) ? -1 : (int)syscall(SYS_fdatasync, file); }
 int syncfs(int file) { return fails(FSYNC) ? -1 : (int)syscall(SYS_syncfs, file); }
 
 int pthread_create(pthread_t* thread, const pthread_attr_t* how, void* (*run)(void*), void* with) {

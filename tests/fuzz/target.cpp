@@ -26,6 +26,7 @@ constexpr auto table = std::to_array<Target>({
     {"problem", read_problem, mutate_numbers},
     {"campaign", read_campaign, mutate_numbers},
     {"atlas", show_results, mutate_numbers},
+    {"query", query_database, nullptr},
 });
 
 }  // namespace

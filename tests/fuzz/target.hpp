@@ -52,6 +52,7 @@ void check_and_report(std::string_view bytes);
 void read_problem(std::string_view bytes);
 void read_campaign(std::string_view bytes);
 void show_results(std::string_view bytes);
+void query_database(std::string_view bytes);
 
 /// Puts an extreme number in the place of one in the text, or repeats or drops a line.
 std::size_t mutate_numbers(char* text, std::size_t size, std::size_t room, unsigned seed);

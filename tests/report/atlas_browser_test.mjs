@@ -19,8 +19,9 @@ async function save(page, name, label) {
 async function matrix(page) {
   check("the matrix has a row for each method, of others too", await rows(page) === 9, await rows(page));
   check("and a column for each system", await page.locator("th.system").count() === 7);
-  check("columns of a case stand by its parameters", JSON.stringify((await page.locator("th.system").allInnerTexts()).slice(0, 3)) ===
-    '["N=1 xi1=0.05","N=1 xi1=0.1","N=2 xi1=0.05"]', await page.locator("th.system").allInnerTexts());
+  check("columns of a case stand by its parameters, with four digits", JSON.stringify((await page.locator("th.system").allInnerTexts()).slice(0, 3)) ===
+    '["N=1 xi1=0.05","N=1 xi1=0.1167","N=2 xi1=0.05"]', await page.locator("th.system").allInnerTexts());
+  check("their tips have all digits", /^three-parameter N=1 xi1=0\.1166666666666666\d$/.test(await page.locator("th.system").nth(1).getAttribute("title")));
   check("a cell shows its behaviour by colour and by symbol", await cell(page, 0, 0).getAttribute("class") === "cell b-proper" &&
     await cell(page, 0, 0).locator("use").getAttribute("href") === "#sign-proper");
   check("what does not agree with its claim has a corner", (await cell(page, 3, 0).getAttribute("class")).includes("wrong-claim"));

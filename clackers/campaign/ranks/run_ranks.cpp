@@ -48,18 +48,22 @@ std::string code_of(const std::exception& error) {
   return std::string(ours ? ours->code().name() : "internal-error");
 }
 
-// Rank 0's own share, on a thread beside the one that answers.
+// Rank 0's own share, on a thread beside the one that answers. Where there is no thread, the other ranks
+// are answered, and the failure is thrown in the end.
 class OwnRun {
  public:
   template <class Work>
-  explicit OwnRun(Work work)
-      : thread_([this, work] {
-          try {
-            summary_ = work();
-          } catch (...) {
-            failure_ = std::current_exception();
-          }
-        }) {}
+  explicit OwnRun(Work work) {
+    const auto keep_failure = [this](const auto& call) {
+      try {
+        call();
+      } catch (...) {
+        failure_ = std::current_exception();
+      }
+    };
+    keep_failure(
+        [&] { thread_ = std::thread([=, this] { keep_failure([&] { summary_ = work(); }); }); });
+  }
   ~OwnRun() {
     if (thread_.joinable()) thread_.join();
   }
@@ -67,7 +71,7 @@ class OwnRun {
   OwnRun& operator=(const OwnRun&) = delete;
 
   RunSummary result() {
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
     if (failure_) std::rethrow_exception(failure_);
     return summary_;
   }

@@ -43,7 +43,15 @@ function varying(name) {
 }
 const cases = [...new Set(atlas.systems.map((system) => system.case))];
 const varyingOf = Object.fromEntries(cases.map((name) => [name, varying(name)]));
-const settingText = (system, keys) => keys.map((key) => `${key}=${system.set[key]}`).join(" ");
+const settingText = (system, keys, texts = {}) => keys.map((key) => `${key}=${(texts[key] || String)(system.set[key])}`).join(" ");
+// Numbers with at most four digits, unless two of the values would look the same.
+function shortTexts(values) {
+  const short = (value) => String(typeof value === "number" ? Number(value.toPrecision(4)) : value);
+  return new Set(values.map(short)).size === new Set(values).size ? short : String;
+}
+// For a case: its varying parameters, each with the text of its values.
+const shortOf = Object.fromEntries(cases.map((name) => [name, Object.fromEntries(varyingOf[name].map((key) =>
+  [key, shortTexts(atlas.systems.filter((system) => system.case === name).map((system) => system.set[key]))]))]));
 const systemName = (place) => {
   const system = atlas.systems[place], rest = settingText(system, Object.keys(system.set));
   return rest ? `${system.case} ${rest}` : system.case;

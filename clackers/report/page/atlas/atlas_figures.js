@@ -76,15 +76,16 @@ function prepareMap(method, name, x, y, what) {
   const values = (key) => [...new Set(systems.map(([system]) => system.set[key]))]
     .sort((a, b) => (typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b))));
   const ys = y === null ? [""] : values(y).reverse();
+  const text = (key) => shortOf[name][key] || String;
   data.map = ys.flatMap((row) => values(x).flatMap((column) => {
     const some = systems.filter(([system]) => system.set[x] === column && (y === null || system.set[y] === row));
     if (some.length === 0) return [];
-    return [{ x: String(column), y: String(row), system: some.length === 1 ? systemName(some[0][1]) : `the worst of ${some.length} systems`,
+    return [{ x: text(x)(column), y: text(y)(row), system: some.length === 1 ? systemName(some[0][1]) : `the worst of ${some.length} systems`,
       ...mapCell(some.map(([, i]) => byPlace[method][i]), what) }];
   }));
   specifications.map.height = 60 + 44 * ys.length;
   for (const [axis, title, list] of [["x", x, values(x)], ["y", y, ys]])
-    Object.assign(axisOf(specifications.map, axis), { sort: list.map(String), axis: { labelAngle: 0, title } });
+    Object.assign(axisOf(specifications.map, axis), { sort: list.map(text(title)), axis: { labelAngle: 0, title } });
 }
 
 // ---- Pareto front of a system.

@@ -68,10 +68,10 @@ function headHtml(systems) {
     count > 2 ? escaped(name) : ""}</span></th>`).join("");
   const counts = Object.fromEntries(spans);
   const low = systems.map((system) => {
-    const { case: name } = atlas.systems[system], rest = settingText(atlas.systems[system], varyingOf[name]);
+    const { case: name } = atlas.systems[system], rest = settingText(atlas.systems[system], varyingOf[name], shortOf[name]);
     const text = counts[name] > 2 ? rest : [name, rest].filter(Boolean).join(" ");
     return `<th scope="col" tabindex="-1" data-s="${system}" class="system${starts.has(system) ? " first" : ""}" ` +
-      `aria-label="${escaped(systemName(system))}: its Pareto front"><span>${escaped(text || name)}</span></th>`;
+      `title="${escaped(systemName(system))}" aria-label="${escaped(systemName(system))}: its Pareto front"><span>${escaped(text || name)}</span></th>`;
   }).join("");
   return `<thead><tr class="cases"><td class="corner"></td>${top}</tr><tr><td class="corner"><span>method</span><span>agrees</span></td>${low}</tr></thead>`;
 }
