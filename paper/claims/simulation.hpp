@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/exact/event_driven/piecewise_motion.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/trajectory.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "clackers/exact/event_driven/piecewise_motion.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
 
 namespace clackers::paper {
 namespace {
