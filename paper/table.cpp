@@ -49,7 +49,9 @@ record::Sheet claims_of(const std::vector<Figure>& figures, bool for_people) {
   // 80 columns hold the verdict, the sentence, and what was found under its condition.
   for (auto& row : sheet.rows) {
     auto &condition = std::get<std::string>(row[5]), &measured = std::get<std::string>(row[6]);
-    if (!condition.empty()) measured = condition + (measured.empty() ? "." : ". ") + measured;
+    const auto* word = row[3] == record::Cell("holds where") ? "Where " : "Because ";
+    if (!condition.empty())
+      measured = word + condition + (measured.empty() ? "." : ". ") + measured;
     row = {row[0], row[3], row[4], row[6]};
   }
   sheet.columns = {sheet.columns[0], sheet.columns[3], sheet.columns[4], sheet.columns[6]};

@@ -50,8 +50,8 @@ TEST(Claims, EachIsARowWithItsVerdict) {
   EXPECT_EQ(sheet.rows[5][3], record::Cell("does not hold"));
   const auto short_sheet = claims_of({figure}, true);
   ASSERT_EQ(short_sheet.columns.size(), 4u);
-  const std::vector<record::Cell> third{"c", "holds where", "third", "x > 0. 3"},
-      fourth{"d", "not measurable", "fourth", "nobody knows."};
+  const std::vector<record::Cell> third{"c", "holds where", "third", "Where x > 0. 3"},
+      fourth{"d", "not measurable", "fourth", "Because nobody knows."};
   EXPECT_EQ(short_sheet.rows[2], third);
   EXPECT_EQ(short_sheet.rows[3], fourth);
 }

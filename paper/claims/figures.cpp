@@ -114,8 +114,6 @@ std::span<const Measure> measures_of_figures() {
          return Values{(f.panels[0].series[4].x[0] - f.panels[0].series[3].x[0]) * 42.0 *
                        std::sqrt(0.9975) / std::acos(-1.0)};
        }},
-      {"nearest u2/u1",
-       [](Of f) { return Values{f.panels[0].series[3].y[1] / f.panels[0].series[3].y[0]}; }},
   };
   return table;
 }

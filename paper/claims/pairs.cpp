@@ -87,17 +87,6 @@ double largest_u(const Pair& pair, double end) {
   return largest(0.0, end, [&](double t) { return u_of(motion, t)[mass]; });
 }
 
-// Mass 1 from the same mass above a stop.
-double not_at_stop(const Pair& pair, double end) {
-  Pair other = pair;
-  other.masses = 1;
-  const auto motion = pair.motion(end), stop = other.motion(end);
-  return largest(0.0, end, [&](double t) {
-    const auto a = motion.at(t, Side::right), b = stop.at(t, Side::right);
-    return std::max(std::abs(a.u[0] - b.u[0]), std::abs(a.v[0] - b.v[0]));
-  });
-}
-
 double mirrored(const Pair& pair, double) {
   const double t1 = pair.quarters(1.0), t2 = pair.quarters(3.0);
   return difference(pair.motion(t2), pair.apart().motion(t2), t1, t2, -1.0);
@@ -134,20 +123,6 @@ double not_added_up(const Pair& pair, double) {
   return largest(from, to, [&](double t) {
     return (u_of(c, t) - u_of(a, t) - u_of(b, t)).cwiseAbs().maxCoeff();
   });
-}
-
-// Of maxima of u1 in successive flights, by how much they do not fall by exp(−σ π/ω_D1).
-double not_decayed(const Pair& pair, double end) {
-  const auto motion = pair.motion(end);
-  double off = 0.0, before = 0.0;
-  for (double flight = 1.0; pair.quarters(flight + 2.0) < end; flight += 2.0) {
-    const double peak = largest(pair.quarters(flight), pair.quarters(flight + 2.0),
-                                [&](double t) { return u_of(motion, t)[0]; });
-    if (before > 0.0)
-      off = std::max(off, std::abs(peak / before - std::exp(-pair.sigma * pair.quarters(2.0))));
-    before = peak;
-  }
-  return off;
 }
 
 // xi2 of Eq. (9) and (12), by bisection of xi1 sqrt(1 − xi2²)/xi2 = X sqrt(1 − xi1²).
@@ -213,14 +188,6 @@ double printed_gap(const Pair& pair, double end) {
   return (std::cos(end) + 3.0 / pair.X) * std::cos(pair.X * end);
 }
 
-// The factor for 3 in Eq. (18) at which masses touch, from the gap for 3.
-double largest_factor(const Pair& pair, double end) {
-  return 3.0 / (1.0 - least_gap<0, 1>(pair, end));
-}
-double at_factor(const Pair& pair, double end, double share) {
-  return Impacts(Pair((pair.X - 1.0) / 4.0, pair.xi1, share * largest_factor(pair, 0.0)), end).u;
-}
-
 }  // namespace
 
 std::span<const Measure> measures_of_pairs() {
@@ -238,11 +205,8 @@ std::span<const Measure> measures_of_pairs() {
       {"agreed impacts", agreed_impacts},
       {"half turns", half_turns},
       {"maxima of u2", maxima_of_mass2},
-      {"maxima before impact",
-       [](Of pair, double) { return maxima_of_mass2(pair, pair.quarters(1.0)); }},
       {"largest u1", largest_u<0>},
       {"largest u2", largest_u<1>},
-      {"not at stop", not_at_stop},
       {"error in 40000 steps", error_in<40'000>},
       {"error in 1000000 steps", error_in<1'000'000>},
       {"gap before first", least_gap<0, 1>},
@@ -257,7 +221,7 @@ std::span<const Measure> measures_of_pairs() {
       {"moved", moved},
       {"not added up before", not_added_up<0, 1>},
       {"not added up after", not_added_up<2, 6>},
-      {"not decayed", not_decayed},
+      {"v1", [](Of pair, double end) { return pair.motion(end).at(end, Side::right).v[0]; }},
       {"v1 at start",
        [](Of pair, double end) { return pair.motion(end).at(0.0, Side::right).v[0]; }},
       {"xi2", solved_xi2},
@@ -279,19 +243,9 @@ std::span<const Measure> measures_of_pairs() {
       {"left",
        [](Of pair, double end) { return std::exp(-(pair.sigma + Impacts(pair, end).rate) * end); }},
       {"u1", [](Of pair, double end) { return u_of(pair.motion(end), end)[0]; }},
-      {"printed u1", [](Of, double) { return 1.0; }},
       {"gap", gap},
       {"printed gap", printed_gap},
       {"not D", not_D},
-      {"largest factor", largest_factor},
-      {"u below factor", [](Of pair, double end) { return at_factor(pair, end, 0.999); }},
-      {"u above factor", [](Of pair, double end) { return at_factor(pair, end, 1.001); }},
-      {"repeated",
-       [](Of pair, double end) {
-         const auto motion = pair.motion(end);
-         const double T = pair.quarters(2.0);
-         return difference(motion, motion, T, end, std::exp(-pair.sigma * T), -T);
-       }},
   };
   return table;
 }
