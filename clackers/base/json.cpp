@@ -1,15 +1,25 @@
 #include "clackers/base/json.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
+#include <vector>
+
+#include "clackers/base/error.hpp"
 
 namespace clackers {
 
 using Json = nlohmann::ordered_json;
 
 Json parse_json(std::string_view text, const JsonWatch& watch) {
-  if (!watch) return Json::parse(text);
-  return Json::parse(text, [&](int depth, Json::parse_event_t event, const Json&) {
-    watch(depth, event == Json::parse_event_t::array_start);
+  using Event = Json::parse_event_t;
+  std::vector<int> members;  // of the open objects, by depth
+  return Json::parse(text, [&](int depth, Event event, const Json&) {
+    if (event == Event::object_start) members.resize(std::size_t(depth) + 2, 0), members.back() = 0;
+    if (event == Event::key && ++members[std::size_t(depth)] > most_members)
+      throw InputError(fmt::format("a JSON object has more than {} members", most_members),
+                       "bad-syntax");
+    if (watch) watch(depth, event == Event::array_start);
     return true;
   });
 }

@@ -13,7 +13,9 @@ namespace clackers {
 /// Called at each value: its depth, and whether an array starts. May throw.
 using JsonWatch = std::function<void(int depth, bool starts_array)>;
 
-/// Throws nlohmann::json::exception where `text` is not JSON.
+/// Throws nlohmann::json::exception where `text` is not JSON, InputError (bad-syntax) for an object of
+/// more than most_members, among which each is looked for one by one.
+inline constexpr int most_members = 1000;
 nlohmann::ordered_json parse_json(std::string_view text, const JsonWatch& watch = nullptr);
 
 /// In lines indented by `indent` a level, or without spaces; what is no UTF-8 as U+FFFD.

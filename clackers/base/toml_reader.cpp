@@ -27,21 +27,26 @@ std::size_t end_of_quotes(std::string_view text, std::size_t i) {
   return i;
 }
 
-void require_short_keys(std::string_view text, const std::string& name) {
-  int points = 0;
+// toml++ recurses over the parts of a key, and looks for tables one by one.
+void require_bounded(std::string_view text, const std::string& name) {
+  int points = 0, depth = 0, tables = 0;
+  bool begins_line = true;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"' || text[i] == '\'')
-      i = end_of_quotes(text, i);
-    else if (text[i] == '#')
-      i = std::min(text.find('\n', i), text.size()) - 1;
-    else if (std::string_view(",=[]{}\n").find(text[i]) != std::string_view::npos)
-      points = 0;
-    else if (text[i] == '.' && ++points == most_parts)
+    const char c = text[i];
+    tables += (c == '=' && points > 0) || (c == '[' && depth == 0 && begins_line);
+    points =
+        std::string_view(",=[]{}\n").find(c) == std::string_view::npos ? points + (c == '.') : 0;
+    depth += (c == '[' || c == '{') - (c == ']' || c == '}');
+    begins_line = c == '\n' || (begins_line && (c == ' ' || c == '\t'));
+    if (points == most_parts || tables > most_tables)
       throw InputError(
-          fmt::format("{}:{}: a key has more than {} parts.", name,
+          fmt::format("{}:{}: {}.", name,
                       1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(i), '\n'),
-                      most_parts),
+                      points == most_parts ? fmt::format("a key has more than {} parts", most_parts)
+                                           : fmt::format("more than {} tables", most_tables)),
           "bad-syntax");
+    if (c == '"' || c == '\'') i = end_of_quotes(text, i);
+    if (c == '#') i = std::min(text.find('\n', i), text.size()) - 1;
   }
 }
 
@@ -51,7 +56,7 @@ toml::table toml_from(std::string_view text, const std::string& name) {
   if (text.size() > longest_text)
     throw InputError(fmt::format("{}: {} bytes; allowed: {}.", name, text.size(), longest_text),
                      "bad-syntax");
-  require_short_keys(text, name);
+  require_bounded(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

@@ -23,8 +23,8 @@
 namespace clackers {
 
 /// Parses TOML; `name` stands in messages, with the line. Throws InputError (bad-syntax), also for text
-/// above longest_text and for keys of more than most_parts parts, over which toml++ would recurse.
-inline constexpr int most_parts = 16;
+/// above longest_text, keys of more than most_parts parts, and more than most_tables tables.
+inline constexpr int most_parts = 16, most_tables = 200000;
 toml::table toml_from(std::string_view text, const std::string& name);
 
 /// Takes values out of parsed TOML, and refuses in the words of a place in the file.

@@ -20,7 +20,7 @@ std::string utf8(unsigned point) {
 
 TEST(Toml, LettersBeyondAsciiStandInQuotesAlone) {
   // Whole blocks, for which the parser's table of blanks had no answer.
-  for (unsigned point = 0xA1; point < 0xFEFF; point += point < 0x4A0 ? 7 : 61) {
+  for (unsigned point = 0xA1; point < 0xFEFF; point += point < 0x4A0 ? 31 : 127) {
     const bool is_blank = point == 0x3000 || (point > 0x1600 && point < 0x2060);
     if (is_blank || (point >= 0xD800 && point <= 0xDFFF)) continue;
     const auto letter = utf8(point);
@@ -44,6 +44,19 @@ TEST(Toml, LongKeysAreRefusedWhereverTheyStand) {
                                    many + "\", \"\"\"\n" + many + "\"\"\", '''" + many + "''']",
                                "x.toml");
   EXPECT_EQ(table["d"].as_array()->size(), 6u);
+}
+
+TEST(Toml, TablesAreCounted) {
+  const auto many = [](const std::string& line) {
+    std::string text;
+    while (text.size() < line.size() * (most_tables + 1)) text += line;
+    return text;
+  };
+  for (const auto* line : {"[a]\n", " [[a]]\n", "a.b=1\n"})
+    EXPECT_REFUSED(toml_from(many(line), "x.toml"), "bad-syntax",
+                   "x.toml:200001: more than 200000 tables");
+  EXPECT_EQ(toml_from("a = [\n" + many("[],\n") + "]", "x.toml")["a"].as_array()->size(),
+            std::size_t(most_tables) + 1);
 }
 
 }  // namespace

@@ -91,6 +91,8 @@ TEST(Specification, RefusesInTheWordsOfALine) {
   EXPECT_REFUSED(read("methods = [\"rk4\", \"rk4\"]"), "bad-syntax", "each method once");
   EXPECT_REFUSED(read("methods = [\"rk4\", \"rk4+event-driven\"]"), "bad-syntax",
                  "each method once");
+  EXPECT_REFUSED(read("methods = [\"rk4\"]\nmetrics = [\"u-max\", \"u-max\"]"), "bad-syntax",
+                 "spec.toml:2", "each metric once");
   EXPECT_REFUSED(read("methods = []"), "bad-syntax", "one or more");
   EXPECT_REFUSED(read("methods = 4"), "bad-syntax", "methods");
   EXPECT_REFUSED(read(head), "no-column", "cases is missing");

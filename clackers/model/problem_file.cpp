@@ -95,6 +95,8 @@ toml::table table_from_json(std::string_view text, const std::string& name) {
   Json json;
   try {
     json = parse_json(text);
+  } catch (const InputError& error) {
+    refuse_syntax(name, error.what());
   } catch (const Json::parse_error&) {
   }  // stays null
   if (!json.is_object()) refuse_syntax(name, "not JSON, though it begins with {");

@@ -121,6 +121,8 @@ class SpecificationReader : public TomlReader {
       const auto name = word(item, "a metric");
       if (std::ranges::find(known, name) == known.end())
         at(item, [&] { refuse_name("metric", name, known, "clackers list metrics"); });
+      if (std::ranges::find(out_.metrics_, name) != out_.metrics_.end())
+        fail(item, fmt::format("metric = {}; allowed: each metric once.", name), "bad-syntax");
       out_.metrics_.push_back(name);
     }
   }
