@@ -97,7 +97,7 @@ toml::table table_from_json(std::string_view text, const std::string& name) {
     json = parse_json(text);
   } catch (const InputError& error) {
     refuse_syntax(name, error.what());
-  } catch (const Json::parse_error&) {
+  } catch (const Json::exception&) {
   }  // stays null
   if (!json.is_object()) refuse_syntax(name, "not JSON, though it begins with {");
   const auto problem = json.find("problem");

@@ -91,6 +91,7 @@ TEST(ProblemFile, BadTextIsRefusedWithItsLine) {
   EXPECT_REFUSED(read(with("[[contacts]]", "[contacts]")), "bad-syntax", "no list of tables",
                  "[[contacts]]");
   EXPECT_REFUSED(read(with("[start]", "[[start]]")), "bad-syntax", "start is no table");
+  EXPECT_REFUSED(read("{\"M\": [[1e309]]}"), "bad-syntax", "f.toml: not JSON");
 }
 
 TEST(ProblemFile, BadSizesAndMatricesAreRefused) {

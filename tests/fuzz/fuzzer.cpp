@@ -1,5 +1,7 @@
 // libFuzzer's entries: clackers_fuzz TARGET [options and folders of libFuzzer].
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 
 #include "target.hpp"
 
@@ -14,6 +16,7 @@ extern "C" {
 std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t room);
 
 int LLVMFuzzerInitialize(int* argc, char*** argv) {
+  std::set_terminate(std::abort);  // the command's handler would keep the input from libFuzzer
   chosen = &clackers::fuzz::target(*argc > 1 ? (*argv)[1] : "");
   // libFuzzer does not see the target's name.
   for (int i = 1; i < *argc; ++i) (*argv)[i] = (*argv)[i + 1];

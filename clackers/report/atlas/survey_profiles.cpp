@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "clackers/base/number.hpp"
 #include "clackers/judge/cost/performance_profile.hpp"
 #include "clackers/record/profile.hpp"
 #include "clackers/report/atlas/survey_data.hpp"
