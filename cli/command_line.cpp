@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <memory>
 #include <span>
 
 #include "clackers/base/check.hpp"
@@ -28,6 +30,17 @@ std::string help_of(const Command& command) {
   if (name == "--plugin") throw InputError(std::string(solvers::instead_of_plugin), "unknown-name");
   std::vector<std::string> known;
   for (const auto& option : command.options) known.push_back(option.name);
+  // "--method": an argument written as an option.
+  auto word = name.substr(2);
+  for (auto& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  for (const auto& argument : command.arguments) {
+    const auto& shown = argument.placeholder.empty() ? argument.name : argument.placeholder;
+    if (fmt::format("|{}|", shown).find("|" + word + "|") != std::string::npos)
+      throw InputError(fmt::format("no option \"{0}\": {1} stands without it, clackers {2} {1}. "
+                                   "See: {3}",
+                                   name, word, command.name, help_of(command)),
+                       "unknown-name");
+  }
   refuse_name("option", name, known, help_of(command));
 }
 
@@ -143,11 +156,29 @@ void print(const std::string& text) {
   refuse_option(name, program);
 }
 
+Command& command_of(const std::string& word, Grammar& grammar) {
+  const auto command = std::ranges::find(grammar.commands, word, &Command::name);
+  if (command == grammar.commands.end()) refuse_command(word, grammar);
+  return *command;
+}
+
+void add_help(Grammar& grammar) {
+  const auto topic = std::make_shared<std::string>();
+  auto* help = grammar.add_subcommand("help", "[COMMAND]", "how to use the program or a command");
+  set_help(*help, {.examples = "  clackers help\n  clackers help verify\n",
+                   .about = "Prints what COMMAND --help prints; without COMMAND, all commands.",
+                   .usage = "  clackers help [COMMAND]\n"});
+  help->add_option("COMMAND", *topic, "Its name.");
+  help->run = [topic, &grammar](const std::string&) {
+    print(topic->empty() ? help_text(grammar) : help_text(command_of(*topic, grammar)));
+    return 0;
+  };
+}
+
 // The flags --help and --version have no target of their own: they end the parsing.
 bool unused_flag = false;
 
-Grammar clackers_grammar() {
-  Grammar grammar;
+void add_commands(Grammar& grammar) {
   grammar.program.summary =
       "exact motions of colliding structures, and verdicts on time-integration methods";
   grammar.program.page = {
@@ -160,16 +191,16 @@ Grammar clackers_grammar() {
   grammar.program.add_flag("--help", unused_flag, "This help.");
   grammar.program.add_flag("--version", unused_flag, "The version.");
   for (const auto add : {add_list, add_show, add_respond, add_verify, add_check, add_campaign,
-                         add_atlas, add_paper, add_explain})
+                         add_atlas, add_paper, add_explain, add_help})
     add(grammar);
   for (auto& command : grammar.commands) command.add_flag("--help", unused_flag, "This help.");
-  return grammar;
 }
 
 }  // namespace
 
 int run_command_line(const std::vector<std::string>& arguments) {
-  auto grammar = clackers_grammar();
+  Grammar grammar;
+  add_commands(grammar);
   const auto first = arguments.empty() ? "--help" : arguments.front();
   const auto rest = std::span(arguments).subspan(arguments.empty() ? 0 : 1);
   if (is_help(first)) {
@@ -189,16 +220,15 @@ int run_command_line(const std::vector<std::string>& arguments) {
     for (const auto& line : completions(grammar, {rest.begin(), rest.end()})) print(line + "\n");
     return 0;
   }
-  const auto command = std::ranges::find(grammar.commands, first, &Command::name);
-  if (command == grammar.commands.end()) refuse_command(first, grammar);
-  if (!Parser(*command, rest).parse()) {
-    print(help_text(*command));
+  auto& command = command_of(first, grammar);
+  if (!Parser(command, rest).parse()) {
+    print(help_text(command));
     return 0;
   }
-  require_distinct_files(*command);
+  require_distinct_files(command);
   std::vector<std::string> line{"clackers"};
   line.insert(line.end(), arguments.begin(), arguments.end());
-  return command->run(shell_line(line));
+  return command.run(shell_line(line));
 }
 
 }  // namespace clackers::cli

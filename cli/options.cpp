@@ -26,6 +26,10 @@ void add_common_options(Command& command, CommonOptions& options, report::Conten
                    "No colors; the environment variable NO_COLOR does the same.");
 }
 
+void add_case_option(Command& command, std::string& name) {
+  command.add_option("--case", name, "The case, instead of naming it first.")->option_text("CASE");
+}
+
 void add_set_option(Command& command, std::vector<std::string>& settings) {
   command
       .add_option("--set", settings,

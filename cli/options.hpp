@@ -19,6 +19,9 @@ struct CommonOptions {
 void add_common_options(Command& command, CommonOptions& options,
                         report::Content content = report::Content::rows);
 
+/// Adds --case of commands whose first argument is the case. `name` must outlive the parsing.
+void add_case_option(Command& command, std::string& name);
+
 /// Adds --set, which may stand several times.
 void add_set_option(Command& command, std::vector<std::string>& settings);
 

@@ -66,8 +66,18 @@ bool is_word(std::string_view text) {
 
 }  // namespace
 
-std::string case_of(const std::string& name, const std::string& problem) {
+bool is_case(const std::string& word) {
+  return std::ranges::find(cases::entries(), word, &cases::CaseEntry::name) !=
+         cases::entries().end();
+}
+
+std::string case_of(const std::string& first, const std::string& behind,
+                    const std::string& problem) {
   constexpr auto of_files = "piecewise";
+  if (!first.empty() && !behind.empty() && first != behind)
+    refuse("clackers", "--case", behind, "one case",
+           fmt::format("{} is named already; leave {} or --case out.", first, first), "bad-syntax");
+  const auto& name = first.empty() ? behind : first;
   if (problem.empty()) return name;
   if (!name.empty() && name != of_files)
     refuse("clackers", "--problem", problem, fmt::format("the case {}, or none", of_files),

@@ -29,9 +29,13 @@ double read_duration(std::string_view what, std::string_view text);
 cases::Settings read_settings(const std::vector<std::string>& options,
                               const std::string& problem = {});
 
-/// The case of a command line: `name`, or that of files where --problem is given. Throws InputError
-/// where both are and differ.
-std::string case_of(const std::string& name, const std::string& problem);
+/// The case of a command line: `first`, or the value of --case `behind`, or that of files where
+/// --problem is given. Throws InputError where two are given and differ.
+std::string case_of(const std::string& first, const std::string& behind,
+                    const std::string& problem);
+
+/// Whether a word is the name of a case.
+bool is_case(const std::string& word);
 
 /// Adds --require, which may stand several times. `requirements` must outlive the parsing.
 void add_require_option(Command& command, std::vector<std::string>& requirements);

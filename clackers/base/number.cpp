@@ -98,8 +98,8 @@ std::optional<long long> whole_number(std::string_view text) {
 }
 
 bool looks_numeric(std::string_view text) {
-  Number number;
-  return read_decimal(text, number) != NumberError::no_number;
+  double value = 0.0;
+  return read_number(text, value) != NumberError::no_number;
 }
 
 double rounded(double value, int digits) {

@@ -32,7 +32,7 @@ std::optional<double> finite_number(std::string_view text);
 /// text.
 std::optional<long long> whole_number(std::string_view text);
 
-/// Whether the text is a decimal number, NaN and infinity included. A header has none.
+/// Whether read_number() finds a number, NaN and infinity included. A header has none.
 bool looks_numeric(std::string_view text);
 
 /// The nearest number of so many significant decimal digits.

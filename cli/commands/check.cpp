@@ -31,8 +31,8 @@ struct CheckOptions {
   CommonOptions common;
   std::vector<std::string> files, names, against, settings, events, requirements;
   std::vector<std::size_t> starts, against_starts;  // of each name, of --against, in the files
-  std::string case_name, columns, steps, tolerances, expect, tolerance, metrics, report, baseline,
-      problem;
+  std::string first_case, case_name, columns, steps, tolerances, expect, tolerance, metrics, report,
+      baseline, problem;
   bool impacts = false;
 };
 
@@ -76,7 +76,7 @@ std::vector<study::NamedHistories> subjects_of(const CheckOptions& options) {
 study::CheckRequest request_of(const CheckOptions& options, const std::string& line) {
   study::CheckRequest request;
   request.subjects = subjects_of(options);
-  request.case_name = case_of(options.case_name, options.problem);
+  request.case_name = case_of(options.first_case, options.case_name, options.problem);
   request.settings = read_settings(options.settings, options.problem);
   if (!options.columns.empty()) request.columns = parts_of("--columns", options.columns);
   request.events.assign(options.events.begin(), options.events.end());
@@ -126,7 +126,21 @@ record::Record run_check(const CheckOptions& options, const study::CheckRequest&
   return study::check(request, progress.callback(), &interrupt_flag());
 }
 
-int run(const CheckOptions& options, const Command& command, const std::string& line) {
+// "check CASE FILE ...": a file of that name is ./CASE.
+void take_case_first(CheckOptions& options) {
+  const auto is_behind = [](std::size_t start) { return start > 0; };
+  if (options.files.empty() || !is_case(options.files.front()) ||
+      !std::ranges::all_of(options.starts, is_behind) ||
+      !std::ranges::all_of(options.against_starts, is_behind))
+    return;
+  options.first_case = options.files.front();
+  options.files.erase(options.files.begin());
+  for (auto* starts : {&options.starts, &options.against_starts})
+    for (auto& start : *starts) --start;
+}
+
+int run(CheckOptions options, const Command& command, const std::string& line) {
+  take_case_first(options);
   if (!options.against.empty()) return run_against(options, command);
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
@@ -169,7 +183,7 @@ void add_check(Grammar& root) {
            "methods stand in one table. "
            "Exit code 0 when the history agrees or nothing is expected, 1 when it disagrees or is "
            "of another motion, 3 when undecided.",
-       .usage = "  clackers check FILE ...|- [--case CASE] [--set name=value,...]\n"
+       .usage = "  clackers check [CASE] FILE ...|- [--case CASE] [--set name=value,...]\n"
                 "  clackers check --name A FILE ... --name B FILE ... [...]\n"
                 "  clackers check FILE ... --against FILE ... [--tolerance x]\n"
                 "           [--columns t,u1,...] [--events FILE]\n"
@@ -177,7 +191,9 @@ void add_check(Grammar& root) {
                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
                 "           [--metrics all] [--impacts] [--report FILE.html]\n"
                 "           [--baseline FILE.json]\n"});
-  app->add_option("FILE", options->files, "Time histories, text or .npy; - for standard input.")
+  app->add_option(
+         "FILE", options->files,
+         "Time histories, text or .npy; - for standard input. A case may stand before them.")
       ->reads_file("");
   app->add_option("--name", options->names,
                   "The name of the solver that wrote the FILEs behind it, up to the next --name: "

@@ -26,7 +26,7 @@ namespace {
 struct RespondOptions {
   CommonOptions common;
   std::vector<std::string> settings;
-  std::string name, samples, step, times, digits, sensitivity, highest, report, problem;
+  std::string name, behind, samples, step, times, digits, sensitivity, highest, report, problem;
   bool impacts = false, plot = false, energy = false, spectrum = false;
 
   int ways() const {
@@ -149,7 +149,7 @@ std::string page_of(const cases::Case& test_case, const RespondOptions& options,
 }
 
 int run(RespondOptions options, const std::string& line) {
-  options.name = case_of(options.name, options.problem);
+  options.name = case_of(options.name, options.behind, options.problem);
   check_kind(options);
   check(options);
   ReportPage page(options.report, options.common, OnInterrupt::stop);
@@ -158,14 +158,14 @@ int run(RespondOptions options, const std::string& line) {
   const auto test_case =
       cases::make(options.name, read_settings(options.settings, options.problem));
   const auto rows = options.ways() > 0 ? rows_of(options, test_case) : nullptr;
+  if (rows) {
+    write_rows(*rows, results, "respond", options.common.quiet);
+    results.finish();
+  }
   if (options.plot) {
     OutputStream out(1, "standard output", OnInterrupt::stop);
     out << picture(test_case, standard_style(options.common.no_color));
     out.finish();
-  }
-  if (rows) {
-    write_rows(*rows, results, "respond", options.common.quiet);
-    results.finish();
   }
   return !page.wanted() || page.write(page_of(test_case, options, line)) ? 0 : 4;
 }
@@ -190,6 +190,7 @@ void add_respond(Grammar& root) {
                      "           (--samples n | --step h | --times FILE) [--plot]\n"
                      "  clackers respond CASE [--set ...] --spectrum --samples n --highest w\n"});
   app->add_option("CASE", options->name, "The case. All names: clackers list cases.");
+  add_case_option(*app, options->behind);
   add_set_option(*app, options->settings);
   add_problem_option(*app, options->problem);
   app->add_option(
@@ -199,9 +200,10 @@ void add_respond(Grammar& root) {
       ->option_text("n");
   app->add_option("--step", options->step, "Times 0, h, 2 h, ... up to the end; h in seconds.")
       ->option_text("h");
-  app->add_option("--times", options->times,
-                  "Times from a text file, one a line, in seconds; - reads standard input. What "
-                  "follows # or % is a comment.")
+  app->add_option(
+         "--times", options->times,
+         "Times in seconds from a text file, one a line, or from the column t of a history; - "
+         "reads standard input. What follows # or % is a comment.")
       ->reads_file("FILE");
   app->add_flag("--impacts", options->impacts,
                 "The impacts instead: k, t [s], u1 [m], velocities before and after [m/s], "
@@ -226,7 +228,7 @@ void add_respond(Grammar& root) {
                   "--samples, --step, --times or --impacts, whose t is then the true instant.")
       ->option_text("n");
   app->add_flag("--plot", options->plot,
-                "Draw the displacements in the terminal; alone, or above the rows.");
+                "Draw the displacements in the terminal; alone, or below the rows.");
   app->add_option("--report", options->report,
                   "Also write a page with the response and the motion as an animation, which opens "
                   "without a network, whole or not at all.")

@@ -24,13 +24,8 @@ namespace {
 struct ShowOptions {
   CommonOptions common;
   std::vector<std::string> settings;
-  std::string name, threshold, report, problem;
+  std::string name, behind, threshold, report, problem;
 };
-
-bool is_case(const std::string& name) {
-  return std::ranges::find(cases::entries(), name, &cases::CaseEntry::name) !=
-         cases::entries().end();
-}
 
 // Refuses a name that is neither a case nor the beginning of a method's specification.
 void require_method(const std::string& specification) {
@@ -63,7 +58,7 @@ std::vector<record::Sheet> sheets_of(const ShowOptions& options) {
 }
 
 int run(ShowOptions options, const std::string& line) {
-  options.name = case_of(options.name, options.problem);
+  options.name = case_of(options.name, options.behind, options.problem);
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop);
   const auto sheets = sheets_of(options);
@@ -106,6 +101,7 @@ void add_show(Grammar& root) {
                 "  clackers show --problem FILE\n"});
   app->add_option("NAME", options->name, "A case or a method. All names: clackers list.")
       ->option_text("CASE|METHOD");
+  add_case_option(*app, options->behind);
   add_set_option(*app, options->settings);
   add_problem_option(*app, options->problem);
   app->add_option("--threshold", options->threshold,

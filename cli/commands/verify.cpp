@@ -13,7 +13,7 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/cases/case.hpp"
+#include "clackers/methods/registry.hpp"
 #include "clackers/solvers/program.hpp"
 #include "clackers/study/options.hpp"
 #include "clackers/tables/listing.hpp"
@@ -63,8 +63,8 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
   request.cases = options.cases;
   request.settings = read_settings(options.settings, options.problem);
   if (!options.problem.empty())
-    for (request.cases = {case_of({}, options.problem)}; const auto& name : options.cases)
-      case_of(name, options.problem);
+    for (request.cases = {case_of({}, {}, options.problem)}; const auto& name : options.cases)
+      case_of(name, {}, options.problem);
   study::set_options(request, numbers_of(options));
   const auto& tolerances = options.programs.tolerances;
   if (!tolerances.empty()) request.plan.tolerances = solvers::tolerances_from(tolerances);
@@ -93,13 +93,25 @@ std::vector<std::string> verdicts_to_show(const Options& options) {
   return words;
 }
 
+bool is_method(const std::string& word) {
+  return std::ranges::find(methods::entries(), word.substr(0, word.find_first_of(":+")),
+                           &methods::Entry::name) != methods::entries().end();
+}
+
+// Cases among the methods are cases: "verify stop newmark".
+void take_cases(Options& options) {
+  const auto first = std::ranges::stable_partition(options.methods,
+                                                   [](const auto& word) { return !is_case(word); });
+  options.cases.insert(options.cases.begin(), first.begin(), first.end());
+  options.methods.erase(first.begin(), first.end());
+}
+
 void check(const Options& options) {
+  for (const auto& name : options.cases)
+    if (!is_case(name) && is_method(name))
+      refuse_usage(fmt::format("--case {0}: this is a method, not a case. Write verify {0}", name));
   if (options.all && !options.methods.empty())
     refuse_usage("--all runs every method; leave " + options.methods.front() + " or --all out.");
-  for (const auto& method : options.methods)
-    for (const auto& entry : cases::entries())
-      if (entry.name == method)
-        refuse_usage(fmt::format("{0}: this is a case, not a method. Write --case {0}", method));
 }
 
 record::Record run_study(const Options& options, const study::VerifyRequest& request) {
@@ -107,7 +119,8 @@ record::Record run_study(const Options& options, const study::VerifyRequest& req
   return study::verify(request, progress.callback(), &interrupt_flag());
 }
 
-int run(const Options& options, const std::string& line) {
+int run(Options options, const std::string& line) {
+  take_cases(options);
   check(options);
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
@@ -172,7 +185,7 @@ void add_verify(Grammar& root) {
                 "           [--timeout TIME] [--work FOLDER] [--fresh] ...\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
-                  "(clackers list methods).");
+                  "(clackers list methods). Cases may stand among them.");
   app->add_flag(
       "--all", options->all,
       "Every method (clackers list pairs): every integrator with every contact treatment that "

@@ -2,31 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "clackers/base/error.hpp"
 #include "clackers/base/input_file.hpp"
-#include "clackers/input/text/text_lines.hpp"
-#include "clackers/input/text/text_table.hpp"
+#include "clackers/input/table.hpp"
 #include "clackers/record/record_json.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/values.hpp"
 
 namespace clackers::cli {
 
 std::vector<double> read_times(const std::string& path, double end) {
-  input::TextLines lines(path, &interrupt_flag());
+  // Of a table of events a lone column without a name holds times.
+  const auto table = input::open_table(path, {}, input::TableKind::events, &interrupt_flag());
+  const auto& names = table->names();
+  const auto column = std::size_t(std::ranges::find(names, "t") - names.begin());
+  if (column == names.size())
+    throw InputError(table->name() +
+                         " has no column t; allowed: one time a line, in seconds, or "
+                         "columns with a header that names t.",
+                     "no-column");
   std::vector<double> times;
-  while (lines.next()) {
-    const auto text = input::trimmed(lines.text());
-    if (text.empty()) continue;
-    const double t = read_number(lines.place(), text);
-    if (!(t >= 0.0 && t <= end))
-      refuse("clackers", lines.place(), t, fmt::format("0 <= t <= {} s", end),
+  Number t;
+  while (table->next()) {
+    table->read_number(column, t);
+    if (!(t.value >= 0.0 && t.value <= end))
+      refuse("clackers", table->place(), t.value, fmt::format("0 <= t <= {} s", end),
              "Set t_end or a_t of the case for a longer run.", "time-outside");
-    times.push_back(t);
+    // A history repeats the time of a jump; the response has both of its sides at one.
+    if (names.size() == 1 || times.empty() || times.back() != t.value) times.push_back(t.value);
   }
   if (times.empty())
-    throw InputError(lines.name() + " has no times in it; allowed: one time a line, in seconds.",
-                     "bad-syntax");
+    throw InputError(table->name() + " has no times in it; allowed: one time a line, in seconds.",
+                     "too-short");
   return times;
 }
 

@@ -31,10 +31,10 @@ struct NamedFile {
 /// A baseline may be --out, which updates it.
 void require_distinct_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 
-/// The times [s] of a text file with one a line; "-" reads standard input. Empty lines, and what
-/// follows # or %, are skipped. Throws InputError, with the number of the line, for what is no
-/// number or lies outside [0, end], and when there is none at all; FileError when the file cannot
-/// be read; Interrupted.
+/// The times [s] of a text file with one a line, or of the column t of a history or .npy file; "-"
+/// reads standard input. Throws InputError, with the number of the line, for what is no number or
+/// lies outside [0, end], and when there is none at all; FileError when the file cannot be read;
+/// Interrupted.
 std::vector<double> read_times(const std::string& path, double end);
 
 /// The record of an earlier `verify --format json`; "-" reads standard input. Throws FileError when

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "clackers/base/error.hpp"
 #include "cli/messages.hpp"
 
 namespace clackers::cli {
@@ -9,6 +12,12 @@ namespace clackers::cli {
 ReportPage::ReportPage(const std::string& path, const CommonOptions& common,
                        OnInterrupt on_interrupt)
     : quiet_(common.quiet) {
+  const auto ending = std::filesystem::path(path).extension();
+  if (!ending.empty() && ending != ".html" && ending != ".htm")
+    refuse("clackers", "--report", path, "a page: FILE.html",
+           "Its figures are saved as SVG or PNG by their buttons, and a browser prints it to PDF; "
+           "tables: --format with --out.",
+           "bad-syntax");
   if (!path.empty()) file_ = std::make_unique<OutputFile>(path, on_interrupt);
 }
 

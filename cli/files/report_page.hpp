@@ -12,7 +12,8 @@ namespace clackers::cli {
 /// once.
 class ReportPage {
  public:
-  /// An empty path: there is no page. Throws FileError when it cannot be written.
+  /// An empty path: there is no page. Throws InputError for an ending of another format, FileError
+  /// when it cannot be written.
   ReportPage(const std::string& path, const CommonOptions& common, OnInterrupt on_interrupt);
 
   bool wanted() const { return file_ != nullptr; }

@@ -45,7 +45,8 @@ void add_parameters(const std::vector<std::string>& words, Candidates& to) {
 }
 
 // What one placeholder stands for; numbers complete to nothing.
-void add_values(std::string_view placeholder, bool is_choice, Candidates& to) {
+void add_values(std::string_view placeholder, bool is_choice, const Grammar& grammar,
+                Candidates& to) {
   if (placeholder == "CASE") {
     to.add_column(tables::list("cases"));
   } else if (placeholder == "METHOD") {
@@ -54,6 +55,8 @@ void add_values(std::string_view placeholder, bool is_choice, Candidates& to) {
   } else if (placeholder == "KIND") {
     for (const auto& kind : tables::list_kinds()) to.add(kind);
     to.add("figures");
+  } else if (placeholder == "COMMAND") {
+    for (const auto& command : grammar.commands) to.add(command.name, command.summary);
   } else if (placeholder == "CODE") {
     to.add_column(tables::explain(""));
   } else if (placeholder == "FIGURE") {
@@ -67,11 +70,12 @@ void add_values(std::string_view placeholder, bool is_choice, Candidates& to) {
   }
 }
 
-void add_values(const Option& option, const std::vector<std::string>& words, Candidates& to) {
+void add_values(const Option& option, const std::vector<std::string>& words, const Grammar& grammar,
+                Candidates& to) {
   if (option.placeholder.starts_with("name=")) return add_parameters(words, to);
   std::istringstream parts(option.placeholder.empty() ? option.name : option.placeholder);
   const bool is_choice = option.placeholder.find('|') != std::string::npos;
-  for (std::string part; std::getline(parts, part, '|');) add_values(part, is_choice, to);
+  for (std::string part; std::getline(parts, part, '|');) add_values(part, is_choice, grammar, to);
 }
 
 // Joins "--case", "=", "thr" to "--case=thr"; returns how much of the last stands before its last
@@ -107,17 +111,17 @@ void add_all(const Grammar& grammar, const std::vector<std::string>& words, Cand
   const auto command = std::ranges::find(grammar.commands, words.front(), &Command::name);
   if (words.size() == 1 || command == grammar.commands.end()) {
     if (words.size() > 1) return;
-    for (const auto& each : grammar.commands) to.add(each.name, each.summary);
+    add_values("COMMAND", false, grammar, to);
     for (const auto& option : grammar.program.options) to.add(option.name, option.explanation);
     return to.add("-h");
   }
   const auto& before = words[words.size() - 2];
   for (const auto& option : command->options)
-    if (option.name == before && !option.is_flag()) return add_values(option, words, to);
+    if (option.name == before && !option.is_flag()) return add_values(option, words, grammar, to);
   if (to.prefix().starts_with('-'))
     for (const auto& option : command->options) to.add(option.name, option.explanation);
   else if (!command->arguments.empty())
-    add_values(argument_at(*command, words), words, to);
+    add_values(argument_at(*command, words), words, grammar, to);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ import unittest
 
 from command import CommandTest, run
 
-COMMANDS = ("list", "show", "respond", "verify", "check", "campaign", "atlas", "paper", "explain")
+COMMANDS = ("list", "show", "respond", "verify", "check", "campaign", "atlas", "paper", "explain", "help")
 
 
 class Help(CommandTest):
@@ -23,7 +23,7 @@ class Help(CommandTest):
 
     def test_describes_every_option_of_the_grammar(self):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
-        own = {"list": [], "explain": [], "show": ["--problem", "--set", "--threshold", "--report"],
+        own = {"list": [], "explain": [], "show": ["--case", "--problem", "--set", "--threshold", "--report"],
                "check": ["--name", "--against", "--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
                          "--tolerance", "--tolerances", "--metrics", "--impacts", "--report", "--require", "--baseline"],
                "paper": [],
@@ -31,7 +31,7 @@ class Help(CommandTest):
                             "--table", "--times"],
                "atlas": ["--jobs", "--specification", "--submit", "--exec", "--expect", "--author",
                          "--merge"],
-               "respond": ["--problem", "--report", "--set", "--samples", "--step", "--times", "--impacts", "--collisions", "--plot",
+               "respond": ["--case", "--problem", "--report", "--set", "--samples", "--step", "--times", "--impacts", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--samples-per-level", "--neighbours",
                           "--budget", "--exec", "--name", "--expect", "--tolerances", "--timeout",
@@ -41,6 +41,12 @@ class Help(CommandTest):
             text = self.good(command, "--help").split("\nOptions\n")[1]
             named = re.findall(r"^  (?:-h,)?(--[a-z-]+)", text, re.M)
             self.assertEqual(sorted(named), sorted(options + everywhere))
+
+    def test_help_of_a_command_is_what_it_prints_for_its_option(self):
+        self.assertEqual(self.good("help"), self.good("--help"))
+        for command in COMMANDS:
+            self.assertEqual(self.good("help", command), self.good(command, "--help"))
+        self.refused("help", "verfy", code="unknown-name", says='Did you mean "verify"?')
 
     def test_without_a_command_is_the_overall_help(self):
         self.assertEqual(self.good(), self.good("--help"))
@@ -80,6 +86,26 @@ class Names(CommandTest):
             self.refused(command, f"{given}=3", code="unknown-name",
                          says=(f'"{given}"', f'Did you mean "{meant}"?', f"clackers {command} --help"))
         self.refused("--versoin", code="unknown-name", says='Did you mean "--version"?')
+
+    def test_of_arguments_are_no_options(self):
+        for command, option, says in (("verify", "--method", "clackers verify METHOD"), ("show", "--method", "clackers show METHOD"),
+                                      ("check", "--file", "clackers check FILE"), ("explain", "--code", "clackers explain CODE")):
+            self.refused(command, option, "newmark", code="unknown-name", says=says)
+
+    def test_of_cases_stand_first_or_behind_an_option_in_every_command(self):
+        self.good("respond", "stop", "--samples", "9", "--format", "csv", "--out", self.path("h.csv"), "--quiet")
+        for command, rest in (("show", ()), ("respond", ("--samples", "3")), ("check", (self.path("h.csv"),)),
+                              ("verify", ("rk4", "--levels", "2", "--samples-per-level", "1", "--format", "csv"))):
+            run_of = lambda *words: re.sub(r"\d+\.?\d*e-0\d", "", run(command, *words).stdout)
+            self.assertEqual(run_of("stop", *rest), run_of(*rest, "--case", "stop"), command)
+            self.assertGreater(len(run_of("stop", *rest)), 20)
+        self.refused("respond", "stop", "--case", "sdof", "--plot", code="bad-syntax", says="leave stop or --case out")
+        self.refused("verify", "--case", "newmark", code="bad-syntax", says=("a method, not a case", "verify newmark"))
+
+    def test_of_pages_end_in_html(self):
+        for command in (("respond", "stop"), ("show", "rk4"), ("verify", "rk4")):
+            self.refused(*command, "--report", self.path("x.pdf"), code="bad-syntax", says=("x.pdf", "FILE.html", "PDF", "SVG"))
+        self.assertEqual(self.files(), [])
 
     def test_of_formats_get_did_you_mean(self):
         for command in (("list",), ("show", "stop"), ("respond", "stop", "--samples", "3"),

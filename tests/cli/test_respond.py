@@ -81,10 +81,10 @@ class Times(CommandTest):
 
     def test_name_the_line_that_is_wrong(self):
         for text, code, says in (("1\n\n# x\nabc\n2", "not-a-number", ("line 4", '"abc"')),
-                                 ("1\n0,5\n", "not-a-number", ("line 2", "Use a point")),
-                                 ("1\nnan\n", "not-a-number", "line 2"),
+                                 ("1\n0,5\n", "decimal-comma", ("line 2", "decimal point")),
+                                 ("1\nnan\n", "not-finite", "line 2"),
                                  ("inf\n", "not-finite", "line 1"),
-                                 ("1 2\n", "not-a-number", "line 1"),
+                                 ("1 2\n", "no-column", "line 1"), ("u1,u2\n1,2\n", "no-column", "column t"),
                                  ("1e999\n", "not-finite", "line 1"),
                                  ("1\n2\n20.000000000000004\n", "time-outside", ("line 3", "0 <= t <= 20")),
                                  ("-1e-9\n", "time-outside", "line 1"),
@@ -92,9 +92,14 @@ class Times(CommandTest):
             self.refused("respond", "sdof", "--times", "-", stdin=text, code=code, says=says)
 
     def test_refuse_a_file_without_times(self):
-        for text in ("", "\n\n", "# none\n"):
-            self.refused("respond", "sdof", "--times", "-", stdin=text, code="bad-syntax",
-                         says="standard input has no times")
+        for text in ("", "\n\n", "# none\n", "t\n"):
+            self.refused("respond", "sdof", "--times", "-", stdin=text, code="too-short", says="standard input")
+
+    def test_of_a_history_are_its_column_t_with_both_sides_of_a_jump(self):
+        text = self.good("respond", "stop", "--times", "-", "--format", "csv", stdin="1\n1.5727545956420138\n2")
+        self.assertEqual(self.good("respond", "stop", "--times", "-", "--format", "csv", stdin=text), text)
+        run("respond", "stop", "--samples", "3", "--format", "npy", "--out", self.path("h.npy"))
+        self.assertEqual(self.times("stop", "--times", self.path("h.npy")), [0, 10, 20])
 
     def test_are_read_with_any_line_end_and_a_byte_order_mark(self):
         for end in ("\n", "\r\n", "\r"):
@@ -346,10 +351,10 @@ class Picture(CommandTest):
         for line in text.splitlines():
             self.assertLessEqual(len(line), 80, line)
 
-    def test_stands_above_the_table(self):
+    def test_stands_below_the_table(self):
         picture = self.good("respond", "stop", "--plot")
         table = self.good("respond", "stop", "--samples", "3")
-        self.assertEqual(self.good("respond", "stop", "--samples", "3", "--plot"), picture + table)
+        self.assertEqual(self.good("respond", "stop", "--samples", "3", "--plot"), table + picture)
 
     def test_is_on_the_terminal_while_rows_go_to_a_file(self):
         done = run("respond", "stop", "--plot", "--samples", "3", "--format", "csv", "--out",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/number.hpp"
@@ -18,7 +19,9 @@ std::vector<std::string> plain_names(const Separation& separation, std::string_v
   separation.split(line, fields);
   std::vector<std::string> names;
   names.reserve(fields.size());
-  for (const auto field : fields) names.push_back(plain_name(field));
+  // Between blanks the unit of "t [s]" is a field of its own.
+  for (const auto field : fields)
+    if (names.empty() || !field.starts_with('[')) names.push_back(plain_name(field));
   return names;
 }
 
@@ -123,7 +126,11 @@ bool TextTable::next() {
 
 void TextTable::read_number(std::size_t column, Number& number) {
   const auto text = fields_[column];
-  const auto error = read_decimal(text, number);
+  auto error = read_decimal(text, number);
+  if (error == NumberError::no_number) {  // "1/9" has all digits
+    error = clackers::read_number(text, number.value);
+    number.digits = std::numeric_limits<double>::max_digits10;
+  }
   if (error == NumberError::none) return;
   const auto who = place();
   const auto quoted = fmt::format("\"{}\"", text);
