@@ -178,14 +178,18 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t indent
 
 std::string rejoin(std::string_view text) {
   std::string joined;
-  bool prose = false;  // whether the line before can go on
+  bool prose = false;       // whether the line before can go on
+  std::size_t hanging = 0;  // where its paragraph goes on, below "Order    "
   for (std::size_t from = 0; from <= text.size();) {
     const auto to = std::min(text.find('\n', from), text.size());
-    const auto line = text.substr(from, to - from);
+    auto line = text.substr(from, to - from);
+    if (hanging > 0 && line.find_first_not_of(' ') == hanging) line.remove_prefix(hanging);
     const bool starts_left = !line.empty() && line.front() != ' ';
-    if (from > 0) joined += prose && starts_left && hanging_indent(line) == 0 ? ' ' : '\n';
+    const bool is_term = hanging_indent(line) > 0;
+    if (from > 0) joined += prose && starts_left && !is_term ? ' ' : '\n';
     joined += line;
     prose = starts_left;
+    if (is_term || !starts_left) hanging = hanging_indent(line);
     from = to + 1;
   }
   return joined;

@@ -37,8 +37,8 @@ std::vector<std::string> wrap(std::string_view text, std::size_t width,
 /// taken to stand behind as many columns.
 std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
 
-/// Prose that was broken to the width of its source, with the lines of each paragraph joined again.
-/// An empty or indented line (a formula), and one such as "Order    2", begin anew.
+/// Prose broken to the width of its source, with the lines of each paragraph joined again. An empty or
+/// indented line (a formula), and one such as "Order    2", begin anew; what hangs below the 2 goes on.
 std::string rejoin(std::string_view text);
 
 }  // namespace clackers

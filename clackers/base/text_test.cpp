@@ -58,6 +58,9 @@ TEST(Wrap, RejoinsTheLinesOfAParagraphAndNoOthers) {
   EXPECT_EQ(rejoin("Order    2\nSource   a book\n(1991)."), "Order    2\nSource   a book (1991).");
   EXPECT_EQ(rejoin("Order       2\nDissipation none\nMemory      a0"),
             "Order       2\nDissipation none\nMemory      a0");
+  EXPECT_EQ(rejoin("Order    2 where\n         it is so,\n         else 1\nCost     1"),
+            "Order    2 where it is so, else 1\nCost     1");
+  EXPECT_EQ(rejoin("Order    2\n    u = v"), "Order    2\n    u = v");
   EXPECT_EQ(rejoin(""), "");
 }
 

@@ -46,6 +46,7 @@ void fields(auto& archive, Like<Schematic::Touch> auto& x) {
 
 void fields(auto& archive, Like<Schematic> auto& x) {
   each(archive, "blocks", x.blocks, "springs", x.springs, "contacts", x.contacts);
+  archive.added("leftward", x.leftward);
 }
 
 void fields(auto& archive, Like<CaseSummary> auto& x) {

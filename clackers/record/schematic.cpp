@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "clackers/model/harmonic_load.hpp"
 
@@ -32,6 +33,7 @@ std::vector<Schematic::Spring> springs_of(const Eigen::MatrixXd& k) {
   return springs;
 }
 
+// Both -1 where the contact has no place of its own.
 Schematic::Touch touch_of(const model::Contact<>& contact) {
   Schematic::Touch touch;
   int masses = 0;
@@ -126,10 +128,18 @@ Schematic schematic(const model::ImpactProblem<>& problem) {
   const auto* springs = model::one_sided_springs(problem);
   for (const auto& contact : springs == nullptr ? problem.contacts : springs->contacts())
     drawing.contacts.push_back(touch_of(contact));
+  const auto has_no_place = [](const auto& touch) { return touch.left < 0 && touch.right < 0; };
+  if (std::ranges::any_of(drawing.contacts, has_no_place)) return {};
   drawing.blocks.resize(std::size_t(problem.dof()));
   const auto structures = structures_of(k);
+  auto order = from_left(structures, drawing.contacts);
+  drawing.leftward = order.front() > order.back();
+  if (drawing.leftward) {
+    std::ranges::reverse(order);
+    for (auto& touch : drawing.contacts) std::swap(touch.left, touch.right);
+  }
   int column = 0;
-  for (const auto structure : from_left(structures, drawing.contacts)) {
+  for (const auto structure : order) {
     const auto layers = layers_from(k, structures[structure]);
     std::size_t columns = 0;
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {

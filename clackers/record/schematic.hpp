@@ -18,8 +18,7 @@ struct Schematic {
   struct Spring {
     int one = 0, other = -1;
   };
-  /// A contact of two masses, or of a mass and a wall, which is -1; both are -1 where the contact
-  /// condition has more masses.
+  /// A contact of two masses, or of a mass and a wall, which is -1.
   struct Touch {
     int left = -1, right = -1;
     double gap = 0.0;  ///< between the faces at u = 0 [m]
@@ -27,12 +26,15 @@ struct Schematic {
   std::vector<Block> blocks;
   std::vector<Spring> springs;
   std::vector<Touch> contacts;  ///< one a contact of the problem, in its order
+  /// Positive displacements are drawn to the left, so that the first mass stands left of the last.
+  bool leftward = false;
 };
 
 /// A structure with more masses is not drawn.
 inline constexpr int most_blocks = 64;
 
-/// Read from the stiffness matrix and the contacts; empty beyond most_blocks.
+/// Read from the stiffness matrix and the contacts; empty beyond most_blocks, and where a contact
+/// joins another combination of masses than two of them or a mass and a wall.
 Schematic schematic(const model::ImpactProblem<>& problem);
 
 }  // namespace clackers::record

@@ -51,34 +51,36 @@ TEST(Schematic, OneSidedSpringsAreDrawnAsTheContactsTheyStandFor) {
       std::vector{model::contact_between(2, 0, 1)}, std::vector{5.0});
   const auto drawing = schematic(problem);
   ASSERT_EQ(drawing.contacts.size(), 1u);
-  EXPECT_EQ(drawing.contacts[0].right, 0);
-  EXPECT_EQ(drawing.blocks[0].column, 1);
+  EXPECT_EQ(drawing.contacts[0].left, 0);
+  EXPECT_EQ(drawing.blocks[0].column, 0);
 }
 
-TEST(Schematic, WhatAContactKeepsAboveStandsAtTheRight) {
+TEST(Schematic, TheFirstMassStandsAtTheLeftWhicheverWayIsPositive) {
   auto problem = problem_of(MatrixXd::Identity(3, 3));
   problem.contacts = {{Eigen::Vector3d(1.0, -1.0, 0.0), 0.0, 1.0},
                       {Eigen::Vector3d(0.0, 2.0, -2.0), 0.4, 1.0}};
   const auto drawing = schematic(problem);
-  EXPECT_EQ(drawing.blocks[2].column, 0);
-  EXPECT_EQ(drawing.blocks[1].column, 1);
-  EXPECT_EQ(drawing.blocks[0].column, 2);
+  EXPECT_TRUE(drawing.leftward);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(drawing.blocks[std::size_t(i)].column, i);
+  EXPECT_EQ(drawing.contacts[1].left, 1);
+  EXPECT_EQ(drawing.contacts[1].right, 2);
   EXPECT_EQ(drawing.contacts[1].gap, -0.2);
+  problem.contacts = {{Eigen::Vector3d(-1.0, 0.0, 1.0), 0.0, 1.0}};
+  EXPECT_FALSE(schematic(problem).leftward);
 }
 
-TEST(Schematic, StopsAreWallsAndOtherContactsHaveNoPlace) {
+TEST(Schematic, StopsAreWallsAndNothingIsDrawnForOtherContacts) {
   auto problem = problem_of(MatrixXd::Identity(3, 3));
   problem.contacts = {{Eigen::Vector3d(0.0, 1.0, 0.0), 0.0, 1.0},
-                      {Eigen::Vector3d(-1.0, 0.0, 0.0), -2.0, 1.0},
-                      {Eigen::Vector3d(1.0, -1.0, 1.0), 0.0, 1.0}};
+                      {Eigen::Vector3d(-1.0, 0.0, 0.0), -2.0, 1.0}};
   const auto drawing = schematic(problem);
   EXPECT_EQ(drawing.contacts[0].left, -1);
   EXPECT_EQ(drawing.contacts[0].right, 1);
   EXPECT_EQ(drawing.contacts[1].left, 0);
   EXPECT_EQ(drawing.contacts[1].right, -1);
   EXPECT_EQ(drawing.contacts[1].gap, 2.0);
-  EXPECT_EQ(drawing.contacts[2].left, -1);
-  EXPECT_EQ(drawing.contacts[2].right, -1);
+  problem.contacts.push_back({Eigen::Vector3d(1.0, -1.0, 1.0), 0.0, 1.0});
+  EXPECT_TRUE(schematic(problem).blocks.empty());
 }
 
 TEST(Schematic, CircularContactsAndFreeMassesAreDrawnAllTheSame) {

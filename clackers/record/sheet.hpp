@@ -22,6 +22,9 @@ struct Column {
   std::string unit;  ///< "s", empty when dimensionless or text
   std::string meaning;
   ColumnKind kind = ColumnKind::any;
+
+  /// In words, for the axes and legends of figures: the meaning, which then has the symbol.
+  const std::string& label() const { return meaning.empty() ? name : meaning; }
 };
 
 class NumberRows;
@@ -69,6 +72,9 @@ class NumberRows : public RowSource {
 struct Axes {
   bool log_x = false, log_y = false;
   double highest = std::numeric_limits<double>::infinity();  ///< what is above is cut off
+  std::string y{};  ///< what several curves have in common, for their axis
+  double mark = std::numeric_limits<double>::quiet_NaN();  ///< a line at this x, NaN for none
+  std::string mark_text{};                                 ///< what it is
 };
 
 /// Rows held in memory.

@@ -195,7 +195,7 @@ const Column all[] = {
     {"factorizations", "", "factorizations", "", "counted", Kind::count, true, work<&Work::factorizations>},
     {"newton_iterations", "", "Newton iterations", "", "counted", Kind::count, true, work<&Work::newton_iterations>},
     {"event_searches", "", "event searches", "", "impacts located inside a step", Kind::count, true, work<&Work::event_searches>},
-    {"seconds", "s", "time", "", "processor time", Kind::number, true, seconds},
+    {"seconds", "s", "time", "", "processor time", Kind::error, true, seconds},
     {"finished", "", "finished", "", "the run reached its end", word, true, [](const Row& row) { return row.score.runs > 0 ? yes_or_no(row.score.failed == 0) : Cell(); }},
     {"failure_code", "", "failure", "", "of a run that did not", word, true, [](const Row& row) { return text(row.score.worst.failure_code); }},
     {"failure", "", "failure", "", "the same in a sentence", word, true, [](const Row& row) { return text(row.score.worst.failure); }},

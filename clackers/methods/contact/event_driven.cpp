@@ -25,7 +25,7 @@ have an impact where the step map crosses g_j = 0 from above with b_j . v < 0; t
 is that of the integrator's partial step. All contacts that are closed there, within rounding,
 and do not separate take part in it at once, so nothing depends on their numbers. A neighbour
 that touches at rest takes its part of the momentum, and so do neighbours that close so soon after
-that the errors of the run so far cannot tell the instants apart (impact_resolution.hpp). The
+that the errors of the run so far cannot tell the instants apart. The
 integrator is restarted from v(+) and completes the rest of the step, so output stays on the grid. Crossings are looked for whenever
 the cubic through gap and gap rate at both ends of the step does not stay open, also when both
 ends are. A crossing with b_j . v >= 0 is grazing: the integrator is restarted there without an

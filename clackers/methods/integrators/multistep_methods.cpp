@@ -123,7 +123,7 @@ Source      K. C. Park, J. Appl. Mech. 42, 464-470 (1975).
                    nan}),
       backward(4, {{25.0 / 12, -4.0, 3.0, -4.0 / 3, 0.25},
                    "25 / 12 x1 - 4 x0 + 3 x_-1 - 4 / 3 x_-2 + 0.25 x_-3",
-                   "none: without damping, motion with omega h < 4.72 grows.",
+                   "none: without damping, motion with omega h < 4.714 grows.",
                    "of high frequencies; low ones grow.",
                    0.0,
                    nan}),

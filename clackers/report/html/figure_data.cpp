@@ -12,6 +12,7 @@
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/report/columns.hpp"
 #include "clackers/report/html/figures.hpp"
+#include "clackers/report/words/words.hpp"
 #include "clackers/report/write.hpp"
 
 namespace clackers::report {
@@ -80,6 +81,14 @@ Json all_runs(const record::CaseRecord& problem) {
     for (const auto& value : row) cells.push_back(cell(value));
     rows.push_back(std::move(cells));
   }
+  // A run of a program has its name, not the place where its file was kept.
+  const auto file = std::size_t(std::ranges::find(sheet.columns, "file", &record::Column::name) -
+                                sheet.columns.begin());
+  std::size_t at = 0;
+  for (const auto& subject : problem.subjects)
+    for (const auto& level : subject.levels)
+      for (const auto& run : level.runs)
+        if (auto& row = rows[at++]; run.file) row[file] = history_name(subject, run);
   return {{"columns", columns}, {"rows", rows}};
 }
 
@@ -244,6 +253,15 @@ bool has_convergence(const record::CaseRecord& problem) {
   return drawable > 1;
 }
 
+bool has_error_history(const record::CaseRecord& problem) {
+  return std::ranges::any_of(problem.subjects, [](const record::Subject& subject) {
+    const auto* run = subject.shown_run();
+    return run != nullptr && std::ranges::any_of(run->error_history.y, [](const auto& errors) {
+             return std::ranges::any_of(errors, [](double error) { return error > 0.0; });
+           });
+  });
+}
+
 const record::Subject* drawn_subject(const record::CaseRecord& problem) {
   for (const auto& subject : problem.subjects) {
     const auto* run = subject.shown_run();
@@ -291,9 +309,9 @@ Json player_data(const record::CaseRecord& problem) {
                     {"t", rounded_list(curve.t)},
                     {"u", std::move(displacements)}});
   }
-  return {{"runs", runs},      {"t", thinned(whole.t)}, {"u", u},
-          {"blocks", blocks},  {"springs", springs},    {"contacts", contacts},
-          {"impacts", impacts}};
+  return {{"runs", runs},       {"t", thinned(whole.t)},       {"u", u},
+          {"blocks", blocks},   {"springs", springs},          {"contacts", contacts},
+          {"impacts", impacts}, {"leftward", drawing.leftward}};
 }
 
 Json figure_data(const record::CaseRecord& problem) {

@@ -27,7 +27,7 @@ nlohmann::ordered_json figure_data(const record::CaseRecord& problem);
 
 /// Whether the motion of a case can be played: its structure has a drawing.
 bool has_player(const record::CaseRecord& problem);
-/// What player.js draws: the displacements "u" of all masses at the times "t"; "blocks", "springs" and "contacts" as record::Schematic has them; "impacts"; and of each subject one
+/// What player.js draws: the displacements "u" of all masses at the times "t"; "blocks", "springs" and "contacts" and "leftward" as record::Schematic has them; "impacts"; and of each subject one
 /// of its "runs", with its own times.
 nlohmann::ordered_json player_data(const record::CaseRecord& problem);
 
@@ -37,6 +37,8 @@ nlohmann::ordered_json profile_data(const std::vector<record::Profile>& profiles
 
 /// Whether a convergence figure has anything to join: two runs with an error above zero.
 bool has_convergence(const record::CaseRecord& problem);
+/// Whether an error against time has anything to draw: one above zero.
+bool has_error_history(const record::CaseRecord& problem);
 /// The subject whose shown run is a history with displacements of all masses; nullptr without one.
 const record::Subject* drawn_subject(const record::CaseRecord& problem);
 

@@ -192,11 +192,22 @@ TEST(FigureSpecifications, ThereIsOneForWhatCanBeDrawn) {
   EXPECT_NE(wide.find("[0.89,0.96]"), std::string::npos) << "a hundredth around 0.9 and 0.95";
   EXPECT_FALSE(all.contains("work") || all.contains("profile"));
   check.subjects[0].levels.erase(check.subjects[0].levels.begin());
-  check.subjects[0].levels[0].runs[0].error_history = {};
+  for (auto& errors : check.subjects[0].levels[0].runs[0].error_history.y)
+    errors.assign(errors.size(), 0.0);
   check.subjects[0].impacts.clear();
   all = figure_specifications(check);
   EXPECT_FALSE(all.contains("convergence")) << "one point is no line";
   EXPECT_FALSE(all.contains("history") || all.contains("impacts"));
+}
+
+TEST(FigureData, RunsOfProgramsHaveTheirNamesInsteadOfPlaces) {
+  auto check = sample_check().cases[0];
+  auto& subject = check.subjects[0];
+  subject.levels[0].runs[0].file->file = "/home/me/.cache/history.csv";
+  subject.kind = record::SubjectKind::program;
+  const auto text = json_text(figure_data(check));
+  EXPECT_EQ(text.find("/home/me"), std::string::npos);
+  EXPECT_NE(text.find(subject.name + " at h = "), std::string::npos);
 }
 
 TEST(FigureSpecifications, DataOfSeveralCasesIsToldApart) {

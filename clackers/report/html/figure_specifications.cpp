@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clackers/base/json.hpp"
+#include "clackers/base/number.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/figure_data.hpp"
 #include "clackers/report/html/plot_style.hpp"
@@ -29,13 +30,13 @@ std::string power_label(const std::string& axis) {
                      digit("(floor(" + size + " / 10) % 10)") + " : '') + " +
                      digit("(" + size + " % 10)");
   return "abs(log(datum.value) / LN10 - " + exponent + ") < 1e-9 ? " + power + " : domain('" +
-         axis + "')[1] / domain('" + axis + "')[0] < 30 ? format(datum.value, '.2~e') : ''";
+         axis + "')[1] / domain('" + axis + "')[0] < 30 ? format(datum.value, '.2~g') : ''";
 }
 
-// A tick of an axis of ratios from 1: 1, 2, 5, 10, 20, 50, ...
+// A tick of a logarithmic axis: ..., 0.5, 1, 2, 5, 10, 20, ...
 std::string ratio_label() {
   const std::string power = "pow(10, floor(log(datum.value) / LN10 + 1e-9))";
-  return "datum.value > 0.999 && indexof([1, 2, 5], round(datum.value / " + power +
+  return "indexof([1, 2, 5], round(datum.value / " + power +
          ")) >= 0 ? format(datum.value, '.3~g') : ''";
 }
 
@@ -84,7 +85,7 @@ Json method_scales(const std::vector<std::string>& methods) {
           {"dashes", dashes},
           {"marker_rows", marker_rows(names)},
           {"x_power", power_label("x")},
-          {"x_ratio", ratio_label()},
+          {"x_ratio", "datum.value < 0.999 ? '' : " + ratio_label()},
           {"y_power", power_label("y")}};
 }
 
@@ -136,12 +137,7 @@ Json specification_of(std::string_view text, const std::vector<std::string>& met
 
 Json figure_specifications(const record::CaseRecord& problem) {
   std::vector<std::string> names;
-  bool has_history = false;
-  for (const auto& subject : problem.subjects) {
-    names.push_back(subject.name);
-    const auto* run = subject.shown_run();
-    has_history = has_history || (run != nullptr && !run->error_history.t.empty());
-  }
+  for (const auto& subject : problem.subjects) names.push_back(subject.name);
   const auto masses = mass_scales(problem);
   Json all{{"response", specification_of(assets::response_vl_json, names, masses)}};
   if (drawn_subject(problem) != nullptr)
@@ -153,7 +149,8 @@ Json figure_specifications(const record::CaseRecord& problem) {
   const Json step{{"x_step", by_step ? "step h [s]" : "tolerance"}};
   if (has_convergence(problem))
     all["convergence"] = specification_of(assets::convergence_vl_json, names, step);
-  if (has_history) all["history"] = specification_of(assets::history_vl_json, names, step);
+  if (has_error_history(problem))
+    all["history"] = specification_of(assets::history_vl_json, names, step);
   if (const auto range = restitution_range(problem); !range.empty())
     all["impacts"] =
         specification_of(assets::impacts_vl_json, names, {{"restitution_range", range}});
@@ -182,16 +179,27 @@ Json curves_specification(const record::Sheet& sheet, std::string_view name) {
     if (!is_log) axis["zero"] = false;
     return axis;
   };
+  const auto axis = [](const std::string& title, bool is_log, const std::string& label) {
+    Json all{{"title", title}, {"format", "~g"}, {"labelOverlap", true}};
+    if (is_log) all["labelExpr"] = label;
+    return all;
+  };
+  const auto& axes = *sheet.curves;
   std::vector<std::string> names;
-  for (std::size_t c = 1; c < sheet.columns.size(); ++c) names.push_back(sheet.columns[c].name);
-  auto specification =
-      specification_of(assets::curves_vl_json, names,
-                       {{"data", std::string(name)},
-                        {"x_scale", scale(sheet.curves->log_x)},
-                        {"y_scale", scale(sheet.curves->log_y)},
-                        {"x_title", sheet.columns[0].meaning},
-                        {"y_title", names.size() == 1 ? sheet.columns[1].meaning : "value"}});
-  return specification;
+  for (std::size_t c = 1; c < sheet.columns.size(); ++c) names.push_back(sheet.columns[c].label());
+  Json mark = Json::array();
+  if (std::isfinite(axes.mark))
+    mark.push_back({{"x", rounded(axes.mark)}, {"text", axes.mark_text}});
+  const auto x_title = sheet.columns[0].label();
+  return specification_of(
+      assets::curves_vl_json, names,
+      {{"data", std::string(name)},
+       {"x_scale", scale(axes.log_x)},
+       {"y_scale", scale(axes.log_y)},
+       {"x_title", x_title},
+       {"x_axis", axis(x_title, axes.log_x, ratio_label())},
+       {"y_axis", axis(names.size() == 1 ? names[0] : axes.y, axes.log_y, power_label("y"))},
+       {"mark", mark}});
 }
 
 void rename_data(Json& specification, std::string_view suffix) {

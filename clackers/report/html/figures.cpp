@@ -116,6 +116,18 @@ std::string not_drawn(const record::CaseRecord& problem) {
   return out;
 }
 
+// Figures that a logarithmic axis leaves nothing of.
+std::string not_shown(const record::CaseRecord& problem) {
+  const auto has_levels = [](const auto& subject) { return !subject.levels.empty(); };
+  if (!std::ranges::any_of(problem.subjects, has_levels)) return {};
+  std::string out;
+  if (!has_convergence(problem))
+    out += "Convergence is not drawn: fewer than two runs have an error above zero. ";
+  if (!has_error_history(problem))
+    out += "Error against time is not drawn: no run has an error above zero. ";
+  return out.empty() ? out : fmt::format("<p class=\"reading\">{}</p>\n", out);
+}
+
 FigureText response_text(const record::CaseRecord& record, const Place& place) {
   const auto& problem = record.problem;
   const auto drawn = problem.impact_times.size();
@@ -128,6 +140,11 @@ FigureText response_text(const record::CaseRecord& record, const Place& place) {
   if (static_cast<long long>(drawn) < problem.impact_count)
     reading +=
         fmt::format(" Only the first {} of {} impacts are marked.", drawn, problem.impact_count);
+  if (!has_player(record) && record.response.t.size() > 1)
+    reading +=
+        record.response.y.size() > std::size_t(record::most_blocks)
+            ? fmt::format(" More than {} masses are not animated.", record::most_blocks)
+            : std::string(" The motion is not animated: its contacts join combinations of masses.");
   const auto caption =
       rows != nullptr
           ? fmt::format(
@@ -211,9 +228,10 @@ std::string player_html(int& number, const record::CaseRecord& problem, const Pl
        {"choices", ""},
        {"response", "response" + place.suffix},
        {"reading",
-        "Blocks are masses with their numbers, lines below and between them are springs. All "
-        "displacements are enlarged by one factor. A dot flashes where masses collide. The line in "
-        "the response shows the time. A run chosen beside the exact motion is drawn as outlines."}});
+        "Blocks are masses with their numbers, lines below and between them are springs. The arrow "
+        "points along positive displacements and is their scale; a structure has no size of its own. "
+        "A dot flashes where masses collide. The line in the response shows the time. A run chosen "
+        "beside the exact motion is drawn as outlines."}});
 }
 
 FigureText work_text(const std::vector<ShownCounter>& counters, const Place& place) {
@@ -266,15 +284,11 @@ std::string response_html(const record::CaseRecord& problem, const Place& place,
 }
 
 std::string figures_html(const record::CaseRecord& problem, const Place& place, int& number) {
-  const auto has_error_history = [](const record::Subject& subject) {
-    const auto* run = subject.shown_run();
-    return run != nullptr && !run->error_history.t.empty();
-  };
   auto out = response_html(problem, place, number);
   out += method_legend(problem, place);
   if (has_convergence(problem)) out += figure_html(number, place, convergence_text(problem));
-  if (std::ranges::any_of(problem.subjects, has_error_history))
-    out += figure_html(number, place, history_text(problem, place));
+  if (has_error_history(problem)) out += figure_html(number, place, history_text(problem, place));
+  out += not_shown(problem);
   if (has_impact_table(problem)) out += figure_html(number, place, impacts_text());
   std::string pair;
   if (const auto counters = counters_of(problem); !counters.empty())

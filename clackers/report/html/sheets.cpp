@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "clackers/base/number.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/report/html/figure_data.hpp"
 #include "clackers/report/html/figures.hpp"
 #include "clackers/report/html/page.hpp"
@@ -40,8 +41,9 @@ bool is_text(const record::Sheet& sheet) {
 }  // namespace
 
 std::string sheet_html(const record::Sheet& sheet) {
+  if (sheet.rows.empty()) return {};
   if (is_text(sheet))
-    return fmt::format("<pre tabindex=\"0\">{}</pre>\n", cell_html(sheet.rows[0][0]));
+    return fmt::format("<pre tabindex=\"0\">{}</pre>\n", escape(wrapped(rejoin(std::get<std::string>(sheet.rows[0][0])), 96)));
   std::vector<HtmlColumn> columns;
   for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
     const auto is_number = [&](const auto& row) {
@@ -67,7 +69,8 @@ Json points(const record::Sheet& sheet) {
     for (const auto& row : sheet.rows) {
       const auto *x = std::get_if<double>(&row[0]), *y = std::get_if<double>(&row[c]);
       if (x != nullptr && y != nullptr && *y <= sheet.curves->highest)
-        rows.push_back({{"series", sheet.columns[c].name}, {"x", rounded(*x)}, {"y", rounded(*y)}});
+        rows.push_back(
+            {{"series", sheet.columns[c].label()}, {"x", rounded(*x)}, {"y", rounded(*y)}});
     }
   return rows;
 }
@@ -78,23 +81,24 @@ std::string legend(const record::Sheet& sheet) {
       "<div class=\"legend\" role=\"group\" aria-label=\"Curves shown\" data-legend=\"{}\">\n",
       name_of(sheet));
   for (std::size_t c = 1; c < sheet.columns.size(); ++c)
-    out += toggle(sheet.columns[c].name, key_svg(plot_style(c - 1)), sheet.columns[c].name);
+    out += toggle(sheet.columns[c].label(), key_svg(plot_style(c - 1)), sheet.columns[c].label());
   return out + "</div>\n";
 }
 
 FigureText figure_of(const record::Sheet& sheet) {
+  const auto& axes = *sheet.curves;
   std::string reading;
-  for (std::size_t c = 1; c < sheet.columns.size(); ++c)
-    reading += fmt::format("{}{}: {}", c == 1 ? "" : "; ", escape(sheet.columns[c].name),
-                           escape(sheet.columns[c].meaning));
-  if (std::isfinite(sheet.curves->highest))
-    reading += fmt::format(". Values above {} are cut off", html_number(sheet.curves->highest, 3));
+  if (std::isfinite(axes.mark))
+    reading += fmt::format("The dashed line is the {}. ", escape(axes.mark_text));
+  if (std::isfinite(axes.highest))
+    reading += fmt::format("Values above {} are cut off. ", html_number(axes.highest, 3));
   const auto name = name_of(sheet);
   return {name,
           name,
           escape(sheet.title),
-          fmt::format("Against the {}.", escape(sheet.columns[0].meaning)),
-          reading + ". A curve ends where the quantity has no meaning.",
+          fmt::format("Against the {}, of the free, undamped vibration.",
+                      escape(sheet.columns[0].label())),
+          reading + "A curve ends where the quantity has no meaning.",
           legend(sheet)};
 }
 
@@ -114,7 +118,7 @@ std::string html(std::span<const record::Sheet> sheets, const std::string& name,
     page.lead = lead_html(*motion);
     auto data = figure_data(*motion);
     for (const auto* rows : {"response", "impacts"}) page.data[rows] = data[rows];
-    page.data["motion"] = player_data(*motion);
+    if (has_player(*motion)) page.data["motion"] = player_data(*motion);
     page.specifications["response"] = figure_specifications(*motion)["response"];
     page.sections.push_back({"figures", "Figures", "Figures", response_html(*motion, {}, number)});
   }
@@ -130,8 +134,10 @@ std::string html(std::span<const record::Sheet> sheets, const std::string& name,
       const auto section = name_of(sheet);
       auto link = section;
       link[0] = char(std::toupper(static_cast<unsigned char>(link[0])));
+      // The head of the page has the summary of the case, which begins the first title.
+      const bool is_said = motion != nullptr && sheet.title.starts_with(name + ": ");
       page.sections.push_back({fmt::format("{}-{}", section, page.sections.size() + 1), link,
-                               sheet.title, sheet_html(sheet)});
+                               is_said ? link : sheet.title, sheet_html(sheet)});
     }
   }
   page.sections.push_back({"again", "Run again", "Run it again", again_html(from)});

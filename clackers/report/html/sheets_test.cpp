@@ -17,9 +17,9 @@ std::vector<record::Sheet> sheets() {
           {"clackers/card/1", "Card", {{"card", "", ""}}, {{"u1 = u0 & v0"}}},
           {"clackers/decay/1",
            "Decay",
-           {{"h/T", "", "step"}, {"slow", "", "one"}, {"fast", "", "other"}},
+           {{"h/T", "", "step"}, {"slow", "", "slow mass, u_s"}, {"fast", "", ""}},
            {{0.1, 1.0, 0.5}, {1.0, 2.0, {}}, {10.0, 4.0, 0.25}},
-           record::Axes{.log_x = true, .highest = 3.0}}};
+           record::Axes{.log_x = true, .highest = 3.0, .y = "u", .mark = 2.0, .mark_text = "limit"}}};
 }
 
 // What stands in the script element `id` of the page.
@@ -40,13 +40,16 @@ TEST(SheetsPage, HasTablesTextsAndTheCommand) {
 TEST(SheetsPage, DrawsThePointsThatHaveAValueAndAreNotCutOff) {
   const auto page = html(sheets(), "newmark", {});
   EXPECT_EQ(embedded(page, "data")["decay"],
-            parse_json(R"([{"series":"slow","x":0.1,"y":1.0},{"series":"slow","x":1.0,"y":2.0},
+            parse_json(R"([{"series":"slow mass, u_s","x":0.1,"y":1.0},{"series":"slow mass, u_s","x":1.0,"y":2.0},
                             {"series":"fast","x":0.1,"y":0.5},{"series":"fast","x":10.0,"y":0.25}])"));
   const auto drawn = embedded(page, "specifications")["decay"];
   EXPECT_EQ(drawn["data"]["name"], "decay");
   EXPECT_EQ(drawn["encoding"]["x"]["scale"]["type"], "log");
-  EXPECT_EQ(drawn["encoding"]["y"]["scale"]["type"], "linear");
-  EXPECT_EQ(drawn["encoding"]["color"]["scale"]["domain"], Json({"slow", "fast"}));
+  EXPECT_EQ(drawn["layer"][0]["data"]["values"][0]["x"], 2.0);
+  const auto& lines = drawn["layer"][1]["encoding"];
+  EXPECT_EQ(lines["y"]["scale"]["type"], "linear");
+  EXPECT_EQ(lines["y"]["axis"]["title"], "u");
+  EXPECT_EQ(lines["color"]["scale"]["domain"], Json({"slow mass, u_s", "fast"}));
   EXPECT_EQ(json_text(drawn).find("\"$"),
             json_text(drawn).find("\"$schema"));  // no placeholder is left
 }

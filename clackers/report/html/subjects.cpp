@@ -10,6 +10,7 @@
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/markup.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {
@@ -147,10 +148,9 @@ std::string metrics_html(const record::Subject& subject) {
                                 {"Mass by mass", {}, true},
                                 {"Unit", {}},
                                 {"Definition", {}}};
-  const auto source = run->file ? run->file->file : subject.name;
-  return fmt::format("<details class=\"metrics\"><summary>Metrics at {}{}</summary>\n",
-                     escape(resolution_text(subject, run->score.step, 4)),
-                     run->file ? " of " + escape(source) : "") +
+  const auto source = history_name(subject, *run);
+  return fmt::format("<details class=\"metrics\"><summary>Metrics of {}</summary>\n",
+                     escape(source)) +
          html_table("Metrics of " + source,
                     "In definitions an asterisk marks the exact motion; U and V are the largest "
                     "envelopes. A metric marked * need not vanish as a method converges, since "

@@ -246,8 +246,8 @@ std::string changes_html(const study::BaselineComparison& changes) {
 }
 
 std::string case_html(const record::CaseSummary& problem) {
-  return fmt::format("<p><strong>{}</strong>, {}: {}</p>\n", escape(problem.name),
-                     escape(problem.equations), escape(problem.summary)) +
+  return fmt::format("<p><strong>{}</strong>: {} <small>{}</small></p>\n", escape(problem.name),
+                     escape(problem.summary), escape(problem.equations)) +
          quantities_html("Parameters", problem.parameters) +
          quantities_html("Derived constants", problem.constants);
 }

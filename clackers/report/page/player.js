@@ -43,7 +43,8 @@ function startPlayer(stage) {
     if (cursor.parentElement !== frame) frame.append(cursor);
     const axis = view.scale("x"), [lo, hi] = axis.domain();
     cursor.hidden = now < lo || now > hi;
-    cursor.style.left = `${view.origin()[0] + axis(now)}px`;
+    const [left, top] = view.origin();
+    Object.assign(cursor.style, { left: `${left + axis(now)}px`, top: `${top}px`, height: `${view.height()}px` });
   }
 
   // The latest impact of a contact up to now counts for a moment: a third of the time between two.
@@ -68,13 +69,12 @@ function startPlayer(stage) {
       if (beside) outline.setAttribute("x", (other[i] - width / 2).toFixed(2));
     });
     system.place(at);
-    sparks.forEach(({ left, right, times, mark }, k) => {
+    sparks.forEach(({ left, right, times, mark }) => {
       const sides = [left >= 0 ? [at[left] + width / 2, y[left]] : null, right >= 0 ? [at[right] - width / 2, y[right]] : null]
         .filter((side) => side);
-      // A contact of more than two masses has no place of its own: a lamp above.
       const middle = (axis) => sides.reduce((sum, side) => sum + side[axis], 0) / sides.length;
-      mark.setAttribute("cx", sides.length ? middle(0) : 20 + 30 * k);
-      mark.setAttribute("cy", sides.length ? middle(1) - blockHeight : 16);
+      mark.setAttribute("cx", middle(0));
+      mark.setAttribute("cy", middle(1) - blockHeight);
       mark.setAttribute("opacity", flash(times).toFixed(3));
     });
     const text = `${now.toFixed(3)} s`;

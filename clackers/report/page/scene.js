@@ -25,7 +25,7 @@ function layout(scene) {
   });
   const metres = gaps.reduce((sum, gap) => sum + gap, 0) + 2.4 * reach;
   const width = Math.min(90, (0.55 * stageWidth) / slots);
-  const scale = Math.min((stageWidth - slots * width) / metres, (2.5 * width) / reach);
+  const scale = Math.min((stageWidth - slots * width) / metres, (1.5 * width) / reach);
   const x = [];
   let at = (stageWidth - slots * width - (metres - 2.4 * reach) * scale) / 2;
   for (let column = 0; column < slots; ++column) {
@@ -33,12 +33,24 @@ function layout(scene) {
     at += width + (gaps[column] || 0) * scale;
   }
   const y = scene.blocks.map((block) => groundLevel - block.height * (groundLevel - roofLevel));
-  return { x, y, width, scale };
+  return { x, y, width, scale: scene.leftward ? -scale : scale };
+}
+
+// An arrow along positive displacements whose length is 1, 2 or 5 times a power of ten metres.
+function drawRuler(svg, scale) {
+  const most = 120 / Math.abs(scale), power = 10 ** Math.floor(Math.log10(most));
+  const metres = power * [5, 2, 1].find((step) => step * power <= most), length = scale * metres;
+  const from = length > 0 ? 12 : 12 - length, tip = from + length, back = tip - 7 * Math.sign(length);
+  svgElement(svg, "path", {
+    d: `M${from},18H${tip}M${back},14L${tip},18L${back},22`, stroke: "var(--muted)", "stroke-width": 1.5, fill: "none"
+  });
+  svgElement(svg, "text", { x: 20 + Math.abs(length), y: 22, fill: "var(--muted)" }, `u = ${+metres.toPrecision(3)} m`);
 }
 
 // Draws the system; `place(at)` moves the blocks to these places and the springs with them.
 function drawScene(svg, scene) {
   const { x, y, width, scale } = layout(scene);
+  drawRuler(svg, scale);
   svgElement(svg, "path", { d: `M0,${groundLevel}H${stageWidth}`, stroke: "var(--faint)", "stroke-width": 2 });
   const springs = scene.springs.map(({ one, other }) => ({
     one, other, path: svgElement(svg, "path", { stroke: "var(--muted)", "stroke-width": 2, fill: "none" })
@@ -46,7 +58,7 @@ function drawScene(svg, scene) {
   for (const { left, right, gap } of scene.contacts)
     if ((left < 0) !== (right < 0)) {  // a stop
       const mass = Math.max(left, right), side = left < 0 ? -1 : 1;
-      const face = x[mass] + side * (width / 2 + gap * scale);
+      const face = x[mass] + side * (width / 2 + gap * Math.abs(scale));
       svgElement(svg, "path", {
         d: `M${face},${y[mass] - blockHeight / 2}V${groundLevel}`, stroke: "var(--ink)", "stroke-width": 4
       });

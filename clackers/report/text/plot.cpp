@@ -154,7 +154,7 @@ void take_logarithms(CharacterPlot& plot) {
   const auto log = [](std::vector<double>& values) {
     for (double& value : values) value = std::log10(value);
   };
-  if (plot.log_x) log(plot.x);
+  if (plot.log_x) log(plot.x), log(plot.marks);
   if (plot.log_y) std::ranges::for_each(plot.y, log);
 }
 
@@ -212,7 +212,7 @@ std::string plot(const record::Curve& response, std::span<const double> impact_t
 
 std::string curves(const record::Sheet& sheet, const Style& style) {
   const auto& axes = *sheet.curves;
-  CharacterPlot picture{.title = sheet.title + "; across: " + sheet.columns[0].name,
+  CharacterPlot picture{.title = sheet.title + "; across: " + sheet.columns[0].label(),
                         .log_x = axes.log_x,
                         .log_y = axes.log_y,
                         .rows = 9,
@@ -223,12 +223,16 @@ std::string curves(const record::Sheet& sheet, const Style& style) {
   };
   for (const auto& row : sheet.rows) picture.x.push_back(number(row[0]));
   for (std::size_t c = 1; c < sheet.columns.size(); ++c) {
-    picture.title += fmt::format("{} {}: {}", c == 1 ? ";" : ",", c, sheet.columns[c].name);
+    picture.title += fmt::format("{} {}: {}", c == 1 ? ";" : ",", c, sheet.columns[c].label());
     auto& curve = picture.y.emplace_back();
     for (const auto& row : sheet.rows) {
       const double value = number(row[c]);
       curve.push_back(value <= axes.highest ? value : std::numeric_limits<double>::quiet_NaN());
     }
+  }
+  if (std::isfinite(axes.mark)) {
+    picture.marks = {axes.mark};
+    picture.title += "; ▲ " + axes.mark_text;
   }
   return draw(std::move(picture), style);
 }

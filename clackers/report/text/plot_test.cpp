@@ -124,6 +124,12 @@ TEST(CurvesPlot, HasTheNamesOfTheCurvesAndLogarithmicAxes) {
   EXPECT_TRUE(out[11].ends_with("100"));
 }
 
+TEST(CurvesPlot, MarksALimitOnItsAxis) {
+  const auto out = lines(curves(decay({.log_x = true, .mark = 1.0, .mark_text = "limit"}), {}));
+  EXPECT_NE(out[0].find("▲ limit"), std::string::npos);
+  EXPECT_EQ(display_width(out[10].substr(0, out[10].find("▲"))), 45u);  // the middle
+}
+
 TEST(CurvesPlot, CutsOffWhatIsTooHigh) {
   const auto out = lines(curves(decay({.log_x = true, .highest = 50.0}), {}));
   EXPECT_NE(out[1].find("10 ┤"), std::string::npos);

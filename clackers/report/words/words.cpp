@@ -294,7 +294,7 @@ std::string short_path(std::string_view path) {
 }
 
 std::string history_name(const record::Subject& subject, const record::Run& run) {
-  if (!record::is_solver(subject.kind)) return short_path(run.file->file);
+  if (subject.kind == record::SubjectKind::histories) return short_path(run.file->file);
   return fmt::format("{} at {}", subject.name, resolution_text(subject, run.score.step, 3));
 }
 

@@ -104,33 +104,41 @@ std::vector<Amplification> amplification(const methods::Integrator& integrator,
 
 std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integrator) {
   const auto name = integrator.facts().name;
-  const record::Column steps{"h/T", "", "step over the period of the free, undamped vibration"};
+  const record::Column steps{"h/T", "", "step over period, h/T"};
   record::Sheet accuracy{"clackers/accuracy/1",
                          fmt::format("Period elongation and amplitude decay of {}", name),
                          {steps,
-                          {"period_elongation", "", "T'/T - 1, T' the resulting period"},
-                          {"amplitude_decay", "", "part of the amplitude lost in a period"}},
+                          {"period_elongation", "", "period elongation T'/T - 1"},
+                          {"amplitude_decay", "", "amplitude decay in a period, 1 - A'/A"}},
                          {},
-                         record::Axes{.highest = 1.0}};
+                         record::Axes{.highest = 1.0, .y = "T'/T - 1 and 1 - A'/A"}};
   for (const auto& point : amplification(integrator, linear(0.01, 0.4, 40)))
     accuracy.rows.push_back(
         {point.steps, cell(point.period_elongation), cell(point.amplitude_decay)});
   record::Sheet radius{"clackers/spectral-radius/1",
                        fmt::format("Spectral radius of {}: above 1 the motion grows", name),
-                       {steps, {"spectral_radius", "", "largest |eigenvalue| of a step"}},
+                       {steps, {"spectral_radius", "", "spectral radius, largest |eigenvalue|"}},
                        {},
                        record::Axes{.log_x = true, .highest = 1.5}};
+  const double limit = integrator.facts().stability_limit / (2.0 * std::numbers::pi);
+  auto all = linear(-2.0, 2.0, 81);
+  for (double& step : all) step = std::pow(10.0, step);
+  if (all.front() < limit && limit < all.back()) {
+    for (const double power : linear(-0.1, 0.1, 41)) all.push_back(limit * std::pow(10.0, power));
+    std::ranges::sort(all);
+    radius.curves->mark = limit;
+    radius.curves->mark_text = fmt::format("stability limit h/T = {:.4g}, omega h = {:.4g}", limit,
+                                           integrator.facts().stability_limit);
+  }
   record::Sheet overshoot{
       "clackers/overshoot/1",
       fmt::format("Overshoot of {} in ten steps, where the motion does not grow", name),
       {steps,
-       {"u_overshoot", "", "largest |u| over the exact amplitude"},
-       {"v_overshoot", "", "largest |v| over the exact amplitude"}},
+       {"u_overshoot", "", "displacement: largest |u| over amplitude"},
+       {"v_overshoot", "", "velocity: largest |v| over amplitude"}},
       {},
-      record::Axes{.log_x = true, .log_y = true}};
-  auto powers = linear(-2.0, 2.0, 81);
-  for (double& power : powers) power = std::pow(10.0, power);
-  for (const auto& point : amplification(integrator, powers)) {
+      record::Axes{.log_x = true, .log_y = true, .y = "largest value over the exact amplitude"}};
+  for (const auto& point : amplification(integrator, all)) {
     radius.rows.push_back({point.steps, cell(point.spectral_radius)});
     overshoot.rows.push_back({point.steps, cell(point.u_overshoot), cell(point.v_overshoot)});
   }

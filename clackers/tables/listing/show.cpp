@@ -15,10 +15,16 @@ namespace {
 
 constexpr std::size_t impacts_shown = 6;
 
+// The equations of the paper, where a case has some.
+std::string title_of(const cases::CaseEntry& entry) {
+  const bool of_paper = entry.equations.find("Eq.") != std::string::npos;
+  return fmt::format("{}: {}{}", entry.name, entry.summary,
+                     of_paper ? fmt::format(" Of the paper: {}.", entry.equations) : "");
+}
+
 record::Sheet parameter_sheet(const cases::Case& test_case) {
   record::Sheet sheet{"clackers/parameters/1",
-                      fmt::format("{}, {}: {}", test_case.entry->name, test_case.entry->equations,
-                                  test_case.entry->summary),
+                      title_of(*test_case.entry),
                       {{"parameter", "", "as typed after --set"},
                        {"value", "", "in use"},
                        {"unit", "", ""},
@@ -153,7 +159,9 @@ std::vector<record::Sheet> show_case(std::string_view name, const cases::Setting
   std::vector<record::Sheet> sheets{
       parameter_sheet(test_case),
       constant_sheet("clackers/constants/1", "Derived constants", test_case.constants),
-      constant_sheet("clackers/indicators/1", "Indicators", test_case.indicators),
+      constant_sheet("clackers/indicators/1",
+                     test_case.indicators.empty() ? "Indicators: none of this case" : "Indicators",
+                     test_case.indicators),
       impact_sheet(test_case)};
   for (auto& more : {harmonic_sheet(test_case, threshold), conditioning_sheet(test_case)})
     if (more) sheets.push_back(*more);
