@@ -2,6 +2,7 @@
 #   command      the program clackers
 #   library      libclackers.so.0 for programs in C
 #   development  headers, the modules as static libraries, find_package and pkg-config files
+#   documentation  the manual, where CLACKERS_MANUAL names its folder
 #   python       the package for Python, where CLACKERS_PYTHON is on
 # Included after all targets exist.
 include(GNUInstallDirs)
@@ -11,6 +12,11 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/clackers)
 get_property(modules GLOBAL PROPERTY CLACKERS_MODULES)
 
 install(TARGETS clackers_cli RUNTIME COMPONENT command)
+# The manual is built after the command, whose pages it shows.
+install(CODE [[
+  if(NOT "$ENV{CLACKERS_MANUAL}" STREQUAL "")
+    file(INSTALL "$ENV{CLACKERS_MANUAL}/" DESTINATION "${CMAKE_INSTALL_PREFIX}/share/doc/clackers-doc/html")
+  endif()]] COMPONENT documentation)
 if(NOT CMAKE_CROSSCOMPILING)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/share/ COMPONENT command
     DESTINATION ${CMAKE_INSTALL_DATAROOTDIR})

@@ -1,5 +1,6 @@
-# Debian packages by CPack: clackers (the command), libclackers0 (the C library), libclackers-dev and,
-# where CLACKERS_PYTHON is on, python3-clackers. scripts/package makes them.
+# Debian packages by CPack: clackers (the command), libclackers0 (the C library), libclackers-dev,
+# python3-clackers where CLACKERS_PYTHON is on, and clackers-doc where the environment variable
+# CLACKERS_MANUAL names the folder of the built manual. scripts/package makes them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME clackers)
 set(CPACK_PACKAGE_VENDOR Clackers)
@@ -7,7 +8,7 @@ set(CPACK_PACKAGE_CONTACT "Clackers <clackers@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL command library development)
+set(CPACK_COMPONENTS_ALL command library development documentation)
 if(CLACKERS_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
@@ -25,6 +26,17 @@ set(CPACK_COMPONENT_COMMAND_DESCRIPTION
   "Exact motions of colliding masses, and verdicts on time-integration methods (command)
 The command clackers prints exact motions with their impacts and judges
 time-integration methods against them.")
+
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS clackers-doc)
+
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME clackers-doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION
+  "Exact motions of colliding masses, and verdicts on time-integration methods (manual)
+The manual as pages that open without a network: /usr/share/doc/clackers-doc/html/index.html")
+# Read at packing time.
+set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/debian/manual.cmake)
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libclackers0)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)

@@ -34,7 +34,12 @@ def setUpModule():
         raise unittest.SkipTest(why_not())
     folder = pathlib.Path(tempfile.mkdtemp(prefix="clackers-debian-"))
     cpack = pathlib.Path(installed.CMAKE).with_name("cpack")
-    installed.run(cpack, "-G", "DEB", "--config", installed.BUILD / "CPackConfig.cmake", "-B", folder / "made")
+    # A stand-in for the manual, which takes minutes to build.
+    (folder / "manual/_static").mkdir(parents=True)
+    (folder / "manual/index.html").write_text("<title>Clackers</title>")
+    (folder / "manual/_static/style.css").write_text("")
+    installed.run(cpack, "-G", "DEB", "--config", installed.BUILD / "CPackConfig.cmake", "-B", folder / "made",
+                  env={**os.environ, "CLACKERS_MANUAL": str(folder / "manual")})
     debs = {p.name.split("_")[0]: p for p in (folder / "made").glob("*.deb")}
 
 
@@ -53,7 +58,7 @@ def field(package, name):
 
 class Packages(unittest.TestCase):
     def test_packages_are_made(self):
-        self.assertEqual(sorted(debs), ["clackers", "libclackers-dev", "libclackers0", *["python3-clackers"] * has_python()])
+        self.assertEqual(sorted(debs), ["clackers", "clackers-doc", "libclackers-dev", "libclackers0", *["python3-clackers"] * has_python()])
 
     def test_python_package_depends_on_its_python_and_is_not_in_the_others(self):
         if not has_python():
@@ -65,6 +70,13 @@ class Packages(unittest.TestCase):
             contents = installed.run("dpkg-deb", "-c", deb)
             self.assertEqual("dist-packages/clackers/_core.cpython-311" in contents, package == "python3-clackers")
             self.assertNotIn("__pycache__", contents)
+
+    def test_manual_is_a_package_for_every_machine(self):
+        self.assertEqual(field("clackers-doc", "Architecture"), "all")
+        self.assertEqual(field("clackers", "Suggests"), "clackers-doc")
+        contents = installed.run("dpkg-deb", "-c", debs["clackers-doc"])
+        for name in ["html/index.html", "html/_static/style.css", "copyright"]:
+            self.assertIn(f"./usr/share/doc/clackers-doc/{name}\n", contents)
 
     def test_packages_depend_on_the_libraries_they_load(self):
         for package, file in [("clackers", "usr/bin/clackers"), ("libclackers0", "libclackers.so.0")]:
