@@ -1,6 +1,6 @@
 // Draws the figures of report pages as SVG, light and without a browser:
-// node figures.mjs FOLDER PAGE.html ... writes FOLDER/PAGE-FIGURE.svg; of a page with a motion
-// FOLDER/PAGE-system.svg alone.
+// node figures.mjs FOLDER PAGE.html ... writes FOLDER/PAGE-FIGURE.svg; of the page of a case only
+// FOLDER/PAGE-case.svg: its system, or the response where that has no drawing. PAGE.html:FIGURE is one figure.
 import { createRequire } from "node:module";
 import { readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
@@ -35,20 +35,25 @@ function system(scene) {
 }
 
 const [folder, ...pages] = process.argv.slice(2);
-for (const page of pages) {
+for (const [page, wanted] of pages.map((word) => word.split(":"))) {
   const html = readFileSync(page, "utf8");
   const read = (id) => JSON.parse(html.match(new RegExp(`<script type="application/json" id="${id}">(.*?)</script>`, "s"))[1]);
   const colors = Object.fromEntries([...html.matchAll(/(--[\w-]+): light-dark\((#\w+),/g)].map((found) => found.slice(1)));
   const data = read("data");
+  for (const [name, { columns, rows }] of Object.entries(data))  // as figures.js
+    if (columns) data[name] = rows.map((row) => Object.fromEntries(columns.map((column, i) => [column, row[i]])));
   const light = (text) => text.replace(/var\((--[\w-]+)\)/g, (all, variable) => colors[variable]);
-  if (data.motion) {
-    writeFileSync(join(folder, `${basename(page, ".html")}-system.svg`), light(system(data.motion)));
+  const write = (name, svg) => writeFileSync(join(folder, `${basename(page, ".html")}-${name}.svg`), svg);
+  if (data.motion && !wanted) {
+    write("case", light(system(data.motion)));
     continue;
   }
   for (const [name, specification] of Object.entries(read("specifications"))) {
-    const drawn = { ...specification, datasets: data, width: 560, height: 220, background: "white",
+    if (wanted && name !== wanted) continue;
+    const layer = specification.layer.filter(({ mark }) => !mark || mark.opacity !== 0);  // points for tooltips
+    const drawn = { ...specification, layer, datasets: data, width: 560, height: 220, background: "white",
       config: { legend: { orient: "bottom" }, axis: { gridColor: "var(--grid)" } } };
     const view = new vega.View(vega.parse(lite.compile(JSON.parse(light(JSON.stringify(drawn)))).spec), { renderer: "none" });
-    writeFileSync(join(folder, `${basename(page, ".html")}-${name}.svg`), await view.toSVG());
+    write(name === "response" && !wanted ? "case" : name, await view.toSVG());
   }
 }

@@ -107,8 +107,8 @@ DRAWING = re.compile(r"<!-- drawing: ([\w-]+) -->")
 def with_drawings(page, text):
     """The text of a page with drawings of systems where it asks for them."""
     up = os.path.relpath(".", pathlib.PurePath(page).parent)
-    return DRAWING.sub(lambda found: f"![The masses, springs and contacts of the case {found[1]} at its start]"
-                                     f"({up}/_static/{found[1]}-system.svg)", text)
+    return DRAWING.sub(lambda found: f"![The case {found[1]}: its masses, springs and contacts at the start, or its response]"
+                                     f"({up}/_static/{found[1]}-case.svg)", text)
 
 
 def names(command, kind):
