@@ -1,58 +1,24 @@
 #include "cli/interrupt.hpp"
 
-#include <fcntl.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
-#include <cstdint>
-#include <cstring>
 #include <exception>
 #include <new>
-#include <stdexcept>
 #include <string_view>
-#include <utility>
 
 #include "clackers/base/input_file.hpp"
-#include "clackers/solvers/process.hpp"
+#include "clackers/solvers/process_tree.hpp"
 
 namespace clackers::cli {
 namespace {
 
 std::atomic<bool> interrupted{false};
-// A signal handler may neither lock nor allocate, hence plain pointers in a fixed table.
-std::array<std::atomic<const char*>, 16> paths_to_remove{};
-static_assert(std::atomic<const char*>::is_always_lock_free);
-
-// Where an entry of a folder has its length and its name, as getdents64 gives it; readdir allocates.
-constexpr std::size_t length_offset = 16, name_offset = 19;
-
-void remove_at(int parent, const char* name, int depth) {
-  if (::unlinkat(parent, name, 0) == 0 || (errno != EISDIR && errno != EPERM) || depth > 8) return;
-  const int folder = ::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (folder < 0) return;
-  std::array<char, 4096> entries;
-  while (true) {
-    const long size = ::syscall(SYS_getdents64, folder, entries.data(), entries.size());
-    if (size <= 0) break;
-    for (const char* at = entries.data(); at < entries.data() + size;) {
-      std::uint16_t length = 0;
-      std::memcpy(&length, at + length_offset, sizeof length);
-      const std::string_view entry = at + name_offset;
-      if (entry != "." && entry != "..") remove_at(folder, entry.data(), depth + 1);
-      at += length;
-    }
-  }
-  ::close(folder);
-  ::unlinkat(parent, name, AT_REMOVEDIR);
-}
 
 // Programs that were started do not outlive us, and write nothing more.
 void end_work() {
+  make_none_on_exit();
   solvers::kill_processes();
-  for (auto& entry : paths_to_remove)
-    if (const char* path = entry.exchange(nullptr)) remove_path(path);
+  remove_on_exit();
 }
 
 [[noreturn]] void end_with(std::string_view message) {
@@ -126,23 +92,6 @@ void catch_signals() {
 }
 
 const std::atomic<bool>& interrupt_flag() { return interrupted; }
-
-RemovedOnExit::RemovedOnExit(std::string path) : path_(std::move(path)) {
-  for (auto& entry : paths_to_remove) {
-    const char* free = nullptr;
-    if (entry.compare_exchange_strong(free, path_.c_str())) return;
-  }
-  throw std::length_error("too many temporary files");
-}
-
-RemovedOnExit::~RemovedOnExit() {
-  for (auto& entry : paths_to_remove) {
-    const char* mine = path_.c_str();
-    entry.compare_exchange_strong(mine, nullptr);
-  }
-}
-
-void remove_path(const char* path) { remove_at(AT_FDCWD, path, 0); }
 
 SignalsWait::SignalsWait() {
   sigset_t all;

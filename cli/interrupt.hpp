@@ -3,9 +3,9 @@
 #include <signal.h>
 
 #include <atomic>
-#include <string>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/jobs/removed_on_exit.hpp"
 
 namespace clackers::cli {
 
@@ -25,23 +25,6 @@ void catch_signals();
 
 /// True once a signal asked to stop.
 const std::atomic<bool>& interrupt_flag();
-
-/// While it lives, the file or folder is removed when a signal ends the process.
-class RemovedOnExit {
- public:
-  explicit RemovedOnExit(std::string path);
-  ~RemovedOnExit();
-  RemovedOnExit(const RemovedOnExit&) = delete;
-  RemovedOnExit& operator=(const RemovedOnExit&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-/// Removes a file, or a folder with all that it holds, without following links. It calls nothing
-/// that a signal handler may not call.
-void remove_path(const char* path);
 
 /// While it lives, signals wait. For the few system calls that put a result in place.
 class SignalsWait {

@@ -85,6 +85,19 @@ std::string case_of(const std::string& first, const std::string& behind,
   return of_files;
 }
 
+std::vector<std::string> parts_of(std::string_view option, std::string_view text) {
+  std::vector<std::string> parts;
+  for (bool more = true; more;) {
+    const auto comma = text.find(',');
+    more = comma != std::string_view::npos;
+    parts.emplace_back(text.substr(0, comma));
+    if (parts.back().empty())
+      refuse("clackers", option, "an empty part", "values behind commas", {}, "bad-syntax");
+    if (more) text.remove_prefix(comma + 1);
+  }
+  return parts;
+}
+
 cases::Settings read_settings(const std::vector<std::string>& options, const std::string& problem) {
   cases::Settings settings;
   for (std::string_view rest : options) {

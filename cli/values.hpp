@@ -23,6 +23,9 @@ long long read_whole(std::string_view what, std::string_view text, long long low
 /// Throws InputError for anything else and for negative or infinite ones.
 double read_duration(std::string_view what, std::string_view text);
 
+/// The parts of an option's value between commas. Throws InputError for an empty one.
+std::vector<std::string> parts_of(std::string_view option, std::string_view text);
+
 /// The values of all --set options, each "name=value,...", and the file of --problem, where it is
 /// given. A value that begins with a letter, / or . is a word. Throws InputError for a part that is
 /// not name=value and for a name that is set twice.

@@ -15,8 +15,10 @@ namespace {
 using record::Cell;
 using record::ColumnKind;
 
-// Processor times differ from run to run and stand in a table of their own.
-bool is_kept(const report::Column& column) { return column.in_rows && column.name != "seconds"; }
+// Processor times differ from run to run and stand in a table of their own; what was reused does, too.
+bool is_kept(const report::Column& column) {
+  return column.in_rows && column.name != "seconds" && column.name != "reused";
+}
 
 ColumnKind kind_of(report::Kind kind) {
   if (kind == report::Kind::count) return ColumnKind::whole;

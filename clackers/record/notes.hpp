@@ -40,6 +40,7 @@ inline constexpr auto note_entries = std::to_array<NoteEntry>({
     {"starts-late", "the first row is not at the start", "its time [s]", ""},
     {"rows-beyond-end", "rows after the end of the case, left out", "how many; end of the case [s]", ""},
     {"ends-early", "the history ends before the case", "its last time [s]; end of the case [s]", ""},
+    {"reused", "an earlier call of a program has made the history", "", ""},
     {"start-differs", "the initial state differs from the case's by more than the printed digits explain", "the difference over the envelope", ""},
 });
 // clang-format on

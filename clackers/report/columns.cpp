@@ -108,6 +108,12 @@ Cell seconds(const Row& row) {
   return is_method(row) && row.score.runs > 0 ? number(row.score.worst.seconds) : Cell();
 }
 
+Cell reused(const Row& row) {
+  const auto* found = row.subject->kind == record::SubjectKind::program ? file_of(row) : nullptr;
+  return found == nullptr ? Cell()
+                          : yes_or_no(std::ranges::count(found->notes, "reused", &Note::code) > 0);
+}
+
 Cell digits(const Row& row) {
   const auto* found = file_of(row);
   if (found == nullptr) return {};
@@ -198,6 +204,7 @@ const Column all[] = {
     {"seconds", "s", "time", "", "processor time", Kind::error, true, seconds},
     {"finished", "", "finished", "", "the run reached its end", word, true, [](const Row& row) { return row.score.runs > 0 ? yes_or_no(row.score.failed == 0) : Cell(); }},
     {"failure_code", "", "failure", "", "of a run that did not", word, true, [](const Row& row) { return text(row.score.worst.failure_code); }},
+    {"reused", "", "reused", "", "yes: an earlier call has made the run (--fresh repeats it); of programs", word, true, reused},
     {"failure", "", "failure", "", "the same in a sentence", word, true, [](const Row& row) { return text(row.score.worst.failure); }},
 };
 // clang-format on

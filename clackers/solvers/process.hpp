@@ -10,7 +10,9 @@ struct ProcessTask {
   std::string command;    ///< for /bin/sh -c
   std::string folder;     ///< where it runs
   double timeout = 60.0;  ///< [s], of the wall clock
-  std::string output;     ///< file for its standard output; empty: part of what it printed
+  std::string output{};   ///< file for its standard output; empty: part of what it printed
+  std::size_t most_output = std::size_t{1} << 30;  ///< that the file may have [bytes]
+  bool removes_folder = false;  ///< where we are killed, the folder goes with the program
 };
 
 /// How a process ended, and what it printed.
@@ -29,16 +31,11 @@ struct ProcessResult {
                         ///< a file, of standard output
 };
 
-inline constexpr std::size_t most_printed = 4096;       // [bytes]
-inline constexpr std::size_t most_output = 1ull << 30;  // [bytes]
+inline constexpr std::size_t most_printed = 4096;  // [bytes]
 
 /// Runs a command with /dev/null as standard input, no file of ours open, and the folder that we run
-/// in as OLDPWD. It leads a process group of its own, which is killed when it ends in whatever way,
-/// so that none of its children is left. May be called from several threads. Throws FileError where
-/// `output` cannot be written.
+/// in as OLDPWD, and ends all processes that it started, as ProcessTree does. May be called from
+/// several threads.
 ProcessResult run_process(const ProcessTask& task, const std::atomic<bool>* interrupt = nullptr);
-
-/// Kills all process groups of run_process() that run; for a signal handler that ends the program.
-void kill_processes() noexcept;
 
 }  // namespace clackers::solvers

@@ -34,6 +34,8 @@ struct ProcessOptions {
   double timeout = 60.0;  ///< of a run [s], > 0
   std::string work;       ///< folder to keep the runs in; empty: the user's cache
   bool fresh = false;     ///< runs that were made before are made again
+  /// Variables of the environment on which runs depend: made again for other values of them.
+  std::vector<std::string> environment{};
 };
 
 /// What programs are asked for. `tolerances` are the levels of commands with {tolerance}.

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 #include <utility>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
 #include "clackers/model/problem_file.hpp"
 #include "clackers/solvers/process.hpp"
 
@@ -36,6 +36,11 @@ std::string exit_text(int status) {
   return fmt::format("exit status {}", status);
 }
 
+// Of a history on standard output [bytes]: 1 KiB a step and 64 MiB more.
+std::size_t most_printed_rows(const SolverRun& run) {
+  return (std::size_t{64} << 20) + (static_cast<std::size_t>(run.steps) << 10);
+}
+
 void set_failure(SolverOutput& output, Code code, std::string sentence) {
   output.failure_code = code.name();
   output.failure = std::move(sentence) + ".";
@@ -61,7 +66,7 @@ void take_end(SolverOutput& output, const ProcessResult& result, double timeout)
       break;
     case ProcessResult::End::flooded:
       set_failure(output, "program-output",
-                  fmt::format("more than {} GiB on standard output", most_output >> 30));
+                  "too much on standard output, or no end of it; write the history to {out}");
       break;
     case ProcessResult::End::not_started:
       set_failure(output, "program-failed",
@@ -74,22 +79,23 @@ void take_end(SolverOutput& output, const ProcessResult& result, double timeout)
 }  // namespace
 
 ProgramRunner::ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
-                             const model::ImpactProblem<>& problem, double timeout, bool fresh,
+                             const model::ImpactProblem<>& problem, const ProcessOptions& options,
                              std::shared_ptr<WorkFolder> folder)
     : command_(std::move(command)),
       title_(fmt::format("{}-{}", name, case_name)),
       json_(problem_file_json(case_name, problem)),
       text_(problem_file_text(problem)),
-      timeout_(timeout),
-      fresh_(fresh),
+      timeout_(options.timeout),
+      fresh_(options.fresh),
+      environment_(options.environment),
       folder_(std::move(folder)) {}
 
 std::function<std::unique_ptr<Solver>(const cases::Case&)> ProgramRunner::maker(
     const CommandTemplate& command, const std::string& name, const ProcessOptions& options,
     const std::shared_ptr<WorkFolder>& folder) {
-  return [=, timeout = options.timeout, fresh = options.fresh](const cases::Case& problem) {
+  return [=](const cases::Case& problem) {
     return std::make_unique<ProgramRunner>(command, name, problem.entry->name, problem.problem,
-                                           timeout, fresh, folder);
+                                           options, folder);
   };
 }
 
@@ -103,16 +109,19 @@ std::string ProgramRunner::command_in(const fs::path& folder, const SolverRun& r
                           {"out", (folder / history_name).string()}});
 }
 
-SolverOutput ProgramRunner::output_of(const SolverRun& run, const fs::path& folder,
+SolverOutput ProgramRunner::output_of(const SolverRun& run, const RunFolder& mine,
                                       const std::atomic<bool>* interrupt) const {
-  write_file(folder / "problem.json", json_);
-  write_file(folder / "problem.txt", text_);
+  mine.write("problem.json", json_);
+  mine.write("problem.txt", text_);
+  const auto& folder = mine.path();
   const auto history = folder / history_name;
   const bool prints_history = !command_.uses("out");
   auto result = run_process({.command = command_in(folder, run),
                              .folder = folder.string(),
                              .timeout = timeout_,
-                             .output = prints_history ? history.string() : std::string()},
+                             .output = prints_history ? history.string() : std::string(),
+                             .most_output = most_printed_rows(run),
+                             .removes_folder = true},
                             interrupt);
   SolverOutput output;
   output.printed = std::move(result.printed);
@@ -132,7 +141,9 @@ SolverOutput ProgramRunner::output_of(const SolverRun& run, const fs::path& fold
 
 SolverOutput ProgramRunner::run(const SolverRun& run, const std::atomic<bool>* interrupt) {
   // The paths of a run's own folder are no part of what it does.
-  const auto key = command_in({}, run) + '\n' + command_.identity() + json_;
+  auto key = command_in({}, run) + '\n' + command_.identity() + json_;
+  for (const auto& name : environment_)
+    if (const char* value = std::getenv(name.c_str())) key += fmt::format("\n{}={}", name, value);
   const auto title = run.tolerance > 0.0 ? fmt::format("{}-rtol{}", title_, run.tolerance)
                                          : fmt::format("{}-h{}", title_, run.step);
   if (!fresh_)
@@ -143,16 +154,25 @@ SolverOutput ProgramRunner::run(const SolverRun& run, const std::atomic<bool>* i
       if (is_filled(*found / events_name)) output.events = (*found / events_name).string();
       return output;
     }
-  RunFolder mine(*folder_, title, key);
-  auto output = output_of(run, mine.path(), interrupt);
-  if (output.interrupted) return output;
-  output.failure = without_folder(output.failure, mine.path());
-  output.printed = without_folder(std::move(output.printed), mine.path());
-  if (folder_->keeps_failures() && !output.printed.empty())
-    write_file(mine.path() / "printed.txt", output.printed);
-  const auto place = mine.commit(output.history.has_value());
-  if (output.history) output.history = (place / history_name).string();
-  if (output.events) output.events = (place / events_name).string();
+  SolverOutput output;
+  try {
+    RunFolder mine(*folder_, title, key);
+    output = output_of(run, mine, interrupt);
+    if (output.interrupted) return output;
+    output.failure = without_folder(output.failure, mine.path());
+    output.printed = without_folder(std::move(output.printed), mine.path());
+    if (folder_->keeps_failures() && !output.printed.empty())
+      mine.write("printed.txt", output.printed);
+    const auto place = mine.commit(output.history.has_value());
+    if (output.history) output.history = (place / history_name).string();
+    if (output.events) output.events = (place / events_name).string();
+  } catch (const FileError& error) {
+    // A full disk, or what the program has done to its folder, costs this run only.
+    output.history.reset();
+    if (output.failure.empty()) output.failure = error.what();
+    if (output.failure_code.empty()) output.failure_code = error.code().name();
+    output.would_repeat = error.code() == Code("cannot-write");
+  }
   return output;
 }
 

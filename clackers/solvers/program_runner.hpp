@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/solvers/command_template.hpp"
@@ -17,9 +18,8 @@ namespace clackers::solvers {
 /// Runs one program on one case. run() may be called from several threads.
 class ProgramRunner : public Solver {
  public:
-  /// `timeout` of a run [s]; `fresh`: earlier runs are not reused.
   ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
-                const model::ImpactProblem<>& problem, double timeout, bool fresh,
+                const model::ImpactProblem<>& problem, const ProcessOptions& options,
                 std::shared_ptr<WorkFolder> folder);
 
   /// What SolverSubject::prepare calls.
@@ -29,12 +29,12 @@ class ProgramRunner : public Solver {
 
   /// The result of an earlier run of the same command, with the same files of the program, problem,
   /// step and tolerance, if there is one; else that of a new run in a folder of its own, which holds
-  /// problem.json and problem.txt. Throws FileError where the folder cannot be written.
+  /// problem.json and problem.txt. A folder that cannot be written is a failed run.
   SolverOutput run(const SolverRun& run, const std::atomic<bool>* interrupt) override;
 
  private:
   std::string command_in(const std::filesystem::path& folder, const SolverRun& run) const;
-  SolverOutput output_of(const SolverRun& run, const std::filesystem::path& folder,
+  SolverOutput output_of(const SolverRun& run, const RunFolder& mine,
                          const std::atomic<bool>* interrupt) const;
 
   CommandTemplate command_;
@@ -42,6 +42,7 @@ class ProgramRunner : public Solver {
   std::string json_, text_;
   double timeout_;
   bool fresh_;
+  std::vector<std::string> environment_;
   std::shared_ptr<WorkFolder> folder_;
 };
 

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "clackers/base/files.hpp"
+#include "clackers/base/jobs/removed_on_exit.hpp"
 
 namespace clackers::solvers {
 
@@ -14,8 +16,9 @@ namespace clackers::solvers {
 class WorkFolder {
  public:
   /// The folder of --work; empty: $XDG_CACHE_HOME/clackers/programs, else ~/.cache/clackers/programs,
-  /// where runs that were not used for `longest_unused` are removed. Throws FileError where it cannot
-  /// be made.
+  /// where runs that were not used for `longest_unused` are removed. Folders of runs that were killed
+  /// are removed after `longest_killed`, in either. Only what this program made is removed. Throws
+  /// FileError where it cannot be made, and for a cache that is a link or that others may write to.
   explicit WorkFolder(const std::string& path);
 
   /// The folder of an earlier good run with this key; nothing without one.
@@ -23,7 +26,7 @@ class WorkFolder {
   /// Whether folders of failed runs stay, for a person to look at: in a folder of --work.
   bool keeps_failures() const { return is_given_; }
 
-  static constexpr std::chrono::hours longest_unused{14 * 24};
+  static constexpr std::chrono::hours longest_unused{14 * 24}, longest_killed{24};
 
  private:
   friend class RunFolder;
@@ -32,10 +35,10 @@ class WorkFolder {
 
   std::filesystem::path path_;
   bool is_given_;
-  static inline std::atomic<int> next_ = 0;  // of the whole process, in whatever folder
 };
 
-/// The folder of one run while it runs; removed at its end unless it was committed.
+/// The folder of one run while it runs, with a random name and locked; removed at its end, also by a
+/// signal, unless it was committed.
 class RunFolder {
  public:
   /// Throws FileError where it cannot be made.
@@ -45,14 +48,22 @@ class RunFolder {
   RunFolder& operator=(const RunFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// Writes a file, in place of anything of that name that a program has left. Throws FileError.
+  void write(const char* name, std::string_view bytes) const;
   /// Puts it in its place and returns that. A good run can be found by its key from then on, a
   /// failed one stays where failures are kept. Throws FileError.
   std::filesystem::path commit(bool good);
 
  private:
+  RunFolder(WorkFolder& work, std::filesystem::path place);
+  /// Whether the program has left it in its place.
+  bool is_here() const;
+
   WorkFolder& work_;
   std::string key_;
   std::filesystem::path place_, path_;
+  Descriptor folder_;
+  std::optional<RemovedOnExit> removed_;
 };
 
 /// Sentences begin with a folder that has gone when they are read: its path is taken out of them.

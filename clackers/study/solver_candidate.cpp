@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "clackers/base/error.hpp"
+#include "clackers/record/notes.hpp"
 #include "clackers/solvers/work_folder.hpp"
 #include "clackers/study/check/history/history_run.hpp"
 
@@ -79,13 +80,15 @@ Measured SolverCandidate::compared(const RunTask& task, const solvers::SolverOut
     auto found = history_run(history, {}, problem_.problem, problem_.summary, {}, interrupt);
     Measured measured;
     measured.run = std::move(found.run);
+    if (output.reused) measured.run.file->notes.push_back(record::note("reused"));
     measured.observation = std::move(found.observation);
     return measured;
   } catch (const InputError& error) {
     const std::filesystem::path file = input::path_of(*output.history);
     return failed(
         resolution, std::string(error.code().name()),
-        file.empty() ? error.what() : solvers::without_folder(error.what(), file.parent_path()),
+        (file.empty() ? error.what() : solvers::without_folder(error.what(), file.parent_path())) +
+            (output.reused ? " An earlier call has made it; --fresh repeats it." : ""),
         output.printed);
   } catch (const FileError& error) {
     return failed(resolution, std::string(error.code().name()), error.what(), output.printed);

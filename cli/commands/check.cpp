@@ -36,20 +36,6 @@ struct CheckOptions {
   bool impacts = false;
 };
 
-// The parts between commas. Throws InputError for an empty one.
-std::vector<std::string> parts_of(std::string_view option, std::string_view text) {
-  std::vector<std::string> parts;
-  for (bool more = true; more;) {
-    const auto comma = text.find(',');
-    more = comma != std::string_view::npos;
-    parts.emplace_back(text.substr(0, comma));
-    if (parts.back().empty())
-      refuse("clackers", option, "an empty part", "values behind commas", {}, "bad-syntax");
-    if (more) text.remove_prefix(comma + 1);
-  }
-  return parts;
-}
-
 std::vector<double> numbers_of(std::string_view option, std::string_view text) {
   std::vector<double> numbers;
   for (const auto& part : parts_of(option, text)) numbers.push_back(read_number(option, part));

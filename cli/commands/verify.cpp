@@ -182,7 +182,8 @@ void add_verify(Grammar& root) {
                 "           [--only VERDICT] [--report FILE.html]\n"
                 "  clackers verify [METHOD ...] --exec COMMAND ...\n"
                 "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
-                "           [--timeout TIME] [--work FOLDER] [--fresh] ...\n"});
+                "           [--timeout TIME] [--work FOLDER] [--fresh]\n"
+                "           [--environment NAME,...] ...\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods). Cases may stand among them.");

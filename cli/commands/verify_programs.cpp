@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "clackers/base/error.hpp"
 #include "clackers/report/words/words.hpp"
 #include "clackers/study/check.hpp"
@@ -50,6 +53,11 @@ void add_program_options(Command& command, ProgramOptions& options) {
                   "$XDG_CACHE_HOME/clackers for 14 days, and reused while command, program, "
                   "problem and step are the same.")
       ->option_text("FOLDER");
+  command
+      .add_option("--environment", options.environment,
+                  "Variables of the environment that the programs read: a run is repeated where "
+                  "one of them has another value. Default: none is looked at.")
+      ->option_text("NAME,...");
   command.add_flag("--fresh", options.fresh, "Repeat every run of the programs; reuse none.");
 }
 
@@ -68,6 +76,7 @@ void require_any(const ProgramOptions& options) {
   refuse_given("--timeout", !options.timeout.empty());
   refuse_given("--work", !options.work.empty());
   refuse_given("--fresh", options.fresh);
+  refuse_given("--environment", !options.environment.empty());
 }
 
 solvers::ProcessOptions process_options_of(const ProgramOptions& options) {
@@ -78,6 +87,8 @@ solvers::ProcessOptions process_options_of(const ProgramOptions& options) {
   if (!options.timeout.empty()) process.timeout = read_duration("--timeout", options.timeout);
   process.work = options.work;
   process.fresh = options.fresh;
+  for (const auto& names : options.environment)
+    std::ranges::move(parts_of("--environment", names), std::back_inserter(process.environment));
   return process;
 }
 

@@ -1,12 +1,13 @@
 """verify --exec: programs of others as methods, good and bad ones, and the example solvers."""
 import json
 import os
+import resource
 import shutil
 import signal
 import subprocess
 import unittest
 
-from command import CommandTest, run, start
+from command import PROGRAM, CommandTest, rows, run, start
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 SOLVERS = os.path.join(ROOT, "examples", "solvers")
@@ -169,6 +170,41 @@ class Good(ExecTest):
         os.utime(solver, (1, 1))
         self.assertEqual(count(), 2)
 
+    def test_reused_runs_are_named(self):
+        arguments = ("rk4", "--exec", MIDPOINT, *SHORT)
+        for reused in (False, True):
+            method, program = self.record(*arguments)["cases"][0]["subjects"]
+            self.assertEqual([run["file"] for run in self.runs(method)], [None, None])
+            self.assertEqual(["reused" in [note["code"] for note in run["file"]["notes"]]
+                              for run in self.runs(program)], [reused] * 2)
+        table = run("verify", *arguments, "--report", self.path("page.html")).stdout
+        self.assertIn("midpoint: 2 of 2 runs are those of an earlier call; --fresh repeats them.", table)
+        self.assertIn("2 of 2 runs are those of an earlier call", self.text_of("page.html"))
+        self.assertEqual([row["reused"] for row in rows(run("verify", *arguments, "--format", "csv").stdout)],
+                         ["", "", "yes", "yes"])
+        self.assertNotIn("earlier call", run("verify", *arguments, "--fresh").stdout)
+
+    def test_variables_of_the_environment_belong_to_a_run(self):
+        log = self.path("log")
+        command = self.script(f"echo $ETA >> {log}; exec python3 {SOLVERS}/midpoint.py \"$@\"") + " {case} {h} {out}"
+
+        def values(eta, *options):
+            open(log, "w").close()
+            before, os.environ["ETA"] = os.environ.get("ETA"), eta
+            try:
+                self.subject("--exec", command, *SHORT, *options)
+            finally:
+                os.environ.pop("ETA") if before is None else os.environ.update(ETA=before)
+            return self.text_of("log").split()
+        named = ("--environment", "NOT_SET_ANYWHERE,ETA")
+        self.assertEqual(values("1"), ["1", "1"])
+        self.assertEqual(values("2"), [])
+        self.assertEqual(values("2", *named), ["2", "2"])
+        self.assertEqual(values("2", *named), [])
+        self.assertEqual(values("3", *named), ["3", "3"])
+        self.refused("verify", "--environment", "ETA", code="bad-syntax", says="--exec")
+        self.refused("verify", "--exec", "a {h}", "--environment", "A,,B", code="bad-syntax", says="--environment")
+
 
 class Bad(ExecTest):
     def test_crash(self):
@@ -210,6 +246,47 @@ class Bad(ExecTest):
     def test_endless_standard_output(self):
         self.fails("yes; : {h} {out}", "program-timeout", "after 0.3 s", "--timeout", "0.3")
 
+    def test_endless_history(self):
+        self.fails("yes; : {h}", "program-output", "standard output", "--jobs", "1")
+
+    def test_harm_to_its_folder_costs_that_run_only(self):
+        exact = self.path("exact.csv")
+        self.good("respond", "stop", "--set", "t_end=8", "--step", "0.1", "--format", "csv", "--quiet", "--out", exact)
+        for harm in ('rm -rf "$PWD"', 'mv "$PWD" "$PWD-moved"', 'rm -rf "$PWD"; ln -s /nowhere "$PWD"',
+                     'rm -rf "$PWD"; echo > "$PWD"', "ln -sf /dev/full history.csv", "mkdir -p history.csv/a/history.csv",
+                     "mkfifo history.csv", "exec 1>&- 2>&-; kill -STOP $$"):
+            self.script(f"[ $1 -lt 100 ] || {{ {harm}; }}\nexec cp {exact} $2")
+            for place in ((), ("--work", self.path("work"))) if "PWD" in harm else ((),):
+                with self.subTest(harm=harm, place=place):
+                    done = run("verify", "--exec", f"{self.path('solver')} {{n}} {{out}}", *STOP, "--coarsest", "0.1",
+                               "--levels", "2", "--samples-per-level", "1", "--timeout", "1", *place, "--format", "json")
+                    subject, = json.loads(done.stdout)["cases"][0]["subjects"]
+                    self.assertEqual([run["finished"] for run in self.runs(subject)], [True, False], done.stderr)
+
+    def test_limits_of_the_system_are_failed_runs(self):
+        for limit, value, command in ((resource.RLIMIT_NOFILE, 12, MIDPOINT), (resource.RLIMIT_NOFILE, 5, MIDPOINT),
+                                      (resource.RLIMIT_FSIZE, 20000, "yes 1,2; : {h}")):
+            done = run("verify", "rk4", "--exec", command, *SHORT, "--jobs", "2", "--format", "csv",
+                       preexec_fn=lambda: resource.setrlimit(limit, (value, value)))  # noqa: B023
+            self.assertEqual((done.returncode, done.stderr), (3, ""), (limit, value))
+            self.assertEqual([row["finished"] for row in rows(done.stdout)][:2], ["yes", "yes"])
+            codes = {row["failure_code"] for row in rows(done.stdout)[2:]}
+            self.assertLessEqual(codes, {"", "cannot-write", "cannot-read", "program-failed"})
+            self.assertTrue(limit == resource.RLIMIT_NOFILE or codes == {"cannot-write"}, codes)
+
+    def test_full_disk(self):
+        disk = self.path("disk")
+        os.mkdir(disk)
+        mount = ["unshare", "-m", "sh", "-c", 'mount -t tmpfs -o size=200k disk "$0" && exec "$@"', disk]
+        if subprocess.run([*mount, "true"], capture_output=True).returncode:
+            self.skipTest("needs a file system of its own: unshare -m")
+        for command in ("head -c 1000000 /dev/zero > a; : {h} {out}", "yes 1,2; : {h}"):
+            done = subprocess.run([*mount, PROGRAM, "verify", "rk4", "--exec", command, *SHORT, "--work", disk,
+                                   "--format", "csv"], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (3, ""))
+            finished = [row["finished"] for row in rows(done.stdout)]
+            self.assertEqual(finished, ["yes", "yes", "no", "no"])
+
     def test_one_step_is_a_row_and_not_the_end(self):
         self.script(f"[ $2 -lt 150 ] || {{ echo no memory; exit 7; }}\nexec python3 {SOLVERS}/midpoint.py $1 $3 $4")
         arguments = ("--exec", f"{self.path('solver')} {{case}} {{n}} {{h}} {{out}}", *STOP,
@@ -240,7 +317,49 @@ class Bad(ExecTest):
                      code="bad-syntax", says="1e-3:1e-12")
 
 
+class Apart(ExecTest):
+    """Two commands with one number of their process, as in containers."""
+
+    def test_runs_of_two_pid_namespaces_do_not_mix(self):
+        space = ["unshare", "-fp", "--mount-proc"]
+        if subprocess.run([*space, "true"], capture_output=True).returncode:
+            self.skipTest("needs a pid namespace of its own: unshare -fp")
+        for name, settings in (("good", "eta=1"), ("bad", "eta=0.5")):
+            self.good("respond", "stop", "--set", settings, "--step", "0.1", "--format", "csv", "--quiet",
+                      "--out", self.path(name))
+        for place in ((), ("--work", self.path("work"))):
+            def arguments(name):
+                command = f"sleep 0.1; cp {self.path(name)} {{out}}; sleep 0.2; : {{h}}"
+                return ["verify", "--exec", command, "--name", name, "--case", "stop", "--levels", "2", "--samples-per-level", "2", "--budget", "0", "--jobs", "2",
+                        *place, "--format", "csv"]  # noqa: B023
+            started = [subprocess.Popen([*space, PROGRAM, *arguments(name)], stdout=subprocess.PIPE, text=True)
+                       for name in ("good", "bad")]
+            texts = [process.communicate(timeout=60)[0] for process in started]
+            self.assertEqual([process.returncode for process in started], [0, 1])
+            for name, expected in (("good", ["yes"] * 4), ("bad", ["yes"] * 4)):
+                again = rows(run(*arguments(name)).stdout)
+                self.assertEqual([row["reused"] for row in again], expected)
+                errors = [float(row["u_error"]) for row in again]
+                self.assertTrue(all(error < 1e-12 if name == "good" else error > 0.1 for error in errors), errors)
+            self.assertTrue(all(row["finished"] == "yes" for text in texts for row in rows(text)))
+
+
 class Interrupted(ExecTest):
+    def test_signals_leave_neither_processes_nor_folders(self):
+        log = self.path("log")
+        solver = self.script(f"echo $$ >> {log}\nsetsid sh -c 'echo $$ >> {log}; exec sleep 1000' &\nsleep 1000")
+        for sign in (signal.SIGKILL, signal.SIGQUIT, signal.SIGXCPU, signal.SIGTERM):
+            open(log, "w").close()
+            with start("verify", "--exec", f"{solver} {{h}} {{out}}", *SHORT, "--jobs", "2", stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL) as process:
+                self.wait_for(lambda: len(self.text_of("log").split()) == 4)
+                process.send_signal(sign)
+                process.wait(20)
+            self.assertEqual(process.returncode, 130 if sign == signal.SIGTERM else -sign)
+            for number in self.text_of("log").split():
+                self.wait_for(lambda: self.is_gone(number))  # noqa: B023
+            self.wait_for(lambda: not os.listdir(os.path.join(self.cache, "clackers", "programs")))
+
     def test_keeps_finished_runs_and_leaves_no_process(self):
         log = self.path("log")
         solver = self.script(f"[ $3 -lt 100 ] || {{ echo $$ >> {log}; sleep 1000; }}\n"

@@ -35,7 +35,7 @@ class Help(CommandTest):
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--samples-per-level", "--neighbours",
                           "--budget", "--exec", "--name", "--expect", "--tolerances", "--timeout",
-                          "--work", "--fresh", "--jobs", "--require", "--baseline", "--only",
+                          "--work", "--fresh", "--environment", "--jobs", "--require", "--baseline", "--only",
                           "--report"]}
         for command, options in own.items():
             text = self.good(command, "--help").split("\nOptions\n")[1]

@@ -1,5 +1,6 @@
 /* Preloaded, it makes one call of the C library fail: FAIL_CALL=kind:number:error, for example
- * write:3:ENOSPC as a number. Kinds: malloc, open, read, write, rename, fsync, thread. With
+ * write:3:ENOSPC as a number. Kinds: malloc, open, read, write, rename, fsync, thread,
+ * process. With
  * FAIL_CALL_COUNTS=file the number of calls of each kind is written there when the program ends.
  * Calls before main() count as well. */
 #define _GNU_SOURCE
@@ -16,9 +17,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-enum kind { MALLOC, OPEN, READ, WRITE, RENAME, FSYNC, THREAD, KINDS };
-static const char* const names[KINDS] = {"malloc", "open",  "read",  "write",
-                                         "rename", "fsync", "thread"};
+enum kind { MALLOC, OPEN, READ, WRITE, RENAME, FSYNC, THREAD, PROCESS, KINDS };
+static const char* const names[KINDS] = {"malloc", "open",  "read",   "write",
+                                         "rename", "fsync", "thread", "process"};
 static atomic_long counts[KINDS];
 static atomic_int state; /* 0: FAIL_CALL not yet read, 1: it is being read, 2: read */
 static int failing_kind = -1, failing_error;
@@ -132,4 +133,14 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* how, void* (*run)(vo
   int (*create)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
   *(void**)&create = dlsym(RTLD_NEXT, "pthread_create");
   return create(thread, how, run, with);
+}
+
+pid_t _Fork(void) {
+  if (fails(PROCESS)) return -1;
+  pid_t (*fork_now)(void);
+  *(void**)&fork_now = dlsym(RTLD_NEXT, "_Fork");
+  return fork_now();
+}
+int pipe2(int ends[2], int flags) {
+  return fails(PROCESS) ? -1 : (int)syscall(SYS_pipe2, ends, flags);
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Makes single calls of the C library fail, and ends runs by signals: nothing may be lost or left."""
 import argparse
+import contextlib
 import errno
 import json
 import os
@@ -19,7 +20,8 @@ import databases  # noqa: E402
 EXIT_CODES = (0, 1, 2, 3, 4, 130)
 ERRORS = {"malloc": (errno.ENOMEM,), "open": (errno.EMFILE, errno.EACCES, errno.EOPNOTSUPP, errno.EINTR),
           "read": (errno.EIO, errno.EINTR), "write": (errno.ENOSPC, errno.EIO, errno.EINTR),
-          "rename": (errno.EACCES, errno.EEXIST, errno.EINVAL), "fsync": (errno.EIO,), "thread": (errno.EAGAIN,)}
+          "rename": (errno.EACCES, errno.EEXIST, errno.EINVAL), "fsync": (errno.EIO,), "thread": (errno.EAGAIN,),
+          "process": (errno.EAGAIN, errno.EMFILE, errno.ENOMEM)}
 OLD = "old\n"
 SHORT = ("--coarsest", "0.05", "--levels", "2", "--samples-per-level", "1")
 # Arguments without outputs, and the outputs: names of files, or one folder.
@@ -43,6 +45,8 @@ COMMANDS = (
      ("new.db.sbatch", "new.db.merge.sbatch")),
     (("atlas", "--specification", "spec.toml", "--out", "atlas", "--merge", "others.db", "--jobs", "2"), ("atlas",)),
     (("atlas", "--specification", "spec.toml", "--submit", "bathe", "--out", "out.db"), ("out.db",)),
+    (("verify", "--exec", "/bin/cp history.csv {out}; : {h}", *SHORT, "--jobs", "2", "--format", "json",
+      "--out", "out.json"), ("out.json",)),
 )
 SPECIFICATION = """methods = ["newmark", "rk4"]
 [ladder]
@@ -56,6 +60,33 @@ set = { eta = [0.5, 1], t_end = { from = 2, to = 4, points = 2 } }
 GO_ON = {"new.db": ("campaign", "run", "spec.toml", "--database", "new.db"),
          "half.db": ("campaign", "run", "spec.toml", "--database", "half.db"),
          "atlas": ("atlas", "--specification", "spec.toml", "--out", "atlas", "--merge", "others.db")}
+# Programs that misbehave, as --exec; "good" writes the exact history.
+GOOD = "cp $OLDPWD/history.csv {out}"
+HOSTILE = (
+    'sleep 1000', 'sleep 1000 & wait', 'exec sleep 1000', "trap '' TERM INT HUP QUIT; while :; do sleep 1; done",
+    'kill -STOP $$', 'kill -STOP 0', 'kill -TERM $$', 'kill -SEGV $$', 'kill -9 0', 'exit 300', 'exit 128', 'cat',
+    'exec 0<&- 1>&- 2>&-; sleep 1000', 'yes >&2', 'yes', 'yes 1,2 > {out}', 'cat /dev/urandom >&2',
+    'tail -f /dev/null', 'sleep 1000 &', 'setsid sleep 1000 & ' + GOOD, 'nohup sleep 1000 >/dev/null 2>&1 & ' + GOOD,
+    "(setsid sh -c 'setsid sleep 1000 & setsid sleep 1000 &' &) ; " + GOOD,
+    'setsid setsid sh -c \'trap "" TERM; sleep 1000\' & sleep 1000',
+    'for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do setsid sleep 1000 & done; ' + GOOD,
+    "setsid sh -c 'while :; do setsid sleep 1000 & sleep 0.01; done' & sleep 0.2; " + GOOD,
+    'setsid kill -STOP $$ & sleep 1000', 'kill -STOP $PPID; sleep 1000', 'kill -TERM $PPID; sleep 1000',
+    'kill -9 $PPID; sleep 1000', 'kill -QUIT $PPID; ' + GOOD, 'rm -rf "$PWD"', 'rm -rf "$PWD"; ' + GOOD,
+    'rm -rf "$PWD"; mkdir "$PWD"', 'mv "$PWD" "$PWD-moved"; rm -r "$PWD-moved"', 'rm -rf "$PWD"; ln -s / "$PWD"',
+    'rm -rf "$PWD"; mkfifo "$PWD"', 'chmod 0 .', 'mkdir -p key.txt/a; ' + GOOD,
+    'mkfifo key.txt printed.txt; echo a; ' + GOOD, 'ln -s /etc/passwd key.txt; ' + GOOD,
+    'rm -f problem.json .clackers-run; ' + GOOD, 'mkdir -p a/b/c; chmod 0 a/b a; ' + GOOD,
+    'i=0; while [ $i -lt 60 ]; do mkdir d; cd d; i=$((i+1)); done',
+    'i=0; while [ $i -lt 2000 ]; do : > f$i; i=$((i+1)); done; ' + GOOD, 'touch -t 200001010000 "$PWD"; ' + GOOD,
+    'mkfifo {out}', 'mkdir {out}', 'ln -s /dev/zero {out}', 'ln -s /dev/full {out}; echo > {out}',
+    'ln -s /proc/self/mem {out}', 'ln -s {out} {out}', 'truncate -s 1T {out}', 'head -c 100000 /dev/urandom > {out}',
+    'head -c 3000000 /dev/zero > {out}', "printf 't,u1\\n0,nan\\n1,inf\\n' > {out}",
+    "printf 't,u1\\n1,1\\n0,1\\n' > {out}", 'gzip -c $OLDPWD/history.csv > {out}',
+    "printf '\\033[2J\\007\\377' >&2; exit 1", 'mkfifo {events}; ' + GOOD, 'ln -s /dev/zero {events}; ' + GOOD,
+    'mkdir {events}; ' + GOOD, 'echo $(exit 1); ' + GOOD + '; exit 1', '/nowhere/solver', '/etc/passwd', '/tmp', '(',
+)
+STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGKILL)
 
 
 class Failure(Exception):
@@ -89,9 +120,9 @@ class Runner:
     def __init__(self, command, library, randomness):
         self.command, self.library, self.random = command, library, randomness
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="clackers-faults-"))
-        self.survived, self.usual = {}, {}
+        self.survived, self.usual, self.swept = {}, {}, 0
         # No program that draws: the figures' numbers are enough here.
-        self.environment = {**os.environ, "PATH": "/nowhere"}
+        self.environment = {**os.environ, "PATH": "/nowhere", "XDG_CACHE_HOME": str(self.folder / "cache")}
         history = subprocess.run([command, "respond", "three-parameter", "--step", "0.1", "--format", "csv"],
                                  capture_output=True, check=True)
         (self.folder / "history.csv").write_bytes(history.stdout)
@@ -180,12 +211,14 @@ class Runner:
                     raise Failure(f"{what}: {name} is neither old nor new")
             except (ValueError, OSError) as error:
                 raise Failure(f"{what}: {name}: {error}")
+        self.check_programs(what)
         for name, content in self.inputs.items():
             path = self.folder / name
             # A shard that is merged may be folded in; the log of a reader is empty.
             if path.read_bytes() != content and (path.suffix in (".csv", ".toml") or self.exported(name) is None):
                 raise Failure(f"{what}: {name} has changed")
-        left = sorted(each.name for each in self.folder.iterdir() if each.name not in (*outputs, *self.inputs))
+        left = sorted(each.name for each in self.folder.iterdir()
+                      if each.name not in (*outputs, *self.inputs, "cache"))
         if code < 0:  # what the next writer of a shard uses
             left = [name for name in left if not name.endswith((".lock", "-wal", "-shm"))]
         # SIGKILL leaves a folder, or a file in the instant between its getting a name and its place.
@@ -194,6 +227,56 @@ class Runner:
             raise Failure(f"{what}: left {left}")
         kind = what.split(":")[0]
         self.survived[kind] = self.survived.get(kind, 0) + 1
+
+    def check_programs(self, what):
+        """No program and no folder of a run is left; where the command was killed, a moment later."""
+        def left():
+            found = [str(each) for each in self.folder.glob("cache/clackers/programs/.running-*")]
+            for each in pathlib.Path("/proc").glob("[0-9]*"):
+                with contextlib.suppress(OSError):
+                    is_here = os.readlink(each / "cwd").startswith(str(self.folder))
+                    if is_here and " Z " not in (each / "stat").read_text():
+                        found.append((each / "cmdline").read_text())
+            return found
+        end = time.monotonic() + 10
+        while left():
+            if time.monotonic() > end:
+                raise Failure(f"{what}: left {left()}")
+            if what.startswith("SIGKILL") and time.monotonic() > end - 5:
+                self.sweep()
+            time.sleep(0.01)
+
+    def sweep(self):
+        """The next command removes the folders of killed ones when they are old enough."""
+        self.swept += 1
+        for each in self.folder.glob("cache/clackers/programs/.running-*"):
+            os.utime(each, (1, 1))
+        subprocess.run([self.command, "verify", "--exec", "exit {n}", *SHORT], env=self.environment, capture_output=True)
+
+    def hostile(self, program, jobs):
+        """A program that misbehaves costs its own runs only."""
+        self.prepare(("out.json",))
+        what = f"hostile: {program} with {jobs} jobs"
+        process = self.start(("verify", "rk4", "--exec", program + "\n: {h} {events}", "--name", "hostile", *SHORT,
+                              "--timeout", "0.4s", "--jobs", str(jobs), "--format", "json", "--out", "out.json"),
+                             PATH=os.environ["PATH"])
+        message = process.communicate(timeout=60)[1].decode()
+        self.check(f"{what}\n{message}", ("out.json",), process.returncode, (0, 1, 3))
+        for subject in json.loads((self.folder / "out.json").read_text())["cases"][0]["subjects"]:
+            runs = [run for level in subject["levels"] for run in level["runs"]]
+            if len(runs) != 2 or (subject["name"] == "rk4" and not all(run["finished"] for run in runs)):
+                raise Failure(f"{what}: runs are lost")
+            if any(run["finished"] == bool(run["failure_code"]) for run in runs):
+                raise Failure(f"{what}: a run failed without a code")
+        if "\x1b" in message:
+            raise Failure(f"{what}: controls the terminal")
+
+    def kill(self, sign, jobs):
+        """A signal at a random moment while programs run whose children leave their group."""
+        program = "setsid sleep 1000 & sleep 0.05; cp history.csv {out}; : {h}"
+        arguments = ("verify", "--exec", program, "--coarsest", "0.05", "--levels", "3", "--samples-per-level", "4",
+                     "--jobs", str(jobs), "--format", "json", "--out", "out.json")
+        self.end(arguments, ("out.json",), (sign,), 0.05 + 0.9 / jobs, PATH=os.environ["PATH"])
 
     def counts(self, arguments, outputs):
         """How many calls of each kind a run makes."""
@@ -225,22 +308,33 @@ class Runner:
         if process.returncode and not message and process.returncode not in (1, 3):
             raise Failure(f"{what}: exit code {process.returncode} without a message")
 
-    def end(self, arguments, outputs, signs, longest):
+    def end(self, arguments, outputs, signs, longest, **changes):
         self.prepare(outputs)
-        process = self.start(arguments)
+        process = self.start(arguments, **changes)
         time.sleep(self.random.random() * longest)
         for sign in signs:
             process.send_signal(sign)
         process.communicate(timeout=60)
         names = "+".join(sign.name for sign in signs)
         allowed = EXIT_CODES if process.returncode >= 0 else tuple(-sign for sign in signs)
-        if signal.SIGTERM in signs and process.returncode == -signal.SIGTERM:
-            allowed = (-signal.SIGTERM,)  # before main(), where nothing is open yet
         self.check(f"{names}: in {' '.join(arguments)}", outputs, process.returncode, allowed)
+
+
+def programs(runner, randomness, kills=100):
+    """Each hostile program with one job and with four, and kills."""
+    faults = [lambda p=program, j=jobs: runner.hostile(p, j) for program in HOSTILE for jobs in (1, 4)]
+    faults += [lambda s=STOPS[number % len(STOPS)], j=randomness.randint(1, 8): runner.kill(s, j)
+               for number in range(kills)]
+    randomness.shuffle(faults)
+    return iter(faults)
 
 
 def plan(runner, randomness, only):
     """Endless: one fault after another, each kind of each command in turn."""
+    others = programs(runner, randomness)
+    if list(only) == ["programs"]:
+        yield from others
+        return
     counted = [(arguments, outputs, runner.counts(arguments, outputs)) for arguments, outputs in COMMANDS
                if arguments[0] in only or not only]
     todo = {}
@@ -258,6 +352,7 @@ def plan(runner, randomness, only):
                     yield lambda a=arguments, o=outputs, k=kind, n=number, e=error: runner.fail(a, o, k, n, e)
             for signs in ((signal.SIGKILL,), (signal.SIGTERM,), (signal.SIGTERM, signal.SIGTERM), (signal.SIGXCPU,)):
                 yield lambda a=arguments, o=outputs, s=signs: runner.end(a, o, s, 0.15)
+            yield next(others, lambda: None)
         if not any(todo.values()):
             print("every call of every kind has failed once")
             return
@@ -269,7 +364,8 @@ def main():
     options.add_argument("--library", required=True, type=os.path.abspath)
     options.add_argument("--seconds", type=float, default=25)
     options.add_argument("--seed", type=int, default=20221122)
-    options.add_argument("--only", nargs="*", default=(), help="commands: campaign, atlas, ...")
+    options.add_argument("--only", nargs="*", default=(),
+                         help="commands: campaign, atlas, ...; or programs: hostile ones and kills, each once")
     options = options.parse_args()
     randomness = random.Random(options.seed)
     runner = Runner(options.command, options.library, randomness)
@@ -288,7 +384,8 @@ def main():
         runner.close()
     total = sum(runner.survived.values())
     print(f"seed {options.seed}: {total} faults survived, {len(failures)} not: "
-          + ", ".join(f"{kind} {number}" for kind, number in sorted(runner.survived.items())))
+          + ", ".join(f"{kind} {number}" for kind, number in sorted(runner.survived.items()))
+          + f"; after {runner.swept} SIGKILLs the next command removed the folder of a run")
     return 1 if failures or not total else 0
 
 

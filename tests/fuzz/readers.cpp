@@ -6,6 +6,7 @@
 #include "clackers/input/history.hpp"
 #include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
+#include "clackers/solvers/command_template.hpp"
 #include "cli/files/paths.hpp"
 #include "cli/values.hpp"
 #include "target.hpp"
@@ -116,6 +117,32 @@ void read_times(std::string_view bytes) {
   const auto times = cli::read_times(file.path(), 20.0);
   require(!times.empty(), "an empty file is refused");
   for (const double t : times) require(t >= 0.0 && t <= 20.0, "times lie within the run");
+}
+
+// The command of --exec.
+void read_command(std::string_view bytes) {
+  const solvers::CommandTemplate command{std::string(bytes)};
+  require(!command.name().empty(), "a program has a name");
+  require(command.identity() == command.identity(), "a program stays the same");
+  const auto filled = [&](const char* value) {
+    std::vector<solvers::PlaceholderValue> values;
+    for (const auto* name : {"case", "case:text", "h", "n", "tolerance", "events", "out"})
+      values.push_back({name, value});
+    return command.filled(values);
+  };
+  // Whatever a value holds, it is one word in single quotes and changes nothing around it.
+  const auto plain = filled("value"), strange = filled("'; $x `y` \"z\\");
+  constexpr std::string_view quoted = "''\\''; $x `y` \"z\\'";
+  std::size_t count = 0;
+  for (auto at = strange.find(quoted); at != std::string::npos; at = strange.find(quoted, at + 1))
+    ++count;
+  std::size_t used = 0;
+  for (const auto* name : {"case", "case:text", "h", "n", "tolerance", "events", "out"})
+    used += command.uses(name) ? 1 : 0;
+  require(used > 0 && count >= used, "a value is quoted");
+  require(strange.size() - plain.size() == count * (quoted.size() - 5) ||
+              bytes.find(quoted) != std::string_view::npos,
+          "a value changes nothing else");
 }
 
 }  // namespace clackers::fuzz

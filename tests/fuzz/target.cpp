@@ -21,6 +21,7 @@ constexpr auto table = std::to_array<Target>({
     {"specification", read_specification, nullptr},
     {"settings", read_settings, mutate_numbers},
     {"times", read_times, mutate_numbers},
+    {"command", read_command, nullptr},
     {"record", read_record, mutate_numbers},
     {"check", check_and_report, mutate_numbers},
     {"problem", read_problem, mutate_numbers},

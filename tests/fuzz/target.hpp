@@ -47,6 +47,7 @@ void read_events(std::string_view bytes);
 void read_specification(std::string_view bytes);
 void read_settings(std::string_view bytes);
 void read_times(std::string_view bytes);
+void read_command(std::string_view bytes);
 void read_record(std::string_view bytes);
 void check_and_report(std::string_view bytes);
 void read_problem(std::string_view bytes);

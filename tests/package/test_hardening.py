@@ -54,6 +54,19 @@ class Hardening(unittest.TestCase):
                 subprocess.run([os.environ["CMAKE"], *command], check=True, capture_output=True)
             self.check(folder / "build/hardened")
 
+    def test_no_library_is_searched_for_in_the_current_folder(self):
+        build = pathlib.Path(os.environ["CLACKERS_BUILD"])
+        files = [build / "cli/clackers", *build.rglob("*.so*")]
+        self.assertGreater(len(files), 1)
+        for file in files:
+            if not file.is_file() or file.read_bytes()[:4] != b"\x7fELF":
+                continue
+            read = subprocess.run(["readelf", "-Wd", file], capture_output=True, text=True, check=True,
+                                  env={**os.environ, "LC_ALL": "C"}).stdout
+            for path in re.findall(r"\((?:RPATH|RUNPATH)\).*\[(.*)\]", read):
+                for folder in path.split(":"):
+                    self.assertRegex(folder, r"\A(/|\$ORIGIN)", f"{file}: {path}")
+
     def test_the_command_has_it(self):
         build = os.environ["CLACKERS_BUILD"]
         if not is_for_use(build):

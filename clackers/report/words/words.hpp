@@ -65,8 +65,8 @@ inline constexpr std::size_t most_shown_diagnoses = 3;
 std::vector<std::string> note_texts(const record::Subject& subject);
 std::string note_text(const Note& note);
 
-/// The failed runs of a program: for each kind of failure, three at most, how many runs, the first of
-/// them, and what it printed last; empty for other subjects.
+/// Of a program, for each kind of failure, three at most, how many runs failed, the first of them, and
+/// what it printed last; then how many runs are those of an earlier call. Empty for other subjects.
 std::vector<std::string> failure_texts(const record::Subject& subject);
 /// The end of what a program printed on one line, lines separated by " / "; 400 characters at most.
 std::string printed_text(std::string_view printed);

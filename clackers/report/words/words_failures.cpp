@@ -33,10 +33,11 @@ std::string printed_text(std::string_view printed) {
 std::vector<std::string> failure_texts(const record::Subject& subject) {
   if (subject.kind == record::SubjectKind::method) return {};
   std::vector<Failures> kinds;
-  int runs = 0;
+  int runs = 0, reused = 0;
   for (const auto& level : subject.levels)
     for (const auto& run : level.runs) {
       ++runs;
+      reused += run.file && std::ranges::count(run.file->notes, "reused", &Note::code) > 0 ? 1 : 0;
       if (run.score.finished) continue;
       const auto same = std::ranges::find_if(kinds, [&](const Failures& kind) {
         return kind.first->score.failure_code == run.score.failure_code;
@@ -59,6 +60,9 @@ std::vector<std::string> failure_texts(const record::Subject& subject) {
           printed);
     texts.push_back(std::move(text));
   }
+  if (reused > 0)
+    texts.push_back(fmt::format("{} of {} runs are those of an earlier call; --fresh repeats them.",
+                                reused, runs));
   return texts;
 }
 

@@ -101,6 +101,7 @@ std::string note_text(const Note& note) {
     return fmt::format(
         "The history ends at {} s, the case at {} s: the time between is not assessed.", text(0),
         text(1));
+  if (is("reused")) return "The history is that of an earlier call; --fresh repeats it.";
   if (is("start-differs"))
     return fmt::format(
         "The initial state differs from the case's by {} of the envelope, more than the printed "
