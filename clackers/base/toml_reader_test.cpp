@@ -36,7 +36,7 @@ TEST(Toml, LongKeysAreRefusedWhereverTheyStand) {
   for (const auto& text :
        {path + " = 1", "[" + path + "]", "[[" + path + "]]", "a = {" + path + " = 1}",
         "a = [\"\"\"b\"\"\"\"\", {" + path + " = 1}]", "a = ['''b'''', {" + path + " = 1}]",
-        "a = [\"\", '', {" + path + "= 1}]"})
+        "a = ['\\', {" + path + "= 1}]", "a = [\"\", '', {" + path + "= 1}]"})
     EXPECT_REFUSED(toml_from("\n" + text, "x.toml"), "bad-syntax",
                    "x.toml:2: a key has more than 16 parts");
   const std::string many(100, '.');
@@ -55,8 +55,9 @@ TEST(Toml, TablesAreCounted) {
   for (const auto* line : {"[a]\n", " [[a]]\n", "a.b=1\n"})
     EXPECT_REFUSED(toml_from(many(line), "x.toml"), "bad-syntax",
                    "x.toml:200001: more than 200000 tables");
-  EXPECT_EQ(toml_from("a = [\n" + many("[],\n") + "]", "x.toml")["a"].as_array()->size(),
-            std::size_t(most_tables) + 1);
+  for (const auto& text :
+       {"a = [\n" + many("[],\n"), many("a = []\n")})  // the parser stops at once
+    EXPECT_REFUSED(toml_from("!\n" + text, "x.toml"), "bad-syntax", "x.toml:1: Error");
 }
 
 }  // namespace
