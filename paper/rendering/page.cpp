@@ -31,11 +31,11 @@ std::string badge(std::string_view verdict) {
                      verdict);
 }
 
-// Escaped, with each number and its unit, or "N = 1", on one line.
+// Escaped, with each number (none of the escapes, "&#39;") and its unit, or "N = 1", on one line.
 std::string unbroken(const std::string& text) {
   static const std::regex number(
-      R"((\S+ = )?(-|−)?\d[\d.]*(e[-+]?\d+)?,?( (rad/s|m/s|m s|kg m|per s|N/m|kg|m|s|%)(?![\w/]))?)");
-  return std::regex_replace(escape(text), number, "<span class=\"n\">$&</span>");
+      R"((^|[^#\d])((\S+ = )?(-|−)?\d[\d.]*(e[-+]?\d+)?,?( (rad/s|m/s|m s|kg m|per s|N/m|kg|m|s|%)(?![\w/]))?))");
+  return std::regex_replace(escape(text), number, "$1<span class=\"n\">$2</span>");
 }
 
 // Percent-encoded, as a data address asks.

@@ -16,7 +16,7 @@ Drawn drawn() {
   out.figure.caption = "The caption & more";
   out.figure.claims = {
       {"eq2", 5, "Section 2.2, Detailed formulation", "It says a < b", Verdict::holds_where,
-       "1 < 2 with 4.5e-05 m/s", "N = 1"},
+       "it's 1 < 2 with 4.5e-05 m/s", "N = 1"},
       {"eq1", 3, "Section 2.1, Main idea", "It says more", Verdict::does_not_hold, "0", ""}};
   out.figure.choices = {"We took 3"};
   out.svg = "<svg a=\"1\">é#</svg>\n";
@@ -31,7 +31,7 @@ TEST(Page, ShowsPictureCaptionClaimsAndFiles) {
         "\"data:image/svg+xml,%3Csvg a=%221%22%3E%C3%A9%23%3C/svg%3E%0A\"",
         "The caption &amp; more", "It says a &lt; b",
         "<span class=\"badge where\">holds where</span></td>",
-        "<span class=\"badge hold\">does not hold</span></td>",
+        "<span class=\"badge hold\">does not hold</span></td>", "it&#39;s ",
         "<span class=\"n\">4.5e-05 m/s</span>", "where <span class=\"n\">N = 1</span>", "We took 3",
         "<a href=\"figA3.svg\">figA3.svg</a>", "Of 2 claims 1 ", "clackers paper figA3 --out x"})
     EXPECT_TRUE(contains(text, part)) << part;
