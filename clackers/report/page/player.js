@@ -43,8 +43,8 @@ function startPlayer(stage) {
     if (cursor.parentElement !== frame) frame.append(cursor);
     const axis = view.scale("x"), [lo, hi] = axis.domain();
     cursor.hidden = now < lo || now > hi;
-    const [left, top] = view.origin();
-    Object.assign(cursor.style, { left: `${left + axis(now)}px`, top: `${top}px`, height: `${view.height()}px` });
+    const [left, top] = view.origin(), above = view.padding().top;
+    Object.assign(cursor.style, { left: `${left + axis(now)}px`, top: `${top + above}px`, height: `${view.height()}px` });
   }
 
   // The latest impact of a contact up to now counts for a moment: a third of the time between two.

@@ -121,7 +121,7 @@ std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integ
                        {},
                        record::Axes{.log_x = true, .highest = 1.5}};
   const double limit = integrator.facts().stability_limit / (2.0 * std::numbers::pi);
-  auto all = linear(-2.0, 2.0, 81);
+  auto all = linear(-2.0, 2.0, 161);
   for (double& step : all) step = std::pow(10.0, step);
   if (all.front() < limit && limit < all.back()) {
     for (const double power : linear(-0.1, 0.1, 41)) all.push_back(limit * std::pow(10.0, power));
