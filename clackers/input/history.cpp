@@ -51,6 +51,7 @@ class Reader {
       if (!take()) break;
     }
     for (auto& note : table_.notes()) history_.notes.push_back(std::move(note));
+    history_.cost = table_.cost();
     finish();
     return std::move(history_);
   }

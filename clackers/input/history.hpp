@@ -24,6 +24,14 @@ struct HistoryOptions {
   std::function<void(double share)> progress{};
 };
 
+/// What a source says of its cost, in a comment below its rows: "# seconds 0.12 steps 20000 evaluations
+/// 80000". 0: not said.
+struct StatedCost {
+  double seconds = 0.0;  ///< processor time without the start of the program [s]
+  double steps = 0.0;
+  double evaluations = 0.0;  ///< of forces
+};
+
 /// A time history as it stands in its source.
 struct History {
   /// Masses without a column u: their u is 0 and means nothing. v and a are empty unless there is a
@@ -38,6 +46,7 @@ struct History {
   double time_half_unit = 0.0;
   double spacing = 0.0;    ///< median time between rows [s]
   std::string not_finite;  ///< where the first such number stands, a sentence; empty for none
+  StatedCost cost;
   std::vector<Note> notes;
 };
 

@@ -49,6 +49,7 @@ class Table {
   virtual double share() const = 0;
   /// What a reader should know of the table, once its last row was read.
   virtual std::vector<Note> notes() const { return {}; }
+  virtual StatedCost cost() const { return {}; }
 
  protected:
   explicit Table(std::string name) : name_(std::move(name)) {}

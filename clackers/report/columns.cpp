@@ -44,12 +44,11 @@ Cell impacts(const Row& row) {
   return found == nullptr ? Cell() : Cell(found->*member);
 }
 
-// Work is counted in runs of methods alone.
+// Work is counted in runs of methods; a history may state it.
 template <auto member>
 Cell work(const Row& row) {
-  return is_method(row) && row.score.runs > 0
-             ? Cell(static_cast<long long>(row.score.worst.work.*member))
-             : Cell();
+  const long long count = row.score.worst.work.*member;
+  return row.score.runs > 0 && (is_method(row) || count > 0) ? Cell(count) : Cell();
 }
 
 const record::HistoryFile* file_of(const Row& row) {
@@ -105,7 +104,8 @@ Cell matched_of_expected(const Row& row) {
 }
 
 Cell seconds(const Row& row) {
-  return is_method(row) && row.score.runs > 0 ? number(row.score.worst.seconds) : Cell();
+  const bool is_known = is_method(row) || row.score.worst.seconds > 0.0;
+  return is_known && row.score.runs > 0 ? number(row.score.worst.seconds) : Cell();
 }
 
 Cell reused(const Row& row) {

@@ -176,7 +176,7 @@ record::Subject assessed(const CheckRequest& request, const std::string& name,
     auto& score = entry.measured.run.score;
     const double step = score.step;
     // Their only cost that can be compared.
-    if (!is_alone && !by_tolerance)
+    if (!is_alone && !by_tolerance && score.work.steps == 0)
       score.work.steps = std::max(1LL, std::llround(entry.measured.run.file->last / step));
     study.take({{step, 0, by_tolerance ? step : 0.0}}, std::move(entry.measured));
   }

@@ -26,7 +26,9 @@ why = "the restitution of the case"
 words = "1"
 expect = "exact"
 """
-SOLVER = 'exec "$CLACKERS" respond stop --step "$1" --format csv --set "eta=$3" --out "$2" --quiet\n'
+SOLVER = '''"$CLACKERS" respond stop --step "$1" --format csv --set "eta=$3" --out "$2" --quiet
+echo "# seconds 0.25 steps 40" >> "$2"
+'''
 
 
 class Engines(CommandTest):
@@ -63,6 +65,9 @@ class Engines(CommandTest):
                                   "--format", "csv"))
         self.assertEqual([row["method"] for row in subjects], ["ours/default 1.2", "ours/tuned 1.2"])
         self.assertEqual([row["verdict"] for row in subjects], ["disagrees", "agrees"])
+        stated = rows(self.good("campaign", "query", self.path("out/engines.db"), "SELECT DISTINCT steps FROM runs",
+                                "--format", "csv"))
+        self.assertEqual(stated, [{"steps": "40"}])
         page = pathlib.Path(self.path("out/index.html"))
         self.assertIn("ours/tuned 1.2", page.read_text())
         page.unlink()

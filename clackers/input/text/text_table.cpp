@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/number.hpp"
 
 namespace clackers::input {
 namespace {
+
+// Of seconds, steps and evaluations.
+constexpr double most_stated = 1e15;
 
 constexpr auto decimal_comma_hint =
     "Are the commas decimal? Numbers take a decimal point; write the file again with points.";
@@ -60,7 +64,8 @@ TextTable::TextTable(InputFile file, const std::vector<std::string>& names, Tabl
 bool TextTable::next_content() {
   while (lines_.next()) {
     if (!trimmed(lines_.text()).empty()) return true;
-    if (names().empty() && !trimmed(lines_.comment()).empty()) comment_ = lines_.comment();
+    if (!trimmed(lines_.comment()).empty())
+      (names().empty() ? comment_ : last_comment_) = lines_.comment();
   }
   return false;
 }
@@ -165,6 +170,22 @@ std::vector<Note> TextTable::notes() const {
   if (lines_.ends_without_line_feed())
     notes.push_back({.code = "last-line-incomplete", .numbers = {double(lines_.number())}});
   return notes;
+}
+
+StatedCost TextTable::cost() const {
+  StatedCost cost;
+  std::istringstream words(last_comment_);
+  std::string name, text;
+  while (words >> name >> text) {
+    auto* value = name == "seconds"       ? &cost.seconds
+                  : name == "steps"       ? &cost.steps
+                  : name == "evaluations" ? &cost.evaluations
+                                          : nullptr;
+    const auto number = finite_number(text);
+    if (value == nullptr || !number || !(*number >= 0.0 && *number <= most_stated)) return {};
+    *value = *number;
+  }
+  return cost;
 }
 
 }  // namespace clackers::input

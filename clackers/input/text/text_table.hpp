@@ -51,6 +51,7 @@ class TextTable : public Table {
   double share() const override;
   /// Names that stood in a comment, and a last line without its end.
   std::vector<Note> notes() const override;
+  StatedCost cost() const override;
 
  private:
   bool next_content();
@@ -61,7 +62,8 @@ class TextTable : public Table {
 
   TableKind kind_;
   TextLines lines_;
-  std::string comment_;  ///< the last above the rows
+  std::string comment_;       ///< the last above the rows
+  std::string last_comment_;  ///< below the first row
   Separation separation_;
   bool from_comment_ = false, row_is_waiting_ = false;
   std::size_t rows_ = 0;

@@ -71,6 +71,22 @@ TEST(TextTable, LeavesCommentsOut) {
   EXPECT_FALSE(table.from_comment);
 }
 
+TEST(TextTable, ACommentBelowTheRowsMayStateTheCost) {
+  const auto cost = [](const std::string& comments) {
+    const TestFile file("# steps 7\nt,u1\n0,1\n0.5,-2\n" + comments);
+    TextTable table(InputFile(file.path(), nullptr), {}, TableKind::history);
+    while (table.next()) continue;
+    return table.cost();
+  };
+  EXPECT_EQ(cost("# seconds 1.5e-3 steps 20 evaluations 80\n").seconds, 1.5e-3);
+  EXPECT_EQ(cost("# seconds 1.5e-3 steps 20 evaluations 80\n").steps, 20.0);
+  EXPECT_EQ(cost("# done\n# evaluations 80\n").evaluations, 80.0);
+  // Other comments state nothing, and the first rows have none above them.
+  for (const auto* text : {"", "# seconds -1\n", "# seconds nan\n", "# steps 1e99\n",
+                           "# 20 steps\n", "# seconds 1 by us\n"})
+    EXPECT_EQ(cost(text).seconds + cost(text).steps, 0.0) << text;
+}
+
 TEST(TextTable, NamesAreWithoutCaseQuotesAndUnits) {
   EXPECT_EQ(read("\"T [s]\",U1 (m),V1-\n0,1,2\n").names, (Names{"t", "u1", "v1-"}));
 }

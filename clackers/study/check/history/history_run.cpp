@@ -1,5 +1,7 @@
 #include "clackers/study/check/history/history_run.hpp"
 
+#include <cmath>
+
 #include "clackers/base/error.hpp"
 #include "clackers/input/history.hpp"
 #include "clackers/study/check/history/prepared_history.hpp"
@@ -39,7 +41,13 @@ ComparedHistory history_run(const HistoryTask& task, const std::vector<std::stri
   if (!history.data.not_finite.empty()) return failed(std::move(history), step);
   if (input::is_given(task.events)) add_events(history, task.events, problem, interrupt);
   if (!history.has_all_u) complete_u(history, problem);
-  return measure(std::move(history), step, problem, summary, progress, interrupt);
+  const auto cost = history.data.cost;
+  auto compared = measure(std::move(history), step, problem, summary, progress, interrupt);
+  auto& score = compared.run.score;
+  score.seconds = cost.seconds;
+  score.work.steps = std::llround(cost.steps);
+  score.work.force_evaluations = std::llround(cost.evaluations);
+  return compared;
 }
 
 }  // namespace clackers::study
