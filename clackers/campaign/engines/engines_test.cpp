@@ -57,7 +57,7 @@ TEST_F(Engines, AreReadByName) {
 TEST_F(Engines, WithoutAKeyOrWithAnUnknownOneAreRefused) {
   EXPECT_REFUSED(engines_in(folder_), "cannot-read", "engine.toml", "--engines");
   write("a", "name = \"Ours\"\n");
-  EXPECT_REFUSED(engines_in(folder_), "bad-syntax", "a/engine.toml", "integrates");
+  EXPECT_REFUSED(engines_in(folder_), "no-column", "a/engine.toml", "integrates");
   write("a", std::string("versoin = \"1\"\n") + text);
   EXPECT_REFUSED(engines_in(folder_), "unknown-name", "versoin", "version");
   write("a", text + std::string("[[settings]]\nname = \"x\"\nwhy = \"y\"\nexpect = \"best\"\n"));
