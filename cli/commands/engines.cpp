@@ -188,8 +188,7 @@ int run(EnginesOptions& options, const std::string& line) {
 
 void add_engines(Grammar& root) {
   const auto options = std::make_shared<EnginesOptions>();
-  auto* app = root.add_subcommand("engines", "list|show|run|page [NAME ...]",
-                                  "physics engines and solvers of others, judged");
+  auto* app = root.add_subcommand("engines", "ACTION [NAME ...]", "engines of others, judged");
   set_help(
       *app,
       {.examples = "  clackers engines list\n"
