@@ -11,7 +11,6 @@
 #include "clackers/exact/orbit/cradle.hpp"
 #include "clackers/exact/orbit/forced_pair.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
-#include "clackers/exact/penalized/penalized_motion.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/model/problem_file.hpp"
 
@@ -126,33 +125,6 @@ void build_base_excited(Case& test_case, const Values& value, double) {
             p.omega1, p.omega2);
 }
 
-// A penalized motion of a problem with a spring and no contact: its velocities do not jump, so it has
-// no impacts.
-class SpringMotion : public model::Motion {
- public:
-  explicit SpringMotion(exact::PenalizedMotion motion) : motion_(std::move(motion)) {}
-  int dof() const override { return motion_.dof(); }
-  double end() const override { return motion_.end(); }
-  void sample(std::span<const double> times, model::Side side,
-              model::SampleBuffers out) const override {
-    motion_.sample(times, side, out);
-  }
-  model::Kinematics envelope(double t) const override { return motion_.envelope(t); }
-  model::Kinematics error_bound(double t) const override { return motion_.error_bound(t); }
-  long long impact_count(double) const override { return 0; }
-  model::MotionImpact impact(long long index) const override {
-    throw InputError(
-        fmt::format("motion: impact {} was asked for; allowed: none, since the contact is "
-                    "a spring and no velocity jumps.",
-                    index),
-        "beyond-last-impact");
-  }
-  const exact::PenalizedMotion& penalized() const { return motion_; }
-
- private:
-  exact::PenalizedMotion motion_;
-};
-
 void build_penalized(Case& test_case, const Values& value, double) {
   const double stiffness = require_positive(test_case.entry->name, "stiffness", value("stiffness"));
   const exact::SynchronizedPair rigid({.m1 = value("m1"),
@@ -162,19 +134,16 @@ void build_penalized(Case& test_case, const Values& value, double) {
                                        .r = value("r"),
                                        .t_end = value("t_end")},
                                       test_case.entry->name);
+  test_case.problem = exact::with_springs(rigid.problem(), stiffness);
   const auto motion =
-      std::make_shared<const SpringMotion>(exact::PenalizedMotion(rigid.problem(), stiffness));
-  test_case.problem = rigid.problem();
-  test_case.problem.system.nonlinear = std::make_shared<model::OneSidedSprings>(
-      std::exchange(test_case.problem.contacts, {}), std::vector<double>{stiffness});
+      std::make_shared<const exact::PiecewiseMotion>(test_case.problem, test_case.entry->name);
   test_case.motion = motion;
 
   const auto& c = rigid.constants();
   const double inverse_mass = 1.0 / c.m1 + 1.0 / c.m2;
   // The closed contact adds its stiffness to both masses; for X = 1 this is exact.
   const double square = c.omega_D1 * c.omega_D1 + stiffness * inverse_mass;
-  const auto& penalized = motion->penalized();
-  const auto contacts = penalized.impact_count(penalized.end());
+  const auto& contacts = motion->spring_contacts();
   test_case.damped_periods = {two_pi / c.omega_D1,
                               two_pi / std::max(c.omega_D2, std::sqrt(square))};
   test_case.constants = {
@@ -191,10 +160,10 @@ void build_penalized(Case& test_case, const Values& value, double) {
       {"stiffness", stiffness, "N/m", "of the spring that acts where u1 < u2"},
       {"contact_time", std::numbers::pi / std::sqrt(square), "s",
        "half a period of the masses in contact; of X = 1 the length of each contact"},
-      {"contacts", double(contacts), "", "number of contacts begun up to t_end"}};
-  if (contacts > 0)
+      {"contacts", double(contacts.size()), "", "number of contacts begun up to t_end"}};
+  if (!contacts.empty())
     test_case.constants.push_back(
-        {"t_1", penalized.impact(1).t, "s", "time at which the first contact begins"});
+        {"t_1", contacts.front(), "s", "time at which the first contact begins"});
   test_case.constants.push_back(
       {"smoothness", 2.0, "",
        "the force has kinks where contacts begin and end, so no method has more than this order"});

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/penalized/penalized_motion.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 
@@ -28,8 +28,8 @@ measure::RunFacts facts_of(const CaseSummary& summary, const model::ImpactProble
   if (rate != summary.constants.end()) facts.detuning_rate = rate->value;
   if (!(contact_time > 0.0) || problem.contacts.size() != 1) return facts;
   try {
-    facts.penalized = std::make_shared<const exact::PenalizedMotion>(
-        problem, stiffness_of(problem, contact_time));
+    facts.penalized = std::make_shared<const exact::PiecewiseMotion>(
+        exact::with_springs(problem, stiffness_of(problem, contact_time)), "penalized motion");
   } catch (const InputError& error) {
     facts.no_penalized = error.what();
   }

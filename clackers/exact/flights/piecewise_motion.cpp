@@ -18,7 +18,7 @@ using model::Kinematics;
 using model::Side;
 
 VectorXd PiecewiseMotion::total(const Flight& flight, double t) const {
-  return modes_.steady(t) + modes_.advanced(flight.free, t - flight.t);
+  return modes(flight).steady(t) + modes(flight).advanced(flight.free, t - flight.t);
 }
 
 std::size_t PiecewiseMotion::flight_at(double t, Side side) const {
@@ -33,19 +33,21 @@ void PiecewiseMotion::sample(std::span<const double> times, Side side,
   const auto n = std::size_t(dof());
   model::require_buffers(who_, out, times.size(), n);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const VectorXd now = total(flights_[flight_at(times[i], side)], times[i]);
+    const auto& flight = flights_[flight_at(times[i], side)];
+    const auto& modes = this->modes(flight);
+    const VectorXd now = total(flight, times[i]);
     const auto put = [&](std::span<double> to, const VectorXd& x) {
       Eigen::Map<VectorXd>(to.data() + i * n, dof()) = x;
     };
-    put(out.u, modes_.derivative(0) * now);
-    put(out.v, modes_.derivative(1) * now);
-    if (!out.a.empty()) put(out.a, modes_.acceleration(now, times[i]));
+    put(out.u, modes.derivative(0) * now);
+    put(out.v, modes.derivative(1) * now);
+    if (!out.a.empty()) put(out.a, modes.acceleration(now, times[i]));
   }
 }
 
 MatrixXd PiecewiseMotion::covariance_after(const Flight& flight, double s) const {
-  MatrixXd both = modes_.carried(flight.covariance, s);
-  both.diagonal() += modes_.local_errors(flight.free, flight.t, s).cwiseAbs2();
+  MatrixXd both = modes(flight).carried(flight.covariance, s);
+  both.diagonal() += modes(flight).local_errors(flight.free, flight.t, s).cwiseAbs2();
   return both;
 }
 
@@ -61,17 +63,18 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
   const auto last = flight_at(t, Side::right);
   for (auto k = flight_at(t, Side::left); k <= last; ++k) {
     const auto& flight = flights_[k];
+    const auto& modes = this->modes(flight);
     const MatrixXd covariance = covariance_after(flight, t - flight.t);
     // What is summed, for the rounding of the sum.
-    const auto size = modes_.sizes(flight.free, t - flight.t);
+    const auto size = modes.sizes(flight.free, t - flight.t);
     VectorXd whole(2 * n), load = VectorXd::Zero(n);
     whole << size.y, size.rate;
-    for (const auto& force : modes_.forces()) {
+    for (const auto& force : modes.forces()) {
       whole += force.steady.cwiseAbs();
       load += (2.0 + force.frequency * t) * force.acceleration.cwiseAbs();
     }
     const auto raise = [&](VectorXd& to, int order, const VectorXd& more) {
-      const MatrixXd& rows = modes_.derivative(order);
+      const MatrixXd& rows = modes.derivative(order);
       const VectorXd rounding = epsilon * double(n + 4) * (rows.cwiseAbs() * whole + more);
       for (Index i = 0; i < n; ++i) {
         const double carried = std::sqrt(rows.row(i).dot(covariance * rows.row(i).transpose()));
@@ -87,17 +90,18 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
 
 Kinematics PiecewiseMotion::envelope(double t) const {
   const auto& flight = flights_[flight_at(t, Side::left)];
-  auto size = modes_.sizes(modes_.advanced(flight.free, t - flight.t), 0.0);
+  const auto& modes = this->modes(flight);
+  auto size = modes.sizes(modes.advanced(flight.free, t - flight.t), 0.0);
   // Of a mode without stiffness the present displacement.
   for (Index j = 0; j < dof(); ++j)
-    if (const double omega = modes().modes()[std::size_t(j)].omega; omega > 0.0)
+    if (const double omega = modes.system().modes()[std::size_t(j)].omega; omega > 0.0)
       size.y[j] = size.rate[j] / omega;
   const auto of = [&](int order) {
     VectorXd most(dof());
     for (Index i = 0; i < dof(); ++i)
-      most[i] = modes_.bound(modes_.derivative(order).row(i).transpose(), size);
-    for (const auto& force : modes_.forces()) {
-      const Eigen::VectorXcd u = modes_.derivative(0) * force.steady;
+      most[i] = modes.bound(modes.derivative(order).row(i).transpose(), size);
+    for (const auto& force : modes.forces()) {
+      const Eigen::VectorXcd u = modes.derivative(0) * force.steady;
       most += std::pow(force.frequency, order) * u.cwiseAbs();
     }
     return most;
@@ -128,7 +132,7 @@ model::MotionImpact PiecewiseMotion::impact(long long index) const {
   impact.after = at(hit.t, Side::right);
   impact.impulse = hit.impulse;
   const auto energy = [&](const Kinematics& k) {
-    return 0.5 * (k.v.dot(modes_.mass() * k.v) + k.u.dot(modes_.stiffness() * k.u));
+    return 0.5 * (k.v.dot(regimes_[0].mass() * k.v) + k.u.dot(regimes_[0].stiffness() * k.u));
   };
   impact.energy_before = energy(impact.before);
   impact.energy_after = energy(impact.after);

@@ -9,27 +9,32 @@
 
 namespace clackers::exact {
 
-/// The motion of any linear structure with contacts, flight by flight: between impacts modes of free
-/// vibration and the steady response to harmonic forces, impacts located by steps that pass no
-/// contact (first_crossing.hpp). Contacts that close together (simultaneity.hpp) obey Newton's law all
-/// at once: impulses p >= 0, b . v(+) >= -restitution b . v(-), one of
-/// each pair an equality; a linear complementarity problem.
+/// The motion of any linear structure with contacts, flight by flight: between impacts modes of
+/// free vibration and the steady response to harmonic forces, impacts located by steps that pass no
+/// contact (first_crossing.hpp). Contacts that close together (simultaneity.hpp) obey Newton's law
+/// all at once: impulses p >= 0, b . v(+) >= -restitution b . v(-), one of each pair an equality; a
+/// linear complementarity problem.
+///
+/// Contacts that are one-sided springs (model::OneSidedSprings) are closed or open: a closed one is
+/// part of another modal system. The force is continuous where they close and open, so a wrong
+/// switching time has no effect of first order. Dips below 1e-14 of the sizes may remain unnoticed.
 ///
 /// error_bound() holds to first order in rounding: the errors of each flight, among them those of
 /// modes by what they leave of the equations, are carried on by the flights' own maps and through
-/// each impact by its saltation matrix, increased by the terms of second order there. The whole motion
-/// is refused where errors of that size decide whether masses touch, or which contact closes first.
-/// Const, safe to share between threads. Source: piecewise modal superposition, common.
+/// each impact by its saltation matrix, increased by the terms of second order there. The whole
+/// motion is refused where errors of that size decide whether masses touch, or which contact closes
+/// first. Const, safe to share between threads. Source: piecewise modal superposition, common.
 class PiecewiseMotion : public model::Motion {
  public:
-  /// Throws InputError for an invalid problem, a start at another time than 0, two contacts in the same
-  /// direction, and as ForcedModes does; and where the motion is not available: masses that stay in
-  /// contact, impacts that accumulate, a contact that is approached to less than the error, impacts
-  /// whose order decides and is not certain, more than 1e5 flights, more than 2 GB of errors.
+  /// Throws InputError for an invalid problem, a start at another time than 0, two contacts in the
+  /// same direction, and as ForcedModes does; and where the motion is not available: masses that
+  /// stay in contact, impacts that accumulate, a contact that is approached to less than the error,
+  /// impacts whose order decides and is not certain, more than 1e5 flights, more than 2 GB of
+  /// errors.
   explicit PiecewiseMotion(const model::ImpactProblem<>& problem,
                            std::string_view who = "piecewise");
 
-  int dof() const override { return int(modes_.dof()); }
+  int dof() const override { return int(regimes_[0].dof()); }
   double end() const override { return end_; }
   void sample(std::span<const double> times, model::Side side,
               model::SampleBuffers out) const override;
@@ -41,13 +46,17 @@ class PiecewiseMotion : public model::Motion {
   /// after all of them.
   model::MotionImpact impact(long long index) const override;
 
-  const numerics::ModalSystem& modes() const { return modes_.system(); }
+  /// Of the structure with all springs open.
+  const numerics::ModalSystem& modes() const { return regimes_[0].system(); }
+  /// Times at which springs close [s], ascending.
+  const std::vector<double>& spring_contacts() const { return spring_contacts_; }
 
  private:
   using Vector = Eigen::VectorXd;
   class Builder;
   struct Flight {
     double t = 0.0;
+    std::size_t regime = 0;
     Vector free;                 // z without the steady response
     Eigen::MatrixXd covariance;  // sum of D D' of the errors of z so far, at t
   };
@@ -57,6 +66,7 @@ class PiecewiseMotion : public model::Motion {
     std::size_t flight = 0;  // the one that it ends
   };
 
+  const ForcedModes& modes(const Flight& flight) const { return regimes_[flight.regime]; }
   Vector total(const Flight& flight, double t) const;
   Eigen::MatrixXd covariance_after(const Flight& flight, double s) const;
   double factor(std::size_t flight) const;
@@ -64,9 +74,15 @@ class PiecewiseMotion : public model::Motion {
 
   std::string who_;
   double end_ = 0.0;
-  ForcedModes modes_;
+  std::vector<ForcedModes> regimes_;  // the first has no closed spring
+  std::vector<double> spring_contacts_;
   std::vector<Flight> flights_;
   std::vector<Hit> hits_;
 };
+
+/// The problem that a linear penalty method solves: for each contact a spring of this stiffness > 0
+/// [N/m] that acts in compression alone. Throws InputError (penalty-needs-elastic) for a
+/// restitution other than 1.
+model::ImpactProblem<> with_springs(model::ImpactProblem<> problem, double stiffness);
 
 }  // namespace clackers::exact

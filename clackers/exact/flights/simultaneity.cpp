@@ -1,6 +1,7 @@
 #include "clackers/exact/flights/simultaneity.hpp"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "clackers/model/harmonic_load.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "clackers/base/error.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
-#include "clackers/exact/penalized/penalized_motion.hpp"
 #include "clackers/measure/testing/toy_motion.hpp"
 #include "clackers/methods/registry.hpp"
 
@@ -53,7 +53,7 @@ TEST(PenaltySplit, SeparatesStiffnessFromStep) {
     double model, integration;
   };
   const auto measure = [&](const char* method, double stiffness, double h) {
-    const exact::PenalizedMotion penalized(problem, stiffness);
+    const exact::PiecewiseMotion penalized(exact::with_springs(problem, stiffness));
     model::TrajectorySink sink(true);
     methods::method(method)->prepare(problem, h)->advance(sink);
     const Comparison comparison(sink.trajectory(), rigid, problem);
@@ -86,7 +86,8 @@ TEST(PenaltySplit, RefusesAMotionOfAnotherSizeOrLength) {
   one.contacts.push_back({Eigen::VectorXd::Ones(1), 0.0, 1.0});
   one.start = {0.0, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
   one.end = 10.0;
-  EXPECT_THROW(penalty_split(comparison, exact::PenalizedMotion(one, 1e3)), InputError);
+  EXPECT_THROW(penalty_split(comparison, exact::PiecewiseMotion(exact::with_springs(one, 1e3))),
+               InputError);
 }
 
 TEST(PenaltySplit, WithoutVelocitiesMeasuresDisplacements) {

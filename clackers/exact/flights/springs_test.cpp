@@ -1,4 +1,4 @@
-#include "clackers/exact/penalized/penalized_motion.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::exact {
@@ -93,24 +93,22 @@ class Series {
   Vector z_;
 };
 
-TEST(PenalizedMotion, OfEqualFrequenciesTouchesWhenTheClosedFormSays) {
+TEST(PiecewiseSprings, OfEqualFrequenciesTouchesWhenTheClosedFormSays) {
   // u1 - u2 alone feels the contact: half a free period, then half of one with the spring.
   for (const auto& [xi1, r, k] : {std::array{0.05, 1.0, 1e4}, std::array{0.0, 3.0, 1e4},
                                   std::array{0.3, 0.5, 50.0}, std::array{0.01, 2.0, 1e8}}) {
     const auto problem = pair({.xi1 = xi1, .X = 1.0, .r = r, .t_end = 40.0});
-    const PenalizedMotion motion(problem, k);
+    const PiecewiseMotion motion(with_springs(problem, k));
     const double m2 = 1.0 / r, reduced = m2 / (1.0 + m2), Omega = std::sqrt(1.0 - xi1 * xi1);
     const double flight = std::numbers::pi / Omega,
                  contact = std::numbers::pi / std::sqrt(1.0 + k / reduced - xi1 * xi1);
-    const auto count = motion.impact_count(40.0);
+    const auto& begun = motion.spring_contacts();
+    const auto count = std::ssize(begun);
     EXPECT_EQ(count, 1 + static_cast<int>((40.0 - 0.5 * flight) / (flight + contact)));
     for (long long i = 1; i <= count; ++i) {
       const double begins = 0.5 * flight + double(i - 1) * (flight + contact);
-      const auto hit = motion.impact(i);
       // 40 s of phases rounded by a few 2^-52 of their turns each.
-      EXPECT_NEAR(hit.t, begins, 1e-12) << "xi1 " << xi1 << ", contact " << i;
-      EXPECT_LE(hit.when.lo, begins);
-      EXPECT_GE(hit.when.hi, begins);
+      EXPECT_NEAR(begun[std::size_t(i - 1)], begins, 1e-12) << "xi1 " << xi1 << ", contact " << i;
     }
   }
 }
@@ -134,6 +132,13 @@ model::ImpactProblem<> with_gap(double gap) {
   return problem;
 }
 
+// Dashpots that couple the modes, one of them overdamped in contact.
+model::ImpactProblem<> with_dashpots() {
+  auto problem = pair({.X = 3.0, .r = 1.5, .t_end = 12.0});
+  problem.system.damping << 0.3, -0.1, -0.1, 0.9;
+  return problem;
+}
+
 model::ImpactProblem<> stop() {
   model::ImpactProblem<> problem;
   problem.system.mass = problem.system.stiffness = Eigen::MatrixXd::Identity(1, 1);
@@ -144,17 +149,18 @@ model::ImpactProblem<> stop() {
   return problem;
 }
 
-TEST(PenalizedMotion, AgreesWithTaylorSeriesWithinItsBound) {
+TEST(PiecewiseSprings, AgreesWithTaylorSeriesWithinItsBound) {
   const std::vector<Compared> all = {{pair({.X = 9.0, .t_end = 20.0}), 1e4},
                                      {pair({.xi1 = 0.0, .X = 9.0, .r = 0.5, .t_end = 20.0}), 300.0},
                                      {coupled(), 2e3},
+                                     {with_dashpots(), 50.0},
                                      {with_gap(-0.3), 1e3},
                                      {with_gap(0.05), 1e3},
                                      {stop(), 1e4}};
   for (std::size_t i = 0; i < all.size(); ++i) {
     SCOPED_TRACE(testing::Message() << "problem " << i);
     const auto& [problem, stiffness] = all[i];
-    const PenalizedMotion motion(problem, stiffness);
+    const PiecewiseMotion motion(with_springs(problem, stiffness));
     Series series(problem, stiffness);
     const auto n = problem.dof();
     for (double t = 0.37; t < problem.end; t += 0.37) {
@@ -169,25 +175,21 @@ TEST(PenalizedMotion, AgreesWithTaylorSeriesWithinItsBound) {
       }
     }
     series.to(problem.end);
-    const auto contacts = motion.impact_count(problem.end);
+    const auto contacts = std::ssize(motion.spring_contacts());
+    EXPECT_EQ(motion.impact_count(problem.end), 0);
     ASSERT_EQ(contacts, std::ssize(series.switches) / 2 + std::ssize(series.switches) % 2);
     ASSERT_GE(contacts, 3);
     for (long long k = 1; k <= contacts; ++k) {
       const auto begins = series.switches[std::size_t(2 * k - 2)];
-      const auto hit = motion.impact(k);
-      EXPECT_NEAR(hit.t, double(begins), 1e-11);
-      EXPECT_LE(hit.when.lo, double(begins));
-      EXPECT_GE(hit.when.hi, double(begins));
-      EXPECT_EQ(motion.impact_count(std::nextafter(hit.t, 0.0)), k - 1);
-      EXPECT_EQ(motion.impact_count(hit.t), k);
+      EXPECT_NEAR(motion.spring_contacts()[std::size_t(k - 1)], double(begins), 1e-11);
     }
   }
 }
 
-TEST(PenalizedMotion, ObeysItsEquationOfMotionAndItsEnvelope) {
+TEST(PiecewiseSprings, ObeysItsEquationOfMotionAndItsEnvelope) {
   for (const auto& problem : {pair({.X = 9.0, .t_end = 20.0}), with_gap(0.05), coupled()}) {
     const double k = 1e4;
-    const PenalizedMotion motion(problem, k);
+    const PiecewiseMotion motion(with_springs(problem, k));
     const auto& system = problem.system;
     for (double t = 0.0; t <= problem.end; t += 0.0137) {
       const auto x = motion.at(t, model::Side::left), envelope = motion.envelope(t);
@@ -203,10 +205,10 @@ TEST(PenalizedMotion, ObeysItsEquationOfMotionAndItsEnvelope) {
   }
 }
 
-TEST(PenalizedMotion, KeepsItsEnergyWithoutDamping) {
+TEST(PiecewiseSprings, KeepsItsEnergyWithoutDamping) {
   const auto problem = pair({.xi1 = 0.0, .X = 9.0, .t_end = 20.0});
   const double k = 1e4;
-  const PenalizedMotion motion(problem, k);
+  const PiecewiseMotion motion(with_springs(problem, k));
   const auto energy = [&](double t) {
     const auto x = motion.at(t, model::Side::left);
     const double g = std::min(problem.contacts[0].gap_at(x.u), 0.0);
@@ -214,17 +216,13 @@ TEST(PenalizedMotion, KeepsItsEnergyWithoutDamping) {
                   k * g * g);
   };
   for (double t = 0.0; t <= 20.0; t += 0.01) EXPECT_NEAR(energy(t), energy(0.0), 1e-10) << t;
-  const auto hit = motion.impact(2);
-  EXPECT_NEAR(hit.energy_before, energy(0.0), 1e-10);
-  EXPECT_EQ(hit.energy_after, hit.energy_before);
-  EXPECT_EQ(hit.impulse, 0.0);
 }
 
-TEST(PenalizedMotion, ComesNearerToTheRigidOneAsTheSpringStiffens) {
+TEST(PiecewiseSprings, ComesNearerToTheRigidOneAsTheSpringStiffens) {
   const SynchronizedPair rigid({.X = 5.0, .r = 2.0, .t_end = 8.0});
   double last = 0.0;
   for (const double k : {1e4, 1e6, 1e8}) {
-    const PenalizedMotion motion(rigid.problem(), k);
+    const PiecewiseMotion motion(with_springs(rigid.problem(), k));
     const double error =
         std::abs(motion.at(8.0, model::Side::left).u[0] - rigid.at(8.0, model::Side::left).u[0]);
     // Each impact delays the motion by one contact time, of order k^(-1/2).
@@ -235,42 +233,22 @@ TEST(PenalizedMotion, ComesNearerToTheRigidOneAsTheSpringStiffens) {
   }
 }
 
-TEST(PenalizedMotion, DoesNotTouchWhereTheRigidOneWouldNotEither) {
+TEST(PiecewiseSprings, DoesNotTouchWhereTheRigidOneWouldNotEither) {
   // r* of X = 9 is 4.41368: just below it the masses nearly touch between impacts.
   const auto problem = pair({.X = 9.0, .r = 4.413, .t_end = 4.0});
-  const PenalizedMotion motion(problem, 1e10);
-  EXPECT_EQ(motion.impact_count(4.0), 1);
+  const PiecewiseMotion motion(with_springs(problem, 1e10));
+  EXPECT_EQ(motion.spring_contacts().size(), 1u);
 }
 
-TEST(PenalizedMotion, RefusesWhatItCannotSolve) {
+TEST(PiecewiseSprings, RefusesWhatItCannotSolve) {
   const auto good = pair({.t_end = 4.0});
-  const auto refuses = [](const model::ImpactProblem<>& problem, double k = 1e4) {
-    EXPECT_THROW(PenalizedMotion(problem, k), InputError);
-  };
-  EXPECT_NO_THROW(PenalizedMotion(good, 1e4));
-  refuses(good, 0.0);
+  EXPECT_REFUSED(with_springs(good, 0.0), "out-of-range", "stiffness = 0");
   auto bad = good;
-  bad.system.add_load = [](double, std::span<double>) {};
-  refuses(bad);
-  bad = good;
-  bad.contacts.clear();
-  refuses(bad);
-  bad = good;
   bad.contacts[0].restitution = 0.9;
-  refuses(bad);
-  bad = good;
-  bad.system.damping(1, 1) *= 1.001;
-  refuses(bad);
-  bad = good;
-  bad.system.damping = 2.0 * bad.system.mass;
-  refuses(bad);
-  const PenalizedMotion motion(good, 1e4);
-  EXPECT_THROW(motion.at(4.1, model::Side::left), InputError);
-  EXPECT_THROW(motion.at(-0.1, model::Side::left), InputError);
-  EXPECT_THROW(motion.impact(0), InputError);
-  EXPECT_THROW(motion.impact(motion.impact_count(4.0) + 1), InputError);
-  double t = 1.0, u[2], v[1];
-  EXPECT_THROW(motion.sample({&t, 1}, model::Side::left, {u, v, {}}), InputError);
+  EXPECT_REFUSED(with_springs(bad, 1e4), "penalty-needs-elastic", "restitution = 0.9");
+  bad = with_springs(good, 1e4);
+  bad.system.add_load = [](double, std::span<double>) {};
+  EXPECT_REFUSED(PiecewiseMotion{bad}, "linear-only", "harmonic loads");
 }
 
 }  // namespace
