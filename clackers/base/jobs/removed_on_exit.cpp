@@ -32,8 +32,10 @@ void remove_at(int parent, const char* name, int depth) {
     return;
   constexpr int flags = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
   int folder = ::openat(parent, name, flags);
-  if (folder < 0 && errno == EACCES && ::fchmodat(parent, name, S_IRWXU, 0) == 0)
+  if (folder < 0) {  // without permission; or a lack of descriptors that has passed
+    if (errno == EACCES) ::fchmodat(parent, name, S_IRWXU, 0);
     folder = ::openat(parent, name, flags);
+  }
   if (folder < 0) return;
   ::fchmod(folder, S_IRWXU);
   std::array<char, 4096> entries;
