@@ -48,7 +48,15 @@ Crossing settle(auto&& gap, auto&& error, double level, double s) {
   const double start = s;
   auto now = gap(s);
   const double first_value = std::max(now.value, 0.0);
-  const double beyond = certain_depth * error(s);
+  const auto falls_beyond = [&](double depth) {
+    const double x = 2.0 * (std::max(now.value, 0.0) + depth) / -now.slope;
+    const double lowered =
+        now.value + x * (now.slope + x * (0.5 * std::abs(now.second) + x * now.third_bound / 6.0));
+    return now.slope < 0.0 && lowered <= -depth && now.value >= -depth;
+  };
+  // The bound for the whole search costs nothing, and most impacts are certain with it.
+  double beyond = certain_depth / certain_gap * level;
+  if (!falls_beyond(beyond)) beyond = certain_depth * error(s);
   const auto root = [&](double from, double to, double at_to) {
     const auto value = [&](double x) { return gap(x).value; };
     return numerics::shrink(value, {from, first_value, to, at_to}, 0.5 * epsilon * to).b;
@@ -59,10 +67,7 @@ Crossing settle(auto&& gap, auto&& error, double level, double s) {
   };
   double before = s;
   for (int step = 0; step < 200 && !is_least(); ++step) {
-    const double x = 2.0 * (std::max(now.value, 0.0) + beyond) / -now.slope;
-    const double lowered =
-        now.value + x * (now.slope + x * (0.5 * std::abs(now.second) + x * now.third_bound / 6.0));
-    if (lowered <= -beyond && now.value >= -beyond) {
+    if (falls_beyond(beyond)) {
       // It falls all the way.
       for (int newton = 0; newton < 20; ++newton) {
         const double change = -now.value / now.slope;

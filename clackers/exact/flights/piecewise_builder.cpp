@@ -312,6 +312,14 @@ class PiecewiseMotion::Builder {
     // Those up to `to` at most; the window that follows has the others.
     std::erase_if(closings, [&](const Closing& c) { return c.s > to; });
     std::ranges::stable_sort(closings, {}, &Closing::s);
+    if (closings.size() > 1)
+      for (Closing& closing : closings) {
+        const double before = closing.gap_error;
+        closing.gap_error =
+            gap_error(closing.contact, m_.covariance_after(flight(), closing.s), closing.s);
+        closing.time_error *= closing.gap_error / before;
+        closing.time_error += 4.0 * epsilon * (flight().t + closing.s);
+      }
     return closings;
   }
 
