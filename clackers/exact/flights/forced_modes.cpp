@@ -194,7 +194,7 @@ ForcedModes::Sizes ForcedModes::sizes(const Vector& z, double s, double push) co
   Sizes size{Vector(n), Vector(n)};
   for (Index j = 0; j < n; ++j) {
     const double omega = system_.modes()[std::size_t(j)].omega;
-    size.rate[j] = std::hypot(z[n + j], omega * z[j]);
+    size.rate[j] = std::sqrt(z[n + j] * z[n + j] + omega * omega * z[j] * z[j]);
     size.y[j] = std::abs(z[j]) + s * std::abs(z[n + j]);
     if (omega > 0.0) {
       size.y[j] = std::min(size.y[j], size.rate[j] / omega);
@@ -214,7 +214,9 @@ double ForcedModes::bound(const Eigen::Ref<const Vector>& row, const Sizes& size
     const double omega = system_.modes()[std::size_t(j)].omega;
     const double apart = std::abs(row[j]) * sizes.y[j] + std::abs(row[n + j]) * sizes.rate[j];
     const double together =
-        omega > 0.0 ? std::hypot(row[j] / omega, row[n + j]) * sizes.rate[j] : apart;
+        omega > 0.0
+            ? std::sqrt(row[j] * row[j] / (omega * omega) + row[n + j] * row[n + j]) * sizes.rate[j]
+            : apart;
     sum += std::min(apart, together);
   }
   return sum;
