@@ -1,16 +1,12 @@
 #include "clackers/campaign/run.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <utility>
 
-#include "clackers/base/error.hpp"
 #include "clackers/base/jobs/work_queue.hpp"
 
 namespace clackers::campaign {
@@ -61,19 +57,6 @@ class Finished {
   bool ended_ = false;
 };
 
-// The first worker; the others are as many as the system allows.
-std::jthread started(const auto& work) {
-  try {
-    return std::jthread(work);
-  } catch (const std::system_error& error) {
-    throw FileError(
-        fmt::format("campaign: no thread can be started: {}. Raise the limit (ulimit -u), "
-                    "or wait until other processes have ended.",
-                    error.code().message()),
-        "system-failed");
-  }
-}
-
 }  // namespace
 
 RunSummary run_campaign(const Specification& specification, Store& store, TaskSource& source,
@@ -91,7 +74,7 @@ RunSummary run_campaign(const Specification& specification, Store& store, TaskSo
         if (auto rows = runner.run(task, &finished.stop)) finished.put(std::move(*rows));
     }
   };
-  const auto work = [&] {
+  std::jthread crew([&] {
     try {
       run_all(workers, static_cast<int>(workers), [&](std::size_t) {
         try {
@@ -105,8 +88,7 @@ RunSummary run_campaign(const Specification& specification, Store& store, TaskSo
       failure = std::current_exception();
     }
     finished.end();
-  };
-  std::jthread crew = started(work);
+  });
   RunSummary summary;
   auto last = Clock::now();
   try {

@@ -6,7 +6,6 @@ import resource
 import signal
 import sqlite3
 import subprocess
-import time
 import unittest
 
 import databases
@@ -224,13 +223,11 @@ class Hostile(Campaign):
         for number in (signal.SIGINT, signal.SIGTERM):
             process = start("campaign", "query", self.database, ENDLESS, stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, text=True)
-            time.sleep(0.3)
+            self.wait_for(lambda: self.database in self.open_files(process))
             process.send_signal(number)
-            sent = time.monotonic()
-            out, err = process.communicate(timeout=20)
+            out, err = process.communicate(timeout=10)
             self.assertEqual((process.returncode, out), (130, ""))
             self.assertIn("[interrupted]", err)
-            self.assertLess(time.monotonic() - sent, 2)
 
     def test_views_are_refused_by_every_command(self):
         self.run_spec()

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <system_error>
 #include <thread>
 
 #include "clackers/base/error.hpp"
@@ -45,7 +46,8 @@ RunSummary compute(Client& client, const std::string& text, int rank, const RunO
 
 std::string code_of(const std::exception& error) {
   const auto* ours = dynamic_cast<const Error*>(&error);
-  return std::string(ours ? ours->code().name() : "internal-error");
+  if (ours != nullptr) return std::string(ours->code().name());
+  return dynamic_cast<const std::system_error*>(&error) ? "system-failed" : "internal-error";
 }
 
 // Rank 0's own share, on a thread beside the one that answers. Where there is no thread, the other ranks

@@ -24,49 +24,40 @@ enum Mark : std::uint64_t { nothing = 1, number, whole, text };
       "not-a-campaign");
 }
 
+// A bijection of the word for any bits, and of the bits for any word.
+std::uint64_t mixed(std::uint64_t bits, std::uint64_t word) {
+  bits = (std::rotl(bits, 23) ^ word) * 0x9e3779b97f4a7c15u;
+  return bits ^ (bits >> 32);
+}
+
 std::string seal_of(const Sqlite& database) {
-  Digest digest(0, 0);
+  auto bits = digest(digest(0, 0LL), 0LL);
   auto rows =
       database.prepare("SELECT key, value FROM campaign WHERE key != 'digest' ORDER BY key");
-  while (rows.step())
-    for (int i = 0; i < 2; ++i) digest.add(rows.cell(i));
-  return fmt::format("{:016x}", static_cast<std::uint64_t>(digest.value()));
+  while (rows.step()) bits = digest(digest(bits, rows.cell(0)), rows.cell(1));
+  return fmt::format("{:016x}", bits);
 }
 
 }  // namespace
 
-Digest::Digest(long long task, long long runs) {
-  add(task);
-  add(runs);
-}
-
-// A bijection of the word for any bits, and of the bits for any word.
-void Digest::mix(std::uint64_t word) {
-  bits_ = (std::rotl(bits_, 23) ^ word) * 0x9e3779b97f4a7c15u;
-  bits_ ^= bits_ >> 32;
-}
-
-void Digest::add(const record::Cell& cell) {
-  if (const auto* real = std::get_if<double>(&cell)) {
-    if (std::isnan(*real)) return mix(nothing);
-    mix(number);
-    return mix(std::bit_cast<std::uint64_t>(*real + 0.0));
-  }
+std::uint64_t digest(std::uint64_t before, const record::Cell& cell) {
+  if (const auto* real = std::get_if<double>(&cell); real != nullptr && !std::isnan(*real))
+    return mixed(mixed(before, number), std::bit_cast<std::uint64_t>(*real + 0.0));
   if (const auto* integer = std::get_if<long long>(&cell)) {
     // A column of reals gives a whole number back as a real one.
     constexpr long long exact = 1LL << 53;
-    if (*integer > -exact && *integer < exact) return add(double(*integer));
-    mix(whole);
-    return mix(static_cast<std::uint64_t>(*integer));
+    if (*integer > -exact && *integer < exact) return digest(before, double(*integer));
+    return mixed(mixed(before, whole), static_cast<std::uint64_t>(*integer));
   }
   const auto* words = std::get_if<std::string>(&cell);
-  if (words == nullptr) return mix(nothing);
-  mix(text + 8 * words->size());
+  if (words == nullptr) return mixed(before, nothing);
+  auto bits = mixed(before, text + 8 * words->size());
   for (std::size_t at = 0; at < words->size(); at += 8) {
     std::uint64_t word = 0;
     std::memcpy(&word, words->data() + at, std::min<std::size_t>(8, words->size() - at));
-    mix(word);
+    bits = mixed(bits, word);
   }
+  return bits;
 }
 
 void require_whole(const Sqlite& database, const std::string& table) {
@@ -77,20 +68,17 @@ void require_whole(const Sqlite& database, const std::string& table) {
   bool has_row = rows.step();  // now both see the same rows, whoever writes meanwhile
   while (digests.step()) {
     const auto task = digests.whole(0);
-    Digest digest(task, digests.whole(1));
+    auto bits = digest(digest(0, task), digests.whole(1));
     for (; has_row && rows.whole(0) == task; has_row = rows.step())
-      for (int i = 1; i < rows.columns(); ++i) digest.add(rows.cell(i));
-    if (digest.value() != digests.whole(2))
+      for (int i = 1; i < rows.columns(); ++i) bits = digest(bits, rows.cell(i));
+    if (bits != static_cast<std::uint64_t>(digests.whole(2)))
       damaged(database, fmt::format("the rows of task {} in {}", task, table));
   }
   if (has_row) damaged(database, fmt::format("the rows of task {} in {}", rows.whole(0), table));
 }
 
 void seal(const Sqlite& database) {
-  const record::Cell value = seal_of(database);
-  auto statement = database.prepare("INSERT OR REPLACE INTO campaign VALUES ('digest', ?)");
-  statement.bind(1, value);
-  statement.run();
+  database.prepare("INSERT OR REPLACE INTO campaign VALUES ('digest', ?)").run({seal_of(database)});
 }
 
 void require_sealed(const Sqlite& database) {

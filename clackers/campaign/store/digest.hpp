@@ -9,21 +9,10 @@
 // `digests`, and one of the table `campaign`, in its row `digest`.
 namespace clackers::campaign {
 
-/// 64 bits over cells in their order, as SQLite gives them back: NaN is empty, -0 is 0. Another number
-/// in one cell always changes them, since each step is a bijection; other changes go unnoticed once in
-/// 2^64.
-class Digest {
- public:
-  /// Of the rows of a task that has `runs` runs.
-  Digest(long long task, long long runs);
-  void add(const record::Cell& cell);
-  long long value() const { return static_cast<long long>(bits_); }
-
- private:
-  void mix(std::uint64_t word);
-
-  std::uint64_t bits_ = 0;
-};
+/// The digest of some cells, 64 bits, with another behind them. Cells count as SQLite gives them back:
+/// NaN is empty, -0 is 0. Another number in one cell always changes it, since each step is a bijection;
+/// other changes go unnoticed once in 2^64.
+std::uint64_t digest(std::uint64_t before, const record::Cell& cell);
 
 /// Throws InputError (not-a-campaign) unless each task's rows of a table ("subjects", "runs" or
 /// "timings") are those of its digest. Reads the whole table.

@@ -135,8 +135,7 @@ void require_same(const Sqlite& database, const Specification& specification,
 
 std::string value_of(const Sqlite& database, const std::string& key) {
   auto statement = database.prepare("SELECT value FROM campaign WHERE key = ?");
-  const record::Cell cell = key;
-  statement.bind(1, cell);
+  statement.bind({key});
   return statement.step() ? statement.text(0) : std::string();
 }
 

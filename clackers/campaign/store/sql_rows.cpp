@@ -10,15 +10,13 @@ using record::Cell;
 
 class SqlRows : public record::RowSource {
  public:
-  SqlRows(std::string schema, std::string title, std::vector<record::Column> columns,
-          Statement statement)
+  SqlRows(std::string schema, std::vector<record::Column> columns, Statement statement)
       : schema_(std::move(schema)),
-        title_(std::move(title)),
         columns_(std::move(columns)),
         statement_(std::move(statement)) {}
 
   std::string schema() const override { return schema_; }
-  std::string title() const override { return title_; }
+  std::string title() const override { return {}; }
   const std::vector<record::Column>& columns() const override { return columns_; }
   bool next(std::vector<Cell>& row) override {
     if (!statement_.step()) return false;
@@ -29,7 +27,7 @@ class SqlRows : public record::RowSource {
   }
 
  private:
-  std::string schema_, title_;
+  std::string schema_;
   std::vector<record::Column> columns_;
   Statement statement_;
   long long made_ = 0;
@@ -43,12 +41,9 @@ double number(const Cell& cell) {
 
 class SqlNumbers : public record::NumberRows {
  public:
-  SqlNumbers(std::string schema, std::string title, const std::vector<record::Column>& columns,
-             Statement statement, long long count)
-      : schema_(std::move(schema)),
-        title_(std::move(title)),
-        statement_(std::move(statement)),
-        count_(count) {
+  SqlNumbers(std::string schema, const std::vector<record::Column>& columns, Statement statement,
+             long long count)
+      : schema_(std::move(schema)), statement_(std::move(statement)), count_(count) {
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (columns[i].kind != record::ColumnKind::any) {
         columns_.push_back(columns[i]);
@@ -57,7 +52,7 @@ class SqlNumbers : public record::NumberRows {
   }
 
   std::string schema() const override { return schema_; }
-  std::string title() const override { return title_; }
+  std::string title() const override { return {}; }
   const std::vector<record::Column>& columns() const override { return columns_; }
   long long count() const override { return count_; }
   bool next_block(std::vector<double>& values) override {
@@ -70,7 +65,7 @@ class SqlNumbers : public record::NumberRows {
   }
 
  private:
-  std::string schema_, title_;
+  std::string schema_;
   std::vector<record::Column> columns_;
   std::vector<int> places_;
   Statement statement_;
@@ -79,16 +74,16 @@ class SqlNumbers : public record::NumberRows {
 
 }  // namespace
 
-std::unique_ptr<record::RowSource> sql_rows(const std::string& schema, const std::string& title,
+std::unique_ptr<record::RowSource> sql_rows(const std::string& schema,
                                             std::vector<record::Column> columns,
                                             Statement statement) {
-  return std::make_unique<SqlRows>(schema, title, std::move(columns), std::move(statement));
+  return std::make_unique<SqlRows>(schema, std::move(columns), std::move(statement));
 }
 
-std::unique_ptr<record::RowSource> sql_numbers(const std::string& schema, const std::string& title,
+std::unique_ptr<record::RowSource> sql_numbers(const std::string& schema,
                                                const std::vector<record::Column>& columns,
                                                Statement statement, long long count) {
-  return std::make_unique<SqlNumbers>(schema, title, columns, std::move(statement), count);
+  return std::make_unique<SqlNumbers>(schema, columns, std::move(statement), count);
 }
 
 }  // namespace clackers::campaign

@@ -92,7 +92,7 @@ void Statement::bind(int parameter, const record::Cell& cell) {
   else if (const auto* number = std::get_if<long long>(&cell))
     code = sqlite3_bind_int64(s, parameter, *number);
   else if (const auto* text = std::get_if<std::string>(&cell))
-    code = sqlite3_bind_text(s, parameter, text->data(), int(text->size()), SQLITE_STATIC);
+    code = sqlite3_bind_text(s, parameter, text->data(), int(text->size()), SQLITE_TRANSIENT);
   else
     code = sqlite3_bind_null(s, parameter);
   if (code != SQLITE_OK) fail(database_, *opened_);
@@ -105,7 +105,16 @@ bool Statement::step() {
   return false;
 }
 
-void Statement::run() {
+void Statement::bind(std::initializer_list<record::Cell> first,
+                     std::span<const record::Cell> rest) {
+  sqlite3_reset(statement_.get());
+  int parameter = 0;
+  for (const auto& cell : first) bind(++parameter, cell);
+  for (const auto& cell : rest) bind(++parameter, cell);
+}
+
+void Statement::run(std::initializer_list<record::Cell> first, std::span<const record::Cell> rest) {
+  bind(first, rest);
   while (step()) continue;
   sqlite3_reset(statement_.get());
 }

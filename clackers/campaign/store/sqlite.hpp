@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,12 +29,12 @@ class Statement {
   Statement(sqlite3* database, sqlite3_stmt* statement, const Opened& opened)
       : database_(database), statement_(statement), opened_(&opened) {}
 
-  /// The parameters from 1; text must live until the next step.
-  void bind(int parameter, const record::Cell& cell);
+  /// Begins anew with these parameters.
+  void bind(std::initializer_list<record::Cell> first, std::span<const record::Cell> rest = {});
   /// True while there is a row.
   bool step();
-  /// Runs it to the end and makes it ready for other parameters.
-  void run();
+  /// The same, to its end.
+  void run(std::initializer_list<record::Cell> first, std::span<const record::Cell> rest = {});
 
   int columns() const;
   std::string column_name(int column) const;
@@ -44,6 +46,7 @@ class Statement {
   struct Finalize {
     void operator()(sqlite3_stmt* statement) const;
   };
+  void bind(int parameter, const record::Cell& cell);
 
   sqlite3* database_;
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
@@ -105,13 +108,13 @@ class WriterLock {
 };
 
 /// The rows of a statement; the database must outlive it.
-std::unique_ptr<record::RowSource> sql_rows(const std::string& schema, const std::string& title,
+std::unique_ptr<record::RowSource> sql_rows(const std::string& schema,
                                             std::vector<record::Column> columns,
                                             Statement statement);
 
 /// The columns of numbers alone, `columns` being those of the statement; what is empty is NaN.
 /// `count` is the number of rows.
-std::unique_ptr<record::RowSource> sql_numbers(const std::string& schema, const std::string& title,
+std::unique_ptr<record::RowSource> sql_numbers(const std::string& schema,
                                                const std::vector<record::Column>& columns,
                                                Statement statement, long long count);
 

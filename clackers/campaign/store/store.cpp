@@ -4,7 +4,6 @@
 
 #include <cstring>
 #include <filesystem>
-#include <initializer_list>
 #include <optional>
 #include <utility>
 
@@ -55,7 +54,7 @@ void require_file(const std::string& path) {
 struct Store::Connection {
   // The statements that add rows.
   struct Inserts {
-    Statement subject, run, timing, digest;
+    Statement subject, run, timing, digests;
   };
 
   // After the last writer the database is one file, unless somebody reads it.
@@ -156,37 +155,28 @@ TaskSet Store::finished() const {
 
 void Store::write(std::span<const TaskRows> tasks) {
   auto& connection = *connection_;
-  auto& [subject, run, timing, kept] = connection.inserts.value();
+  auto& [subject, run, timing, digests] = connection.inserts.value();
   Transaction transaction(connection.database);
-  // Adds a row to a table, and what stands behind its task to the digest.
-  const auto add = [](Statement& statement, Digest& digest, std::initializer_list<record::Cell> key,
-                      std::span<const record::Cell> cells) {
-    int column = 0;
-    for (const auto& cell : key) {
-      statement.bind(++column, cell);
-      if (column > 1) digest.add(cell);
-    }
-    for (const auto& cell : cells) {
-      statement.bind(++column, cell);
-      digest.add(cell);
-    }
-    statement.run();
+  const auto with = [](std::uint64_t bits, std::span<const record::Cell> cells) {
+    for (const auto& cell : cells) bits = digest(bits, cell);
+    return bits;
   };
   for (const auto& rows : tasks) {
     const auto count = static_cast<long long>(rows.runs.size());
-    const Digest empty(rows.task, count);
-    Digest of_subjects = empty, of_runs = empty, of_timings = empty;
-    add(subject, of_subjects, {rows.task}, rows.subject);
+    const auto none = digest(digest(0, rows.task), count);
+    auto of_runs = none, of_timings = none;
+    subject.run({rows.task}, rows.subject);
     if (connection.database.changes() == 0) continue;
     for (std::size_t i = 0; i < rows.runs.size(); ++i) {
       const auto number = static_cast<long long>(i + 1);
-      const record::Cell seconds[] = {rows.seconds[i]};
-      add(run, of_runs, {rows.task, number}, rows.runs[i]);
-      add(timing, of_timings, {rows.task, number}, seconds);
+      run.run({rows.task, number}, rows.runs[i]);
+      timing.run({rows.task, number, rows.seconds[i]});
+      of_runs = with(digest(of_runs, number), rows.runs[i]);
+      of_timings = digest(digest(of_timings, number), rows.seconds[i]);
     }
-    Digest unused = empty;
-    add(kept, unused, {rows.task, count, of_subjects.value(), of_runs.value(), of_timings.value()},
-        {});
+    const auto kept = [](std::uint64_t bits) { return static_cast<long long>(bits); };
+    digests.run(
+        {rows.task, count, kept(with(none, rows.subject)), kept(of_runs), kept(of_timings)});
   }
   transaction.commit();
 }
@@ -203,10 +193,7 @@ long long Store::merge(const std::string& path, const std::atomic<bool>* interru
   }
   const auto& database = connection_->database;
   database.end_on(interrupt);
-  auto attach = database.prepare("ATTACH ? AS other");
-  const record::Cell name = path.starts_with('/') ? path : "./" + path;
-  attach.bind(1, name);
-  attach.run();
+  database.prepare("ATTACH ? AS other").run({path.starts_with('/') ? path : "./" + path});
   long long added = 0;
   try {
     Transaction transaction(database);
@@ -244,12 +231,8 @@ void Store::sign(const Origin& origin) {
                                    {"compiler", compiler},
                                    {"machine", machine},
                                    {"processor", processor},
-                                   {"date", date}}) {
-    const record::Cell cells[] = {std::string(key), value};
-    statement.bind(1, cells[0]);
-    statement.bind(2, cells[1]);
-    statement.run();
-  }
+                                   {"date", date}})
+    statement.run({key, value});
   seal(connection_->database);
   transaction.commit();
 }
@@ -271,7 +254,7 @@ Counts Store::counts() const {
 std::unique_ptr<record::RowSource> Store::rows(TableName table, bool with_times) const {
   const auto selection = connection_->checked(table, with_times);
   const std::string name = table == TableName::runs ? "runs" : "subjects";
-  return sql_rows("clackers/campaign-" + name + "/1", "", selection.columns,
+  return sql_rows("clackers/campaign-" + name + "/1", selection.columns,
                   connection_->database.prepare(selection.sql));
 }
 
@@ -282,7 +265,7 @@ std::unique_ptr<record::RowSource> Store::numbers(TableName table, bool with_tim
   const auto count =
       database.whole(table == TableName::runs ? "SELECT sum(max(runs, 1)) FROM digests"
                                               : "SELECT count(*) FROM digests");
-  return sql_numbers("clackers/campaign/1", "", selection.columns, database.prepare(selection.sql),
+  return sql_numbers("clackers/campaign/1", selection.columns, database.prepare(selection.sql),
                      count);
 }
 
@@ -295,7 +278,7 @@ std::unique_ptr<record::RowSource> Store::query(const std::string& sql) const {
   std::vector<record::Column> columns;
   for (int i = 0; i < statement.columns(); ++i)
     columns.push_back({statement.column_name(i), "", ""});
-  return sql_rows("clackers/campaign-query/1", "", std::move(columns), std::move(statement));
+  return sql_rows("clackers/campaign-query/1", std::move(columns), std::move(statement));
 }
 
 }  // namespace clackers::campaign
