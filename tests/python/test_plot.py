@@ -15,9 +15,11 @@ import matplotlib.pyplot as pyplot
 import numpy as np
 
 import clackers
+from solvers import scipy_flights
 
 CASE = clackers.case("three-parameter", N=2, xi1=0.05)
 RECORD = clackers.verify("rk4", "newmark+reversal", case=CASE, levels=4, samples_per_level=3)
+ENERGIES = ("kinetic", "potential", "dissipated", "lost", "total")
 
 
 def lines(axes):
@@ -72,6 +74,16 @@ class OfACase(Plots):
             self.assertEqual([path[0, 0] for path in marks.get_segments()], list(expected))
         self.assertEqual(len(clackers.plot.response(CASE, [0.0, 1.0]).collections), 0)
 
+    def test_limits_are_those_of_the_lines(self):
+        for draw in (clackers.plot.response, clackers.plot.energies):
+            for case in (clackers.case("buildings"), clackers.case("stop", t_end=400)):
+                axes = draw(case)
+                drawn = np.concatenate([line.get_ydata() for line in axes.lines])
+                margin = 0.06 * np.ptp(drawn)
+                low, high = axes.get_ylim()
+                self.assertTrue(drawn.min() - margin < low <= drawn.min(), (low, drawn.min()))
+                self.assertTrue(drawn.max() <= high < drawn.max() + margin, (high, drawn.max()))
+
     def test_many_impacts_are_short_ticks(self):
         def height(case):
             return clackers.plot.response(case).collections[0].get_segments()[0][1, 1]
@@ -101,6 +113,14 @@ class OfACase(Plots):
                 np.testing.assert_array_equal(line.get_ydata(), table[name])
         self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("time $t$ [s]", "energy [J]"))
 
+    def test_energies_are_those_that_the_case_has(self):
+        for name in clackers.catalogue("cases")["name"]:
+            case = clackers.case(name)
+            axes = clackers.plot.energies(case, np.linspace(0.0, case.end, 11))
+            columns = [column.name for column in case.energies([0.0]).columns]
+            self.assertEqual([line.get_label() for line in axes.lines], [each for each in columns if each in ENERGIES])
+            pyplot.close("all")
+
     def test_spectrum_is_the_modulus(self):
         axes = clackers.plot.spectrum(CASE, highest=12.0, n=101)
         table = CASE.spectrum(101, 12.0)
@@ -129,6 +149,37 @@ class OfARecord(Plots):
         self.assertEqual((axes.get_xscale(), axes.get_yscale()), ("log", "log"))
         self.assertEqual((axes.get_xlabel(), axes.get_ylabel()),
                          ("step $h$ [s]", "largest error in $u$ / largest envelope"))
+
+    def test_axes_of_tolerances_say_so(self):
+        record = clackers.verify(scipy_flights, tolerances=[1e-5, 1e-6, 1e-7], case=CASE)
+        axes = clackers.plot.convergence(record, floor=True)
+        shown = lines(axes)
+        self.assertEqual(axes.get_xlabel(), "tolerance")
+        for name in ("_runs of scipy_flights", "scipy_flights"):
+            np.testing.assert_array_equal(shown[name].get_xdata(), [1e-5, 1e-6, 1e-7])
+        np.testing.assert_array_equal(shown["rounding"].get_xdata(), [1e-7, 1e-6, 1e-5])
+        self.assertEqual(clackers.plot.history(record).get_legend().get_title().get_text(), "tolerance 1e-07")
+
+    def test_axes_of_steps_and_tolerances_say_so(self):
+        record = clackers.verify("rk4", scipy_flights, tolerances=[1e-5, 1e-6, 1e-7], case=CASE, levels=4)
+        axes = clackers.plot.convergence(record)
+        self.assertEqual(axes.get_xlabel(), "step $h$ [s] or tolerance")
+        np.testing.assert_array_equal(lines(axes)["_runs of scipy_flights"].get_xdata(), [1e-5, 1e-6, 1e-7])
+        self.assertEqual([text.get_text().split(", ")[1] for text in clackers.plot.history(record).get_legend().get_texts()],
+                         ["$h$ = 0.00625 s", "tolerance 1e-07"])
+
+    def test_errors_that_do_not_fall_have_an_axis_of_a_decade_with_the_triangles_below(self):
+        def wrong(problem, h):
+            t = np.arange(0.0, problem.end + h / 2, h)
+            return t, *clackers.case("stop", eta=0.89).response(t)
+
+        record = clackers.verify(wrong, case="stop", eta=0.9, steps=[0.1, 0.05, 0.02])
+        axes = clackers.plot.convergence(record)
+        low, high = axes.get_ylim()
+        self.assertAlmostEqual(np.log10(high / low), 1.1, delta=0.02)
+        slopes = [line.get_ydata() for line in axes.lines if line.get_label() == "_slope"]
+        self.assertGreater(min(map(min, slopes)), low)
+        self.assertLess(max(map(max, slopes)), record.table()["u_error"].min() / 1.5)
 
     def test_runs_without_a_positive_error_are_not_drawn(self):
         smallest = RECORD["rk4"].runs["u_error"].min()

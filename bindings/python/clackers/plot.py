@@ -83,7 +83,8 @@ def response(
 
 
 def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = None, width: float = COLUMN) -> Axes:
-    """Where the energy is against time: kinetic, potential, dissipated by damping, lost in impacts, total.
+    """Where the energy is against time: kinetic, potential, dissipated by damping, lost in impacts, total,
+    as far as ``Case.energies`` has them.
 
     ``t`` are times [s], by default 2001 over the run and those of the impacts. Where a time is that of an
     impact, the limits of both sides are drawn.
@@ -97,7 +98,8 @@ def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = No
     table = case.energies(times)
     with _axes(ax, width) as axes:
         for number, name in enumerate(("kinetic", "potential", "dissipated", "lost", "total")):
-            axes.plot(table["t"], table[name], label=name, **_line(_look(number)))
+            if name in table.arrays:
+                axes.plot(table["t"], table[name], label=name, **_line(_look(number)))
         _mark(axes, hits)
         axes.set(xlabel="time $t$ [s]", ylabel="energy [J]")
         axes.margins(x=0)
@@ -137,7 +139,7 @@ def convergence(
     ax: Axes | None = None,
     width: float = COLUMN,
 ) -> Axes:
-    """The largest error in u of every run against its step, both axes logarithmic.
+    """The largest error in u of every run against its step or tolerance, both axes logarithmic.
 
     Faint points are runs; a line joins the largest errors of the levels of a subject. Thin grey lines have the
     slopes of the orders beside them. The dotted line is the error that rounding explains: ``floor`` True or False
@@ -161,16 +163,14 @@ def convergence(
             look = _look(number)
             own = [row for row in runs if row["method"] == method]
             axes.plot(
-                _column(own, "step"), _column(own, "u_error"), label=f"_runs of {method}", linestyle="none", marker=".",
+                list(map(_resolution, own)), _column(own, "u_error"), label=f"_runs of {method}", linestyle="none", marker=".",
                 markersize=3, markeredgewidth=0, color=look.color, alpha=0.4,
             )
             own = [row for row in levels if row["method"] == method]
             axes.plot(_column(own, "step"), _column(own, "u_error"), label=method, marker=look.marker, **_line(look))
         _draw_floor(axes, runs, floor)
-        axes.set(
-            xscale="log", yscale="log", xlabel="step $h$ [s]",
-            ylabel=r"largest error in $u$ / largest envelope",
-        )
+        kinds = {"step $h$ [s]" if row["tolerance"] is None else "tolerance" for row in runs}
+        axes.set(xscale="log", yscale="log", xlabel=" or ".join(sorted(kinds)), ylabel=r"largest error in $u$ / largest envelope")
         _legend(axes)
     return axes
 
@@ -195,7 +195,10 @@ def history(
         _core.refuse("plot.history", "mass", str(mass), " or ".join(map(str, masses)))
     if not any(_is_drawable(error) for row in chosen for error in row["error"]):
         _refuse_empty("history", "one with a run of a finite positive error")
-    steps = {f"$h$ = {row['step']:.3g} s" for row in chosen}
+    runs = record.table()
+    by_tolerance = set(runs["method"][~np.isnan(runs["tolerance"])])
+    steps = [f"tolerance {row['step']:.3g}" if row["method"] in by_tolerance else f"$h$ = {row['step']:.3g} s" for row in chosen]
+    is_common = len(set(steps)) == 1
     with _axes(ax, width) as axes:
         for number, row in enumerate(chosen):
             look = _look(number)
@@ -204,14 +207,14 @@ def history(
             apart = max(len(error) // 8, 1)
             axes.plot(
                 row["t"], error, marker=look.marker, markevery=(number * apart // 4 % apart, apart),
-                label=row["method"] if len(steps) == 1 else f"{row['method']}, $h$ = {row['step']:.3g} s", **_line(look),
+                label=row["method"] if is_common else f"{row['method']}, {steps[number]}", **_line(look),
             )
         axes.set(
             yscale="log", xlabel="time $t$ [s]",
             ylabel=f"|error in {_indexed('u', mass - 1, len(masses))}| / largest envelope",
         )
         axes.margins(x=0)
-        _legend(axes, steps.pop() if len(steps) == 1 else None)
+        _legend(axes, steps[0] if is_common else None)
     return axes
 
 
@@ -284,11 +287,14 @@ def _times(case: Case, t: npt.ArrayLike | None) -> tuple[npt.NDArray[np.float64]
 def _mark(axes: Axes, hits: npt.NDArray[np.float64]) -> None:
     if len(hits) == 0:
         return
+    from matplotlib.collections import LineCollection  # type: ignore[import]
+
     height = 1.0 if len(hits) <= _MOST_LINES else 0.04
-    marks = axes.vlines(
-        hits, 0, height, transform=axes.get_xaxis_transform(), colors="#b0b0b0", linewidths=0.5, zorder=0.5,
+    marks = LineCollection(
+        [[(hit, 0.0), (hit, height)] for hit in hits], transform=axes.get_xaxis_transform(), colors="#b0b0b0",
+        linewidths=0.5, zorder=0.5, label="impacts",
     )
-    marks.set_label("impacts")
+    axes.add_collection(marks, autolim=False)  # heights are shares of the axes, no data
 
 
 # Data of a record.
@@ -315,6 +321,12 @@ def _is_drawable(value: float | None) -> bool:
     return value is not None and 0.0 < value < np.inf
 
 
+def _resolution(run: dict[str, Any]) -> float:
+    """The step or tolerance of a run."""
+    found: float = run["step"] if run["tolerance"] is None else run["tolerance"]
+    return found
+
+
 def _column(rows: Sequence[dict[str, Any]], name: str) -> list[float]:
     return [row[name] for row in rows]
 
@@ -337,7 +349,7 @@ def _draw_floor(axes: Axes, runs: Sequence[dict[str, Any]], wanted: bool | None)
         return
     largest: dict[float, float] = {}
     for row in known:
-        largest[row["step"]] = max(row["rounding_floor"], largest.get(row["step"], 0.0))
+        largest[_resolution(row)] = max(row["rounding_floor"], largest.get(_resolution(row), 0.0))
     steps = sorted(largest)
     axes.plot(
         steps, [largest[step] for step in steps], label="rounding", color=_GREY, linestyle=":", linewidth=0.9, zorder=1

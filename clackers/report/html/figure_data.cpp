@@ -121,7 +121,8 @@ Json slopes(const record::CaseRecord& problem) {
   });
   Json out = Json::array();
   if (!(step > 0.0)) return out;
-  const double decades = std::max(std::log10(highest) - std::log10(lowest), 1.0);
+  lowest = std::min(lowest, highest / 10.0);  // below errors that do not fall
+  const double decades = std::log10(highest) - std::log10(lowest);
   const double base = std::min(8.0, std::pow(10.0, decades / 3.0 / 4.0));
   for (const int order : std::array{1, 2, 4}) {
     const double left = step / base, top = lowest * std::pow(base, order);
