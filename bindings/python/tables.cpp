@@ -52,10 +52,9 @@ std::string cell_text(py::handle value) {
   return cell.index() == 0 ? "" : py::str(value).cast<std::string>();
 }
 
-[[noreturn]] void refuse_column(const std::string& table, const std::string& name,
-                                const std::vector<std::string>& columns) {
-  refuse_name(fmt::format("column in the table \"{}\" called", table), name, columns,
-              fmt::format("{}", fmt::join(columns, ", ")));
+[[noreturn]] void refuse_unknown(const std::string& what, const std::string& given,
+                                 const std::vector<std::string>& known) {
+  refuse_name(what, given, known, fmt::format("{}", fmt::join(known, ", ")));
 }
 
 py::tuple listing(py::handle given) {
@@ -90,7 +89,7 @@ void bind_tables(py::module_& core) {
   core.def("case_tables", &case_tables, py::arg("case"), py::arg("threshold"));
   core.def("listing_kinds", &listing_kinds);
   core.def("cell_text", &cell_text, py::arg("cell"));
-  core.def("refuse_column", &refuse_column, py::arg("table"), py::arg("name"), py::arg("columns"));
+  core.def("refuse_name", &refuse_unknown, py::arg("what"), py::arg("given"), py::arg("known"));
   core.def("table_text", &table_text, py::arg("title"), py::arg("columns"), py::arg("rows"),
            py::arg("width"));
 }

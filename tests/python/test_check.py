@@ -50,7 +50,7 @@ class Arrays(unittest.TestCase):
         self.assertEqual(record.table()["step"].tolist(), [0.02, 0.01, 0.01])
         by_step = clackers.check({"a": {0.02: right[0], 0.01: right[1]}, "b": {0.01: wrong[1]}}, case=CASE)
         self.assertEqual(by_step.table()["step"].tolist(), [0.02, 0.01, 0.01])
-        with self.assertRaisesRegex(clackers.InputError, "--name = right; allowed: a name with one FILE or more"):
+        with self.assertRaisesRegex(clackers.InputError, "name = right; allowed: a name with one FILE or more"):
             clackers.check({"right": {}, "wrong": wrong}, case=CASE)
 
     def test_every_form_gives_the_same_error(self):

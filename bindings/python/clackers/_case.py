@@ -1,6 +1,9 @@
 """Cases: problems together with their exact motions."""
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from typing import Literal, NamedTuple, overload
 
@@ -8,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from clackers import _core
+from clackers._errors import InputError
 from clackers._problem import Array, Problem
 from clackers._table import Table
 
@@ -315,4 +319,23 @@ def case(name: str | None = None, /, *, threshold: float | None = None, **parame
     >>> clackers.case("assembly", pairs=2, coupling="dense").dof
     4
     """
-    return Case(_core.Case(name, parameters, threshold), threshold)
+    with known_arguments(case, name, parameters):
+        return Case(_core.Case(name, parameters, threshold), threshold)
+
+
+@contextmanager
+def known_arguments(function: Callable[..., object], name: str | None, parameters: Mapping[str, object]) -> Iterator[None]:
+    """A name that is no parameter of a case may be a mistyped argument of the function: the refusal lists both."""
+    try:
+        yield
+        return
+    except InputError as error:
+        if error.code != "unknown-name":
+            raise
+        refused = error
+    known = list(_core.Case(name or None, {}, None).parameters)
+    for given in parameters:
+        if given not in known:
+            own = [each.name for each in inspect.signature(function).parameters.values() if each.kind is each.KEYWORD_ONLY]
+            _core.refuse_name(f"argument of clackers.{function.__name__}", given, [*known, *own])
+    raise refused

@@ -3,6 +3,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from clackers._words import in_python
+
 if TYPE_CHECKING:
     from clackers._record import Record
 
@@ -17,7 +19,7 @@ class Error(RuntimeError):
     code: str
 
     def __init__(self, message: str, code: str = "") -> None:
-        super().__init__(message)
+        super().__init__(in_python(message))
         self.code = code
 
 

@@ -101,7 +101,7 @@ def _matrix(who: str, name: str, value: object, times: int, width: int, columns_
     straight, transposed = array.shape == (times, width), array.shape == (width, times)
     if straight or transposed:
         return array.T if transposed and (columns_first or not straight) else array
-    shapes = f"shape ({times}, {width}) or ({width}, {times})" + (f" or ({times},)" if width == 1 else "")
+    shapes = "shape " + " or ".join(dict.fromkeys([f"({times}, {width})", f"({width}, {times})", *([f"({times},)"] if width == 1 else [])]))
     what = "y = (u, v) of" if name == "y" else "mass" if width == 1 else "masses"
     count = width // 2 if name == "y" else width
     _core.refuse(

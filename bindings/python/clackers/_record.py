@@ -3,12 +3,13 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 from clackers import _core
 from clackers._table import Table
+from clackers._words import html_in_python, in_python
 
 WIDTH = 80
 """Characters a line of the text of a record."""
@@ -302,7 +303,7 @@ class Record:
         ending = os.path.splitext(os.fspath(path))[1].lower()
         if ending != ".html" and ending not in _FORMATS:
             _core.refuse("Record.save", "path", os.fspath(path), "a name in " + ", ".join([".html", *_FORMATS]))
-        text = self._core.page() if ending == ".html" else self._core.written(_FORMATS[ending], WIDTH)
+        text = self._in_words(self._core.page(), html_in_python) if ending == ".html" else self._written(_FORMATS[ending])
         with open(path, "w", encoding="utf-8", newline="") as file:
             file.write(text)
 
@@ -327,13 +328,21 @@ class Record:
         return Figure(name, json.loads(self._core.figure(place, _core.read_text("Record.figure", "name", name))))
 
     def __str__(self) -> str:
-        return self._core.written("table", WIDTH).rstrip("\n")
+        return self._written("table").rstrip("\n")
+
+    def _written(self, form: str) -> str:
+        text = self._core.written(form, WIDTH)
+        return self._in_words(text, in_python) if form == "table" else text
+
+    def _in_words(self, text: str, reworded: Callable[[str], str]) -> str:
+        """In words of Python, unless the command made the record: it is to be made again by the command."""
+        return reworded(text) if self.provenance["command"].startswith("clackers.") else text
 
     def __repr__(self) -> str:
         return f"<clackers.Record {self.command} on {', '.join(self.cases)}: {self.verdict}>"
 
     def _repr_html_(self) -> str:
-        return self._core.notebook()
+        return self._in_words(self._core.notebook(), html_in_python)
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
         return {"text/plain": str(self), "text/html": self._repr_html_()}
@@ -357,7 +366,7 @@ def load(path: str | os.PathLike[str]) -> Record:
 
 def _subject(core: _core.Record, row: dict[str, Any]) -> Subject:
     fields = dict(row)
-    fields["findings"] = tuple(row["findings"])
-    fields["diagnoses"] = tuple(Diagnosis(*cause) for cause in row["diagnoses"])
+    fields["findings"] = tuple(map(in_python, row["findings"]))
+    fields["diagnoses"] = tuple(Diagnosis(*cause, in_python(text)) for *cause, text in row["diagnoses"])
     place = fields.pop("place")
     return Subject(**fields, _core=core, _place=place)

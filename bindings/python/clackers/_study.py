@@ -9,7 +9,7 @@ from typing import Literal, TypeGuard, Union
 import numpy.typing as npt
 
 from clackers import _core
-from clackers._case import Case
+from clackers._case import Case, known_arguments
 from clackers._case import case as make_case
 from clackers._errors import Interrupted, SolverError
 from clackers._history import Columns, Source, read_impacts, read_history
@@ -98,7 +98,7 @@ def verify(
     own_steps = [] if steps is None else _descending("steps", _core.read_vector("verify", "steps", steps).tolist())
     own_tolerances = [] if tolerances is None else _tolerances(tolerances)
     runs = [Runs(solver, title) for solver, title in zip(solvers, _names(solvers, name))]
-    with _ProgressLine("verify", progress) as report:
+    with _ProgressLine("verify", progress) as report, known_arguments(verify, chosen[0][0], parameters):
         core, stop = _core.verify(
             methods=names,
             callables=[(each.name, each, own_steps, own_tolerances) for each in runs],
@@ -138,7 +138,7 @@ def check(
     case: str | Case | None = None,
     expect: str | None = None,
     tolerance: float | None = None,
-    columns: Sequence[str] | None = None,
+    columns: str | Sequence[str] | None = None,
     name: str | Sequence[str] | None = None,
     progress: Progress = None,
     **parameters: float | str,
@@ -161,7 +161,7 @@ def check(
         case        a name with **parameters, or a clackers.Case; default three-parameter
         expect      what the histories should show: "proper:2", "irregular:1", "exact", ...; default nothing
         tolerance   largest error in u over the largest envelope that is allowed
-        columns     names of the columns of files where a header lacks or differs
+        columns     names of the columns of files where a header lacks or differs: "t,u1,_,v1" or a list
         name        of the history in the record, a list of several
         progress    a callable that gets the share that is done, or True for a line on standard error
 
@@ -185,7 +185,8 @@ def check(
         _core.refuse("check", "step", "steps beside a mapping", "steps as keys, or step and tolerances", "", "bad-syntax")
     titles = _titles(name, len(given))
     events = _one_each("impacts", collisions if impacts is None else impacts, len(given))
-    dof = 0 if all(map(_is_path, given)) else (case if isinstance(case, Case) else make_case(case, threshold=None, **parameters)).dof
+    with known_arguments(check, chosen[0][0], parameters):
+        dof = (case if isinstance(case, Case) else make_case(case, **parameters)).dof
     sources: list[Source] = []
     reported: list[Source | None] = []
     for history, title, event in zip(given, titles, events):
@@ -213,7 +214,7 @@ def check(
             case=chosen[0],
             steps=steps,
             tolerances=[] if tolerances is None else _core.read_vector("check", "tolerances", tolerances).tolist(),
-            columns=[] if columns is None else [_core.read_text("check", "columns", column) for column in columns],
+            columns=[] if columns is None else [_core.read_text("check", "columns", column) for column in _parts(columns)],
             expect=None if expect is None else _core.read_text("check", "expect", expect),
             tolerance=None if tolerance is None else _core.read_number("check", "tolerance", tolerance),
             command=_line(
@@ -307,6 +308,10 @@ def _names(solvers: Sequence[Solver], name: str | Sequence[str] | None) -> list[
 
 def _is_path(value: object) -> TypeGuard[Path]:
     return isinstance(value, (str, os.PathLike))
+
+
+def _parts(columns: Sequence[str]) -> Sequence[str]:
+    return columns.split(",") if isinstance(columns, str) else columns
 
 
 def _is_history(value: object) -> bool:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 import numpy.typing as npt
 
 from clackers import _core
+from clackers._words import in_python
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import]
@@ -55,8 +56,8 @@ class Table:
         arrays: Sequence[npt.NDArray[Any]],
     ) -> None:
         self.schema = schema
-        self.title = title
-        self.columns = tuple(Column(*column) for column in columns)
+        self.title = in_python(title)
+        self.columns = tuple(Column(name, unit, in_python(meaning)) for name, unit, meaning in columns)
         self._arrays = {column.name: array for column, array in zip(self.columns, arrays, strict=True)}
 
     def __len__(self) -> int:
@@ -78,7 +79,7 @@ class Table:
         if key not in self._arrays and key.startswith("collision"):
             key = key.replace("collision", "impact")  # the former names
         if key not in self._arrays:
-            _core.refuse_column(self.title, key, list(self._arrays))
+            _core.refuse_name(f'column in the table "{self.title}" called', key, list(self._arrays))
         return self._arrays[key]
 
     @property
@@ -152,7 +153,8 @@ def _shown(table: Table) -> list[tuple[Cell, ...]]:
     """The rows that a table shows of itself, with sides as the command prints them."""
     sides = [column.name == "side" for column in table.columns]
     return [
-        tuple(_SIDES[int(cell)] if is_side and isinstance(cell, int) else cell for cell, is_side in zip(row, sides))
+        tuple(_SIDES[int(cell)] if is_side and isinstance(cell, int) else in_python(cell) if isinstance(cell, str) else cell
+              for cell, is_side in zip(row, sides))
         for row in table.head(_MOST_SHOWN)
     ]
 
