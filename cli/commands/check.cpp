@@ -80,7 +80,7 @@ study::CheckRequest request_of(const CheckOptions& options, const std::string& l
 // Without an exact motion: the exit code is that of the tolerance.
 int run_against(const CheckOptions& options, const Command& command) {
   constexpr auto fitting = std::to_array<std::string_view>(
-      {"--against", "--columns", "--steps", "--tolerance", "--format", "--out"});
+      {"--against", "--columns", "--steps", "--tolerances", "--tolerance", "--format", "--out"});
   const auto is_wrong = [&](const Option& option) {
     return std::ranges::find(fitting, option.name) == fitting.end() &&
            (!option.values().empty() || (option.name == "--impacts" && options.impacts));
@@ -98,6 +98,8 @@ int run_against(const CheckOptions& options, const Command& command) {
   request.sets[1].insert(request.sets[1].end(), middle, options.files.end());
   if (!options.columns.empty()) request.columns = parts_of("--columns", options.columns);
   if (!options.steps.empty()) request.steps = numbers_of("--steps", options.steps);
+  if (!options.tolerances.empty())
+    request.tolerances = numbers_of("--tolerances", options.tolerances);
   if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
   Results results(options.common, OnInterrupt::stop);
   const auto found = study::check_against(request, &interrupt_flag());

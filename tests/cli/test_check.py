@@ -174,6 +174,14 @@ class Against(CheckTest):
         self.against(*files, "--tolerance", "0.0063", exit_code=1)
         self.assertIn("Agreement is no proof", run("check", *files).stdout)
 
+    def test_tolerances_stand_in_place_of_steps(self):
+        files = self.converging(levels=5)
+        given = ("--tolerances", "1e-3,2e-4,4e-5,8e-6,1.6e-6,0.1")
+        sets = self.against(*files, "--against", self.history("exact.csv", every=2), *given)[1]
+        self.assertEqual([each["finest"] for each in sets], [1.6e-6, 0.1])
+        self.assertAlmostEqual(sets[0]["order"], math.log(4) / math.log(5), delta=0.01)
+        self.refused("check", *files, "--against", files[0], *given, "--steps", "1", code="bad-syntax", says="one of them")
+
     def test_what_cannot_be_compared_is_refused(self):
         exact, other = self.history("exact.csv"), self.history("other.csv", change=lambda row: row | {"t": 1.001 * row["t"]})
         self.refused("check", exact, "--against", exact, "--case", "stop", code="bad-syntax", says="beside --case")

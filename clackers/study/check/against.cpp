@@ -33,13 +33,15 @@ int masses_of(const input::Source& source, input::HistoryOptions options) {
   return masses;
 }
 
-Levels read_levels(const std::vector<input::Source>& files, std::span<const double> steps,
-                   input::HistoryOptions options) {
+// `given`: none, or the step or tolerance of each; only a step is the time between rows without times.
+Levels read_levels(const std::vector<input::Source>& files, std::span<const double> given,
+                   bool by_step, input::HistoryOptions options) {
   Levels levels;
   std::vector<NamedHistory> set;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    options.step = steps.empty() ? 0.0 : steps[i];
-    auto& level = levels.emplace_back(Level{input::read_history(files[i], options), options.step});
+    const double step = given.empty() ? 0.0 : given[i];
+    options.step = by_step ? step : 0.0;
+    auto& level = levels.emplace_back(Level{input::read_history(files[i], options), step});
     if (const auto lacking = std::ranges::find(level.history.has_u, false);
         lacking != level.history.has_u.end())
       refuse(against_name, input::name_of(files[i]),
@@ -49,7 +51,7 @@ Levels read_levels(const std::vector<input::Source>& files, std::span<const doub
   }
   const double end = levels.front().history.motion.t.back();
   const auto named = named_steps(set, std::numeric_limits<double>::infinity(), end);
-  if (steps.empty())
+  if (given.empty())
     for (std::size_t i = 0; i < levels.size(); ++i)
       levels[i].step = named.steps[i].value_or(set[i].spacing);
   std::ranges::stable_sort(levels, std::greater{}, &Level::step);
@@ -116,21 +118,27 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
   const auto& [ours, theirs] = request.sets;
   if (ours.empty() || theirs.empty())
     throw InputError("check --against needs a FILE before it and one behind it.", "bad-syntax");
-  if (!request.steps.empty() && request.steps.size() != ours.size() + theirs.size())
-    refuse(against_name, "--steps", fmt::format("{} of them", request.steps.size()),
+  const bool by_step = request.tolerances.empty();
+  const std::span given = by_step ? request.steps : request.tolerances;
+  if (!by_step && !request.steps.empty())
+    throw InputError("check: --steps and --tolerances; allowed: one of them.", "bad-syntax");
+  if (!given.empty() && given.size() != ours.size() + theirs.size())
+    refuse(against_name, by_step ? "--steps" : "--tolerances",
+           fmt::format("{} of them", given.size()),
            fmt::format("one a history, {} here, in the same order", ours.size() + theirs.size()),
            {}, "wrong-size");
   if (path_of(ours.front()) == "-")
     refuse(against_name, "FILE", "-", "a file, since the first is read twice", {}, "bad-syntax");
   for (const double step : request.steps) require_step("check --steps", step);
+  for (const double t : request.tolerances)
+    if (!(t > 0.0 && t < 1.0)) refuse("check", "--tolerances", t, "0 < tolerance < 1");
   if (request.tolerance) require_positive("check", "--tolerance", *request.tolerance);
   input::HistoryOptions options{.columns = request.columns, .interrupt = interrupt};
   if (!request.steps.empty()) options.step = request.steps.front();
   options.dof = masses_of(ours.front(), options);
-  const std::span steps = request.steps;
-  const bool has_steps = !steps.empty();
-  const auto first = read_levels(ours, has_steps ? steps.first(ours.size()) : steps, options);
-  const auto second = read_levels(theirs, has_steps ? steps.last(theirs.size()) : steps, options);
+  const auto middle = std::min(given.size(), ours.size());
+  const auto first = read_levels(ours, given.first(middle), by_step, options);
+  const auto second = read_levels(theirs, given.subspan(middle), by_step, options);
 
   const auto &a = first.back().history.motion, &b = second.back().history.motion;
   const auto rows = common_rows({&a, &b});
@@ -176,7 +184,7 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
       scientific(largest), limit, rows.size());
   record::Sheet sets{"clackers/self-convergence/1",
                      "Each set by itself, from the differences between its histories",
-                     {{"set", "", "before or behind --against"},
+                     {{"set", "", "in the order given"},
                       {"histories", "", ""},
                       {"finest", "", "step [s] or tolerance"},
                       {"order", "", "with which the differences fall"},

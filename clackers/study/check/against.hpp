@@ -17,6 +17,7 @@ struct AgainstRequest {
   std::array<std::vector<input::Source>, 2> sets;
   std::vector<std::string> columns;  ///< names of the columns; empty: those of the files
   std::vector<double> steps;         ///< none, or one a history, over both sets [s]
+  std::vector<double> tolerances;    ///< the same, instead of steps
   std::optional<double> tolerance;   ///< largest allowed difference over the largest displacement
 };
 
