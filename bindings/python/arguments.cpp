@@ -22,7 +22,10 @@ bool is_real(const py::array& array) {
 
 // The value as a person would write it, with its type.
 std::string given(py::handle value) {
-  return fmt::format("{} ({})", py::repr(value).cast<std::string>(), description(value));
+  const auto shown = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()));
+  if (shown) return fmt::format("{} ({})", shown.cast<std::string>(), description(value));
+  PyErr_Clear();  // of an object whose own repr() raises
+  return description(value);
 }
 
 py::object numpy(const char* name) { return py::module_::import("numpy").attr(name); }
@@ -93,7 +96,7 @@ long long read_whole(std::string_view who, std::string_view name, py::handle val
 Settings read_settings(std::string_view who, const py::dict& parameters) {
   Settings settings;
   for (const auto& [key, value] : parameters) {
-    const auto name = key.cast<std::string>();
+    const auto name = read_text(who, "name of a parameter", key);
     if (py::isinstance<py::str>(value))
       settings.emplace_back(name, read_text(who, name, value));
     else
@@ -104,7 +107,12 @@ Settings read_settings(std::string_view who, const py::dict& parameters) {
 
 std::string read_text(std::string_view who, std::string_view name, py::handle value) {
   if (!py::isinstance<py::str>(value)) refuse(who, name, given(value), "a text", {}, "not-text");
-  return value.cast<std::string>();
+  Py_ssize_t size = 0;
+  if (const char* text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+      text != nullptr && std::string_view(text).size() == std::size_t(size))
+    return text;
+  PyErr_Clear();
+  refuse(who, name, given(value), "a text without NUL and halves of surrogate pairs", {}, "not-text");
 }
 
 Doubles read_array(std::string_view who, std::string_view name, py::handle value) {

@@ -21,7 +21,7 @@ using Doubles = py::array_t<double, py::array::c_style>;
 double read_number(std::string_view who, std::string_view name, py::handle value);
 /// A whole number. Throws InputError (not-whole).
 long long read_whole(std::string_view who, std::string_view name, py::handle value);
-/// A text. Throws InputError (not-text).
+/// A text. Throws InputError (not-text), also for one that UTF-8 cannot hold.
 std::string read_text(std::string_view who, std::string_view name, py::handle value);
 
 /// The parameters of a case: numbers, or the words of those that have words. Throws InputError

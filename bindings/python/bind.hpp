@@ -53,7 +53,7 @@ py::tuple read_rows(record::RowSource& rows);
 /// clackers._history makes these lists.
 input::NumberColumns columns_of(const std::string& name, const py::list& columns);
 
-/// A path, or such a list under a name: a str, or (name, list).
+/// A path, or such a list under a name: bytes, or (name, list).
 input::Source source_of(py::handle source);
 
 }  // namespace clackers::python

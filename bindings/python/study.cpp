@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -18,13 +19,13 @@
 #include "clackers/solvers/program.hpp"
 #include "clackers/solvers/solver.hpp"
 #include "clackers/study/check.hpp"
+#include "clackers/study/check/against.hpp"
 #include "clackers/study/options.hpp"
 #include "clackers/study/verify.hpp"
 
 namespace clackers::python {
 namespace {
 
-using RecordPointer = std::shared_ptr<record::Record>;
 // (name, parameters) of a case.
 using CaseChoice = std::pair<std::string, py::dict>;
 // (name, run, steps, tolerances) of a callable.
@@ -32,12 +33,11 @@ using Callable = std::tuple<std::string, py::object, std::vector<double>, std::v
 
 // Runs a study in the caller's thread: (record, exception of Python that ended it), either None. A
 // study that leaves no record when it is interrupted throws Error (interrupted).
-py::tuple result_of(CallerThread& caller, const py::object& progress,
-                    const std::function<record::Record(const Progress&)>& make) {
-  RecordPointer record;
+py::tuple result_of(CallerThread& caller, const py::object& progress, const auto& make) {
+  std::shared_ptr<std::invoke_result_t<decltype(make), const Progress&>> record;
   try {
     caller.run(progress, [&](const Progress& report) {
-      record = std::make_shared<record::Record>(make(report));
+      record = std::make_shared<typename decltype(record)::element_type>(make(report));
     });
   } catch (const Error& error) {
     if (error.code() != Code("interrupted")) throw;
@@ -113,6 +113,28 @@ py::tuple check(const std::vector<std::pair<std::string, py::list>>& subjects,
   });
 }
 
+// (comparison, exception of Python that ended it), either None.
+py::tuple compare(const py::list& first, const py::list& second, const std::vector<double>& steps,
+                  const std::vector<double>& tolerances, const std::vector<std::string>& columns,
+                  std::optional<double> tolerance) {
+  study::AgainstRequest request{{}, columns, steps, tolerances, tolerance};
+  for (const auto history : first) request.sets[0].push_back(source_of(history));
+  for (const auto history : second) request.sets[1].push_back(source_of(history));
+  CallerThread caller;
+  return result_of(caller, py::none(), [&](const Progress&) {
+    return study::check_against(request, caller.interrupt());
+  });
+}
+
+py::list comparison_tables(const study::AgainstResult& result) {
+  py::list tables;
+  for (const auto& sheet : result.sheets) {
+    record::SheetRows rows(sheet);
+    tables.append(read_rows(rows));
+  }
+  return tables;
+}
+
 }  // namespace
 
 void bind_study(py::module_& core) {
@@ -121,6 +143,11 @@ void bind_study(py::module_& core) {
   core.def("check", &check, py::arg("subjects"), py::arg("events"), py::arg("case"),
            py::arg("steps"), py::arg("tolerances"), py::arg("columns"), py::arg("expect"),
            py::arg("tolerance"), py::arg("command"), py::arg("progress"));
+  py::class_<study::AgainstResult, std::shared_ptr<study::AgainstResult>>(core, "Comparison")
+      .def_readonly("is_within", &study::AgainstResult::is_within)
+      .def_property_readonly("tables", &comparison_tables);
+  core.def("compare", &compare, py::arg("first"), py::arg("second"), py::arg("steps"),
+           py::arg("tolerances"), py::arg("columns"), py::arg("tolerance"));
   core.def("tolerances_from", &solvers::tolerances_from, py::arg("text"));
   py::module_::import("atexit").attr("register")(py::cpp_function(&CallerThread::stop_all));
 }

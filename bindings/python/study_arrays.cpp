@@ -27,7 +27,7 @@ input::NumberColumns columns_of(const std::string& name, const py::list& columns
 }
 
 input::Source source_of(py::handle source) {
-  if (py::isinstance<py::str>(source)) return source.cast<std::string>();
+  if (py::isinstance<py::bytes>(source)) return source.cast<std::string>();
   const auto [name, columns] = source.cast<std::pair<std::string, py::list>>();
   return columns_of(name, columns);
 }

@@ -7,7 +7,7 @@ author = "The Clackers developers"
 copyright = "The Clackers developers. Licence: Apache-2.0"
 version = release = os.environ["CLACKERS_VERSION"]
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "breathe"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax", "breathe"]
 source_suffix = {".md": "markdown"}
 nitpicky = False
 

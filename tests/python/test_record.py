@@ -54,8 +54,8 @@ class Subjects(unittest.TestCase):
         self.assertEqual(subject.claim, "proper, order 4")
         self.assertAlmostEqual(subject.order, 4.0, delta=0.3)
         self.assertGreater(subject.uncertainty, 0.0)
-        self.assertEqual(len(subject.levels), 5)
-        self.assertEqual(len(subject.runs), 20)
+        self.assertEqual(len(subject.levels.rows), 5)
+        self.assertEqual(len(subject.runs.rows), 20)
 
     def test_the_diagnosis_of_a_callable(self):
         cause = CALLABLE.diagnoses[0]
@@ -222,7 +222,7 @@ class Files(unittest.TestCase):
 class Tables(unittest.TestCase):
     def test_a_row_a_run(self):
         table = METHODS.table()
-        self.assertEqual(len(table), 40)
+        self.assertEqual(len(table.rows), 40)
         self.assertEqual(table["method"][0], "rk4")
         self.assertEqual(table["u_error"].dtype, np.float64)
 

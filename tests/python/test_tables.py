@@ -1,4 +1,5 @@
 """Tables: quantities over time and frequency, the catalogue, and how tables show themselves."""
+import collections.abc
 import sys
 import unittest
 from unittest import mock
@@ -13,7 +14,7 @@ class Quantities(unittest.TestCase):
     def check(self, table, *arguments):
         rows = rows_of_command(*arguments)
         self.assertEqual([column.name for column in table.columns], list(rows.columns))
-        self.assertEqual(len(table), len(rows))
+        self.assertEqual(len(table.rows), len(rows))
         for name in rows.columns:
             if name == "side":
                 self.assertEqual([{-1: "-", 0: "", 1: "+"}[side] for side in table["side"]], list(rows["side"]))
@@ -50,7 +51,7 @@ class Quantities(unittest.TestCase):
 
     def test_no_times_make_no_rows(self):
         table = clackers.case("stop").energies([])
-        self.assertEqual((len(table), list(table), table["total"].dtype), (0, [], np.float64))
+        self.assertEqual((table.rows, table["total"].dtype), ([], np.float64))
         self.assertEqual(repr(table), "Energy of stop")
 
     def test_columns_have_units_and_meanings(self):
@@ -64,7 +65,7 @@ class Catalogue(unittest.TestCase):
         for kind, table in clackers.catalogue().items():
             rows = rows_of_command("list", kind)
             self.assertEqual([column.name for column in table.columns], list(rows.columns), kind)
-            self.assertEqual(len(table), len(rows), kind)
+            self.assertEqual(len(table.rows), len(rows), kind)
             self.assertEqual(list(map(str, table[table.columns[0].name])), list(map(str, rows.iloc[:, 0])), kind)
 
     def test_every_case_can_be_made(self):
@@ -133,29 +134,53 @@ class Show(unittest.TestCase):
 
     def test_rows_and_columns_are_reached_by_key(self):
         table = self.case.energies([0.0, 1.0])
-        self.assertEqual(table[1][0], 1.0)
-        self.assertEqual(table[-1], list(table)[1])
-        self.assertIs(type(table[0][0]), float)
-        self.assertIs(type(table[0][1]), int)
-        with self.assertRaises(IndexError):
-            table[2]
+        self.assertEqual(table.rows[1][0], 1.0)
+        self.assertEqual([type(cell) for cell in table.rows[0][:2]], [float, int])
         with self.assertRaises(clackers.InputError) as raised:
             table["kinetik"]
         self.assertIn('Did you mean "kinetic"?', str(raised.exception))
-        self.assertEqual(list(table.arrays), [column.name for column in table.columns])
-        self.assertEqual(len(table.head(1)), 1)
+        self.assertIsInstance(raised.exception, KeyError)
+        self.assertEqual(len(table.head(1).rows), 1)
+
+    def test_a_table_is_a_mapping_from_columns(self):
+        table = self.case.energies([0.0, 1.0])
+        names = [column.name for column in table.columns]
+        self.assertIsInstance(table, collections.abc.Mapping)
+        self.assertEqual((list(table), list(table.keys()), len(table)), (names, names, len(names)))
+        self.assertIs(dict(table)["kinetic"], table["kinetic"])
+        self.assertEqual(("kinetic" in table, "kinetik" in table, 3 in table, table.get("kinetik")), (True, False, False, None))
+        for key in (0, None, "\udcff"):
+            with self.assertRaises(clackers.InputError) as raised:
+                table[key]
+            self.assertEqual(raised.exception.code, "not-text")
 
     def test_table_becomes_a_data_frame(self):
         table = self.case.energies([0.0, 1.0])
         frame = table.to_pandas()
-        self.assertEqual(list(frame.columns), list(table.arrays))
+        self.assertEqual(list(frame.columns), list(table))
         np.testing.assert_array_equal(frame["kinetic"], table["kinetic"])
         self.assertEqual((frame.attrs["units"]["kinetic"], frame.attrs["schema"]), ("J", "clackers/energy/1"))
 
-    def test_without_pandas_an_error_says_what_to_install(self):
-        with mock.patch.dict(sys.modules, {"pandas": None}), self.assertRaises(ImportError) as raised:
-            self.case.energies([0.0]).to_pandas()
-        self.assertIn("python3-pandas", str(raised.exception))
+    def test_a_record_becomes_a_data_frame_of_its_runs(self):
+        record = clackers.verify("rk4", case="stop", levels=2, samples_per_level=1)
+        self.assertEqual(record.to_pandas()["u_error"].tolist(), record.table()["u_error"].tolist())
+
+    def test_table_becomes_a_dataset(self):
+        table = self.case.energies([0.0, 1.0])
+        data = table.to_xarray()
+        self.assertEqual([*data.coords, *data.data_vars], list(table))
+        np.testing.assert_array_equal(data["kinetic"].values, table["kinetic"])
+        self.assertEqual(data["kinetic"].dims, ("row",))
+        self.assertEqual((data["kinetic"].attrs["units"], data.attrs["schema"]), ("J", "clackers/energy/1"))
+        for each in (*clackers.catalogue().values(), clackers.catalogue("cases").head(0)):
+            self.assertEqual(set(each.to_xarray().variables), set(each))
+
+    def test_without_a_package_an_error_says_what_to_install(self):
+        table = self.case.energies([0.0])
+        for name, convert in (("pandas", table.to_pandas), ("xarray", table.to_xarray)):
+            with mock.patch.dict(sys.modules, {name: None}), self.assertRaises(ImportError) as raised:
+                convert()
+            self.assertIn(f"python3-{name}", str(raised.exception))
 
 
 if __name__ == "__main__":

@@ -397,7 +397,7 @@ try:
     {study}
 except KeyboardInterrupt as error:
     record = error.record
-    print(type(error).__name__, time.time() - start < 3.0, record.interrupted, record.verdict, len(record.table()) > 0)
+    print(type(error).__name__, time.time() - start < 3.0, record.interrupted, record.verdict, len(record.table().rows) > 0)
 """
 
 

@@ -35,6 +35,10 @@ def main() -> None:
     causes: list[str] = [cause.code for cause in record["solver"].diagnoses]
     again: clackers.Record = clackers.check(t, u, v, case="three-parameter", N=2, impacts=impacts.t)
     figure: clackers.Figure = again.figure("response")
+    compared: clackers.Comparison = clackers.compare((t, u), (t, u), tolerance=1e-9)
+    difference: npt.NDArray[np.float64] = compared.differences["difference"]
+    rows: list[tuple[str | float | int | None, ...]] = compared.sets.rows
+    frame, dataset = again.to_pandas(), compared.sets.to_xarray()
     names: list[str] = [column.name for column in case.spectrum(3, 1.0).columns]
     tables: dict[str, clackers.Table] = clackers.catalogue()
     try:
@@ -43,7 +47,7 @@ def main() -> None:
         code: str = error.code
         print(code, clackers.__version__)
     print(total_energy(case, t), largest(case.error_bound(t)), len(impacts), rate.shape, names, len(tables))
-    print(order, causes, figure.name)
+    print(order, causes, figure.name, difference.max(), len(rows), len(frame), len(dataset))
 
 
 if __name__ == "__main__":

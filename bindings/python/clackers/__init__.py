@@ -13,13 +13,14 @@ from clackers._errors import Error, FileError, InputError, Interrupted, SolverEr
 from clackers._problem import Contact, GapEvent, Problem, State
 from clackers._record import Diagnosis, Figure, Record, Subject, load
 from clackers._solver import Solver
-from clackers._study import check, verify
+from clackers._study import Comparison, check, compare, verify
 from clackers._table import Column, Table, catalogue, explain
 
 __all__ = [
     "Admissibility",
     "Case",
     "Column",
+    "Comparison",
     "Contact",
     "Diagnosis",
     "Error",
@@ -42,6 +43,7 @@ __all__ = [
     "case",
     "catalogue",
     "check",
+    "compare",
     "explain",
     "load",
     "plot",

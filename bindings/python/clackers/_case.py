@@ -1,6 +1,7 @@
 """Cases: problems together with their exact motions."""
 from __future__ import annotations
 
+import functools
 import inspect
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -78,6 +79,8 @@ class Impacts:
 class Case:
     """A problem with its exact motion; ``clackers.case()`` makes it.
 
+    Examples
+    --------
     >>> import clackers
     >>> case = clackers.case("three-parameter", N=2, xi1=0.05)
     >>> case.dof, case.end
@@ -152,14 +155,29 @@ class Case:
     def response(
         self, t: npt.ArrayLike, side: Side = "right", out: Buffers | None = None
     ) -> Kinematics | tuple[Array, Array, None]:
-        """The exact motion at times ``t`` [s], each in [0, end], in any order.
+        """The exact motion at times ``t``.
 
-        Returns u [m], v [m/s] and a [m/s^2] of shape (time, dof), or (dof,) for a single time. Where a time is
-        the double nearest to an impact, ``side`` says which of the two flights is evaluated there. ``out`` =
-        (u, v, a) are arrays of that shape to write to, float64, writable and C-contiguous, and are returned; a may be None.
+        Parameters
+        ----------
+        t : array_like
+            Times [s], each in [0, end], in any order; a number is one time.
+        side : {"right", "left"}
+            Which of two flights is evaluated where a time is the double nearest to an impact.
+        out : tuple of ndarray, optional
+            (u, v, a) to write to and to return: float64, writable and C-contiguous; a may be None.
 
-        Raises InputError for times that are NaN, outside of [0, end] or not one-dimensional.
+        Returns
+        -------
+        Kinematics
+            u [m], v [m/s] and a [m/s^2] of shape (time, dof), or (dof,) for a single time.
 
+        Raises
+        ------
+        InputError
+            For times that are NaN, outside of [0, end] or not one-dimensional.
+
+        Examples
+        --------
         >>> import clackers, numpy
         >>> case = clackers.case("three-parameter")
         >>> u, v, a = case.response(numpy.linspace(0, case.end, 1001))
@@ -170,8 +188,25 @@ class Case:
         return (u, v, None) if a is None else Kinematics(u, v, a)
 
     def envelope(self, t: npt.ArrayLike) -> Kinematics:
-        """The amplitudes that displacements, velocities and accelerations have around ``t`` [s].
+        """The amplitudes that displacements, velocities and accelerations have around ``t``.
 
+        Parameters
+        ----------
+        t : array_like
+            Times [s], each in [0, end], in any order; a number is one time.
+
+        Returns
+        -------
+        Kinematics
+            In u [m], v [m/s] and a [m/s^2].
+
+        Raises
+        ------
+        InputError
+            As ``response`` does.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.case("sdof", xi1=0).envelope(1.0).u
         array([1.])
@@ -179,8 +214,25 @@ class Case:
         return Kinematics(*_core.envelope(self._core, t))
 
     def error_bound(self, t: npt.ArrayLike) -> Kinematics:
-        """Proved bounds on the error of ``response(t)`` in u [m], v [m/s] and a [m/s^2].
+        """Proved bounds on the error of ``response(t)``.
 
+        Parameters
+        ----------
+        t : array_like
+            Times [s], each in [0, end], in any order; a number is one time.
+
+        Returns
+        -------
+        Kinematics
+            In u [m], v [m/s] and a [m/s^2].
+
+        Raises
+        ------
+        InputError
+            As ``response`` does.
+
+        Examples
+        --------
         >>> import clackers
         >>> bool((clackers.case("three-parameter").error_bound([1.0, 2.0]).u < 1e-15).all())
         True
@@ -188,8 +240,24 @@ class Case:
         return Kinematics(*_core.error_bound(self._core, t))
 
     def impact_count(self, t: float | None = None) -> int:
-        """Number of impacts in [0, t], or in the whole run.
+        """The number of impacts.
 
+        Parameters
+        ----------
+        t : float, optional
+            Those in [0, t], in seconds; default the whole run.
+
+        Returns
+        -------
+        int
+
+        Raises
+        ------
+        InputError
+            For a time outside of [0, end].
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.case("three-parameter").impact_count()
         6
@@ -199,8 +267,24 @@ class Case:
     def impacts(self, first: int = 1, last: int | None = None) -> Impacts:
         """The impacts from number ``first`` to number ``last``, both included, counted from 1.
 
-        Without ``last`` all that follow, at most a million. Raises InputError beyond the last impact.
+        Parameters
+        ----------
+        first : int
+            Number of the first.
+        last : int, optional
+            Number of the last; default all that follow, at most a million.
 
+        Returns
+        -------
+        Impacts
+
+        Raises
+        ------
+        InputError
+            Beyond the last impact.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.case("three-parameter").impacts(last=2).t.round(6)
         array([1.572764, 4.718291])
@@ -210,8 +294,18 @@ class Case:
     def impact_table(self) -> Table:
         """The impacts as a table, at most a million; ``impacts()`` has them as arrays and by range.
 
-        Columns k, t [s], u1 [m], v1-, v1+ [m/s] and so on, impulse [N s], energy_before, energy_after [J].
+        Returns
+        -------
+        Table
+            Columns k, t [s], u1 [m], v1-, v1+ [m/s] and so on, impulse [N s], energy_before, energy_after [J].
 
+        Raises
+        ------
+        InputError
+            For more than a million.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.case("stop").impact_table()["k"]
         array([1, 2, 3, 4, 5, 6])
@@ -221,18 +315,44 @@ class Case:
     def collisions(self) -> Table:
         """The former name of ``impact_table``.
 
+        Returns
+        -------
+        Table
+
+        Raises
+        ------
+        InputError
+            For more than a million.
+
+        Examples
+        --------
         >>> import clackers
-        >>> len(clackers.case("stop").collisions())
+        >>> len(clackers.case("stop").collisions()["k"])
         6
         """
         return self.impact_table()
 
     def energies(self, t: npt.ArrayLike) -> Table:
-        """Where the energy is at times ``t`` [s]: kinetic, potential, dissipated, lost and total [J].
+        """Where the energy is at times ``t``.
 
-        Columns t, side, kinetic, potential, dissipated, lost, total, momentum. Where a time is the double
-        nearest to an impact two rows stand, side -1 and side 1. Raises InputError as ``response`` does.
+        Parameters
+        ----------
+        t : array_like
+            Times [s], each in [0, end], in any order; a number is one time.
 
+        Returns
+        -------
+        Table
+            Columns t, side, kinetic, potential, dissipated, lost, total [J] and momentum, as far as the case has them.
+            Where a time is the double nearest to an impact two rows stand, side -1 and side 1.
+
+        Raises
+        ------
+        InputError
+            As ``response`` does.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.case("stop", xi1=0).energies([0.0, 1.0])["total"]
         array([0.5, 0.5])
@@ -240,12 +360,28 @@ class Case:
         return Table(*_core.energies(self._core, t))
 
     def sensitivity(self, name: str, t: npt.ArrayLike) -> Table:
-        """The derivative of the motion by a parameter at times ``t`` [s].
+        """The derivative of the motion by a parameter.
 
-        ``name`` is m1 m2 k1 k2 c1 c2 eta gap u10 u20 v10 v20 with all else fixed, or a parameter of the case
-        with all that follows from it; ``class:m1`` where both have the name. Columns t, side, du1, dv1, da1 and
-        so on. Raises InputError for an unknown name and where there is no derivative.
+        Parameters
+        ----------
+        name : str
+            m1 m2 k1 k2 c1 c2 eta gap u10 u20 v10 v20 with all else fixed, or a parameter of the case with all that
+            follows from it; ``class:m1`` where both have the name.
+        t : array_like
+            Times [s], each in [0, end], in any order; a number is one time.
 
+        Returns
+        -------
+        Table
+            Columns t, side, du1, dv1, da1 and so on.
+
+        Raises
+        ------
+        InputError
+            For an unknown name and where there is no derivative.
+
+        Examples
+        --------
         >>> import clackers
         >>> table = clackers.case("sdof").sensitivity("k1", [0.0, 1.0])
         >>> [column.unit for column in table.columns]
@@ -254,11 +390,27 @@ class Case:
         return Table(*_core.sensitivity(self._core, name, t))
 
     def spectrum(self, n: int, highest: float) -> Table:
-        """The Fourier transform of the displacements over the run at ``n`` frequencies from 0 to ``highest``.
+        """The Fourier transform of the displacements over the run.
 
-        ``highest`` in rad/s; n in [2, 1e9]. Columns omega [rad/s], re1, im1 [m s] and so on. Raises InputError for
-        an n or a highest frequency outside of its range.
+        Parameters
+        ----------
+        n : int
+            Number of frequencies, in [2, 1e9].
+        highest : float
+            They go from 0 to this [rad/s].
 
+        Returns
+        -------
+        Table
+            Columns omega [rad/s], re1, im1 [m s] and so on.
+
+        Raises
+        ------
+        InputError
+            For numbers outside of these ranges.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.case("stop").spectrum(3, 2.0)["omega"]
         array([0., 1., 2.])
@@ -266,15 +418,29 @@ class Case:
         return Table(*_core.spectrum(self._core, n, highest))
 
     def tables(self) -> dict[str, Table]:
-        """What ``clackers show`` shows of the case: parameters, constants, indicators, first impacts, and of a
-        pair the harmonics and its conditioning.
+        """What ``clackers show`` shows of the case.
 
+        Returns
+        -------
+        dict of Table
+            Parameters, constants, indicators, first impacts, and of a pair the harmonics and its conditioning.
+
+        Raises
+        ------
+        InputError
+            For a threshold below which too many harmonics count.
+
+        Examples
+        --------
         >>> import clackers
         >>> list(clackers.case("stop").tables())
         ['parameters', 'constants', 'indicators', 'impacts']
         """
         found = [Table(*rows) for rows in _core.case_tables(self._core, self._threshold)]
         return {table.schema.split("/")[1]: table for table in found}
+
+    def __reduce__(self) -> tuple[Callable[[], Case], tuple[()]]:
+        return functools.partial(case, self.name, threshold=self._threshold, **self.parameters), ()
 
     def _repr_html_(self) -> str:
         return "".join(table._repr_html_() for table in self.tables().values())
@@ -294,10 +460,26 @@ class Admissibility(NamedTuple):
 
 
 def admissibility(X: float, r: float) -> Admissibility:
-    """The admissibility of a pair of frequency ratio ``X`` and mass ratio ``r`` = m1/m2, admissible or not.
+    """The admissibility of a pair, admissible or not.
 
-    X is odd or 1 over an odd number; 1e-60 <= r <= 1e60. Raises InputError outside.
+    Parameters
+    ----------
+    X : float
+        Ratio of frequencies, odd or 1 over an odd number.
+    r : float
+        Ratio of masses m1/m2, in [1e-60, 1e60].
 
+    Returns
+    -------
+    Admissibility
+
+    Raises
+    ------
+    InputError
+        Outside of these ranges.
+
+    Examples
+    --------
     >>> import clackers
     >>> round(clackers.admissibility(X=9, r=3).margin, 6)
     0.320295
@@ -308,11 +490,26 @@ def admissibility(X: float, r: float) -> Admissibility:
 def case(name: str | None = None, /, *, threshold: float | None = None, **parameters: float | str) -> Case:
     """A case of ``clackers.catalogue("cases")`` with its parameters.
 
-    Without a name the default case; parameters that are not given keep their default. ``threshold`` in (0, 1) is
-    the share of the spectral peak from which a harmonic counts in the indicators, 0.1 by default.
+    Parameters
+    ----------
+    name : str, optional
+        Default three-parameter.
+    threshold : float, optional
+        Share of the spectral peak from which a harmonic counts in the indicators, in (0, 1); default 0.1.
+    **parameters : float or str
+        Those of the case; what is not given keeps its default.
 
-    Raises InputError for unknown names and for values outside of their range.
+    Returns
+    -------
+    Case
 
+    Raises
+    ------
+    InputError
+        For unknown names and for values outside of their range.
+
+    Examples
+    --------
     >>> import clackers
     >>> clackers.case("synchronized-pair", X=9, r=3, eta=0.8)
     <clackers.Case synchronized-pair (m1=1, k1=1, xi1=0.05, A=1, X=9, r=3, eta=0.8, t_end=20): dof 2, end 20 s>

@@ -131,4 +131,19 @@ def check(
     command: str,
     progress: Callable[[float], object] | None,
 ) -> tuple[Record | None, BaseException | None]: ...
+
+class Comparison:
+    @property
+    def is_within(self) -> bool: ...
+    @property
+    def tables(self) -> list[_Rows]: ...
+
+def compare(
+    first: Sequence[Source],
+    second: Sequence[Source],
+    steps: Sequence[float],
+    tolerances: Sequence[float],
+    columns: Sequence[str],
+    tolerance: float | None,
+) -> tuple[Comparison | None, BaseException | None]: ...
 def tolerances_from(text: str) -> list[float]: ...

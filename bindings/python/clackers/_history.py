@@ -10,7 +10,7 @@ from clackers import _core
 from clackers._problem import Array
 
 Columns = list[tuple[str, Array]]
-Source = Union[str, tuple[str, Columns]]
+Source = Union[bytes, tuple[str, Columns]]
 """The path of a file, or columns under a name."""
 
 ALLOWED = "(t, u), (t, u, v), (t, u, v, a), a mapping or an object with t and u (or y = (u, v)), or results of solve_ivp"
@@ -23,8 +23,10 @@ class History(NamedTuple):
     events: Columns | None
 
 
-def read_history(who: str, value: object, dof: int) -> History:
+def read_history(who: str, value: object, dof: int | None) -> History:
     """A history in any of the forms of ``ALLOWED``; several results of solve_ivp are consecutive flights.
+
+    Without ``dof`` the number of masses is that of the arrays.
 
     Raises InputError with ``who`` for everything else.
     """
@@ -58,7 +60,7 @@ def _parts(value: object) -> dict[str, Any]:
     return {name: part for name, part in found.items() if part is not None}
 
 
-def _read_one(who: str, value: object, dof: int) -> History:
+def _read_one(who: str, value: object, dof: int | None) -> History:
     if value is None:
         _core.refuse(who, "the result", "None", ALLOWED, "A function without a return statement returns None.")
     if isinstance(value, str):
@@ -72,6 +74,10 @@ def _read_one(who: str, value: object, dof: int) -> History:
             _core.refuse(who, "the result", "None for t or u", ALLOWED)
     t = _core.read_vector(who, "t", parts["t"])
     columns: Columns = [("t", t)]
+    if dof is None:
+        shape = _core.read_array(who, "u" if "u" in parts else "y", parts.get("u", parts.get("y"))).shape
+        width = 1 if len(shape) < 2 else shape[1] if shape[0] == len(t) else shape[0]
+        dof = width if "u" in parts else width // 2
     if "u" in parts:
         parts = _with_state_as_u(who, parts, len(t), dof)
     if "y" in parts:

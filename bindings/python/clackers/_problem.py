@@ -118,8 +118,25 @@ class Problem:
         return np.concatenate([self._start.u, self._start.v])
 
     def load(self, t: float) -> Array:
-        """The load f(t) [N], shape (dof,); zero where there is none.
+        """The load f(t); zero where there is none.
 
+        Parameters
+        ----------
+        t : float
+            Time [s].
+
+        Returns
+        -------
+        ndarray
+            [N], shape (dof,).
+
+        Raises
+        ------
+        InputError
+            For a time that is no number.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.case("three-parameter").problem.load(0.0)
         array([0., 0.])
@@ -127,10 +144,27 @@ class Problem:
         return self._core.load(t)
 
     def rhs(self, t: float, y: npt.ArrayLike) -> Array:
-        """dy/dt = (v, M^-1 (f(t) - C v - K u)) of y = (u, v), shape (2 dof,), while nothing collides.
+        """dy/dt = (v, M^-1 (f(t) - C v - K u)) of y = (u, v), while nothing collides.
 
-        Raises InputError for another shape.
+        Parameters
+        ----------
+        t : float
+            Time [s].
+        y : array_like
+            Shape (2 dof,).
 
+        Returns
+        -------
+        ndarray
+            Shape (2 dof,).
+
+        Raises
+        ------
+        InputError
+            For another shape.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.case("sdof", xi1=0).problem.rhs(0.0, [1.0, 0.0])
         array([ 0., -1.])
@@ -138,10 +172,29 @@ class Problem:
         return self._core.rhs(t, y)
 
     def gap(self, t: float, y: npt.ArrayLike, contact: int = 0) -> float:
-        """The gap [m] of a contact in the state y = (u, v): open where positive.
+        """The gap of a contact in the state y = (u, v): open where positive.
 
-        ``t`` is not used; solvers pass it to event functions.
+        Parameters
+        ----------
+        t : float
+            Not used; solvers pass it to event functions.
+        y : array_like
+            Shape (2 dof,).
+        contact : int
+            Number in ``contacts``, from 0.
 
+        Returns
+        -------
+        float
+            [m]
+
+        Raises
+        ------
+        InputError
+            For another shape, or a contact that is not there.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.case("stop").problem.gap(0.0, [0.25, 1.0])
         0.25
@@ -154,11 +207,29 @@ class Problem:
         return [GapEvent(self, number) for number in range(len(self._contacts))]
 
     def impact(self, y: npt.ArrayLike, contact: int | None = None) -> Array:
-        """The state after an impact in the state y = (u, v), by Newton's law; a new array.
+        """The state after an impact in the state y = (u, v), by Newton's law.
 
-        v(+) = v - (1 + eta) (b . v) / (b . M^-1 b) M^-1 b. Without ``contact`` at the contact whose gap is
-        nearest to 0. Raises InputError where that contact opens, b . v > 0.
+        v(+) = v - (1 + eta) (b . v) / (b . M^-1 b) M^-1 b.
 
+        Parameters
+        ----------
+        y : array_like
+            Shape (2 dof,).
+        contact : int, optional
+            Number in ``contacts``, from 0; default that whose gap is nearest to 0.
+
+        Returns
+        -------
+        ndarray
+            Shape (2 dof,); a new array.
+
+        Raises
+        ------
+        InputError
+            Where that contact opens, b . v > 0.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.case("stop", eta=0.5).problem.impact([0.0, -2.0])
         array([0., 1.])

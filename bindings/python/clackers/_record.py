@@ -4,12 +4,15 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 from clackers import _core
 from clackers._table import Table
 from clackers._words import html_in_python, in_python
+
+if TYPE_CHECKING:
+    import pandas  # type: ignore[import]
 
 WIDTH = 80
 """Characters a line of the text of a record."""
@@ -100,8 +103,20 @@ class Figure:
         self.spec = spec
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the specification as json, for example to ``convergence.vl.json``.
+        """Writes the specification as json.
 
+        Parameters
+        ----------
+        path : path
+            For example ``convergence.vl.json``.
+
+        Raises
+        ------
+        OSError
+            Where the file cannot be written.
+
+        Examples
+        --------
         >>> import clackers, os
         >>> clackers.verify("rk4", levels=3, samples_per_level=2).figure("convergence").save(os.devnull)
         """
@@ -137,9 +152,28 @@ class Record:
 
     @classmethod
     def from_json(cls, text: str) -> Record:
-        """A record from what ``to_json`` or ``clackers verify --format json`` wrote.
+        """A record from its text.
 
-        Raises InputError (``not-a-record``) for other text.
+        Parameters
+        ----------
+        text : str
+            What ``to_json`` or ``clackers verify --format json`` wrote.
+
+        Returns
+        -------
+        Record
+
+        Raises
+        ------
+        InputError
+            ``not-a-record`` for other text.
+
+        Examples
+        --------
+        >>> import clackers
+        >>> record = clackers.verify("rk4", levels=2, samples_per_level=1)
+        >>> clackers.Record.from_json(record.to_json()).verdict == record.verdict
+        True
         """
         return cls(_core.Record.from_json(_core.read_text("Record.from_json", "text", text)))
 
@@ -185,8 +219,15 @@ class Record:
         return self._subjects
 
     def keys(self) -> tuple[str | tuple[str, str], ...]:
-        """What ``record[...]`` takes: names, or (case, name) where there are several cases.
+        """What ``record[...]`` takes.
 
+        Returns
+        -------
+        tuple
+            Names, or (case, name) where there are several cases.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.verify("rk4", case=["stop", "sdof"], levels=2, samples_per_level=1).keys()
         (('stop', 'rk4'), ('sdof', 'rk4'))
@@ -268,8 +309,15 @@ class Record:
     # Outputs.
 
     def table(self) -> Table:
-        """Every run of every subject as a row, the columns of ``clackers.catalogue("columns")``.
+        """All runs of all subjects.
 
+        Returns
+        -------
+        Table
+            A row a run; the columns are those of ``clackers.catalogue("columns")``.
+
+        Examples
+        --------
         >>> import clackers
         >>> record = clackers.verify("rk4", levels=2, samples_per_level=1)
         >>> record.table()["step"].round(2)
@@ -277,9 +325,37 @@ class Record:
         """
         return Table(*self._core.runs())
 
-    def to_json(self) -> str:
-        """The text of ``clackers verify --format json``; every number reads back to the same double.
+    def to_pandas(self) -> pandas.DataFrame:
+        """``table()`` for pandas.
 
+        Returns
+        -------
+        pandas.DataFrame
+            A row a run; as ``Table.to_pandas`` makes it.
+
+        Raises
+        ------
+        ImportError
+            Where pandas is not installed.
+
+        Examples
+        --------
+        >>> import clackers
+        >>> clackers.verify("rk4", levels=2, samples_per_level=1).to_pandas()["impacts_matched"].tolist()
+        [6, 6]
+        """
+        return self.table().to_pandas()
+
+    def to_json(self) -> str:
+        """The record as text, for ``from_json``.
+
+        Returns
+        -------
+        str
+            What ``clackers verify --format json`` prints; every number reads back to the same double.
+
+        Examples
+        --------
         >>> import clackers, json
         >>> json.loads(clackers.verify("rk4", levels=2, samples_per_level=1).to_json())["schema"]
         'clackers/record/1'
@@ -289,10 +365,21 @@ class Record:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the record by the ending of ``path``.
 
-        ``.html`` is a self-contained page with figures, ``.json`` what ``clackers.load`` reads, ``.csv`` a row
-        a run, ``.xml`` JUnit, ``.tex`` LaTeX tables, ``.txt`` the text of ``print``. Raises InputError for
-        another ending, OSError where the file cannot be written.
+        Parameters
+        ----------
+        path : path
+            ``.html`` is a self-contained page with figures, ``.json`` what ``clackers.load`` reads, ``.csv`` a row
+            a run, ``.xml`` JUnit, ``.tex`` LaTeX tables, ``.txt`` the text of ``print``.
 
+        Raises
+        ------
+        InputError
+            For another ending.
+        OSError
+            Where the file cannot be written.
+
+        Examples
+        --------
         >>> import clackers, pathlib, tempfile
         >>> record = clackers.verify("rk4", levels=2, samples_per_level=1)
         >>> with tempfile.TemporaryDirectory() as folder:
@@ -315,9 +402,24 @@ class Record:
     def figure(self, name: str = "convergence", case: str | None = None) -> Figure:
         """A figure of the page as a Vega-Lite specification.
 
-        ``convergence``, ``history``, ``work``, ``profile`` and ``response``, where there is something to draw;
-        of the case of that name, or of the first. Raises InputError for another name.
+        Parameters
+        ----------
+        name : str
+            ``convergence``, ``history``, ``work``, ``profile`` or ``response``; ``figures`` has those with something to draw.
+        case : str, optional
+            The name of one of several cases; default the first.
 
+        Returns
+        -------
+        Figure
+
+        Raises
+        ------
+        InputError
+            For another name.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.verify("rk4", levels=3, samples_per_level=2).figure("response", case="three-parameter")
         <clackers.Figure response>
@@ -326,6 +428,9 @@ class Record:
             _core.refuse("Record.figure", "case", case, ", ".join(self.cases), "", "unknown-name")
         place = 0 if case is None else self.cases.index(case)
         return Figure(name, json.loads(self._core.figure(place, _core.read_text("Record.figure", "name", name))))
+
+    def __reduce__(self) -> tuple[Callable[[str], Record], tuple[str]]:
+        return Record.from_json, (self.to_json(),)
 
     def __str__(self) -> str:
         return self._written("table").rstrip("\n")
@@ -349,10 +454,26 @@ class Record:
 
 
 def load(path: str | os.PathLike[str]) -> Record:
-    """The record in a file that ``Record.save`` or ``clackers verify --format json --out`` wrote.
+    """The record in a file.
 
-    Raises InputError (``not-a-record``) for another file, OSError where it cannot be read.
+    Parameters
+    ----------
+    path : path
+        What ``Record.save`` or ``clackers verify --format json --out`` wrote.
 
+    Returns
+    -------
+    Record
+
+    Raises
+    ------
+    InputError
+        ``not-a-record`` for another file.
+    OSError
+        Where it cannot be read.
+
+    Examples
+    --------
     >>> import clackers, os
     >>> try:
     ...     clackers.load(os.devnull)
@@ -367,6 +488,6 @@ def load(path: str | os.PathLike[str]) -> Record:
 def _subject(core: _core.Record, row: dict[str, Any]) -> Subject:
     fields = dict(row)
     fields["findings"] = tuple(map(in_python, row["findings"]))
-    fields["diagnoses"] = tuple(Diagnosis(*cause, in_python(text)) for *cause, text in row["diagnoses"])
+    fields["diagnoses"] = tuple(replace(Diagnosis(*cause), text=in_python(cause[-1])) for cause in row["diagnoses"])
     place = fields.pop("place")
     return Subject(**fields, _core=core, _place=place)

@@ -21,6 +21,7 @@ Failure = tuple[bool, str, str, bool]
 _MISTAKES = (AttributeError, ImportError, NameError, NotImplementedError, SyntaxError, TypeError)
 
 _LINES_OF_TRACEBACK = 6
+_LONGEST = 400  # characters of a sentence
 
 
 class Runs:
@@ -56,10 +57,17 @@ class Runs:
             self.first_error = error
         if isinstance(error, InputError) and has_returned:
             return has_returned, str(error), "", would_repeat
-        sentence = "".join(traceback.format_exception_only(type(error), error)).strip().splitlines()[-1]
+        # Behind the lines of a SyntaxError that show the place.
+        whole = next(part for part in traceback.format_exception_only(type(error), error) if not part.startswith(" "))
         # Without the frame of this file.
         lines = "".join(traceback.format_tb(trace.tb_next if trace is not None else None)).splitlines()
-        return has_returned, sentence, "\n".join(line.strip() for line in lines[-_LINES_OF_TRACEBACK:]), would_repeat
+        end = "\n".join(line.strip() for line in lines[-_LINES_OF_TRACEBACK:])
+        return has_returned, _valid(" / ".join(whole.split("\n")).strip(" /")[:_LONGEST]), _valid(end), would_repeat
+
+
+def _valid(text: str) -> str:
+    """Without halves of surrogate pairs, which names of files may have."""
+    return text.encode("utf-8", "replace").decode()
 
 
 def name_of(solver: Solver) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Literal, TypeGuard, Union
 
 import numpy.typing as npt
@@ -15,6 +16,7 @@ from clackers._errors import Interrupted, SolverError
 from clackers._history import Columns, Source, read_impacts, read_history
 from clackers._record import Record
 from clackers._solver import Runs, Solver, name_of
+from clackers._table import Table
 
 Progress = Union[Callable[[float], object], bool, None]
 CaseChoice = Union[str, Case, Sequence[Union[str, Case]]]
@@ -42,32 +44,60 @@ def verify(
 ) -> Record:
     """Assesses methods and callables over a range of steps on a case whose exact motion is known.
 
-    A subject is the name of a method (``clackers.catalogue("pairs")``) or a callable; without any, the
-    default panel of methods. A callable ``solver(problem, h)`` gets a ``clackers.Problem`` and a step [s] and
+    A callable ``solver(problem, h)`` gets a ``clackers.Problem`` and a step [s] and
     returns (t, u), (t, u, v) or (t, u, v, a), u of shape (time, dof) or (dof, time), (time,) for one mass; a
     mapping or an object with t, u, v, a and, where known, impacts (their times, or as ``Case.impacts``
     returns them); or the result of ``scipy.integrate.solve_ivp``, y = (u, v), or a list of such results of
     consecutive flights, whose ``t_events`` are the impacts. A time that appears twice has both limits of
-    a jump. Callables are called in the thread of the caller, one at a time.
+    a jump. Callables are called in the thread of the caller, one at a time. A run that raises, or returns
+    something else, is a failed run of its step.
 
-    Options::
+    Parameters
+    ----------
+    *subjects : str or callable
+        Names of methods (``clackers.catalogue("pairs")``) and callables; default a panel of methods.
+    case : str, Case or list of these
+        A name with ``parameters``, or cases; default three-parameter.
+    steps : array_like
+        The steps of callables [s], in any order, instead of a ladder.
+    tolerances : array_like, str or True
+        Callables are solver(problem, tolerance): a list, "1e-3:1e-10" (one a decade), or True for these.
+    levels : int
+        Each with half the step of the one before; default 8, 6 with callables.
+    coarsest : float
+        Largest step [s]; default a fourteenth of the fast period of the case.
+    samples_per_level : int
+        Steps a level; default 8, 4 with callables.
+    expect : str
+        What callables should show: "proper:2", "irregular:1", "exact", ...; default nothing.
+    name : str or list of str
+        Names of callables in the record; default those of the functions.
+    budget : float
+        Time for further steps of what is undecided [s]; default 20, 0 with levels or steps.
+    jobs : int
+        Threads; default one per processor.
+    progress : callable or bool
+        A callable that gets the share that is done, or True for a line on standard error.
+    neighbours : int
+        The former name of ``samples_per_level``.
+    **parameters : float or str
+        Those of the case.
 
-        case        a name with **parameters, a clackers.Case, or a list of these; default three-parameter
-        steps       the steps of callables [s], in any order, instead of a ladder
-        tolerances  callables are solver(problem, tolerance): a list, "1e-3:1e-10" (one a decade), or True
-        levels      number of levels, each half the step of the one before; default 8, 6 with callables
-        coarsest    largest step [s]; default a fourteenth of the fast period of the case
-        samples_per_level  steps a level; default 8, 4 with callables; its former name is neighbours
-        expect      what callables should show: "proper:2", "irregular:1", "exact", ...; default nothing
-        name        names of callables in the record; default those of the functions
-        budget      time for further steps of what is undecided [s]; default 20, 0 with levels or steps
-        jobs        threads; default one per processor
-        progress    a callable that gets the share that is done, or True for a line on standard error
+    Returns
+    -------
+    Record
 
-    A run that raises, or returns something else, is a failed run of its step. Raises SolverError where
-    every run failed, from the first exception; Interrupted (a KeyboardInterrupt) with the record of what
-    was finished after Ctrl-C; InputError for what cannot be run.
+    Raises
+    ------
+    InputError
+        For what cannot be run.
+    SolverError
+        Where every run failed, from the first exception.
+    Interrupted
+        After Ctrl-C, a KeyboardInterrupt with the record of what was finished.
 
+    Examples
+    --------
     >>> import clackers, numpy
     >>> def leapfrog(problem, h):
     ...     t, u, v = problem.start
@@ -85,7 +115,7 @@ def verify(
     >>> record.subject.kind
     'callable'
     """
-    names = [subject for subject in subjects if isinstance(subject, str)]
+    names = [_core.read_text("verify", "method", subject) for subject in subjects if isinstance(subject, str)]
     solvers = [subject for subject in subjects if not isinstance(subject, str)]
     for solver in solvers:
         if not callable(solver):
@@ -145,28 +175,58 @@ def check(
 ) -> Record:
     """Assesses time histories of any program against the exact motion of a case.
 
-    ``check(t, u)``, ``check(t, u, v)`` and ``check(t, u, v, a)`` take arrays: times [s] and u [m] of shape
-    (time, dof) or (dof, time), (time,) for one mass; the column of a mass that is not known is NaN. A time that appears twice has both limits of a jump. ``check(history)`` takes whatever a callable of
-    ``clackers.verify`` may return, or the path of a file (text, or NumPy's npy). Several histories are levels
-    of one method and give an order: a list of histories or paths, or a mapping from steps [s] to them.
-    Several methods are judged in one record: a mapping from their names to the histories of each. Options with
-    one value a history then count over all histories.
+    A time that appears twice has both limits of a jump. Several histories are levels of one method and give an
+    order. Several methods are judged in one record; options with one value a history then count over all histories.
+    Where no exact motion exists ``clackers.compare`` compares two sets of histories.
 
-    Options::
+    Parameters
+    ----------
+    t : array_like, path, list or mapping
+        Times [s] beside ``u``; alone whatever a callable of ``clackers.verify`` may return, the path of a file (text,
+        or NumPy's npy), a list of these, a mapping from steps [s] to them, or from names of methods to the histories
+        of each.
+    u, v, a : array_like
+        Displacements [m], velocities [m/s] and accelerations [m/s^2] of shape (time, dof) or (dof, time), (time,) for
+        one mass; the column of a mass that is not known is NaN.
+    impacts : array_like, Impacts, path or list
+        Times of the impacts, or as ``Case.impacts`` returns them; of a file a path; of several histories a list of
+        these; default those found in the history.
+    collisions : array_like, Impacts, path or list
+        The former name of ``impacts``.
+    step : float or list of float
+        Step of each history [s]; default the median time between rows.
+    tolerances : list of float
+        Of an adaptive solver, one a history, instead of steps.
+    case : str or Case
+        A name with ``parameters``, or a case; default three-parameter.
+    expect : str
+        What the histories should show: "proper:2", "irregular:1", "exact", ...; default nothing.
+    tolerance : float
+        Largest error in u over the largest envelope that is allowed.
+    columns : str or list of str
+        Names of the columns of files where a header lacks or differs: "t,u1,_,v1" or a list.
+    name : str or list of str
+        Of the history in the record, a list of several.
+    progress : callable or bool
+        A callable that gets the share that is done, or True for a line on standard error.
+    **parameters : float or str
+        Those of the case.
 
-        impacts     times of the impacts, or as Case.impacts returns them; of a file a path; of several
-                    histories a list of these; default: found in the history; former name: collisions
-        step        step of the history [s], a list of several; default: the median time between rows
-        tolerances  of an adaptive solver, one a history, instead of steps
-        case        a name with **parameters, or a clackers.Case; default three-parameter
-        expect      what the histories should show: "proper:2", "irregular:1", "exact", ...; default nothing
-        tolerance   largest error in u over the largest envelope that is allowed
-        columns     names of the columns of files where a header lacks or differs: "t,u1,_,v1" or a list
-        name        of the history in the record, a list of several
-        progress    a callable that gets the share that is done, or True for a line on standard error
+    Returns
+    -------
+    Record
 
-    Raises InputError for what is no history, or one of another case; Interrupted after Ctrl-C.
+    Raises
+    ------
+    InputError
+        For what is no history, or one of another case.
+    FileError
+        For a file that cannot be read.
+    Interrupted
+        After Ctrl-C.
 
+    Examples
+    --------
     >>> import clackers, numpy
     >>> case = clackers.case("three-parameter")
     >>> t = numpy.linspace(0, case.end, 2001)
@@ -177,7 +237,9 @@ def check(
     chosen = _cases("check", case, parameters)
     if len(chosen) != 1:
         _core.refuse("check", "case", f"{len(chosen)} of them", "one case", "", "wrong-size")
-    named: Mapping[str, object] = t if u is None and _is_named(t) else {"histories": t}
+    named: Mapping[str, object] = (
+        {_core.read_text("check", "name", key): value for key, value in t.items()} if u is None and _is_named(t) else {"histories": t}
+    )
     parts = {title: _histories(histories, u, v, a) for title, histories in named.items()}
     given = [history for histories, _ in parts.values() for history in histories]
     keys = [key for _, steps in parts.values() for key in steps or ()] or None
@@ -186,18 +248,14 @@ def check(
     titles = _titles(name, len(given))
     events = _one_each("impacts", collisions if impacts is None else impacts, len(given))
     with known_arguments(check, chosen[0][0], parameters):
-        dof = (case if isinstance(case, Case) else make_case(case, **parameters)).dof
+        dof = (case if isinstance(case, Case) else make_case(case, threshold=None, **parameters)).dof
     sources: list[Source] = []
     reported: list[Source | None] = []
     for history, title, event in zip(given, titles, events):
-        found: Columns | None = None
-        if not _is_path(history):
-            columns_of, found = read_history("check", history, dof)
-            sources.append((title, columns_of))
-        else:
-            sources.append(os.fspath(history))
+        source, found = _source("check", history, title, dof)
+        sources.append(source)
         if _is_path(event):
-            reported.append(os.fspath(event))
+            reported.append(_encoded("check", event))
             continue
         if event is not None:
             found = read_impacts("check", event)
@@ -218,12 +276,97 @@ def check(
             expect=None if expect is None else _core.read_text("check", "expect", expect),
             tolerance=None if tolerance is None else _core.read_number("check", "tolerance", tolerance),
             command=_line(
-                "check", _positional(given, keys, u, v, a) if named is not t else ["histories"], parameters, step=step, tolerances=tolerances, case=case,
+                "check", _positional(given, keys, u, v, a) if "histories" in named else ["histories"], parameters, step=step, tolerances=tolerances, case=case,
                 expect=expect, tolerance=tolerance, columns=columns, name=name,
             ),
             progress=report,
         )
     return _record(core, stop)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Differences between two sets of histories of one motion, which ``clackers.compare`` found."""
+
+    differences: Table
+    """Of each mass: the largest, its time, and the first time of one above 1e-3 of the largest displacement."""
+    sets: Table
+    """Of each set by itself: the order with which the differences between its histories fall."""
+    is_within: bool
+    """Whether all are within ``tolerance``; True without one."""
+
+    def __str__(self) -> str:
+        return f"{self.differences}\n\n{self.sets}"
+
+    def _repr_html_(self) -> str:
+        return self.differences._repr_html_() + self.sets._repr_html_()
+
+
+def compare(
+    first: object,
+    second: object,
+    *,
+    step: Sequence[float] | None = None,
+    tolerances: Sequence[float] | None = None,
+    tolerance: float | None = None,
+    columns: str | Sequence[str] | None = None,
+) -> Comparison:
+    """Compares two sets of histories of a motion that nobody knows exactly, at the times that both have.
+
+    Agreement is no proof: both sets may be wrong in the same way.
+
+    Parameters
+    ----------
+    first, second : history, path, list or mapping
+        Histories as ``clackers.check`` takes them; several, in a list or a mapping from steps, are levels of one method.
+    step, tolerances : list of float
+        Step [s] or tolerance of each history of both sets; default the median time between rows.
+    tolerance : float
+        Largest difference over the largest displacement that is allowed.
+    columns : str or list of str
+        Names of the columns of files where a header lacks or differs.
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    InputError
+        For what is no history, and for fewer than ten common times.
+    FileError
+        For a file that cannot be read.
+    Interrupted
+        After Ctrl-C.
+
+    Examples
+    --------
+    >>> import clackers, numpy
+    >>> t = numpy.linspace(0, 10, 101)
+    >>> found = clackers.compare((t, numpy.sin(t)), (t, 1.001 * numpy.sin(t)), tolerance=1e-2)
+    >>> found.is_within, found.differences["relative"].round(6)
+    (True, array([0.000999]))
+    """
+    sources: list[list[Source]] = []
+    keys: list[float] = []
+    for title, histories in (("first", first), ("second", second)):
+        given, own = _histories(histories, None, None, None)
+        keys += own or ()
+        sources.append([_source("compare", each, name, None)[0] for each, name in zip(given, _titles(None, len(given), title))])
+    if keys and (step is not None or tolerances is not None or len(keys) != sum(map(len, sources))):
+        _core.refuse("compare", "steps", "a mapping beside others", "mappings from steps, or step, or tolerances", "", "bad-syntax")
+    core, stop = _core.compare(
+        sources[0],
+        sources[1],
+        keys if step is None else _core.read_vector("compare", "step", step).tolist(),
+        [] if tolerances is None else _core.read_vector("compare", "tolerances", tolerances).tolist(),
+        [] if columns is None else [_core.read_text("compare", "columns", column) for column in _parts(columns)],
+        None if tolerance is None else _core.read_number("compare", "tolerance", tolerance),
+    )
+    if core is None:
+        raise stop or Interrupted(None)
+    differences, sets = (Table(*rows) for rows in core.tables)
+    return Comparison(differences, sets, core.is_within)
 
 
 def _record(core: _core.Record | None, stop: BaseException | None) -> Record:
@@ -290,7 +433,7 @@ def _tolerances(given: Sequence[float] | str | Literal[True]) -> list[float]:
     if given is True:
         return _core.tolerances_from(TOLERANCES)
     if isinstance(given, str):
-        return _core.tolerances_from(given)
+        return _core.tolerances_from(_core.read_text("verify", "tolerances", given))
     return _descending("tolerances", _core.read_vector("verify", "tolerances", given).tolist())
 
 
@@ -339,9 +482,24 @@ def _histories(t: object, u: object, v: object, a: object) -> tuple[list[object]
     return [t], None
 
 
-def _titles(name: str | Sequence[str] | None, count: int) -> list[str]:
+def _source(who: str, history: object, title: str, dof: int | None) -> tuple[Source, Columns | None]:
+    """A history, and the impacts that it has itself."""
+    if _is_path(history):
+        return _encoded(who, history), None
+    columns, found = read_history(who, history, dof)
+    return (title, columns), found
+
+
+def _encoded(who: str, path: Path) -> bytes:
+    name = os.fsencode(path)
+    if b"\0" in name:
+        _core.refuse(who, "path", repr(os.fspath(path)), "a path without NUL", "", "not-text")
+    return name
+
+
+def _titles(name: str | Sequence[str] | None, count: int, default: str = "history") -> list[str]:
     if name is None:
-        return ["history"] if count == 1 else [f"history {number + 1}" for number in range(count)]
+        return [default] if count == 1 else [f"{default} {number + 1}" for number in range(count)]
     names = [name] if isinstance(name, str) else list(name)
     if len(names) != count:
         _core.refuse("check", "name", f"{len(names)} of them", f"one a history, {count} here", "", "wrong-size")

@@ -2,16 +2,19 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterator, Sequence
+import importlib
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy.typing as npt
 
 from clackers import _core
+from clackers._errors import InputError
 from clackers._words import in_python
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import]
+    import xarray
 
 Cell = str | float | int | None
 
@@ -24,21 +27,23 @@ class Column(NamedTuple):
     meaning: str
 
 
-class Table:
-    """Rows with named columns, each column an array.
+class Table(Mapping[str, npt.NDArray[Any]]):
+    """A mapping from the names of columns to arrays of equal lengths.
 
-    ``table["u1"]`` is a column, ``table[0]`` a row, ``len(table)`` the number of rows, and iteration
-    yields the rows as tuples. Numbers are float64 or int64; the column ``side`` is -1 (before an
-    impact), 1 (after it) or 0; texts are ``str``, and ``None`` where a cell is empty.
+    Numbers are float64 or int64; the column ``side`` is -1 (before an impact), 1 (after it) or 0; texts are
+    ``str``, and ``None`` where a cell is empty. ``rows`` has the rows. A name that is not there raises InputError,
+    which is a KeyError here.
 
+    Examples
+    --------
     >>> import clackers
     >>> table = clackers.case("stop").energies([0, 1])
-    >>> [column.name for column in table.columns]
+    >>> list(table)
     ['t', 'side', 'kinetic', 'potential', 'dissipated', 'lost', 'total', 'momentum']
     >>> table["t"]
     array([0., 1.])
-    >>> len(table)
-    2
+    >>> len(table.rows), table.rows[0][:2]
+    (2, (0.0, 0))
     """
 
     schema: str
@@ -61,57 +66,67 @@ class Table:
         self._arrays = {column.name: array for column, array in zip(self.columns, arrays, strict=True)}
 
     def __len__(self) -> int:
-        return len(next(iter(self._arrays.values()))) if self._arrays else 0
+        return len(self._arrays)
 
-    def __iter__(self) -> Iterator[tuple[Cell, ...]]:
-        return zip(*(array.tolist() for array in self._arrays.values()))
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
 
-    @overload
-    def __getitem__(self, key: str) -> npt.NDArray[Any]: ...
-
-    @overload
-    def __getitem__(self, key: int) -> tuple[Cell, ...]: ...
-
-    def __getitem__(self, key: str | int) -> npt.NDArray[Any] | tuple[Cell, ...]:
-        if not isinstance(key, str):
-            return tuple(array[key].item() if array.dtype != object else array[key]
-                         for array in self._arrays.values())
-        if key not in self._arrays and key.startswith("collision"):
+    def __getitem__(self, key: str) -> npt.NDArray[Any]:
+        if key not in self._arrays and isinstance(key, str) and key.startswith("collision"):
             key = key.replace("collision", "impact")  # the former names
-        if key not in self._arrays:
+        if key in self._arrays:
+            return self._arrays[key]
+        try:
+            key = _core.read_text("table", "column", key)
             _core.refuse_name(f'column in the table "{self.title}" called', key, list(self._arrays))
-        return self._arrays[key]
+        except InputError as error:
+            raise _UnknownColumn(str(error), error.code) from None
 
     @property
-    def arrays(self) -> dict[str, npt.NDArray[Any]]:
-        """All columns by name."""
-        return dict(self._arrays)
+    def rows(self) -> list[tuple[Cell, ...]]:
+        """The rows, with numbers of Python."""
+        return list(zip(*(array.tolist() for array in self._arrays.values())))
 
     def head(self, rows: int = 10) -> Table:
         """The first rows as a table of their own.
 
+        Parameters
+        ----------
+        rows : int
+            How many, at most.
+
+        Returns
+        -------
+        Table
+
+        Examples
+        --------
         >>> import clackers
-        >>> len(clackers.catalogue("metrics").head(3))
-        3
+        >>> clackers.catalogue("metrics").head(3)["name"].shape
+        (3,)
         """
         return Table(self.schema, self.title, self.columns, [array[:rows] for array in self._arrays.values()])
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table as a ``pandas.DataFrame``; its ``attrs`` hold schema, title, units and meanings.
+        """The table for pandas.
 
-        Raises ImportError where pandas is not installed.
+        Returns
+        -------
+        pandas.DataFrame
+            Its ``attrs`` hold schema, title, units and meanings.
 
+        Raises
+        ------
+        ImportError
+            Where pandas is not installed.
+
+        Examples
+        --------
         >>> import clackers
         >>> clackers.catalogue("cases").to_pandas().columns.tolist()
         ['name', 'equations', 'parameters', 'summary']
         """
-        try:
-            import pandas
-        except ImportError as error:
-            raise ImportError(
-                "Table.to_pandas() needs pandas: apt-get install python3-pandas, or pip install pandas"
-            ) from error
-        frame = pandas.DataFrame(self._arrays)
+        frame: pandas.DataFrame = _module("Table.to_pandas()", "pandas").DataFrame(self._arrays)
         frame.attrs.update(
             schema=self.schema,
             title=self.title,
@@ -119,6 +134,34 @@ class Table:
             meanings={column.name: column.meaning for column in self.columns},
         )
         return frame
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The table for xarray.
+
+        Returns
+        -------
+        xarray.Dataset
+            A variable a column over the dimension ``row``, with ``units`` and ``long_name``; the first is a coordinate.
+
+        Raises
+        ------
+        ImportError
+            Where xarray is not installed.
+
+        Examples
+        --------
+        >>> import clackers
+        >>> clackers.case("stop").energies([0, 1]).to_xarray()["kinetic"].attrs["units"]
+        'J'
+        """
+        variables = {
+            column.name: ("row", self[column.name], {"units": column.unit, "long_name": column.meaning})
+            for column in self.columns
+        }
+        made: xarray.Dataset = _module("Table.to_xarray()", "xarray").Dataset(
+            variables, attrs={"schema": self.schema, "title": self.title}
+        )
+        return made.set_coords(self.columns[0].name)
 
     def __repr__(self) -> str:
         return self._text(width=80).rstrip("\n")
@@ -145,6 +188,20 @@ class Table:
         )
 
 
+class _UnknownColumn(InputError, KeyError):
+    """A KeyError, so that the methods of Mapping know what is not there."""
+
+    __str__ = BaseException.__str__  # KeyError's has the quotes of repr()
+
+
+def _module(user: str, name: str) -> Any:
+    """A module that only ``user`` needs."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise ImportError(f"{user} needs {name}: apt-get install python3-{name}, or pip install {name}") from error
+
+
 _MOST_SHOWN = 60
 _SIDES = {-1: "-", 1: "+", 0: None}
 
@@ -155,12 +212,12 @@ def _shown(table: Table) -> list[tuple[Cell, ...]]:
     return [
         tuple(_SIDES[int(cell)] if is_side and isinstance(cell, int) else in_python(cell) if isinstance(cell, str) else cell
               for cell, is_side in zip(row, sides))
-        for row in table.head(_MOST_SHOWN)
+        for row in table.head(_MOST_SHOWN).rows
     ]
 
 
 def _rest(table: Table) -> str:
-    left = len(table) - _MOST_SHOWN
+    left = len(table.rows) - _MOST_SHOWN
     return f"... and {left} more rows\n" if left > 0 else ""
 
 
@@ -175,8 +232,23 @@ def catalogue(kind: str) -> Table: ...
 def catalogue(kind: str | None = None) -> dict[str, Table] | Table:
     """What there is: cases, integrators, contact treatments, methods, pairs, metrics, diagnoses and columns.
 
-    Without ``kind`` all tables by their kind. Raises InputError for an unknown kind.
+    Parameters
+    ----------
+    kind : str, optional
+        One of them.
 
+    Returns
+    -------
+    Table or dict of Table
+        Without ``kind`` all tables by their kind.
+
+    Raises
+    ------
+    InputError
+        For an unknown kind.
+
+    Examples
+    --------
     >>> import clackers
     >>> clackers.catalogue("cases")["name"][0]
     'three-parameter'
@@ -189,10 +261,25 @@ def catalogue(kind: str | None = None) -> dict[str, Table] | Table:
 
 
 def explain(code: str | None = None) -> Table:
-    """What a code means and what to do about it, as a table of one row; without ``code`` all codes.
+    """What a code means and what to do about it.
 
-    Codes are those of errors, behaviours, verdicts and diagnoses. Raises InputError for an unknown code.
+    Parameters
+    ----------
+    code : str, optional
+        Of an error, a behaviour, a verdict or a diagnosis.
 
+    Returns
+    -------
+    Table
+        With one row; without ``code`` all codes.
+
+    Raises
+    ------
+    InputError
+        For an unknown code.
+
+    Examples
+    --------
     >>> import clackers
     >>> clackers.explain("time-outside")["kind"][0]
     'refusal'

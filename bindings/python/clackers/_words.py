@@ -21,29 +21,26 @@ def _argument(found: re.Match[str]) -> str:
 
 
 _NAME = r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)"
-_RULES: list[tuple[re.Pattern[str], Replacement]] = [
-    (re.compile(pattern), replacement)
-    for pattern, replacement in (
-        (r"clackers list ([a-z]+)", r'clackers.catalogue("\1")'),
-        (r"clackers explain\b", "clackers.explain()"),
-        (r"clackers show ([\w-]+)", r'clackers.case("\1").tables()'),
-        (r"clackers respond ([\w-]+) --impacts", r'clackers.case("\1").impacts()'),
-        (r"--set\s+([^\s=;]+=[^\s;]*\w)", r"\1"),
-        (r"--set\b", "keyword arguments"),
-        (r"--format json", "record.to_json()"),
-        (r"--metrics all", "record.table()"),
-        (r"--steps\b", "--step"),
-        (r"--events\b", "--impacts"),
-        (_NAME + r"(\s+)([^\s=]*(?:[\d,:]|[A-Z]{2})[^\s]*)", _argument),
-        (_NAME, lambda found: str(found[1]).replace("-", "_")),
-    )
+_RULES: list[tuple[str, Replacement]] = [
+    (r"clackers list ([a-z]+)", r'clackers.catalogue("\1")'),
+    (r"clackers explain\b", "clackers.explain()"),
+    (r"clackers show ([\w-]+)", r'clackers.case("\1").tables()'),
+    (r"clackers respond ([\w-]+) --impacts", r'clackers.case("\1").impacts()'),
+    (r"--set\s+([^\s=;]+=[^\s;]*\w)", r"\1"),
+    (r"--set\b", "keyword arguments"),
+    (r"--format json", "record.to_json()"),
+    (r"--metrics all", "record.table()"),
+    (r"--steps\b", "--step"),
+    (r"--events\b", "--impacts"),
+    (_NAME + r"(\s+)([^\s=]*(?:[\d,:]|[A-Z]{2})[^\s]*)", _argument),
+    (_NAME, lambda found: str(found[1]).replace("-", "_")),
 ]
 
 
 def in_python(text: str) -> str:
     """``text`` with what the user of the command types as what the user of this package types."""
     for pattern, replacement in _RULES:
-        text = pattern.sub(replacement, text)
+        text = re.sub(pattern, replacement, text)
     return text
 
 

@@ -62,9 +62,29 @@ def response(
 ) -> Axes:
     """The exact displacements of the masses against time; thin lines mark the impacts.
 
-    ``t`` are times [s], by default 2001 over the run and those of the impacts. More than 60 impacts are
-    ticks at the bottom. Raises InputError as ``Case.response`` does.
+    More than 60 impacts are ticks at the bottom.
 
+    Parameters
+    ----------
+    case : Case
+    t : array_like, optional
+        Times [s]; default 2001 over the run and those of the impacts.
+    ax : Axes, optional
+        Where to draw; default a new figure.
+    width : float
+        Of a new figure [in].
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    InputError
+        As ``Case.response`` does.
+
+    Examples
+    --------
     >>> import clackers
     >>> axes = clackers.plot.response(clackers.case("three-parameter"), width=clackers.plot.PAGE)
     >>> axes.get_xlabel(), axes.get_ylabel()
@@ -86,9 +106,29 @@ def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = No
     """Where the energy is against time: kinetic, potential, dissipated by damping, lost in impacts, total,
     as far as ``Case.energies`` has them.
 
-    ``t`` are times [s], by default 2001 over the run and those of the impacts. Where a time is that of an
-    impact, the limits of both sides are drawn.
+    Where a time is that of an impact, the limits of both sides are drawn.
 
+    Parameters
+    ----------
+    case : Case
+    t : array_like, optional
+        Times [s]; default 2001 over the run and those of the impacts.
+    ax : Axes, optional
+        Where to draw; default a new figure.
+    width : float
+        Of a new figure [in].
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    InputError
+        As ``Case.energies`` does.
+
+    Examples
+    --------
     >>> import clackers
     >>> axes = clackers.plot.energies(clackers.case("stop", eta=0.8))
     >>> [line.get_label() for line in axes.lines]
@@ -98,7 +138,7 @@ def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = No
     table = case.energies(times)
     with _axes(ax, width) as axes:
         for number, name in enumerate(("kinetic", "potential", "dissipated", "lost", "total")):
-            if name in table.arrays:
+            if name in table:
                 axes.plot(table["t"], table[name], label=name, **_line(_look(number)))
         _mark(axes, hits)
         axes.set(xlabel="time $t$ [s]", ylabel="energy [J]")
@@ -112,9 +152,31 @@ def spectrum(
 ) -> Axes:
     """The modulus of the Fourier transform of the displacements over the run at frequencies up to ``highest``.
 
-    ``highest`` in rad/s, ``n`` frequencies; the vertical axis is logarithmic. Raises InputError as
-    ``Case.spectrum`` does.
+    The vertical axis is logarithmic.
 
+    Parameters
+    ----------
+    case : Case
+    highest : float
+        [rad/s]
+    n : int
+        Number of frequencies.
+    ax : Axes, optional
+        Where to draw; default a new figure.
+    width : float
+        Of a new figure [in].
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    InputError
+        As ``Case.spectrum`` does.
+
+    Examples
+    --------
     >>> import clackers
     >>> axes = clackers.plot.spectrum(clackers.case("stop"), highest=20)
     >>> axes.get_xlabel(), axes.get_ylabel()
@@ -142,12 +204,32 @@ def convergence(
     """The largest error in u of every run against its step or tolerance, both axes logarithmic.
 
     Faint points are runs; a line joins the largest errors of the levels of a subject. Thin grey lines have the
-    slopes of the orders beside them. The dotted line is the error that rounding explains: ``floor`` True or False
-    draws or omits it, by default it is drawn where an error is less than a thousand times larger.
+    slopes of the orders beside them. Runs without a finite positive error are not drawn.
 
-    ``case`` is the name of one of several cases, by default the first. Runs without a finite positive error are
-    not drawn. Raises InputError where no run has one.
+    Parameters
+    ----------
+    record : Record
+    case : str, optional
+        The name of one of several cases; default the first.
+    floor : bool, optional
+        Whether the error that rounding explains is drawn, dotted; default where an error is less than a thousand times
+        larger.
+    ax : Axes, optional
+        Where to draw; default a new figure.
+    width : float
+        Of a new figure [in].
 
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    InputError
+        Where no run has a finite positive error.
+
+    Examples
+    --------
     >>> import clackers
     >>> record = clackers.verify("rk4", "newmark+reversal", case="three-parameter", levels=3, samples_per_level=4)
     >>> axes = clackers.plot.convergence(record)
@@ -180,9 +262,31 @@ def history(
 ) -> Axes:
     """The error in u of a mass, counted from 1, against time: the finest run of each subject.
 
-    The vertical axis is logarithmic; each point is the largest error of a short interval. ``case`` is the name of
-    one of several cases, by default the first. Raises InputError where there is no history, or no such mass.
+    The vertical axis is logarithmic; each point is the largest error of a short interval.
 
+    Parameters
+    ----------
+    record : Record
+    mass : int
+        From 1.
+    case : str, optional
+        The name of one of several cases; default the first.
+    ax : Axes, optional
+        Where to draw; default a new figure.
+    width : float
+        Of a new figure [in].
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    InputError
+        Where there is no history, or no such mass.
+
+    Examples
+    --------
     >>> import clackers
     >>> record = clackers.verify("rk4", "newmark", case="three-parameter", levels=3, samples_per_level=4)
     >>> clackers.plot.history(record, mass=2).get_ylabel()
