@@ -112,7 +112,8 @@ std::string read_text(std::string_view who, std::string_view name, py::handle va
       text != nullptr && std::string_view(text).size() == std::size_t(size))
     return text;
   PyErr_Clear();
-  refuse(who, name, given(value), "a text without NUL and halves of surrogate pairs", {}, "not-text");
+  refuse(who, name, given(value), "a text without NUL and halves of surrogate pairs", {},
+         "not-text");
 }
 
 Doubles read_array(std::string_view who, std::string_view name, py::handle value) {
