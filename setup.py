@@ -47,7 +47,23 @@ class CMakeBuild(build_ext):
     def run_cmake(*arguments):
         if not shutil.which("cmake"):
             raise SystemExit("clackers: cmake is not there. Run scripts/setup python, which installs it.")
-        subprocess.run(["cmake", *map(str, arguments)], check=True)
+        with subprocess.Popen(["cmake", *map(str, arguments)], stdout=subprocess.PIPE, text=True) as run, terminal() as shown:
+            for line in run.stdout:
+                print(line, end="", flush=True)  # pip shows it with -v
+                if done := re.match(r"\[(\d+)/(\d+)\]", line):
+                    shown.write("\rclackers: {} of {} parts are compiled ".format(*done.groups()))
+                    shown.flush()
+            shown.write("\r" + 50 * " " + "\r")
+        if run.returncode != 0:
+            raise SystemExit(f"clackers: cmake {' '.join(map(str, arguments))} ended with status {run.returncode}.")
+
+
+def terminal():
+    """Where a person sees progress, since pip hides what a build prints; else nowhere."""
+    try:
+        return open("/dev/tty", "w")
+    except OSError:
+        return open(os.devnull, "w")
 
 
 # Files that the package no longer has would stay among those of the wheel.
