@@ -100,16 +100,31 @@ def scipy_python():
     return ""
 
 
+@functools.cache
+def programs():
+    """The command of each kind of solver beside that of C++; empty where it is not installed."""
+    has_r = shutil.which("Rscript") and subprocess.run(["Rscript", "-e", "library(deSolve)"], capture_output=True).returncode == 0
+    return {"scipy": [scipy_python(), HERE / "scipy_solvers.py"] if scipy_python() else [],
+            "calculix": [sys.executable, HERE / "calculix_solvers.py"] if shutil.which("ccx") else [],
+            "octave": ["octave", "--no-gui", "-qf", HERE / "octave_solvers.m"] if shutil.which("octave") else [],
+            "r": ["Rscript", HERE / "r_solvers.R"] if has_r else []}
+
+
+# These start slowly: few runs write all their histories.
+SLOW_STARTS = ("octave", "r")
+
+
+def kind_of(one):
+    """The name in programs() of the solver; empty for those of C++."""
+    return next((name for name in programs() if f"method={name}-" in one["solver"]), "")
+
+
 def program_of(one, solvers):
-    for name, program in (("scipy", [scipy_python(), HERE / "scipy_solvers.py"]),
-                          ("octave", ["octave", "--no-gui", "-qf", HERE / "octave_solvers.m"])):
-        if f"method={name}-" in one["solver"]:
-            return program
-    return [solvers]
+    return programs()[kind_of(one)] if kind_of(one) else [solvers]
 
 
 def needs_problem(one, systems):
-    return "solver" not in systems[one["system"]] or "method=octave-" in one["solver"]
+    return "solver" not in systems[one["system"]] or kind_of(one) not in ("", "scipy")
 
 
 def prepare(one, system, folder):
@@ -117,7 +132,7 @@ def prepare(one, system, folder):
     folder.mkdir(parents=True, exist_ok=True)
     files = files_of(one, system, folder)
     lines = []
-    told = system["problem"] if "method=octave-" in one["solver"] else system.get("solver", system.get("problem"))
+    told = system["problem"] if kind_of(one) not in ("", "scipy") else system.get("solver", system.get("problem"))
     odd, odd_words = one.get("odd", (-1, ""))
     for i, (path, h, words) in enumerate(files):
         events = f" events={path}.events" if one.get("events") else ""
@@ -144,20 +159,20 @@ def generate(one, system, folder, solvers):
     return command
 
 
-def solve_with_octave(sets, systems, folders, jobs):
-    """Histories of all sets by few runs of Octave, which starts slowly."""
-    lines = [line for one, folder in zip(sets, folders) if "method=octave-" in one["solver"]
-             for line in prepare(one, systems[one["system"]], folder)[0]]
-    parts = [lines[i::jobs] for i in range(jobs) if lines[i::jobs]]
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(lambda part: solve(program_of({"solver": "method=octave-"}, ""), part), parts))
+def solve_slow_starts(sets, systems, folders, jobs):
+    """Histories of all sets whose programs start slowly, by few runs."""
+    for kind in SLOW_STARTS:
+        lines = [line for one, folder in zip(sets, folders) if kind_of(one) == kind
+                 for line in prepare(one, systems[one["system"]], folder)[0]]
+        parts = [lines[i::jobs] for i in range(jobs) if lines[i::jobs]]
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            list(pool.map(lambda part: solve(programs()[kind], part), parts))
 
 
 def judge(one, system, folder, solvers, clackers):
     """(answer, faults) of a set; its files are removed."""
     try:
-        done_before = "method=octave-" in one["solver"]
-        command = prepare(one, system, folder)[1] if done_before else generate(one, system, folder, solvers)
+        command = prepare(one, system, folder)[1] if kind_of(one) in SLOW_STARTS else generate(one, system, folder, solvers)
         done = subprocess.run([clackers, *command, "--format", "json"], capture_output=True, text=True,
                               timeout=300)
     finally:
@@ -212,10 +227,7 @@ def main():
         sets = sweep.sets(systems, options.sweep)
     if options.only:
         sets = [one for one in sets if any(word in one["name"] for word in options.only)]
-    if not scipy_python():
-        sets = [one for one in sets if "method=scipy-" not in one["solver"]]
-    if not shutil.which("octave"):
-        sets = [one for one in sets if "method=octave-" not in one["solver"]]
+    sets = [one for one in sets if not kind_of(one) or programs()[kind_of(one)]]
     if options.group:
         sets = [one for one in sets if (one["group"] in options.group) != options.without]
     if options.list:
@@ -237,7 +249,7 @@ def main():
             return 0
 
         folders = [scratch / str(i) for i in range(len(sets))]
-        solve_with_octave(sets, systems, folders, options.jobs)
+        solve_slow_starts(sets, systems, folders, options.jobs)
 
         def work(one, folder):
             return (one, *judge(one, systems[one["system"]], folder, solvers, clackers))
