@@ -13,9 +13,9 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/methods/registry.hpp"
 #include "clackers/solvers/program.hpp"
 #include "clackers/study/options.hpp"
+#include "clackers/study/system_study.hpp"
 #include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/verify_programs.hpp"
@@ -94,8 +94,12 @@ std::vector<std::string> verdicts_to_show(const Options& options) {
 }
 
 bool is_method(const std::string& word) {
-  return std::ranges::find(methods::entries(), word.substr(0, word.find_first_of(":+")),
-                           &methods::Entry::name) != methods::entries().end();
+  try {
+    study::subject_name(word);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 // Cases among the methods are cases: "verify stop newmark".

@@ -82,7 +82,7 @@ class NotWritten(CommandTest):
         path = self.path("none/rows.csv")
         for command in (ROWS, ("list",), ("show", "stop"), ("explain",), ("verify",)):
             self.cannot_write(*command, "--out", path, says=(path, "No such file", "Create the folder"))
-        self.cannot_write("verify", "--report", path, says=path)
+        self.cannot_write("verify", "--report", self.path("none/page.html"), says=self.path("none"))
 
     def test_a_folder_instead_of_a_file(self):
         self.cannot_write(*ROWS, "--out", self.folder, says=(self.folder, "directory", "Name a file"))
@@ -173,7 +173,7 @@ class FullDisk(CommandTest):
                                self.path("rows")], capture_output=True, text=True)
         self.assertEqual(done.returncode, 4)
         self.assertIn("cannot write standard output", done.stderr)
-        self.assertEqual(self.files(), [])
+        self.assertEqual(self.text_of("rows"), self.good("respond", "stop", "--samples", "3"))
 
     def test_on_a_device(self):
         self.refused(*ROWS, "--out", "/dev/full", exit_code=4, code="cannot-write",

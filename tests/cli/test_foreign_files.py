@@ -48,7 +48,7 @@ class ForeignFiles(CommandTest):
             self.refused("respond", "stop", "--times", self.path("x"), code="not-text", says=says)
         with open(self.path("x"), "wb") as file:
             file.write(b"\x93NUMPY\x01")
-        self.refused("respond", "stop", "--times", self.path("x"), code="not-text", says="NumPy")
+        self.refused("respond", "stop", "--times", self.path("x"), code="not-an-array", says="header")
 
     def test_a_row_that_is_cut_short_is_refused_with_that_reason(self):
         cut = self.text[:self.text.rindex(",")]

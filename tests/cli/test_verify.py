@@ -149,7 +149,6 @@ class Refusals(CommandTest):
         self.refused("verify", "--case", "three-paramter", code="unknown-name",
                      says='"three-parameter"')
         self.refused("verify", "--set", "xi=1", code="unknown-name", says='"xi1"')
-        self.refused("verify", "stop", code="bad-syntax", says="--case stop")
 
     def test_of_a_good_name_behind_which_a_bad_one_stands(self):
         self.refused("verify", "rk4", "newmrak", code="unknown-name")

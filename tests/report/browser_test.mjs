@@ -83,7 +83,7 @@ await run(async () => {
   // The player.
   const stage = page.locator('[data-player="motion"]');
   const player = (label) => stage.locator("xpath=following-sibling::div[1]").locator("button", { hasText: label });
-  const clock = () => stage.locator("svg > text").innerHTML();
+  const clock = () => stage.locator('svg > text[text-anchor="end"]').innerHTML();
   const place = (mass) => page.evaluate((i) =>
     Number(document.querySelector(`[data-player] [data-block="${i}"]`).getAttribute("transform").match(/\(([-\d.]+)/)[1]), mass);
   const spark = () => stage.locator("[data-contact]").getAttribute("opacity").then(Number);

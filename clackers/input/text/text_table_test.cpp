@@ -43,8 +43,8 @@ const std::vector<std::vector<double>> two_rows{{0.0, 1.0}, {0.5, -2.0}};
 TEST(TextTable, TakesEverySeparation) {
   for (const std::string text :
        {"t,u1\n0,1\n0.5,-2\n", "t, u1\n0 , 1\n 0.5,  -2 \n", "t;u1\n0;1\n0.5;-2\n",
-        "t\tu1\n0\t1\n0.5\t-2\n", "t u1\n0 1\n0.5 -2\n", "t [s] u1 [m]\n0 1\n1/2 -2\n", " t   u1\n  0    1 \n0.5\t -2\n",
-        "t \t u1\n0 \t 1\n0.5   -2\n", "t,u1\n0,1,\n0.5,-2,\n"}) {
+        "t\tu1\n0\t1\n0.5\t-2\n", "t u1\n0 1\n0.5 -2\n", "t [s] u1 [m]\n0 1\n1/2 -2\n",
+        " t   u1\n  0    1 \n0.5\t -2\n", "t \t u1\n0 \t 1\n0.5   -2\n", "t,u1\n0,1,\n0.5,-2,\n"}) {
     SCOPED_TRACE(text);
     const auto table = read(text);
     EXPECT_EQ(table.names, (Names{"t", "u1"}));

@@ -43,7 +43,8 @@ bool is_text(const record::Sheet& sheet) {
 std::string sheet_html(const record::Sheet& sheet) {
   if (sheet.rows.empty()) return {};
   if (is_text(sheet))
-    return fmt::format("<pre tabindex=\"0\">{}</pre>\n", escape(wrapped(rejoin(std::get<std::string>(sheet.rows[0][0])), 96)));
+    return fmt::format("<pre tabindex=\"0\">{}</pre>\n",
+                       escape(wrapped(rejoin(std::get<std::string>(sheet.rows[0][0])), 96)));
   std::vector<HtmlColumn> columns;
   for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
     const auto is_number = [&](const auto& row) {
