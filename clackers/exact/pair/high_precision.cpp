@@ -33,7 +33,7 @@ numerics::TripleDouble to_triple_double(const Real& x) {
   return {hi, mid, to_double(x - hi - mid)};
 }
 
-Real pi() { return boost::math::constants::pi<Real>(); }
+Real precise_pi() { return boost::math::constants::pi<Real>(); }
 
 // A motion given by few numbers, from which all others follow.
 struct RealMotion {
@@ -63,10 +63,11 @@ struct RealMotion {
 void require_end(std::string_view who, const RealMotion& motion) {
   constexpr double most_half_periods = 0x1p50;
   require_positive(who, "t_end", motion.end);
-  if (motion.omega * motion.end / pi() > most_half_periods)
+  if (motion.omega * motion.end / precise_pi() > most_half_periods)
     refuse(who, "t_end", motion.end,
-           fmt::format("0 < t_end <= {} s, which is 2^50 half periods",
-                       std::nextafter(to_double(most_half_periods * pi() / motion.omega), 0.0)),
+           fmt::format(
+               "0 < t_end <= {} s, which is 2^50 half periods",
+               std::nextafter(to_double(most_half_periods * precise_pi() / motion.omega), 0.0)),
            "Beyond, impacts lie closer together than double precision resolves their times.");
 }
 
@@ -163,10 +164,10 @@ FlightConstants flight_constants(const RealMotion& motion) {
   c.collides = motion.collides;
   c.eta = motion.eta;
   c.end = motion.end;
-  c.turns = to_triple_double(motion.omega / pi());
-  c.period = to_triple_double(pi() / motion.omega);
+  c.turns = to_triple_double(motion.omega / precise_pi());
+  c.period = to_triple_double(precise_pi() / motion.omega);
   c.decay = to_double_double(motion.sigma / log_2);
-  c.period_decay = to_double_double(motion.sigma * pi() / (motion.omega * log_2));
+  c.period_decay = to_double_double(motion.sigma * precise_pi() / (motion.omega * log_2));
   if (motion.eta > 0.0) c.log2_eta = to_double_double(log(Real(motion.eta)) / log_2);
 
   Real energy = 0;
@@ -227,7 +228,7 @@ PairConstants pair_constants(const RealMotion& motion, const model::ImpactProble
   const auto frequency = [&](std::size_t i) {
     return Real(sqrt(motion.masses[i].stiffness_over_mass(motion)));
   };
-  const Real period = pi() / motion.omega;
+  const Real period = precise_pi() / motion.omega;
   PairConstants c;
   c.ratio = *motion.ratio;
   c.r = motion.r;
