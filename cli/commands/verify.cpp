@@ -104,10 +104,11 @@ bool is_method(const std::string& word) {
 
 // Cases among the methods are cases: "verify stop newmark".
 void take_cases(Options& options) {
-  const auto first = std::ranges::stable_partition(options.methods,
-                                                   [](const auto& word) { return !is_case(word); });
-  options.cases.insert(options.cases.begin(), first.begin(), first.end());
-  options.methods.erase(first.begin(), first.end());
+  auto& methods = options.methods;
+  const auto first = std::stable_partition(methods.begin(), methods.end(),
+                                           [](const auto& word) { return !is_case(word); });
+  options.cases.insert(options.cases.begin(), first, methods.end());
+  methods.erase(first, methods.end());
 }
 
 void check(const Options& options) {
