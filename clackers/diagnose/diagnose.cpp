@@ -23,9 +23,14 @@ bool is_of_digits(const Diagnosis& found) {
 }
 
 void add(std::vector<Diagnosis>& all, std::vector<Diagnosis> more) {
-  for (auto& one : more)
-    if (std::ranges::find(all, one.code, &Diagnosis::code) == all.end())
+  for (auto& one : more) {
+    if (!(one.confidence >= least_confidence)) continue;
+    const auto same = std::ranges::find(all, one.code, &Diagnosis::code);
+    if (same == all.end())
       all.push_back(std::move(one));
+    else if (same->confidence < one.confidence)
+      *same = std::move(one);
+  }
 }
 
 }  // namespace

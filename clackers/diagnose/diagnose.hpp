@@ -47,8 +47,9 @@ struct FirstRows {
 /// explains all numbers of the first row to 1e-6 of the envelope or to its printed digits.
 ///
 /// Where several do, the first of: one unit for all; masses exchanged; signs; columns exchanged; at
-/// rest; half steps; a shift by whole steps; a unit of u or of v alone; a unit together with an
-/// exchange; a shift by any time. `value`: of unit-scaled the factor of the file; of time-shifted the time of the file
+/// rest; half steps; a shift by whole steps; a unit of u or of v alone; unit or sign together with an
+/// exchange; a shift by any time. Rows up to the first impact decide between readings of the same
+/// first row. `value`: of unit-scaled the factor of the file; of time-shifted the time of the file
 /// minus the true one in steps (unit "steps") or seconds ("s"); of velocity-at-half-steps +0.5 or
 /// -0.5 steps; of an exchange the factor where there is one as well, else NaN. `text`: of
 /// unit-scaled "mm", "u mm" or "v mm/s", or "u" or "v" for a factor that is no known unit; of

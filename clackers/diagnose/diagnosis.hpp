@@ -45,7 +45,7 @@ struct Diagnosis {
   /// is its meaning.
   double value = std::numeric_limits<double>::quiet_NaN();
   std::string unit{};
-  double confidence = 0.0;       ///< 0 to 1
+  double confidence = 0.0;       ///< 0 to 1; only what reaches `least_confidence` is reported
   std::vector<Fact> evidence{};  ///< in the order in which a reader wants them
   /// A name where the cure needs one: "t,u2,v2,u1,v1" for --columns, the unit "mm", a column.
   std::string text{};
@@ -58,6 +58,9 @@ struct Diagnosis {
     return std::numeric_limits<double>::quiet_NaN();
   }
 };
+
+/// Below it a cause is not reported.
+inline constexpr double least_confidence = 0.5;
 
 /// What a cause is found in, for the rules of which cause brings about another.
 enum class CauseGroup { reading, output, system, gap, impacts, time, method, ladder, other };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,14 @@ struct Observation {
   /// that drifts off the grid keeps its number; -1 for a row between two places of the grid. Empty
   /// where fewer than nine rows in ten are equally spaced.
   std::vector<long long> sample_steps;
+  bool impacts_reported = false;
   /// The first rows, none left out; jumps that the history reports stand there with both limits.
   model::Trajectory opening;
+  /// Largest |v - du/dt| over the envelope of v at the rows of `sample`, du/dt by central
+  /// differences of fourth order, error (w spacing)^4 / 30 at the frequency w; rows two spacings
+  /// from an impact of the history or the reference, or unequally spaced, are left out. What
+  /// velocities of another order or half a step away show. NaN without velocities or such rows.
+  double velocity_mismatch = std::numeric_limits<double>::quiet_NaN();
 };
 
 inline constexpr std::size_t most_sample_rows = 1500, most_opening_rows = 4096,

@@ -61,6 +61,48 @@ std::vector<long long> grid_places(const model::Trajectory& history,
   return places;
 }
 
+class Mismatch {
+ public:
+  explicit Mismatch(const measure::Comparison& comparison)
+      : comparison_(comparison), history_(comparison.history()), h_(comparison.step()) {}
+
+  // Largest |v - du/dt| over the envelope at this row; NaN where it cannot be told.
+  double at(std::size_t row) const {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    if (row < 2 || row + 2 >= history_.t.size()) return unknown;
+    const auto* t = &history_.t[row];
+    for (int i = -2; i < 2; ++i)
+      if (!(std::abs(t[i + 1] - t[i] - h_) < 1e-3 * h_)) return unknown;
+    if (has_impact(t[-2], t[2])) return unknown;
+    const auto dof = comparison_.dof();
+    double largest = 0.0;
+    for (std::size_t mass = 0; mass < dof; ++mass) {
+      const auto u = [&](int offset) {
+        return history_.u[std::size_t(std::ptrdiff_t(row) + offset) * dof + mass];
+      };
+      const double rate = (8.0 * (u(1) - u(-1)) - (u(2) - u(-2))) / (12.0 * h_);
+      const double off = std::abs(history_.v[row * dof + mass] - rate);
+      largest = std::max(largest, off / comparison_.v_envelope()[mass]);
+    }
+    return largest;
+  }
+
+ private:
+  bool has_impact(double from, double to) const {
+    const auto& reference = comparison_.reference();
+    const double end = reference.end();
+    if (reference.impact_count(std::min(to, end)) > reference.impact_count(std::min(from, end)))
+      return true;
+    const auto& impacts = comparison_.impacts();
+    const auto next = std::ranges::lower_bound(impacts, from - h_, {}, &model::Impact::t);
+    return next != impacts.end() && next->t <= to + h_;
+  }
+
+  const measure::Comparison& comparison_;
+  const model::Trajectory& history_;
+  double h_;
+};
+
 }  // namespace
 
 Observation observe(const measure::Comparison& comparison, const FileFacts& facts) {
@@ -70,15 +112,19 @@ Observation observe(const measure::Comparison& comparison, const FileFacts& fact
   seen.rows = (long long)(comparison.rows());
   seen.first = history.t.front();
   seen.last = history.t.back();
+  seen.impacts_reported = comparison.impact_source() == measure::ImpactSource::reported;
   seen.sample.dof = seen.opening.dof = history.dof;
   for (std::size_t row = 0; row < std::min(comparison.rows(), most_opening_rows); ++row)
     append(seen.opening, history, row);
 
   const auto rows = plain_rows(comparison);
   const auto places = grid_places(history, rows, comparison.step());
+  const Mismatch mismatch(comparison);
   for (const auto i : spread(rows.size(), most_sample_rows)) {
     append(seen.sample, history, rows[i]);
     if (!places.empty()) seen.sample_steps.push_back(places[i]);
+    if (comparison.has_velocities())
+      seen.velocity_mismatch = std::fmax(seen.velocity_mismatch, mismatch.at(rows[i]));
   }
   for (double& t : seen.sample.t) t = std::min(t, comparison.reference().end());
   const auto& impacts = comparison.impacts();

@@ -21,6 +21,7 @@ TEST(Observation, KeepsEveryRowOfAShortHistory) {
   ASSERT_EQ(seen.sample_steps.size(), 1001u);
   EXPECT_EQ(seen.sample_steps[700], 700);
   EXPECT_EQ(seen.sample.impacts->size(), 6u);
+  EXPECT_FALSE(seen.impacts_reported);
 }
 
 TEST(Observation, SpreadsItsSampleOverALongHistory) {
@@ -58,6 +59,21 @@ TEST(Observation, CountsTheGridPastRowsOfEvents) {
   EXPECT_EQ(seen.sample_steps[79], -1);
   EXPECT_EQ(seen.sample_steps[80], 79);
   EXPECT_EQ(seen.sample_steps.back(), 1000);
+}
+
+// (omega h)^4 / 30 of the fastest mass is 5e-4 at h = 0.04, N = 2 (omega about 9); velocities half a
+// step away differ by a h / 2, about omega h / 2 of their envelope, 0.18.
+TEST(Observation, ComparesVelocitiesWithTheRateOfDisplacements) {
+  for (const auto& problem : testing::assorted_cases()) {
+    auto rows = exact_rows(problem, 0.02);
+    const double right = observed(problem, rows, 0.02).velocity_mismatch;
+    testing::resample(rows, problem, 0.0, 0.01);
+    EXPECT_LT(right, 1e-2);
+    EXPECT_GT(observed(problem, rows, 0.02).velocity_mismatch, 5.0 * right);
+  }
+  auto rows = exact_rows(cases::make("stop"), 0.02);
+  rows.v.clear();
+  EXPECT_TRUE(std::isnan(observed(cases::make("stop"), rows, 0.02).velocity_mismatch));
 }
 
 }  // namespace

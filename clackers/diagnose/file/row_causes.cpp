@@ -79,7 +79,7 @@ std::optional<Diagnosis> resampled(const std::vector<FileSample>& files, bool by
 std::optional<Diagnosis> starts_at_rest(const FileSample& file, const DiagnosisInput& question) {
   const auto& history = file.history();
   if (history.opening.v.empty() || history.first != 0.0) return {};
-  constexpr double visible = 1e-9;
+  constexpr double visible = 1e-9, agreeing = 0.3;
   const auto masses = std::size_t(history.opening.dof);
   const auto start = file.motion().at(0.0, model::Side::right);
   double largest = 0.0, expected = 0.0;
@@ -95,6 +95,7 @@ std::optional<Diagnosis> starts_at_rest(const FileSample& file, const DiagnosisI
   opening.has_u.assign(masses, true);
   const FirstRow row(opening, question.problem, question.motion);
   const double own = row.own_flight_distance(), other = row.flight_distance(question.motion);
+  if (!(own < agreeing * other)) return {};
   Diagnosis cause;
   cause.code = "starts-at-rest";
   cause.value = 0.0;

@@ -135,9 +135,20 @@ class Search {
         if (next.size() > 0 && next.norm() < left.norm()) break;
         next.resize(0);
       }
-      if (next.size() == 0) return {};
+      if (next.size() == 0) return nearest_zero(values, first);
       values = moved;
       left = next;
+    }
+    return {};
+  }
+
+  // The least value of a range is often 0, and a step may end below it.
+  Values nearest_zero(Values values, std::size_t first) const {
+    for (std::size_t i = first; i < values.size(); ++i) {
+      const double kept = values[i].value;
+      values[i].value = 0.0;
+      if (matches(values)) return values;
+      values[i].value = kept;
     }
     return {};
   }
@@ -165,6 +176,8 @@ class Search {
 bool flight_agrees(const FirstRow& row, const Diagnosis& cause, const model::Motion& found) {
   const double left = row.flight_distance(found);
   if (cause.code == "starts-at-rest") return !(row.own_flight_distance() < 0.5 * left);
+  if (cause.code == "velocity-at-half-steps")
+    return !(row.flight_distance(row.motion()) < 0.5 * left);
   constexpr double sure = 0.9;
   return cause.code == "time-shifted" || cause.confidence < sure;
 }

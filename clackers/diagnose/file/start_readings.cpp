@@ -12,6 +12,7 @@ namespace {
 struct Candidate {
   Reading reading;
   Diagnosis diagnosis;
+  double flight = 0.0;  ///< rms distance of the first flight, NaN where it is not known
 };
 
 // Quantities from..to of the row are one factor times those of the state: the factor in the sense of
@@ -50,7 +51,7 @@ class ShapeSearch {
       add_first(reversals_, "sign-reversed");
       add_first(exchanges_, "columns-exchanged");
       if (found_.empty()) add_units_of_parts();
-      if (found_.empty()) add_together(exchanges_);
+      if (found_.empty()) add_together(exchanges_, reversals_);
     } else {
       add_units_of_parts();
     }
@@ -76,7 +77,7 @@ class ShapeSearch {
   }
 
   void add(const Reading& reading, double value, std::string text, double confidence) {
-    Candidate candidate{reading, {}};
+    Candidate candidate{reading, {}, row_.flight_distance(reading)};
     candidate.diagnosis.code = reading.code;
     candidate.diagnosis.value = value;
     candidate.diagnosis.text = std::move(text);
@@ -118,11 +119,12 @@ class ShapeSearch {
       auto in_time = reading;
       in_time.code = "time-unit";
       add(in_time, v_time->factor, std::string(v_time->name), 0.95);
+      found_.back().flight = 0.0;
       return;
     }
+    add(reading, u_unit != nullptr ? u_factor : v_factor, text, 0.9);
     // The velocities of another damping are all one factor off as well.
-    if (!(row_.flight_distance(reading) > agreeing * plain_flight_))
-      add(reading, u_unit != nullptr ? u_factor : v_factor, text, 0.9);
+    if (found_.back().flight > agreeing * plain_flight_) found_.pop_back();
   }
 
   // The times of the rows are in that unit as well.
@@ -147,8 +149,8 @@ class ShapeSearch {
         add(reading, std::numeric_limits<double>::quiet_NaN(), text_of(reading), 0.95);
   }
 
-  // An exchange with a unit.
-  void add_together(const std::vector<Reading>& swaps) {
+  // An exchange with a unit or a sign.
+  void add_together(const std::vector<Reading>& swaps, const std::vector<Reading>& signs) {
     for (const auto& swap : swaps) {
       const auto numbers = swap.applied(row_.given());
       const auto factor = factor_of(row_, numbers, 0, numbers.size());
@@ -156,6 +158,11 @@ class ShapeSearch {
         auto reading = swap;
         std::ranges::fill(reading.factor, unit->factor);
         if (matches(reading, unit->factor)) add(reading, unit->factor, text_of(reading), 0.9);
+      }
+      for (const auto& sign : signs) {
+        auto reading = swap;
+        reading.factor = sign.factor;
+        if (matches(reading)) add(reading, -1.0, text_of(reading), 0.8);
       }
     }
   }
@@ -167,7 +174,17 @@ class ShapeSearch {
 
   std::optional<Diagnosis> best() {
     if (found_.empty()) return {};
-    auto& chosen = found_.front();
+    double least = INFINITY;
+    for (const auto& one : found_) least = std::fmin(least, one.flight);
+    auto chosen = found_.front();
+    for (const auto& one : found_) {
+      if (!(one.flight > 2.0 * least + row_.tolerance())) {
+        chosen = one;
+        break;
+      }
+    }
+    // The flight after it is another one: the start alone is read wrongly, not the file.
+    if (chosen.flight > agreeing * plain_flight_) chosen.diagnosis.confidence -= 0.25;
     const double left = row_.distance(chosen.reading.applied(row_.given()), row_.expected());
     chosen.diagnosis.evidence.push_back({"gain", row_.distance() / std::max(left, 1e-16)});
     return chosen.diagnosis;

@@ -7,7 +7,7 @@
 namespace clackers::diagnose {
 
 /// The reading of the file (units, signs, exchanges) under which the first row is the case's; of
-/// several the one believed first.
+/// several the one that the rows of the first flight prefer, else the one believed first.
 std::optional<Diagnosis> start_as_reading(const FirstRow& row);
 
 /// The state of the case at another time.

@@ -144,6 +144,7 @@ std::optional<Diagnosis> time_drift(const FileSample& file) {
   Diagnosis cause;
   cause.code = "time-drifts";
   cause.value = grid.t.back() - history.first - grid.n.back() * h;
+  if (std::abs(cause.value) < beyond_rounding * rounding) return {};
   cause.unit = "s";
   cause.confidence = gain > sure_gain ? 0.95 : 0.8;
   cause.evidence = {{"gain", gain}, {"runner-up-gain", file.distance().u / scaled_left}};

@@ -69,6 +69,7 @@ std::optional<Delay> delay_of(const FileSample& file) {
   const double a = std::pow(fits((1.0 - d) * sign).v, 2), b = std::pow(best.v, 2),
                c = std::pow(fits((1.0 + d) * sign).v, 2);
   const double bend = a - 2.0 * b + c;
+  if (!(bend > 0.0)) return {};
   delay.steps = sign * (1.0 + d * 0.5 * (a - c) / bend);
   delay.gain = plain.v / std::max(best.v, 1e-300);
   if (!(delay.gain > least_velocity_gain) || std::abs(delay.steps - sign) > delay_tolerance)
@@ -83,10 +84,11 @@ std::optional<Diagnosis> at_half_steps(const std::vector<FileSample>& files, boo
   for (const auto& file : files) {
     const auto delay = delay_of(file);
     if (!delay) continue;
+    if (best && std::signbit(best->steps) != std::signbit(delay->steps)) return {};
     ++count;
     if (!best || delay->gain > best->gain) best = delay;
   }
-  // One file needs the larger gain; several confirm each other.
+  // One file needs the larger gain; several of one sign confirm each other.
   if (!best || (count < 2.0 && best->gain < sure_gain)) return {};
   Diagnosis cause;
   cause.code = "velocity-at-half-steps";
@@ -102,7 +104,7 @@ std::optional<Diagnosis> at_half_steps(const std::vector<FileSample>& files, boo
 
 // u and v both on lines, that of v by more than half an order lower.
 std::optional<Diagnosis> of_lower_order(const DiagnosisInput& question) {
-  constexpr double least_difference = 0.6;
+  constexpr double least_difference = 0.6, whole = 0.25;
   const auto& u = question.displacement;
   const auto& v = question.velocity;
   const bool lines = u.has_line && v.has_line && !u.on_envelope && !v.on_envelope;
@@ -111,6 +113,7 @@ std::optional<Diagnosis> of_lower_order(const DiagnosisInput& question) {
   if (!lines || !converge || question.by_tolerance) return {};
   const double difference = u.order - v.order;
   if (!(difference > least_difference + u.spread + v.spread)) return {};
+  if (std::abs(v.order - std::round(v.order)) > whole + v.spread) return {};
   Diagnosis cause;
   cause.code = "velocity-order-lower";
   cause.value = v.order;

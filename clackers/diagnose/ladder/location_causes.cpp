@@ -90,6 +90,7 @@ std::optional<Diagnosis> at_step(const std::vector<LocatedImpacts>& files) {
   const auto power = power_of_step(files, 3.0, rms_delay);
   if (have_one_gap(files)) return {};
   if (has_coarse && largest < 0.2 && !(power && *power > 0.6)) return {};
+  if (is_later && !power) return {};
   if (!spread && files.size() > 1) return {};
   auto found = diagnosis_of(Code("impact-at-step-end"), mean, "steps");
   found.confidence = spread && has_coarse ? 0.95 : spread ? 0.8 : 0.6;
@@ -208,6 +209,7 @@ std::optional<Diagnosis> not_started(const DiagnosisInput& question) {
     if (rows.v.empty() || rows.t.size() < 3) continue;
     const double s = rows.t[1] - start.t;
     if (!(s > 0.0) || s > 1.5 * seen.facts.step || rows.t[0] != start.t) continue;
+    if (rows.impacts && !rows.impacts->empty() && rows.impacts->front().t < rows.t[2]) continue;
     const auto one = measure::row_state(rows, 1), two = measure::row_state(rows, 2);
     const auto first = motion.moved(start, s), second = motion.moved(one, two.t - one.t);
     const Eigen::VectorXd gained = first.v - start.v, lack = first.v - one.v;
@@ -220,12 +222,12 @@ std::optional<Diagnosis> not_started(const DiagnosisInput& question) {
   return one_share(shares, 2, "at the start", shares.size());
 }
 
-// Contacts that last several rows, in the finest file as well.
+// Contacts of one duration in all files that hold several rows of it, the finest among them.
 std::optional<Diagnosis> compliant(const DiagnosisInput& question,
                                    const std::vector<LocatedImpacts>& files) {
   // Between a spring's 2/pi and the 1 of an impact that comes late.
   constexpr double largest_closed_speed = 0.85;
-  double duration = 0.0;
+  std::vector<double> durations;
   double closed_speeds = 0.0, with_closed_rows = 0.0;
   double speed = 0.0;
   int resolving = 0;
@@ -240,7 +242,7 @@ std::optional<Diagnosis> compliant(const DiagnosisInput& question,
         !one.empty() && measure::median(one) >= 3.0 * question.histories[i].facts.spacing;
     if (!finest_resolves) continue;
     ++resolving;
-    duration = measure::median(one);
+    durations.push_back(measure::median(one));
     for (const auto& impact : files[i].impacts)
       if (std::isfinite(impact.closed_speed)) {
         closed_speeds += impact.closed_speed;
@@ -248,6 +250,10 @@ std::optional<Diagnosis> compliant(const DiagnosisInput& question,
       }
   }
   if (!finest_resolves || closed_speeds > largest_closed_speed * with_closed_rows) return {};
+  const double duration = durations.back();
+  const auto alike = std::ranges::count_if(
+      durations, [&](double x) { return std::abs(x / duration - 1.0) < 0.2; });
+  if (2 * alike < std::ssize(durations)) return {};
   const double w = std::numbers::pi / duration;
   auto found = diagnosis_of(Code("contact-compliant"), duration, "s");
   found.confidence = resolving >= 2 ? 0.9 : 0.75;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 
@@ -72,11 +73,54 @@ std::optional<Diagnosis> in_rows(const DiagnosisInput& question) {
   return found;
 }
 
+// Errors that go up and down without falling over the finest three octaves, where impacts are
+// located well: a limit would settle, a method of order 1/2 would fall by 2.8. Two of three values
+// of a random sequence are turning points, at most two of one that passes zero once.
+std::optional<Diagnosis> in_ladder(const DiagnosisInput& question) {
+  constexpr double saturated = 0.3, above_floor = 30.0, most_factor = 2.5;
+  std::vector<const measure::RunScore*> runs;  // finest first
+  for (auto level = question.ladder.rbegin(); level != question.ladder.rend(); ++level)
+    for (auto run = level->runs.rbegin(); run != level->runs.rend(); ++run)
+      if (run->finished) runs.push_back(&*run);
+  constexpr std::size_t least_runs = 8;
+  if (runs.size() < least_runs || question.histories.size() < least_runs) return {};
+  double least = INFINITY, largest = 0.0, sum = 0.0;
+  std::vector<double> within;
+  bool spans = false;
+  for (const auto* run : runs) {
+    if (run->step > 8.5 * runs.front()->step) break;
+    spans = run->step > 7.0 * runs.front()->step;
+    least = std::min(least, run->u_error);
+    largest = std::max(largest, run->u_error);
+    sum += std::log(run->u_error);
+    within.push_back(run->u_error);
+  }
+  std::size_t turns = 0;
+  for (std::size_t i = 1; i + 1 < within.size(); ++i)
+    turns += (within[i] - within[i - 1]) * (within[i + 1] - within[i]) < 0.0;
+  if (within.size() < least_runs || 3 * turns < within.size()) return {};
+  const auto& finest = question.histories.back();
+  const double floor = std::max(printing_of(finest), runs.front()->rounding_floor);
+  if (!spans || !(least > above_floor * floor) || largest > saturated ||
+      largest > most_factor * most_factor * least)
+    return {};
+  const double mean = std::exp(sum / double(within.size()));
+  if (largest > most_factor * mean || least < mean / most_factor) return {};
+  const auto located = locate_impacts(finest, question.problem);
+  if (located.is_resolved()) return {};
+  if (question.limit.wrong || question.limit.difference < 0.5) return {};
+  auto found = diagnosis_of(Code("noise-floor"), mean, "1");
+  found.confidence = 0.85;
+  found.evidence = {{"floor", mean}, {"files", double(within.size())}};
+  return found;
+}
+
 }  // namespace
 
 std::vector<Diagnosis> noise_causes(const DiagnosisInput& question) {
   if (question.histories.empty() || question.ladder.empty()) return {};
   if (auto found = in_rows(question)) return {*found};
+  if (auto found = in_ladder(question)) return {*found};
   return {};
 }
 

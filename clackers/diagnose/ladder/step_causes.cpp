@@ -79,6 +79,7 @@ void unstable(const DiagnosisInput& question, std::vector<Diagnosis>& found) {
   };
   const auto first_stable = std::ranges::find_if_not(runs, fails);
   if (first_stable == runs.begin() || first_stable == runs.end()) return;
+  if (std::any_of(first_stable, runs.end(), fails)) return;
   const bool grew = std::any_of(runs.begin(), first_stable, [](const measure::RunScore* run) {
     return run->finished || run->failure_code == "diverged" || run->failure_code == "not-finite" ||
            run->failure_code == "not-a-number";

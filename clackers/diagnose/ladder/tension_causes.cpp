@@ -66,10 +66,20 @@ Impulses impulses_of(const Observation& seen, const model::ImpactProblem<>& prob
   return sum;
 }
 
-// Masses that are held while the contact is open.
-bool holds(const std::vector<double>& shares) {
+// Masses that are held while the contact is open: an error of the method, such as an acceleration of
+// before the impact that is used after it, falls with the step.
+bool holds(const std::vector<double>& steps, const std::vector<double>& shares) {
   constexpr double least_share = 2e-3, least_share_alone = 0.1;
-  return !shares.empty() && shares.back() > (shares.size() > 1 ? least_share : least_share_alone);
+  if (shares.empty() || !(shares.back() > least_share)) return false;
+  if (shares.back() > least_share_alone) return true;
+  int compared = 0;
+  for (std::size_t i = 0; i + 1 < shares.size(); ++i) {
+    const double factor = steps[i] / steps.back();
+    if (factor < 1.9) continue;
+    ++compared;
+    if (shares.back() * std::sqrt(factor) < shares[i]) return false;
+  }
+  return compared > 0;
 }
 
 }  // namespace
@@ -80,11 +90,12 @@ std::vector<Diagnosis> tension_causes(const DiagnosisInput& question) {
   constexpr int least_rows = 12, least_rows_each = 4;
   double share = 0.0;
   int files = 0, pulling = 0;
-  std::vector<double> held;
+  std::vector<double> steps, held;
   for (const auto& seen : question.histories) {
     if (seen.sample.v.empty() || !seen.sample.impacts || seen.sample.impacts->empty()) continue;
     const auto sum = impulses_of(seen, question.problem);
     if (sum.rows < least_rows_each * sum.impacts || !(sum.push > 0.0)) continue;
+    steps.push_back(seen.facts.step);
     held.push_back(sum.open_pull / sum.push);
     if (sum.rows < least_rows) continue;
     ++files;
@@ -94,7 +105,7 @@ std::vector<Diagnosis> tension_causes(const DiagnosisInput& question) {
     ++pulling;
     share = sum.pull / sum.push;
   }
-  const bool is_held = holds(held);
+  const bool is_held = holds(steps, held);
   if (is_held) {
     share = held.back();
     pulling = int(std::ranges::count_if(held, [&](double one) { return one > 0.5 * share; }));

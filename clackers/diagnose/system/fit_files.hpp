@@ -26,7 +26,8 @@ struct FitQuestion {
 
 inline constexpr std::size_t most_fit_files = 4;
 
-/// The finest histories of the question that say anything: none where the finest is not farther from the reference than 30 times its floor, or farther away than the
+/// The finest histories of the question that say anything: none where masses are coupled, where the
+/// finest is not farther from the reference than 30 times its floor, or farther away than the
 /// motion is large.
 FitQuestion fit_question(const DiagnosisInput& question);
 

@@ -91,6 +91,7 @@ std::optional<Diagnosis> period_error(const FitQuestion& question,
 std::optional<PowerLimit> power_limit(std::span<const double> steps,
                                       std::span<const double> values) {
   const auto n = double(steps.size());
+  if (steps.size() < 3) return std::nullopt;
   std::optional<PowerLimit> best;
   for (double order = 1.0; order <= 4.0; order += 0.5) {
     double sx = 0.0, sxx = 0.0, sy = 0.0, sxy = 0.0;
@@ -120,6 +121,7 @@ std::vector<Diagnosis> smooth_limits(const FitQuestion& question) {
   std::vector<double> steps;
   double gain = 0.0;
   for (const auto& file : question.files) {
+    if (file.smooth.values.empty()) break;
     auto start = file.smooth.values;
     start.resize(parameters.size(), 0.0);
     const auto fit = refine_system(file.rows, Variation{question.problem}, parameters, start);

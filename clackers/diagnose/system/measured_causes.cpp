@@ -144,11 +144,13 @@ FlightFit flight_fit(const Observation& seen, const System& system,
                      const std::vector<FlightChange>& changes) {
   FlightFit fit;
   const double fastest = measure::highest_frequency(system);
-  const auto& rows = seen.sample;
-  if (rows.v.empty()) return fit;
+  const auto& whole = seen.sample;
+  if (whole.v.empty()) return fit;
   const double longest = 0.5 / fastest;
-  const auto flights = flights_in(rows, longest);
+  auto flights = flights_in(whole, longest);
   constexpr std::size_t enough = 40;
+  const auto& rows = flights.size() < enough && !seen.opening.v.empty() ? seen.opening : whole;
+  if (&rows != &whole) flights = flights_in(rows, longest);
   if (flights.size() < enough) return fit;
   const auto dof = system.dof();
   const Eigen::ArrayXd weight = system.mass.diagonal().array().sqrt();
@@ -300,6 +302,9 @@ std::vector<Diagnosis> flight_causes(const DiagnosisInput& question, const Obser
     const double spread =
         best->uncertainty.segment(at, count).norm() + again.uncertainty.segment(at, count).norm();
     if (apart > same_share * values.norm() + spread || values.norm() < 2.0 * spread) return {};
+    // No spring, damper or mass is below zero.
+    constexpr double least_share = -1.05;
+    if (changes[change].cause.unit == "%" && values[0] < least_share) return {};
     found.push_back(diagnosis_by(changes[change], {values.data(), std::size_t(count)},
                                  std::max(apart, best->uncertainty[at])));
     found.back().confidence = 0.95;
