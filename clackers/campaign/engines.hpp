@@ -36,8 +36,6 @@ struct Engine {
   std::string filled(std::string_view text, const std::string& program = {}) const;
   /// How to install it.
   std::string installation() const;
-  /// Throws InputError (unknown-name) with did-you-mean.
-  const EngineSetting& setting(const std::string& name) const;
 };
 
 /// The engines in the folders below `path`, by name. Throws FileError (cannot-read) where there is

@@ -27,14 +27,6 @@ void write_whole(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-void make_folder(const std::string& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error)
-    throw FileError(fmt::format("{}: the folder cannot be made: {}", path, error.message()),
-                    "cannot-write");
-}
-
 std::string temporary_folder() {
   auto path = (fs::temp_directory_path() / "clackers-atlas-XXXXXX").string();
   if (mkdtemp(path.data()) == nullptr)
@@ -44,6 +36,14 @@ std::string temporary_folder() {
 }
 
 }  // namespace
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error)
+    throw FileError(fmt::format("{}: the folder cannot be made: {}", path, error.message()),
+                    "cannot-write");
+}
 
 TemporaryFolder::TemporaryFolder() : removed_(temporary_folder()) {}
 

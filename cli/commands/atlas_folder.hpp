@@ -8,6 +8,9 @@
 
 namespace clackers::cli {
 
+/// Makes a folder with those above it. Throws FileError (cannot-write).
+void make_folder(const std::string& path);
+
 /// A folder for the time of a command, removed at its end.
 class TemporaryFolder {
  public:

@@ -15,6 +15,7 @@
 #include "clackers/report/write.hpp"
 #include "clackers/solvers/process.hpp"
 #include "cli/command.hpp"
+#include "cli/commands/atlas_folder.hpp"
 #include "cli/commands/campaign_actions.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/results.hpp"
@@ -96,15 +97,30 @@ std::string program_of(const Engine& engine, const std::string& folder) {
   return program.string();
 }
 
+bool is_wanted(const EnginesOptions& options, const Engine& engine) {
+  return options.names.empty() ||
+         std::ranges::find(options.names, engine.id) != options.names.end();
+}
+
+// A setting that no engine has is a slip.
+void require_settings(const EnginesOptions& options, std::span<const Engine> engines) {
+  for (const auto& name : options.settings) {
+    std::vector<std::string> known;
+    for (const auto& engine : engines)
+      if (is_wanted(options, engine))
+        for (const auto& setting : engine.settings) known.push_back(setting.name);
+    if (std::ranges::find(known, name) == known.end())
+      refuse_name("setting", name, known, "clackers engines list");
+  }
+}
+
 // The engines and settings that were asked for and are installed; the others are named.
 std::vector<campaign::EngineRun> wanted_runs(const EnginesOptions& options,
                                              std::span<const Engine> engines,
                                              const std::string& folder) {
   std::vector<campaign::EngineRun> runs;
   for (const auto& engine : engines) {
-    if (!options.names.empty() &&
-        std::ranges::find(options.names, engine.id) == options.names.end())
-      continue;
+    if (!is_wanted(options, engine)) continue;
     const auto version = printed_by(engine.filled(engine.version), most_version);
     if (version.empty()) {
       note(fmt::format("{} is skipped: it is not installed. {}", engine.id, engine.installation()));
@@ -146,7 +162,8 @@ int run_engines(const EnginesOptions& options, std::span<const Engine> engines,
   if (options.all == !options.names.empty())
     refuse_usage("engines run", "give the engines by name, or --all.");
   const auto folder = options.common.out.empty() ? default_folder : options.common.out;
-  fs::create_directories(folder);
+  require_settings(options, engines);
+  make_folder(folder);
   const auto runs = wanted_runs(options, engines, folder);
   if (runs.empty())
     throw FileError(

@@ -1,18 +1,7 @@
 // ARKODE of SUNDIALS: ERKStep, explicit Runge-Kutta of order 4 (or order=2 to 8) with roots.
 #include <arkode/arkode_erkstep.h>
-#include <nvector/nvector_serial.h>
 
-#include "../flights.hpp"
-
-int derivative(realtype, N_Vector y, N_Vector out, void* door) {
-  static_cast<Flights*>(door)->derivative(N_VGetArrayPointer(y), N_VGetArrayPointer(out));
-  return 0;
-}
-int gaps(realtype, N_Vector y, realtype* out, void* data) {
-  auto& door = *static_cast<Flights*>(data);
-  for (std::size_t k = 1; k <= door.contacts; ++k) out[k - 1] = door.gap(k, N_VGetArrayPointer(y));
-  return 0;
-}
+#include "../sundials.hpp"
 
 int main(int count, char** words) {
   Flights door(count, words);

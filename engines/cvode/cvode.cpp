@@ -1,21 +1,10 @@
 // CVODE of SUNDIALS: method=bdf or method=adams with roots. reinit=no continues after an impact without
 // CVodeReInit.
 #include <cvode/cvode.h>
-#include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "../flights.hpp"
-
-int derivative(realtype, N_Vector y, N_Vector out, void* door) {
-  static_cast<Flights*>(door)->derivative(N_VGetArrayPointer(y), N_VGetArrayPointer(out));
-  return 0;
-}
-int gaps(realtype, N_Vector y, realtype* out, void* data) {
-  auto& door = *static_cast<Flights*>(data);
-  for (std::size_t k = 1; k <= door.contacts; ++k) out[k - 1] = door.gap(k, N_VGetArrayPointer(y));
-  return 0;
-}
+#include "../sundials.hpp"
 
 int main(int count, char** words) {
   Flights door(count, words);

@@ -1,20 +1,17 @@
 // IDA of SUNDIALS: the equation of motion in implicit form, backward differences with roots.
 #include <ida/ida.h>
-#include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "../flights.hpp"
+#include "../sundials.hpp"
 
-int residual(realtype, N_Vector y, N_Vector rate, N_Vector out, void* door) {
-  static_cast<Flights*>(door)->derivative(N_VGetArrayPointer(y), N_VGetArrayPointer(out));
+int residual(realtype t, N_Vector y, N_Vector rate, N_Vector out, void* door) {
+  derivative(t, y, out, door);
   N_VLinearSum(1.0, rate, -1.0, out, out);
   return 0;
 }
-int gaps(realtype, N_Vector y, N_Vector, realtype* out, void* data) {
-  auto& door = *static_cast<Flights*>(data);
-  for (std::size_t k = 1; k <= door.contacts; ++k) out[k - 1] = door.gap(k, N_VGetArrayPointer(y));
-  return 0;
+int gaps_of(realtype t, N_Vector y, N_Vector, realtype* out, void* door) {
+  return gaps(t, y, out, door);
 }
 
 int main(int count, char** words) {
@@ -33,7 +30,7 @@ int main(int count, char** words) {
   IDASetUserData(memory, &door);
   auto matrix = SUNDenseMatrix(n, n, context);
   IDASetLinearSolver(memory, SUNLinSol_Dense(y, matrix, context), matrix);
-  IDARootInit(memory, int(door.contacts), gaps);
+  IDARootInit(memory, int(door.contacts), gaps_of);
   std::vector<int> falling(door.contacts, -1);
   IDASetRootDirection(memory, falling.data());
   IDASetMaxNumSteps(memory, 1000000);

@@ -80,6 +80,10 @@ class Engines(CommandTest):
     def test_names_that_do_not_exist_are_refused(self):
         self.refused("engines", "run", "our", "--engines", self.path("engines"), says="ours", code="unknown-name")
         self.refused("engines", "rnu", "--engines", self.path("engines"), says="run", code="unknown-name")
+        self.refused("engines", "run", "ours", "--setting", "tunde", "--engines", self.path("engines"), says="tuned",
+                     code="unknown-name")
+        self.refused("engines", "run", "ours", "--out", "/proc/nowhere", "--engines", self.path("engines"),
+                     says="the folder cannot be made", code="cannot-write", exit_code=4)
         self.refused("engines", "run", "--engines", self.path("engines"), says="--all", code="bad-syntax")
 
     def test_without_an_engine_that_is_installed_says_so(self):

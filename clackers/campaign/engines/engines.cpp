@@ -87,14 +87,6 @@ std::string Engine::installation() const {
                      shell_quoted(fs::path(folder).parent_path().string()), npm);
 }
 
-const EngineSetting& Engine::setting(const std::string& wanted) const {
-  const auto found = std::ranges::find(settings, wanted, &EngineSetting::name);
-  if (found != settings.end()) return *found;
-  std::vector<std::string> names;
-  for (const auto& item : settings) names.push_back(item.name);
-  refuse_name("setting of " + id, wanted, names, "clackers engines show " + id);
-}
-
 std::vector<Engine> engines_in(const std::string& path) {
   std::vector<Engine> engines;
   std::error_code error;

@@ -49,9 +49,8 @@ TEST_F(Engines, AreReadByName) {
   EXPECT_EQ(engines[1].filled(engines[1].version), "cat " + folder_ + "/b/version");
   EXPECT_EQ(engines[1].filled(engines[1].build, "/p"), "cc -o /p " + folder_ + "/b/ours.c");
   EXPECT_EQ(engines[0].installation(), "apt-get install libours-dev ours");
-  EXPECT_EQ(engine_of(engines, "b").setting("tuned").words, "tuned=1");
+  EXPECT_EQ(engine_of(engines, "b").settings[1].words, "tuned=1");
   EXPECT_REFUSED(engine_of(engines, "c"), "unknown-name", "engine", "clackers engines list");
-  EXPECT_REFUSED(engines[0].setting("tunde"), "unknown-name", "setting of a", "tuned");
 }
 
 TEST_F(Engines, WithoutAKeyOrWithAnUnknownOneAreRefused) {
