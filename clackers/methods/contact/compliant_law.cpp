@@ -93,7 +93,7 @@ constexpr auto table = std::to_array<CompliantLaw>({
      hysteretic, false, "K. Ye, L. Li, H. Zhu, Earthq. Eng. Struct. Dyn. 38, 1135-1142 (2009)"},
     {"jankowski", "F = k d^1.5, and a damper c(d) w while approaching; nearly eta", 1.5, positive,
      jankowski, damped_approach, false,
-     "R. Jankowski, Earthq. Eng. Struct. Dyn. 34, 595-611 (2005)"},
+     "R. Jankowski, Earthq. Eng. Struct. Dyn. 35, 517-524 (2006)"},
 });
 
 // d of a free contact runs from 0 to its peak and back in 2 I peak / w0, and

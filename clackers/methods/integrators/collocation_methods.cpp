@@ -3,6 +3,7 @@
 #include "clackers/methods/integrators/collocation_method.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
+#include "clackers/methods/integrators/stability.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -15,7 +16,17 @@ double most_beta(double theta) { return theta / (2.0 * (theta + 1.0)); }
 
 }  // namespace
 
-Facts CollocationMethod::facts() const { return {.smooth_order = 2.0, .stability_limit = always}; }
+// At infinite omega h equilibrium is u_H = 0; the rows are u, h v and h² a at the end of the step.
+Facts CollocationMethod::facts() const {
+  const Eigen::RowVector3d old_a(0.0, 0.0, 1.0), old_v(0.0, 1.0, 0.0), old_u(1.0, 0.0, 0.0),
+      end_a =
+          -Eigen::RowVector3d(1.0, theta, theta * theta * (0.5 - beta)) / (beta * theta * theta),
+      new_a = old_a + (end_a - old_a) / theta;
+  Eigen::Matrix3d step;
+  step << old_u + old_v + (0.5 - beta) * old_a + beta * new_a, old_v + 0.5 * (old_a + new_a), new_a;
+  return {
+      .smooth_order = 2.0, .stability_limit = always, .radius_at_infinity = spectral_radius(step)};
+}
 
 std::vector<Row> collocation_methods() {
   return rows<CollocationMethod>({
@@ -35,7 +46,8 @@ std::vector<Row> collocation_methods() {
 
 Order       2.
 Stability   for every h; theta >= 1.3660 is needed for it.
-Dissipation of high frequencies; large displacements overshoot in the first steps.
+Dissipation of high frequencies: a factor 0.778 a step at infinite omega h (theta = 1.4); large
+            displacements overshoot in the first steps.
 Memory      a0, taken from the last step; computed anew after an impact.
 Cost        one back-substitution a step; one factorization for each (system, h).
 Source      E. L. Wilson, I. Farhoomand, K. J. Bathe, Earthq. Eng. Struct. Dyn. 1, 241-252 (1973).

@@ -25,6 +25,15 @@ TEST(Collocation, BalancesAtTheEndOfTheWideStep) {
   }
 }
 
+// Roots of the characteristic polynomial, by Durand and Kerner's iteration in another program.
+TEST(Collocation, HasTheSpectralRadiusOfItsStep) {
+  const auto radius = [](const char* text) { return integrator(text)->facts().radius_at_infinity; };
+  EXPECT_NEAR(radius("wilson-theta:theta=1.42"), 0.56428, 5e-6);
+  EXPECT_NEAR(radius("wilson-theta:theta=2"), 0.63431, 5e-6);
+  EXPECT_NEAR(radius("wilson-theta:theta=1.3661"), 0.99955, 5e-6);
+  EXPECT_NEAR(radius("collocation:theta=1.1,beta=0.24"), 0.97765, 5e-6);
+}
+
 TEST(VelocityVerlet, PredictsTheVelocityOfDamping) {
   const OneStep s("velocity-verlet", h);
   const double a0 = s.a(s.x0), u1 = s.x0.u[0] + h * s.x0.v[0] + 0.5 * h * h * a0;

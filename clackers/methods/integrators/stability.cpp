@@ -19,4 +19,16 @@ double spectral_radius(double trace, double determinant) {
   return under_root > 0.0 ? std::abs(half) + std::sqrt(under_root) : std::sqrt(determinant);
 }
 
+double spectral_radius(Eigen::Matrix3d matrix) {
+  double logarithm = 0.0, share = 1.0;
+  for (int squarings = 0; squarings < 40; ++squarings, share *= 0.5) {
+    const double norm = matrix.norm();
+    if (norm == 0.0) return 0.0;
+    logarithm += share * std::log(norm);
+    matrix /= norm;
+    matrix = (matrix * matrix).eval();
+  }
+  return std::exp(logarithm);
+}
+
 }  // namespace clackers::methods

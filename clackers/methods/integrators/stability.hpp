@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -39,5 +40,8 @@ double limit_of(const Table& a, const Weights& b, std::size_t stages) {
 
 /// The spectral radius of a real matrix of two rows, by its trace and determinant.
 double spectral_radius(double trace, double determinant);
+
+/// The spectral radius of a matrix of three rows: the 2^40-th root of the norm of its 2^40-th power.
+double spectral_radius(Eigen::Matrix3d matrix);
 
 }  // namespace clackers::methods
