@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <system_error>
@@ -40,6 +41,11 @@ int guarded(const std::vector<std::string>& arguments) {
     return 0;
   } catch (const std::bad_alloc&) {
     report_error("not enough memory for this request; ask for less.", "out-of-memory");
+    return 4;
+  } catch (const std::filesystem::filesystem_error& error) {
+    report_error(fmt::format("cannot use {}: {}. Name another file or folder.",
+                             error.path1().string(), error.code().message()),
+                 "system-failed");
     return 4;
   } catch (const std::system_error& error) {
     return report(error, "system-failed", 4);

@@ -32,6 +32,9 @@ TEST(Suggest, AllowsAThirdOfTheLengthPlusOne) {
 TEST(Suggest, IsSilentWhereNothingIsNear) {
   EXPECT_EQ(nearest("houbolt-wilson", known), "");
   EXPECT_EQ(nearest("rk4", {}), "");
+  const std::vector<std::string> options{"--jobs"};
+  EXPECT_EQ(nearest("--nope", options), "");  // the dashes are no letters
+  EXPECT_EQ(nearest("--", options), "");
 }
 
 TEST(Suggest, TakesTheNearestAndOfEquallyNearTheFirst) {

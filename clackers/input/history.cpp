@@ -97,7 +97,7 @@ class Reader {
     if (!times.empty()) {
       const double last = times.back();
       if (t < last)
-        refuse(table_.place(), "t", t, fmt::format("at least {} s, the time above it", last),
+        refuse(table_.place(), "t", t, fmt::format("at least {} s, the time above it", last + 0.0),
                "Sort the rows by time; of a run that was restarted keep one part.", "not-sorted");
       const bool twice = times.size() > 1 && times[times.size() - 2] == last;
       if (t == last && twice)

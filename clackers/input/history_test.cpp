@@ -74,6 +74,7 @@ TEST(History, KeepsBothLimitsOfAJump) {
 
 TEST(History, RefusesTimesOutOfOrder) {
   EXPECT_REFUSED(history("t,u1\n0,1\n2,1\n1,1\n", 1), "not-sorted", "line 4: t = 1");
+  EXPECT_REFUSED(history("t,u1\n-0,1\n-1,1\n", 1), "not-sorted", "at least 0 s");
   EXPECT_REFUSED(history("t,u1\n0,1\n1,1\n1,1\n1,1\n", 1), "not-sorted", "line 5");
   EXPECT_REFUSED(history("t,side,u1\n0,,1\n1,+,0\n1,-,0\n", 1), "not-sorted", "side");
 }

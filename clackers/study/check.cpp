@@ -213,8 +213,7 @@ Claim claim_from(std::string_view text) {
   constexpr std::string_view velocity = "velocity:";
   const auto order_of = [](std::string_view order) {
     const double value = finite_number(order).value_or(0.0);
-    if (!(value > 0.0 && value <= 20.0))
-      refuse("check", "order of --expect", order, "0 < order <= 20");
+    if (!(value > 0.0 && value <= 20.0)) refuse("expect", "order", order, "0 < order <= 20");
     return value;
   };
   Claim claim;
@@ -229,23 +228,23 @@ Claim claim_from(std::string_view text) {
                         claim.behaviour == Behaviour::reduced ||
                         claim.behaviour == Behaviour::irregular;
   if (!claim.is_made())
-    refuse("check", "--expect", text,
+    refuse("clackers", "expect", text,
            "proper, reduced, irregular, exact, stagnating, divergent or velocity",
-           "Nothing to expect: leave --expect out.", "bad-syntax");
+           "Nothing to expect: leave it out.", "bad-syntax");
   if (claim.behaviour == Behaviour::stagnating && colon != std::string_view::npos) {
     claim.reason = text.substr(colon + 1);
     constexpr auto reasons =
         std::to_array<Code>({"contact-stiffness", "tolerance-floor", "noise-floor",
                              "printed-digits", "simultaneous-impacts", "unexplained-floor"});
     if (std::ranges::find(reasons, claim.reason, &Code::name) == reasons.end())
-      refuse("check", "reason of --expect", claim.reason,
+      refuse("expect", "reason", claim.reason,
              "contact-stiffness, tolerance-floor, noise-floor, printed-digits, "
              "simultaneous-impacts or unexplained-floor",
              {}, "unknown-name");
     return claim;
   }
   if (has_line != (colon != std::string_view::npos))
-    refuse("check", "--expect", text,
+    refuse("clackers", "expect", text,
            has_line ? "a behaviour with its order, as in proper:2"
                     : fmt::format("{} without an order", to_string(claim.behaviour)),
            {}, "bad-syntax");

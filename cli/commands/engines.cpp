@@ -11,6 +11,7 @@
 #include "clackers/base/text.hpp"
 #include "clackers/campaign/atlas.hpp"
 #include "clackers/campaign/run.hpp"
+#include "clackers/cases/case.hpp"
 #include "clackers/record/record.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/solvers/process.hpp"
@@ -22,6 +23,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/values.hpp"
 
 namespace clackers::cli {
 namespace {
@@ -162,7 +164,14 @@ int run_engines(const EnginesOptions& options, std::span<const Engine> engines,
   if (options.all == !options.names.empty())
     refuse_usage("engines run", "give the engines by name, or --all.");
   const auto folder = options.common.out.empty() ? default_folder : options.common.out;
+  const auto jobs = jobs_from(options.jobs);
   require_settings(options, engines);
+  for (const auto& item : options.cases) {
+    const auto colon = std::min(item.find(':'), item.size());
+    (void)cases::make(item.substr(0, colon), colon == item.size()
+                                                 ? cases::Settings()
+                                                 : read_settings({item.substr(colon + 1)}));
+  }
   make_folder(folder);
   const auto runs = wanted_runs(options, engines, folder);
   if (runs.empty())
@@ -172,7 +181,7 @@ int run_engines(const EnginesOptions& options, std::span<const Engine> engines,
   const auto specification = campaign::Specification::from_toml(
       campaign::engines_specification(runs, cases_of(options)), "engines.toml");
   auto store = campaign::Store::create_or_open(folder + "/engines.db", specification);
-  const auto done = run_tasks(store, {}, jobs_from(options.jobs), options.common.quiet);
+  const auto done = run_tasks(store, {}, jobs, options.common.quiet);
   if (store.finished().size() > 0) write_page(options, store, folder, line);
   if (done.interrupted) throw Interrupted();
   return 0;

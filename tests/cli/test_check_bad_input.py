@@ -129,7 +129,7 @@ class BadInput(CheckTest):
         for expect in ("proper", "exact:2", "proper:", "proper:x", "undecided", "proper:-1",
                        "proper:99"):
             self.refused("check", path, "--expect", expect,
-                         code="(?:bad-syntax|out-of-range|unknown-name)", says="--expect")
+                         code="(?:bad-syntax|out-of-range|unknown-name)", says="expect")
         self.refused("check", path, "--expect", "propre:2", code="unknown-name", says="proper")
         for tolerance in ("0", "-1", "inf", "nan"):
             self.refused("check", path, "--tolerance", tolerance,

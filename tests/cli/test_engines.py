@@ -86,6 +86,14 @@ class Engines(CommandTest):
                      says="the folder cannot be made", code="cannot-write", exit_code=4)
         self.refused("engines", "run", "--engines", self.path("engines"), says="--all", code="bad-syntax")
 
+    def test_refused_values_leave_no_folder(self):
+        for words, says, code in ((("--case", "stpo"), 'no case "stpo". Did you mean "stop"?', "unknown-name"),
+                                  (("--case", "stop:eta"), "name=value", "bad-syntax"),
+                                  (("--case", "stop:eta=nan"), "eta = nan", "not-a-number"), (("--jobs", "0"), "--jobs = 0", "out-of-range")):
+            self.refused("engines", "run", "ours", *words, "--engines", self.path("engines"), "--out", self.path("out"),
+                         says=says, code=code)
+            self.assertFalse(os.path.exists(self.path("out")))
+
     def test_without_an_engine_that_is_installed_says_so(self):
         shutil.rmtree(self.path("engines/ours"))
         done = run("engines", "run", "--all", "--out", self.path("out"), "--engines", self.path("engines"))

@@ -27,6 +27,13 @@ class SmallFiles(CommandTest):
                 self.refused(*command, code="cannot-read", says=(f"cannot read {path}: {reason}.",), exit_code=4,
                              cwd=self.folder)
 
+    def test_of_a_name_that_leads_nowhere_are_refused_with_advice(self):
+        os.symlink("ring", self.path("ring"))
+        for command in (("campaign", "status", self.path("ring")), ("engines", "run", "--all", "--engines", self.path("ring"))):
+            done = run(*command, cwd=self.folder)
+            self.assertEqual(done.returncode, 4)
+            self.assertRegex(done.stderr, r"ring.*Too many levels of symbolic links.* (Name|Give) ")
+
     def test_that_are_waited_for_end_with_one_interrupt(self):
         os.mkfifo(self.path("pipe"))
         for command in readers(self.path("pipe")):

@@ -42,10 +42,11 @@ class Transaction {
 
 void require_file(const std::string& path) {
   if (std::filesystem::is_regular_file(path)) return;
-  throw FileError(fmt::format("{}: there is no such file. A database is made by: clackers campaign "
-                              "run SPEC.toml",
-                              path),
-                  "cannot-read");
+  throw FileError(
+      fmt::format(
+          "{}: {}. A database is made by: clackers campaign run SPEC.toml", path,
+          std::filesystem::exists(path) ? "this is no ordinary file" : "there is no such file"),
+      "cannot-read");
 }
 
 }  // namespace

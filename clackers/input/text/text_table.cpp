@@ -94,7 +94,7 @@ void TextTable::name_columns(const std::vector<std::string>& given,
   if (names.empty())
     throw InputError(
         fmt::format("{}: {} columns of numbers have no names; {}.", place(), fields_.size(),
-                    events ? "name them in a header line such as t,impulse"
+                    events ? "name them in a header line, the times t"
                            : "name them in a header line or with --columns, for example "
                              "--columns t,u1,v1 (_ skips one)"),
         "no-column");

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::span<const double> entries(const VectorXd& x) { return {x.data(), std::size_t(x.size())}; }
+std::span<const double> entries_of(const VectorXd& x) { return {x.data(), std::size_t(x.size())}; }
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void ConstrainedMotion::to_modes(std::span<const double> u, std::span<const doub
                                  std::span<numerics::ModalState> states) const {
   if (rest.isZero(0.0)) return modes.to_modes(u, v, states);
   from_rest_ = Eigen::Map<const VectorXd>(u.data(), rest.size()) - rest;
-  modes.to_modes(entries(from_rest_), v, states);
+  modes.to_modes(entries_of(from_rest_), v, states);
 }
 
 void ConstrainedMotion::sample(std::span<const numerics::ModalState> start, double s,
@@ -89,13 +89,14 @@ std::optional<ConstrainedMotion> ConstrainedMotions::make(
   for (Index i = 0, row = 0; i < rows_.rows(); ++i) {
     if (!is_active[std::size_t(i)]) {
       const VectorXd b = rows_.row(i);
-      motion.forms.emplace_back(motion.modes, entries(b), std::span<const double>(),
+      motion.forms.emplace_back(motion.modes, entries_of(b), std::span<const double>(),
                                 b.dot(motion.rest) - gaps_[i]);
       continue;
     }
     const VectorXd weights = force_rows.row(row++);
     const VectorXd by_u = stiffness_ * weights, by_v = damping_ * weights;
-    motion.forms.emplace_back(motion.modes, entries(by_u), entries(by_v), by_u.dot(motion.rest));
+    motion.forms.emplace_back(motion.modes, entries_of(by_u), entries_of(by_v),
+                              by_u.dot(motion.rest));
   }
   return motion;
 }
