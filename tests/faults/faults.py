@@ -85,6 +85,28 @@ HOSTILE = (
     "printf 't,u1\\n1,1\\n0,1\\n' > {out}", 'gzip -c $OLDPWD/history.csv > {out}',
     "printf '\\033[2J\\007\\377' >&2; exit 1", 'mkfifo {events}; ' + GOOD, 'ln -s /dev/zero {events}; ' + GOOD,
     'mkdir {events}; ' + GOOD, 'echo $(exit 1); ' + GOOD + '; exit 1', '/nowhere/solver', '/etc/passwd', '/tmp', '(',
+    # What is forked, closed, held or limited.
+    "(trap '' TERM INT HUP QUIT; sleep 1000) & (trap '' TERM HUP; exec sleep 1000) & wait", 'exec 1>&-; ' + GOOD,
+    'exec 2>&-; ' + GOOD, "(setsid sh -c '(setsid sh -c \"sleep 1000 & sleep 1000\" &) &' &); exit 0", 'true',
+    "trap 'while :; do echo dying >&2; done' TERM INT; while :; do sleep 1; done", "sh -c 'kill -STOP $$'; " + GOOD,
+    'ulimit -v 200000; tail /dev/zero', 'ulimit -f 1; ' + GOOD + '; yes > more', 'ulimit -c unlimited; kill -ABRT $$',
+    'ulimit -n 4; ' + GOOD, 'i=0; while [ $i -lt 200 ]; do sleep 1000 & i=$((i+1)); done; ' + GOOD,
+    'exec 9>>.clackers-run; flock 9; ' + GOOD, 'kill -ALRM $PPID; ' + GOOD, 'umask 777; ' + GOOD,
+    'H=$OLDPWD; cd /; cp $H/history.csv {out}', 'rm -rf "$PWD"/../*; ' + GOOD, 'unset PATH; ' + GOOD, "exec -a '' sleep 1000",
+    # What becomes of the file.
+    GOOD + '; mv {out} {out}.old', GOOD + '; mv {out} x; mkdir {out}', GOOD + '; chmod 0 {out}',
+    GOOD + '; (while :; do echo 1,2 >> {out}; done) &', GOOD + '; touch -d 2100-01-01 {out}', 'ln $OLDPWD/history.csv {out}',
+    'ln -s $OLDPWD/history.csv {out}', 'ln -s /dev/stdin {out}', 'ln -s /proc/self/fd/1 {out}',
+    'mkfifo {out}; (cat $OLDPWD/history.csv > {out} &)', "printf 't,u1,u2\\n0,0,0\\n' > {out}; sleep 1000",
+    "printf 't,u1,u2\\n0,0,0\\n' > {out}; truncate -s 10G {out}",
+    # What is in it.
+    '(head -n 1 $OLDPWD/history.csv; tail -n +2 $OLDPWD/history.csv | tac) > {out}', "sed '50,$s/[0-9]/nan/' $OLDPWD/history.csv > {out}",
+    "head -c 50000000 /dev/zero | tr '\\0' 1 > {out}", "sed 's/$/\\r/' $OLDPWD/history.csv > {out}", "tr . , < $OLDPWD/history.csv > {out}",
+    "iconv -t UTF-16 $OLDPWD/history.csv > {out}", "head -c 3000 $OLDPWD/history.csv > {out}", "seq -s, 100000 > {out}",
+    "printf '<html>licence expired</html>' > {out}", "printf 't,\\033[2J,u1\\n0,0,0\\n1,0,0\\n' > {out}",
+    "(echo t,u1,u2; yes 0,1,1 | head -n 200000) > {out}", "printf 't,u1,u2\\n-5,1e308,1e308\\n9e9,-1e308,5e-324\\n' > {out}",
+    "printf '\\223NUMPY\\1\\0v\\0{{}}' > {out}", "printf 't\\nnan\\n' > {events}; " + GOOD, "head -c 9000 /dev/urandom > {events}; " + GOOD,
+    "(echo t; seq 1000000) > {events}; " + GOOD,
 )
 STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGKILL)
 
