@@ -2,12 +2,14 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "bindings/python/arguments.hpp"
@@ -28,8 +30,11 @@ namespace {
 
 // (name, parameters) of a case.
 using CaseChoice = std::pair<std::string, py::dict>;
-// (name, run, steps, tolerances) of a callable.
-using Callable = std::tuple<std::string, py::object, std::vector<double>, std::vector<double>>;
+// (command, timeout, work, fresh, environment) of a program.
+using GivenProgram = std::tuple<std::string, double, std::string, bool, std::vector<std::string>>;
+// (name, program or callable, steps, tolerances).
+using GivenSolver = std::tuple<std::string, std::variant<GivenProgram, py::object>,
+                               std::vector<double>, std::vector<double>>;
 
 // Runs a study in the caller's thread: (record, exception of Python that ended it), either None. A
 // study that leaves no record when it is interrupted throws Error (interrupted).
@@ -63,7 +68,17 @@ std::map<std::string, double> read_options(const py::dict& given) {
   return numbers;
 }
 
-py::tuple verify(const std::vector<std::string>& methods, const std::vector<Callable>& callables,
+solvers::SolverSubject program_subject(const GivenSolver& subject,
+                                       const std::optional<Claim>& claim) {
+  const auto& [name, program, steps, tolerances] = subject;
+  const auto& [command, timeout, work, fresh, environment] = std::get<GivenProgram>(program);
+  auto made = solvers::subjects_of(
+      {{claim, tolerances, timeout, work, fresh, environment}, {{command, name}}});
+  made[0].steps = steps;
+  return std::move(made[0]);
+}
+
+py::tuple verify(const std::vector<std::string>& methods, const std::vector<GivenSolver>& solvers,
                  const std::vector<CaseChoice>& chosen, const std::optional<std::string>& expect,
                  const py::dict& options, const std::string& command, const py::object& progress) {
   study::VerifyRequest request;
@@ -77,12 +92,18 @@ py::tuple verify(const std::vector<std::string>& methods, const std::vector<Call
   request.command = command;
   std::optional<Claim> claim;
   if (expect) claim = study::claim_from(*expect);
-  std::vector<CallableSubject> subjects;
-  for (const auto& [name, run, steps, tolerances] : callables)
-    subjects.push_back({name, run, claim, steps, tolerances});
+  std::list<CallableSubject> callables;  // a list: subjects refer to them
   CallerThread caller;
+  for (const auto& subject : solvers) {
+    const auto& [name, run, steps, tolerances] = subject;
+    if (const auto* callable = std::get_if<py::object>(&run))
+      request.solvers.push_back(solver_subject(
+          callables.emplace_back(CallableSubject{name, *callable, claim, steps, tolerances}),
+          caller));
+    else
+      request.solvers.push_back(program_subject(subject, claim));
+  }
   return result_of(caller, progress, [&](const Progress& report) {
-    for (const auto& subject : subjects) request.solvers.push_back(solver_subject(subject, caller));
     return study::verify(request, report, caller.interrupt());
   });
 }
@@ -138,7 +159,7 @@ py::list comparison_tables(const study::AgainstResult& result) {
 }  // namespace
 
 void bind_study(py::module_& core) {
-  core.def("verify", &verify, py::arg("methods"), py::arg("callables"), py::arg("cases"),
+  core.def("verify", &verify, py::arg("methods"), py::arg("solvers"), py::arg("cases"),
            py::arg("expect"), py::arg("options"), py::arg("command"), py::arg("progress"));
   core.def("check", &check, py::arg("subjects"), py::arg("events"), py::arg("case"),
            py::arg("steps"), py::arg("tolerances"), py::arg("columns"), py::arg("expect"),

@@ -4,8 +4,10 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -215,6 +217,54 @@ class Callables(unittest.TestCase):
         self.assertIn("Stagnates", text)
         self.assertIn("Verdict: disagrees.", text)
         self.assertIn("[restitution-differs]", text)
+
+
+class Programs(unittest.TestCase):
+    """Of others, as of the command's --exec."""
+
+    def setUp(self):
+        self.folder = self.enterContext(tempfile.TemporaryDirectory())
+        t = np.linspace(0.0, 20.0, 401)
+        u, v, _ = clackers.case("stop").response(t)
+        np.savetxt(os.path.join(self.folder, "exact.csv"), np.column_stack([t, u, v]), delimiter=",", header="t,u1,v1", comments="")
+
+    def program(self, command, **options):
+        return clackers.Program(command.replace("exact", os.path.join(self.folder, "exact")), work=self.folder, **options)
+
+    def test_stand_beside_methods_and_callables_in_their_order(self):
+        exact = self.program("cp exact.csv {out}; : {h}")
+        record = clackers.verify("rk4", exact, leapfrog, name=["copy", "leapfrog"], **FAST, expect="exact")
+        self.assertEqual([(each.name, each.kind) for each in record.subjects],
+                         [("rk4", "method"), ("copy", "program"), ("leapfrog", "callable")])
+        self.assertLess(record["copy"].levels["u_error"][0], 1e-12)
+
+    def test_are_named_for_their_file_and_take_steps_and_tolerances(self):
+        record = clackers.verify(self.program("/bin/cp exact.csv {out}; : {h}"), case="stop", steps=[0.1, 0.3])
+        self.assertEqual((record.subject.name, list(record.subject.runs["step"])), ("exact", [0.3, 0.1]))
+        record = clackers.verify(self.program("cp exact.csv {out}; : {tolerance}"), case="stop", tolerances=[1e-3, 1e-5])
+        self.assertEqual(list(record.subject.runs["tolerance"]), [1e-3, 1e-5])
+
+    def test_that_fail_are_named_with_what_they_printed(self):
+        with self.assertRaises(clackers.SolverError) as caught:
+            clackers.verify(self.program("echo no licence >&2; exit 3; : {h}"), **FAST)
+        self.assertRegex(str(caught.exception), r"exit status 3\..*no licence")
+        with self.assertRaises(clackers.SolverError) as caught:
+            clackers.verify(self.program("sleep 60; : {h}", timeout=0.1), **FAST)
+        self.assertEqual(caught.exception.code, "program-timeout")
+
+    def test_runs_are_reused_unless_the_environment_differs(self):
+        for word, fresh, expected in (("a", False, "no"), ("a", False, "yes"), ("b", False, "no"), ("b", True, "no")):
+            with unittest.mock.patch.dict(os.environ, WHICH=word):
+                program = self.program("cp exact.csv {out}; : {h}", environment=["WHICH"], fresh=fresh)
+                self.assertEqual(set(clackers.verify(program, **FAST).subject.runs["reused"]), {expected})
+
+    def test_wrong_values_are_refused(self):
+        for program, code in ((clackers.Program(3), "not-text"), (clackers.Program("solver"), "bad-syntax"),
+                              (clackers.Program("solver {h}", timeout=-1), "out-of-range"),
+                              (clackers.Program("solver {h}", environment=[3]), "not-text")):
+            with self.subTest(program), self.assertRaises(clackers.InputError) as caught:
+                clackers.verify(program, **FAST)
+            self.assertEqual(caught.exception.code, code)
 
 
 def shapes(problem, h):

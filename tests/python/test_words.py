@@ -41,6 +41,9 @@ class Texts(unittest.TestCase):
         "--tolerances 1e-3,1e-5": "tolerances=[1e-3, 1e-5]",
         "leave --expect out": "leave expect out",
         "give the impacts with --events.": "give the impacts with impacts.",
+        "as written by clackers verify or check with --format json.": "as written by Record.to_json().",
+        "All names: clackers verify --help": "All names: help(clackers.Program)",
+        "Decompress it: gunzip -c FILE | clackers check -": "Decompress it: gunzip FILE",
         "42 more: --metrics all.": "42 more: record.table().",
         "the same with --budget\n60s": "the same with \nbudget=60",
         "a file a--b.csv, 3--5, x-- and -- or ---": "a file a--b.csv, 3--5, x-- and -- or ---",
@@ -63,7 +66,7 @@ class Messages(unittest.TestCase):
             lambda: clackers.verify("newmrak"), lambda: clackers.verify("rk4+revers"), lambda: check(T, U, step=[0.1, 0.2]),
             lambda: check(T, U, step=0.0), lambda: check(T, U, tolerances=[2.0]), lambda: check(T, U, tolerance=-2.0),
             lambda: check(T, 1.1 * U, V), lambda: check(T, U, expect="proper"), lambda: check([(T, U), (T, U)]),
-            lambda: clackers.verify(lambda problem, h: None, tolerances="1;2"), lambda: clackers.Record.from_json("{}"),
+            lambda: clackers.verify(lambda problem, h: None, tolerances="1;2"), lambda: clackers.verify(clackers.Program("a {hh}")), lambda: clackers.Record.from_json("{}"),
             lambda: check({"a": {}, "b": (T, U)}), lambda: check(T, U[:, ::-1], V[:, ::-1]),
         ):
             text = message(call)

@@ -12,7 +12,7 @@ from clackers._core import version as __version__
 from clackers._errors import Error, FileError, InputError, Interrupted, SolverError
 from clackers._problem import Contact, GapEvent, Problem, State
 from clackers._record import Diagnosis, Figure, Record, Subject, load
-from clackers._solver import Solver
+from clackers._solver import Program, Solver
 from clackers._study import Comparison, check, compare, verify
 from clackers._table import Column, Table, catalogue, explain
 
@@ -32,6 +32,7 @@ __all__ = [
     "Interrupted",
     "Kinematics",
     "Problem",
+    "Program",
     "Record",
     "Solver",
     "SolverError",

@@ -8,7 +8,6 @@ import numpy.typing as npt
 from clackers._case import Buffers
 from clackers._history import Source
 from clackers._problem import Array
-from clackers._solver import Runs
 
 version: str
 
@@ -112,7 +111,7 @@ class Record:
 
 def verify(
     methods: Sequence[str],
-    callables: Sequence[tuple[str, Runs, Sequence[float], Sequence[float]]],
+    solvers: Sequence[tuple[str, object, Sequence[float], Sequence[float]]],
     cases: Sequence[tuple[str, dict[str, float | str]]],
     expect: str | None,
     options: Mapping[str, float | None],

@@ -1,10 +1,12 @@
-"""Callables under test."""
+"""Callables and programs under test."""
 from __future__ import annotations
 
 import functools
+import os
 import traceback
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Union
 
 from clackers import _core
 from clackers._errors import InputError
@@ -16,6 +18,48 @@ Solver = Callable[[Problem, float], object]
 
 Failure = tuple[bool, str, str, bool]
 """Whether the callable returned, sentence, last lines of the traceback, and whether smaller steps fail likewise."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program under test, a subject of ``clackers.verify`` as of the command's ``--exec``: each run is a process.
+
+    Parameters
+    ----------
+    command : str
+        For the shell, with ``{h}`` (the step [s]), ``{n}`` (the number of steps) or ``{tolerance}``; ``{case}`` is a
+        json file with the problem, ``{case:text}`` the same as lines key=value, ``{out}`` the file for the history
+        (without it: standard output), ``{events}`` a file for impacts. Each run has a folder of its own.
+    timeout : float
+        Time of one run [s]; then it is ended with all that it started.
+    work : path
+        Folder that keeps all runs; default a cache, where good runs are kept for 14 days and reused.
+    fresh : bool
+        Runs that were made before are made again.
+    environment : list of str
+        Variables of the environment that the program reads: other values of them make other runs.
+
+    Examples
+    --------
+    >>> import clackers
+    >>> solver = clackers.Program("echo 't,u1'; echo '0,1'; echo '20,{h}'")
+    >>> clackers.verify(solver, case="stop", levels=1, samples_per_level=1).subject.kind
+    'program'
+    """
+
+    command: str
+    timeout: float = 60.0
+    work: Union[str, "os.PathLike[str]", None] = None
+    fresh: bool = False
+    environment: Sequence[str] = ()
+
+    def _arguments(self) -> tuple[str, float, str, bool, list[str]]:
+        return (
+            _core.read_text("Program", "command", self.command), _core.read_number("Program", "timeout", self.timeout),
+            "" if self.work is None else _core.read_text("Program", "work", os.fspath(self.work)), bool(self.fresh),
+            [_core.read_text("Program", "environment", each) for each in self.environment],
+        )
+
 
 # Mistakes that do not depend on the step.
 _MISTAKES = (AttributeError, ImportError, NameError, NotImplementedError, SyntaxError, TypeError)

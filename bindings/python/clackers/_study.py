@@ -15,7 +15,7 @@ from clackers._case import case as make_case
 from clackers._errors import Interrupted, SolverError
 from clackers._history import Columns, Source, read_impacts, read_history
 from clackers._record import Record
-from clackers._solver import Runs, Solver, name_of
+from clackers._solver import Program, Runs, Solver, name_of
 from clackers._table import Table
 
 Progress = Union[Callable[[float], object], bool, None]
@@ -27,7 +27,7 @@ TOLERANCES = "1e-3:1e-10"
 
 
 def verify(
-    *subjects: str | Solver,
+    *subjects: str | Program | Solver,
     case: CaseChoice | None = None,
     steps: npt.ArrayLike | None = None,
     tolerances: Sequence[float] | str | Literal[True] | None = None,
@@ -42,7 +42,7 @@ def verify(
     neighbours: int | None = None,
     **parameters: float | str,
 ) -> Record:
-    """Assesses methods and callables over a range of steps on a case whose exact motion is known.
+    """Assesses methods, callables and programs over a range of steps on a case whose exact motion is known.
 
     A callable ``solver(problem, h)`` gets a ``clackers.Problem`` and a step [s] and
     returns (t, u), (t, u, v) or (t, u, v, a), u of shape (time, dof) or (dof, time), (time,) for one mass; a
@@ -54,8 +54,9 @@ def verify(
 
     Parameters
     ----------
-    *subjects : str or callable
-        Names of methods (``clackers.catalogue("pairs")``) and callables; default a panel of methods.
+    *subjects : str, callable or Program
+        Names of methods (``clackers.catalogue("pairs")``), callables and programs; default a panel of methods. What is
+        said of callables below holds for programs as well.
     case : str, Case or list of these
         A name with ``parameters``, or cases; default three-parameter.
     steps : array_like
@@ -118,20 +119,24 @@ def verify(
     names = [_core.read_text("verify", "method", subject) for subject in subjects if isinstance(subject, str)]
     solvers = [subject for subject in subjects if not isinstance(subject, str)]
     for solver in solvers:
-        if not callable(solver):
+        if not callable(solver) and not isinstance(solver, Program):
             _core.refuse(
                 "verify", "subject", f"{solver!r} ({_core.description(solver)})",
-                "the name of a method, or a callable solver(problem, h)",
+                "the name of a method, a callable solver(problem, h), or a Program",
             )
     _refuse_without_solvers(solvers, bool(names), steps, tolerances, expect, name)
     chosen = _cases("verify", case, parameters)
     own_steps = [] if steps is None else _descending("steps", _core.read_vector("verify", "steps", steps).tolist())
     own_tolerances = [] if tolerances is None else _tolerances(tolerances)
-    runs = [Runs(solver, title) for solver, title in zip(solvers, _names(solvers, name))]
+    titles = _names(solvers, name)
+    runs = [solver if isinstance(solver, Program) else Runs(solver, title) for solver, title in zip(solvers, titles)]
     with _ProgressLine("verify", progress) as report, known_arguments(verify, chosen[0][0], parameters):
         core, stop = _core.verify(
             methods=names,
-            callables=[(each.name, each, own_steps, own_tolerances) for each in runs],
+            solvers=[
+                (title, each._arguments() if isinstance(each, Program) else each, own_steps, own_tolerances)
+                for title, each in zip(titles, runs)
+            ],
             cases=chosen,
             expect=None if expect is None else _core.read_text("verify", "expect", expect),
             options={
@@ -139,7 +144,7 @@ def verify(
                 "budget": budget, "jobs": jobs,
             },
             command=_line(
-                "verify", [repr(each) if isinstance(each, str) else name_of(each) for each in subjects], parameters,
+                "verify", [name_of(each) if callable(each) else repr(each) for each in subjects], parameters,
                 case=case, steps=steps, tolerances=tolerances, levels=levels, coarsest=coarsest,
                 samples_per_level=neighbours if samples_per_level is None else samples_per_level, expect=expect, name=name,
             ),
@@ -150,7 +155,9 @@ def verify(
     if failure is not None:
         sentence, code, printed = failure
         end = "" if sentence.endswith(".") else "."
-        first = next((each.first_error for each in runs if each.first_error is not None), None)
+        first = next((each.first_error for each in runs if isinstance(each, Runs) and each.first_error is not None), None)
+        if printed and first is None:
+            end += f" It printed: {printed}"
         raise SolverError(f"verify: every run failed; the first one: {sentence}{end}", code, record) from first
     return record
 
@@ -408,7 +415,7 @@ def _cases(who: str, case: CaseChoice | None, parameters: Mapping[str, float | s
 
 
 def _refuse_without_solvers(
-    solvers: Sequence[Solver], has_methods: bool, steps: object, tolerances: object, expect: object, name: object
+    solvers: Sequence[Program | Solver], has_methods: bool, steps: object, tolerances: object, expect: object, name: object
 ) -> None:
     options = {"steps": steps, "tolerances": tolerances, "expect": expect, "name": name}
     for option, value in options.items():
@@ -437,9 +444,9 @@ def _tolerances(given: Sequence[float] | str | Literal[True]) -> list[float]:
     return _descending("tolerances", _core.read_vector("verify", "tolerances", given).tolist())
 
 
-def _names(solvers: Sequence[Solver], name: str | Sequence[str] | None) -> list[str]:
-    if name is None:
-        return [name_of(solver) for solver in solvers]
+def _names(solvers: Sequence[Program | Solver], name: str | Sequence[str] | None) -> list[str]:
+    if name is None:  # a program is named for its file
+        return ["" if isinstance(solver, Program) else name_of(solver) for solver in solvers]
     names = [name] if isinstance(name, str) else list(name)
     if len(names) != len(solvers):
         _core.refuse("verify", "name", f"{len(names)} of them", f"one a callable, {len(solvers)} here", "", "wrong-size")

@@ -22,6 +22,9 @@ def _argument(found: re.Match[str]) -> str:
 
 _NAME = r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)"
 _RULES: list[tuple[str, Replacement]] = [
+    (r"clackers verify or check with --format json", "Record.to_json()"),
+    (r"clackers verify --help", "help(clackers.Program)"),
+    (r"gunzip -c FILE \| clackers check -", "gunzip FILE"),
     (r"clackers list ([a-z]+)", r'clackers.catalogue("\1")'),
     (r"clackers explain\b", "clackers.explain()"),
     (r"clackers show ([\w-]+)", r'clackers.case("\1").tables()'),

@@ -1,0 +1,133 @@
+"""Many calls of every public function leave the process as large as it was: growth.py [CALLS], 10000 by default."""
+import gc
+import os
+import sys
+import tempfile
+
+import matplotlib
+import numpy as np
+
+import clackers
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  the backend is chosen first
+
+PAGE = os.sysconf("SC_PAGE_SIZE")
+ROUNDS = 3
+MOST = 40  # bytes a call in the best round: an array or an object that stays is larger
+SLOW = 50  # calls a round of what takes longer than a hundredth of a second, of which megabytes stay where they leak
+NOISE = 600_000  # bytes of a round
+
+CASE = clackers.case("stop")
+PAIR = clackers.case("three-parameter")
+T = np.linspace(0.0, CASE.end, 50)
+Y = CASE.problem.y0
+HISTORY = (T, *CASE.response(T))
+SHORT = {"case": "stop", "levels": 1, "samples_per_level": 1}
+RECORD = clackers.verify("rk4", case="stop", levels=3, samples_per_level=2)
+TABLE = RECORD.table()
+FOLDER = tempfile.TemporaryDirectory()
+PATH = os.path.join(FOLDER.name, "record.json")
+FINE = np.linspace(0.0, CASE.end, 2001)
+
+
+def refused(call):
+    def refuse():
+        try:
+            call()
+        except clackers.Error:
+            return
+        raise AssertionError("nothing is refused")
+
+    return refuse
+
+
+def solver(problem, h):
+    t = np.linspace(0.0, problem.end, round(problem.end / h) + 1)
+    return t, *CASE.response(t)
+
+
+def drawn(draw):
+    def call():
+        draw()
+        pyplot.close("all")
+
+    return call
+
+
+QUICK = {
+    "case": lambda: clackers.case("stop", eta=0.5), "admissibility": lambda: clackers.admissibility(9.0, 0.5),
+    "refused case": refused(lambda: clackers.case("stpo")), "refused value": refused(lambda: CASE.response("x")),
+    "explain": lambda: clackers.explain("irregular"), "catalogue": lambda: clackers.catalogue("cases"),
+    "Case.response": lambda: CASE.response(T), "Case.envelope": lambda: CASE.envelope(T),
+    "Case.error_bound": lambda: CASE.error_bound(T), "Case.impact_count": lambda: CASE.impact_count(1.0),
+    "Case.impacts": lambda: CASE.impacts(1, 5), "Case.impact_table": CASE.impact_table, "Case.collisions": CASE.collisions,
+    "Case.energies": lambda: CASE.energies(T), "Case.sensitivity": lambda: PAIR.sensitivity("k2", T),
+    "Case.spectrum": lambda: CASE.spectrum(10, 5.0), "Case.tables": CASE.tables,
+    "Case.indicators": lambda: clackers.case("stop").indicators, "Case.constants": lambda: CASE.constants,
+    "Problem.load": lambda: CASE.problem.load(0.5), "Problem.rhs": lambda: CASE.problem.rhs(0.5, Y),
+    "Problem.gap": lambda: CASE.problem.gap(0.5, Y), "Problem.impact": lambda: CASE.problem.impact(Y),
+    "Problem.events": lambda: CASE.problem.events, "Record.from_json": lambda: clackers.Record.from_json(RECORD.to_json()),
+    "Record.to_json": RECORD.to_json, "Record.table": RECORD.table, "Record.to_pandas": RECORD.to_pandas,
+    "Record.figure": lambda: RECORD.figure("convergence"), "Record.figures": lambda: RECORD.figures, "Record.keys": RECORD.keys,
+    "Record.save": lambda: RECORD.save(PATH), "load": lambda: clackers.load(PATH),
+    "Table.head": lambda: TABLE.head(1), "Table.to_pandas": TABLE.to_pandas, "Table.to_xarray": TABLE.to_xarray,
+    "repr": lambda: (repr(CASE), repr(RECORD), repr(TABLE), str(RECORD)),
+}
+STUDIES = {
+    "verify method": lambda: clackers.verify("rk4", **SHORT), "verify callable": lambda: clackers.verify(solver, case="stop", steps=[0.1]),
+    "verify raising": refused(lambda: clackers.verify(lambda problem, h: 1 / 0, **SHORT)),
+    "verify program": lambda: clackers.verify(clackers.Program("echo t,u1; echo 0,1; echo 20,{h}", fresh=True), **SHORT),
+    "check": lambda: clackers.check(*HISTORY, case=CASE), "check refused": refused(lambda: clackers.check(T, T[:3])),
+    "compare": lambda: clackers.compare((FINE, *CASE.response(FINE)), (T, *CASE.response(T)), step=[0.01]),
+    "plot.response": drawn(lambda: clackers.plot.response(CASE)), "plot.energies": drawn(lambda: clackers.plot.energies(CASE)),
+    "plot.spectrum": drawn(lambda: clackers.plot.spectrum(CASE)),
+    "plot.convergence": drawn(lambda: clackers.plot.convergence(RECORD)),
+    "plot.history": drawn(lambda: clackers.plot.history(RECORD)), "Record._repr_html_": lambda: RECORD._repr_html_(),
+}
+
+
+def resident():
+    gc.collect()
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * PAGE
+
+
+def growth(call, calls):
+    """Of the round that grew least, in bytes: what leaks grows in each."""
+    for _ in range(max(10, calls // 10)):
+        call()
+    found = []
+    for _ in range(ROUNDS):
+        before = resident()
+        for _ in range(calls):
+            call()
+        found.append(resident() - before)
+    return min(found)
+
+
+def public():
+    """What must be called: functions, and methods and functions of the classes that have state."""
+    names = {name for name in clackers.__all__ if callable(getattr(clackers, name)) and name.islower()}
+    for kind in (clackers.Case, clackers.Record, clackers.Problem, clackers.Table):
+        names |= {f"{kind.__name__}.{name}" for name, value in vars(kind).items() if name.islower() and name[0] != "_"
+                  and callable(value)}
+    return names
+
+
+def main():
+    calls = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
+    called = {name.split(" ")[0] for name in (*QUICK, *STUDIES)}
+    bad = [f"{name} is not called" for name in sorted(public() - called - {"Table.keys"})]
+    for table, count in ((QUICK, -(-calls // ROUNDS)), (STUDIES, min(SLOW, calls))):
+        for name, call in table.items():
+            grown = growth(call, count)
+            print(f"{name:20} {ROUNDS * count:6} calls, {grown:9} bytes in the best of {ROUNDS} rounds", flush=True)
+            if grown > max(MOST * count, NOISE):
+                bad.append(f"{name} grows by {grown} bytes in {count} calls")
+    print(*bad, sep="\n")
+    return bool(bad)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
