@@ -98,6 +98,26 @@ std::vector<std::string> parts_of(std::string_view option, std::string_view text
   return parts;
 }
 
+void add_label_option(Command& command, std::vector<std::string>& labels) {
+  command
+      .add_option("--label", labels,
+                  "What to keep beside the name in table, record and report, such as "
+                  "precision=single. May be repeated.")
+      ->option_text("KEY=VALUE");
+}
+
+record::Labels read_labels(const std::vector<std::string>& options) {
+  record::Labels labels;
+  for (const auto& text : options) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 ||
+        !labels.try_emplace(text.substr(0, equals), text.substr(equals + 1)).second)
+      refuse("clackers", "--label", fmt::format("\"{}\"", text), "key=value, every key once", {},
+             "bad-syntax");
+  }
+  return labels;
+}
+
 cases::Settings read_settings(const std::vector<std::string>& options, const std::string& problem) {
   cases::Settings settings;
   for (std::string_view rest : options) {

@@ -32,6 +32,13 @@ std::vector<std::string> parts_of(std::string_view option, std::string_view text
 cases::Settings read_settings(const std::vector<std::string>& options,
                               const std::string& problem = {});
 
+/// Adds --label, which may stand several times. `labels` must outlive the parsing.
+void add_label_option(Command& command, std::vector<std::string>& labels);
+
+/// The values of all --label options, each "key=value". Throws InputError for others and for a key
+/// that is given twice.
+record::Labels read_labels(const std::vector<std::string>& options);
+
 /// The case of a command line: `first`, or the value of --case `behind`, or that of files where
 /// --problem is given. Throws InputError where two are given and differ.
 std::string case_of(const std::string& first, const std::string& behind,

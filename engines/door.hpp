@@ -11,6 +11,7 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -55,9 +56,9 @@ struct Door {
   const Row& row(const std::string& name, std::size_t i) {
     return problem[name + std::to_string(i)];
   }
-  /// Of the spring between mass i and the ground, where no spring joins two masses.
-  double stiffness(std::size_t i) { return row("K", i + 1)[i]; }
-  double damping(std::size_t i) { return row("C", i + 1)[i]; }
+  /// Of the spring and the damper between mass i and the ground; springs between masses are refused.
+  double stiffness(std::size_t i) { return of_ground("K", i); }
+  double damping(std::size_t i) { return of_ground("C", i); }
   /// -K u - C v of mass i.
   double force(std::size_t i, const Row& u, const Row& v) {
     double sum = 0.0;
@@ -98,6 +99,13 @@ struct Door {
   double step() const { return (end - start) / double(steps()); }
 
  private:
+  double of_ground(const char* name, std::size_t i) {
+    const auto& values = row(name, i + 1);
+    for (std::size_t j = 0; j < masses; ++j)
+      if (j != i && values[j] != 0.0)
+        throw std::runtime_error("this setting takes springs between a mass and the ground only");
+    return values[i];
+  }
   void follow(std::size_t i, std::vector<bool>& laid) {
     for (std::size_t k = 1; k <= contacts; ++k)
       for (std::size_t j = 0; j < masses; ++j) {

@@ -1,6 +1,6 @@
 // What the JavaScript programs share: reads the problem, lays its masses out as balls of radius 0.5 m on
 // lines along x, applies springs, dampers and loads as forces before each step, writes the history.
-//     node PROGRAM.mjs PROBLEM.json H HISTORY.csv [NAME=VALUE ...]
+//     node PROGRAM.mjs PROBLEM.json RUNS [NAME=VALUE ...]
 import { readFileSync, writeFileSync } from 'node:fs';
 
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
@@ -34,27 +34,33 @@ function layout(problem) {
 }
 
 /// Runs the world that `make({ bodies, walls, restitution, h, settings, problem })` returns: position(i) and
-/// velocity(i) [m, m/s] along x, step(forces) [N] for one step h.
+/// velocity(i) [m, m/s] along x, step(forces) [N] for one step h. RUNS has a line for each run: h, steps, history.
 export async function run(make) {
-  const [file, step, out, ...given] = process.argv.slice(2);
+  const [file, runs, ...given] = process.argv.slice(2);
   const { problem } = JSON.parse(readFileSync(file, 'utf8'));
   const settings = Object.fromEntries(given.map((word) => word.split('=')));
   const { M, C, K, contacts, start, end, loads = [] } = problem;
-  const n = Math.round((end - start.t) / Number(step)), h = (end - start.t) / n;
   const { place, line, walls } = layout(problem);
   const bodies = M.map((row, i) => ({ mass: row[i], x: place[i] + start.u[i], y: line[i], v: start.v[i] }));
-  const world = await make({ bodies, walls, restitution: contacts[0].restitution, h, settings, problem });
-  const rows = [['t', ...M.map((_, i) => `u${i + 1}`), ...M.map((_, i) => `v${i + 1}`)].join(',')];
-  const before = process.cpuUsage();
-  for (let k = 0; ; k++) {
-    const t = k === n ? end : start.t + k * h;
-    const u = M.map((_, i) => world.position(i) - place[i]), v = M.map((_, i) => world.velocity(i));
-    rows.push([t, ...u, ...v].join(','));
-    if (k === n) break;
-    const load = (i) => loads.reduce((sum, { amplitude, omega, phase = 0 }) => sum + amplitude[i] * Math.cos(omega * t + phase), 0);
-    world.step(settings.springs === 'own' ? M.map(() => 0) : M.map((_, i) => load(i) - dot(K[i], u) - dot(C[i], v)));
+  const move = async (n, out) => {
+    const h = (end - start.t) / n;
+    const world = await make({ bodies, walls, restitution: contacts[0].restitution, h, settings, problem });
+    const rows = [['t', ...M.map((_, i) => `u${i + 1}`), ...M.map((_, i) => `v${i + 1}`)].join(',')];
+    const before = process.cpuUsage();
+    for (let k = 0; ; k++) {
+      const t = k === n ? end : start.t + k * h;
+      const u = M.map((_, i) => world.position(i) - place[i]), v = M.map((_, i) => world.velocity(i));
+      rows.push([t, ...u, ...v].join(','));
+      if (k === n) break;
+      const load = (i) => loads.reduce((sum, { amplitude, omega, phase = 0 }) => sum + amplitude[i] * Math.cos(omega * t + phase), 0);
+      world.step(settings.springs === 'own' ? M.map(() => 0) : M.map((_, i) => load(i) - dot(K[i], u) - dot(C[i], v)));
+    }
+    rows.push(`# seconds ${process.cpuUsage(before).user / 1e6} steps ${n}`);
+    writeFileSync(out, rows.join('\n') + '\n');
+  };
+  for (const line of readFileSync(runs, 'utf8').trim().split('\n')) {
+    const [, n, ...out] = line.split(' ');
+    await move(Number(n), out.join(' '));
   }
-  rows.push(`# seconds ${process.cpuUsage(before).user / 1e6} steps ${n}`);
-  writeFileSync(out, rows.join('\n') + '\n');
   process.exit(0);
 }

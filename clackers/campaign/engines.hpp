@@ -56,7 +56,8 @@ struct EngineRun {
 /// TOML, a system.
 std::string engines_specification(std::span<const EngineRun> runs, std::string_view cases);
 
-/// The cases of engines: the pair of the paper, one whose last impacts are slow, a mass at a stop.
+/// The cases of engines: the pair of the paper, one whose last impacts are slow, a mass at a
+/// stop, buildings.
 std::string_view engine_cases();
 
 /// A row an engine: name, version, how it integrates, settings, licence. `versions` has an entry for

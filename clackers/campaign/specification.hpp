@@ -19,6 +19,7 @@ struct MethodEntry {
   std::string text;    ///< the specification, or the command line
   std::string name;    ///< in the results; of a command it may be empty
   std::string expect;  ///< "proper:2"; of a command, may be empty
+  record::Labels labels{};
 };
 
 /// The values of one parameter: listed, or points of a range.

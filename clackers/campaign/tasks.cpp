@@ -81,7 +81,7 @@ solvers::SolverSubject solver_of(const Specification& specification, const Metho
   options.tolerances = specification.ladder().tolerances;
   if (!method.expect.empty()) options.expect = study::claim_from(method.expect);
   return std::move(
-      solvers::subjects_of(solvers::ProgramRequest{options, {{method.text, method.name}}}).front());
+      solvers::subjects_of(solvers::ProgramRequest{options, {{method.text, method.name, method.labels}}}).front());
 }
 
 }  // namespace

@@ -112,6 +112,13 @@ Counts counts(const Record& record) {
   return all;
 }
 
+std::string labels_text(const Labels& labels) {
+  std::string text;
+  for (const auto& [key, value] : labels)
+    text += fmt::format("{}{}={}", text.empty() ? "" : ", ", key, value);
+  return text;
+}
+
 std::string_view verdict_word(const Subject& subject) {
   if (!subject.refusal.empty()) return "refused";
   if (!subject.complete) return "interrupted";

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -141,6 +142,11 @@ constexpr bool is_solver(SubjectKind kind) { return kind >= SubjectKind::program
 enum class Resolution { step, tolerance };
 std::string_view to_string(Resolution resolution);  ///< "step", "tolerance"
 
+/// What a user says of a subject beside its name: "precision" = "single".
+using Labels = std::map<std::string, std::string>;
+/// "precision=single, springs=force"; empty without any.
+std::string labels_text(const Labels& labels);
+
 struct Subject {
   SubjectKind kind = SubjectKind::method;
   /// The one name in every output. A method as one would type it, without "+event-driven", which is
@@ -148,6 +154,7 @@ struct Subject {
   std::string name;
   /// Of a method that joins them, with their parameters; empty for a scheme and for others.
   std::string integrator{}, treatment{};
+  Labels labels{};
   Claim claim;                        ///< of the method, or what --expect says of the histories
   std::optional<double> tolerance;    ///< largest allowed u_error, where one was asked for
   double contact_time = 0.0;          ///< [s], 0 for rigid contact

@@ -189,6 +189,7 @@ void fields(auto& archive, Like<Subject> auto& x) {
   each(archive, "kind", x.kind, "name", x.name);
   archive.added("integrator", x.integrator);
   archive.added("treatment", x.treatment);
+  archive.added("labels", x.labels);
   each(archive, "claim", x.claim, "tolerance", x.tolerance, "contact_time", x.contact_time,
        "refusal", x.refusal, "refusal_code", x.refusal_code, "complete", x.complete);
   archive.added("resolution", x.resolution);

@@ -54,6 +54,7 @@ class Writer {
   static Json written(int x) { return x; }
   static Json written(long long x) { return x; }
   static Json written(const std::vector<bool>& x) { return x; }
+  static Json written(const Labels& x) { return x.empty() ? Json::object() : Json(x); }
   // What a cause rests on stands in one object: numbers by name, and two texts.
   static Json written(const diagnose::Diagnosis& x) {
     Json evidence = Json::object();
@@ -130,6 +131,10 @@ class Reader {
   static void read(const Json& json, const std::string& where, std::string& x) {
     if (!json.is_string()) refuse_record(where, "no text");
     x = json.get<std::string>();
+  }
+  static void read(const Json& json, const std::string& where, Labels& x) {
+    if (!json.is_object()) refuse_record(where, "no object");
+    for (const auto& [key, value] : json.items()) read(value, where + "/" + key, x[key]);
   }
   static void read(const Json& json, const std::string& where, bool& x) {
     if (!json.is_boolean()) refuse_record(where, "neither true nor false");

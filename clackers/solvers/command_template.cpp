@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> placeholders{"case",      "case:text", "h",  "n",
-                                            "tolerance", "events",    "out"};
+const std::vector<std::string> placeholders{"case",   "case:text", "h",   "n",
+                                            "tolerance", "events",    "out", "runs", "runs:tolerance"};
 
 // A word of a command: where it stands, and what the shell makes of it; nothing for a word that is
 // expanded.
@@ -166,10 +166,18 @@ CommandTemplate::CommandTemplate(const std::string& command) {
     parts_.push_back({name, true});
   }
   add_text();
-  if (!uses("h") && !uses("n") && !uses("tolerance"))
-    refuse("verify", "--exec", command, "a command with {h}, {n} or {tolerance}",
+  if (!uses("h") && !uses("n") && !uses("tolerance") && !makes_all_runs())
+    refuse("verify", "--exec", command, "a command with {h}, {n}, {tolerance} or {runs}",
            "Without one of them all runs would be the same.", "bad-syntax");
+  for (const auto* other : {"h", "n", "tolerance", "events", "out"})
+    if (makes_all_runs() && uses(other))
+      refuse("verify", "--exec-batch", command, fmt::format("{{runs}} or {{{}}}", other),
+             "The file {runs} has steps and histories of all runs, a line each.", "bad-syntax");
 }
+
+bool CommandTemplate::by_tolerance() const { return uses("tolerance") || uses("runs:tolerance"); }
+
+bool CommandTemplate::makes_all_runs() const { return uses("runs") || uses("runs:tolerance"); }
 
 bool CommandTemplate::uses(std::string_view placeholder) const {
   return std::ranges::any_of(

@@ -12,7 +12,7 @@ struct PlaceholderValue {
 };
 
 /// The command of --exec: a line for the shell with {case}, {case:text}, {h}, {n}, {tolerance},
-/// {events} and {out}. "${name}" and braces around anything but letters and ":" stay as they are;
+/// {events} and {out}, or with {runs} or {runs:tolerance} in place of the last five. "${name}" and braces around anything but letters and ":" stay as they are;
 /// "{{name}}" stands for "{name}".
 ///
 /// It runs in another folder than it is typed in, hence words that name a file from here, by a path
@@ -21,10 +21,14 @@ struct PlaceholderValue {
 class CommandTemplate {
  public:
   /// Throws InputError for an empty command, for other placeholders (with did-you-mean), and for one
-  /// without {h}, {n} and {tolerance}, whose runs would all be the same.
+  /// without {h}, {n}, {tolerance} and {runs}, whose runs would all be the same, and for one that has
+  /// {runs} and another of them.
   explicit CommandTemplate(const std::string& command);
 
   bool uses(std::string_view placeholder) const;
+  bool by_tolerance() const;
+  /// Whether it is run once for the whole ladder.
+  bool makes_all_runs() const;
   /// The line for the shell. Values are quoted where a shell would read them otherwise.
   std::string filled(const std::vector<PlaceholderValue>& values) const;
   /// The files it names, the first word as PATH resolves it among them: when one of them is another

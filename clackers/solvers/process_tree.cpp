@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -236,8 +237,11 @@ void ProcessTree::end(ProcessResult& result) {
     pid_t mine = supervisor_;
     if (entry.compare_exchange_strong(mine, 0)) break;
   }
-  while (::waitpid(supervisor_, nullptr, 0) < 0 && errno == EINTR) {
+  // With the time of the program: the supervisor has waited for all that it started.
+  rusage used{};
+  while (::wait4(supervisor_, nullptr, 0, &used) < 0 && errno == EINTR) {
   }
+  result.seconds = double(used.ru_utime.tv_sec) + 1e-6 * double(used.ru_utime.tv_usec);
   supervisor_ = 0;
   std::array<int, 3> values{0, 0, -1};
   for (Message message{}; ::read(messages_.read.number(), &message, sizeof message) > 0;)

@@ -35,7 +35,8 @@ std::vector<SolverSubject> subjects_of(const ProgramRequest& request) {
     subject.kind = record::SubjectKind::program;
     subject.name = program.name.empty() ? command.name() : program.name;
     subject.claim = request.expect.value_or(Claim{});
-    if (command.uses("tolerance")) subject.tolerances = tolerances;
+    subject.labels = program.labels;
+    if (command.by_tolerance()) subject.tolerances = tolerances;
     subject.prepare = ProgramRunner::maker(command, subject.name, request, folder);
   }
   return subjects;

@@ -20,9 +20,11 @@ struct Program {
   /// For the shell, with placeholders: {case} and {case:text} are files with the problem, {h} the
   /// step [s], {n} the number of steps, {tolerance} one of the request's tolerances, {events} a file
   /// for impacts, which may be left out, {out} the file for the history; without {out} the
-  /// history is standard output.
+  /// history is standard output. A command with {runs} or {runs:tolerance} is run once for the whole
+  /// ladder: a file with a line for each run, its step or tolerance, number of steps and history.
   std::string command;
   std::string name;  ///< in every output; empty: the program's file without folder and extension
+  record::Labels labels{};
 };
 
 /// How programs are run.

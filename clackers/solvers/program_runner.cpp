@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
 #include "clackers/base/error.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/model/problem_file.hpp"
 #include "clackers/solvers/process.hpp"
 
@@ -16,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto history_name = "history.csv", events_name = "events.csv";
+constexpr auto history_name = "history.csv", events_name = "events.csv", seconds_name = "seconds.txt",
+               runs_name = "runs.txt";
 
 bool is_filled(const fs::path& path) {
   std::error_code error;
@@ -44,6 +49,21 @@ std::size_t most_printed_rows(const SolverRun& run) {
 void set_failure(SolverOutput& output, Code code, std::string sentence) {
   output.failure_code = code.name();
   output.failure = std::move(sentence) + ".";
+}
+
+void set_failure(SolverOutput& output, const FileError& error) {
+  output.failure = error.what();
+  output.failure_code = error.code().name();
+  output.would_repeat = error.code() == Code("cannot-write");
+}
+
+double resolution_of(const SolverRun& run) {
+  return run.tolerance > 0.0 ? run.tolerance : run.step;
+}
+
+// What stands before the history in a line of the file {runs}.
+std::string line_of(const SolverRun& run) {
+  return fmt::format("{} {} ", resolution_of(run), run.steps);
 }
 
 void take_end(SolverOutput& output, const ProcessResult& result, double timeout) {
@@ -106,13 +126,19 @@ std::string ProgramRunner::command_in(const fs::path& folder, const SolverRun& r
                           {"n", fmt::format("{}", run.steps)},
                           {"tolerance", fmt::format("{}", run.tolerance)},
                           {"events", (folder / events_name).string()},
-                          {"out", (folder / history_name).string()}});
+                          {"out", (folder / history_name).string()},
+                          {"runs", (folder / runs_name).string()},
+                          {"runs:tolerance", (folder / runs_name).string()}});
+}
+
+void ProgramRunner::write_problem(const RunFolder& mine) const {
+  mine.write("problem.json", json_);
+  mine.write("problem.txt", text_);
 }
 
 SolverOutput ProgramRunner::output_of(const SolverRun& run, const RunFolder& mine,
                                       const std::atomic<bool>* interrupt) const {
-  mine.write("problem.json", json_);
-  mine.write("problem.txt", text_);
+  write_problem(mine);
   const auto& folder = mine.path();
   const auto history = folder / history_name;
   const bool prints_history = !command_.uses("out");
@@ -125,6 +151,7 @@ SolverOutput ProgramRunner::output_of(const SolverRun& run, const RunFolder& min
                             interrupt);
   SolverOutput output;
   output.printed = std::move(result.printed);
+  output.seconds = result.seconds;
   take_end(output, result, timeout_);
   if (output.interrupted || !output.failure.empty()) return output;
   if (!is_filled(history)) {
@@ -139,33 +166,46 @@ SolverOutput ProgramRunner::output_of(const SolverRun& run, const RunFolder& min
   return output;
 }
 
-SolverOutput ProgramRunner::run(const SolverRun& run, const std::atomic<bool>* interrupt) {
-  // The paths of a run's own folder are no part of what it does.
+std::string ProgramRunner::title_of(const SolverRun& run) const {
+  return run.tolerance > 0.0 ? fmt::format("{}-rtol{}", title_, run.tolerance)
+                             : fmt::format("{}-h{}", title_, run.step);
+}
+
+// The paths of a run's own folder are no part of what it does.
+std::string ProgramRunner::key_of(const SolverRun& run) const {
   auto key = command_in({}, run) + '\n' + command_.identity() + json_;
+  if (command_.makes_all_runs()) key += '\n' + line_of(run);
   for (const auto& name : environment_)
     if (const char* value = std::getenv(name.c_str())) key += fmt::format("\n{}={}", name, value);
-  const auto title = run.tolerance > 0.0 ? fmt::format("{}-rtol{}", title_, run.tolerance)
-                                         : fmt::format("{}-h{}", title_, run.step);
-  if (!fresh_)
-    if (const auto found = folder_->find(title, key)) {
-      SolverOutput output;
-      output.reused = true;
-      output.history = (*found / history_name).string();
-      if (is_filled(*found / events_name)) output.events = (*found / events_name).string();
-      return output;
-    }
+  return key;
+}
+
+std::optional<SolverOutput> ProgramRunner::found(const SolverRun& run) const {
+  if (fresh_) return {};
+  const auto folder = folder_->find(title_of(run), key_of(run));
+  if (!folder) return {};
   SolverOutput output;
+  output.reused = true;
+  output.history = (*folder / history_name).string();
+  if (is_filled(*folder / events_name)) output.events = (*folder / events_name).string();
+  std::ifstream(*folder / seconds_name) >> output.seconds;
+  return output;
+}
+
+// Puts the folder in its place.
+void ProgramRunner::finish(SolverOutput& output, RunFolder& mine, const SolverRun& run) const {
   try {
-    RunFolder mine(*folder_, title, key);
-    output = output_of(run, mine, interrupt);
-    if (output.interrupted) return output;
     output.failure = without_folder(output.failure, mine.path());
     output.printed = without_folder(std::move(output.printed), mine.path());
     if (folder_->keeps_failures() && !output.printed.empty())
       mine.write("printed.txt", output.printed);
+    if (output.seconds > 0.0) mine.write(seconds_name, fmt::format("{}\n", output.seconds));
     const auto place = mine.commit(output.history.has_value());
     if (output.history) output.history = (place / history_name).string();
     if (output.events) output.events = (place / events_name).string();
+    if (!output.failure.empty() && folder_->keeps_failures())
+      output.failure += fmt::format(" Again: cd {} && {}", shell_quoted(place.string()),
+                                    command_in(place, run));
   } catch (const FileError& error) {
     // A full disk, or what the program has done to its folder, costs this run only.
     output.history.reset();
@@ -173,7 +213,81 @@ SolverOutput ProgramRunner::run(const SolverRun& run, const std::atomic<bool>* i
     if (output.failure_code.empty()) output.failure_code = error.code().name();
     output.would_repeat = error.code() == Code("cannot-write");
   }
+}
+
+SolverOutput ProgramRunner::run(const SolverRun& run, const std::atomic<bool>* interrupt) {
+  if (command_.makes_all_runs()) {
+    const std::lock_guard lock(guard_);
+    if (!made_.contains(resolution_of(run))) {
+      auto runs = std::exchange(expected_, {});
+      if (std::ranges::find(runs, resolution_of(run), resolution_of) == runs.end())
+        runs.push_back(run);
+      make_all(std::move(runs), interrupt);
+    }
+    return made_.at(resolution_of(run));
+  }
+  if (auto output = found(run)) return *output;
+  SolverOutput output;
+  try {
+    RunFolder mine(*folder_, title_of(run), key_of(run));
+    output = output_of(run, mine, interrupt);
+    if (!output.interrupted) finish(output, mine, run);
+  } catch (const FileError& error) {
+    set_failure(output, error);
+  }
   return output;
+}
+
+void ProgramRunner::expect(std::vector<SolverRun> runs) {
+  const std::lock_guard lock(guard_);
+  expected_ = std::move(runs);
+}
+
+// A program that fails, or is ended, may have written a part of the last history that there is.
+void ProgramRunner::make_all(std::vector<SolverRun> runs, const std::atomic<bool>* interrupt) {
+  SolverOutput ended;
+  std::deque<RunFolder> folders;
+  std::erase_if(runs, [&](const SolverRun& run) {
+    auto output = found(run);
+    if (output) made_[resolution_of(run)] = std::move(*output);
+    return made_.contains(resolution_of(run));
+  });
+  if (runs.empty()) return;
+  try {
+    std::string lines;
+    for (const auto& run : runs) {
+      const auto& mine = folders.emplace_back(*folder_, title_of(run), key_of(run));
+      write_problem(mine);
+      lines += line_of(run) + (mine.path() / history_name).string() + '\n';
+    }
+    const auto& folder = folders.front().path();
+    folders.front().write(runs_name, lines);
+    const double timeout = timeout_ * double(runs.size());
+    auto result = run_process({.command = command_in(folder, runs.front()),
+                               .folder = folder.string(),
+                               .timeout = timeout,
+                               .removes_folder = true},
+                              interrupt);
+    ended.printed = std::move(result.printed);
+    take_end(ended, result, timeout);
+  } catch (const FileError& error) {
+    set_failure(ended, error);
+  }
+  bool is_last = ended.interrupted || !ended.failure.empty();
+  for (std::size_t i = runs.size(); i-- > 0;) {
+    auto output = ended;
+    if (i < folders.size()) {
+      const auto history = folders[i].path() / history_name;
+      if (is_filled(history) && !std::exchange(is_last, false)) {
+        output = {};
+        output.history = history.string();
+      } else if (!output.interrupted && output.failure.empty()) {
+        set_failure(output, "program-output", "no output: its file in {runs} is missing or empty");
+      }
+      if (!output.interrupted) finish(output, folders[i], runs[i]);
+    }
+    made_[resolution_of(runs[i])] = std::move(output);
+  }
 }
 
 }  // namespace clackers::solvers

@@ -31,6 +31,7 @@ struct SolverOutput {
   std::string failure;                   ///< in a sentence, with its full stop
   std::string printed;                   ///< the last bytes that it printed
   bool reused = false;                   ///< of an earlier run
+  double seconds = 0.0;                  ///< user time of the whole program [s]; 0: not known
   bool would_repeat = false;             ///< the failure is one that smaller steps share
   std::shared_ptr<const void> memory{};  ///< what holds the columns of history and events
 };
@@ -39,6 +40,8 @@ struct SolverOutput {
 class Solver {
  public:
   virtual ~Solver() = default;
+  /// The runs that will be asked for, before the first of them: for a solver that makes several at once.
+  virtual void expect(std::vector<SolverRun>) {}
   /// Makes a run. May be called from several threads at once.
   virtual SolverOutput run(const SolverRun& run, const std::atomic<bool>* interrupt) = 0;
 };
@@ -48,6 +51,7 @@ struct SolverSubject {
   record::SubjectKind kind = record::SubjectKind::program;  ///< program or callable
   std::string name;                                         ///< in every output
   Claim claim;
+  record::Labels labels{};  ///< of its user
   /// Levels of tolerances, descending, instead of steps; {h} is then the coarsest step.
   std::vector<double> tolerances;
   /// Steps [s], descending, instead of those of the plan; refinement adds none.

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "clackers/base/jobs/progress.hpp"
@@ -66,6 +67,8 @@ class Candidate {
  public:
   virtual ~Candidate() = default;
   virtual CandidateFacts facts() const = 0;
+  /// The runs that will be asked for, before the first of them.
+  virtual void expect(std::span<const RunTask>) {}
   /// Work to expect. Only the progress shown depends on it.
   virtual double cost(const RunTask& task) const = 0;
   /// Makes a run and compares it with the reference. Nothing when interrupted. May be called from

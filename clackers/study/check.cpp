@@ -165,6 +165,7 @@ record::Subject assessed(const CheckRequest& request, const std::string& name,
   record::Subject subject;
   subject.kind = record::SubjectKind::histories;
   subject.name = name;
+  subject.labels = request.labels;
   subject.claim = request.expect.value_or(Claim{});
   subject.tolerance = request.tolerance;
   const bool by_tolerance = choose_steps(entries, problem) || !request.tolerances.empty();

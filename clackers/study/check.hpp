@@ -31,6 +31,7 @@ struct CheckRequest {
   std::vector<double> steps;          ///< none, or one a history [s]
   std::vector<double> tolerances;     ///< none, or one a history instead of a step, of (0, 1)
   std::optional<Claim> expect;        ///< of every subject
+  record::Labels labels{};            ///< the same
   std::optional<double> tolerance;    ///< largest allowed u_error, 0 < tolerance
   std::string command;                ///< as typed
 };

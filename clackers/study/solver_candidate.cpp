@@ -34,6 +34,7 @@ CandidateFacts SolverCandidate::facts() const {
   CandidateFacts facts;
   facts.subject.kind = asked_.kind;
   facts.subject.name = asked_.name;
+  facts.subject.labels = asked_.labels;
   facts.subject.claim = asked_.claim;
   const bool by_tolerance = !asked_.tolerances.empty();
   if (by_tolerance) facts.subject.resolution = record::Resolution::tolerance;
@@ -41,6 +42,12 @@ CandidateFacts SolverCandidate::facts() const {
   // Callables are called in one thread.
   facts.is_serial = asked_.kind == record::SubjectKind::callable;
   return facts;
+}
+
+void SolverCandidate::expect(std::span<const RunTask> tasks) {
+  std::vector<solvers::SolverRun> runs;
+  for (const auto& task : tasks) runs.push_back(task.run);
+  solver_->expect(std::move(runs));
 }
 
 double SolverCandidate::cost(const RunTask& task) const {
@@ -81,6 +88,7 @@ Measured SolverCandidate::compared(const RunTask& task, const solvers::SolverOut
     Measured measured;
     measured.run = std::move(found.run);
     if (output.reused) measured.run.file->notes.push_back(record::note("reused"));
+    if (auto& seconds = measured.run.score.seconds; !(seconds > 0.0)) seconds = output.seconds;
     measured.observation = std::move(found.observation);
     return measured;
   } catch (const InputError& error) {

@@ -13,6 +13,7 @@ class SolverCandidate : public Candidate {
   SolverCandidate(const solvers::SolverSubject& asked, const StudyCase& problem);
 
   CandidateFacts facts() const override;
+  void expect(std::span<const RunTask> tasks) override;
   double cost(const RunTask& task) const override;
   std::optional<Measured> run(const RunTask& task, TaskShare& share,
                               const std::atomic<bool>* interrupt) override;

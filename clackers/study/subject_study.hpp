@@ -28,6 +28,8 @@ class SubjectStudy {
   const record::RefinementPlan& plan() const { return plan_; }
   bool is_serial() const { return facts_.is_serial; }
   double cost(const RunTask& task) const { return candidate_->cost(task); }
+  /// The runs that make() will be asked for.
+  void expect(std::span<const RunTask> tasks) { candidate_->expect(tasks); }
 
   /// The runs that a ladder needs and that were not made yet: of a method the longest first, of a
   /// solver the coarsest. The shown run is the first of the finest level that metrics can be measured

@@ -44,7 +44,9 @@ std::unique_ptr<SubjectStudy> SystemStudy::study_of(const Subject& subject) cons
 const record::CaseRecord* SystemStudy::assess(const Subject& subject,
                                               const std::atomic<bool>* interrupt) {
   const auto study = study_of(subject);
-  for (const auto& task : study->missing(study->plan())) make(*study, task, interrupt);
+  const auto tasks = study->missing(study->plan());
+  study->expect(tasks);
+  for (const auto& task : tasks) make(*study, task, interrupt);
   if (interrupt != nullptr && *interrupt) return nullptr;
   study->assess(study->plan());
   record_.subjects.clear();

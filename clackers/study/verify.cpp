@@ -182,8 +182,10 @@ class Driver {
   // Case after case and subject after subject, so that an interrupt leaves whole rows.
   void run_rounds(const std::vector<Round>& rounds) const {
     std::vector<Task> tasks;
-    for (const auto& round : rounds)
+    for (const auto& round : rounds) {
+      round.study->expect(round.missing);
       for (const auto& task : round.missing) tasks.push_back({round.study, task});
+    }
     run_tasks(tasks);
   }
 

@@ -29,7 +29,7 @@ namespace {
 
 struct CheckOptions {
   CommonOptions common;
-  std::vector<std::string> files, names, against, settings, events, requirements;
+  std::vector<std::string> files, names, labels, against, settings, events, requirements;
   std::vector<std::size_t> starts, against_starts;  // of each name, of --against, in the files
   std::string first_case, case_name, columns, steps, tolerances, expect, tolerance, metrics, report,
       baseline, problem;
@@ -69,6 +69,7 @@ study::CheckRequest request_of(const CheckOptions& options, const std::string& l
   if (!options.steps.empty()) request.steps = numbers_of("--steps", options.steps);
   if (!options.tolerances.empty())
     request.tolerances = numbers_of("--tolerances", options.tolerances);
+  request.labels = read_labels(options.labels);
   if (!options.expect.empty()) request.expect = study::claim_from(options.expect);
   if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
   if (!options.metrics.empty() && options.metrics != "all")
@@ -189,6 +190,7 @@ void add_check(Grammar& root) {
                   "file count over all files.")
       ->option_text("NAME")
       ->divides(options->files, options->starts);
+  add_label_option(*app, options->labels);
   app->add_option("--against", options->against,
                   "Compare the FILEs before it with those behind it, of a motion that nobody "
                   "knows: displacements of the finest two at common times, and each set with "

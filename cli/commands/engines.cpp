@@ -241,7 +241,7 @@ void add_engines(Grammar& root) {
   app->add_flag("--all", options->all, "run: all engines that are installed.");
   app->add_option(
          "--case", options->cases,
-         "run: a case with its parameters; may be repeated. Default: three-parameter, synchronized-pair:eta=0.7 and stop.")
+         "run: a case with its parameters; may be repeated. Default: three-parameter, synchronized-pair:eta=0.7, stop and buildings.")
       ->option_text("CASE[:name=value,...]");
   app->add_option("--setting", options->settings,
                   "run: only settings of this name; may be repeated.")

@@ -32,6 +32,15 @@ void add_program_options(Command& command, ProgramOptions& options) {
           "file without folder and extension.")
       ->option_text("NAME");
   command
+      .add_option(
+          "--exec-batch", options.commands,
+          "The same for a program whose start takes long: one process makes all runs of a ladder. "
+          "Instead of {h}, {n}, {tolerance}, {out} and {events} it has {runs}, or "
+          "{runs:tolerance}: a file with a line for each run: step or tolerance, number of steps, "
+          "file for the history.")
+      ->option_text("COMMAND");
+  add_label_option(command, options.labels);
+  command
       .add_option("--expect", options.expect,
                   "What programs should show: proper:2, reduced:1, irregular:1, exact, "
                   "stagnating[:REASON] or divergent. Default: nothing is claimed.")
@@ -72,6 +81,7 @@ void require_any(const ProgramOptions& options) {
           "bad-syntax");
   };
   refuse_given("--name", !options.names.empty());
+  refuse_given("--label", !options.labels.empty());
   refuse_given("--expect", !options.expect.empty());
   refuse_given("--timeout", !options.timeout.empty());
   refuse_given("--work", !options.work.empty());
@@ -104,7 +114,8 @@ std::vector<solvers::SolverSubject> program_subjects(const ProgramOptions& optio
   solvers::ProgramRequest request{process_options_of(options), {}};
   for (std::size_t i = 0; i < count; ++i)
     request.programs.push_back(
-        {options.commands[i], options.names.empty() ? std::string() : options.names[i]});
+        {options.commands[i], options.names.empty() ? std::string() : options.names[i],
+         read_labels(options.labels)});
   return solvers::subjects_of(request);
 }
 

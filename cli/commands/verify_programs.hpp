@@ -10,7 +10,7 @@ namespace clackers::cli {
 
 /// The options of `verify` for programs of others.
 struct ProgramOptions {
-  std::vector<std::string> commands, names, environment;
+  std::vector<std::string> commands, names, labels, environment;
   std::string tolerances, expect, timeout, work;
   bool fresh = false;
 

@@ -1,5 +1,5 @@
 """CalculiX: Newmark's average acceleration, contact as a spring that takes pressure only.
-    calculix.py PROBLEM.json H HISTORY.csv [stiffness=4000]
+    calculix.py PROBLEM.json RUNS [stiffness=4000]
 The program has no restitution, and dampers are Rayleigh's: one ratio C/K for all springs."""
 import json
 import os
@@ -33,13 +33,11 @@ def deck(problem, stiffness, step, number):
     return text + "*NODE PRINT, NSET=ALL\nU, V\n*END STEP\n"
 
 
-def main(file, step, history, *words):
-    settings = dict(word.split("=") for word in words)
-    problem = json.load(open(file))["problem"]
+def move(problem, stiffness, steps, history):
     n = len(problem["M"])
-    steps = round(problem["end"] / float(step))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     with open("deck.inp", "w") as out:
-        out.write(deck(problem, float(settings.get("stiffness", 4000)), problem["end"] / steps, 100))
+        out.write(deck(problem, stiffness, problem["end"] / steps, 100))
     subprocess.run(["ccx", "-i", "deck"], env={**os.environ, "OMP_NUM_THREADS": "1"}, check=True, stdout=sys.stderr)
     rows, kind = {}, ""
     for line in open("deck.dat"):
@@ -48,13 +46,24 @@ def main(file, step, history, *words):
             kind, time = words[0][0], words[-1]
         elif words and int(words[0]) <= n:
             rows.setdefault(time, {})[kind + words[0]] = words[1]
-    seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
     names = [f"{kind}{i + 1}" for kind in "dv" for i in range(n)]
     with open(history, "w") as out:
         print("t", *(name.replace("d", "u") for name in names), sep=",", file=out)
         for time, row in rows.items():
             print(time, *(row[name] for name in names), sep=",", file=out)
         print(f"# seconds {seconds} steps {steps}", file=out)
+
+
+def main(file, runs, *words):
+    settings = dict(word.split("=") for word in words)
+    problem = json.load(open(file))["problem"]
+    n = len(problem["M"])
+    if any(problem["K"][i][j] for i in range(n) for j in range(n) if i != j):
+        sys.exit("this program takes springs between a mass and the ground only")
+    for line in open(runs):
+        _, steps, history = line.rstrip("\n").split(" ", 2)
+        move(problem, float(settings.get("stiffness", 4000)), int(steps), history)
 
 
 main(*sys.argv[1:])

@@ -1,4 +1,5 @@
-// Matter.js: Verlet positions. Lengths are pixels, times milliseconds; a velocity is pixels in 1000/60 ms.
+// Matter.js: Verlet positions. Lengths are pixels, times milliseconds; a velocity is pixels in 1000/60 ms. Its circles
+// are polygons, hence squares.
 import Matter from 'matter-js';
 import { run } from '../door.mjs';
 
@@ -8,7 +9,7 @@ await run(({ bodies, walls, restitution, h, settings }) => {
   const engine = Matter.Engine.create({ gravity: { x: 0, y: 0 } });
   const shape = { restitution, friction: 0, frictionStatic: 0, slop: settings.tuned ? 0 : 0.05, inertia: Infinity };
   if (settings.tuned) shape.frictionAir = 0;
-  const add = ({ x, y }, more) => Matter.Bodies.circle(x * pixels, y * pixels, 0.5 * pixels, { ...shape, ...more }, 1e9);
+  const add = ({ x, y }, more) => Matter.Bodies.rectangle(x * pixels, y * pixels, pixels, pixels, { ...shape, ...more });
   Matter.Composite.add(engine.world, walls.map((wall) => add(wall, { isStatic: true })));
   const unit = pixels / 60;  // of a velocity of 1 m/s
   const masses = bodies.map((body) => {

@@ -5,6 +5,8 @@ import { run } from '../door.mjs';
 
 await run(async ({ bodies, walls, restitution, h, settings, problem: { K, C, start } }) => {
   const own = settings.springs === 'own';
+  if (own && K.some((row, i) => row.some((k, j) => k && i !== j)))
+    throw new Error('this setting takes springs between a mass and the ground only');
   const loss = (-2 * Math.log(Math.max(restitution, 1e-3))) / Number(settings.contact);
   const stiffness = (Math.PI / Number(settings.contact)) ** 2 + loss ** 2 / 4;
   const geom = `<geom type="sphere" size="0.5" condim="1" ${settings.contact ? `solref="${-stiffness} ${-loss}"` : ''}`;

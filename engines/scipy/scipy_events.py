@@ -1,5 +1,5 @@
 """SciPy's solve_ivp with impacts as its terminal events.
-    scipy_events.py PROBLEM.json TOLERANCE HISTORY.csv [method=RK45] [grid=SECONDS] [direction=no]"""
+    scipy_events.py PROBLEM.json RUNS [method=RK45] [grid=SECONDS] [direction=no]"""
 import json
 import sys
 import time
@@ -8,11 +8,9 @@ import numpy
 from scipy.integrate import solve_ivp
 
 
-def main(file, tolerance, history, *words):
-    settings = dict(word.split("=") for word in words)
-    problem = json.load(open(file))["problem"]
+def move(problem, settings, tolerance, history):
     M, C, K = (numpy.array(problem[name], float) for name in "MCK")
-    n, end, tolerance = len(M), problem["end"], float(tolerance)
+    n, end = len(M), problem["end"]
     A = numpy.block([[numpy.zeros((n, n)), numpy.eye(n)], [-numpy.linalg.solve(M, K), -numpy.linalg.solve(M, C)]])
     events = []
     for contact in problem["contacts"]:
@@ -48,6 +46,14 @@ def main(file, tolerance, history, *words):
     seconds = time.process_time() - before
     header = ",".join(["t", *(f"{name}{i + 1}" for name in "uv" for i in range(n))])
     numpy.savetxt(history, rows, delimiter=",", header=header, comments="", footer=f"# seconds {seconds}")
+
+
+def main(file, runs, *words):
+    settings = dict(word.split("=") for word in words)
+    problem = json.load(open(file))["problem"]
+    for line in open(runs):
+        tolerance, _, history = line.rstrip("\n").split(" ", 2)
+        move(problem, settings, float(tolerance), history)
 
 
 main(*sys.argv[1:])

@@ -1,5 +1,5 @@
 """Siconos: Moreau-Jean time stepping with theta = 0.5 and Newton's impact law.
-    moreau_jean.py PROBLEM.json H HISTORY.csv [theta=0.5]"""
+    moreau_jean.py PROBLEM.json RUNS [theta=0.5]"""
 import json
 import sys
 import time
@@ -8,12 +8,9 @@ import numpy
 import siconos.kernel as sk
 
 
-def main(file, step, history, *words):
-    settings = dict(word.split("=") for word in words)
-    problem = json.load(open(file))["problem"]
+def move(problem, theta, steps, history):
     M, C, K = (numpy.array(problem[name], float) for name in "MCK")
     start, end, n = problem["start"], problem["end"], len(M)
-    steps = round((end - start["t"]) / float(step))
     h = (end - start["t"]) / steps
     system = sk.LagrangianLinearTIDS(numpy.array(start["u"], float), numpy.array(start["v"], float), M, K, C)
     model = sk.NonSmoothDynamicalSystem(start["t"], end + h)
@@ -21,7 +18,7 @@ def main(file, step, history, *words):
     for contact in problem["contacts"]:
         relation = sk.LagrangianLinearTIR(numpy.array([contact["direction"]], float), numpy.array([-contact["gap"]], float))
         model.link(sk.Interaction(sk.NewtonImpactNSL(contact["restitution"]), relation), system)
-    simulation = sk.TimeStepping(model, sk.TimeDiscretisation(start["t"], h), sk.MoreauJeanOSI(float(settings.get("theta", 0.5))), sk.LCP())
+    simulation = sk.TimeStepping(model, sk.TimeDiscretisation(start["t"], h), sk.MoreauJeanOSI(theta), sk.LCP())
     rows, before = [[start["t"], *system.q(), *system.velocity()]], time.process_time()
     for k in range(1, steps + 1):
         simulation.computeOneStep()
@@ -30,6 +27,14 @@ def main(file, step, history, *words):
     seconds = time.process_time() - before
     header = ",".join(["t", *(f"{name}{i + 1}" for name in "uv" for i in range(n))])
     numpy.savetxt(history, rows, delimiter=",", header=header, comments="", footer=f"# seconds {seconds} steps {steps}")
+
+
+def main(file, runs, *words):
+    settings = dict(word.split("=") for word in words)
+    problem = json.load(open(file))["problem"]
+    for line in open(runs):
+        _, steps, history = line.rstrip("\n").split(" ", 2)
+        move(problem, float(settings.get("theta", 0.5)), int(steps), history)
 
 
 main(*sys.argv[1:])

@@ -15,6 +15,9 @@ void add(toml::array& list, const MethodEntry& entry) {
   values.insert("exec", entry.text);
   if (!entry.name.empty()) values.insert("name", entry.name);
   if (!entry.expect.empty()) values.insert("expect", entry.expect);
+  toml::table labels;
+  for (const auto& [key, value] : entry.labels) labels.insert(key, value);
+  if (!labels.empty()) values.insert("labels", std::move(labels));
   list.push_back(std::move(values));
 }
 

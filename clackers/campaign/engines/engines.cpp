@@ -121,17 +121,26 @@ std::string engines_specification(std::span<const EngineRun> runs, std::string_v
   for (const auto& [engine, setting, version, program] : runs) {
     auto command = engine->filled(engine->command, program);
     if (!setting->words.empty()) command += " " + setting->words;
-    entries.push_back({MethodEntry::Kind::command, std::move(command),
+    entries.push_back({MethodEntry::Kind::command,
+                       std::move(command),
                        fmt::format("{}/{} {}", engine->id, setting->name, version),
-                       setting->expect});
+                       setting->expect,
+                       {{"engine", engine->name},
+                        {"id", engine->id},
+                        {"setting", setting->name},
+                        {"version", version},
+                        {"licence", engine->licence},
+                        {"integrates", engine->integrates},
+                        {"why", setting->why}}});
   }
-  return with_methods(fmt::format("times = true\n{}{}", ladder, cases), entries);
+  return with_methods(fmt::format("metrics = [\"restitution-median\", \"restitution-smallest\", \"force-share-first\"]\n{}{}", ladder, cases), entries);
 }
 
 std::string_view engine_cases() {
   return "[[cases]]\ncase = \"three-parameter\"\n"
          "[[cases]]\ncase = \"synchronized-pair\"\nset = { eta = 0.7 }\n"
-         "[[cases]]\ncase = \"stop\"\n";
+         "[[cases]]\ncase = \"stop\"\n"
+         "[[cases]]\ncase = \"buildings\"\n";
 }
 
 record::Sheet engine_list(std::span<const Engine> engines, std::span<const std::string> versions) {

@@ -75,7 +75,7 @@ TEST_F(Engines, SpecificationHasASubjectASetting) {
   EXPECT_EQ(specification.methods()[0].text, "/p {case:text} {h} {out}");
   EXPECT_EQ(specification.methods()[1].text, "/p {case:text} {h} {out} tuned=1");
   EXPECT_EQ(specification.methods()[1].expect, "proper:2");
-  EXPECT_EQ(specification.systems(), 3);
+  EXPECT_EQ(specification.systems(), 4);
 }
 
 }  // namespace

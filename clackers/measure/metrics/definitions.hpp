@@ -164,6 +164,16 @@ MetricValue missed_impacts(const Comparison& comparison);
 MetricValue extra_impacts(const Comparison& comparison);
 MetricValue late_impacts(const Comparison& comparison);
 
+/// The coefficients of restitution of the history's impacts, by the change of the gap rate b.v, where
+/// both limits are known and the gap closes. Source: Newton's impact law.
+MetricValue restitution_median(const Comparison& comparison);
+MetricValue restitution_smallest(const Comparison& comparison);
+
+/// How far a force moves a mass in the first step h, in h^2 a0: the least-squares s, weighted by mass, of
+/// u1 = u0 + h v0 + s h^2 a0 with the accelerations a0 of the problem at the history's first row. Not
+/// measured without velocities, where no force acts there, and where a contact is closed at one of the rows.
+MetricValue first_force_share(const Comparison& comparison);
+
 /// The filled graph of a velocity: the set of (t/T, v/V) with vertical segments from the left limit
 /// to the right one at jumps. T is Comparison::impact_period(), V the mass's true envelope at t
 /// = 0. The Hausdorff distance of two filled graphs, with points as far apart as the farther of

@@ -37,6 +37,7 @@ std::string facts_html(const record::Subject& subject) {
   const auto& assessment = subject.assessment;
   const auto& displacement = assessment.displacement;
   std::string out = fact("Claimed", escape(claim_text(subject.claim)));
+  if (!subject.labels.empty()) out += fact("Labels", escape(record::labels_text(subject.labels)));
   if (subject.tolerance) out += fact("Allowed error in u", html_number(*subject.tolerance, 3));
   if (subject.refusal.empty() && !subject.levels.empty()) {
     out += fact("Found", escape(to_string(displacement.behaviour)));

@@ -216,6 +216,10 @@ void print_case(const record::CaseRecord& problem, const OpeningLine& opening, s
   print_wrapped(case_text(problem.problem), out, style);
   print_wrapped(length_text(problem.problem), out, style);
   if (const auto plan = plan_text(problem); !plan.empty()) print_wrapped(plan, out, style);
+  for (const auto& subject : problem.subjects)
+    if (!subject.labels.empty())
+      print_wrapped(fmt::format("{}: {}.", subject.name, record::labels_text(subject.labels)), out,
+                    style);
   if (const auto first = departure_text(problem); !first.empty()) {
     out << '\n';
     print_wrapped(first, out, style);
