@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/campaign/store.hpp"
+#include "clackers/record/record.hpp"
 #include "clackers/record/sheet.hpp"
 
 // Physics engines and solvers of others, each a folder with engine.toml and one program.
@@ -16,6 +18,11 @@ struct EngineSetting {
   std::string words;   ///< behind the command
   std::string why;     ///< what is set, and why
   std::string expect;  ///< "proper:2"; empty: nothing is claimed
+};
+
+/// What an engine shows, one command each: scripts/engines measures it.
+struct EngineFact {
+  std::string text, setting, case_word;  ///< "stop:eta=0.7"
 };
 
 /// What engine.toml says. `{folder}` in `version`, `build` and `command` is the engine's folder, and
@@ -30,7 +37,9 @@ struct Engine {
   std::string build;                ///< empty: nothing is compiled
   std::string command;              ///< for `verify --exec`, without the words of a setting
   std::vector<std::string> sources, traps;
+  std::vector<double> steps;  ///< [s], descending, where those of the ladder take too long
   std::vector<EngineSetting> settings;
+  std::vector<EngineFact> facts;
 
   /// `text` with `{folder}` and `{program}` as quoted words of a shell.
   std::string filled(std::string_view text, const std::string& program = {}) const;
@@ -59,6 +68,10 @@ std::string engines_specification(std::span<const EngineRun> runs, std::string_v
 /// The cases of engines: the pair of the paper, one whose last impacts are slow, a mass at a
 /// stop, buildings.
 std::string_view engine_cases();
+
+/// One page with style inside, without scripts: how many engines converge, a matrix of settings and
+/// cases, error against processor time, facts. All of it is read from the store.
+std::string engines_page(const Store& store, const record::Provenance& from);
 
 /// A row an engine: name, version, how it integrates, settings, licence. `versions` has an entry for
 /// each; empty: not installed.

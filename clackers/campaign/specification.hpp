@@ -20,6 +20,7 @@ struct MethodEntry {
   std::string name;    ///< in the results; of a command it may be empty
   std::string expect;  ///< "proper:2"; of a command, may be empty
   record::Labels labels{};
+  std::vector<double> steps{};  ///< of a command, descending, instead of the ladder's [s]
 };
 
 /// The values of one parameter: listed, or points of a range.

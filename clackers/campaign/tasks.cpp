@@ -80,8 +80,12 @@ solvers::SolverSubject solver_of(const Specification& specification, const Metho
   solvers::ProcessOptions options;
   options.tolerances = specification.ladder().tolerances;
   if (!method.expect.empty()) options.expect = study::claim_from(method.expect);
-  return std::move(
-      solvers::subjects_of(solvers::ProgramRequest{options, {{method.text, method.name, method.labels}}}).front());
+  auto subject =
+      std::move(solvers::subjects_of(
+                    solvers::ProgramRequest{options, {{method.text, method.name, method.labels}}})
+                    .front());
+  subject.steps = method.steps;
+  return subject;
 }
 
 }  // namespace

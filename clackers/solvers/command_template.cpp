@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> placeholders{"case",   "case:text", "h",   "n",
-                                            "tolerance", "events",    "out", "runs", "runs:tolerance"};
+const std::vector<std::string> placeholders{
+    "case", "case:text", "h", "n", "tolerance", "events", "out", "runs", "runs:tolerance"};
 
 // A word of a command: where it stands, and what the shell makes of it; nothing for a word that is
 // expanded.

@@ -40,7 +40,7 @@ TEST(CommandTemplate, LeavesOtherBracesAlone) {
 TEST(CommandTemplate, RefusesOtherPlaceholders) {
   EXPECT_REFUSED(CommandTemplate("run {h} {otu}"), "unknown-name", "\"otu\"", "\"out\"");
   EXPECT_REFUSED(CommandTemplate("run {h} {H}"), "unknown-name", "\"H\"");
-  EXPECT_REFUSED(CommandTemplate("run {out}"), "bad-syntax", "{h}, {n} or {tolerance}");
+  EXPECT_REFUSED(CommandTemplate("run {out}"), "bad-syntax", "{h}, {n}, {tolerance} or {runs}");
   EXPECT_REFUSED(CommandTemplate(" \t"), "bad-syntax", "empty");
 }
 

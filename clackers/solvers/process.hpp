@@ -28,8 +28,8 @@ struct ProcessResult {
   End end = End::exited;
   int status = 0;
   double seconds = 0.0;  ///< user time of the program and of what it started [s]
-  std::string printed;  ///< the last `most_printed` bytes of standard error and, unless it went to
-                        ///< a file, of standard output
+  std::string printed;   ///< the last `most_printed` bytes of standard error and, unless it went to
+                         ///< a file, of standard output
 };
 
 inline constexpr std::size_t most_printed = 4096;  // [bytes]

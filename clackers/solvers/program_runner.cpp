@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto history_name = "history.csv", events_name = "events.csv", seconds_name = "seconds.txt",
-               runs_name = "runs.txt";
+constexpr auto history_name = "history.csv", events_name = "events.csv",
+               seconds_name = "seconds.txt", runs_name = "runs.txt";
 
 bool is_filled(const fs::path& path) {
   std::error_code error;
@@ -203,9 +203,11 @@ void ProgramRunner::finish(SolverOutput& output, RunFolder& mine, const SolverRu
     const auto place = mine.commit(output.history.has_value());
     if (output.history) output.history = (place / history_name).string();
     if (output.events) output.events = (place / events_name).string();
-    if (!output.failure.empty() && folder_->keeps_failures())
-      output.failure += fmt::format(" Again: cd {} && {}", shell_quoted(place.string()),
-                                    command_in(place, run));
+    if (output.failure.empty() || !folder_->keeps_failures()) return;
+    if (command_.makes_all_runs())
+      write_file(place / runs_name, line_of(run) + (place / history_name).string() + '\n');
+    output.failure +=
+        fmt::format(" Again: cd {} && {}", shell_quoted(place.string()), command_in(place, run));
   } catch (const FileError& error) {
     // A full disk, or what the program has done to its folder, costs this run only.
     output.history.reset();

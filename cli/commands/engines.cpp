@@ -9,7 +9,6 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/text.hpp"
-#include "clackers/campaign/atlas.hpp"
 #include "clackers/campaign/run.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/record/record.hpp"
@@ -153,8 +152,7 @@ std::string cases_of(const EnginesOptions& options) {
 void write_page(const EnginesOptions& options, const campaign::Store& store,
                 const std::string& folder, const std::string& line) {
   OutputFile file(folder + "/index.html", OnInterrupt::finish);
-  file.stream() << campaign::campaign_page(store, {}, "engines " + options.action,
-                                           record::provenance(line));
+  file.stream() << campaign::engines_page(store, record::provenance(line));
   file.commit();
   if (!options.common.quiet) note(fmt::format("Wrote {}/index.html", folder));
 }

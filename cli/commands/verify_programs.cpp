@@ -113,9 +113,9 @@ std::vector<solvers::SolverSubject> program_subjects(const ProgramOptions& optio
   if (!options.any()) return {};
   solvers::ProgramRequest request{process_options_of(options), {}};
   for (std::size_t i = 0; i < count; ++i)
-    request.programs.push_back(
-        {options.commands[i], options.names.empty() ? std::string() : options.names[i],
-         read_labels(options.labels)});
+    request.programs.push_back({options.commands[i],
+                                options.names.empty() ? std::string() : options.names[i],
+                                read_labels(options.labels)});
   return solvers::subjects_of(request);
 }
 
@@ -123,7 +123,9 @@ void report_failure_of_all(const record::Record& record) {
   const auto* failure = record::failure_of_all(record);
   if (failure == nullptr || record.interrupted) return;
   const auto printed = report::printed_text(failure->printed);
-  auto sentence = "every run failed; the first one: " + failure->score.failure;
+  auto sentence =
+      fmt::format("every run failed; the first one, with step [s] or tolerance {:g}: {}",
+                  failure->score.step, failure->score.failure);
   if (!sentence.ends_with('.')) sentence += '.';
   report_error(sentence + (printed.empty() ? "" : " It printed: " + printed),
                failure->score.failure_code);

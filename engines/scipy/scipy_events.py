@@ -22,7 +22,7 @@ def move(problem, settings, tolerance, history):
         gap.terminal, gap.direction = True, 0 if settings.get("direction") == "no" else -1
         events.append(gap)
     t, y = problem["start"]["t"], numpy.array(problem["start"]["u"] + problem["start"]["v"], float)
-    rows, before = [(t, *y)], time.process_time()
+    rows, before, repeated = [(t, *y)], time.process_time(), 0
     while t < end:
         grid = None
         if "grid" in settings:
@@ -36,6 +36,9 @@ def move(problem, settings, tolerance, history):
             break
         k = next(k for k, found in enumerate(run.t_events) if len(found))
         contact, t, y = problem["contacts"][k], run.t_events[k][-1], run.y_events[k][-1].copy()
+        repeated = repeated + 1 if t - rows[-1][0] < 1e-9 else 0
+        if repeated == 50:
+            sys.exit(f"50 events at t = {t}")
         b = numpy.array(contact["direction"], float)
         if rows[-1][0] < t:
             rows.append((t, *y))

@@ -16,6 +16,14 @@ version = "echo 1.2"
 build = "cp {folder}/solver.sh {program}"
 command = "sh {program} {h} {out}"
 traps = ["It bounces too little."]
+[[facts]]
+text = "It bounces with <0.9>."
+setting = "default"
+case = "stop"
+quantity = "restitution"
+from = 0.89
+to = 0.91
+source = "ours"
 [[settings]]
 name = "default"
 why = "as it is"
@@ -69,7 +77,12 @@ class Engines(CommandTest):
                                 "--format", "csv"))
         self.assertEqual(stated, [{"steps": "40"}])
         page = pathlib.Path(self.path("out/index.html"))
-        self.assertIn("ours/tuned 1.2", page.read_text())
+        text = page.read_text()
+        self.assertIn("<h1>0 of 1 engines are seen to converge to the exact motion through impacts as they come, 1 in some setting</h1>", text)
+        self.assertIn("restitution 0.9", text)
+        self.assertIn("clackers engines run ours --setting default --case stop</pre>", text)
+        self.assertNotIn(self.path(""), text)
+        self.assertNotRegex(text, "<script|src=|url\\(")
         page.unlink()
         self.assertEqual(run(*words, "--quiet").returncode, 0)
         self.assertTrue(page.exists())

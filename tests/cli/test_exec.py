@@ -128,6 +128,71 @@ class Good(ExecTest):
                          [("newmark", "method"), ("mine", "program"), ("yours", "program")])
         self.assertEqual(self.subject("--exec", MIDPOINT, *SHORT)["name"], "midpoint")
 
+    def test_one_process_may_make_all_runs(self):
+        log = self.path("log")
+        command = "sh " + self.script(
+            f"echo start >> {log}\nwhile read h n out; do python3 {SOLVERS}/midpoint.py $1 $h \"$out\"; done < $2"
+        ) + " {case} {runs}"
+        single = self.subject("--exec", MIDPOINT, *STOP, "--levels", "2", "--samples-per-level", "2", "--budget", "0")
+        options = (*STOP, "--levels", "2", "--samples-per-level", "2", "--budget", "0")
+        for _ in range(2):
+            batch = self.subject("--exec-batch", command, *options)
+            self.assertEqual([(run["step"], run["u_error"]) for run in self.runs(batch)],
+                             [(run["step"], run["u_error"]) for run in self.runs(single)])
+        self.assertEqual(self.text_of("log"), "start\n")
+        self.subject("--exec-batch", command, *options, "--fresh")
+        self.assertEqual(self.text_of("log"), "start\nstart\n")
+
+    def test_one_process_by_tolerances_reads_them(self):
+        command = "cp {runs:tolerance} " + self.path("seen") + "; exit 3"
+        subject = self.subject("--exec-batch", command, "--tolerances", "1e-3:1e-5", *STOP)
+        self.assertEqual([line.split()[0] for line in self.text_of("seen").splitlines()],
+                         ["0.001", "0.0001", "1e-05"])
+        self.assertEqual([run["failure"] for run in self.runs(subject)], ["exit status 3."] * 3)
+
+    def test_one_process_that_fails_leaves_what_it_finished(self):
+        command = "sh " + self.script(f"""i=0
+while read h n out; do i=$((i + 1))
+  python3 {SOLVERS}/midpoint.py $1 $h "$out"
+  [ $i != 3 ] || {{ echo broken; exit 9; }}
+done < $2""") + " {case} {runs}"
+        subject = self.subject("--exec-batch", command, *STOP, "--levels", "4", "--samples-per-level", "1", "--budget", "0",
+                               "--work", self.path("work"))
+        runs = self.runs(subject)
+        self.assertEqual([run["finished"] for run in runs], [True, True, False, False])
+        self.assertTrue(all(run["failure"].startswith("exit status 9.") for run in runs[2:]))
+        # The kept folder and the command that it names make the run again.
+        again = runs[3]["failure"].split("Again: ")[1].rstrip(".")
+        subprocess.run(again, shell=True, check=True, cwd="/")
+
+    def test_failure_names_the_command_that_repeats_it(self):
+        solver = self.script("echo no licence >&2; exit 7")
+        done = run("verify", "--exec", solver + " {h} {out}", *SHORT, "--work", self.path("work"))
+        self.assertEqual(done.returncode, 4)
+        text = " ".join(done.stderr.split())
+        self.assertRegex(text, r"step \[s\] or tolerance [0-9.]+: exit status 7\. Again: cd \S+ && ")
+        self.assertIn("It printed: no licence", text)
+
+    def test_cost_is_the_programs_own_or_that_of_its_process(self):
+        seconds = [run["seconds"] for run in self.runs(self.subject("--exec", MIDPOINT, *SHORT))]
+        self.assertTrue(all(0 < one < 60 for one in seconds), seconds)
+        again = [run["seconds"] for run in self.runs(self.subject("--exec", MIDPOINT, *SHORT))]
+        self.assertEqual(again, seconds)
+        command = MIDPOINT + " && echo '# seconds 0.25 steps 40' >> {out}"
+        for run_ in self.runs(self.subject("--exec", command, *SHORT)):
+            self.assertEqual((run_["seconds"], run_["work"]["steps"]), (0.25, 40))
+
+    def test_labels_stand_in_record_and_table(self):
+        words = ("--label", "precision=single", "--label", "springs=force")
+        subject = self.subject("--exec", MIDPOINT, *SHORT, *words)
+        self.assertEqual(subject["labels"], {"precision": "single", "springs": "force"})
+        self.assertIn("midpoint: precision=single, springs=force.", run("verify", "--exec", MIDPOINT, *SHORT, *words).stdout)
+        self.good("respond", "stop", "--step", "0.01", "--format", "csv", "--out", self.path("h.csv"), "--quiet")
+        done = run("check", self.path("h.csv"), "--case", "stop", "--format", "json", *words)
+        self.assertEqual(json.loads(done.stdout)["cases"][0]["subjects"][0]["labels"]["springs"], "force")
+        for wrong in (("a",), ("=b",), ("a=1", "--label", "a=2")):
+            self.refused("verify", "--exec", MIDPOINT, "--label", *wrong, code="bad-syntax", says="--label")
+
     def test_history_may_be_standard_output(self):
         command = MIDPOINT.replace("{out}", "/dev/stdout")
         self.assertTrue(all(run["finished"]
@@ -307,7 +372,7 @@ class Bad(ExecTest):
     def test_refusals(self):
         for command, says in (("", "empty"), ("solver {out}", "{h}"),
                               ("solver {h} {our}", 'Did you mean "out"?'),
-                              ("solver {h} {Case}", 'Did you mean "case"?')):
+                              ("solver {h} {Case}", 'Did you mean "case"?'), ("solver {runs} {h}", "{runs}")):
             self.refused("verify", "--exec", command, code="(?:bad-syntax|unknown-name)", says=says)
         self.refused("verify", "--exec", "a {h}", "--exec", "a {h}", code="bad-syntax", says="--name")
         self.refused("verify", "--exec", "a {h}", "--name", "a", "--name", "b", code="wrong-size",

@@ -18,6 +18,9 @@ void add(toml::array& list, const MethodEntry& entry) {
   toml::table labels;
   for (const auto& [key, value] : entry.labels) labels.insert(key, value);
   if (!labels.empty()) values.insert("labels", std::move(labels));
+  toml::array steps;
+  for (const double step : entry.steps) steps.push_back(step);
+  if (!steps.empty()) values.insert("steps", std::move(steps));
   list.push_back(std::move(values));
 }
 

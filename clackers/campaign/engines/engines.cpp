@@ -29,7 +29,7 @@ class EngineReader : public TomlReader {
   Engine read(const toml::table& root) const {
     require_known(root,
                   {"name", "integrates", "licence", "debian", "npm", "version", "build", "command",
-                   "sources", "traps", "settings"},
+                   "sources", "traps", "settings", "facts", "steps"},
                   "");
     Engine engine;
     engine.name = word(need(root, "name", "the engine's name"), "name");
@@ -45,6 +45,11 @@ class EngineReader : public TomlReader {
     need(root, "settings", "[[settings]] above each setting");
     for (const auto& node : *tables(root, "settings"))
       engine.settings.push_back(setting(*node.as_table()));
+    if (const auto* steps = root.get("steps"))
+      for (const auto& item : list(*steps, "steps")) engine.steps.push_back(number(item, "a step"));
+    if (root.contains("facts"))
+      for (const auto& node : *tables(root, "facts"))
+        engine.facts.push_back(fact(*node.as_table()));
     return engine;
   }
 
@@ -54,6 +59,13 @@ class EngineReader : public TomlReader {
     if (const auto* node = root.get(key))
       for (const auto& item : list(*node, key)) found.push_back(word(item, key));
     return found;
+  }
+  EngineFact fact(const toml::table& values) const {
+    require_known(values, {"text", "setting", "case", "quantity", "is", "from", "to", "source"},
+                  " of a fact");
+    return {word(need(values, "text", "a sentence"), "text"),
+            word(need(values, "setting", "the setting that shows it"), "setting"),
+            word(need(values, "case", "the case"), "case")};
   }
   EngineSetting setting(const toml::table& values) const {
     require_known(values, {"name", "words", "why", "expect"}, " of a setting");
@@ -131,9 +143,17 @@ std::string engines_specification(std::span<const EngineRun> runs, std::string_v
                         {"version", version},
                         {"licence", engine->licence},
                         {"integrates", engine->integrates},
-                        {"why", setting->why}}});
+                        {"why", setting->why}},
+                       engine->steps});
+    for (const auto& fact : engine->facts)
+      if (fact.setting == setting->name)
+        entries.back().labels["fact " + fact.case_word] = fact.text;
   }
-  return with_methods(fmt::format("metrics = [\"restitution-median\", \"restitution-smallest\", \"force-share-first\"]\n{}{}", ladder, cases), entries);
+  return with_methods(
+      fmt::format(
+          "metrics = [\"restitution-median\", \"restitution-smallest\", \"force-share-first\"]\n{}{}",
+          ladder, cases),
+      entries);
 }
 
 std::string_view engine_cases() {
@@ -172,6 +192,7 @@ record::Sheet engine_sheet(const Engine& engine, const std::string& version) {
   for (const auto& setting : engine.settings)
     add("setting " + setting.name,
         setting.why + (setting.words.empty() ? "" : " (" + setting.words + ")"));
+  for (const auto& fact : engine.facts) add("fact", fact.text);
   for (const auto& trap : engine.traps) add("trap", trap);
   for (const auto& source : engine.sources) add("source", source);
   return sheet;

@@ -19,6 +19,15 @@ version = "cat {folder}/version"
 build = "cc -o {program} {folder}/ours.c"
 command = "{program} {case:text} {h} {out}"
 traps = ["None."]
+steps = [0.02, 0.01]
+[[facts]]
+text = "It sleeps."
+setting = "tuned"
+case = "stop:eta=0.7"
+quantity = "error"
+from = 0.1
+to = 0.2
+source = "ours"
 [[settings]]
 name = "default"
 why = "as it is"
@@ -75,6 +84,10 @@ TEST_F(Engines, SpecificationHasASubjectASetting) {
   EXPECT_EQ(specification.methods()[0].text, "/p {case:text} {h} {out}");
   EXPECT_EQ(specification.methods()[1].text, "/p {case:text} {h} {out} tuned=1");
   EXPECT_EQ(specification.methods()[1].expect, "proper:2");
+  EXPECT_EQ(specification.methods()[1].labels.at("fact stop:eta=0.7"), "It sleeps.");
+  EXPECT_FALSE(specification.methods()[0].labels.contains("fact stop:eta=0.7"));
+  EXPECT_EQ(specification.methods()[0].labels.at("licence"), "MIT");
+  EXPECT_EQ(specification.methods()[0].steps, (std::vector<double>{0.02, 0.01}));
   EXPECT_EQ(specification.systems(), 4);
 }
 

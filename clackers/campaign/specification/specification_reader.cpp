@@ -68,7 +68,7 @@ class SpecificationReader : public TomlReader {
   void add_solver(const toml::node& node, const toml::table& values) {
     if (values.contains("plugin"))
       fail(node, std::string(solvers::instead_of_plugin), "unknown-name");
-    require_known(values, {"exec", "name", "expect", "labels"}, " of a method");
+    require_known(values, {"exec", "name", "expect", "labels", "steps"}, " of a method");
     const auto* exec = values.get("exec");
     if (exec == nullptr)
       fail(node, "a table among methods has no exec; allowed: { exec = \"COMMAND\" }.",
@@ -84,6 +84,8 @@ class SpecificationReader : public TomlReader {
     if (const auto* labels = values.get("labels"))
       for (const auto& [key, value] : table(*labels, "labels", "{ KEY = \"value\" }"))
         entry.labels[std::string(key.str())] = word(value, "a label");
+    if (const auto* steps = values.get("steps"))
+      for (const auto& item : list(*steps, "steps")) entry.steps.push_back(number(item, "a step"));
     add_method(node, std::move(entry));
   }
 

@@ -64,6 +64,8 @@ class Links:
             return f"[{words}]({up}/explanation/decisions/index.md)"
         if name.startswith(GENERATED):
             return f"[{words}]({up}/{name.removeprefix('docs/manual/')}{anchor})"
+        if name.startswith("docs/manual/_static/"):
+            return f'<a href="{up}/{name.removeprefix("docs/manual/")}">{as_html(words)}</a>'
         if not path.exists():
             raise SystemExit(f"{source.relative_to(self.root)}: the link to {target} leads nowhere")
         if path.is_dir():
