@@ -24,7 +24,7 @@ class Help(CommandTest):
     def test_describes_every_option_of_the_grammar(self):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
         own = {"list": [], "explain": [], "show": ["--case", "--problem", "--set", "--threshold", "--report"],
-               "check": ["--name", "--against", "--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
+               "check": ["--name", "--label", "--against", "--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
                          "--tolerance", "--tolerances", "--metrics", "--impacts", "--report", "--require", "--baseline"],
                "paper": [],
                "campaign": ["--database", "--shard", "--jobs", "--yes", "--slurm", "--shards", "--sbatch", "--dry-run",
@@ -34,7 +34,7 @@ class Help(CommandTest):
                "respond": ["--case", "--problem", "--report", "--set", "--samples", "--step", "--times", "--impacts", "--collisions", "--plot",
                            "--digits", "--energy", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--samples-per-level", "--neighbours",
-                          "--budget", "--exec", "--name", "--expect", "--tolerances", "--timeout",
+                          "--budget", "--exec", "--exec-batch", "--name", "--label", "--expect", "--tolerances", "--timeout",
                           "--work", "--fresh", "--environment", "--jobs", "--require", "--baseline", "--only",
                           "--report"]}
         for command, options in own.items():
