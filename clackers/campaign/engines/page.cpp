@@ -143,7 +143,7 @@ std::string cell_html(const Task& task, const std::string& head) {
 std::string matrix(const std::vector<Task>& tasks, const std::vector<std::string>& cases) {
   std::string out =
       "<div class=\"scroll\"><table class=\"engines\"><thead><tr><th scope=\"col\">setting</th><th "
-      "scope=\"col\">share of the force<small>in one step, of h² a</small></th>";
+      "scope=\"col\">share of a force<small>in one step</small></th>";
   for (const auto& name : cases) out += fmt::format("<th scope=\"col\">{}</th>", escape(name));
   out += "</tr></thead><tbody>\n";
   std::map<std::size_t, std::map<std::size_t, const Task*>> rows;
@@ -164,7 +164,7 @@ std::string matrix(const std::vector<Task>& tasks, const std::vector<std::string
     for (const auto& [system, task] : cells)
       if (!std::isfinite(share)) share = task->share;
     out += fmt::format(
-        "<tr><th scope=\"row\">{}<small>{}</small></th><td data-head=\"share of the force\">{}</td>",
+        "<tr><th scope=\"row\">{}<small>{}</small></th><td data-head=\"share of a force\">{}</td>",
         escape(label_of(first, "setting")), escape(label_of(first, "why")), html_number(share, 3));
     for (std::size_t system = 0; system < cases.size(); ++system)
       out += cells.contains(system) ? cell_html(*cells.at(system), cases[system]) : "<td></td>";
@@ -280,7 +280,7 @@ std::string engines_page(const Store& store, const record::Provenance& from) {
       escape(from.version));
   out += matrix(tasks, cases);
   out +=
-      "<p>Share of the force: s in u<sub>1</sub> = u<sub>0</sub> + h v<sub>0</sub> + s h² "
+      "<p>Share of a force: s in u<sub>1</sub> = u<sub>0</sub> + h v<sub>0</sub> + s h² "
       "a<sub>0</sub>, measured in the first step; explicit Euler 0, symplectic Euler 1, the exact "
       "motion nearly 1/2, Rapier (1 + 1/n)/2 with n iterations.</p></section>\n";
   for (std::size_t system = 0; system < cases.size() && system < 2; ++system)
