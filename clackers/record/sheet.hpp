@@ -75,6 +75,7 @@ struct Axes {
   std::string y{};  ///< what several curves have in common, for their axis
   double mark = std::numeric_limits<double>::quiet_NaN();  ///< a line at this x, NaN for none
   std::string mark_text{};                                 ///< what it is
+  std::string note{};  ///< what a reader must know of the curves
 };
 
 /// Rows held in memory.

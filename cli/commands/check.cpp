@@ -79,9 +79,10 @@ study::CheckRequest request_of(const CheckOptions& options, const std::string& l
 }
 
 // Without an exact motion: the exit code is that of the tolerance.
-int run_against(const CheckOptions& options, const Command& command) {
-  constexpr auto fitting = std::to_array<std::string_view>(
-      {"--against", "--columns", "--steps", "--tolerances", "--tolerance", "--format", "--out"});
+int run_against(const CheckOptions& options, const Command& command, const std::string& line) {
+  constexpr auto fitting =
+      std::to_array<std::string_view>({"--against", "--columns", "--steps", "--tolerances",
+                                       "--tolerance", "--report", "--format", "--out"});
   const auto is_wrong = [&](const Option& option) {
     return std::ranges::find(fitting, option.name) == fitting.end() &&
            (!option.values().empty() || (option.name == "--impacts" && options.impacts));
@@ -102,11 +103,16 @@ int run_against(const CheckOptions& options, const Command& command) {
   if (!options.tolerances.empty())
     request.tolerances = numbers_of("--tolerances", options.tolerances);
   if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
+  ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop);
-  const auto found = study::check_against(request, &interrupt_flag());
+  auto found = study::check_against(request, &interrupt_flag());
   report::write(found.sheets, "clackers/against/1", results.format(), results.stream(),
                 results.style());
   results.finish();
+  found.sheets.push_back(std::move(found.differences));
+  if (page.wanted() && !page.write(report::html(found.sheets, "Two solvers, no exact motion",
+                                                record::provenance(line), nullptr, "check")))
+    return 4;
   return found.is_within ? 0 : 1;
 }
 
@@ -130,7 +136,7 @@ void take_case_first(CheckOptions& options) {
 
 int run(CheckOptions options, const Command& command, const std::string& line) {
   take_case_first(options);
-  if (!options.against.empty()) return run_against(options, command);
+  if (!options.against.empty()) return run_against(options, command, line);
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
   const auto baseline = baseline_of(options.baseline, request);

@@ -3,6 +3,7 @@ import csv
 import json
 import math
 import os
+import re
 import unittest
 
 import jsonschema  # Debian: python3-jsonschema
@@ -181,6 +182,20 @@ class Against(CheckTest):
         self.assertEqual([each["finest"] for each in sets], [1.6e-6, 0.1])
         self.assertAlmostEqual(sets[0]["order"], math.log(4) / math.log(5), delta=0.01)
         self.refused("check", *files, "--against", files[0], *given, "--steps", "1", code="bad-syntax", says="one of them")
+
+    def test_a_page_draws_the_differences_and_the_first_that_is_visible(self):
+        late, page = self.history("late.csv", change=lambda row: row | {"u2": row["u2"] + 0.01 * (row["t"] > 7.005)}), self.path("page.html")
+        done = run("check", late, "--against", self.history("exact.csv"), "--tolerance", "1e-6", "--report", page)
+        self.assertEqual(done.returncode, 1)
+        with open(page, encoding="utf-8") as file:
+            text = file.read()
+        data, drawn = (json.loads(re.search(rf'id="{name}">(.*?)</script>', text)[1]) for name in ("data", "specifications"))
+        points = data["difference"]
+        self.assertEqual({point["series"] for point in points}, {"mass 2"})
+        self.assertAlmostEqual(min(point["x"] for point in points), 7.01, delta=0.05)
+        self.assertEqual(drawn["difference"]["layer"][0]["data"]["values"][0]["x"], 7.01)
+        for words in ("of mass 2 at t = 7.01 s", "Agreement is no proof"):
+            self.assertIn(words, text)
 
     def test_what_cannot_be_compared_is_refused(self):
         exact, other = self.history("exact.csv"), self.history("other.csv", change=lambda row: row | {"t": 1.001 * row["t"]})

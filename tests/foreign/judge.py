@@ -34,10 +34,10 @@ def load(folder=HERE):
             named[entry["name"]] = entry
             for words, says, *system in entry.pop("vary", [["", 0]]):
                 kind = {**entry, "system": (system or [entry["system"]])[0]}
+                kind["says"] = entry.get("says", {}) if says == 0 else says
                 if words or system:
                     kind["name"] = "-".join([entry["name"], *system, *words.split()])
                     kind["solver"] = f"{entry['solver']} {words}"
-                    kind["says"] = entry.get("says", {}) if says == 0 else says
                 named[kind["name"]] = kind
                 for layout in kind.get("layouts", ["5"]):
                     sets.append({**kind, "layout": layout, "group": file.stem, "name": f"{kind['name']}/{layout}"})

@@ -110,9 +110,6 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
     if (!fit.has_line) {
       fit.behaviour = Behaviour::stagnating;
       fit.floor = finest_run(ladder).u_error;
-    } else if (fit.behaviour == Behaviour::stagnating) {
-      fit.behaviour = fit.order >= (1.0 - order_tolerance) * claim.order ? Behaviour::proper
-                                                                         : Behaviour::reduced;
     }
     fit.reason = Code("printed-digits").name();
   }

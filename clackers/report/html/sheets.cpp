@@ -97,9 +97,8 @@ FigureText figure_of(const record::Sheet& sheet) {
   return {name,
           name,
           escape(sheet.title),
-          fmt::format("Against the {}, of the free, undamped vibration.",
-                      escape(sheet.columns[0].label())),
-          reading + "A curve ends where the quantity has no meaning.",
+          fmt::format("Against the {}.", escape(sheet.columns[0].label())),
+          reading + escape(axes.note),
           legend(sheet)};
 }
 
@@ -137,8 +136,11 @@ std::string html(std::span<const record::Sheet> sheets, const std::string& name,
       link[0] = char(std::toupper(static_cast<unsigned char>(link[0])));
       // The head of the page has the summary of the case, which begins the first title.
       const bool is_said = motion != nullptr && sheet.title.starts_with(name + ": ");
+      const bool is_sentence = sheet.title.ends_with('.');
+      const auto sentence = is_sentence ? fmt::format("<p>{}</p>\n", escape(sheet.title)) : "";
       page.sections.push_back({fmt::format("{}-{}", section, page.sections.size() + 1), link,
-                               is_said ? link : sheet.title, sheet_html(sheet)});
+                               is_said || is_sentence ? link : sheet.title,
+                               sentence + sheet_html(sheet)});
     }
   }
   page.sections.push_back({"again", "Run again", "Run it again", again_html(from)});

@@ -11,6 +11,7 @@
 #include "clackers/base/number.hpp"
 #include "clackers/input/history.hpp"
 #include "clackers/judge/convergence/self_convergence.hpp"
+#include "clackers/record/reduced_curve.hpp"
 #include "clackers/study/check/named_resolution.hpp"
 
 namespace clackers::study {
@@ -112,6 +113,38 @@ std::vector<record::Cell> self_row(const char* name, const Levels& levels, doubl
   return row;
 }
 
+// The differences of the rows of two histories over the displacement of each mass; none that is zero.
+record::Sheet difference_curves(const model::Trajectory& a, const model::Trajectory& b,
+                                const std::vector<std::vector<std::size_t>>& rows,
+                                const std::vector<double>& peaks) {
+  constexpr std::size_t most_masses = 9;
+  record::Sheet sheet{"clackers/difference/1",
+                      "Differences at the common times",
+                      {{"t", "s", "time t [s]"}},
+                      {},
+                      record::Axes{.log_y = true,
+                                   .y = "|u - u'| over the largest |u|",
+                                   .note = "Times without any difference are left out."}};
+  const auto drawn = std::min(peaks.size(), most_masses);
+  for (std::size_t mass = 1; mass <= drawn; ++mass)
+    sheet.columns.push_back({fmt::format("u{}", mass), "", fmt::format("mass {}", mass)});
+  if (drawn < peaks.size())
+    sheet.curves->note += fmt::format(" Of {} masses the first {} are drawn.", peaks.size(), drawn);
+  const auto relative = [&](std::size_t mass, std::size_t point) {
+    const auto off =
+        a.u[rows[point][0] * peaks.size() + mass] - b.u[rows[point][1] * peaks.size() + mass];
+    return peaks[mass] > 0.0 ? std::abs(off) / peaks[mass] : 0.0;
+  };
+  for (const auto point : record::kept_points(rows.size(), drawn, relative)) {
+    auto& row = sheet.rows.emplace_back(std::vector<record::Cell>{a.t[rows[point][0]]});
+    for (std::size_t mass = 0; mass < drawn; ++mass) {
+      const double off = relative(mass, point);
+      row.push_back(off > 0.0 ? record::Cell(off) : record::Cell());
+    }
+  }
+  return sheet;
+}
+
 }  // namespace
 
 AgainstResult check_against(const AgainstRequest& request, const std::atomic<bool>* interrupt) {
@@ -156,6 +189,9 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
                        {}};
   const auto dof = std::size_t(a.dof);
   double size = 0.0, largest = 0.0;
+  std::vector<double> peaks;
+  double first_visible = INFINITY;
+  std::size_t first_mass = 0;
   for (std::size_t mass = 0; mass < dof; ++mass) {
     double peak = 0.0, difference = 0.0, time = 0.0;
     record::Cell since;
@@ -164,10 +200,14 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
     for (const auto& at : rows) {
       const double t = a.t[at[0]];
       const double off = std::abs(a.u[at[0] * dof + mass] - b.u[at[1] * dof + mass]);
-      if (off > visible_difference * peak && since.index() == 0) since = t;
+      if (off > visible_difference * peak && since.index() == 0) {
+        since = t;
+        if (t < first_visible) first_visible = t, first_mass = mass + 1;
+      }
       if (off > difference) difference = off, time = t;
     }
     const double relative = peak > 0.0 ? difference / peak : 0.0;
+    peaks.push_back(peak);
     size = std::max(size, peak);
     largest = std::max(largest, relative);
     masses.rows.push_back({(long long)(mass) + 1, difference, relative, time, since});
@@ -193,6 +233,13 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
                      {}};
   if (size > 0.0) sets.rows = {self_row("first", first, size), self_row("second", second, size)};
   result.sheets = {std::move(masses), std::move(sets)};
+  result.differences = difference_curves(a, b, rows, peaks);
+  if (first_mass > 0) {
+    result.differences.curves->mark = first_visible;
+    result.differences.curves->mark_text =
+        fmt::format("first difference above {}, of mass {} at t = {:.6g} s", visible_difference,
+                    first_mass, first_visible);
+  }
   return result;
 }
 

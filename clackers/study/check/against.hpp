@@ -25,6 +25,8 @@ struct AgainstResult {
   /// Of each mass the largest difference and when it exceeds `visible_difference`; of each set the
   /// order with which its own differences fall.
   std::vector<record::Sheet> sheets;
+  /// Curves of the relative differences of the first masses; the mark is where the first is visible.
+  record::Sheet differences;
   bool is_within = true;  ///< of the tolerance; true without one
 };
 

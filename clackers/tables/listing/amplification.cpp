@@ -104,6 +104,8 @@ std::vector<Amplification> amplification(const methods::Integrator& integrator,
 
 std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integrator) {
   const auto name = integrator.facts().name;
+  constexpr auto note =
+      "Of the free, undamped vibration. A curve ends where the quantity has no meaning.";
   const record::Column steps{"h/T", "", "step over period, h/T"};
   record::Sheet accuracy{"clackers/accuracy/1",
                          fmt::format("Period elongation and amplitude decay of {}", name),
@@ -111,7 +113,7 @@ std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integ
                           {"period_elongation", "", "period elongation T'/T - 1"},
                           {"amplitude_decay", "", "amplitude decay in a period, 1 - A'/A"}},
                          {},
-                         record::Axes{.highest = 1.0, .y = "T'/T - 1 and 1 - A'/A"}};
+                         record::Axes{.highest = 1.0, .y = "T'/T - 1 and 1 - A'/A", .note = note}};
   for (const auto& point : amplification(integrator, linear(0.01, 0.4, 40)))
     accuracy.rows.push_back(
         {point.steps, cell(point.period_elongation), cell(point.amplitude_decay)});
@@ -119,7 +121,7 @@ std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integ
                        fmt::format("Spectral radius of {}: above 1 the motion grows", name),
                        {steps, {"spectral_radius", "", "spectral radius, largest |eigenvalue|"}},
                        {},
-                       record::Axes{.log_x = true, .highest = 1.5}};
+                       record::Axes{.log_x = true, .highest = 1.5, .note = note}};
   const double limit = integrator.facts().stability_limit / (2.0 * std::numbers::pi);
   auto all = linear(-2.0, 2.0, 161);
   for (double& step : all) step = std::pow(10.0, step);
@@ -137,7 +139,10 @@ std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integ
        {"u_overshoot", "", "displacement: largest |u| over amplitude"},
        {"v_overshoot", "", "velocity: largest |v| over amplitude"}},
       {},
-      record::Axes{.log_x = true, .log_y = true, .y = "largest value over the exact amplitude"}};
+      record::Axes{.log_x = true,
+                   .log_y = true,
+                   .y = "largest value over the exact amplitude",
+                   .note = note}};
   for (const auto& point : amplification(integrator, all)) {
     radius.rows.push_back({point.steps, cell(point.spectral_radius)});
     overshoot.rows.push_back({point.steps, cell(point.u_overshoot), cell(point.v_overshoot)});

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "clackers/base/codes.hpp"
-#include "clackers/judge/convergence/fit/irregular.hpp"
 #include "clackers/judge/convergence/fit/rules.hpp"
 #include "clackers/judge/convergence/fit/two_terms.hpp"
 
@@ -40,7 +39,6 @@ LadderFit dips_to_floor(const Range& range, const FitContext& context, const Two
   fit.last_level = range.clear;
   fit.largest_step = law.largest;
   fit.smallest_step = law.smallest;
-  if (fit.floor >= context.saturation) return undecided(range, "larger-than-motion");
   if (law.octaves_of_p() >= shortest_line) {
     fit.has_line = true;
     fit.order = law.p;
@@ -78,7 +76,6 @@ RuleResult cancellation(const Range& range, const FitContext& context) {
     return dips_to_floor(range, context, *law);
   if (law->q > 0.0 && law->octaves_of_q() >= octaves_to_order)
     return lower_term(range, context, *law);
-  if (law->points < enough_points) return {};
   auto fit = undecided(range, "errors-cancel");
   fit.cancel_step = law->crossing;
   return fit;

@@ -58,7 +58,7 @@ std::optional<TwoTerms> law_with_floor(const Range& range, const FitContext& con
   }
   constexpr double significant = 3.0, most_uncertain = 0.25;
   if (law->scatter > straight_scatter || law->b < significant * law->b_error ||
-      law->octaves_of_p() < shortest_line || law->octaves_of_q() < -1.0 ||
+      law->octaves_of_p() < shortest_line || law->octaves_of_q() < -1.5 ||
       law->p_spread > most_uncertain * law->p)
     return {};
   return law;
@@ -128,7 +128,6 @@ LadderFit stagnates(const Range& range, const FitContext& context, const Window&
   for (int last = flat.first; last > range.first; --last)
     if (const auto line = line_up_to(range, context, last)) {
       const auto fit = with_floor(with_line(range, *line), floor);
-      if (fit.order < lowest_real_order) continue;
       return shows(fit, behaviour_above(fit, floor, context), reason);
     }
   auto fit = with_floor(range.blank, floor);

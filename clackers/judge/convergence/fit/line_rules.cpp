@@ -23,7 +23,13 @@ RuleResult claimed_to(const Range& range, const FitContext& context, int least) 
 }  // namespace
 
 RuleResult claimed_line(const Range& range, const FitContext& context) {
-  return claimed_to(range, context, range.clear);
+  auto fit = claimed_to(range, context, range.clear);
+  // A bend by a floor that begins to show leaves the order of the line more certain than a bend by a
+  // term of a lower order.
+  if (fit && fit->spread > context.order_tolerance * context.claimed_order)
+    if (auto above = line_with_floor(range, context); above && above->spread < fit->spread)
+      return above;
+  return fit;
 }
 
 // Where nothing else explains them, up to two levels in front of the floor may be bent by it: that
