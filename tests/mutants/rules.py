@@ -7,6 +7,7 @@ import concurrent.futures
 import os
 import re
 import subprocess
+import time
 
 SUPPORT = """#pragma once
 #include <cstdio>
@@ -41,6 +42,7 @@ Number limit(int rule, Number value) {
 }  // namespace mutants
 """
 NEVER, ALWAYS, LARGER = range(3)
+SLOW = 3.0  # seconds of a test that is tried where all others pass
 LIMITS = re.compile(r"(?<!static )\bconstexpr ((?:double|int|std::size_t|long long) [^;]*;)")
 
 
@@ -101,7 +103,7 @@ class Tests:
     """The tests of a program with what each of them sees of the rules."""
 
     def __init__(self, program, scratch):
-        self.program, self.scratch, self.seen = str(program), scratch, {}
+        self.program, self.scratch, self.seen, self.seconds = str(program), scratch, {}, {}
         listed, suite = self.run({}, "--gtest_list_tests").stdout, ""
         for line in listed.splitlines()[1:]:
             suite = suite if line.startswith(" ") else line.split()[0]
@@ -116,17 +118,23 @@ class Tests:
     def first(self, numbered):
         number, name = numbered
         seen = self.scratch / f"seen{number}"
+        start = time.monotonic()
         if self.run({"CLACKERS_SEEN": str(seen)}, f"--gtest_filter={name}").returncode == 0:
-            self.seen[name] = seen.read_bytes()
+            self.seen[name], self.seconds[name] = seen.read_bytes(), time.monotonic() - start
 
     def noticing(self, rule, kind):
         """(whether a test fails with this version, number of tests that see it)."""
         sees = {NEVER: 1, ALWAYS: 2, LARGER: 3}[kind]
         names = [name for name, seen in self.seen.items() if seen and seen[rule] & sees]
-        if not names:
-            return False, 0
+        for slow in (False, True):
+            part = [name for name in names if (self.seconds[name] > SLOW) == slow]
+            if part and self.fails(rule, kind, part):
+                return True, len(names)
+        return False, len(names)
+
+    def fails(self, rule, kind, names):
         try:
-            done = self.run({"CLACKERS_MUTANT": f"{rule} {kind}"}, "--gtest_fail_fast", f"--gtest_filter={':'.join(names)}")
+            return self.run({"CLACKERS_MUTANT": f"{rule} {kind}"}, "--gtest_fail_fast",
+                            f"--gtest_filter={':'.join(names)}").returncode != 0
         except subprocess.TimeoutExpired:
-            return True, len(names)
-        return done.returncode != 0, len(names)
+            return True
