@@ -32,7 +32,7 @@ bool is_decided(const record::Subject& subject) {
          !(verdict == Verdict::agrees && has_weak_envelope(subject));
 }
 
-bool is_at_floor(const measure::Level& level) {
+bool is_at_floor(const measure::ScoreLevel& level) {
   return std::ranges::all_of(level.runs, [](const measure::RunScore& run) {
     return run.u_error <= judge::rounding_slack * run.rounding_floor;
   });

@@ -229,7 +229,7 @@ void SubjectStudy::group() {
   }
   ladder_.clear();
   for (const auto& level : levels_) {
-    auto& added = ladder_.emplace_back(measure::Level{level.nominal, {}});
+    auto& added = ladder_.emplace_back(measure::ScoreLevel{level.nominal, {}});
     for (const auto* made : level.runs) added.runs.push_back(made->measured.run.score);
   }
 }
@@ -262,10 +262,10 @@ std::optional<measure::SharedImpacts> SubjectStudy::shared_impacts() const {
 // errors with the evidence of the finest run. Causes of a method's errors explain its verdict and do
 // not change it: a method moves this very system.
 void SubjectStudy::decide() {
-  judge::Facts facts{.contact_time = subject_.contact_time,
-                     .tolerance = subject_.tolerance,
-                     .shared = shared_impacts(),
-                     .by_tolerance = by_tolerance()};
+  judge::JudgeContext facts{.contact_time = subject_.contact_time,
+                            .tolerance = subject_.tolerance,
+                            .shared = shared_impacts(),
+                            .by_tolerance = by_tolerance()};
   const auto& motion = *problem_.problem.motion;
   for (const auto& [step, made] : runs_) {
     const auto& run = made.measured.run;

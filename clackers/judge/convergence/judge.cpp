@@ -37,7 +37,7 @@ ErrorPoint impact_time_error(const measure::RunScore& run) {
 // Whether the energy at the end is wrong, as asked, in most runs of both finest levels.
 bool energy_is(const measure::Ladder& ladder, auto wrong) {
   if (ladder.size() < 2) return false;
-  return std::all_of(ladder.end() - 2, ladder.end(), [&](const measure::Level& level) {
+  return std::all_of(ladder.end() - 2, ladder.end(), [&](const measure::ScoreLevel& level) {
     const auto run_is = [&](const measure::RunScore& run) { return run.finished && wrong(run); };
     return 2 * std::ranges::count_if(level.runs, run_is) > std::ssize(level.runs);
   });
@@ -85,7 +85,7 @@ bool is_unexplained_floor(const LadderFit& fit) {
 
 // The fit with the behaviour that the rules of judge.hpp give, first hit wins.
 LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim& claim,
-                       const Facts& facts) {
+                       const JudgeContext& facts) {
   const bool open = !shows_a_line(fit) && fit.behaviour != Behaviour::exact &&
                     fit.reason != Code("contact-not-resolved").name();
   // Less than all of the initial energy too much: a motion that should have decayed, and has not grown.
@@ -136,7 +136,7 @@ Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
 
 // Whether errors are those of contacts of few steps, whose upper envelope falls while some are
 // resolved by chance, whatever floor follows.
-bool is_above_floor(const LadderFit& fit, const Facts& facts) {
+bool is_above_floor(const LadderFit& fit, const JudgeContext& facts) {
   constexpr double enough_steps = 128.0;
   return facts.contact_time > 0.0 && facts.contact_time < enough_steps * fit.smallest_step;
 }
@@ -155,7 +155,7 @@ bool is_still_coarse(const LadderFit& fit) {
          fit.errors.back() > large && rate(last) > rate(fit.first_level) + least_rise;
 }
 
-Verdict compare_floor(const LadderFit& fit, const Claim& claim, const Facts& facts) {
+Verdict compare_floor(const LadderFit& fit, const Claim& claim, const JudgeContext& facts) {
   const bool has_floor =
       fit.behaviour == Behaviour::stagnating ||
       (fit.floor_step > 0.0 && fit.reason == claim.reason && !claim.reason.empty());
@@ -172,7 +172,7 @@ Verdict compare_floor(const LadderFit& fit, const Claim& claim, const Facts& fac
   return claim.reason.empty() || fit.reason == claim.reason ? Verdict::agrees : Verdict::disagrees;
 }
 
-Verdict compare(const LadderFit& fit, const Claim& claim, const Facts& facts) {
+Verdict compare(const LadderFit& fit, const Claim& claim, const JudgeContext& facts) {
   if (claim.behaviour == Behaviour::undecided) return Verdict::not_claimed;
   if (fit.behaviour == Behaviour::undecided) return Verdict::undecided;
   if (claim.behaviour == Behaviour::stagnating && fit.behaviour != Behaviour::exact)
@@ -199,13 +199,13 @@ Verdict compare(const LadderFit& fit, const Claim& claim, const Facts& facts) {
 }
 
 // Of velocities only the order is claimed, that of a line or of an envelope.
-Evidence velocity_evidence(const LadderFit& fit, const Claim& claim, const Facts& facts) {
+Evidence velocity_evidence(const LadderFit& fit, const Claim& claim, const JudgeContext& facts) {
   const Claim line{shows_a_line(fit) ? fit.behaviour : Behaviour::proper, claim.velocity_order, {}};
   return evidence("velocity-order", compare(fit, line, facts),
                   {fit.order, fit.spread, claim.velocity_order});
 }
 
-Mismatch mismatch_of(const LadderFit& fit, const Claim& claim, const Facts& facts) {
+Mismatch mismatch_of(const LadderFit& fit, const Claim& claim, const JudgeContext& facts) {
   if (compare(fit, claim, facts) != Verdict::disagrees) return Mismatch::evidence;
   const bool order_claimed = claim.order > 0.0;
   const bool alike = fit.behaviour == claim.behaviour ||
@@ -224,7 +224,7 @@ int severity(Verdict verdict) {
 
 // Verdict and its reason: of the behaviour, overruled by what is more severe.
 void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder,
-            const Facts& facts) {
+            const JudgeContext& facts) {
   const auto& fit = found.displacement;
   found.verdict = compare(fit, claim, facts);
   // One history without a claim was not fitted for its order.
@@ -262,7 +262,7 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
 
 }  // namespace
 
-Assessment judge(const measure::Ladder& ladder, const Claim& claim, const Facts& facts) {
+Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeContext& facts) {
   Assessment found;
   FitContext context{.claimed_order = claim.order,
                      .order_tolerance = claim.behaviour == Behaviour::irregular

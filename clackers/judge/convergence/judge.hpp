@@ -52,7 +52,7 @@ struct HistoryFacts {
 };
 
 /// What is known of a method or of histories beside their errors.
-struct Facts {
+struct JudgeContext {
   double contact_time = 0.0;             ///< of a compliant contact [s], 0 for a rigid one
   std::optional<double> tolerance{};     ///< largest allowed u_error of the finest run
   std::optional<HistoryFacts> finest{};  ///< of the finest history; nothing for a method
@@ -107,7 +107,7 @@ struct Facts {
 /// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of
 /// another motion: it starts far from the reference, misses an impact or has one too many. Of
 /// several verdicts counts the first of disagrees, undecided, agrees, not claimed.
-Assessment judge(const measure::Ladder& ladder, const Claim& claim, const Facts& facts = {});
+Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeContext& facts = {});
 
 /// Half the distance between two claimed orders: a velocity whose order lies further below that of
 /// the displacement has a lower one.
@@ -123,6 +123,6 @@ const measure::RunScore& finest_run(const measure::Ladder& ladder);
 /// behaviour alone. Empty for no levels.
 std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
                                   const measure::Ladder& ladder, const Claim& claim,
-                                  const Facts& facts);
+                                  const JudgeContext& facts);
 
 }  // namespace clackers::judge

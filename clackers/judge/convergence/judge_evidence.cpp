@@ -119,7 +119,7 @@ bool claims_convergence(const Claim& claim) {
 
 // What the fit itself noticed.
 std::vector<Evidence> of_the_fit(const LadderFit& fit, const measure::Ladder& ladder,
-                                 const Claim& claim, const Facts& facts) {
+                                 const Claim& claim, const JudgeContext& facts) {
   std::vector<Evidence> all;
   const auto note = [&](EvidenceCode code, std::vector<double> numbers) {
     all.push_back(evidence(code, Verdict::not_claimed, std::move(numbers)));
@@ -149,7 +149,7 @@ const measure::RunScore& finest_run(const measure::Ladder& ladder) {
 
 std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
                                   const measure::Ladder& ladder, const Claim& claim,
-                                  const Facts& facts) {
+                                  const JudgeContext& facts) {
   std::vector<Evidence> all;
   if (ladder.empty() || ladder.back().runs.empty()) return all;
   const auto add = [&](std::optional<Evidence> found) {

@@ -44,13 +44,13 @@ struct RunScore {
 };
 
 /// Neighbouring steps around one nominal step.
-struct Level {
+struct ScoreLevel {
   double step = 0.0;           ///< nominal h [s]
   std::vector<RunScore> runs;  ///< the steps of a level, coarsest first
 };
 
 /// Levels of one method, coarsest first.
-using Ladder = std::vector<Level>;
+using Ladder = std::vector<ScoreLevel>;
 
 /// The worst run of a level, the one rule for all tables, figures and fits. Over the runs that
 /// finished: the largest of each error, each floor, each count of work and the time, the energy

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-using Row = Eigen::Map<const VectorXd>;
+using Values = Eigen::Map<const VectorXd>;
 
 // b . M^-1 (f - C v - K u - p) without forming the acceleration of each mass.
 class RelativeAcceleration {
@@ -25,7 +25,7 @@ class RelativeAcceleration {
         by_v_(system_.damping * response_),
         force_(response_.size()) {}
 
-  double operator()(double t, const Row& u, const VectorXd& v) {
+  double operator()(double t, const Values& u, const VectorXd& v) {
     double a = -by_u_.dot(u) - by_v_.dot(v);
     if (!system_.add_load && !system_.nonlinear) return a;
     force_.setZero();
@@ -42,7 +42,7 @@ class RelativeAcceleration {
   VectorXd response_, by_u_, by_v_, force_;
 };
 
-Row row_of(const std::vector<double>& values, std::size_t row, Index dof) {
+Values row_of(const std::vector<double>& values, std::size_t row, Index dof) {
   return {values.data() + row * std::size_t(dof), dof};
 }
 

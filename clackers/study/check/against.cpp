@@ -19,11 +19,11 @@ namespace {
 
 constexpr auto against_name = "check --against";
 
-struct Level {
+struct HistoryLevel {
   input::History history;
   double step = 0.0;  ///< or a tolerance
 };
-using Levels = std::vector<Level>;  // coarsest first
+using Levels = std::vector<HistoryLevel>;  // coarsest first
 
 // The largest number behind u in the names of a file's columns.
 int masses_of(const input::Source& source, input::HistoryOptions options) {
@@ -42,7 +42,7 @@ Levels read_levels(const std::vector<input::Source>& files, std::span<const doub
   for (std::size_t i = 0; i < files.size(); ++i) {
     const double step = given.empty() ? 0.0 : given[i];
     options.step = by_step ? step : 0.0;
-    auto& level = levels.emplace_back(Level{input::read_history(files[i], options), step});
+    auto& level = levels.emplace_back(HistoryLevel{input::read_history(files[i], options), step});
     if (const auto lacking = std::ranges::find(level.history.has_u, false);
         lacking != level.history.has_u.end())
       refuse(against_name, input::name_of(files[i]),
@@ -55,7 +55,7 @@ Levels read_levels(const std::vector<input::Source>& files, std::span<const doub
   if (given.empty())
     for (std::size_t i = 0; i < levels.size(); ++i)
       levels[i].step = named.steps[i].value_or(set[i].spacing);
-  std::ranges::stable_sort(levels, std::greater{}, &Level::step);
+  std::ranges::stable_sort(levels, std::greater{}, &HistoryLevel::step);
   return levels;
 }
 
