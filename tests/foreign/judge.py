@@ -175,6 +175,8 @@ def judge(one, system, folder, solvers, clackers):
         command = prepare(one, system, folder)[1] if kind_of(one) in SLOW_STARTS else generate(one, system, folder, solvers)
         done = subprocess.run([clackers, *command, "--format", "json"], capture_output=True, text=True,
                               timeout=300)
+    except subprocess.TimeoutExpired as late:
+        done = subprocess.CompletedProcess(late.cmd, 124, "", f"no answer in {late.timeout:.0f} s")
     finally:
         if not one.get("keep"):
             shutil.rmtree(folder, ignore_errors=True)
