@@ -15,6 +15,9 @@ namespace {
 using record::Cell;
 using record::ColumnKind;
 
+// Nobody waits for a run of a campaign, and other work may slow the machine down.
+constexpr double timeout_of_run = 600.0;  // [s]
+
 // Processor times differ from run to run and stand in a table of their own; what was reused does, too.
 bool is_kept(const report::Column& column) {
   return column.in_rows && column.name != "seconds" && column.name != "reused";
@@ -79,6 +82,7 @@ std::vector<Cell> run_cells(const Specification& specification, const report::Ro
 solvers::SolverSubject solver_of(const Specification& specification, const MethodEntry& method) {
   solvers::ProcessOptions options;
   options.tolerances = specification.ladder().tolerances;
+  options.timeout = timeout_of_run;
   if (!method.expect.empty()) options.expect = study::claim_from(method.expect);
   auto subject =
       std::move(solvers::subjects_of(
