@@ -84,6 +84,7 @@ void add_check(Grammar& root);
 void add_campaign(Grammar& root);
 void add_atlas(Grammar& root);
 void add_engines(Grammar& root);
+void add_export(Grammar& root);
 void add_paper(Grammar& root);
 void add_explain(Grammar& root);
 

@@ -45,7 +45,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "numerical-damping", "period-error", "unstable-coarse-steps", "ends-early", "output-resampled",
     "cannot-write", "cannot-read", "no-renderer", "render-failed", "program-failed",
     "program-timeout", "program-output", "callable-failed",
-    "callable-output", "foreign-folder", "too-many-runs", "not-a-campaign", "other-campaign",
+    "callable-output", "foreign-folder", "no-deck", "too-many-runs", "not-a-campaign", "other-campaign",
     "other-version", "database-busy", "shard-missing", "no-mpi", "scheduler-failed", "out-of-memory", "system-failed", "internal-error", "interrupted",
 });
 // clang-format on

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "clackers/decks/deck.hpp"
+
+// What writes each format: a row of the table in deck.cpp.
+namespace clackers::decks {
+
+std::vector<DeckFile> scipy(const Subject& subject);
+std::vector<DeckFile> octave(const Subject& subject);
+std::vector<DeckFile> r(const Subject& subject);
+std::vector<DeckFile> cvode(const Subject& subject);
+std::vector<DeckFile> julia(const Subject& subject);
+std::vector<DeckFile> mujoco(const Subject& subject);
+
+}  // namespace clackers::decks
