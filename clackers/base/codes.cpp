@@ -323,7 +323,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "It is replaced as a whole, so give another name, or move them away."},
     {"no-deck", "refusal",
      "The format of `clackers export` has nothing for a part of the problem: a full mass matrix, a restitution below 1, a load. The message says which; "
-     "the formats scipy, octave, r, cvode and julia take every problem."},
+     "the formats scipy, octave, r, cvode, modelica and julia take every problem."},
     {"too-many-runs", "refusal",
      "The campaign has more runs than are started without --yes. Use fewer values, points, methods or levels, or give --yes."},
     {"not-a-campaign", "refusal",

@@ -85,7 +85,13 @@ TEST(Decks, WhatAFormatLacksIsRefused) {
   const auto scripts = takers(subject_of("assembly"));
   EXPECT_TRUE(takes(scripts, "scipy"));
   EXPECT_FALSE(takes(scripts, "mujoco"));
-  EXPECT_FALSE(takes(takers(subject_of("penalized-pair")), "mujoco"));
+  const auto springs = takers(subject_of("penalized-pair"));
+  EXPECT_TRUE(takes(springs, "calculix"));
+  EXPECT_FALSE(takes(springs, "mujoco"));
+  const auto loads = takers(subject_of("forced-pair"));  // eta = 0.8
+  EXPECT_TRUE(takes(loads, "mujoco"));
+  EXPECT_FALSE(takes(loads, "abaqus"));
+  EXPECT_TRUE(takes(takers(subject_of("base-excited-pair")), "abaqus"));
   EXPECT_REFUSED(deck(format_of("mujoco"), subject_of("assembly")), "no-deck", "mass matrix",
                  "mujoco");
   EXPECT_REFUSED(format_of("scypi"), "unknown-name", "scipy");

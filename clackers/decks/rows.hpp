@@ -10,6 +10,12 @@ std::vector<DeckFile> octave(const Subject& subject);
 std::vector<DeckFile> r(const Subject& subject);
 std::vector<DeckFile> cvode(const Subject& subject);
 std::vector<DeckFile> julia(const Subject& subject);
+std::vector<DeckFile> calculix(const Subject& subject);
 std::vector<DeckFile> mujoco(const Subject& subject);
+std::vector<DeckFile> modelica(const Subject& subject);
+std::vector<DeckFile> opensees_tcl(const Subject& subject);
+std::vector<DeckFile> opensees_python(const Subject& subject);
+std::vector<DeckFile> abaqus(const Subject& subject);
+std::vector<DeckFile> ls_dyna(const Subject& subject);
 
 }  // namespace clackers::decks

@@ -189,7 +189,10 @@ class Reader {
 
 History read_history(const Source& source, const HistoryOptions& options) {
   if (options.step != 0.0) require_step("history", options.step);
-  const auto table = open_table(source, options.columns, TableKind::history, options.interrupt);
+  auto choice = options.results;
+  if (choice.most_nodes == 0) choice.most_nodes = options.dof;
+  const auto table =
+      open_table(source, options.columns, TableKind::history, options.interrupt, choice);
   return Reader(*table, options).run();
 }
 

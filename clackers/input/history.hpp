@@ -22,6 +22,7 @@ struct HistoryOptions {
   const std::atomic<bool>* interrupt = nullptr;  ///< ends the reading with Error (interrupted)
   /// Called now and then with the share that is read, in [0, 1]; never for a file of unknown size.
   std::function<void(double share)> progress{};
+  ResultChoice results{};
 };
 
 /// What a source says of its cost, in a comment below its rows: "# seconds 0.12 steps 20000 evaluations
@@ -51,7 +52,8 @@ struct History {
 };
 
 /// Reads a history from a text file, a NumPy file (.npy, known by its first bytes) or columns in
-/// memory: columns t (or time), u1, v1, a1, u2, ... (u, v, a alone for one mass), in any order and
+/// memory, or a result file of another program (results/result_table.hpp), known by its first bytes too:
+/// columns t (or time), u1, v1, a1, u2, ... (u, v, a alone for one mass), in any order and
 /// case, others left out. Two rows of one time are the left and right limits of a jump, as a column
 /// side may say: "-" or -1, "+" or 1.
 ///

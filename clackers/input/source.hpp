@@ -25,6 +25,15 @@ struct NumberColumns {
 /// or columns in memory.
 using Source = std::variant<std::string, NumberColumns>;
 
+/// What is asked of a result file of another program.
+struct ResultChoice {
+  std::string reader{};  ///< its name, or "table" for a plain one; empty: by the first bytes
+  std::vector<std::string> nodes{};  ///< of the masses, in their order; empty: as they first appear
+  int direction = 1;                 ///< 1, 2 or 3
+  bool coordinates = false;          ///< u is the coordinate, not the displacement
+  int most_nodes = 0;                ///< 0: one a mass
+};
+
 /// What messages call a source: its path, "standard input", or the name of its columns.
 std::string name_of(const Source& source);
 /// The path of a file, empty for columns in memory.

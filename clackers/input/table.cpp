@@ -6,6 +6,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/input_file.hpp"
 #include "clackers/input/numbers/number_table.hpp"
+#include "clackers/input/results/result_table.hpp"
 #include "clackers/input/text/text_table.hpp"
 
 namespace clackers::input {
@@ -16,12 +17,16 @@ void Table::refuse_not_finite(std::size_t column, std::string_view shown) const 
 }
 
 std::unique_ptr<Table> open_table(const Source& source, const std::vector<std::string>& names,
-                                  TableKind kind, const std::atomic<bool>* interrupt) {
+                                  TableKind kind, const std::atomic<bool>* interrupt,
+                                  const ResultChoice& choice) {
   if (const auto* columns = std::get_if<NumberColumns>(&source))
     return std::make_unique<NumberTable>(*columns, names, kind, interrupt);
   InputFile file(std::get<std::string>(source), interrupt);
   if (file.first_bytes(npy_magic.size()) == npy_magic)
     return std::make_unique<NumberTable>(NpyFile(std::move(file)), names, kind, interrupt);
+  if (kind == TableKind::history)
+    if (const auto* reader = result_reader_of(file, choice))
+      return std::make_unique<ResultTable>(std::move(file), *reader, choice, names);
   return std::make_unique<TextTable>(std::move(file), names, kind);
 }
 

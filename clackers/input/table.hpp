@@ -62,13 +62,14 @@ class Table {
 };
 
 /// The table of a source, before its first row. A file is NumPy's where it begins with its magic
-/// bytes, else text. `names` replace or stand for those of the source; empty for none.
+/// bytes, a history one of another program where a result reader recognises it, else text. `names` replace or stand for those of the source; empty for none.
 ///
 /// Throws InputError for columns without names (no-column), another number of names than of columns
 /// (ragged-row), a history without rows (too-short), and what TextLines and NpyFile refuse;
 /// FileError for a file that cannot be read.
 std::unique_ptr<Table> open_table(const Source& source, const std::vector<std::string>& names,
-                                  TableKind kind, const std::atomic<bool>* interrupt);
+                                  TableKind kind, const std::atomic<bool>* interrupt,
+                                  const ResultChoice& choice = {});
 
 /// The name of a column in lower case, without quotes and without a unit in brackets behind it:
 /// "U1 [m]" is u1.

@@ -97,6 +97,7 @@ std::vector<Entry> read_all(const CheckRequest& request, const StudyCase& proble
     if (!request.steps.empty()) task.step = request.steps[i];
     if (!request.tolerances.empty()) task.step = request.tolerances[i];
     task.step_is_tolerance = !request.tolerances.empty();
+    task.results = request.results;
     const double cost = cost_of(task.file);
     TaskShare share(meter, cost);
     double done = 0.0;

@@ -26,6 +26,7 @@ struct CheckRequest {
   std::string case_name;  ///< empty: the default case
   cases::Settings settings;
   std::vector<std::string> columns;  ///< names of the columns; empty: those of the files
+  input::ResultChoice results{};     ///< of files that other programs wrote
   // Over the histories of all subjects, in their order:
   std::vector<input::Source> events;  ///< impacts: none, or one a history
   std::vector<double> steps;          ///< none, or one a history [s]

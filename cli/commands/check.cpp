@@ -32,7 +32,7 @@ struct CheckOptions {
   std::vector<std::string> files, names, labels, against, settings, events, requirements;
   std::vector<std::size_t> starts, against_starts;  // of each name, of --against, in the files
   std::string first_case, case_name, columns, steps, tolerances, expect, tolerance, metrics, report,
-      baseline, problem;
+      baseline, problem, reader, nodes, component;
   bool impacts = false;
 };
 
@@ -40,6 +40,16 @@ std::vector<double> numbers_of(std::string_view option, std::string_view text) {
   std::vector<double> numbers;
   for (const auto& part : parts_of(option, text)) numbers.push_back(read_number(option, part));
   return numbers;
+}
+
+input::ResultChoice results_of(const CheckOptions& options) {
+  input::ResultChoice choice{.reader = options.reader};
+  if (!options.nodes.empty()) choice.nodes = parts_of("--node", options.nodes);
+  if (options.component.empty()) return choice;
+  choice.coordinates = options.component.starts_with("coor");
+  choice.direction =
+      int(read_whole("--component", options.component.substr(choice.coordinates ? 4 : 0), 1, 3));
+  return choice;
 }
 
 // Each name with the files behind it.
@@ -65,6 +75,7 @@ study::CheckRequest request_of(const CheckOptions& options, const std::string& l
   request.case_name = case_of(options.first_case, options.case_name, options.problem);
   request.settings = read_settings(options.settings, options.problem);
   if (!options.columns.empty()) request.columns = parts_of("--columns", options.columns);
+  request.results = results_of(options);
   request.events.assign(options.events.begin(), options.events.end());
   if (!options.steps.empty()) request.steps = numbers_of("--steps", options.steps);
   if (!options.tolerances.empty())
@@ -182,6 +193,7 @@ void add_check(Grammar& root) {
                 "  clackers check --name A FILE ... --name B FILE ... [...]\n"
                 "  clackers check FILE ... --against FILE ... [--tolerance x]\n"
                 "           [--columns t,u1,...] [--events FILE]\n"
+                "           [--reader NAME] [--node n1,n2,...] [--component 1|2|3]\n"
                 "           [--steps h1,h2,...|--tolerances a,b,...]\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
                 "           [--metrics all] [--impacts] [--report FILE.html]\n"
@@ -213,6 +225,18 @@ void add_check(Grammar& root) {
          "Names of the columns where a header lacks or differs, and of a plain .npy array: "
          "t,u1,_,v1; _ skips one.")
       ->option_text("t,u1,...");
+  app->add_option(
+         "--reader", options->reader,
+         "Forces the reader of result files, which otherwise are known by their first lines: "
+         "calculix-dat, calculix-frd, abaqus-dat, nodout, mbdyn-mov, mat4; or table.")
+      ->option_text("NAME");
+  app->add_option("--node", options->nodes,
+                  "Nodes of a result file, one a mass. Default: all, in the order of the file.")
+      ->option_text("n1,n2,...");
+  app->add_option(
+         "--component", options->component,
+         "Direction in a result file; coor1 reads the coordinate as u, not the displacement. Default: 1.")
+      ->option_text("1|2|3|coor1|coor2|coor3");
   app->add_option(
          "--events", options->events,
          "Impacts of the history, text or .npy: a column t and optionally "

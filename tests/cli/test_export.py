@@ -2,6 +2,7 @@
 import ast
 import os
 import pathlib
+import shutil
 import subprocess
 import unittest
 
@@ -30,6 +31,19 @@ class Export(CommandTest):
             folder = self.export(to=row["format"])
             done = subprocess.run(["sh", "-n", folder / "run"], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (0, ""), row["format"])
+
+    def test_models_parse_in_their_language(self):
+        ast.parse((self.export(to="opensees-python") / "model.py").read_text())
+        model = (self.export("base-excited-pair", to="opensees-tcl") / "model.tcl").read_text()
+        self.assertEqual(model.count("{"), model.count("}"))
+        if shutil.which("tclsh"):
+            # The commands of OpenSees as procedures that do nothing: the script runs to its end.
+            script = ('proc load {args} {return 0}\n'
+                      'proc unknown {args} {if {[lindex $args 0] eq "pattern"} {uplevel 1 [lindex $args end]}; return 0}\n'
+                      f"set argv {{0.1 {self.path('out.csv')}}}\n")
+            done = subprocess.run(["tclsh"], input=script + model, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(len(self.text_of("out.csv").splitlines()), 202)
 
     def test_a_problem_of_ones_own_goes_along(self):
         problem = self.path("frame.json")

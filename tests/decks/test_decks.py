@@ -71,6 +71,13 @@ class Cvode(Deck):
         self.agrees("cvode", "--problem", self.path("frame.json"))
 
 
+@unittest.skipUnless(shutil.which("ccx"), "needs calculix-ccx")
+class Calculix(Deck):
+    def test_contact_and_none(self):
+        self.agrees("calculix", "stop", "--set", "t_end=8")
+        self.agrees("calculix", "sdof", "--set", "t_end=8")
+
+
 @unittest.skipUnless(has_header("mujoco/mujoco.h"), "needs libmujoco-dev")
 class Mujoco(Deck):
     def test_contacts_and_none(self):

@@ -28,6 +28,7 @@ using Levels = std::vector<HistoryLevel>;  // coarsest first
 // The largest number behind u in the names of a file's columns.
 int masses_of(const input::Source& source, input::HistoryOptions options) {
   int masses = 1;
+  options.results.most_nodes = std::numeric_limits<int>::max();
   for (const auto& name : input::read_history(source, options).names)
     if (name.size() > 1 && (name[0] == 'u' || name[0] == 'U'))
       masses = std::max(masses, int(finite_number(std::string_view(name).substr(1)).value_or(1.0)));

@@ -15,7 +15,8 @@ input::History read(const HistoryTask& task, const std::vector<std::string>& col
                                 .columns = columns,
                                 .step = task.step_is_tolerance ? 0.0 : task.step,
                                 .until_not_finite = true,
-                                .interrupt = interrupt};
+                                .interrupt = interrupt,
+                                .results = task.results};
   if (progress) options.progress = [&](double share) { progress(read_share * share); };
   return input::read_history(task.file, options);
 }

@@ -20,6 +20,7 @@ struct HistoryTask {
   /// Of --steps or of the command that wrote it [s], or its tolerance; 0: not given.
   double step = 0.0;
   bool step_is_tolerance = false;
+  input::ResultChoice results{};
 };
 
 /// A history that was read and compared, or a failed run where it has NaN or infinite numbers
