@@ -67,8 +67,8 @@ void InputFile::fail(int error) const { fail(std::generic_category().message(err
 std::string_view InputFile::first_bytes(std::size_t count) {
   std::string bytes(count, '\0');
   bytes.resize(read_all(bytes.data(), count));
-  first_ = std::move(bytes);
-  return first_;
+  first_.insert(0, bytes);  // before those that an earlier, longer look left
+  return std::string_view(first_).substr(0, bytes.size());
 }
 
 std::size_t InputFile::read(char* bytes, std::size_t capacity) {

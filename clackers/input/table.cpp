@@ -22,11 +22,11 @@ std::unique_ptr<Table> open_table(const Source& source, const std::vector<std::s
   if (const auto* columns = std::get_if<NumberColumns>(&source))
     return std::make_unique<NumberTable>(*columns, names, kind, interrupt);
   InputFile file(std::get<std::string>(source), interrupt);
-  if (file.first_bytes(npy_magic.size()) == npy_magic)
-    return std::make_unique<NumberTable>(NpyFile(std::move(file)), names, kind, interrupt);
   if (kind == TableKind::history)
     if (const auto* reader = result_reader_of(file, choice))
       return std::make_unique<ResultTable>(std::move(file), *reader, choice, names);
+  if (file.first_bytes(npy_magic.size()) == npy_magic)
+    return std::make_unique<NumberTable>(NpyFile(std::move(file)), names, kind, interrupt);
   return std::make_unique<TextTable>(std::move(file), names, kind);
 }
 
