@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace clackers::model {
 
@@ -45,6 +46,18 @@ struct MotionImpact {
   double energy_before = 0.0, energy_after = 0.0;  ///< of the whole structure [J]
 };
 
+/// A contact that stays closed for a while and carries a force.
+struct ClosedContact {
+  int contact = 0;                 ///< row of ImpactProblem::contacts
+  double from = 0.0, until = 0.0;  ///< [s]; until the end of the motion where it does not open
+  TimeEnclosure begins;            ///< certainly hold the true instants
+  bool opens = false;
+  /// Infinitely many impacts precede it. Those after `resolved` [s] are not given one by one, but
+  /// allowed for in the error bound.
+  bool accumulates = false;
+  double resolved = 0.0;
+};
+
 /// A reference solution: the motion itself, with a bound on its error.
 /// It may have 3e8 impacts, so they are asked for one by one.
 class Motion {
@@ -81,6 +94,15 @@ class Motion {
   virtual long long impact_count(double t) const = 0;
   /// Impact `index` = 1, 2, ... Throws InputError beyond impact_count(end()).
   virtual MotionImpact impact(long long index) const = 0;
+
+  /// The contacts that stay closed, ascending by `from`. Impacts that accumulate before are not
+  /// among those counted.
+  virtual std::vector<ClosedContact> closed_contacts() const { return {}; }
+  /// The force of each contact at t [N], along its direction; empty where no contact stays closed.
+  virtual Eigen::VectorXd contact_forces(double t, Side) const {
+    require_inside("contact forces", t, end());
+    return {};
+  }
 };
 
 }  // namespace clackers::model

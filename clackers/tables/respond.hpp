@@ -42,10 +42,17 @@ std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const T
 /// with the velocities before and after all of them. The case must outlive the rows.
 std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case);
 
+/// Whether infinitely many impacts come before a contact rests.
+bool accumulates(const model::Motion& motion);
+
 /// Where the energy is: t,side,kinetic,potential,dissipated,lost,total,momentum at the times of
 /// respond(), with its two rows at impacts. A motion that is no pair's has neither dissipated nor
 /// total. The case must outlive the rows. Throws InputError as respond() does.
 std::unique_ptr<record::RowSource> energies(const cases::Case& test_case, const TimeGrid& grid);
+
+/// The forces of contacts that stay closed [N], t,side,force1[,force2,...] at the times of respond(), 0
+/// for open ones. The case must outlive the rows. Throws InputError as respond() does.
+std::unique_ptr<record::RowSource> forces(const cases::Case& test_case, const TimeGrid& grid);
 
 /// The columns of respond() differentiated: t,side,du1,dv1,da1[,du2,dv2,da2]. `name` is a raw
 /// parameter (m1 m2 k1 k2 c1 c2 eta gap u10 u20 v10 v20, all else fixed) or one of the case, what

@@ -27,7 +27,7 @@ struct RespondOptions {
   CommonOptions common;
   std::vector<std::string> settings;
   std::string name, behind, samples, step, times, digits, sensitivity, highest, report, problem;
-  bool impacts = false, plot = false, energy = false, spectrum = false;
+  bool impacts = false, plot = false, energy = false, spectrum = false, forces = false;
 
   int ways() const {
     return int(!samples.empty()) + int(!step.empty()) + int(!times.empty()) + int(impacts);
@@ -39,6 +39,7 @@ std::vector<std::string> other_kinds(const RespondOptions& options) {
   std::vector<std::string> kinds;
   if (options.energy) kinds.push_back("--energy");
   if (options.spectrum) kinds.push_back("--spectrum");
+  if (options.forces) kinds.push_back("--forces");
   if (!options.sensitivity.empty()) kinds.push_back("--sensitivity");
   return kinds;
 }
@@ -66,7 +67,7 @@ void check_kind(const RespondOptions& options) {
                  "--highest is the highest frequency of --spectrum; add it, or leave it out.");
   if (kinds.empty()) return;
   if (kinds.size() > 1)
-    refuse_usage("respond", "takes only one of --energy, --spectrum and --sensitivity; " +
+    refuse_usage("respond", "takes only one of --energy, --forces, --spectrum and --sensitivity; " +
                                 kinds[0] + " and " + kinds[1] + " were given.");
   if (options.impacts)
     refuse_usage("respond", kinds[0] + " has rows of its own and takes no --impacts.");
@@ -108,6 +109,7 @@ std::unique_ptr<record::RowSource> rows_of(const RespondOptions& options,
   const auto count = digits ? read_whole("--digits", options.digits, 1, 1000) : 0;
   const auto respond = [&](const tables::TimeGrid& grid) {
     if (options.energy) return tables::energies(test_case, grid);
+    if (options.forces) return tables::forces(test_case, grid);
     if (!options.sensitivity.empty())
       return tables::sensitivity(test_case, grid, options.sensitivity);
     return digits ? tables::respond(test_case, grid, count) : tables::respond(test_case, grid);
@@ -186,7 +188,8 @@ void add_respond(Grammar& root) {
             .usage = "  clackers respond CASE [--set name=value,...]\n"
                      "           (--samples n | --step h | --times FILE | --impacts)\n"
                      "           [--digits n] [--plot] [--report FILE.html]\n"
-                     "  clackers respond CASE [--set ...] (--energy | --sensitivity NAME)\n"
+                     "  clackers respond CASE [--set ...]\n"
+                     "           (--energy | --forces | --sensitivity NAME)\n"
                      "           (--samples n | --step h | --times FILE) [--plot]\n"
                      "  clackers respond CASE [--set ...] --spectrum --samples n --highest w\n"});
   app->add_option("CASE", options->name, "The case. All names: clackers list cases.");
@@ -212,6 +215,10 @@ void add_respond(Grammar& root) {
   app->add_flag("--energy", options->energy,
                 "At the times, the energy instead: kinetic, potential, dissipated so far, lost at "
                 "impacts so far and their total [J], and the momentum [kg m/s].");
+  app->add_flag(
+      "--forces", options->forces,
+      "At the times, the forces of contacts that stay closed instead: force1, force2, ... "
+      "[N], 0 for open ones.");
   app->add_option(
          "--sensitivity", options->sensitivity,
          "At the times, the response columns differentiated by NAME: m1 m2 k1 k2 c1 c2 eta "

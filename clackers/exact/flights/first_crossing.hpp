@@ -20,6 +20,7 @@ struct Crossing {
   };
   Status status = Status::none;
   double s = 0.0, gap = 0.0, error = 0.0;
+  double near = 0.0;  ///< of an uncertain one, where the gap begins to be small
 };
 
 /// A crossing is a smooth function of the state as long as the depth that the gap would reach is
@@ -96,7 +97,7 @@ Crossing settle(auto&& gap, auto&& error, double level, double s) {
   if (now.value <= -certain_depth * here) return {certain, root(start, s, now.value), 0.0, here};
   if (now.value > certain_gap * here)
     if (const auto x = departure(now, level)) return {none, s + *x, now.value, here};
-  return {uncertain, s, now.value, here};
+  return {uncertain, s, now.value, here, start};
 }
 
 /// The first closing of `gap` after `from`, where it comes near to zero by `until`. `gap(s)` is a LocalBound, and all that is

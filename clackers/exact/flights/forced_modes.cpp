@@ -50,20 +50,27 @@ std::pair<double, double> pushed(double sigma, double s) {
 
 }  // namespace
 
-ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view who)
+ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view who,
+                         const Matrix& basis, const Vector& offset)
     : mass_(problem.system.mass),
       damping_(problem.system.damping),
-      stiffness_(problem.system.stiffness) {
+      stiffness_(problem.system.stiffness),
+      offset_(offset) {
   validate(problem);
   const auto& add_load = problem.system.add_load;
-  if (problem.system.nonlinear || (add_load && !add_load.target<model::HarmonicLoad>()))
+  const auto* load = add_load.target<model::HarmonicLoad>();
+  if (problem.system.nonlinear || (add_load && load == nullptr))
     refuse(who, "system", "with a nonlinear force or any load", "linear, with harmonic loads", {},
            "linear-only");
   require_no_negative_eigenvalue(who, "the stiffness matrix", stiffness_,
                                  "The structure would not return to its rest.");
   require_no_negative_eigenvalue(who, "the damping matrix", damping_,
                                  "The damping would feed energy in.");
-  auto system = numerics::ModalSystem::make(mass_, damping_, stiffness_);
+  const auto reduced = [&](const Matrix& x) {
+    const Matrix y = basis.transpose() * x * basis;
+    return Matrix(0.5 * (y + y.transpose()));
+  };
+  auto system = numerics::ModalSystem::make(reduced(mass_), reduced(damping_), reduced(stiffness_));
   if (!system)
     throw InputError(
         fmt::format("{}: two modes that the damping couples have the same eigenvalue and "
@@ -72,78 +79,106 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
                     who),
         "out-of-range");
   system_ = std::move(*system);
-  for (int order = 0; order <= 3; ++order) derivatives_.push_back(system_.derivative(order));
-  inverse_ = system_.inverse();
-  const Matrix inverse_mass = numerics::solved(mass_, Matrix::Identity(dof(), dof()));
-  impulse_response_ = inverse_.rightCols(dof()) * inverse_mass;
-  add_forces(problem, inverse_mass, who);
+  for (int order = 0; order <= 3; ++order) {
+    const Matrix of_modes = system_.derivative(order);
+    derivatives_.push_back(basis * of_modes);
+    derivative_sizes_.push_back(basis.cwiseAbs() * of_modes.cwiseAbs());
+  }
+  const Index n = mass_.rows(), free = dof();
+  const Matrix of_forces =
+      free > 0 ? numerics::solved(reduced(mass_), basis.transpose()) : Matrix(Matrix::Zero(0, n));
+  const Matrix inverse = system_.inverse();
+  impulse_response_ = inverse.rightCols(free) * of_forces;
+  inverse_.resize(2 * free, 2 * n);
+  if (free == n)
+    inverse_ = inverse;
+  else
+    inverse_ << inverse.leftCols(free) * (of_forces * mass_), impulse_response_ * mass_;
+  push_ = Vector::Zero(2 * free);
+  const Matrix inverse_mass = basis * of_forces;
+  if (load != nullptr)
+    for (const auto& f : load->forces())
+      add_force(Vector::Unit(n, f.dof).cast<Complex>() * std::polar(f.amplitude, f.phase),
+                f.frequency, inverse_mass, who, f.dof);
+  if (!offset.isZero(0.0)) {
+    add_force((-stiffness_ * offset).cast<Complex>(), 0.0, inverse_mass, who, 0);
+    forces_.back().applied.setZero();  // the structure's own
+  }
   find_residuals();
 }
 
 // z' = A z + g e^(i w t) mode by mode.
-void ForcedModes::add_forces(const model::ImpactProblem<>& problem, const Matrix& inverse_mass,
-                             std::string_view who) {
+void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
+                            const Matrix& inverse_mass, std::string_view who, int dof_of_load) {
   const Index n = dof();
-  push_ = Vector::Zero(2 * n);
-  const auto* load = problem.system.add_load.target<model::HarmonicLoad>();
-  if (load == nullptr) return;
-  for (const auto& f : load->forces()) {
-    Force force;
-    force.frequency = f.frequency;
-    const Complex phase = std::polar(f.amplitude, f.phase), turn(0.0, f.frequency);
-    force.acceleration = inverse_mass.col(f.dof).cast<Complex>() * phase;
-    const Eigen::VectorXcd g = impulse_response_.col(f.dof).cast<Complex>() * phase;
-    force.steady = Eigen::VectorXcd::Zero(2 * n);
-    for (Index j = 0; j < n; ++j) {
-      const auto& mode = system_.modes()[std::size_t(j)];
-      const Complex dynamic((mode.omega - f.frequency) * (mode.omega + f.frequency),
-                            2.0 * mode.sigma * f.frequency);
-      const Complex load_of_mode = g[n + j] + (2.0 * mode.sigma + turn) * g[j];
-      if (load_of_mode == 0.0 && g[j] == 0.0) continue;
-      const double size = mode.omega_square + f.frequency * f.frequency;
-      if (size == 0.0) {
-        push_[j] += g[j].real();
-        push_[n + j] += g[n + j].real();
-        continue;
-      }
-      if (!(std::abs(dynamic) > 1e-8 * size))
-        throw InputError(
-            fmt::format(
-                "{}: the load on degree of freedom {} has {:.6g} rad/s, the frequency of an "
-                "undamped mode; allowed: 1e-8 of it away. The response would grow without a "
-                "bound; change the frequency, or add damping.",
-                who, f.dof + 1, f.frequency),
-            "out-of-range");
-      force.steady[j] = load_of_mode / dynamic;
-      force.steady[n + j] = turn * force.steady[j] - g[j];
+  Force force;
+  force.frequency = frequency;
+  force.applied = applied;
+  force.acceleration = inverse_mass.cast<Complex>() * applied;
+  const Eigen::VectorXcd g = impulse_response_.cast<Complex>() * applied;
+  const Complex turn(0.0, frequency);
+  force.steady = Eigen::VectorXcd::Zero(2 * n);
+  for (Index j = 0; j < n; ++j) {
+    const auto& mode = system_.modes()[std::size_t(j)];
+    const Complex dynamic((mode.omega - frequency) * (mode.omega + frequency),
+                          2.0 * mode.sigma * frequency);
+    const Complex load_of_mode = g[n + j] + (2.0 * mode.sigma + turn) * g[j];
+    if (load_of_mode == 0.0 && g[j] == 0.0) continue;
+    const double size = mode.omega_square + frequency * frequency;
+    if (size == 0.0) {
+      push_[j] += g[j].real();
+      push_[n + j] += g[n + j].real();
+      continue;
     }
-    Eigen::VectorXcd left(2 * n);
-    left << derivatives_[0] * g, derivatives_[1] * g - force.acceleration;
-    force.defect_per_time = (inverse_.cast<Complex>() * left).cwiseAbs();
-    forces_.push_back(std::move(force));
+    if (!(std::abs(dynamic) > 1e-8 * size))
+      throw InputError(
+          fmt::format("{}: the load on degree of freedom {} has {:.6g} rad/s, the frequency of an "
+                      "undamped mode; allowed: 1e-8 of it away. The response would grow without a "
+                      "bound; change the frequency, or add damping.",
+                      who, dof_of_load + 1, frequency),
+          "out-of-range");
+    force.steady[j] = load_of_mode / dynamic;
+    force.steady[n + j] = turn * force.steady[j] - g[j];
   }
+  Eigen::VectorXcd left(2 * mass_.rows());
+  left << derivatives_[0] * g, derivatives_[1] * g - force.acceleration;
+  force.defect_per_time = (inverse_.cast<Complex>() * left).cwiseAbs();
+  // What the force itself rounds, where it is that of an offset.
+  if (frequency == 0.0)
+    force.defect_per_time +=
+        2.0 * double(n + 4) * epsilon *
+        (impulse_response_.cwiseAbs() * (stiffness_.cwiseAbs() * offset_.cwiseAbs()));
+  forces_.push_back(std::move(force));
 }
 
 // What the modes leave of the equations of the structure and of their own inverse, and the rounding of
 // that.
 void ForcedModes::find_residuals() {
-  const Index n = dof();
-  const double rounding = 2.0 * double(n) * epsilon;
-  Matrix whole(2 * n, 2 * n);
+  const Index n = dof(), all = mass_.rows();
+  const double rounding = 2.0 * double(all) * epsilon;
+  Matrix whole(2 * all, 2 * n), whole_size(2 * all, 2 * n);
   whole << derivatives_[0], derivatives_[1];
+  whole_size << derivative_sizes_[0], derivative_sizes_[1];
   basis_residual_ = (inverse_ * whole - Matrix::Identity(2 * n, 2 * n)).cwiseAbs() +
-                    rounding * inverse_.cwiseAbs() * whole.cwiseAbs();
+                    rounding * inverse_.cwiseAbs() * whole_size;
   const Matrix left =
       mass_ * derivatives_[2] + damping_ * derivatives_[1] + stiffness_ * derivatives_[0];
-  const Matrix size = mass_.cwiseAbs() * derivatives_[2].cwiseAbs() +
-                      damping_.cwiseAbs() * derivatives_[1].cwiseAbs() +
-                      stiffness_.cwiseAbs() * derivatives_[0].cwiseAbs();
+  const Matrix size = mass_.cwiseAbs() * derivative_sizes_[2] +
+                      damping_.cwiseAbs() * derivative_sizes_[1] +
+                      stiffness_.cwiseAbs() * derivative_sizes_[0];
   force_residual_ =
       (impulse_response_ * left).cwiseAbs() + rounding * impulse_response_.cwiseAbs() * size;
 }
 
-Vector ForcedModes::state(const Vector& u, const Vector& v) const {
-  return inverse_.leftCols(dof()) * u + inverse_.rightCols(dof()) * v;
+Vector ForcedModes::derived(const Vector& row) const {
+  const Index n = dof();
+  Vector next(2 * n);
+  for (Index j = 0; j < n; ++j) {
+    const auto& mode = system_.modes()[std::size_t(j)];
+    next[j] = -mode.omega_square * row[n + j];
+    next[n + j] = row[j] - 2.0 * mode.sigma * row[n + j];
+  }
+  return next;
 }
 
 Vector ForcedModes::impulse(const Vector& direction) const { return impulse_response_ * direction; }
@@ -186,6 +221,71 @@ Vector ForcedModes::acceleration(const Vector& z, double t) const {
   for (const auto& force : forces_)
     a += (force.acceleration * std::polar(1.0, force.frequency * t)).real();
   return a;
+}
+
+auto ForcedModes::observe(const Vector& on_u, const Vector& on_v, const Vector& on_a,
+                          const Vector& on_load, double constant) const -> Observable {
+  Observable seen;
+  Vector row = derivatives_[0].transpose() * on_u + derivatives_[1].transpose() * on_v +
+               derivatives_[2].transpose() * on_a;
+  seen.size = derivative_sizes_[0].transpose() * on_u.cwiseAbs() +
+              derivative_sizes_[1].transpose() * on_v.cwiseAbs() +
+              derivative_sizes_[2].transpose() * on_a.cwiseAbs();
+  seen.by_state.resize(row.size(), 5);
+  for (int order = 0; order < 5; ++order, row = derived(row)) seen.by_state.col(order) = row;
+  seen.constant = constant + on_u.dot(offset_);
+  seen.constant_size = std::abs(constant) + on_u.cwiseAbs().dot(offset_.cwiseAbs());
+  for (const auto& force : forces_) {
+    seen.direct.push_back(on_a.cast<Complex>().dot(force.acceleration) +
+                          on_load.cast<Complex>().dot(force.applied));
+    seen.direct_size.push_back(on_a.cwiseAbs().dot(force.acceleration.cwiseAbs()) +
+                               on_load.cwiseAbs().dot(force.applied.cwiseAbs()));
+  }
+  return seen;
+}
+
+numerics::LocalBound ForcedModes::ahead(const Observable& seen, const Vector& free, double t,
+                                        double later, double horizon) const {
+  const auto now = advanced(free, later);
+  const auto size = sizes(now, horizon);
+  const Eigen::Vector4d of_modes = seen.by_state.leftCols(4).transpose() * now;
+  const Eigen::Vector3d pushed = seen.by_state.leftCols(3).transpose() * push_;
+  numerics::LocalBound bound;
+  bound.value = of_modes[0] + seen.constant;
+  bound.slope = of_modes[1] + pushed[0];
+  bound.second = of_modes[2] + pushed[1];
+  bound.third = of_modes[3] + pushed[2];
+  bound.curvature = this->bound(seen.by_state.col(2), size) + std::abs(pushed[1]);
+  bound.third_bound = this->bound(seen.by_state.col(3), size) + std::abs(pushed[2]);
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
+    const double frequency = forces_[i].frequency, square = frequency * frequency;
+    const auto y = seen.by_state.col(0).cast<Complex>().dot(forces_[i].steady) + seen.direct[i];
+    const auto turned = y * std::polar(1.0, frequency * (t + later));
+    bound.value += turned.real();
+    bound.slope -= frequency * turned.imag();
+    bound.second -= square * turned.real();
+    bound.curvature += square * std::abs(y);
+    bound.third += square * frequency * turned.imag();
+    bound.third_bound += square * frequency * std::abs(y);
+  }
+  return bound;
+}
+
+double ForcedModes::fourth_bound(const Observable& seen, const Vector& free, double horizon) const {
+  double most =
+      bound(seen.by_state.col(4), sizes(free, horizon)) + std::abs(seen.by_state.col(3).dot(push_));
+  for (std::size_t i = 0; i < forces_.size(); ++i)
+    most += std::pow(forces_[i].frequency, 4) *
+            std::abs(seen.by_state.col(0).cast<Complex>().dot(forces_[i].steady) + seen.direct[i]);
+  return most;
+}
+
+double ForcedModes::rounding(const Observable& seen, const Sizes& size, double t) const {
+  double whole = seen.constant_size + bound(seen.size, size);
+  for (std::size_t i = 0; i < forces_.size(); ++i)
+    whole += (1.0 + forces_[i].frequency * t) *
+             (seen.direct_size[i] + seen.size.dot(forces_[i].steady.cwiseAbs()));
+  return epsilon * double(mass_.rows() + 4) * whole;
 }
 
 // The energy of a mode, rate^2 + omega^2 y^2, does not grow where nothing pushes it.

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <complex>
 #include <string_view>
 #include <vector>
 
 #include "clackers/model/impact_problem.hpp"
+#include "clackers/numerics/first_root.hpp"
 #include "clackers/numerics/modal_flight.hpp"
 
 namespace clackers::exact {
@@ -24,12 +27,32 @@ class ForcedModes {
   /// Throws InputError, `who` first, for an invalid problem, a load that is no HarmonicLoad, a nonlinear force, stiffness
   /// or damping with a negative eigenvalue, modes of which the motion is no sum, and a force in
   /// resonance with an undamped mode.
-  ForcedModes(const model::ImpactProblem<>& problem, std::string_view who);
+  ForcedModes(const model::ImpactProblem<>& problem, std::string_view who)
+      : ForcedModes(problem, who, Matrix::Identity(problem.dof(), problem.dof()),
+                    Vector::Zero(problem.dof())) {}
+  /// The same structure where constraints without friction leave u = offset + basis q. z is the
+  /// modal state of q; u, v and a are of the structure.
+  ForcedModes(const model::ImpactProblem<>& problem, std::string_view who, const Matrix& basis,
+              const Vector& offset);
 
   struct Force {
     double frequency = 0.0;                 ///< [rad/s]
-    Eigen::VectorXcd acceleration, steady;  ///< e^(i phase) times M^-1 f, and the response z
+    Eigen::VectorXcd applied;               ///< f e^(i phase) [N]
+    Eigen::VectorXcd acceleration, steady;  ///< what it does to a, and the response z
     Eigen::VectorXd defect_per_time;  ///< what the response leaves of the equations, as a rate of z
+  };
+  /// A linear function of u, v, a and the loads, such as a gap or the force of a constraint:
+  /// constant + by_state.col(0) . z + the real parts of direct e^(i frequency t), of the whole state z.
+  struct Observable {
+    Matrix by_state;  ///< a column for each derivative, of order 0 to 4
+    Vector size;      ///< what was added up for the first of them
+    double constant = 0.0, constant_size = 0.0;
+    std::vector<std::complex<double>> direct;  ///< of each force
+    std::vector<double> direct_size;
+    bool vanishes() const {
+      return constant == 0.0 && by_state.isZero(0.0) &&
+             std::ranges::all_of(direct, [](const auto& x) { return x == 0.0; });
+    }
   };
   /// Bounds on |y| and |y'| of each mode.
   struct Sizes {
@@ -37,16 +60,40 @@ class ForcedModes {
   };
 
   const numerics::ModalSystem& system() const { return system_; }
-  Eigen::Index dof() const { return mass_.rows(); }
+  /// Of the modes; the structure may have more.
+  Eigen::Index dof() const { return system_.dof(); }
   const Matrix& mass() const { return mass_; }
+  const Matrix& damping() const { return damping_; }
   const Matrix& stiffness() const { return stiffness_; }
+  const Vector& offset() const { return offset_; }
   const std::vector<Force>& forces() const { return forces_; }
   /// The derivative of u of order 0 to 3 by z, without that of the forces.
   const Matrix& derivative(int order) const { return derivatives_[std::size_t(order)]; }
+  /// What was added up for it.
+  const Matrix& derivative_size(int order) const { return derivative_sizes_[std::size_t(order)]; }
+  Vector displacement(const Vector& z) const { return offset_ + derivatives_[0] * z; }
+  Vector velocity(const Vector& z) const { return derivatives_[1] * z; }
+  /// The row of which row . z is the time derivative, modes alone.
+  Vector derived(const Vector& row) const;
 
-  Vector state(const Vector& u, const Vector& v) const;
+  Vector state(const Vector& u, const Vector& v) const { return change(u - offset_, v); }
   /// Change of z by a unit impulse along a direction.
   Vector impulse(const Vector& direction) const;
+  /// on_u . u + on_v . v + on_a . a + on_load . f + constant
+  Observable observe(const Vector& on_u, const Vector& on_v, const Vector& on_a,
+                     const Vector& on_load, double constant) const;
+  /// `later` seconds after t, where the free state is `free`. The bounds hold for `horizon` seconds.
+  numerics::LocalBound ahead(const Observable& seen, const Vector& free, double t, double later,
+                             double horizon) const;
+  /// A bound on its fourth derivative.
+  double fourth_bound(const Observable& seen, const Vector& free, double horizon) const;
+  /// What rounding does to it in a state of these sizes, at t.
+  double rounding(const Observable& seen, const Sizes& size, double t) const;
+  /// z of these displacements and velocities with what the constraints exclude removed from them, the
+  /// momenta along the constrained motion as they are.
+  Vector change(const Vector& u, const Vector& v) const {
+    return inverse_.leftCols(u.size()) * u + inverse_.rightCols(v.size()) * v;
+  }
   /// z of the steady response.
   Vector steady(double t) const;
   /// z of the motion without the steady response s seconds later; `push` 0 without constant forces on
@@ -69,13 +116,14 @@ class ForcedModes {
   Matrix carried(const Matrix& covariance, double s) const;
 
  private:
-  void add_forces(const model::ImpactProblem<>& problem, const Matrix& inverse_mass,
-                  std::string_view who);
+  void add_force(const Eigen::VectorXcd& applied, double frequency, const Matrix& inverse_mass,
+                 std::string_view who, int dof);
   void find_residuals();
 
   Matrix mass_, damping_, stiffness_;
   numerics::ModalSystem system_;
-  std::vector<Matrix> derivatives_;
+  Vector offset_;
+  std::vector<Matrix> derivatives_, derivative_sizes_;
   Matrix inverse_, impulse_response_;       // z by (u, v), and by impulses
   Matrix basis_residual_, force_residual_;  // of z: its own error, and the rate of it
   Vector push_;

@@ -21,42 +21,12 @@ constexpr int most_search_steps = 1000000;
 
 }  // namespace
 
-numerics::LocalBound PiecewiseMotion::Builder::gap_ahead(std::size_t i, double s) const {
-  const auto now = modes().advanced(flight().free, s);
-  const auto size = modes().sizes(now, m_.end_);
-  const Eigen::Vector4d of_modes = row(i).by_state.transpose() * now;
-  const Eigen::Vector3d pushed = row(i).by_state.leftCols(3).transpose() * modes().push();
-  numerics::LocalBound bound;
-  bound.value = of_modes[0] - contacts_[i].gap;
-  bound.slope = of_modes[1] + pushed[0];
-  bound.second = of_modes[2] + pushed[1];
-  bound.third = of_modes[3] + pushed[2];
-  bound.curvature = modes().bound(row(i).by_state.col(2), size) + std::abs(pushed[1]);
-  bound.third_bound = modes().bound(row(i).by_state.col(3), size) + std::abs(pushed[2]);
-  for (const auto& force : modes().forces()) {
-    const std::complex<double> y = row(i).gap().cast<std::complex<double>>().dot(force.steady);
-    const auto turned = y * std::polar(1.0, force.frequency * (flight().t + s));
-    const double square = force.frequency * force.frequency;
-    bound.value += turned.real();
-    bound.slope -= force.frequency * turned.imag();
-    bound.second -= square * turned.real();
-    bound.curvature += square * std::abs(y);
-    bound.third += square * force.frequency * turned.imag();
-    bound.third_bound += square * force.frequency * std::abs(y);
-  }
-  bound.reach = m_.end_ + 1.0;  // a gap that rests has no other
-  return bound;
-}
-
-double PiecewiseMotion::Builder::gap_error(std::size_t i, const MatrixXd& covariance,
-                                           double s) const {
+double PiecewiseMotion::Builder::error_of(const ForcedModes::Observable& seen,
+                                          const MatrixXd& covariance, double s) const {
   const auto size = modes().sizes(flight().free, s);
-  return factor() * std::sqrt(row(i).gap().dot(covariance * row(i).gap())) + gap_rounding(i, size);
-}
-
-double PiecewiseMotion::Builder::gap_rounding(std::size_t i, const ForcedModes::Sizes& size) const {
-  return epsilon * double(m_.dof() + 4) *
-         (std::abs(contacts_[i].gap) + modes().bound(row(i).gap(), size));
+  const auto row = seen.by_state.col(0);
+  return factor() * std::sqrt(row.dot(covariance * row)) +
+         modes().rounding(seen, size, flight().t + s);
 }
 
 auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
@@ -69,7 +39,14 @@ auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
        begin = to, to = std::min(span, 2.0 * to)) {
     const auto level = levels(to);
     if (begin == 0.0) {
-      for (std::size_t i = 0; i < springs(); ++i) from[i] = opening(i, level[i]);
+      for (std::size_t i = 0; i < springs(); ++i) {
+        const auto opens = opening(i, level[i]);
+        if (begins_[i] == Begin::by_speed && come_to_rest(i, level[i], opens.has_value()))
+          return next_contacts();
+        if (!opens) refuse_closed(i, ahead(watched(i), 0.0), level[i]);
+        from[i] = *opens;
+      }
+      begin = flight().unresolved.seconds;
     }
     switching_ = next_switching(begin, to, fastest);
     auto closings = search(level, from, switching_ ? switching_->second : to);
@@ -84,9 +61,9 @@ std::optional<std::pair<std::size_t, double>> PiecewiseMotion::Builder::next_swi
     double from, double until, double fastest) const {
   std::optional<std::pair<std::size_t, double>> first;
   for (std::size_t i = springs(); i < contacts_.size(); ++i) {
-    const double sign = closed_springs_[flight().regime][i - springs()] ? -1.0 : 1.0;
+    const double sign = closed_[flight().regime][i] ? -1.0 : 1.0;
     const auto signed_gap = [&](double s) {
-      auto gap = gap_ahead(i, s);
+      auto gap = ahead(row(i).seen, s);
       for (double* x : {&gap.value, &gap.slope, &gap.second, &gap.third}) *x *= sign;
       return gap;
     };
@@ -114,22 +91,34 @@ std::vector<double> PiecewiseMotion::Builder::levels(double s) const {
   const VectorXd local = modes().local_errors(flight().free, flight().t, s);
   std::vector<double> level;
   for (std::size_t i = 0; i < springs(); ++i) {
-    const double error =
-        modes().bound(row(i).gap(), carried) + row(i).gap().cwiseProduct(local).norm();
-    level.push_back(certain_gap * (factor() * error + gap_rounding(i, size)));
+    const auto& seen = watched(i);
+    const double error = modes().bound(seen.by_state.col(0), carried) +
+                         seen.by_state.col(0).cwiseProduct(local).norm();
+    level.push_back(certain_gap *
+                    (factor() * error + modes().rounding(seen, size, flight().t + s)));
   }
   return level;
 }
 
-double PiecewiseMotion::Builder::opening(std::size_t i, double level) const {
-  auto gap = gap_ahead(i, 0.0);
-  if (is_closed_[i]) {
+std::optional<double> PiecewiseMotion::Builder::opening(std::size_t i, double level) const {
+  const double from = flight().unresolved.seconds;
+  if (is_held(i) && watched(i).vanishes()) return m_.end_ + 1.0;
+  auto gap = ahead(watched(i), from);
+  const auto begin = begins_[i];
+  if (begin == Begin::open) {
+    if (gap.value > level || gap.slope < 0.0) return from;
+  } else {
     gap.value = 0.0;
-  } else if (gap.value > level || gap.slope < 0.0) {
-    return 0.0;
+    if (begin >= Begin::by_acceleration) gap.slope = 0.0;
   }
-  if (const auto s = departure(gap, level)) return *s;
-  refuse_closed(i, gap, level);
+  if (begin == Begin::by_jerk) {
+    // Half of what the third derivative gives; the other half is for the fourth.
+    const double s = std::cbrt(12.0 * level / gap.third);
+    const double fourth = modes().fourth_bound(watched(i), flight().free, m_.end_);
+    return 0.25 * fourth * s <= 0.5 * gap.third ? std::optional(s) : std::nullopt;
+  }
+  const auto s = departure(gap, level);
+  return s ? std::optional(from + *s) : std::nullopt;
 }
 
 auto PiecewiseMotion::Builder::search(const std::vector<double>& level,
@@ -138,8 +127,10 @@ auto PiecewiseMotion::Builder::search(const std::vector<double>& level,
   std::vector<Closing> closings;
   double until = to;
   for (std::size_t i = 0; i < springs(); ++i) {
-    const auto gap = [&](double s) { return gap_ahead(i, s); };
-    const auto error = [&](double s) { return gap_error(i, m_.covariance_after(flight(), s), s); };
+    const auto gap = [&](double s) { return ahead(watched(i), s); };
+    const auto error = [&](double s) {
+      return error_of(watched(i), m_.covariance_after(flight(), s), s);
+    };
     const auto found = first_crossing(gap, error, level[i], from[i], until, most_search_steps);
     const double t = flight().t + found.s;
     switch (found.status) {
@@ -148,7 +139,11 @@ auto PiecewiseMotion::Builder::search(const std::vector<double>& level,
       case Crossing::Status::undecided:
         refuse_length();
       case Crossing::Status::uncertain:
-        refuse_graze(i, t, found.gap, found.error);
+        if (is_held(i) || problem_.contacts[i].restitution > 0.0)
+          refuse_graze(i, t, found.gap, found.error);
+        closings.push_back(soft_landing(i, found));
+        until = std::min(until, found.s);
+        break;
       case Crossing::Status::certain: {
         const double rate = std::abs(gap(found.s).slope);
         closings.push_back({i, found.s, found.error, found.error / rate + 4.0 * epsilon * t});
@@ -161,13 +156,26 @@ auto PiecewiseMotion::Builder::search(const std::vector<double>& level,
   std::ranges::stable_sort(closings, {}, &Closing::s);
   if (closings.size() > 1)
     for (Closing& closing : closings) {
+      if (closing.is_soft) continue;
       const double before = closing.gap_error;
       closing.gap_error =
-          gap_error(closing.contact, m_.covariance_after(flight(), closing.s), closing.s);
+          error_of(watched(closing.contact), m_.covariance_after(flight(), closing.s), closing.s);
       closing.time_error *= closing.gap_error / before;
       closing.time_error += 4.0 * epsilon * (flight().t + closing.s);
     }
   return closings;
+}
+
+// From where the gap is below four times its error; until then it is open for certain.
+auto PiecewiseMotion::Builder::soft_landing(std::size_t i, const Crossing& found) const -> Closing {
+  double open = found.near, near = found.s;
+  const double level = 2.0 * certain_gap * found.error;
+  if (ahead(row(i).seen, open).value <= level) near = open;
+  for (int halving = 0; halving < 60 && near > open; ++halving) {
+    const double middle = 0.5 * (open + near);
+    (ahead(row(i).seen, middle).value > level ? open : near) = middle;
+  }
+  return {i, near, found.error, found.s - near, true};
 }
 
 double PiecewiseMotion::Builder::highest_force() const {
@@ -178,6 +186,14 @@ double PiecewiseMotion::Builder::highest_force() const {
 
 void PiecewiseMotion::Builder::refuse_graze(std::size_t i, double t, double gap,
                                             double error) const {
+  if (is_held(i))
+    throw InputError(
+        fmt::format("{}: the force of contact {}, which is closed, comes within {:.3g} N of 0 near "
+                    "t = {:.9g} s, and the error there is {:.3g} N; allowed: motions in which it "
+                    "is certain whether a contact opens. Change a number of the problem, or end "
+                    "the run earlier.",
+                    m_.who_, i + 1, std::abs(gap), t, error),
+        "not-admissible");
   throw InputError(
       fmt::format(
           "{}: contact {} comes within {:.3g} m near t = {:.9g} s without a certain impact, "
@@ -190,21 +206,13 @@ void PiecewiseMotion::Builder::refuse_graze(std::size_t i, double t, double gap,
 void PiecewiseMotion::Builder::refuse_closed(std::size_t i, const numerics::LocalBound& gap,
                                              double level) const {
   const double t = flight().t, eta = problem_.contacts[i].restitution;
-  const double speed_size = modes().bound(row(i).rate(), modes().sizes(flight().free, 0.0));
   const bool is_pressed = gap.second < -touching_share * gap.curvature;
-  if (!(gap.slope > touching_share * speed_size))
+  if (!is_held(i) && gap.slope > 0.0 && is_pressed && eta < 1.0)
     throw InputError(
-        fmt::format("{}: contact {} {} from t = {:.9g} s on; allowed: contacts that open again at "
-                    "once, since sliding and resting contact are not supported. {}.",
-                    m_.who_, i + 1, is_pressed ? "stays closed" : "touches at rest", t,
-                    t == 0.0 ? "Start with the contact open"
-                             : "Give restitutions above 0, or end the run earlier"),
-        "not-admissible");
-  if (is_pressed && eta < 1.0)
-    throw InputError(
-        fmt::format("{}: impacts of contact {} accumulate at t = {:.9g} s, where it comes to rest; "
-                    "allowed: impacts that rounding can separate. End the run earlier.",
-                    m_.who_, i + 1, t + 2.0 * gap.slope / (-gap.second * (1.0 - eta))),
+        fmt::format("{}: impacts of contact {} accumulate near t = {:.9g} s, and that it rests "
+                    "then is not certain: {}; allowed: a rest that is certain. End the run "
+                    "earlier.",
+                    m_.who_, i + 1, t + 2.0 * gap.slope / (-gap.second * (1.0 - eta)), no_rest_),
         "not-admissible");
   refuse_graze(i, t, is_pressed ? -0.5 * gap.slope * gap.slope / gap.second : gap.value, level);
 }

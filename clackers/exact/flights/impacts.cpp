@@ -21,12 +21,19 @@ auto PiecewiseMotion::Builder::closing_first(const std::vector<Closing>& closing
     -> std::vector<Closing> {
   std::vector<Closing> together{closings.front()};
   const Closing& first = closings.front();
+  const auto is_impact = [&](const Closing& closing) {
+    return !closing.is_soft && !is_held(closing.contact);
+  };
   for (const Closing& next : std::span(closings).subspan(1)) {
     if (next.first() > first.last()) continue;
-    const auto acts = std::ranges::find_if(
-        together, [&](const Closing& other) { return act_on_each_other(other, next); });
-    const bool is_same = next.s - first.s <= 4.0 * epsilon * (flight().t + first.s);
-    if (acts != together.end() && !close_together(problem_, acts->contact, next.contact))
+    const auto acts = std::ranges::find_if(together, [&](const Closing& other) {
+      return act_on_each_other(other.contact, next.contact);
+    });
+    const bool is_same = next.s - first.s <= 4.0 * epsilon * (flight().t + first.s) &&
+                         is_impact(first) && is_impact(next);
+    if (acts != together.end() &&
+        (first.is_soft || next.is_soft || is_held(first.contact) != is_held(next.contact) ||
+         !close_together(problem_, acts->contact, next.contact)))
       throw InputError(
           fmt::format("{}: contacts {} and {} close {:.3g} s apart near t = {:.9g} s, the error of "
                       "that is {:.3g} s, and the first impact changes the second; allowed: impacts "
@@ -42,114 +49,190 @@ auto PiecewiseMotion::Builder::closing_first(const std::vector<Closing>& closing
   return together;
 }
 
-bool PiecewiseMotion::Builder::act_on_each_other(const Closing& a, const Closing& b) const {
-  const double coupling = std::abs(delassus(a.contact, b.contact));
-  return coupling > 8.0 * double(m_.dof()) * epsilon *
-                        std::sqrt(delassus(a.contact, a.contact) * delassus(b.contact, b.contact));
+bool PiecewiseMotion::Builder::act_on_each_other(std::size_t a, std::size_t b) const {
+  return std::abs(delassus(0, a, b)) >
+         8.0 * double(m_.dof()) * epsilon * std::sqrt(delassus(0, a, a) * delassus(0, b, b));
+}
+
+void PiecewiseMotion::Builder::happen(const std::vector<Closing>& closings) {
+  if (closings.front().is_soft)
+    land(closings.front());
+  else if (is_held(closings.front().contact))
+    release(closings);
+  else
+    collide(closings);
+}
+
+double PiecewiseMotion::Builder::deviation(const State& state, const VectorXd& row) const {
+  double size = row.cwiseAbs().dot(state.z.cwiseAbs());
+  for (const auto& force : m_.regimes_[state.regime].forces())
+    size += (1.0 + force.frequency * state.t) * row.cwiseAbs().dot(force.steady.cwiseAbs());
+  return factor() * std::sqrt(row.dot(state.covariance * row)) +
+         epsilon * double(m_.dof() + 4) * size;
 }
 
 void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
   const double s = closings.front().s, t = flight().t + s;
-  MatrixXd covariance = m_.covariance_after(flight(), s);
-  VectorXd z = m_.total(flight(), t);
-  const VectorXd v_before = modes().derivative(1) * z, a_before = modes().acceleration(z, t);
-  std::vector<std::size_t> closed;
+  const auto now = flight().regime, base = with_held(now, held(now), false);
+  const auto& rows = rows_[base];
+  const State before{now, t, m_.total(flight(), t), m_.covariance_after(flight(), s)};
+  const VectorXd a_before = modes().acceleration(before.z, t);
+  State state = seen_in(base, before);
+  auto closed = held(now);
+  VectorXd q = VectorXd::Zero(Index(springs())), shared = VectorXd::Zero(state.z.size());
+  for (const auto i : closed) shared -= ahead(*m_.forces_[now][i], s).value * rows[i].impulse;
   // Terms of second order over those of first order.
   double nonlinear = 0.0;
   for (const auto& closing : closings) {
     closed.push_back(closing.contact);
-    const auto gap = gap_ahead(closing.contact, s);
+    const auto gap = ahead(row(closing.contact).seen, s);
     const double delay = closing.gap_error / gap.slope;
     nonlinear +=
         std::abs(delay / gap.slope) * (std::abs(gap.second) + gap.third_bound * std::abs(delay));
+    q[Index(closing.contact)] = (1.0 + problem_.contacts[closing.contact].restitution) *
+                                rows[closing.contact].rate().dot(state.z);
   }
-  const auto impulses = solve(closed, z, t);
-
-  const auto n = m_.dof();
-  MatrixXd saltation = MatrixXd::Identity(2 * n, 2 * n);
-  VectorXd time_error = VectorXd::Zero(2 * n);
-  add_saltation(closed, impulses, z, a_before, saltation, time_error);
-  time_error *= 4.0 * epsilon * std::max(t, s);
-  covariance = saltation * covariance * saltation.transpose();
-  covariance *= std::pow(1.0 + 4.0 * nonlinear, 2);
-  covariance.diagonal() += time_error.cwiseAbs2();
-
+  std::ranges::sort(closed);
+  const auto impulses = solve(base, q, closed, t);
+  State after = state;
+  for (const auto i : closed) after.z += rows[i].impulse * impulses[Index(i)];
+  const auto carry = [&](const VectorXd& more) {
+    MatrixXd saltation = MatrixXd::Identity(state.z.size(), state.z.size());
+    VectorXd time_error = VectorXd::Zero(state.z.size());
+    add_saltation(base, closings, impulses, state.z, a_before, more, saltation, time_error);
+    time_error *= 4.0 * epsilon * std::max(t, s);
+    after.covariance = saltation * state.covariance * saltation.transpose();
+    after.covariance *= std::pow(1.0 + 4.0 * nonlinear, 2);
+    after.covariance.diagonal() += time_error.cwiseAbs2();
+  };
+  carry(shared);
   for (const auto& closing : closings)
     m_.hits_.push_back({t, closing.time_error, impulses[Index(closing.contact)],
                         int(closing.contact), m_.flights_.size() - 1});
-  for (const auto i : closed) z += row(i).impulse * impulses[Index(i)];
-  begin(flight().regime, t, z, std::move(covariance));
-  is_closed_.assign(springs(), false);
-  for (const auto i : closed) is_closed_[i] = true;
-  if (at_rest(modes().derivative(1) * z, v_before, z)) {
+  const auto& free = m_.regimes_[base];
+  if (at_rest(free.displacement(after.z), free.velocity(after.z), modes().velocity(before.z))) {
+    begin(std::move(after));
     m_.flights_.back().free.setZero();
     rests_ = true;
+    return;
   }
+  const auto after_rest = staying(closed, impulses, after);
+  const auto next = resting(after, after_rest);
+  if (next != base) {
+    const auto seen = seen_in(next, after);
+    const VectorXd steady = m_.regimes_[next].steady(t);
+    for (const auto i : held(next))
+      shared += m_.regimes_[next].ahead(*m_.forces_[next][i], seen.z - steady, t, 0.0, 0.0).value *
+                rows[i].impulse;
+    carry(shared);
+  }
+  begin(seen_in(next, after));
 }
 
-bool PiecewiseMotion::Builder::at_rest(const VectorXd& after, const VectorXd& before,
-                                       const VectorXd& z) const {
+std::vector<std::size_t> PiecewiseMotion::Builder::staying(const std::vector<std::size_t>& closed,
+                                                           const VectorXd& impulses,
+                                                           const State& after) {
+  std::vector<std::size_t> stay;
+  for (const auto i : closed) {
+    const bool was_held = is_held(i);
+    const auto& row = rows_[after.regime][i];
+    const bool is_struck = impulses[Index(i)] > 0.0;
+    const bool is_concerned = std::ranges::any_of(closed, [&](std::size_t j) {
+      return j != i && impulses[Index(j)] > 0.0 && act_on_each_other(i, j);
+    });
+    const double rate = row.rate().dot(after.z);
+    const double allowed = certain_depth * deviation(after, row.rate());
+    if (was_held && is_concerned &&
+        std::max(rate, impulses[Index(i)] * row.rate().dot(row.impulse)) < allowed)
+      throw InputError(
+          fmt::format("{}: whether contact {}, which is closed, opens by the impact at t = {:.9g} "
+                      "s is not certain; allowed: impacts after which it is. Change a number of "
+                      "the problem, or end the run earlier.",
+                      m_.who_, i + 1, after.t),
+          "not-admissible");
+    const bool rebounds =
+        is_struck ? !was_held && problem_.contacts[i].restitution > 0.0 : !was_held || is_concerned;
+    if (rebounds)
+      opens_[i] = Begin::by_speed;
+    else
+      stay.push_back(i);
+  }
+  return stay;
+}
+
+bool PiecewiseMotion::Builder::at_rest(const VectorXd& u, const VectorXd& after,
+                                       const VectorXd& before) const {
   const double small = touching_share * before.cwiseAbs().maxCoeff();
-  const VectorXd u = modes().derivative(0) * z;
-  return modes().forces().empty() && stiffnesses_.empty() && after.cwiseAbs().maxCoeff() <= small &&
-         u.cwiseAbs().maxCoeff() * modes().system().fastest() <= small;
+  return m_.regimes_[0].forces().empty() && stiffnesses_.empty() &&
+         after.cwiseAbs().maxCoeff() <= small &&
+         u.cwiseAbs().maxCoeff() * m_.regimes_[0].system().fastest() <= small;
 }
 
-VectorXd PiecewiseMotion::Builder::solve(const std::vector<std::size_t>& closed, const VectorXd& z,
-                                         double t) {
+VectorXd PiecewiseMotion::Builder::solve(std::size_t regime, const VectorXd& q,
+                                         const std::vector<std::size_t>& contacts, double t) {
   const auto count = Index(springs());
   MatrixXd w = MatrixXd::Zero(count, count);
-  VectorXd q = VectorXd::Zero(count), impulses = VectorXd::Zero(count);
-  for (const auto i : closed) {
-    q[Index(i)] = (1.0 + problem_.contacts[i].restitution) * row(i).rate().dot(z);
-    for (const auto j : closed) w(Index(i), Index(j)) = delassus(i, j);
-  }
-  numerics::PrincipalCholesky factors(closed.size());
-  const auto independent = factors.compute(w, closed);
-  if (independent < closed.size())
+  VectorXd values = VectorXd::Zero(count);
+  for (const auto i : contacts)
+    for (const auto j : contacts) w(Index(i), Index(j)) = delassus(regime, i, j);
+  numerics::PrincipalCholesky factors(contacts.size());
+  const auto independent = factors.compute(w, contacts);
+  if (independent < contacts.size())
     throw InputError(
         fmt::format("{}: contact {} and others close together at t = {:.9g} s, and its direction "
                     "depends linearly on theirs; allowed: contacts whose impulses are unique. "
                     "Leave one out.",
-                    m_.who_, closed[independent] + 1, t),
+                    m_.who_, contacts[independent] + 1, t),
         "redundant-contacts");
-  if (!lcp_.solve(w, q, closed, impulses))
+  if (!lcp_.solve(w, q, contacts, values))
     throw InputError(fmt::format("{}: the impulses of {} contacts at t = {:.9g} s were not found.",
-                                 m_.who_, closed.size(), t),
+                                 m_.who_, contacts.size(), t),
                      "complementarity-failed");
-  return impulses;
+  return values;
 }
 
-void PiecewiseMotion::Builder::add_saltation(const std::vector<std::size_t>& closed,
+void PiecewiseMotion::Builder::add_saltation(std::size_t regime,
+                                             const std::vector<Closing>& closings,
                                              const VectorXd& impulses, const VectorXd& z,
-                                             const VectorXd& a_before, MatrixXd& saltation,
-                                             VectorXd& time_error) const {
+                                             const VectorXd& a_before, VectorXd shared,
+                                             MatrixXd& saltation, VectorXd& time_error) const {
+  const auto& rows = rows_[regime];
   std::vector<std::size_t> active;
-  for (const auto i : closed)
+  for (std::size_t i = 0; i < springs(); ++i)
     if (impulses[Index(i)] > 0.0) active.push_back(i);
   const auto count = Index(active.size());
   MatrixXd law(count, count), rates(count, z.size());
   VectorXd pressed(count);
   for (Index c = 0; c < count; ++c) {
     const auto i = active[std::size_t(c)];
-    for (Index d = 0; d < count; ++d) law(c, d) = delassus(i, active[std::size_t(d)]);
-    rates.row(c) = row(i).rate().transpose();
+    for (Index d = 0; d < count; ++d) law(c, d) = delassus(regime, i, active[std::size_t(d)]);
+    rates.row(c) = rows[i].rate().transpose();
     pressed[c] = problem_.contacts[i].direction.dot(a_before);
   }
+  const auto closes = [&](std::size_t i) {
+    return std::ranges::find(closings, i, &Closing::contact) != closings.end();
+  };
   law = numerics::inverse(law);
   for (Index c = 0; c < count; ++c)
-    law.col(c) *= 1.0 + problem_.contacts[active[std::size_t(c)]].restitution;
+    if (const auto i = active[std::size_t(c)]; closes(i))
+      law.col(c) *= 1.0 + problem_.contacts[i].restitution;
   rates = law * rates;  // -impulses by z
   pressed = law * pressed;
-  for (Index c = 0; c < count; ++c) {
-    const auto& of_contact = row(active[std::size_t(c)]);
-    saltation -= of_contact.impulse * rates.row(c);
-    const VectorXd jump =
-        impulses[Index(active[std::size_t(c)])] * modes().rate(of_contact.impulse) +
-        pressed[c] * of_contact.impulse;
-    saltation += jump * (of_contact.gap().transpose() / of_contact.rate().dot(z));
+  const auto add = [&](std::size_t contact, const VectorXd& jump) {
+    saltation += jump * (rows[contact].gap().transpose() / rows[contact].rate().dot(z));
     time_error += jump.cwiseAbs();
+  };
+  for (Index c = 0; c < count; ++c) {
+    const auto i = active[std::size_t(c)];
+    saltation -= rows[i].impulse * rates.row(c);
+    const VectorXd jump = impulses[Index(i)] * m_.regimes_[regime].rate(rows[i].impulse) +
+                          pressed[c] * rows[i].impulse;
+    if (closes(i))
+      add(i, jump);
+    else
+      shared += jump;
   }
+  if (!shared.isZero(0.0)) add(closings.front().contact, shared);
 }
 
 }  // namespace clackers::exact

@@ -25,7 +25,11 @@ constexpr double most_bytes = 2e9;
 }  // namespace
 
 PiecewiseMotion::Builder::Builder(const model::ImpactProblem<>& problem, PiecewiseMotion& motion)
-    : problem_(problem), m_(motion), lcp_(problem.contacts.size()), contacts_(problem.contacts) {
+    : problem_(problem),
+      m_(motion),
+      lcp_(problem.contacts.size()),
+      contacts_(problem.contacts),
+      opens_(problem.contacts.size(), Begin::open) {
   if (const auto* springs = model::one_sided_springs(problem)) {
     contacts_.insert(contacts_.end(), springs->contacts().begin(), springs->contacts().end());
     stiffnesses_ = springs->stiffnesses();
@@ -33,92 +37,181 @@ PiecewiseMotion::Builder::Builder(const model::ImpactProblem<>& problem, Piecewi
 }
 
 void PiecewiseMotion::Builder::build() {
-  std::vector<bool> compressed(stiffnesses_.size());
-  regime(compressed);  // is checked first
-  for (std::size_t j = 0; j < stiffnesses_.size(); ++j) {
-    const auto& contact = contacts_[springs() + j];
-    compressed[j] = contact.gap_at(problem_.start.u) < 0.0;
-    const VectorXd response =
-        m_.regimes_[0].derivative(1) * m_.regimes_[0].impulse(contact.direction);
-    stiffest_ = std::max(stiffest_, std::sqrt(stiffnesses_[j] * contact.direction.dot(response)));
-  }
-  const auto n = m_.dof();
-  const auto first = regime(compressed);
-  begin(first, 0.0, m_.regimes_[first].state(problem_.start.u, problem_.start.v),
-        MatrixXd::Zero(2 * n, 2 * n));
-  // The start itself is given; what the change to modes rounds is that of a flight of no length.
-  m_.flights_.back().covariance = m_.covariance_after(m_.flights_.back(), 0.0);
-  is_closed_.assign(springs(), false);
-  for (std::size_t i = 0; i < springs(); ++i) {
-    const auto& contact = contacts_[i];
-    const double size = contact.direction.cwiseAbs().dot(problem_.start.u.cwiseAbs());
-    is_closed_[i] = std::abs(contact.gap_at(problem_.start.u)) <=
-                    epsilon * double(n) * (size + std::abs(contact.gap));
-  }
+  start();
   for (;;) {
     const auto closings = next_contacts();
     if (switching_)
       change_regime();
     else if (!closings.empty())
-      collide(closing_first(closings));
+      happen(closing_first(closings));
     else
       return;
   }
 }
 
+void PiecewiseMotion::Builder::start() {
+  std::vector<bool> closed(contacts_.size());
+  regime(closed);  // is checked first
+  for (std::size_t i = springs(); i < contacts_.size(); ++i) {
+    const auto& contact = contacts_[i];
+    closed[i] = contact.gap_at(problem_.start.u) < 0.0;
+    const VectorXd response =
+        m_.regimes_[0].derivative(1) * m_.regimes_[0].impulse(contact.direction);
+    stiffest_ = std::max(stiffest_,
+                         std::sqrt(stiffnesses_[i - springs()] * contact.direction.dot(response)));
+  }
+  const auto n = m_.dof();
+  State state{regime(closed), 0.0, {}, MatrixXd::Zero(2 * n, 2 * n)};
+  const auto& modes = m_.regimes_[state.regime];
+  state.z = modes.state(problem_.start.u, problem_.start.v);
+  begin(state);
+  // The start itself is given; what the change to modes rounds is that of a flight of no length.
+  m_.flights_.back().covariance = state.covariance = m_.covariance_after(flight(), 0.0);
+  std::vector<std::size_t> touching;
+  for (std::size_t i = 0; i < springs(); ++i) {
+    const auto& contact = contacts_[i];
+    const double size = contact.direction.cwiseAbs().dot(problem_.start.u.cwiseAbs());
+    if (std::abs(contact.gap_at(problem_.start.u)) >
+        epsilon * double(n) * (size + std::abs(contact.gap)))
+      continue;
+    const double speed = contact.direction.cwiseAbs().dot(problem_.start.v.cwiseAbs());
+    opens_[i] = Begin::by_speed;
+    if (contact.gap_rate(problem_.start.v) <= epsilon * double(n) * speed) touching.push_back(i);
+  }
+  const auto next = resting(state, touching);
+  m_.flights_.clear();
+  const MatrixXd map = change(state.regime, next);
+  begin({next, 0.0, m_.regimes_[next].state(problem_.start.u, problem_.start.v),
+         map * state.covariance * map.transpose()});
+}
+
 std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
-  const auto known = std::ranges::find(closed_springs_, closed);
-  if (known != closed_springs_.end()) return std::size_t(known - closed_springs_.begin());
+  const auto known = std::ranges::find(closed_, closed);
+  if (known != closed_.end()) return std::size_t(known - closed_.begin());
   auto structure = problem_;
   if (!stiffnesses_.empty()) structure.system.nonlinear = {};
   std::vector<model::HarmonicForce> forces;
   if (const auto* load = problem_.system.add_load.target<model::HarmonicLoad>())
     forces = load->forces();
+  std::vector<std::size_t> held;
   for (std::size_t j = 0; j < closed.size(); ++j) {
     if (!closed[j]) continue;
-    const auto& [b, gap, restitution] = contacts_[springs() + j];
-    structure.system.stiffness += stiffnesses_[j] * b * b.transpose();
+    if (j < springs()) {
+      held.push_back(j);
+      continue;
+    }
+    const auto& [b, gap, restitution] = contacts_[j];
+    const double stiffness = stiffnesses_[j - springs()];
+    structure.system.stiffness += stiffness * b * b.transpose();
     for (Index i = 0; i < b.size(); ++i)
-      if (const double force = stiffnesses_[j] * gap * b[i]; force != 0.0)
+      if (const double force = stiffness * gap * b[i]; force != 0.0)
         forces.push_back({int(i), force, 0.0, 0.0});
   }
-  if (std::ranges::count(closed, true) > 0 && !forces.empty())
-    structure.system.add_load = model::HarmonicLoad(std::move(forces));
-  const auto& modes = m_.regimes_.emplace_back(structure, m_.who_);
+  if (!forces.empty()) structure.system.add_load = model::HarmonicLoad(std::move(forces));
+  const auto constrained = constraint(held);
+  const auto& modes =
+      m_.regimes_.emplace_back(structure, m_.who_, constrained.basis, constrained.offset);
+  const VectorXd none = VectorXd::Zero(m_.dof());
   std::vector<Row> rows;
-  for (const auto& contact : contacts_) {
-    Row row{MatrixXd(2 * modes.dof(), 4), modes.impulse(contact.direction)};
-    for (int order = 0; order < 4; ++order)
-      row.by_state.col(order) = modes.derivative(order).transpose() * contact.direction;
-    rows.push_back(std::move(row));
-  }
+  for (const auto& contact : contacts_)
+    rows.push_back({modes.observe(contact.direction, none, none, none, -contact.gap),
+                    modes.impulse(contact.direction)});
   rows_.push_back(std::move(rows));
-  closed_springs_.push_back(closed);
-  return closed_springs_.size() - 1;
+  auto& of_contacts = m_.forces_.emplace_back(springs());
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const VectorXd need = constrained.forces.row(Index(k)).transpose();
+    of_contacts[held[k]] = modes.observe(modes.stiffness() * need, modes.damping() * need,
+                                         modes.mass() * need, -need, 0.0);
+  }
+  closed_.push_back(closed);
+  return closed_.size() - 1;
+}
+
+// Gauss and Jordan's elimination with the largest pivots; directions such as (1, -1, 0) stay exact.
+auto PiecewiseMotion::Builder::constraint(const std::vector<std::size_t>& contacts) const
+    -> Constraint {
+  const Index n = problem_.dof(), count = std::ssize(contacts);
+  MatrixXd left(count, n), right = MatrixXd::Identity(count, count);
+  VectorXd gaps(count);
+  for (Index k = 0; k < count; ++k) {
+    left.row(k) = contacts_[contacts[std::size_t(k)]].direction.transpose();
+    gaps[k] = contacts_[contacts[std::size_t(k)]].gap;
+  }
+  std::vector<Index> pivots;
+  std::vector<bool> is_pivot(std::size_t(n), false);
+  for (Index k = 0; k < count; ++k) {
+    Index column = 0;
+    left.row(k).cwiseAbs().maxCoeff(&column);
+    pivots.push_back(column);
+    is_pivot[std::size_t(column)] = true;
+    const double pivot = left(k, column);
+    left.row(k) /= pivot;
+    right.row(k) /= pivot;
+    gaps[k] /= pivot;
+    for (Index other = 0; other < count; ++other) {
+      const double share = left(other, column);
+      if (other == k || share == 0.0) continue;
+      left.row(other) -= share * left.row(k);
+      right.row(other) -= share * right.row(k);
+      gaps[other] -= share * gaps[k];
+    }
+  }
+  Constraint found{MatrixXd::Zero(n, n - count), MatrixXd::Zero(count, n), VectorXd::Zero(n)};
+  Index column = 0;
+  for (Index i = 0; i < n; ++i) {
+    if (is_pivot[std::size_t(i)]) continue;
+    found.basis(i, column) = 1.0;
+    for (Index k = 0; k < count; ++k) found.basis(pivots[std::size_t(k)], column) = -left(k, i);
+    ++column;
+  }
+  for (Index k = 0; k < count; ++k) {
+    found.offset[pivots[std::size_t(k)]] = gaps[k];
+    found.forces.col(pivots[std::size_t(k)]) = right.row(k).transpose();
+  }
+  return found;
+}
+
+std::vector<std::size_t> PiecewiseMotion::Builder::held(std::size_t regime) const {
+  std::vector<std::size_t> held;
+  for (std::size_t i = 0; i < springs(); ++i)
+    if (closed_[regime][i]) held.push_back(i);
+  return held;
+}
+
+std::size_t PiecewiseMotion::Builder::with_held(std::size_t regime,
+                                                const std::vector<std::size_t>& contacts,
+                                                bool held) {
+  auto closed = closed_[regime];
+  for (const auto i : contacts) closed[i] = held;
+  return this->regime(closed);
+}
+
+MatrixXd PiecewiseMotion::Builder::change(std::size_t from, std::size_t to) const {
+  const auto &before = m_.regimes_[from], &after = m_.regimes_[to];
+  if (from == to) return MatrixXd::Identity(2 * before.dof(), 2 * before.dof());
+  MatrixXd map(2 * after.dof(), 2 * before.dof());
+  for (Index i = 0; i < map.cols(); ++i)
+    map.col(i) = after.change(before.derivative(0).col(i), before.derivative(1).col(i));
+  return map;
 }
 
 void PiecewiseMotion::Builder::change_regime() {
   const auto [contact, s] = *std::exchange(switching_, std::nullopt);
-  auto closed = closed_springs_[flight().regime];
-  closed[contact - springs()].flip();
+  const auto now = flight().regime;
+  auto closed = closed_[now];
+  closed[contact].flip();
   const auto next = regime(closed);
-  const auto &before = modes(), &after = m_.regimes_[next];
   const double t = flight().t + s;
-  const auto changed = [&](const VectorXd& z) {
-    return after.state(before.derivative(0) * z, before.derivative(1) * z);
-  };
-  const Index n = before.dof();
-  MatrixXd map(2 * n, 2 * n);
-  for (Index i = 0; i < 2 * n; ++i) map.col(i) = changed(VectorXd::Unit(2 * n, i));
-  const VectorXd z = changed(m_.total(flight(), t));
-  begin(next, t, z, map * m_.covariance_after(flight(), s) * map.transpose());
-  m_.flights_.back().covariance = m_.covariance_after(m_.flights_.back(), 0.0);
-  is_closed_.assign(springs(), false);
-  if (closed[contact - springs()]) m_.spring_contacts_.push_back(t);
+  const VectorXd before = m_.total(flight(), t);
+  const MatrixXd map = change(now, next);
+  begin({next, t, m_.regimes_[next].state(modes().displacement(before), modes().velocity(before)),
+         map * m_.covariance_after(flight(), s) * map.transpose()});
+  m_.flights_.back().covariance = m_.covariance_after(flight(), 0.0);
+  if (closed[contact]) m_.spring_contacts_.push_back(t);
 }
 
-void PiecewiseMotion::Builder::begin(std::size_t regime, double t, const VectorXd& z,
-                                     MatrixXd covariance) {
+void PiecewiseMotion::Builder::begin(State state) {
+  auto& [regime, t, z, covariance] = state;
   const double bytes = 8.0 * double(covariance.size()) * double(m_.flights_.size() + 1);
   if (m_.flights_.size() >= most_flights || bytes > most_bytes)
     throw InputError(
@@ -127,7 +220,20 @@ void PiecewiseMotion::Builder::begin(std::size_t regime, double t, const VectorX
             "impacts and 2 GB. Impacts may accumulate there; end the run earlier.",
             m_.who_, m_.flights_.size(), t, bytes * 1e-9),
         "out-of-memory");
+  for (std::size_t i = 0; i < springs(); ++i) {
+    const auto now = std::ranges::find_if(
+        m_.closed_, [&](const auto& c) { return c.contact == int(i) && !c.opens; });
+    if (closed_[regime][i] && now == m_.closed_.end()) {
+      m_.closed_.push_back({int(i), t, m_.end_, {t, t}});
+    } else if (!closed_[regime][i] && now != m_.closed_.end()) {
+      now->until = t;
+      now->opens = true;
+    }
+  }
   m_.flights_.push_back({t, regime, z - m_.regimes_[regime].steady(t), std::move(covariance)});
+  begins_ = std::exchange(opens_, std::vector<Begin>(springs(), Begin::open));
+  for (std::size_t i = 0; i < springs(); ++i)
+    if (is_held(i)) begins_[i] = Begin::open;
 }
 
 PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, std::string_view who)

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "clackers/exact/flights/first_crossing.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/numerics/first_root.hpp"
 #include "clackers/numerics/lcp.hpp"
@@ -28,39 +30,67 @@ class PiecewiseMotion::Builder {
   /// Speeds below this share of their sizes are those of masses that stay together.
   static constexpr double touching_share = 1e-12;
 
-  /// Of a contact: its gap and three derivatives by z, and the change of z by a unit impulse.
+  /// Of a contact: its gap, and the change of z by a unit impulse.
   struct Row {
-    MatrixXd by_state;  // a column each
+    ForcedModes::Observable seen;
     VectorXd impulse;
-    auto gap() const { return by_state.col(0); }
-    auto rate() const { return by_state.col(1); }
+    auto gap() const { return seen.by_state.col(0); }
+    auto rate() const { return seen.by_state.col(1); }
   };
-  /// A contact that closes s seconds into the flight.
+  /// A contact that closes s seconds into the flight, or a held one whose force ends there.
   struct Closing {
     std::size_t contact = 0;
     double s = 0.0, gap_error = 0.0, time_error = 0.0;
+    bool is_soft = false;  // lands without a speed that the error lets be seen
     double first() const { return s - time_error; }
     double last() const { return s + time_error; }
+  };
+  /// How the gap of a contact begins in a flight: the derivatives below this order are 0.
+  enum class Begin { open, by_speed, by_acceleration, by_jerk };
+  /// z in a regime, and the error of it.
+  struct State {
+    std::size_t regime = 0;
+    double t = 0.0;
+    VectorXd z;
+    MatrixXd covariance;
   };
 
   const Flight& flight() const { return m_.flights_.back(); }
   const ForcedModes& modes() const { return m_.modes(flight()); }
   const Row& row(std::size_t i) const { return rows_[flight().regime][i]; }
+  bool is_held(std::size_t i) const { return closed_[flight().regime][i]; }
+  /// What must not become negative: the gap of an open contact, the force of a held one.
+  const ForcedModes::Observable& watched(std::size_t i) const {
+    return is_held(i) ? *m_.forces_[flight().regime][i] : row(i).seen;
+  }
   /// Contacts from here on are springs.
   std::size_t springs() const { return problem_.contacts.size(); }
   double factor() const { return m_.factor(m_.flights_.size() - 1); }
-  double delassus(std::size_t i, std::size_t j) const { return row(i).rate().dot(row(j).impulse); }
+  double delassus(std::size_t regime, std::size_t i, std::size_t j) const {
+    return rows_[regime][i].rate().dot(rows_[regime][j].impulse);
+  }
 
-  /// The structure with these springs closed.
+  /// The structure with these contacts held and these springs closed.
   std::size_t regime(const std::vector<bool>& closed);
+  std::size_t with_held(std::size_t regime, const std::vector<std::size_t>& contacts, bool held);
+  std::vector<std::size_t> held(std::size_t regime) const;
+  /// Of held contacts the last are the coordinates u = offset + basis q, and the forces that the
+  /// contacts need for given forces on the masses.
+  struct Constraint {
+    MatrixXd basis, forces;
+    VectorXd offset;
+  };
+  Constraint constraint(const std::vector<std::size_t>& contacts) const;
   /// A spring closes or opens. Displacements, velocities and forces are continuous.
   void change_regime();
-  void begin(std::size_t regime, double t, const VectorXd& z, MatrixXd covariance);
+  MatrixXd change(std::size_t from, std::size_t to) const;
+  void start();
+  void begin(State state);
 
-  /// The gap of contact i, s seconds into the flight; the energy of no mode grows.
-  numerics::LocalBound gap_ahead(std::size_t i, double s) const;
-  double gap_error(std::size_t i, const MatrixXd& covariance, double s) const;
-  double gap_rounding(std::size_t i, const ForcedModes::Sizes& size) const;
+  numerics::LocalBound ahead(const ForcedModes::Observable& seen, double s) const {
+    return modes().ahead(seen, flight().free, flight().t, s, m_.end_);
+  }
+  double error_of(const ForcedModes::Observable& seen, const MatrixXd& covariance, double s) const;
   /// The flight is searched in windows, each twice as long as the one before, so that the error of
   /// gaps is bounded by about what it is.
   std::vector<Closing> next_contacts();
@@ -70,10 +100,12 @@ class PiecewiseMotion::Builder {
   [[noreturn]] void refuse_length() const;
   /// certain_gap times a bound on the error of each gap up to s seconds into the flight.
   std::vector<double> levels(double s) const;
-  /// From where on contact i is open for certain.
-  double opening(std::size_t i, double level) const;
+  /// From where on contact i is open, or pressed, for certain; nothing where its rebound is lower
+  /// than its error.
+  std::optional<double> opening(std::size_t i, double level) const;
   std::vector<Closing> search(const std::vector<double>& level, const std::vector<double>& from,
                               double to) const;
+  Closing soft_landing(std::size_t i, const Crossing& found) const;
   double highest_force() const;
   [[noreturn]] void refuse_graze(std::size_t i, double t, double gap, double error) const;
   /// A closed contact that does not open, or by less than the error.
@@ -85,30 +117,65 @@ class PiecewiseMotion::Builder {
   /// their own.
   std::vector<Closing> closing_first(const std::vector<Closing>& closings) const;
   /// Whether an impulse of one changes the gap rate of the other.
-  bool act_on_each_other(const Closing& a, const Closing& b) const;
-  /// Newton's law for contacts that close together.
+  bool act_on_each_other(std::size_t a, std::size_t b) const;
+  void happen(const std::vector<Closing>& closings);
+  /// Newton's law for contacts that close together, held ones among them.
   void collide(const std::vector<Closing>& closings);
+  /// Of contacts that are closed at an impact those that are so after it; the others open.
+  std::vector<std::size_t> staying(const std::vector<std::size_t>& closed, const VectorXd& impulses,
+                                   const State& after);
   /// Nothing but rounding of the speed before the impact is left: a plastic impact at equilibrium.
-  bool at_rest(const VectorXd& after, const VectorXd& before, const VectorXd& z) const;
-  VectorXd solve(const std::vector<std::size_t>& closed, const VectorXd& z, double t);
+  bool at_rest(const VectorXd& u, const VectorXd& after, const VectorXd& before) const;
+  /// p >= 0 with w = q + W p >= 0, one of each pair 0, of these contacts.
+  VectorXd solve(std::size_t regime, const VectorXd& q, const std::vector<std::size_t>& contacts,
+                 double t);
   /// S = R + sum over contacts of g_c n_c'/(n_c . f-): contact c, whose gap a perturbation changes
   /// by n_c . dx, comes that over its gap rate earlier, and g_c is its part of f+ - R f-. Of
   /// contacts that close together this holds while they stay together, or do not act on each other.
-  void add_saltation(const std::vector<std::size_t>& closed, const VectorXd& impulses,
-                     const VectorXd& z, const VectorXd& a_before, MatrixXd& saltation,
-                     VectorXd& time_error) const;
+  /// `shared` is what contacts that were closed before, or are after, add to the parts.
+  void add_saltation(std::size_t regime, const std::vector<Closing>& closings,
+                     const VectorXd& impulses, const VectorXd& z, const VectorXd& a_before,
+                     VectorXd shared, MatrixXd& saltation, VectorXd& time_error) const;
+
+  /// A bound on the error of row . z, for a state as `state`.
+  double deviation(const State& state, const VectorXd& row) const;
+
+  // resting_contacts.cpp
+
+  /// The regime in which contacts that are closed without a gap rate go on: those whose force would be
+  /// negative open. By accelerations, and where those leave it undecided, by their rates.
+  std::size_t resting(const State& state, const std::vector<std::size_t>& contacts);
+  std::size_t resting_by_jerk(const State& state, const std::vector<std::size_t>& contacts);
+  /// The same instant in another regime.
+  State seen_in(std::size_t regime, const State& state) const;
+  /// Held contacts whose force ends.
+  void release(const std::vector<Closing>& closings);
+  /// Contact i rebounds with impacts that accumulate: rest follows where that is certain.
+  bool come_to_rest(std::size_t i, double level, bool is_resolved);
+  /// Contact i lands without a speed that can be seen.
+  void land(const Closing& closing);
+  /// For some seconds the gap of contact i is below `gap`, and its rate and acceleration are bounded,
+  /// while the flight to begin holds it already.
+  struct Bounce {
+    std::size_t contact = 0;
+    double seconds = 0.0, gap = 0.0, rate = 0.0, acceleration = 0.0;
+    double drift = 0.0;  // of the gap from the first instant to the last
+  };
+  /// Nothing where another contact may close or open then.
+  std::optional<Unresolved> left_out(const Bounce& bounce, const State& free, State& held) const;
 
   const model::ImpactProblem<>& problem_;
   PiecewiseMotion& m_;
   numerics::LcpSolver lcp_;
-  std::vector<model::Contact<>> contacts_;         // those of the problem, then springs
-  std::vector<double> stiffnesses_;                // of the springs
-  std::vector<std::vector<bool>> closed_springs_;  // of each regime
-  std::vector<std::vector<Row>> rows_;             // of each regime
+  std::vector<model::Contact<>> contacts_;  // those of the problem, then springs
+  std::vector<double> stiffnesses_;         // of the springs
+  std::vector<std::vector<bool>> closed_;   // of each regime
+  std::deque<std::vector<Row>> rows_;       // of each regime
   std::optional<std::pair<std::size_t, double>> switching_;
-  double stiffest_ = 0.0;  // frequency of a spring and the masses that it joins
-  std::vector<bool> is_closed_;
+  double stiffest_ = 0.0;              // frequency of a spring and the masses that it joins
+  std::vector<Begin> begins_, opens_;  // of this flight, of the next
   bool rests_ = false;
+  std::string no_rest_;  // why impacts that accumulate were not seen to end in rest
 };
 
 }  // namespace clackers::exact

@@ -39,8 +39,8 @@ void PiecewiseMotion::sample(std::span<const double> times, Side side,
     const auto put = [&](std::span<double> to, const VectorXd& x) {
       Eigen::Map<VectorXd>(to.data() + i * n, dof()) = x;
     };
-    put(out.u, modes.derivative(0) * now);
-    put(out.v, modes.derivative(1) * now);
+    put(out.u, modes.displacement(now));
+    put(out.v, modes.velocity(now));
     if (!out.a.empty()) put(out.a, modes.acceleration(now, times[i]));
   }
 }
@@ -59,7 +59,7 @@ double PiecewiseMotion::factor(std::size_t flight) const {
 
 Kinematics PiecewiseMotion::error_bound(double t) const {
   const Index n = dof();
-  Kinematics bound{VectorXd::Zero(n), VectorXd::Zero(n), VectorXd::Zero(n)};
+  Kinematics bound{VectorXd::Zero(n), VectorXd::Zero(n), VectorXd::Zero(n)}, apart = bound;
   const auto last = flight_at(t, Side::right);
   for (auto k = flight_at(t, Side::left); k <= last; ++k) {
     const auto& flight = flights_[k];
@@ -67,7 +67,7 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
     const MatrixXd covariance = covariance_after(flight, t - flight.t);
     // What is summed, for the rounding of the sum.
     const auto size = modes.sizes(flight.free, t - flight.t);
-    VectorXd whole(2 * n), load = VectorXd::Zero(n);
+    VectorXd whole(2 * modes.dof()), load = VectorXd::Zero(n);
     whole << size.y, size.rate;
     for (const auto& force : modes.forces()) {
       whole += force.steady.cwiseAbs();
@@ -75,16 +75,27 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
     }
     const auto raise = [&](VectorXd& to, int order, const VectorXd& more) {
       const MatrixXd& rows = modes.derivative(order);
-      const VectorXd rounding = epsilon * double(n + 4) * (rows.cwiseAbs() * whole + more);
+      const VectorXd rounding =
+          epsilon * double(n + 4) * (modes.derivative_size(order) * whole + more);
       for (Index i = 0; i < n; ++i) {
         const double carried = std::sqrt(rows.row(i).dot(covariance * rows.row(i).transpose()));
         to[i] = std::max(to[i], factor(k) * carried + rounding[i]);
       }
     };
-    raise(bound.u, 0, VectorXd::Zero(n));
+    raise(bound.u, 0, modes.offset().cwiseAbs());
     raise(bound.v, 1, VectorXd::Zero(n));
     raise(bound.a, 2, load);
+    const auto& skipped = flight.unresolved;
+    if (!(skipped.seconds > 0.0 && t <= flight.t + skipped.seconds)) continue;
+    const double share =
+        skipped.scale > 0.0 ? std::min(1.0, std::max(0.0, skipped.rest - t) / skipped.scale) : 1.0;
+    apart.u = apart.u.cwiseMax(share * share * skipped.bound.u);
+    apart.v = apart.v.cwiseMax(share * skipped.bound.v);
+    apart.a = apart.a.cwiseMax(skipped.bound.a);
   }
+  bound.u += apart.u;
+  bound.v += apart.v;
+  bound.a += apart.a;
   return bound;
 }
 
@@ -93,13 +104,13 @@ Kinematics PiecewiseMotion::envelope(double t) const {
   const auto& modes = this->modes(flight);
   auto size = modes.sizes(modes.advanced(flight.free, t - flight.t), 0.0);
   // Of a mode without stiffness the present displacement.
-  for (Index j = 0; j < dof(); ++j)
+  for (Index j = 0; j < modes.dof(); ++j)
     if (const double omega = modes.system().modes()[std::size_t(j)].omega; omega > 0.0)
       size.y[j] = size.rate[j] / omega;
   const auto of = [&](int order) {
-    VectorXd most(dof());
+    VectorXd most = (order == 0 ? 1.0 : 0.0) * modes.offset().cwiseAbs();
     for (Index i = 0; i < dof(); ++i)
-      most[i] = modes.bound(modes.derivative(order).row(i).transpose(), size);
+      most[i] += modes.bound(modes.derivative(order).row(i).transpose(), size);
     for (const auto& force : modes.forces()) {
       const Eigen::VectorXcd u = modes.derivative(0) * force.steady;
       most += std::pow(force.frequency, order) * u.cwiseAbs();
@@ -107,6 +118,17 @@ Kinematics PiecewiseMotion::envelope(double t) const {
     return most;
   };
   return {of(0), of(1), of(2)};
+}
+
+VectorXd PiecewiseMotion::contact_forces(double t, Side side) const {
+  const auto& flight = flights_[flight_at(t, side)];
+  const auto& forces = forces_[flight.regime];
+  VectorXd values = VectorXd::Zero(Index(forces.size()));
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    if (forces[i])
+      values[Index(i)] =
+          modes(flight).ahead(*forces[i], flight.free, flight.t, t - flight.t, 0.0).value;
+  return values;
 }
 
 long long PiecewiseMotion::impact_count(double t) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,17 +21,22 @@ namespace clackers::exact {
 /// part of another modal system. The force is continuous where they close and open, so a wrong
 /// switching time has no effect of first order. Dips below 1e-14 of the sizes may remain unnoticed.
 ///
+/// Contacts stay closed after impacts without restitution, after impacts that accumulate and from a start in
+/// touch, as constraints of another modal system, until their force ends (resting_contacts.cpp). At
+/// impacts of others they obey the law with them. Of impacts that accumulate the last are not
+/// followed, but allowed for in the bound.
+///
 /// error_bound() holds to first order in rounding: the errors of each flight, among them those of
 /// modes by what they leave of the equations, are carried on by the flights' own maps and through
 /// each impact by its saltation matrix, increased by the terms of second order there. The whole
-/// motion is refused where errors of that size decide whether masses touch, or which contact closes
-/// first. Const, safe to share between threads. Source: piecewise modal superposition, common.
+/// motion is refused where errors of that size decide whether masses touch or part, or which contact
+/// closes first. Const, safe to share between threads. Source: piecewise modal superposition, common.
 class PiecewiseMotion : public model::Motion {
  public:
   /// Throws InputError for an invalid problem, a start at another time than 0, two contacts in the
-  /// same direction, and as ForcedModes does; and where the motion is not available: masses that
-  /// stay in contact, impacts that accumulate, a contact that is approached to less than the error,
-  /// impacts whose order decides and is not certain, more than 1e5 flights, more than 2 GB of
+  /// same direction, and as ForcedModes does; and where the motion is not available: a
+  /// contact that is approached to less than the error, a force that comes so near to 0, impacts
+  /// whose order decides and is not certain, two contacts that accumulate together, more than 1e5 flights, more than 2 GB of
   /// errors.
   explicit PiecewiseMotion(const model::ImpactProblem<>& problem,
                            std::string_view who = "piecewise");
@@ -45,6 +52,8 @@ class PiecewiseMotion : public model::Motion {
   /// Of contacts that close together each is an impact of its own, with the velocities before and
   /// after all of them.
   model::MotionImpact impact(long long index) const override;
+  std::vector<model::ClosedContact> closed_contacts() const override { return closed_; }
+  Eigen::VectorXd contact_forces(double t, model::Side side) const override;
 
   /// Of the structure with all springs open.
   const numerics::ModalSystem& modes() const { return regimes_[0].system(); }
@@ -54,11 +63,19 @@ class PiecewiseMotion : public model::Motion {
  private:
   using Vector = Eigen::VectorXd;
   class Builder;
+  /// A flight that begins with more than it resolves: impacts that accumulate, or a landing without
+  /// speed, of a contact that is closed for certain `seconds` later.
+  struct Unresolved {
+    double seconds = 0.0;
+    model::Kinematics bound;         // how far the true motion is away
+    double rest = 0.0, scale = 0.0;  // the speed falls as (rest - t)/scale, 0: it does not
+  };
   struct Flight {
     double t = 0.0;
     std::size_t regime = 0;
     Vector free;                 // z without the steady response
     Eigen::MatrixXd covariance;  // sum of D D' of the errors of z so far, at t
+    Unresolved unresolved{};
   };
   struct Hit {
     double t = 0.0, time_error = 0.0, impulse = 0.0;
@@ -74,10 +91,13 @@ class PiecewiseMotion : public model::Motion {
 
   std::string who_;
   double end_ = 0.0;
-  std::vector<ForcedModes> regimes_;  // the first has no closed spring
+  std::deque<ForcedModes> regimes_;  // the first has no closed spring and no held contact
+  /// Of each regime, for each contact of the problem: its force, where it is held.
+  std::deque<std::vector<std::optional<ForcedModes::Observable>>> forces_;
   std::vector<double> spring_contacts_;
   std::vector<Flight> flights_;
   std::vector<Hit> hits_;
+  std::vector<model::ClosedContact> closed_;
 };
 
 /// The problem that a linear penalty method solves: for each contact a spring of this stiffness > 0

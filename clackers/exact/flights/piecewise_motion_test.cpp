@@ -139,9 +139,10 @@ TEST(PiecewiseMotion, IsTheSimulationWithNinetyDigitsWithinItsBound) {
     const auto problem = random_pair(box);
     const auto text = test::refusal_of([&] { PiecewiseMotion{problem}; });
     if (text != "accepted") continue;
+    const PiecewiseMotion motion(problem);
+    if (!motion.closed_contacts().empty()) continue;
     ++members;
-    expect_simulated(PiecewiseMotion(problem),
-                     testing_oracle::ImpactSimulator(raw_pair_of(problem)), 0.497, seen);
+    expect_simulated(motion, testing_oracle::ImpactSimulator(raw_pair_of(problem)), 0.497, seen);
   }
   EXPECT_GE(members, trials(50));
   EXPECT_GT(seen.impacts, 2 * members);
@@ -185,10 +186,11 @@ TEST(PiecewiseMotion, DashpotsThatCoupleModesMoveAsTheTaylorSeriesSays) {
     const auto problem = random_dashpots(box);
     const auto text = test::refusal_of([&] { PiecewiseMotion{problem}; });
     if (text != "accepted") continue;
+    const PiecewiseMotion motion(problem);
+    if (!motion.closed_contacts().empty()) continue;
     ++members;
     forced += problem.system.add_load ? 1 : 0;
-    expect_simulated(PiecewiseMotion(problem), testing_oracle::TaylorSimulator(problem), 0.797,
-                     seen);
+    expect_simulated(motion, testing_oracle::TaylorSimulator(problem), 0.797, seen);
   }
   EXPECT_GE(members, trials(50));
   EXPECT_GT(seen.impacts, 2 * members);
@@ -444,8 +446,7 @@ TEST(PiecewiseMotion, ABallUnderItsWeightBouncesAsItsParabolas) {
   EXPECT_NEAR(PiecewiseMotion(ball).impact(1).t, speed / 9.81, 1e-15);
   // It comes to rest at (1 + 2 eta/(1 - eta)) sqrt(2 h/g).
   ball.end = 2.0;
-  EXPECT_REFUSED(PiecewiseMotion{ball}, "not-admissible", "impacts of contact 1 accumulate",
-                 "t = 1.35457");
+  EXPECT_NEAR(PiecewiseMotion(ball).closed_contacts().at(0).from, 3.0 * speed / 9.81, 1e-12);
   // In air, and on two masses that a spring holds together.
   ball.end = 1.1;
   for (const double damping : {1e-9, 0.02, 0.3}) {
@@ -463,19 +464,9 @@ TEST(PiecewiseMotion, ABallUnderItsWeightBouncesAsItsParabolas) {
   EXPECT_EQ(attempt(coupled, 0.3, seen), "accepted");
 }
 
-TEST(PiecewiseMotion, RefusalsNameTheirReason) {
-  EXPECT_REFUSED(PiecewiseMotion{oscillator(0.5, 0.5, 30.0)}, "not-admissible",
-                 "impacts of contact 1 accumulate at t = 4.1504");
+TEST(PiecewiseMotion, AContactThatOpensUnderTheLoadOfTheStart) {
   auto pressed = oscillator(0.5, 0.5, 30.0);
   pressed.start.u[0] = 0.5;
-  EXPECT_REFUSED(PiecewiseMotion{pressed}, "not-admissible", "contact 1 stays closed from t = 0",
-                 "Start with the contact open");
-  // Newton's cradle: the second mass touches the third.
-  auto cradle = row_of_three(1.0);
-  cradle.system.damping.setZero();
-  cradle.start.u = Eigen::Vector3d(1.0, 0.0, 0.0);
-  EXPECT_REFUSED(PiecewiseMotion{cradle}, "not-admissible", "contact 2 touches at rest from t = 0");
-  // A contact that opens under the load of the start is none of these.
   pressed.system.add_load = model::HarmonicLoad({{0, 1.0, 0.0, 0.0}});
   pressed.end = 5.0;
   Followed seen;
@@ -491,18 +482,6 @@ TEST(PiecewiseMotion, MotionsThatItDoesNotHaveAreRefused) {
   };
   using P = model::ImpactProblem<>;
   const auto refused = [](const P& p) { return PiecewiseMotion{p}; };
-  // Masses pressed together: impacts accumulate, or the contact stays closed.
-  EXPECT_REFUSED(refused(with([](P& p) {
-                   p.contacts[0].gap = 0.3;
-                   p.contacts[0].restitution = 0.5;
-                   p.end = 200.0;
-                 })),
-                 "not-admissible", "piecewise: ");
-  EXPECT_REFUSED(refused(with([](P& p) {
-                   p.contacts[0].gap = 0.3;
-                   p.contacts[0].restitution = 0.0;
-                 })),
-                 "not-admissible", "contact 1 stays closed", "restitutions above 0");
   EXPECT_REFUSED(refused(with([](P& p) { p.system.stiffness(0, 0) = -1.0; })),
                  "not-positive-definite", "the stiffness matrix has the eigenvalue -1");
   EXPECT_REFUSED(refused(with([](P& p) { p.system.damping(0, 0) = -0.1; })),

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "clackers/exact/testing/mass_simulator.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
 // For tests: any linear structure that collides, by Taylor series with 90 digits. It knows M, C, K,
-// the forces and the contacts, and nothing of modes.
+// the forces and the contacts, and nothing of modes. Of contacts that touch without speed those stay closed
+// whose set it finds by trial: the first terms of their forces, and of the gaps of the others, are
+// positive. Rebounds slower than 1e-15 of the speeds are rest.
 namespace clackers::exact::testing_oracle {
 
 class TaylorSimulator {
@@ -27,7 +31,20 @@ class TaylorSimulator {
         inverse_mass_(RealMatrix(problem.system.mass.cast<Real>()).inverse()) {
     if (const auto* load = problem.system.add_load.target<model::HarmonicLoad>())
       forces_ = load->forces();
-    expand(0, problem.start.u.cast<Real>(), problem.start.v.cast<Real>());
+    std::vector<std::size_t> touching;
+    const RealVector u = problem.start.u.cast<Real>(), v = problem.start.v.cast<Real>();
+    for (std::size_t i = 0; i < problem.contacts.size(); ++i)
+      if (is_zero(row(i).dot(u) - Real(problem.contacts[i].gap)) && is_zero(row(i).dot(v)))
+        touching.push_back(i);
+    rest(0, u, v, touching);
+  }
+  /// Contacts that are closed now.
+  const std::vector<std::size_t>& held() const { return held_; }
+  /// The force of each of them.
+  RealVector forces_at(const Real& t) const {
+    RealVector sum = multipliers_.back();
+    for (auto k = multipliers_.size() - 1; k-- > 0;) sum = sum * (t - start_) + multipliers_[k];
+    return sum;
   }
 
   /// Within the present series.
@@ -48,11 +65,22 @@ class TaylorSimulator {
       const Real end = std::min(Real(start_ + step_), until);
       std::optional<Real> first;
       int contact_index = 0;
-      for (std::size_t i = 0; i < problem_.contacts.size(); ++i)
-        if (const auto t = first_zero(i, first ? *first : end)) {
+      bool is_release = false;
+      for (std::size_t i = 0; i < problem_.contacts.size(); ++i) {
+        const auto closed = std::ranges::find(held_, i);
+        const bool is_held = closed != held_.end();
+        const auto terms = is_held ? force_terms(closed - held_.begin()) : gap_terms(i);
+        if (const auto t = first_zero(terms, first ? *first : end)) {
           first = t;
           contact_index = int(i);
+          is_release = is_held;
         }
+      }
+      if (first && is_release) {
+        const auto x = at(*first);
+        rest(*first, x.u, x.v, std::vector<std::size_t>(held_));
+        continue;
+      }
       if (first) return impact(*first, contact_index);
       const auto x = at(end);
       expand(end, x.u, x.v);
@@ -64,10 +92,19 @@ class TaylorSimulator {
   Eigen::Index dof() const { return stiffness_.rows(); }
   RealVector row(std::size_t i) const { return problem_.contacts[i].direction.cast<Real>(); }
 
-  // (k + 1)(k + 2) M u_(k+2) = f_k - (k + 1) C u_(k+1) - K u_k.
+  static bool is_zero(const Real& x) { return abs(x) < Real(1e-60); }
+
+  // (k + 1)(k + 2) M u_(k+2) = f_k + B' p_k - (k + 1) C u_(k+1) - K u_k, with B u_(k+2) = 0 for the
+  // held contacts.
   void expand(const Real& t, const RealVector& u, const RealVector& v) {
     start_ = t;
     series_ = {u, v};
+    multipliers_.clear();
+    const auto count = std::ssize(held_);
+    RealMatrix rows(count, dof());
+    for (Eigen::Index i = 0; i < count; ++i) rows.row(i) = row(held_[std::size_t(i)]).transpose();
+    const RealMatrix responses = inverse_mass_ * rows.transpose();
+    const RealMatrix inverse = count > 0 ? RealMatrix((rows * responses).inverse()) : RealMatrix();
     std::vector<Real> forces(forces_.size());
     for (int k = 0; k + 2 < terms; ++k) {
       RealVector f = -(stiffness_ * series_[std::size_t(k)] +
@@ -81,17 +118,57 @@ class TaylorSimulator {
         forces[i] = k == 0 ? Real(1) : Real(forces[i] * Real(force.frequency) / k);
         f[force.dof] += Real(force.amplitude) * forces[i] * sign * quarter;
       }
-      series_.push_back(inverse_mass_ * f / Real((k + 1) * (k + 2)));
+      RealVector a = inverse_mass_ * f;
+      multipliers_.push_back(RealVector::Zero(count));
+      if (count > 0) {
+        multipliers_.back() = -inverse * (rows * a);
+        a += responses * multipliers_.back();
+      }
+      series_.push_back(a / Real((k + 1) * (k + 2)));
     }
   }
 
-  // By the sign at sixteen places of a step and at the turning points between them, then by halving
-  // and Newton's method.
-  std::optional<Real> first_zero(std::size_t i, const Real& end) const {
+  static bool begins_positive(const std::vector<Real>& terms, std::size_t from) {
+    for (auto k = from; k < terms.size() / 2; ++k)
+      if (abs(terms[k]) > Real(1e-40)) return terms[k] > 0;
+    return true;
+  }
+
+  // Of these contacts, which touch without speed, some stay closed.
+  void rest(const Real& t, const RealVector& u, const RealVector& v,
+            const std::vector<std::size_t>& touching) {
+    for (unsigned set = 0; set < 1u << touching.size(); ++set) {
+      held_.clear();
+      for (std::size_t i = 0; i < touching.size(); ++i)
+        if (set >> i & 1u) held_.push_back(touching[i]);
+      expand(t, u, v);
+      bool fits = true;
+      for (std::size_t i = 0; i < held_.size(); ++i)
+        fits = fits && begins_positive(force_terms(Eigen::Index(i)), 0);
+      for (const auto i : touching)
+        if (std::ranges::find(held_, i) == held_.end())
+          fits = fits && begins_positive(gap_terms(i), 2);
+      if (fits) return;
+    }
+    throw std::logic_error("no set of closed contacts");
+  }
+
+  std::vector<Real> gap_terms(std::size_t i) const {
     std::vector<Real> gaps;
     const auto b = row(i);
     for (const auto& coefficient : series_) gaps.push_back(b.dot(coefficient));
     gaps[0] -= Real(problem_.contacts[i].gap);
+    return gaps;
+  }
+  std::vector<Real> force_terms(Eigen::Index i) const {
+    std::vector<Real> forces;
+    for (const auto& coefficient : multipliers_) forces.push_back(coefficient[i]);
+    return forces;
+  }
+
+  // By the sign at sixteen places of a step and at the turning points between them, then by halving
+  // and Newton's method.
+  std::optional<Real> first_zero(const std::vector<Real>& gaps, const Real& end) const {
     Real slope;
     const auto gap = [&](const Real& s) {
       Real value = gaps.back();
@@ -126,26 +203,66 @@ class TaylorSimulator {
           continue;
         }
       }
-      for (int halving = 0; halving < 60; ++halving) {
+      for (int halving = 0; halving < 200; ++halving) {
         const Real middle = (low + high) / 2;
         (gap(middle) >= 0 ? low : high) = middle;
       }
       for (int improved = 0; improved < 8; ++improved) {
         const Real value = gap(low);
-        low -= value / slope;
+        if (slope != 0) low -= value / slope;
       }
       return start_ + low;
     }
     return std::nullopt;
   }
 
+  RealVector stopped(const RealVector& v, const std::vector<std::size_t>& contacts) const {
+    if (contacts.empty()) return v;
+    RealMatrix rows(contacts.size(), dof());
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      rows.row(Eigen::Index(i)) = row(contacts[i]).transpose();
+    const RealMatrix responses = inverse_mass_ * rows.transpose();
+    return v - responses * (RealMatrix((rows * responses).inverse()) * (rows * v));
+  }
+
+  // Impulses of this contact and those that are closed, by trial of all sets.
   Impact impact(const Real& t, int contact) {
     auto x = at(t);
-    const auto& law = problem_.contacts[std::size_t(contact)];
-    const RealVector b = row(std::size_t(contact)), response = inverse_mass_ * b;
-    const Real impulse = -(1 + Real(law.restitution)) * b.dot(x.v) / b.dot(response);
-    expand(t, x.u, x.v + impulse * response);
-    return {t, impulse, contact};
+    auto closed = held_;
+    closed.push_back(std::size_t(contact));
+    const auto restitution = [&](std::size_t i) {
+      return int(i) == contact ? Real(problem_.contacts[i].restitution) : Real(0);
+    };
+    for (unsigned set = 1; set < 1u << closed.size(); ++set) {
+      std::vector<std::size_t> active;
+      for (std::size_t i = 0; i < closed.size(); ++i)
+        if (set >> i & 1u) active.push_back(closed[i]);
+      RealMatrix rows(active.size(), dof());
+      RealVector wanted(active.size());
+      for (std::size_t i = 0; i < active.size(); ++i) {
+        rows.row(Eigen::Index(i)) = row(active[i]).transpose();
+        wanted[Eigen::Index(i)] = -(1 + restitution(active[i])) * row(active[i]).dot(x.v);
+      }
+      const RealMatrix responses = inverse_mass_ * rows.transpose();
+      const RealVector impulses = RealMatrix((rows * responses).inverse()) * wanted;
+      const RealVector v = x.v + responses * impulses;
+      bool fits = true;
+      for (const auto& impulse : impulses) fits = fits && (impulse > 0 || is_zero(impulse));
+      std::vector<std::size_t> touching;
+      Real of_contact = 0;
+      for (const auto i : closed) {
+        const Real after = row(i).dot(v) + restitution(i) * row(i).dot(x.v);
+        fits = fits && (after > 0 || is_zero(after));
+        // Slower than this it does not rebound.
+        if (row(i).dot(v) < Real(1e-15)) touching.push_back(i);
+      }
+      if (!fits) continue;
+      for (std::size_t i = 0; i < active.size(); ++i)
+        if (int(active[i]) == contact) of_contact = impulses[Eigen::Index(i)];
+      rest(t, x.u, stopped(v, touching), touching);
+      return {t, of_contact, contact};
+    }
+    throw std::logic_error("no impulses");
   }
 
   static constexpr int terms = 60;
@@ -154,7 +271,8 @@ class TaylorSimulator {
   RealMatrix damping_, stiffness_, inverse_mass_;
   std::vector<model::HarmonicForce> forces_;
   Real start_;
-  std::vector<RealVector> series_;
+  std::vector<RealVector> series_, multipliers_;
+  std::vector<std::size_t> held_;
 };
 
 }  // namespace clackers::exact::testing_oracle

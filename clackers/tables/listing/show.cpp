@@ -68,12 +68,45 @@ record::Sheet impact_sheet(const cases::Case& test_case) {
   std::vector<record::Cell> row;
   while (sheet.rows.size() < impacts_shown && rows->next(row)) sheet.rows.push_back(row);
   if (test_case.motion->dof() > 2) keep_impacts_alone(sheet);
-  sheet.title = total <= static_cast<long long>(sheet.rows.size())
-                    ? fmt::format("Impacts: {}", total)
-                    : fmt::format(
-                          "Impacts: the first {} of {}; all: clackers respond {} "
-                          "--impacts",
-                          sheet.rows.size(), total, test_case.entry->name);
+  if (accumulates(*test_case.motion))
+    sheet.title = fmt::format("Impacts: infinitely many; the first {} of {} that are told apart",
+                              sheet.rows.size(), total);
+  else
+    sheet.title = total <= static_cast<long long>(sheet.rows.size())
+                      ? fmt::format("Impacts: {}", total)
+                      : fmt::format(
+                            "Impacts: the first {} of {}; all: clackers respond {} "
+                            "--impacts",
+                            sheet.rows.size(), total, test_case.entry->name);
+  return sheet;
+}
+
+std::optional<record::Sheet> closed_sheet(const cases::Case& test_case) {
+  const auto closed = test_case.motion->closed_contacts();
+  if (closed.empty()) return std::nullopt;
+  record::Sheet sheet{"clackers/closed-contacts/1",
+                      fmt::format("Contacts that stay closed: {}", closed.size()),
+                      {{"contact", "", "number of the contact, from 1"},
+                       {"from", "s", "its force begins"},
+                       {"until", "s", "its force ends, or the run"},
+                       {"uncertainty", "s", "of `from`"},
+                       {"begins", "", "how"},
+                       {"ends", "", "how"}},
+                      {}};
+  for (const auto& c : closed) {
+    if (sheet.rows.size() == impacts_shown) break;
+    const auto begins = c.accumulates
+                            ? fmt::format(
+                                  "infinitely many impacts, those after t = {:.10g} s within "
+                                  "the error bound",
+                                  c.resolved)
+                        : c.begins.hi > c.begins.lo ? "landing without speed"
+                        : c.from > 0.0              ? "impact without rebound"
+                                       : "closed at the start; Newton's law holds for all closed "
+                                         "contacts at once";
+    sheet.rows.push_back({double(c.contact + 1), c.from, c.until, c.begins.hi - c.begins.lo, begins,
+                          std::string(c.opens ? "opens" : "end of the run")});
+  }
   return sheet;
 }
 
@@ -163,7 +196,8 @@ std::vector<record::Sheet> show_case(std::string_view name, const cases::Setting
                      test_case.indicators.empty() ? "Indicators: none of this case" : "Indicators",
                      test_case.indicators),
       impact_sheet(test_case)};
-  for (auto& more : {harmonic_sheet(test_case, threshold), conditioning_sheet(test_case)})
+  for (auto& more : {closed_sheet(test_case), harmonic_sheet(test_case, threshold),
+                     conditioning_sheet(test_case)})
     if (more) sheets.push_back(*more);
   return sheets;
 }

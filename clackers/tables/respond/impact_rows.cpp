@@ -46,6 +46,8 @@ class ImpactRows : public record::NumberRows {
 
   std::string schema() const override { return "clackers/impacts/1"; }
   std::string title() const override {
+    if (accumulates(motion_))
+      return fmt::format("Impacts of {}: infinitely many; those that are told apart", name_);
     if (total_ > 0) return "Impacts of " + name_;
     return fmt::format("Impacts of {}: none until the end of its run, {} s", name_, motion_.end());
   }
@@ -79,6 +81,10 @@ class ImpactRows : public record::NumberRows {
 };
 
 }  // namespace
+
+bool accumulates(const model::Motion& motion) {
+  return std::ranges::any_of(motion.closed_contacts(), &model::ClosedContact::accumulates);
+}
 
 std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case) {
   return std::make_unique<ImpactRows>(test_case);

@@ -48,6 +48,22 @@ std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const T
       response_columns(motion.dof()), block, States{motion, {}, {}, {}});
 }
 
+std::unique_ptr<record::RowSource> forces(const cases::Case& test_case, const TimeGrid& grid) {
+  require_inside(test_case, grid);
+  const auto& motion = *test_case.motion;
+  const auto count = std::ssize(test_case.problem.contacts);
+  std::vector<record::Column> columns;
+  for (int i = 1; i <= count; ++i)
+    columns.push_back({fmt::format("force{}", i), "N",
+                       fmt::format("of contact {} while it stays closed, along its direction", i)});
+  return std::make_unique<TimedRows>(
+      motion, grid, "clackers/forces/1", "Contact forces of " + test_case.entry->name, columns, 64,
+      one_by_one([&motion, count](double t, model::Side side, double* row) {
+        const auto now = motion.contact_forces(t, side);
+        for (Eigen::Index i = 0; i < count; ++i) row[i] = now.size() > 0 ? now[i] : 0.0;
+      }));
+}
+
 record::CaseRecord response_record(const cases::Case& test_case) {
   record::CaseRecord record;
   record.problem = summary_of(test_case);
