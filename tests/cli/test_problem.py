@@ -48,6 +48,28 @@ class Problem(CommandTest):
         self.assertIn("piecewise", str(record))
         self.assertIn("proper", str(record))
 
+    def test_goes_through_impacts_that_accumulate_to_a_contact_that_rests(self):
+        self.write("""M = [[2]]
+K = [[2]]
+end = 20
+[start]
+u = [1]
+[[contacts]]
+direction = [1]
+gap = 0.5
+restitution = 0.5
+""")
+        shown = self.good("show", "--problem", self.file)
+        self.assertIn("Impacts: infinitely many", shown)
+        self.assertIn("Contacts that stay closed: 1", shown)
+        text = self.good("respond", "--problem", self.file, "--samples", "3", "--forces", "--format", "csv")
+        self.assertEqual([float(row["force1"]) for row in csv.DictReader(io.StringIO(text))], [0.0, 1.0, 1.0])
+        history = self.file + ".csv"
+        with open(history, "w", encoding="utf-8") as file:
+            file.write(self.good("respond", "--problem", self.file, "--samples", "201", "--format", "csv"))
+        self.good("check", history, "--problem", self.file)
+        self.assertIn("piecewise", str(self.json_of("verify", "moreau-jean", "--problem", self.file, "--levels", "5")))
+
     def test_a_bad_file_is_refused_with_its_line(self):
         for old, new, code, says in (
                 ("end = 10", "ned = 10", "unknown-name", ':3: unknown key "ned". Did you mean "end"?'),

@@ -121,6 +121,15 @@ Crossing first_crossing(auto&& gap, auto&& error, double level, double from, dou
       if (root.status == numerics::FirstRoot::Status::undecided) return {undecided};
       if (root.status == numerics::FirstRoot::Status::none) return {};
       near = root.s;
+      // Its last step may have been too long for a low arc.
+      if (const auto beyond = raised(near); beyond.value < -0.5 * level) {
+        const auto value = [&](double x) { return raised(x).value; };
+        const double before = std::max(from, near - shortest), at_before = value(before);
+        near = at_before > 0.0 ? numerics::shrink(value, {before, at_before, near, beyond.value},
+                                                  0.01 * shortest)
+                                     .a
+                               : before;
+      }
     }
     const auto found = settle(gap, error, level, near);
     if (found.status != none) return found;

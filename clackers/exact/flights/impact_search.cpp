@@ -35,8 +35,12 @@ auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
   const double fastest =
       std::max({modes().system().fastest(), highest_force(), stiffest_, 1e-3 / span});
   std::vector<double> from(springs());
-  for (double to = std::min(span, 16.0 / fastest), begin = 0.0;;
-       begin = to, to = std::min(span, 2.0 * to)) {
+  double first = std::min(span, 16.0 / fastest);
+  for (std::size_t i = 0; i < springs(); ++i)
+    if (begins_[i] == Begin::by_speed)
+      if (const auto gap = ahead(row(i).seen, 0.0); gap.second < 0.0 && gap.slope > 0.0)
+        first = std::min(first, -8.0 * gap.slope / gap.second);
+  for (double to = first, begin = 0.0;; begin = to, to = std::min(span, 2.0 * to)) {
     const auto level = levels(to);
     if (begin == 0.0) {
       for (std::size_t i = 0; i < springs(); ++i) {

@@ -203,7 +203,7 @@ class TaylorSimulator {
           continue;
         }
       }
-      for (int halving = 0; halving < 200; ++halving) {
+      for (int halving = 0; halving < 60 || (low == 0 && halving < 200); ++halving) {
         const Real middle = (low + high) / 2;
         (gap(middle) >= 0 ? low : high) = middle;
       }
