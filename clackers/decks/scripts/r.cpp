@@ -47,13 +47,14 @@ impacts <- function(t, y, p) {
   stop("Several contacts stay closed: this script has no rule for that.")
 }
 
+# hmax = 0: without it the step is at most that between rows, whatever the tolerance.
 times <- t0 + (last - t0) * (0:4000) / 4000
 start <- c(u0, v0)
 if (nrow(contacts) > 0) {
-  table <- ode(start, times, motion, NULL, method = "lsodar", rtol = tolerance, atol = tolerance, maxsteps = 1e5,
+  table <- ode(start, times, motion, NULL, method = "lsodar", rtol = tolerance, atol = tolerance, maxsteps = 1e5, hmax = 0,
                rootfun = gaps, events = list(func = impacts, root = TRUE))
 } else {
-  table <- ode(start, times, motion, NULL, method = "lsodar", rtol = tolerance, atol = tolerance, maxsteps = 1e5)
+  table <- ode(start, times, motion, NULL, method = "lsodar", rtol = tolerance, atol = tolerance, maxsteps = 1e5, hmax = 0)
 }
 if (any(table[, 1 + u, drop = FALSE] %*% t(B) < rep(contacts[, n + 1], each = nrow(table)) - 0.01 * max(abs(table[, 1 + u]))))
   stop("A contact stays closed, or closes and opens within a step.")
