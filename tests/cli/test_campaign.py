@@ -242,7 +242,7 @@ class Hostile(Campaign):
 
     def test_statements_without_rows_are_refused(self):
         self.run_spec()
-        for statement in ("BEGIN", "SAVEPOINT a", "PRAGMA query_only=0", "-- nothing", "--nothing at all", ";"):
+        for statement in ("BEGIN", "SAVEPOINT a", "PRAGMA query_only=0", "PRAGMA table_i", "-- nothing", "--nothing at all", ";"):
             for form in ("table", "csv", "json"):
                 self.refused("campaign", "query", self.database, statement, "--format", form, code="bad-syntax")
         for statement in ("SELECT 1 AS x; -- a comment", "-- x = 1\nSELECT 1 AS x"):

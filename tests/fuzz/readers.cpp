@@ -101,8 +101,9 @@ void read_settings(std::string_view bytes) {
   const auto settings = cli::read_settings({std::string(bytes)});
   require(!settings.empty(), "one setting a part");
   for (const auto& [name, setting] : settings) {
-    const double value = setting;
     require(!name.empty() && name.find('=') == std::string::npos, "a name holds no =");
+    if (setting.is_word()) continue;
+    const double value = setting;
     const auto text = bytes.substr(bytes.rfind('=') + 1);
     if (std::isfinite(value) && value == std::floor(value) && std::abs(value) < 1e15 &&
         &name == &settings.back().first)

@@ -212,7 +212,13 @@ Statement Sqlite::prepare_reading(std::string_view sql) const {
       database_.get(),
       [](sqlite3* database) { sqlite3_set_authorizer(database, nullptr, nullptr); });
   sqlite3_set_authorizer(database_.get(), allows, nullptr);
-  return prepare(sql);
+  auto statement = prepare(sql);
+  if (statement.columns() == 0)  // a pragma of a name that is none
+    throw InputError(
+        fmt::format("{}: \"{}\" has no columns; allowed: a statement that reads, such as SELECT.",
+                    path(), sql),
+        "bad-syntax");
+  return statement;
 }
 
 std::string quoted_name(std::string_view name) {
