@@ -1,8 +1,10 @@
-"""Many calls of every public function leave the process as large as it was: growth.py [CALLS], 10000 by default."""
+"""Many calls of every public function leave the process as large as it was: growth.py [CALLS], 10000 by default, fewer
+of slow ones."""
 import gc
 import os
 import sys
 import tempfile
+import time
 
 import matplotlib
 import numpy as np
@@ -15,8 +17,9 @@ from matplotlib import pyplot  # noqa: E402  the backend is chosen first
 PAGE = os.sysconf("SC_PAGE_SIZE")
 ROUNDS = 3
 MOST = 40  # bytes a call in the best round: an array or an object that stays is larger
-SLOW = 50  # calls a round of what takes longer than a hundredth of a second, of which megabytes stay where they leak
-NOISE = 600_000  # bytes of a round
+LONGEST = 1.0  # processor time of a round [s]; a slow function leaves more where it leaks, so that fewer calls show it
+FEWEST = 10  # calls of a round
+NOISE = 100_000  # bytes of a round
 
 CASE = clackers.case("stop")
 PAIR = clackers.case("three-parameter")
@@ -55,7 +58,7 @@ def drawn(draw):
     return call
 
 
-QUICK = {
+CALLS = {
     "case": lambda: clackers.case("stop", eta=0.5), "admissibility": lambda: clackers.admissibility(9.0, 0.5),
     "refused case": refused(lambda: clackers.case("stpo")), "refused value": refused(lambda: CASE.response("x")),
     "explain": lambda: clackers.explain("irregular"), "catalogue": lambda: clackers.catalogue("cases"),
@@ -73,8 +76,6 @@ QUICK = {
     "Record.save": lambda: RECORD.save(PATH), "load": lambda: clackers.load(PATH),
     "Table.head": lambda: TABLE.head(1), "Table.to_pandas": TABLE.to_pandas, "Table.to_xarray": TABLE.to_xarray,
     "repr": lambda: (repr(CASE), repr(RECORD), repr(TABLE), str(RECORD)),
-}
-STUDIES = {
     "verify method": lambda: clackers.verify("rk4", **SHORT), "verify callable": lambda: clackers.verify(solver, case="stop", steps=[0.1]),
     "verify raising": refused(lambda: clackers.verify(lambda problem, h: 1 / 0, **SHORT)),
     "verify program": lambda: clackers.verify(clackers.Program("echo t,u1; echo 0,1; echo 20,{h}", fresh=True), **SHORT),
@@ -93,17 +94,21 @@ def resident():
         return int(file.read().split()[1]) * PAGE
 
 
-def growth(call, calls):
-    """Of the round that grew least, in bytes: what leaks grows in each."""
-    for _ in range(max(10, calls // 10)):
+def growth(call, most):
+    """Calls of a round, and the growth in bytes of the round that grew least: what leaks grows in each."""
+    began = time.process_time()
+    for _ in range(FEWEST):
+        call()
+    count = round(min(most, max(FEWEST, LONGEST * FEWEST / (time.process_time() - began))))
+    for _ in range(count // 10):
         call()
     found = []
     for _ in range(ROUNDS):
         before = resident()
-        for _ in range(calls):
+        for _ in range(count):
             call()
         found.append(resident() - before)
-    return min(found)
+    return count, min(found)
 
 
 def public():
@@ -116,15 +121,13 @@ def public():
 
 
 def main():
-    calls = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
-    called = {name.split(" ")[0] for name in (*QUICK, *STUDIES)}
-    bad = [f"{name} is not called" for name in sorted(public() - called - {"Table.keys"})]
-    for table, count in ((QUICK, -(-calls // ROUNDS)), (STUDIES, min(SLOW, calls))):
-        for name, call in table.items():
-            grown = growth(call, count)
-            print(f"{name:20} {ROUNDS * count:6} calls, {grown:9} bytes in the best of {ROUNDS} rounds", flush=True)
-            if grown > max(MOST * count, NOISE):
-                bad.append(f"{name} grows by {grown} bytes in {count} calls")
+    most = -(-int(sys.argv[1] if len(sys.argv) > 1 else 10_000) // ROUNDS)
+    bad = [f"{name} is not called" for name in sorted(public() - {name.split(" ")[0] for name in CALLS} - {"Table.keys"})]
+    for name, call in CALLS.items():
+        count, grown = growth(call, most)
+        print(f"{name:20} {ROUNDS * count:6} calls, {grown:9} bytes in the best of {ROUNDS} rounds", flush=True)
+        if grown > max(MOST * count, NOISE):
+            bad.append(f"{name} grows by {grown} bytes in {count} calls")
     print(*bad, sep="\n")
     return bool(bad)
 
