@@ -17,7 +17,7 @@ from matplotlib import pyplot  # noqa: E402  the backend is chosen first
 PAGE = os.sysconf("SC_PAGE_SIZE")
 ROUNDS = 3
 MOST = 40  # bytes a call in the best round: an array or an object that stays is larger
-LONGEST = 1.0  # processor time of a round [s]; a slow function leaves more where it leaks, so that fewer calls show it
+LONGEST = 1.0  # of a round [s]; a slow function leaves more where it leaks, so that fewer calls show it
 FEWEST = 10  # calls of a round
 NOISE = 100_000  # bytes of a round
 
@@ -96,10 +96,10 @@ def resident():
 
 def growth(call, most):
     """Calls of a round, and the growth in bytes of the round that grew least: what leaks grows in each."""
-    began = time.process_time()
+    began = time.monotonic()
     for _ in range(FEWEST):
         call()
-    count = round(min(most, max(FEWEST, LONGEST * FEWEST / (time.process_time() - began))))
+    count = round(min(most, max(FEWEST, LONGEST * FEWEST / (time.monotonic() - began))))
     for _ in range(count // 10):
         call()
     found = []
