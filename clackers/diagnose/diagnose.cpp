@@ -6,6 +6,7 @@
 
 #include "clackers/diagnose/causes.hpp"
 #include "clackers/diagnose/ladder/sanity.hpp"
+#include "clackers/diagnose/system/measured_causes.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -18,8 +19,14 @@ bool is_unreadable(const Diagnosis& found) {
 constexpr double gain_of_exact_flights = 1e6;
 
 bool is_of_digits(const Diagnosis& found) {
-  return found.code == Code("printed-digits").name() ||
-         found.code == Code("single-precision").name();
+  return found.confidence > least_confidence && (found.code == Code("printed-digits").name() ||
+                                                 found.code == Code("single-precision").name());
+}
+
+// What right methods have as well; it does not lead to another motion.
+bool is_of_right_methods(const Diagnosis& found) {
+  return found.code == Code("impact-at-step-end").name() ||
+         found.code == Code("impact-tolerance").name() || found.code == Code("period-error").name();
 }
 
 void add(std::vector<Diagnosis>& all, std::vector<Diagnosis> more) {
@@ -65,6 +72,8 @@ std::vector<Diagnosis> diagnose(const DiagnosisInput& asked) {
         found, [&](const Diagnosis& cause) { return brings_about(cause, implied); });
   });
   std::ranges::stable_sort(kept, std::greater{}, &Diagnosis::confidence);
+  if (is_elsewhere(asked) || says(is_other_system))
+    std::ranges::stable_partition(kept, std::not_fn(is_of_right_methods));
   return kept;
 }
 

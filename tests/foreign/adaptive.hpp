@@ -41,7 +41,11 @@ inline History run_adaptive(System s, const Options& o, double tolerance, double
     }
     double used = h;
     bool hit = s.contact && armed && s.gap(y.u) < 0.0;
-    if (hit) {
+    if (hit && o.has("event-linear")) {  // state and time on the line between two steps
+      used = h * s.gap(x.u) / (s.gap(x.u) - s.gap(y.u));
+      y.u = x.u + used / h * (y.u - x.u);
+      y.v = x.v + used / h * (y.v - x.v);
+    } else if (hit) {
       used = bisect([&](double at) { return s.gap(step(s, x, at).u); }, h,
                     o.number("event-tolerance", 0.0));
       y = step(s, x, used);
@@ -66,6 +70,7 @@ inline History run_adaptive(System s, const Options& o, double tolerance, double
     if (hit) {
       apply_impact(s, o, y, static_cast<int>(out.impacts.size()) + 1);
       out.impacts.push_back(y);
+      if (own_steps && o.has("jumps")) out.rows.push_back(y);
       armed = false;
     } else if (s.gap(y.u) > 0.0) {
       armed = true;

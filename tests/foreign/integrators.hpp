@@ -212,6 +212,16 @@ inline Step make_step(const Options& o) {
       y.a = s.acceleration(y.u, y.v, x.closed);
       return y;
     };
+  if (name == "forces") {  // once a step, with another share in displacements
+    const double share = o.number("share", 0.0);
+    return [share](const System& s, const State& x, double h) {
+      State y = x;
+      y.u = x.u + h * x.v + share * h * h * s.acceleration(x.u, x.v, x.closed);
+      y.v = x.v + h * s.acceleration(x.u, x.v, x.closed);
+      y.a = s.acceleration(y.u, y.v, x.closed);
+      return y;
+    };
+  }
   if (name == "yoshida")  // three Verlet steps, order 4 for an undamped system
     return [](const System& s, const State& x, double h) {
       const double w = 1.0 / (2.0 - std::cbrt(2.0));

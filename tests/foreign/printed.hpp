@@ -100,6 +100,17 @@ inline std::vector<State> printed_rows(const System& s, const Options& o, double
             : o.has("restart-grid") ? run_restarted(s, o, h)
             : contact == "paoli"    ? run_paoli(s, o, h, n)
                                     : run_steps(s, o, h, n);
+  if (o.has("internal-step")) {  // whatever h: rows show the last state of such steps
+    const double own = o.number("internal-step", h);
+    history = run_steps(s, o, own, std::lround(std::ceil(h * static_cast<double>(n) / own)));
+    std::vector<State> shown;
+    for (long i = 0; i <= n; ++i) {
+      const double t = h * static_cast<double>(i);
+      shown.push_back(history.rows[static_cast<std::size_t>(t / own * (1.0 + 1e-12))]);
+      shown.back().t = t;
+    }
+    history.rows = shown;
+  }
   auto rows = o.has("resample") ? resampled(history, o)
               : o.has("jumps")  ? history.nodes
                                 : history.rows;

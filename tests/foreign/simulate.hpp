@@ -14,11 +14,16 @@ struct History {
   std::vector<State> impacts;  ///< just after each impact
 };
 
-/// Newton's impact law with the faults of `o`, at the impact `number` (from 1).
-inline void apply_impact(System& s, const Options& o, State& x, int number) {
-  const double closing = s.speed(x.v);
+/// Newton's impact law with the faults of `o`, at the impact `number` (from 1). `h` is the step of
+/// contacts at step ends, where the masses overlap.
+inline void apply_impact(System& s, const Options& o, State& x, int number, double h = 1.0) {
+  const double closing = s.speed(x.v), overlap = std::max(0.0, -s.gap(x.u));
   const Vec w = solve(s.M, s.normal);
-  double impulse = -(1.0 + s.eta) * closing / dot(s.normal, w) * o.number("impulse", 1.0);
+  double eta = s.eta;
+  if (-closing < o.number("bounces-above", 0.0)) eta = 0.0;
+  if (overlap > -0.5 * h * closing) eta -= o.number("eta-lost-late", 0.0);
+  double impulse = -(1.0 + eta) * closing / dot(s.normal, w) * o.number("impulse", 1.0);
+  impulse += o.number("pushed-out", 0.0) * overlap / h / dot(s.normal, w);
   if (number == o.number("at", 0.0)) impulse *= o.number("impulse-at", 1.0);
   if (o.has("equal-masses")) {  // exchanges the velocities whatever the masses
     std::swap(x.v.x, x.v.y);
@@ -118,7 +123,7 @@ inline History run_steps(System s, const Options& o, double h, long n) {
       } else if (crossed && (at_end || at_next)) {
         waiting = false;
         if (s.speed(y.v) < 0.0) {
-          apply_impact(s, o, y, number);
+          apply_impact(s, o, y, number, h);
           out.impacts.push_back(y);
           out.impacts.back().t = h * static_cast<double>(i);
         }

@@ -47,7 +47,7 @@ TEST(FileNumbers, NamesSinglePrecision) {
       files.add(rows, 0.01);
       const auto causes = file_causes(files.question());
       ASSERT_EQ(codes(causes), "single-precision") << problem.entry->name;
-      EXPECT_EQ(causes[0].text, times_alone ? "t" : rows.dof == 1 ? "t,u1" : "t,u1,u2");
+      EXPECT_EQ(causes[0].text, times_alone ? "t" : rows.dof == 1 ? "t,u1,v1" : "t,u1,v1,u2,v2");
     }
 }
 

@@ -86,11 +86,14 @@ std::optional<Diagnosis> single_precision(const std::vector<FileSample>& files) 
   }
   bool arithmetic = false;
   for (std::size_t mass = 0; mass < masses; ++mass) {
-    const auto name = "u" + std::to_string(mass + 1);
-    if (!are_single(rows.u, mass, masses)) continue;
-    add(name);
-    arithmetic = true;
-    floor = std::max(floor, rounding);
+    const auto number = std::to_string(mass + 1);
+    // Displacements from another origin are no single numbers any more.
+    for (const auto& [letter, values] : {std::pair{"u", &rows.u}, std::pair{"v", &rows.v}}) {
+      if (values->empty() || !are_single(*values, mass, masses)) continue;
+      add(letter + number);
+      arithmetic = true;
+      floor = std::max(floor, rounding);
+    }
   }
   if (columns.empty()) return {};
   // Rounded results limit an error of their own size; arithmetic in single precision an error that
@@ -101,13 +104,13 @@ std::optional<Diagnosis> single_precision(const std::vector<FileSample>& files) 
     for (const auto& file : files)
       limits = limits || (file.history().facts.step > 1.9 * facts.step &&
                           file.largest_error() < 1.4 * error && error < 1e-2);
-  if (!limits) return {};
+  if (!limits && !arithmetic) return {};
   Diagnosis cause;
   cause.code = "single-precision";
   cause.value = 24.0;
   cause.unit = "bits";
   cause.text = columns;
-  cause.confidence = 0.9;
+  cause.confidence = limits ? 0.9 : least_confidence;
   cause.evidence = {{"floor", floor}};
   return cause;
 }

@@ -127,21 +127,40 @@ struct Rows {
   std::size_t before, after;
 };
 
-std::optional<Rows> rows_around(const model::Trajectory& rows, double t,
-                                const model::Contact<>& contact) {
+bool is_open(const FreeState& state, const model::Contact<>& contact, double sign) {
+  return contact.gap_at(state.u) >= 0.0 && sign * contact.gap_rate(state.v) > 0.0;
+}
+
+std::optional<std::size_t> row_before(const model::Trajectory& rows, double t,
+                                      const model::Contact<>& contact) {
   const auto near = std::size_t(std::ranges::upper_bound(rows.t, t) - rows.t.begin());
-  const auto side = [&](std::size_t i, double sign) {
-    const auto state = measure::row_state(rows, i);
-    return contact.gap_at(state.u) >= 0.0 && sign * contact.gap_rate(state.v) > 0.0;
-  };
-  auto before = near;
-  while (before > 0 && near - before <= most_closed_rows)
-    if (side(--before, -1.0)) break;
-  if (before >= rows.t.size() || !side(before, -1.0)) return {};
+  for (auto row = near; row > 0 && near - row <= most_closed_rows;)
+    if (is_open(measure::row_state(rows, --row), contact, -1.0)) return row;
+  return {};
+}
+
+std::optional<Rows> rows_around(const model::Trajectory& rows, std::size_t before,
+                                const model::Contact<>& contact) {
   for (auto after = before + 1; after < rows.t.size() && after - before <= 2 * most_closed_rows;
        ++after)
-    if (side(after, 1.0)) return Rows{before, after};
+    if (is_open(measure::row_state(rows, after), contact, 1.0)) return Rows{before, after};
   return {};
+}
+
+// Whether masses that close the gap after this row stay together: two rows in a row, of the next few,
+// have next to none of its speed.
+bool stay_together(const model::Trajectory& rows, std::size_t before,
+                   const model::Contact<>& contact) {
+  constexpr std::size_t most_rows = 5;
+  constexpr double small_part = 0.03;
+  const double closing = -contact.gap_rate(measure::row_state(rows, before).v);
+  int slow = 0;
+  for (auto row = before + 1; row < rows.t.size() && row <= before + most_rows; ++row) {
+    const double rate = contact.gap_rate(measure::row_state(rows, row).v);
+    slow = std::abs(rate) < small_part * closing ? slow + 1 : 0;
+    if (slow == 2) return true;
+  }
+  return false;
 }
 
 // LocatedImpact::closed_speed of the rows between these two: 1 where one step makes most of the change,
@@ -210,7 +229,14 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
             : sample;
     if (impact.contact < 0 || std::size_t(impact.contact) >= problem.contacts.size()) continue;
     const auto& contact = problem.contacts[std::size_t(impact.contact)];
-    const auto around = rows_around(rows, impact.t, contact);
+    const auto before = row_before(rows, impact.t, contact);
+    if (!before) continue;
+    if (stay_together(rows, *before, contact)) {
+      const double closing = -contact.gap_rate(measure::row_state(rows, *before).v);
+      found.sticking.push_back(
+          {.t = rows.t[*before], .contact = impact.contact, .closing = closing});
+    }
+    const auto around = rows_around(rows, *before, contact);
     if (!around) continue;
     const auto together =
         contacts_between(rows.t[around->before], rows.t[around->after], impact.contact);

@@ -47,6 +47,9 @@ struct LocatedImpacts {
   double uncertainty = 0.0;
   double flight_defect = 0.0;  ///< the same as a defect, over the length of the flight [1/s]
   std::vector<LocatedImpact> impacts;
+  /// Those after which the masses stay together, by time, contact and closing speed; the flight after
+  /// some of them is among `impacts` as well.
+  std::vector<LocatedImpact> sticking;
 
   double rms_delay() const;
   double rms_defect() const;

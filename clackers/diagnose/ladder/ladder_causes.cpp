@@ -36,6 +36,8 @@ std::vector<Diagnosis> ladder_causes(const DiagnosisInput& question) {
     std::ranges::move(found, std::back_inserter(all));
   };
   add(limit_causes(question));
+  add(force_causes(question));
+  add(event_causes(question));
   add(location_causes(question));
   const bool at_steps = std::ranges::any_of(
       all, [](const Diagnosis& one) { return one.code == "impact-at-step-end"; });

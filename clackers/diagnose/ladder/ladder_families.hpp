@@ -27,6 +27,10 @@ std::vector<Diagnosis> noise_causes(const DiagnosisInput& question);
 std::vector<Diagnosis> step_causes(const DiagnosisInput& question, bool impacts_at_steps);
 /// contact-in-tension.
 std::vector<Diagnosis> tension_causes(const DiagnosisInput& question);
+/// force-step: what steps of all histories add to free motion.
+std::vector<Diagnosis> force_causes(const DiagnosisInput& question);
+/// event-interpolated, of ladders of tolerances.
+std::vector<Diagnosis> event_causes(const DiagnosisInput& question);
 /// numerical-damping, from the energies of the scores, where no histories are kept.
 std::vector<Diagnosis> energy_causes(const DiagnosisInput& question);
 

@@ -68,11 +68,51 @@ bool labels_are_reversed(std::span<const Observation> files) {
   return true;
 }
 
+// The time between the states of a history whose rows repeat most of them, or their velocities, which
+// stay where positions are moved on with them; 0 for none.
+double repeated_step(const Observation& seen) {
+  constexpr std::size_t least_states = 10;
+  const auto& rows = seen.opening;
+  const auto dof = std::size_t(rows.dof);
+  const auto& values = rows.v.empty() ? rows.u : rows.v;
+  std::size_t states = 0, last = 0, first = 0;
+  for (std::size_t i = 1; i < rows.t.size(); ++i) {
+    const auto at = values.begin() + std::ptrdiff_t(i * dof), before = at - std::ptrdiff_t(dof);
+    if (std::equal(at, at + std::ptrdiff_t(dof), before)) continue;
+    if (states++ == 0) first = i;
+    last = i;
+  }
+  if (states < least_states || 3 * states > 2 * rows.t.size()) return 0.0;
+  return (rows.t[last] - rows.t[first]) / double(states - 1);
+}
+
 Diagnosis sure_cause(Code code, const DiagnosisInput& question) {
   auto found = diagnosis_of(code, NAN, "");
   found.confidence = 1.0;
   found.text = question.by_tolerance ? "tolerance" : "step";
   found.evidence = {{"files", double(question.histories.size())}};
+  return found;
+}
+
+// A step that histories of other steps have in common.
+std::optional<Diagnosis> internal_step(const DiagnosisInput& question) {
+  constexpr double other_step = 1.2, same = 0.03;
+  if (question.by_tolerance) return {};
+  auto found = sure_cause(Code("fixed-internal-step"), question);
+  found.unit = "s";
+  double coarsest = 0.0, finest = 0.0, files = 0.0;
+  for (const auto& seen : question.histories) {
+    const double step = repeated_step(seen);
+    if (step == 0.0) continue;
+    if (files++ == 0.0) {
+      found.value = step;
+      coarsest = seen.facts.step;
+    }
+    if (std::abs(step - found.value) > same * step) return {};
+    finest = seen.facts.step;
+  }
+  if (files < 2.0 || coarsest < other_step * finest) return {};
+  found.evidence = {{"files", files}};
   return found;
 }
 
@@ -82,6 +122,7 @@ std::optional<Diagnosis> no_ladder(const DiagnosisInput& question) {
   if (question.is_this_system || question.histories.size() < 2) return {};
   if (!question.by_tolerance && labels_are_reversed(question.histories))
     return sure_cause("steps-contradict-rows", question);
+  if (auto found = internal_step(question)) return found;
   if (step_has_no_effect(question)) return sure_cause("step-without-effect", question);
   return {};
 }

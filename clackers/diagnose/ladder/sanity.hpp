@@ -7,7 +7,7 @@
 // Whether the histories are a ladder at all, before anything is fitted to them.
 namespace clackers::diagnose {
 
-/// steps-contradict-rows, step-without-effect; nothing for a ladder.
+/// steps-contradict-rows, fixed-internal-step, step-without-effect; nothing for a ladder.
 std::optional<Diagnosis> no_ladder(const DiagnosisInput& question);
 
 /// The one run whose error lies far above the line through those of all others.

@@ -90,11 +90,14 @@ std::vector<Diagnosis> tension_causes(const DiagnosisInput& question) {
   constexpr int least_rows = 12, least_rows_each = 4;
   double share = 0.0;
   int files = 0, pulling = 0;
+  // A contact of several rows has more of them in finer histories.
+  bool is_resolved = false;
   std::vector<double> steps, held;
   for (const auto& seen : question.histories) {
     if (seen.sample.v.empty() || !seen.sample.impacts || seen.sample.impacts->empty()) continue;
     const auto sum = impulses_of(seen, question.problem);
-    if (sum.rows < least_rows_each * sum.impacts || !(sum.push > 0.0)) continue;
+    is_resolved = sum.rows >= least_rows_each * sum.impacts && sum.push > 0.0;
+    if (!is_resolved) continue;
     steps.push_back(seen.facts.step);
     held.push_back(sum.open_pull / sum.push);
     if (sum.rows < least_rows) continue;
@@ -105,6 +108,7 @@ std::vector<Diagnosis> tension_causes(const DiagnosisInput& question) {
     ++pulling;
     share = sum.pull / sum.push;
   }
+  if (!is_resolved) return {};
   const bool is_held = holds(steps, held);
   if (is_held) {
     share = held.back();

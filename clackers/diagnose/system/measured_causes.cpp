@@ -8,20 +8,15 @@
 #include <functional>
 #include <optional>
 
-#include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/model/harmonic_load.hpp"
-#include "clackers/numerics/line_fit.hpp"
 
 namespace clackers::diagnose {
 namespace {
 
 using System = model::SmoothSystem<>;
 using measure::FreeState;
-
-/// From one history to another, of at least this many times its step, a value stays.
-constexpr double least_other_step = 1.8, same_share = 0.1;
 
 // One way in which the flights may be those of another system: linear in each of its parameters.
 struct FlightChange {
@@ -282,12 +277,20 @@ Diagnosis diagnosis_by(const FlightChange& change, std::span<const double> value
   return cause;
 }
 
-std::vector<Diagnosis> flight_causes(const DiagnosisInput& question, const Observation& finest,
-                                     const Observation& other) {
+}  // namespace
+
+std::vector<Diagnosis> flight_causes(const DiagnosisInput& question) {
+  if (!is_elsewhere(question)) return {};
+  const auto& finest = question.histories.back();
+  const auto other = std::ranges::find_if(
+      question.histories.rbegin(), question.histories.rend(), [&](const Observation& one) {
+        return one.facts.step > least_other_step * finest.facts.step;
+      });
+  if (other == question.histories.rend()) return {};
   const auto& system = question.problem.system;
   if (system.nonlinear || system.dof() > 40) return {};
   const auto changes = changes_of(system);
-  const FlightFits fits(finest, system, changes), others(other, system, changes);
+  const FlightFits fits(finest, system, changes), others(*other, system, changes);
   if (!fits.known() || !others.known()) return {};
   const auto best = best_of(fits, changes.size());
   if (!best) return {};
@@ -315,110 +318,17 @@ std::vector<Diagnosis> flight_causes(const DiagnosisInput& question, const Obser
   return found;
 }
 
-// Of the impacts of one contact: the median of a measure, and half the width of what holds 2/3 of it.
-struct Measured {
-  double value = 0.0, spread = 0.0, error = 0.0;
-  std::size_t count = 0;
-};
-
-Measured measured(const LocatedImpacts& file, int contact, double LocatedImpact::*member) {
-  std::vector<double> values, errors, apart;
-  for (const auto& impact : file.impacts)
-    if (impact.contact == contact) {
-      values.push_back(impact.*member);
-      errors.push_back(impact.restitution_error);
-    }
-  Measured found;
-  found.count = values.size();
-  if (values.empty()) return found;
-  found.value = measure::median(values);
-  found.error = measure::median(errors);
-  for (const double value : values) apart.push_back(std::abs(value - found.value));
-  found.spread = measure::median(std::move(apart));
-  return found;
+bool is_elsewhere(const DiagnosisInput& question) {
+  const auto& fit = question.displacement;
+  return question.limit.wrong || fit.behaviour == Behaviour::stagnating ||
+         fit.reason == Code("larger-than-motion").name();
 }
-
-// How restitution changes with the closing speed [s/m]; nothing where a line does not show it.
-std::optional<double> slope_over_speed(const LocatedImpacts& file, int contact) {
-  constexpr std::size_t enough = 4;
-  constexpr double least_range = 0.01, largest_rest = 0.2, times_as_fast = 1.2;
-  std::vector<double> speeds, values;
-  for (const auto& impact : file.impacts)
-    if (impact.contact == contact) {
-      speeds.push_back(impact.closing);
-      values.push_back(impact.restitution);
-    }
-  if (speeds.size() < enough) return {};
-  const auto [slowest, fastest] = std::ranges::minmax(speeds);
-  const auto [least, most] = std::ranges::minmax(values);
-  if (most - least < least_range || fastest < times_as_fast * slowest) return {};
-  const auto line = numerics::fit_line(speeds, values);
-  for (std::size_t i = 0; i < speeds.size(); ++i)
-    if (std::abs(values[i] - line.at(speeds[i])) > largest_rest * (most - least)) return {};
-  return line.slope;
-}
-
-std::vector<Diagnosis> impact_causes(const DiagnosisInput& question, const Observation& finest,
-                                     const Observation& other) {
-  const auto& problem = question.problem;
-  const auto fine = locate_impacts(finest, problem), coarse = locate_impacts(other, problem);
-  std::vector<Diagnosis> found;
-  const auto of_contact = [&](Code code, int contact, double value) {
-    auto cause = diagnosis_of(code, value, "1");
-    cause.confidence = 0.95;
-    if (problem.contacts.size() > 1) cause.evidence.push_back({"contact", contact + 1.0});
-    return cause;
-  };
-  constexpr double above_error = 10.0, noticeable = 1e-4;
-  for (int contact = 0; contact < std::ssize(problem.contacts); ++contact) {
-    const double eta = problem.contacts[std::size_t(contact)].restitution;
-    const auto now = measured(fine, contact, &LocatedImpact::restitution),
-               again = measured(coarse, contact, &LocatedImpact::restitution);
-    if (now.count < 2 || again.count < 2) continue;
-    const double off = now.value - eta, off_again = again.value - eta;
-    if (std::abs(off) > std::max(noticeable, above_error * now.error) &&
-        now.spread < same_share * std::abs(off) &&
-        std::abs(off_again - off) < same_share * std::abs(off)) {
-      auto cause = of_contact(Code("restitution-differs"), contact, now.value);
-      cause.evidence.push_back({"expected", eta});
-      cause.evidence.push_back({"uncertainty", std::abs(off - off_again) + now.error + now.spread});
-      cause.evidence.push_back({"files", 2.0});
-      found.push_back(std::move(cause));
-    } else if (const auto slope = slope_over_speed(fine, contact);
-               slope && slope_over_speed(coarse, contact)) {
-      found.push_back(of_contact(Code("restitution-varies"), contact, *slope));
-      found.back().unit = "s/m";
-      found.back().evidence.push_back({"files", 2.0});
-    }
-    const auto momentum = measured(fine, contact, &LocatedImpact::momentum_defect),
-               repeated = measured(coarse, contact, &LocatedImpact::momentum_defect);
-    if (momentum.value > std::max(noticeable, above_error * momentum.error) &&
-        std::abs(repeated.value - momentum.value) < same_share * momentum.value) {
-      auto cause = of_contact(Code("momentum-not-kept"), contact, momentum.value);
-      cause.evidence.push_back({"files", 2.0});
-      found.push_back(std::move(cause));
-    }
-  }
-  return found;
-}
-
-}  // namespace
 
 std::vector<Diagnosis> measured_causes(const DiagnosisInput& question) {
-  const auto& fit = question.displacement;
-  const bool is_elsewhere = question.limit.wrong || fit.behaviour == Behaviour::stagnating ||
-                            fit.reason == Code("larger-than-motion").name();
-  if (question.histories.empty() || !is_elsewhere) return {};
-  const auto& finest = question.histories.back();
-  const auto other = std::ranges::find_if(
-      question.histories.rbegin(), question.histories.rend(), [&](const Observation& one) {
-        return one.facts.step > least_other_step * finest.facts.step;
-      });
-  if (other == question.histories.rend()) return {};
-  auto found = flight_causes(question, finest, *other);
+  if (question.histories.empty()) return {};
+  auto found = flight_causes(question);
   // Of equations that differ impacts are not where the case's have them.
-  if (found.empty()) found = impact_causes(question, finest, *other);
-  return found;
+  return found.empty() ? impact_causes(question) : found;
 }
 
 }  // namespace clackers::diagnose

@@ -7,15 +7,29 @@
 
 namespace clackers::diagnose {
 
+/// From one history to another, of at least this many times its step, a measured value stays.
+inline constexpr double least_other_step = 1.8, same_share = 0.1;
+
 /// Causes that histories with a wrong limit show row by row, for any number of masses and for loads:
 /// no motion is fitted.
 ///
 /// Flights: a row is moved to the next one by the case's own equations; what is missing there in
 /// velocity is fitted by what a change of each stiffness, damper and mass, of each load and by a
-/// constant force would make of it, one or two at once. Impacts: restitution and momentum as
-/// locate_impacts() reads them. A cause has the same value in two histories of different steps; what
-/// a method does falls with the step. Asked for where the errors stop, or are as large as the motion.
+/// constant force would make of it, one or two at once, where is_elsewhere(). Without such a change:
+/// impact_causes(). A cause has the same value in histories of different steps; what a method does
+/// falls with the step.
 std::vector<Diagnosis> measured_causes(const DiagnosisInput& question);
+
+/// The part of flights.
+std::vector<Diagnosis> flight_causes(const DiagnosisInput& question);
+
+/// Whether the errors stop, or are as large as the motion.
+bool is_elsewhere(const DiagnosisInput& question);
+
+/// Restitution and momentum of each contact as locate_impacts() reads them: restitution-threshold,
+/// energy-gained-at-impacts, restitution-differs, restitution-varies, restitution-scatters,
+/// momentum-not-kept.
+std::vector<Diagnosis> impact_causes(const DiagnosisInput& question);
 
 /// The case's own motion at other times, of any system: by whole or half steps, or by one number of
 /// seconds, in the two finest files.

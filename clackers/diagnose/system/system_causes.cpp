@@ -325,15 +325,21 @@ bool can_be_varied(const model::ImpactProblem<>& problem) {
          mass.isDiagonal(0.0) && damping.isDiagonal(0.0) && stiffness.isDiagonal(0.0);
 }
 
-}  // namespace
+// A factor of all impulses is another restitution as well.
+bool is_restitution(const Diagnosis& found) {
+  return found.code == Code("restitution-differs").name() ||
+         found.code == Code("impact-impulse-wrong").name();
+}
 
-std::vector<Diagnosis> system_causes(const DiagnosisInput& asked) {
-  if (!can_be_varied(asked.problem)) {
-    if (auto shift = shifted_time(asked)) return {*shift};
-    return measured_causes(asked);
-  }
+bool is_of_law(const Diagnosis& found) {
+  return found.code == Code("restitution-threshold").name() ||
+         found.code == Code("energy-gained-at-impacts").name() ||
+         found.code == Code("restitution-scatters").name();
+}
+
+std::vector<Diagnosis> fitted_causes(const DiagnosisInput& asked) {
   auto question = fit_question(asked);
-  if (question.files.empty()) return {};
+  if (question.files.empty()) return flight_causes(asked);
   const auto dof = question.problem.dof();
   auto& finest = question.files.front();
 
@@ -368,7 +374,29 @@ std::vector<Diagnosis> system_causes(const DiagnosisInput& asked) {
       return {*cause};
   }
   auto limits = smooth_limits(question);
-  return limits.empty() ? measured_causes(asked) : limits;
+  return limits.empty() ? flight_causes(asked) : limits;
+}
+
+}  // namespace
+
+std::vector<Diagnosis> system_causes(const DiagnosisInput& asked) {
+  if (!can_be_varied(asked.problem)) {
+    if (auto shift = shifted_time(asked)) return {*shift};
+    return measured_causes(asked);
+  }
+  // What is measured at impacts stands before fits that are less sure. A restitution that is no one
+  // number is not fitted.
+  auto measured = impact_causes(asked);
+  if (std::ranges::any_of(measured, is_of_law)) return measured;
+  auto fitted = fitted_causes(asked);
+  const auto restitution = std::ranges::find_if(measured, is_restitution);
+  if (fitted.empty()) return measured;
+  if (restitution == measured.end()) return fitted;
+  auto& best = fitted.front();
+  if (is_restitution(best)) best.confidence = std::max(best.confidence, restitution->confidence);
+  // A missing impact does not make restitution another one.
+  const bool is_of_impacts = find_cause(best.code)->group == CauseGroup::impacts;
+  return best.confidence >= sure || is_of_impacts ? fitted : measured;
 }
 
 }  // namespace clackers::diagnose

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "clackers/diagnose/system/measured_causes.hpp"
+#include "clackers/diagnose/testing/ladder_sets.hpp"
+
+// Solvers of first order, as physics engines are, whose displacements hide what their impacts show.
+namespace clackers::diagnose::testing {
+namespace {
+
+constexpr int law_plans[] = {0, 3, 4};
+constexpr auto first_order = "method=symplectic-euler contact=end-of-step";
+
+double restitution(const LadderPlan& plan) {
+  return plan.problem.problem.contacts.front().restitution;
+}
+
+bool slows_down(const LadderPlan& plan) { return restitution(plan) < 1.0; }
+
+std::vector<Diagnosis> causes_of(const LadderPlan& plan, const std::string& solver,
+                                 double eta_share = 1.0) {
+  auto solved = plan.problem.problem;
+  solved.contacts.front().restitution *= eta_share;
+  auto files = files_of(plan, solver, solved);
+  files.fit();
+  return impact_causes(files.question());
+}
+
+TEST(ImpactCauses, AThresholdIsFoundBetweenTheSpeedsOfImpacts) {
+  for (const int i : law_plans) {
+    const auto plan = ladder_plan(i);
+    if (!slows_down(plan)) continue;
+    const auto& motion = *plan.problem.motion;
+    const double speed = 0.5 * plan.problem.problem.contacts[0].gap_rate(
+                                   -motion.at(motion.impact(1).t, model::Side::left).v);
+    for (const auto* method : {"method=symplectic-euler", "method=newmark"}) {
+      const auto found =
+          causes_of(plan, fmt::format("{} contact=end-of-step bounces-above={}", method, speed));
+      ASSERT_NE(find(found, "restitution-threshold"), nullptr) << i << ' ' << method;
+      const auto& cause = *find(found, "restitution-threshold");
+      EXPECT_EQ(cause.unit, "m/s");
+      EXPECT_NEAR(cause.value, speed, 1.02 * cause.fact("uncertainty"));
+      EXPECT_TRUE(is_other_system(cause));
+      EXPECT_EQ(find(found, "restitution-differs"), nullptr) << i << ' ' << method;
+    }
+  }
+}
+
+TEST(ImpactCauses, OverlapThatIsPushedOutIsAGainForEachStep) {
+  for (const int i : {1, 5, 9})
+    for (const double share : {0.1, 0.3}) {
+      const auto found =
+          causes_of(ladder_plan(i), fmt::format("{} pushed-out={}", first_order, share));
+      ASSERT_EQ(codes(found), "energy-gained-at-impacts") << i << ' ' << share;
+      EXPECT_NEAR(found[0].value, share, 0.1 * share) << i;
+    }
+}
+
+TEST(ImpactCauses, RestitutionIsMeasuredInHistoriesOfFirstOrder) {
+  for (const int i : law_plans)
+    for (const auto* method : {"method=symplectic-euler", "method=euler", "method=newmark"}) {
+      const auto plan = ladder_plan(i);
+      const auto found = causes_of(plan, std::string(method) + " contact=end-of-step", 0.8);
+      ASSERT_EQ(codes(found), "restitution-differs") << i << ' ' << method;
+      EXPECT_NEAR(found[0].value, 0.8 * restitution(plan), 0.01) << i << ' ' << method;
+      EXPECT_EQ(found[0].fact("expected"), restitution(plan));
+    }
+}
+
+TEST(ImpactCauses, RestitutionThatDependsOnThePlaceInTheStepScatters) {
+  int found = 0, all = 0;
+  for (const int i : {1, 3, 5}) {
+    const auto causes = causes_of(ladder_plan(i), std::string(first_order) + " eta-lost-late=0.3");
+    EXPECT_TRUE(codes(causes) == "restitution-scatters" || causes.empty()) << i << codes(causes);
+    ++all;
+    found += !causes.empty();
+  }
+  EXPECT_GE(2 * found, all);
+}
+
+TEST(ImpactCauses, RightSolversHaveNone) {
+  for (const int i : law_plans)
+    for (const auto* solver :
+         {first_order, "method=implicit-euler contact=end-of-step", "method=euler",
+          "method=newmark contact=start-of-step", "method=newmark beta=0.3025 gamma=0.6",
+          "method=rk4 contact=linear", "contact=moreau", "method=rk4 event-tolerance=1e-3"})
+      EXPECT_EQ(codes(causes_of(ladder_plan(i), solver)), "") << i << ' ' << solver;
+}
+
+}  // namespace
+}  // namespace clackers::diagnose::testing
