@@ -29,9 +29,9 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 std::string nearest(std::string_view given, std::span<const std::string> known) {
   std::string best;
-  // Dashes of an option are no letters that match.
-  const auto letters = given.size() - std::min(given.find_first_not_of('-'), given.size());
-  std::size_t least = letters / 3 + 2;
+  // The dashes of an option count as one letter.
+  const auto dashes = std::min(given.find_first_not_of('-'), given.size());
+  std::size_t least = (given.size() - (dashes + 1) / 2) / 3 + 2;
   for (const auto& name : known) {
     const auto far = distance(given, name);
     if (far < least) {

@@ -25,7 +25,8 @@ class Help(CommandTest):
         everywhere = ["--format", "--out", "--quiet", "--no-color", "--help"]
         own = {"list": [], "explain": [], "show": ["--case", "--problem", "--set", "--threshold", "--report"],
                "check": ["--name", "--label", "--against", "--case", "--problem", "--set", "--columns", "--events", "--steps", "--expect",
-                         "--tolerance", "--tolerances", "--metrics", "--impacts", "--report", "--require", "--baseline"],
+                         "--tolerance", "--tolerances", "--metrics", "--impacts", "--report", "--require", "--baseline",
+                         "--reader", "--node", "--component"],
                "paper": [],
                "campaign": ["--database", "--shard", "--jobs", "--yes", "--slurm", "--shards", "--sbatch", "--dry-run",
                             "--table", "--times"],

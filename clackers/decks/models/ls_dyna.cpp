@@ -9,7 +9,6 @@
 namespace clackers::decks {
 namespace {
 
-
 class Keywords {
  public:
   explicit Keywords(const Subject& subject)

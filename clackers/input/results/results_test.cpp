@@ -141,8 +141,7 @@ TEST(CalculixDat, HasARowATime) {
   EXPECT_EQ(h.motion.t, (Numbers{0.01, 0.02}));
   EXPECT_EQ(h.motion.u, (Numbers{0.9994502, -0.3318238, 0.9988009, -0.3276413}));
   EXPECT_EQ(h.motion.v, (Numbers{-0.05996727, 0.2852448, -0.06989359, 0.5512504}));
-  for (const auto& column : h.columns)
-    EXPECT_EQ(column.digits, 7) << column.name;
+  for (const auto& column : h.columns) EXPECT_EQ(column.digits, 7) << column.name;
 }
 
 TEST(CalculixDat, NodesAndDirectionsAreChosen) {

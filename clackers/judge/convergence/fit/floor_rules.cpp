@@ -128,6 +128,7 @@ LadderFit stagnates(const Range& range, const FitContext& context, const Window&
   for (int last = flat.first; last > range.first; --last)
     if (const auto line = line_up_to(range, context, last)) {
       const auto fit = with_floor(with_line(range, *line), floor);
+      if (fit.order < lowest_real_order) continue;
       return shows(fit, behaviour_above(fit, floor, context), reason);
     }
   auto fit = with_floor(range.blank, floor);
