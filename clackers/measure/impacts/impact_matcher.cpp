@@ -25,6 +25,16 @@ ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double
       start_(start),
       known_(reference.impact_count(reference.end())),
       tracks_(std::size_t(std::max(contacts, 1))) {
+  for (const auto& closed : reference.closed_contacts()) {
+    if (!closed.accumulates) continue;
+    double from = closed.from;
+    auto last = impact_of(closed.contact, reference.impact_count(from), -1);
+    while (last && from - last->t < apart * step_) {
+      from = last->t;
+      last = impact_of(closed.contact, last->index - 1, -1);
+    }
+    accumulations_.push_back({closed.contact, from, closed.until});
+  }
   // The impact of each contact before the start may still be found late.
   const auto before = start > 0.0 ? reference.impact_count(start) : 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
@@ -53,10 +63,17 @@ std::optional<ImpactMatcher::Target> ImpactMatcher::target(int contact, long lon
   return Target{impact->index, impact->t, 0.25 * spacing, impact->when.hi - impact->when.lo};
 }
 
+// A report may be a step early or late.
+bool ImpactMatcher::accumulates(int contact, double t) const {
+  return std::ranges::any_of(accumulations_, [&](const Accumulation& each) {
+    return each.contact == contact && t >= each.from - step_ && t <= each.until + step_;
+  });
+}
+
 // Counts the true impact of a track with what was found for it.
-void ImpactMatcher::settle(const Track& track) {
+void ImpactMatcher::settle(int contact, const Track& track) {
   const auto& [target, nearest, last_report] = track;
-  if (!nearest && target->t <= start_) return;
+  if (!nearest && (target->t <= start_ || accumulates(contact, target->t))) return;
   ++sum_.expected;
   if (!nearest) {
     ++sum_.missed;
@@ -72,10 +89,10 @@ void ImpactMatcher::settle(const Track& track) {
 // from t on and missed; with one contact they need not be asked for one by one.
 void ImpactMatcher::advance(int contact, double t) {
   auto& track = tracks_[std::size_t(contact)];
-  settle(track);
+  settle(contact, track);
   track.nearest.reset();
   auto next = track.target->index + 1;
-  if (tracks_.size() == 1) {
+  if (tracks_.size() == 1 && accumulations_.empty()) {
     const auto skipped = reference_.impact_count(std::clamp(t, 0.0, reference_.end())) - next;
     if (skipped > 0) {
       sum_.expected += skipped;
@@ -94,7 +111,7 @@ void ImpactMatcher::take(double t, bool resting, int contact) {
   if (same) return;
   while (target && t > target->t + target->reach) advance(contact, t);
   const bool near = target && t >= target->t - target->reach;
-  if (resting && !(near && !nearest)) return;
+  if ((resting || accumulates(contact, t)) && !(near && !nearest)) return;
   ++sum_.found;
   if (!near || nearest) ++sum_.extra;
   if (near && (!nearest || std::abs(t - target->t) < std::abs(nearest->t - target->t)))

@@ -40,6 +40,8 @@ bool rests_in_contact(const model::Motion& reference, const std::vector<model::C
 ///   close it again and again.
 /// - A true impact in the last two steps may come too late to be seen: it is expected only if
 ///   found. So is the last one before a run that starts late.
+/// - Where impacts accumulate to a contact that stays closed, those less than `apart` steps before
+///   the next one are expected only if found, and no report from there on is extra until it opens.
 class ImpactMatcher {
  public:
   /// `step` [s] of the run, its first time `start` [s], and the number of the problem's contacts.
@@ -77,7 +79,14 @@ class ImpactMatcher {
   };
   std::optional<model::MotionImpact> impact_of(int contact, long long from, int direction) const;
   std::optional<Target> target(int contact, long long from) const;
-  void settle(const Track& track);
+  /// Where impacts of a contact follow each other too fast for the steps.
+  struct Accumulation {
+    int contact = 0;
+    double from = 0.0, until = 0.0;  ///< [s]
+  };
+  static constexpr double apart = 32.0;
+  bool accumulates(int contact, double t) const;
+  void settle(int contact, const Track& track);
   void advance(int contact, double t);
   ImpactMatcher ended(double end) const;
 
@@ -85,6 +94,7 @@ class ImpactMatcher {
   double step_, start_;
   long long known_;  ///< number of true impacts
   std::vector<Track> tracks_;
+  std::vector<Accumulation> accumulations_;
   std::size_t reports_ = 0;  ///< taken so far
   bool keeps_pairs_ = false;
   std::vector<ImpactPair> pairs_;

@@ -39,6 +39,38 @@ TEST(ImpactMatcher, TakesAllThatHappen) {
   EXPECT_NEAR(score.worst_time_error, 0.2, 1e-14);
 }
 
+// Impacts at 10 - 10/2^k until 10, where the contact stays closed until 15.
+struct Chatter : ToyMotion {
+  static std::vector<double> impacts() {
+    std::vector<double> all;
+    for (int k = 1; k <= 40; ++k) all.push_back(10.0 - std::ldexp(10.0, -k));
+    all.push_back(17.0);
+    return all;
+  }
+  Chatter() : ToyMotion(20.0, impacts()) {}
+  std::vector<model::ClosedContact> closed_contacts() const override {
+    model::ClosedContact closed;
+    closed.from = 10.0;
+    closed.until = 15.0;
+    closed.accumulates = true;
+    return {closed};
+  }
+};
+
+TEST(ImpactMatcher, ExpectsOnlyImpactsThatStepsCanTellApart) {
+  const Chatter reference;
+  const auto found = [&](const std::vector<double>& reports) {
+    ImpactMatcher matcher(reference, 0.01);
+    for (const double t : reports) matcher.take(t);
+    return matcher.score(20.0, 1e-12);
+  };
+  // From 9.375 on they follow within 32 steps.
+  EXPECT_SCORE(found({5.0, 7.5, 8.75, 17.0}), 4, 4, 4, 0, 0);
+  EXPECT_SCORE(found({5.0, 7.5, 8.75, 9.375, 9.95, 10.1, 12.0, 14.9, 17.0}), 5, 5, 5, 0, 0);
+  EXPECT_SCORE(found({5.0, 8.75, 17.0}), 4, 3, 3, 1, 0);
+  EXPECT_SCORE(found({5.0, 7.5, 8.75, 15.5, 17.0}), 4, 5, 4, 0, 1);
+}
+
 TEST(ImpactMatcher, CountsAMissedOneWithoutLosingTheOthers) {
   EXPECT_SCORE(match({2.0, 10.1, 14.0, 18.0}), 5, 4, 4, 1, 0);
   EXPECT_SCORE(match({6.0, 10.0, 14.0, 18.0}), 5, 4, 4, 1, 0);
