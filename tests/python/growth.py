@@ -18,7 +18,7 @@ PAGE = os.sysconf("SC_PAGE_SIZE")
 ROUNDS = 3
 MOST = 40  # bytes a call in the best round: an array or an object that stays is larger
 OF_A_FIGURE = 20_000  # bytes; a figure of matplotlib with five lines leaves 5,000 to 15,000 by itself
-LONGEST = 1.0  # of a round [s]; a slow function leaves more where it leaks, so that fewer calls show it
+LONGEST = 0.4  # of a round [s]; a slow function leaves more where it leaks, so that fewer calls show it
 FEWEST = 10  # calls of a round
 NOISE = 100_000  # bytes of a round
 
