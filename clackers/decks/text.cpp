@@ -1,6 +1,7 @@
 #include "clackers/decks/text.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>

@@ -73,7 +73,7 @@ std::vector<Diagnosis> diagnose(const DiagnosisInput& asked) {
   });
   std::ranges::stable_sort(kept, std::greater{}, &Diagnosis::confidence);
   if (is_elsewhere(asked) || says(is_other_system))
-    std::ranges::stable_partition(kept, std::not_fn(is_of_right_methods));
+    std::stable_partition(kept.begin(), kept.end(), std::not_fn(is_of_right_methods));
   return kept;
 }
 

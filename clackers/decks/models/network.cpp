@@ -1,6 +1,7 @@
 #include "clackers/decks/models/network.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <numbers>

@@ -224,8 +224,9 @@ std::vector<Diagnosis> impact_causes(const DiagnosisInput& question) {
         std::abs(repeated.value - momentum.value) < same_share * momentum.value)
       add(Code("momentum-not-kept"), momentum.value).evidence.push_back({"files", 2.0});
   }
-  std::ranges::stable_partition(
-      found, [](const Diagnosis& one) { return one.code == Code("restitution-differs").name(); });
+  std::stable_partition(found.begin(), found.end(), [](const Diagnosis& each) {
+    return each.code == Code("restitution-differs").name();
+  });
   return found;
 }
 
