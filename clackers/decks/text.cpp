@@ -1,8 +1,8 @@
 #include "clackers/decks/text.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
 #include "clackers/decks/models/network.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
 #include <optional>

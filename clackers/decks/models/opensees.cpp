@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <Eigen/Cholesky>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
 

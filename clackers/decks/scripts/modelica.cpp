@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
 #include <Eigen/Cholesky>
 
 #include "clackers/base/number.hpp"
