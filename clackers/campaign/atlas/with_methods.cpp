@@ -1,5 +1,6 @@
 #include <sstream>
 
+#include "clackers/base/number.hpp"
 #include "clackers/base/toml_reader.hpp"
 #include "clackers/campaign/atlas.hpp"
 
@@ -19,7 +20,8 @@ void add(toml::array& list, const MethodEntry& entry) {
   for (const auto& [key, value] : entry.labels) labels.insert(key, value);
   if (!labels.empty()) values.insert("labels", std::move(labels));
   toml::array steps;
-  for (const double step : entry.steps) steps.push_back(step);
+  // In quotes, for the formatter's sake.
+  for (const double step : entry.steps) steps.push_back(exact_number(step));
   if (!steps.empty()) values.insert("steps", std::move(steps));
   list.push_back(std::move(values));
 }
