@@ -44,4 +44,9 @@ Behaviour behaviour_from(std::string_view text) {
   return row->first;
 }
 
+bool converges(Behaviour behaviour) {
+  return behaviour == Behaviour::proper || behaviour == Behaviour::reduced ||
+         behaviour == Behaviour::irregular || behaviour == Behaviour::exact;
+}
+
 }  // namespace clackers

@@ -32,4 +32,7 @@ std::string_view to_string(Verdict verdict);  ///< "agrees", "disagrees", "not c
 /// The reverse of to_string. Throws InputError for any other text.
 Behaviour behaviour_from(std::string_view text);
 
+/// Whether errors fall towards the exact motion: exact, proper, reduced or irregular.
+bool converges(Behaviour behaviour);
+
 }  // namespace clackers

@@ -1,5 +1,7 @@
 #include "clackers/record/sheet.hpp"
 
+#include <cmath>
+
 namespace clackers::record {
 namespace {
 
@@ -10,6 +12,12 @@ Cell cell(double value, ColumnKind kind) {
 }
 
 }  // namespace
+
+double number_in(const Cell& cell) {
+  if (const auto* real = std::get_if<double>(&cell)) return *real;
+  if (const auto* whole = std::get_if<long long>(&cell)) return double(*whole);
+  return std::nan("");
+}
 
 bool NumberRows::next(std::vector<Cell>& row) {
   if (read_ == block_.size()) {

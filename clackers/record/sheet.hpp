@@ -13,6 +13,9 @@ namespace clackers::record {
 /// Empty, a real number, a whole number or text.
 using Cell = std::variant<std::monostate, double, long long, std::string>;
 
+/// The number in a cell, whole ones as double; NaN without one.
+double number_in(const Cell& cell);
+
 /// What the cells of a column hold. In rows of doubles a side is -1 ("-", before an impact), 1
 /// ("+", after it) or 0 (empty).
 enum class ColumnKind { any, real, whole, side };

@@ -18,6 +18,8 @@ endforeach()
 set(page
   ${report_dir}/page/page.html
   ${report_dir}/page/page.css
+  ${report_dir}/page/engines.html
+  ${report_dir}/page/engines.css
   ${report_dir}/page/section.html
   ${report_dir}/page/table.html
   ${report_dir}/page/figure.html

@@ -35,27 +35,6 @@ constexpr auto work_sql =
     "SELECT r.task, t.seconds, r.u_error FROM runs r JOIN timings t USING (task, run)"
     " WHERE finished = 'yes' AND t.seconds BETWEEN 1e-3 AND 10 AND r.u_error BETWEEN 1e-13 AND 10 ORDER BY r.task, t.seconds";
 
-constexpr auto page_style = R"(
-table.engines { width: 100%; table-layout: fixed; min-width: 720px; }
-.engines td, .engines th { vertical-align: top; }
-.engines tr.engine th { padding-top: 1.3rem; font-size: 1rem; font-weight: 600; border-bottom: 0; }
-.engines thead th { overflow-wrap: anywhere; } .engines tbody th, .engines td { overflow-wrap: break-word; }
-.engines thead th:nth-child(2) { width: 8.5rem; }
-.engines small { display: block; color: var(--muted); font-weight: 400; }
-.engines b { font-weight: 600; }
-.good b { color: var(--good); } .bad b { color: var(--bad); } .open b { color: var(--unsure); }
-.work { width: 100%; height: auto; font: 11px var(--sans); } .work path { fill: none; stroke-width: 1.6; stroke-linecap: round; }
-.work text { fill: var(--ink); } .work .grid { stroke: var(--line); stroke-width: 1; }
-.facts { display: block; } .facts li { margin: 0 0 0.9rem; }
-pre.run { margin: 0.2rem 0; white-space: pre-wrap; overflow-wrap: anywhere; color: var(--muted); }
-@media (max-width: 760px) {
-  table.engines { min-width: 0; } .engines td:empty { display: none !important; }
-  .engines thead { display: none; }
-  .engines tr, .engines td, .engines tbody th { display: block; width: auto; border: 0; padding: 2px 0; }
-  .engines tbody tr { border-bottom: 1px solid var(--line); padding: 8px 0; }
-  .engines td::before { content: attr(data-head) ": "; color: var(--muted); }
-})";
-
 struct Task {
   const record::Labels* labels = nullptr;
   std::size_t method = 0, system = 0;
@@ -68,12 +47,6 @@ std::vector<std::vector<Cell>> rows_of(const Store& store, const char* sql) {
   std::vector<std::vector<Cell>> rows;
   for (std::vector<Cell> row; source->next(row);) rows.push_back(row);
   return rows;
-}
-
-double real_in(const Cell& cell) {
-  if (const auto* whole = std::get_if<long long>(&cell)) return double(*whole);
-  const auto* real = std::get_if<double>(&cell);
-  return real != nullptr ? *real : std::nan("");
 }
 
 std::string word_in(const Cell& cell) {
@@ -89,8 +62,9 @@ std::vector<Task> tasks_of(const Store& store) {
     const auto& labels = methods[task % methods.size()].labels;
     tasks.push_back({&labels, task % methods.size(), task / methods.size(), word_in(row[1]),
                      word_in(row[3]), word_in(row[4]), word_in(row[5]), word_in(row[6]),
-                     real_in(row[2]), real_in(row[7]), real_in(row[8]), real_in(row[9]),
-                     real_in(row[10]), real_in(row[11])});
+                     record::number_in(row[2]), record::number_in(row[7]),
+                     record::number_in(row[8]), record::number_in(row[9]),
+                     record::number_in(row[10]), record::number_in(row[11])});
   }
   return tasks;
 }
@@ -104,14 +78,12 @@ std::string label_of(const Task& task, const char* key) {
 std::string case_word(const System& system) {
   std::string set;
   for (const auto& [name, value] : system.settings)
-    set += fmt::format("{}{}={}", set.empty() ? ":" : ",", name,
-                       value.is_word() ? value.text() : fmt::format("{}", double(value)));
+    set += fmt::format("{}{}={}", set.empty() ? ":" : ",", name, value.text());
   return std::string(system.name) + set;
 }
 
 bool converges(const Task& task) {
-  return task.behaviour == "exact" || task.behaviour == "proper" || task.behaviour == "reduced" ||
-         task.behaviour == "irregular";
+  return !task.behaviour.empty() && clackers::converges(behaviour_from(task.behaviour));
 }
 
 std::string cell_html(const Task& task, const std::string& head) {
@@ -186,8 +158,8 @@ std::string work_svg(const Store& store, const std::vector<Task>& tasks, std::si
   for (const auto& row : rows_of(store, work_sql)) {
     const auto task = std::size_t(std::get<long long>(row[0]));
     if (task / methods == system)
-      points[task % methods].emplace_back(70 + 165 * (3 + std::log10(real_in(row[1]))),
-                                          20 + 32 * (1 - std::log10(real_in(row[2]))));
+      points[task % methods].emplace_back(70 + 165 * (3 + std::log10(record::number_in(row[1]))),
+                                          20 + 32 * (1 - std::log10(record::number_in(row[2]))));
   }
   std::string out = fmt::format(
       "<svg class=\"work\" viewBox=\"0 0 960 510\" role=\"img\" aria-label=\"Error against processor "
@@ -262,36 +234,25 @@ std::string engines_page(const Store& store, const record::Provenance& from) {
   }
   const auto firsts = std::ranges::count_if(engines, [](const auto& e) { return e.second.first; });
   const auto anys = std::ranges::count_if(engines, [](const auto& e) { return e.second.second; });
-  std::string out = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
-      "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-      "'unsafe-inline'\">\n<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n<title>Engines "
-      "through impacts</title>\n<style>{}{}</style>\n</head>\n<body>\n<header "
-      "class=\"top\">\n<h1>{} of {} engines are seen to converge to the exact motion through impacts "
-      "as they come, {} in some setting</h1>\n<p class=\"lead\">{} of {}, {}; versions below, measured on {} by "
-      "clackers {}. Errors are those of displacements, relative to the largest envelope, at a step of 1 ms "
-      "or a tolerance of 10<sup>−8</sup>, and the smallest that 0.1 s of processor time reaches; restitution is "
-      "what the impacts of the finest run return. A setting that converges is exact, proper, reduced or "
-      "irregular.</p>\n</header>\n<main>\n<section><h2>Engines and cases</h2>\n",
-      report::assets::page_css, page_style, firsts, engines.size(), anys,
-      report::counted(std::ssize(good), "setting"), report::counted(std::ssize(engines), "engine"),
-      report::counted(std::ssize(cases), "case"), escape(from.date.substr(0, 10)),
-      escape(from.version));
-  out += matrix(tasks, cases);
-  out +=
-      "<p>Share of a force: s in u<sub>1</sub> = u<sub>0</sub> + h v<sub>0</sub> + s h² "
-      "a<sub>0</sub>, measured in the first step; explicit Euler 0, symplectic Euler 1, the exact "
-      "motion nearly 1/2, Rapier (1 + 1/n)/2 with n iterations.</p></section>\n";
+  std::string work;
   for (std::size_t system = 0; system < cases.size() && system < 2; ++system)
-    out += fmt::format(
+    work += fmt::format(
         "<section><h2>Error against processor time: {}</h2><p>Of each engine the setting with the "
         "smallest error; time without the start of the program [s], error in u.</p>{}</section>\n",
         escape(cases[system]), work_svg(store, tasks, system));
-  out += "<section><h2>Facts, each with the command that shows it</h2>\n" + facts_html(tasks) +
-         "</section>\n</main>\n<footer><p>Written by clackers " + escape(from.version) +
-         ". This page needs no network and sends nothing.</p></footer>\n</body>\n</html>\n";
-  return out;
+  return report::fill(
+      report::assets::engines_html,
+      {{"style", std::string(report::assets::page_css) + std::string(report::assets::engines_css)},
+       {"as_they_come", fmt::format("{} of {}", firsts, engines.size())},
+       {"in_some_setting", fmt::to_string(anys)},
+       {"settings", report::counted(std::ssize(good), "setting")},
+       {"engines", report::counted(std::ssize(engines), "engine")},
+       {"cases", report::counted(std::ssize(cases), "case")},
+       {"date", escape(from.date.substr(0, 10))},
+       {"version", escape(from.version)},
+       {"matrix", matrix(tasks, cases)},
+       {"work", work},
+       {"facts", facts_html(tasks)}});
 }
 
 }  // namespace clackers::campaign

@@ -33,12 +33,6 @@ class SqlRows : public record::RowSource {
   long long made_ = 0;
 };
 
-double number_of(const Cell& cell) {
-  if (const auto* real = std::get_if<double>(&cell)) return *real;
-  if (const auto* whole = std::get_if<long long>(&cell)) return double(*whole);
-  return std::nan("");
-}
-
 class SqlNumbers : public record::NumberRows {
  public:
   SqlNumbers(std::string schema, const std::vector<record::Column>& columns, Statement statement,
@@ -59,7 +53,7 @@ class SqlNumbers : public record::NumberRows {
     constexpr int block = 1024;
     values.clear();
     for (int row = 0; row < block && made_ < count_ && statement_.step(); ++row, ++made_)
-      for (const int place : places_) values.push_back(number_of(statement_.cell(place)));
+      for (const int place : places_) values.push_back(record::number_in(statement_.cell(place)));
     if (!values.empty()) report(made_, count_);
     return !values.empty();
   }

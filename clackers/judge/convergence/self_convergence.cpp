@@ -60,11 +60,6 @@ LadderFit fit(std::span<const ErrorLevel> errors, const SelfContext& context) {
                     {.claimed_order = context.claimed_order, .contact_time = context.contact_time});
 }
 
-bool converges(Behaviour behaviour) {
-  return behaviour == Behaviour::proper || behaviour == Behaviour::reduced ||
-         behaviour == Behaviour::irregular || behaviour == Behaviour::exact;
-}
-
 }  // namespace
 
 SelfConvergence self_convergence(std::span<const ResponseLevel> runs, const SelfContext& context) {
