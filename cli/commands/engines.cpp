@@ -186,6 +186,11 @@ int run_engines(const EnginesOptions& options, std::span<const Engine> engines,
 }
 
 int run(EnginesOptions& options, const std::string& line) {
+  if (options.action == "page") {
+    const auto folder = options.common.out.empty() ? default_folder : options.common.out;
+    write_page(options, campaign::Store::open(folder + "/engines.db"), folder, line);
+    return 0;
+  }
   const auto engines = campaign::engines_in(engines_folder(options));
   for (const auto& name : options.names) engine_of(engines, name);
   if (options.action == "list") {
@@ -198,9 +203,6 @@ int run(EnginesOptions& options, const std::string& line) {
                 engine_sheet(engine, printed_by(engine.filled(engine.version), most_version)));
   } else if (options.action == "run") {
     return run_engines(options, engines, line);
-  } else if (options.action == "page") {
-    const auto folder = options.common.out.empty() ? default_folder : options.common.out;
-    write_page(options, campaign::Store::open(folder + "/engines.db"), folder, line);
   } else {
     refuse_name("action of engines", options.action,
                 std::vector<std::string>{"list", "show", "run", "page"}, "clackers engines --help");

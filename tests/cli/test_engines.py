@@ -87,7 +87,7 @@ class Engines(CommandTest):
         self.assertEqual(run(*words, "--quiet").returncode, 0)
         self.assertTrue(page.exists())
         page.unlink()
-        self.engines("page", "--out", self.path("out"), "--quiet")
+        self.good("engines", "page", "--engines", self.path("none"), "--out", self.path("out"), "--quiet")
         self.assertTrue(page.exists())
 
     def test_names_that_do_not_exist_are_refused(self):
