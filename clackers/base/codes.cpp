@@ -235,7 +235,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"event-interpolated", "diagnosis",
      "The solver has an order, and the state at an event is that of a line between two of its steps, so that the error falls with a small power of the tolerance. Limit the largest step, or find the event on the solver's own interpolant."},
     {"fixed-internal-step", "diagnosis",
-     "The solver takes steps of one size, whatever step it was asked for, and its output repeats or interpolates states between them. Give it the step as its internal one, too."},
+     "The solver takes steps of one size for every step asked, and its output repeats or interpolates states between them. Give it the step as its internal one, too."},
     {"damping-changes-at-impact", "diagnosis",
      "The history decays at another rate after the first impact than before. Check what a restart after an impact does with the damping force."},
     {"gap-differs", "diagnosis",

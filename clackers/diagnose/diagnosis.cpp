@@ -181,7 +181,7 @@ constexpr auto all_causes = std::to_array<Cause>({
      "let the solver use it; of one with a fixed tolerance judge several tolerances, by --tolerances."},
     {"fixed-internal-step", Group::ladder, Effect::no_ladder, "s",
      "step that is taken",
-     "The solver takes steps of {value} s, whatever the step: {files} histories show the states of such steps only",
+     "The solver takes steps of {value} s for every step asked: {files} histories show the states of such steps only",
      "give the step to the solver as its internal one."},
     {"steps-contradict-rows", Group::ladder, Effect::no_ladder, "",
      "",

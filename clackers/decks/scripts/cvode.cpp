@@ -85,11 +85,11 @@ static void impacts(double* u, double* v, double tolerance) {
       if (dot(contact, u) - contact[n] < tolerance && dot(contact, v) < 0.0) closing = contact;
     }
     if (closing == NULL) return;
-    double push[n];
-    for (int i = 0; i < n; ++i) push[i] = closing[i];
-    solve(push);
-    const double impulse = -(1.0 + closing[n + 1]) * dot(closing, v) / dot(closing, push);
-    for (int i = 0; i < n; ++i) v[i] += impulse * push[i];
+    double jump[n];
+    for (int i = 0; i < n; ++i) jump[i] = closing[i];
+    solve(jump);
+    const double impulse = -(1.0 + closing[n + 1]) * dot(closing, v) / dot(closing, jump);
+    for (int i = 0; i < n; ++i) v[i] += impulse * jump[i];
   }
   fputs("Several contacts stay closed: this program has no rule for that.\n", stderr);
   exit(1);

@@ -40,8 +40,8 @@ function impacts!(integrator, events...)
         k = findfirst(c -> dot(c[1:n], u) - c[n+1] < tolerance && dot(c[1:n], v) < 0, eachrow(contacts))
         isnothing(k) && return
         b = contacts[k, 1:n]
-        push = M \ b
-        v .-= (1 + contacts[k, n+2]) * dot(b, v) / dot(b, push) * push
+        jump = M \ b
+        v .-= (1 + contacts[k, n+2]) * dot(b, v) / dot(b, jump) * jump
     end
     error("Several contacts stay closed: this script has no rule for that.")
 end

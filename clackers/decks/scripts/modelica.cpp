@@ -48,12 +48,12 @@ std::string forces(const model::ImpactProblem<>& problem) {
 std::string impacts(const model::ImpactProblem<>& problem) {
   std::string text;
   for (const auto& contact : problem.contacts) {
-    const Eigen::VectorXd push = problem.system.mass.ldlt().solve(contact.direction);
+    const Eigen::VectorXd jump = problem.system.mass.ldlt().solve(contact.direction);
     const auto b = braces(contact.direction);
     text += fmt::format("  {} {} * u < {} then\n    reinit(v, pre(v) - {} * ({} * pre(v)) * {});\n",
                         text.empty() ? "when" : "elsewhen", b, exact_number(contact.gap),
-                        exact_number((1.0 + contact.restitution) / contact.direction.dot(push)), b,
-                        braces(push));
+                        exact_number((1.0 + contact.restitution) / contact.direction.dot(jump)), b,
+                        braces(jump));
   }
   return text.empty() ? text : text + "  end when;\n";
 }

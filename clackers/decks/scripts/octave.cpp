@@ -84,8 +84,8 @@ for trial = 1:1000
   if isempty(k)
     return
   end
-  b = p.contacts(k, 1:n); push = p.M \ b';
-  y(n+1:end) = y(n+1:end) - (1 + p.contacts(k, n + 2)) * (b * y(n+1:end)) / (b * push) * push;
+  b = p.contacts(k, 1:n); jump = p.M \ b';
+  y(n+1:end) = y(n+1:end) - (1 + p.contacts(k, n + 2)) * (b * y(n+1:end)) / (b * jump) * jump;
 end
 error('Several contacts stay closed: this script has no rule for that.');
 end

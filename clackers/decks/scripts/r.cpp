@@ -41,8 +41,8 @@ impacts <- function(t, y, p) {
   for (trial in 1:1000) {
     k <- which(gaps(t, y, p) < 1e-6 & as.vector(B %*% y[v]) < 0)
     if (length(k) == 0) return(y)
-    push <- as.vector(inverse %*% B[k[1], ])
-    y[v] <- y[v] - (1 + contacts[k[1], n + 2]) * sum(B[k[1], ] * y[v]) / sum(B[k[1], ] * push) * push
+    jump <- as.vector(inverse %*% B[k[1], ])
+    y[v] <- y[v] - (1 + contacts[k[1], n + 2]) * sum(B[k[1], ] * y[v]) / sum(B[k[1], ] * jump) * jump
   }
   stop("Several contacts stay closed: this script has no rule for that.")
 }

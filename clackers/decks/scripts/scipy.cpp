@@ -48,8 +48,8 @@ def impacts(y):
         if not closing:
             return
         b = closing[0][:n]
-        push = numpy.linalg.solve(M, b)
-        y[n:] -= (1.0 + closing[0][n + 1]) * (b @ y[n:]) / (b @ push) * push
+        jump = numpy.linalg.solve(M, b)
+        y[n:] -= (1.0 + closing[0][n + 1]) * (b @ y[n:]) / (b @ jump) * jump
     sys.exit("Several contacts stay closed: this script has no rule for that.")
 
 

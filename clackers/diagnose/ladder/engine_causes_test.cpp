@@ -42,7 +42,7 @@ std::vector<Diagnosis> of_tolerances(const LadderPlan& plan, const std::string& 
   return ladder_causes(question);
 }
 
-TEST(EventInterpolated, IsToldOfLinesBetweenSteps) {
+TEST(EventInterpolated, IsFoundOfLinesBetweenSteps) {
   for (const int i : cause_plans) {
     const auto found = of_tolerances(ladder_plan(i), "event-linear");
     ASSERT_NE(find(found, "event-interpolated"), nullptr) << i;

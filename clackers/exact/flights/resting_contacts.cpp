@@ -185,12 +185,12 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
   const VectorXd response = before.velocity(row.impulse) / row.rate().dot(row.impulse);
   const VectorXd of_damping = after.impulse(before.damping() * response),
                  of_stiffness = after.impulse(before.stiffness() * response);
-  const VectorXd push = after.velocity(of_damping), none = VectorXd::Zero(m_.dof());
+  const VectorXd slowing = after.velocity(of_damping), none = VectorXd::Zero(m_.dof());
   // 2 % for what is of higher order.
   Unresolved skipped{seconds,
-                     {1.02 * gap * (response.cwiseAbs() + 2.0 * seconds * push.cwiseAbs()),
-                      1.02 * rate * response.cwiseAbs() + 2.0 * gap * push.cwiseAbs(),
-                      1.02 * (acceleration * response.cwiseAbs() + rate * push.cwiseAbs())}};
+                     {1.02 * gap * (response.cwiseAbs() + 2.0 * seconds * slowing.cwiseAbs()),
+                      1.02 * rate * response.cwiseAbs() + 2.0 * gap * slowing.cwiseAbs(),
+                      1.02 * (acceleration * response.cwiseAbs() + rate * slowing.cwiseAbs())}};
   // What the other contacts may do while this one is not where it is held.
   const VectorXd z = held.z - after.steady(held.t), z_free = free.z - before.steady(held.t);
   const auto size = after.sizes(z, 0.0);
@@ -213,7 +213,8 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
       return std::nullopt;
   }
   const VectorXd momentum = gap * seconds * of_stiffness + drift * of_damping;
-  const VectorXd displacement = 2.0 * gap * seconds * after.change(push, VectorXd::Zero(m_.dof()));
+  const VectorXd displacement =
+      2.0 * gap * seconds * after.change(slowing, VectorXd::Zero(m_.dof()));
   held.covariance += momentum * momentum.transpose() + displacement * displacement.transpose();
   return skipped;
 }

@@ -57,7 +57,7 @@ struct Chatter : ToyMotion {
   }
 };
 
-TEST(ImpactMatcher, ExpectsOnlyImpactsThatStepsCanTellApart) {
+TEST(ImpactMatcher, ExpectsOnlyImpactsThatStepsResolve) {
   const Chatter reference;
   const auto found = [&](const std::vector<double>& reports) {
     ImpactMatcher matcher(reference, 0.01);

@@ -69,7 +69,7 @@ record::Sheet impact_sheet(const cases::Case& test_case) {
   while (sheet.rows.size() < impacts_shown && rows->next(row)) sheet.rows.push_back(row);
   if (test_case.motion->dof() > 2) keep_impacts_alone(sheet);
   if (accumulates(*test_case.motion))
-    sheet.title = fmt::format("Impacts: infinitely many; the first {} of {} that are told apart",
+    sheet.title = fmt::format("Impacts: infinitely many; the first {} of {} that are resolved",
                               sheet.rows.size(), total);
   else
     sheet.title = total <= static_cast<long long>(sheet.rows.size())

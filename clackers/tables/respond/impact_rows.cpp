@@ -47,7 +47,7 @@ class ImpactRows : public record::NumberRows {
   std::string schema() const override { return "clackers/impacts/1"; }
   std::string title() const override {
     if (accumulates(motion_))
-      return fmt::format("Impacts of {}: infinitely many; those that are told apart", name_);
+      return fmt::format("Impacts of {}: infinitely many; those that are resolved", name_);
     if (total_ > 0) return "Impacts of " + name_;
     return fmt::format("Impacts of {}: none until the end of its run, {} s", name_, motion_.end());
   }
