@@ -6,7 +6,7 @@
 #include <new>
 #include <string_view>
 
-#include "clackers/base/input_file.hpp"
+#include "clackers/base/files/input_file.hpp"
 #include "clackers/solvers/process_tree.hpp"
 
 namespace clackers::cli {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "clackers/base/files.hpp"
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/files.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/record/record.hpp"
 #include "paper/catalogue.hpp"
 #include "paper/rendering/page.hpp"

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/files.hpp"
+#include "clackers/base/files/json.hpp"
 #include "paper/testing/test_folder.hpp"
 
 namespace clackers::paper {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/base/note.hpp"
+#include "clackers/base/files/note.hpp"
 #include "clackers/base/parameter.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"

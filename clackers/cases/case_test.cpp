@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/model/problem_file.hpp"
 

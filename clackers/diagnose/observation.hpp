@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/base/note.hpp"
+#include "clackers/base/files/note.hpp"
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/model/trajectory.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/base/note.hpp"
+#include "clackers/base/files/note.hpp"
 #include "clackers/input/source.hpp"
 #include "clackers/model/trajectory.hpp"
 

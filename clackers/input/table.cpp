@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/input_file.hpp"
+#include "clackers/base/files/input_file.hpp"
 #include "clackers/input/numbers/number_table.hpp"
 #include "clackers/input/results/result_table.hpp"
 #include "clackers/input/text/text_table.hpp"

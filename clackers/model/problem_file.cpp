@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/files.hpp"
+#include "clackers/base/files/json.hpp"
+#include "clackers/base/files/toml_reader.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/base/text.hpp"
-#include "clackers/base/toml_reader.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 

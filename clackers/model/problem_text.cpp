@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::model {

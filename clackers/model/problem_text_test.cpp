@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/model/harmonic_load.hpp"
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 
 #ifndef CLACKERS_VERSION
 #error "the build gives CLACKERS_VERSION, the version of the project"

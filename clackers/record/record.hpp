@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "clackers/base/files/note.hpp"
 #include "clackers/base/judgement.hpp"
-#include "clackers/base/note.hpp"
 #include "clackers/diagnose/diagnosis.hpp"
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/limit.hpp"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/record/record_fields.hpp"
 
 namespace clackers::record {

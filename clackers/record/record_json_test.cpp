@@ -8,7 +8,7 @@
 #include <random>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/record/record_fields.hpp"
 #include "clackers/record/testing/sample_record.hpp"
 

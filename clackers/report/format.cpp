@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/base/text.hpp"
 
 namespace clackers::report {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/report/format.hpp"
 
 namespace clackers::report {

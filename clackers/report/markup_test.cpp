@@ -1,6 +1,6 @@
 #include "clackers/report/markup.hpp"
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/solvers/process_tree.hpp"
 
 namespace clackers::solvers {

@@ -2,7 +2,7 @@
 
 #include <sys/types.h>
 
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/solvers/process.hpp"
 
 namespace clackers::solvers {

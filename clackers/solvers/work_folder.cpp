@@ -17,7 +17,7 @@
 #include <string>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 
 namespace clackers::solvers {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/base/jobs/removed_on_exit.hpp"
 
 namespace clackers::solvers {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/campaign/run.hpp"
 #include "clackers/record/record.hpp"
 #include "clackers/report/write.hpp"

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "cli/files/output_file.hpp"
 
 namespace clackers::cli {

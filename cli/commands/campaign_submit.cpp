@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/solvers/process.hpp"
 #include "cli/cluster/run_on_ranks.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/input_file.hpp"
+#include "clackers/base/files/input_file.hpp"
 #include "clackers/input/table.hpp"
 #include "clackers/record/record_json.hpp"
 #include "cli/interrupt.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "cli/files/output_stream.hpp"
 #include "cli/interrupt.hpp"
 

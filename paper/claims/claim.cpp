@@ -11,7 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "paper/rendering/assets.hpp"
 
 namespace clackers::paper {

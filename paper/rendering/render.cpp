@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/solvers/process.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/report/markup.hpp"

@@ -3,7 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/campaign/atlas.hpp"
 #include "clackers/model/problem_file.hpp"

@@ -11,7 +11,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/campaign/run.hpp"
 #include "clackers/report/write.hpp"
 #include "target.hpp"

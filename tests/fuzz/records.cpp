@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/record/record_json.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/baseline.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/campaign/atlas.hpp"
 #include "clackers/report/atlas.hpp"

@@ -1,7 +1,7 @@
 #include <sstream>
 
+#include "clackers/base/files/toml_reader.hpp"
 #include "clackers/base/number.hpp"
-#include "clackers/base/toml_reader.hpp"
 #include "clackers/campaign/atlas.hpp"
 
 namespace clackers::campaign {

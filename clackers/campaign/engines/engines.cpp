@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "clackers/base/check.hpp"
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
+#include "clackers/base/files/toml_reader.hpp"
 #include "clackers/base/text.hpp"
-#include "clackers/base/toml_reader.hpp"
 #include "clackers/campaign/atlas.hpp"
 #include "clackers/study/check.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/base/testing/test_file.hpp"
 #include "clackers/campaign/specification.hpp"
 

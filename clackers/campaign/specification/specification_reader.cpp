@@ -6,8 +6,8 @@
 #include <set>
 
 #include "clackers/base/check.hpp"
-#include "clackers/base/files.hpp"
-#include "clackers/base/toml_reader.hpp"
+#include "clackers/base/files/files.hpp"
+#include "clackers/base/files/toml_reader.hpp"
 #include "clackers/campaign/specification.hpp"
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/base/input_file.hpp"
+#include "clackers/base/files/input_file.hpp"
 #include "clackers/input/numbers/npy_header.hpp"
 #include "clackers/input/source.hpp"
 

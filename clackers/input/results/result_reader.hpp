@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/base/input_file.hpp"
+#include "clackers/base/files/input_file.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/input/history.hpp"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/base/input_file.hpp"
+#include "clackers/base/files/input_file.hpp"
 
 namespace clackers::input {
 

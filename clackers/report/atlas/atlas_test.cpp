@@ -1,5 +1,5 @@
 #include "clackers/report/atlas.hpp"
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 
 #include <gtest/gtest.h>
 

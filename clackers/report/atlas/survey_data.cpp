@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"

@@ -25,10 +25,14 @@ namespace clackers::report {
 ///     profile                  the performance profiles of the case
 nlohmann::ordered_json figure_data(const record::CaseRecord& problem);
 
+/// Numbers with six digits, as curves have them.
+nlohmann::ordered_json rounded_list(const std::vector<double>& values);
+
 /// Whether the motion of a case can be played: its structure has a drawing.
 bool has_player(const record::CaseRecord& problem);
-/// What player.js draws: the displacements "u" of all masses at the times "t"; "blocks", "springs" and "contacts" and "leftward" as record::Schematic has them; "impacts"; and of each subject one
-/// of its "runs", with its own times.
+/// What player.js draws: the displacements "u" of all masses at the times "t"; "blocks", "springs",
+/// "contacts" and "leftward" as record::Schematic has them; "impacts"; and of each subject one of its
+/// "runs", with its own times.
 nlohmann::ordered_json player_data(const record::CaseRecord& problem);
 
 /// Curves of the performance profiles, without methods that accept none of the cases.

@@ -8,7 +8,7 @@
 #include <regex>
 #include <set>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/judge/cost/work_precision.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/report/html/figures.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/figure_data.hpp"

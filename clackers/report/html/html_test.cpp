@@ -4,7 +4,7 @@
 #include <regex>
 #include <set>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/report/testing/sample_record.hpp"
 #include "clackers/report/testing/written.hpp"
 

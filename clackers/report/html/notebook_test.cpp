@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/report/testing/sample_record.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/report/format.hpp"
 
 namespace clackers::report {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/report/rows/rows_numbers.hpp"
 #include "clackers/report/writers.hpp"

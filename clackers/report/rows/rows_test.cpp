@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "clackers/base/constants.hpp"
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/report/format.hpp"

@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "clackers/methods/integrators/coupled_stages.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
+#include "clackers/methods/integrators/runge_kutta/coupled_stages.hpp"
 
 namespace clackers::methods {
 namespace {

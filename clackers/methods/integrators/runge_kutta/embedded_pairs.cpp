@@ -1,4 +1,4 @@
-#include "clackers/methods/integrators/embedded_pairs.hpp"
+#include "clackers/methods/integrators/runge_kutta/embedded_pairs.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
 #include "clackers/methods/integrators/stability.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "clackers/methods/integrators/runge_kutta.hpp"
+#include "clackers/methods/integrators/runge_kutta/runge_kutta.hpp"
 #include "clackers/methods/stepping/adaptive_stepper.hpp"
 
 namespace clackers::methods {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 
 namespace clackers {
 

@@ -3,9 +3,9 @@
 #include <limits>
 
 #include "clackers/base/constants.hpp"
-#include "clackers/methods/integrators/alpha_method.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
+#include "clackers/methods/integrators/structural/alpha_method.hpp"
 
 namespace clackers::methods {
 namespace {

@@ -1,4 +1,4 @@
-#include "clackers/base/toml_reader.hpp"
+#include "clackers/base/files/toml_reader.hpp"
 
 #include <gtest/gtest.h>
 

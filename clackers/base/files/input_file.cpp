@@ -1,4 +1,4 @@
-#include "clackers/base/input_file.hpp"
+#include "clackers/base/files/input_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "clackers/methods/integrators/collocation_method.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
 #include "clackers/methods/integrators/stability.hpp"
+#include "clackers/methods/integrators/structural/collocation_method.hpp"
 
 namespace clackers::methods {
 namespace {

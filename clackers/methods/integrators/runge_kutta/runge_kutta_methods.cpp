@@ -3,7 +3,7 @@
 
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
-#include "clackers/methods/integrators/runge_kutta.hpp"
+#include "clackers/methods/integrators/runge_kutta/runge_kutta.hpp"
 #include "clackers/methods/integrators/stability.hpp"
 
 namespace clackers::methods {

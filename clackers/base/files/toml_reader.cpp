@@ -1,4 +1,4 @@
-#include "clackers/base/toml_reader.hpp"
+#include "clackers/base/files/toml_reader.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "clackers/base/check.hpp"
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 #include "clackers/base/number.hpp"
 
 namespace clackers {

@@ -1,4 +1,4 @@
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

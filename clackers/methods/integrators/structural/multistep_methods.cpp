@@ -8,7 +8,7 @@
 #include "clackers/base/constants.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
-#include "clackers/methods/integrators/multistep.hpp"
+#include "clackers/methods/integrators/structural/multistep.hpp"
 
 namespace clackers::methods {
 namespace {

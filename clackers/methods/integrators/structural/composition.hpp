@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "clackers/methods/integrators/alpha_method.hpp"
+#include "clackers/methods/integrators/structural/alpha_method.hpp"
 
 namespace clackers::methods {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "clackers/methods/integrators/composition.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
 #include "clackers/methods/integrators/stability.hpp"
+#include "clackers/methods/integrators/structural/composition.hpp"
 
 namespace clackers::methods {
 namespace {

@@ -1,4 +1,4 @@
-#include "clackers/base/files.hpp"
+#include "clackers/base/files/files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "clackers/base/error.hpp"
-#include "clackers/base/input_file.hpp"
+#include "clackers/base/files/input_file.hpp"
 
 namespace clackers {
 namespace {

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/methods/integrators/diagonally_implicit.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
+#include "clackers/methods/integrators/runge_kutta/diagonally_implicit.hpp"
 
 namespace clackers::methods {
 namespace {

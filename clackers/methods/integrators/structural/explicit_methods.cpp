@@ -1,4 +1,4 @@
-#include "clackers/methods/integrators/explicit_methods.hpp"
+#include "clackers/methods/integrators/structural/explicit_methods.hpp"
 
 #include <cmath>
 

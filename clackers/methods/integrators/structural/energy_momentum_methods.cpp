@@ -1,6 +1,6 @@
-#include "clackers/methods/integrators/energy_momentum.hpp"
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
+#include "clackers/methods/integrators/structural/energy_momentum.hpp"
 
 namespace clackers::methods {
 

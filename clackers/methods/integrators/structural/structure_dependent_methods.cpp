@@ -1,6 +1,6 @@
 #include "clackers/methods/integrators/families.hpp"
 #include "clackers/methods/integrators/family.hpp"
-#include "clackers/methods/integrators/structure_dependent.hpp"
+#include "clackers/methods/integrators/structural/structure_dependent.hpp"
 
 namespace clackers::methods {
 namespace {

@@ -1,6 +1,6 @@
 // The tables of embedded pairs by the order conditions of rooted trees.
 
-#include "clackers/methods/integrators/embedded_pairs.hpp"
+#include "clackers/methods/integrators/runge_kutta/embedded_pairs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "clackers/base/json.hpp"
+#include "clackers/base/files/json.hpp"
 
 #include <gtest/gtest.h>
 

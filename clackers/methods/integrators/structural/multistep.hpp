@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "clackers/methods/integrators/alpha_method.hpp"
-#include "clackers/methods/integrators/runge_kutta.hpp"
+#include "clackers/methods/integrators/runge_kutta/runge_kutta.hpp"
+#include "clackers/methods/integrators/structural/alpha_method.hpp"
 
 namespace clackers::methods {
 
