@@ -72,6 +72,7 @@ class Store {
   /// true.
   long long merge(const std::string& path, const std::atomic<bool>* interrupt = nullptr);
 
+  /// Counts rows without a look at their digests.
   Counts counts() const;
 
   /// The rows of a table in the order of (task, run); `runs` with the columns of its subject before its

@@ -120,7 +120,6 @@ WorkFolder::WorkFolder(const std::string& path)
   if (error) fail(path_, error.message());
   if (!is_given_)
     for (const auto& folder : {path_.parent_path(), path_}) require_private(folder);
-  remove_unused();
 }
 
 void WorkFolder::remove_unused() const {
@@ -158,6 +157,7 @@ RunFolder::RunFolder(WorkFolder& work, std::string_view title, std::string_view 
 }
 
 RunFolder::RunFolder(WorkFolder& work, fs::path place) : work_(work), place_(std::move(place)) {
+  std::call_once(work.swept_, [&] { work.remove_unused(); });
   std::random_device random;
   int error = 0;
   do {

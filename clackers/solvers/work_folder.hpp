@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,9 +17,10 @@ namespace clackers::solvers {
 class WorkFolder {
  public:
   /// The folder of --work; empty: $XDG_CACHE_HOME/clackers/programs, else ~/.cache/clackers/programs,
-  /// where runs that were not used for `longest_unused` are removed. Folders of runs that were killed
-  /// are removed after `longest_killed`, in either. Only what this program made is removed. Throws
-  /// FileError where it cannot be made, and for a cache that is a link or that others may write to.
+  /// where the first run removes those that were not used for `longest_unused`. Folders of runs that
+  /// were killed are removed after `longest_killed`, in either. Only what this program made is removed.
+  /// Throws FileError where it cannot be made, and for a cache that is a link or that others may write
+  /// to.
   explicit WorkFolder(const std::string& path);
 
   /// The folder of an earlier good run with this key; nothing without one.
@@ -35,6 +37,7 @@ class WorkFolder {
 
   std::filesystem::path path_;
   bool is_given_;
+  std::once_flag swept_;
 };
 
 /// The folder of one run while it runs, with a random name and locked; removed at its end, also by a

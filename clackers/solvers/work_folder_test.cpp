@@ -28,6 +28,10 @@ class WorkFolders : public testing::Test {
     RunFolder mine(work, "run", key);
     return mine.commit(true);
   }
+  void sweep(const std::string& path = {}) {
+    WorkFolder work(path);
+    const RunFolder run(work, "a", "key");
+  }
   void make_old(const fs::path& path, std::chrono::hours age = WorkFolder::longest_unused) {
     fs::last_write_time(path, fs::file_time_type::clock::now() - age - std::chrono::hours(1));
   }
@@ -60,7 +64,9 @@ TEST_F(WorkFolders, OldRunsAreRemovedAndNothingElse) {
   }
   fs::create_directory_symlink(used, link);
   make_old(unused);
-  const WorkFolder sweeps({});
+  const WorkFolder without_a_run({});
+  EXPECT_TRUE(fs::exists(unused));
+  sweep();
   EXPECT_FALSE(fs::exists(unused));
   for (const auto& folder : {used, other, forged, link}) EXPECT_TRUE(fs::exists(folder)) << folder;
 }
@@ -74,7 +80,7 @@ TEST_F(WorkFolders, RunsOfKilledProcessesAreRemovedWhereTheirLockIsFree) {
   for (const auto& folder : {running.path(), killed, strange})
     make_old(folder, WorkFolder::longest_killed);
   for (const auto& path : {std::string(), programs_.string()}) {
-    const WorkFolder sweeps(path);
+    sweep(path);
     EXPECT_FALSE(fs::exists(killed));
     EXPECT_TRUE(fs::exists(running.path()));
     EXPECT_TRUE(fs::exists(strange));

@@ -98,7 +98,7 @@ void show_results(std::string_view bytes) {
   const auto survey = report::survey_of({&part, 1});
   require(!json_text(report::survey_data(survey, {&part, 1})).empty(), "a page has its data");
   require(!json_text(report::survey_profiles(survey)).empty(), "a page has its profiles");
-  if (bytes.size() % 16 != 0) return;
+  if (!every_output && bytes.size() % 16 != 0) return;
   part.runs = &second;
   require(report::atlas_page({&part, 1}, {}).ends_with("</html>\n"), "a page is complete");
 }

@@ -17,6 +17,7 @@ std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t r
 
 int LLVMFuzzerInitialize(int* argc, char*** argv) {
   std::set_terminate(std::abort);  // the command's handler would keep the input from libFuzzer
+  clackers::fuzz::every_output = false;
   chosen = &clackers::fuzz::target(*argc > 1 ? (*argv)[1] : "");
   // libFuzzer does not see the target's name.
   for (int i = 1; i < *argc; ++i) (*argv)[i] = (*argv)[i + 1];

@@ -2,14 +2,9 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
 #include <cstdlib>
 #include <filesystem>
-#include <mutex>
 #include <sstream>
-#include <stop_token>
-#include <thread>
 
 #include "clackers/base/files/files.hpp"
 #include "clackers/campaign/run.hpp"
@@ -41,31 +36,15 @@ class Database {
   std::string folder_;
 };
 
-// Interrupts a statement that takes longer than any of the corpus.
-class Watch {
- public:
-  explicit Watch(std::atomic<bool>& interrupt)
-      : thread_([this, &interrupt](const std::stop_token& ended) {
-          std::unique_lock lock(guard_);
-          waiting_.wait_for(lock, ended, std::chrono::milliseconds(100), [] { return false; });
-          interrupt = !ended.stop_requested();
-        }) {}
-
- private:
-  std::mutex guard_;
-  std::condition_variable_any waiting_;
-  std::jthread thread_;  // last: uses the others
-};
-
 }  // namespace
 
 void query_database(std::string_view bytes) {
   static const Database database;
   static const auto before = database.bytes();
-  static std::atomic<bool> interrupt;
+  // Set: a statement ends at the first look at it, which is longer than any of the corpus takes.
+  static std::atomic<bool> interrupt = false;
   static const auto store = campaign::Store::open(database.path(), &interrupt);
-  interrupt = false;
-  const Watch watch(interrupt);
+  interrupt = true;
   constexpr report::Format formats[] = {report::Format::table, report::Format::csv,
                                         report::Format::json};
   std::ostringstream out;

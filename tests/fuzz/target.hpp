@@ -24,6 +24,10 @@ const Target& target(std::string_view name);
 /// Runs one input: refusals (Error) are fine, anything else ends the program. False for a refusal.
 bool run_input(const Target& target, std::string_view bytes);
 
+/// Whether an input goes through every output, as in a replay. Else its length chooses one of them: all
+/// take most of the time of an input.
+inline bool every_output = true;
+
 /// Throws std::logic_error unless `kept`.
 void require(bool kept, const char* promise);
 
