@@ -58,12 +58,19 @@ std::string nearest(std::string_view given, std::span<const std::string> known) 
   const auto dashes = std::min(given.find_first_not_of('-'), given.size());
   std::size_t least = (given.size() - (dashes + 1) / 2) / 3 + 2;
   for (const auto& name : known) {
+    // The distance is no less than that of the lengths.
+    if (std::max(given.size(), name.size()) - std::min(given.size(), name.size()) >= least)
+      continue;
     const auto far = distance(given, name);
     if (far < least) {
       least = far;
       best = name;
     }
   }
+  const auto is_start = [&](const std::string& name) { return name.starts_with(given); };
+  if (best.empty() && given.size() > dashes + 2)
+    if (const auto found = std::ranges::find_if(known, is_start); found != known.end())
+      best = *found;
   return best;
 }
 

@@ -16,8 +16,9 @@ double require_within(std::string_view who, std::string_view name, double value,
 /// Returns the step h in seconds, or throws InputError unless 0 < h < infinity.
 double require_step(std::string_view who, double h);
 
-/// The known name nearest to a misspelled one, or an empty string when none is near: edit
-/// distance (insert, delete, replace, swap of neighbours), at most a third of the length plus one.
+/// The known name nearest to a misspelled one: edit distance (insert, delete, replace, swap of
+/// neighbours), at most a third of the length plus one. Else the first that begins with it, if it has
+/// three letters, or an empty string.
 std::string nearest(std::string_view given, std::span<const std::string> known);
 
 /// Throws InputError: `who: no WHAT "given". Did you mean "x"? All names: WHERE_LISTED`.

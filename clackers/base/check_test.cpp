@@ -88,6 +88,17 @@ TEST(Suggest, IsSilentWhereNothingIsNear) {
   EXPECT_EQ(nearest("--", options), "");
 }
 
+TEST(Suggest, CompletesTheBeginningOfAName) {
+  const std::vector<std::string> options{"--step", "--samples-per-level"};
+  EXPECT_EQ(nearest("--samples", options), "--samples-per-level");
+  EXPECT_EQ(nearest("gen", known), "generalized-alpha");
+  EXPECT_EQ(nearest("ge", known), "");
+}
+
+TEST(Suggest, ComparesOnlyNamesOfSuchALength) {
+  EXPECT_EQ(nearest(std::string(std::size_t(1) << 22, 'n'), known), "");  // else gigabytes
+}
+
 TEST(Suggest, TakesTheNearestAndOfEquallyNearTheFirst) {
   const std::vector<std::string> names{"penalty", "penalties", "penalt"};
   EXPECT_EQ(nearest("penalte", names), "penalty");

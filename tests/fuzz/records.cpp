@@ -30,6 +30,7 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
 bool is_short(const cases::Settings& settings) {
   return std::ranges::all_of(settings, [](const auto& setting) {
     const auto& [name, value] = setting;
+    if (value.is_word()) return true;
     if (name == "t_end") return value <= 3000.0;
     if (name == "a_t" || name == "X" || name == "N") return value <= 100.0;
     return true;
