@@ -188,7 +188,13 @@ int run_engines(const EnginesOptions& options, std::span<const Engine> engines,
 int run(EnginesOptions& options, const std::string& line) {
   if (options.action == "page") {
     const auto folder = options.common.out.empty() ? default_folder : options.common.out;
-    write_page(options, campaign::Store::open(folder + "/engines.db"), folder, line);
+    const auto database = folder + "/engines.db";
+    if (!std::filesystem::exists(database))
+      throw FileError(fmt::format("{}: there is no such file. It is made by: clackers "
+                                  "engines run --all --out {}",
+                                  database, folder),
+                      "cannot-read");
+    write_page(options, campaign::Store::open(database), folder, line);
     return 0;
   }
   const auto engines = campaign::engines_in(engines_folder(options));

@@ -98,6 +98,8 @@ class Engines(CommandTest):
         self.refused("engines", "run", "ours", "--out", "/proc/nowhere", "--engines", self.path("engines"),
                      says="the folder cannot be made", code="cannot-write", exit_code=4)
         self.refused("engines", "run", "--engines", self.path("engines"), says="--all", code="bad-syntax")
+        self.refused("engines", "page", "--out", self.path("none"), says="engines run --all --out " + self.path("none"),
+                     code="cannot-read", exit_code=4)
 
     def test_refused_values_leave_no_folder(self):
         for words, says, code in ((("--case", "stpo"), 'no case "stpo". Did you mean "stop"?', "unknown-name"),
