@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
+#include <numbers>
+
 #include "clackers/diagnose/causes.hpp"
 #include "clackers/diagnose/testing/ladder_sets.hpp"
 
@@ -60,6 +64,21 @@ TEST(FixedInternalStep, IsNamedAndDeniesTheLadder) {
     ASSERT_EQ(codes(found), "fixed-internal-step") << i;
     EXPECT_NEAR(found[0].value, step, 0.02 * step) << i;
     EXPECT_TRUE(denies_ladder(found[0]));
+  }
+}
+
+// As MuJoCo on an elastic contact of 5 ms: in coarse steps the spring adds energy without bound.
+TEST(ContactInTension, IsNoneOfSpringsThatCoarseStepsDoNotResolve) {
+  for (const int i : {0, 1, 2}) {
+    const auto plan = ladder_plan(i);
+    const auto& problem = plan.problem.problem;
+    const auto& contact = problem.contacts.front();
+    const double w = std::numbers::pi / (4.0 * plan.steps.back());
+    const double mass =
+        1.0 / contact.direction.dot(problem.system.mass.llt().solve(contact.direction));
+    const auto found = ladder_causes(
+        files_of(plan, fmt::format("method=symplectic-euler spring={}", mass * w * w)).question());
+    EXPECT_EQ(find(found, "contact-in-tension"), nullptr) << i << ' ' << codes(found);
   }
 }
 

@@ -82,6 +82,14 @@ bool holds(const std::vector<double>& steps, const std::vector<double>& shares) 
   return compared > 0;
 }
 
+// A motion that has grown says how the method fails, not what its contact does.
+bool is_larger_than_motion(const measure::Ladder& ladder, double step) {
+  return std::ranges::any_of(ladder, [&](const auto& level) {
+    return std::ranges::any_of(
+        level.runs, [&](const auto& run) { return run.step == step && run.u_error > 1.0; });
+  });
+}
+
 }  // namespace
 
 std::vector<Diagnosis> tension_causes(const DiagnosisInput& question) {
@@ -94,7 +102,9 @@ std::vector<Diagnosis> tension_causes(const DiagnosisInput& question) {
   bool is_resolved = false;
   std::vector<double> steps, held;
   for (const auto& seen : question.histories) {
-    if (seen.sample.v.empty() || !seen.sample.impacts || seen.sample.impacts->empty()) continue;
+    if (seen.sample.v.empty() || !seen.sample.impacts || seen.sample.impacts->empty() ||
+        is_larger_than_motion(question.ladder, seen.facts.step))
+      continue;
     const auto sum = impulses_of(seen, question.problem);
     is_resolved = sum.rows >= least_rows_each * sum.impacts && sum.push > 0.0;
     if (!is_resolved) continue;
