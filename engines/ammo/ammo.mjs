@@ -8,6 +8,10 @@ await run(async ({ bodies, walls, restitution, h, settings }) => {
   const world = new ammo.btDiscreteDynamicsWorld(new ammo.btCollisionDispatcher(configuration), new ammo.btDbvtBroadphase(),
     new ammo.btSequentialImpulseConstraintSolver(), configuration);
   world.setGravity(new ammo.btVector3(0, 0, 0));
+  if (settings.tuned) {
+    world.getSolverInfo().set_m_erp(0);
+    world.getSolverInfo().set_m_erp2(0);
+  }
   const add = (mass, x, y, v, e) => {
     const place = new ammo.btTransform();
     place.setIdentity();
