@@ -87,6 +87,7 @@ void add_engines(Grammar& root);
 void add_export(Grammar& root);
 void add_paper(Grammar& root);
 void add_explain(Grammar& root);
+void add_explore(Grammar& root);
 
 /// Reads the arguments, without the name of the program, and runs the command they name. Returns
 /// its exit code; throws InputError for what does not follow the grammar, and what commands throw.

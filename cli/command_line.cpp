@@ -190,8 +190,9 @@ void add_commands(Grammar& grammar) {
       .usage = ""};
   grammar.program.add_flag("--help", unused_flag, "This help.");
   grammar.program.add_flag("--version", unused_flag, "The version.");
-  for (const auto add : {add_list, add_show, add_respond, add_verify, add_check, add_campaign,
-                         add_atlas, add_engines, add_export, add_paper, add_explain, add_help})
+  for (const auto add :
+       {add_list, add_show, add_respond, add_verify, add_check, add_campaign, add_atlas,
+        add_engines, add_export, add_paper, add_explore, add_explain, add_help})
     add(grammar);
   for (auto& command : grammar.commands) command.add_flag("--help", unused_flag, "This help.");
 }

@@ -42,6 +42,12 @@ set(page
   ${report_dir}/page/curves.vl.json
   ${report_dir}/page/impacts.vl.json
   ${report_dir}/page/profile.vl.json
+  ${report_dir}/page/explore/explore.html
+  ${report_dir}/page/explore/explore.css
+  ${report_dir}/page/explore/explore.json
+  ${report_dir}/page/explore/synchronized_pair.js
+  ${report_dir}/page/explore/runs.js
+  ${report_dir}/page/explore/explore.js
   ${report_dir}/page/atlas/atlas.html
   ${report_dir}/page/atlas/atlas.css
   ${report_dir}/page/atlas/atlas.js

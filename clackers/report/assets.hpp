@@ -9,6 +9,9 @@ extern const std::string_view page_html;  ///< with {{slots}}
 extern const std::string_view page_css;
 extern const std::string_view engines_html,
     engines_css;  ///< of `clackers engines`, the first with {{slots}}
+/// Of `clackers explore`; runs_js needs nothing of synchronized_pair_js, explore_js both.
+extern const std::string_view explore_html, explore_css, explore_json, synchronized_pair_js,
+    runs_js, explore_js;
 extern const std::string_view theme_js, figures_js, tools_js;  ///< of every page
 extern const std::string_view page_js, scene_js, player_js;    ///< of records
 extern const std::string_view atlas_js, atlas_matrix_js, atlas_panel_js, atlas_figures_js,

@@ -64,6 +64,15 @@ std::string html(std::span<const record::Sheet> sheets, const std::string& name,
                  const record::Provenance& from, const record::CaseRecord* motion = nullptr,
                  const std::string& command = "show");
 
+/// Where the dials of the page of `clackers explore` stand at first: a synchronized pair of
+/// m1 = 1 kg, k1 = 1 N/m and u1(0) = 1 m over 20 a_t seconds.
+struct Dials {
+  double X = 9.0, xi1 = 0.05, a_t = 1.0, r = 3.0, eta = 1.0;
+};
+
+/// A page whose dials move the exact motion of a synchronized pair, and runs of methods beside it.
+std::string explore(const Dials& dials, const record::Provenance& from);
+
 /// Figures draw the displacements of this many masses at most, the first ones, and say so.
 inline constexpr std::size_t most_drawn_masses = 9;
 

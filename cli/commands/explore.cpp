@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "clackers/base/error.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/record/record.hpp"
+#include "clackers/report/write.hpp"
+#include "cli/command.hpp"
+#include "cli/files/report_page.hpp"
+#include "cli/options.hpp"
+#include "cli/values.hpp"
+
+namespace clackers::cli {
+namespace {
+
+constexpr auto default_file = "clackers-explore.html";
+
+struct ExploreOptions {
+  CommonOptions common;  ///< its `out` is the page
+  std::vector<std::string> settings;
+  std::string name = "three-parameter";
+};
+
+report::Dials dials_of(const ExploreOptions& options) {
+  const auto test_case = cases::make(options.name, read_settings(options.settings));
+  const auto value = [&](const char* name) { return double(value_of(test_case.values, name)); };
+  if (options.name == "three-parameter")
+    return {4.0 * value("N") + 1.0, value("xi1"), value("a_t"), 3.0, 1.0};
+  if (options.name != "synchronized-pair")
+    throw InputError("explore has dials for three-parameter and synchronized-pair, not for " +
+                         options.name + ". Its motion: clackers respond " + options.name +
+                         " --report page.html",
+                     "no-closed-form");
+  for (const auto* name : {"m1", "k1", "A"})
+    if (value(name) != 1.0)
+      throw InputError(
+          fmt::format("explore: {} = {}; the dials are for m1 = 1 kg, k1 = 1 N/m and A = 1 m.",
+                      name, value(name)),
+          "out-of-range");
+  if (value("X") < 1.0 || value("eta") == 0.0)
+    throw InputError("explore: X must be 1 or more and eta above 0; see clackers respond.",
+                     "out-of-range");
+  return {value("X"), value("xi1"), value("t_end") / 20.0, value("r"), value("eta")};
+}
+
+// Where a person looks at a desktop; the browser stays when this command ends.
+void open_in_browser(std::string file) {
+  if (isatty(STDERR_FILENO) == 0 ||
+      (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr))
+    return;
+  std::string program = "xdg-open";
+  char* arguments[] = {program.data(), file.data(), nullptr};
+  pid_t child = 0;
+  (void)posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ);
+}
+
+int run(const ExploreOptions& options, const std::string& line) {
+  const auto dials = dials_of(options);
+  const auto file = options.common.out.empty() ? default_file : options.common.out;
+  ReportPage page(file, options.common, OnInterrupt::stop);
+  if (!page.write(report::explore(dials, record::provenance(line)))) return 4;
+  if (options.common.out.empty()) open_in_browser(file);
+  return 0;
+}
+
+}  // namespace
+
+void add_explore(Grammar& root) {
+  const auto options = std::make_shared<ExploreOptions>();
+  auto* app = root.add_subcommand("explore", "[CASE]", "a page with dials that move the motion");
+  set_help(*app, {.examples = "  clackers explore\n"
+                              "  clackers explore synchronized-pair --set X=5,eta=0.7\n",
+                  .about = "Writes a page that opens without a network: dials for the frequency "
+                           "ratio, damping, duration, mass ratio and restitution move the exact "
+                           "motion of two colliding masses, its animation, phase portrait and "
+                           "energies; beside it stand runs of RK4, Newmark, a penalty spring and "
+                           "Moreau-Jean at a step of your choice, with their order. Without --out "
+                           "the page is clackers-explore.html and is opened where there is a "
+                           "desktop.",
+                  .usage = "  clackers explore [CASE] [--set name=value,...] [--out FILE.html]\n"});
+  app->add_option("CASE", options->name,
+                  "Where the dials stand at first: three-parameter or synchronized-pair. Default: "
+                  "three-parameter.");
+  add_set_option(*app, options->settings);
+  add_common_options(*app, options->common);
+  app->get_option("--out")
+      ->description("The page. Default: clackers-explore.html.")
+      ->option_text("FILE.html");
+  app->run = [options](const std::string& line) { return run(*options, line); };
+}
+
+}  // namespace clackers::cli
