@@ -12,6 +12,8 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/clackers)
 get_property(modules GLOBAL PROPERTY CLACKERS_MODULES)
 
 install(TARGETS clackers_cli RUNTIME COMPONENT command)
+install(DIRECTORY bindings/matlab bindings/R COMPONENT command
+  DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/clackers)
 # The manual is built after the command, whose pages it shows.
 install(CODE [[
   if(NOT "$ENV{CLACKERS_MANUAL}" STREQUAL "")
