@@ -120,6 +120,8 @@ await run(async () => {
   };
   const still = (await frame("SVG")).toString();
   check("a moment is saved as SVG with colours of its own", still.startsWith("<svg ") && !still.includes("var(--"));
+  await stage.locator("xpath=following-sibling::div[1]").locator("select").nth(0).selectOption("16");
+  check("the motion is saved as a film", (await frame("Film")).subarray(0, 4).toString("hex") === "1a45dfa3");
   check("a moment is saved as PNG", (await frame("PNG")).subarray(1, 4).toString() === "PNG");
 
   // What is counted, chosen on the keyboard.

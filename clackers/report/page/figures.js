@@ -171,20 +171,24 @@ async function asSvg(name) {
 
 const asPng = async (name) => rasterized(await asSvg(name), 2);
 
-async function rasterized(svg, scale) {
+async function imageOf(svg) {
   const url = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   try {
     const image = new Image();
     image.src = url;
     await image.decode();
-    const canvas = document.createElement("canvas");
-    canvas.width = image.width * scale;
-    canvas.height = image.height * scale;
-    canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
-    return await new Promise((done) => canvas.toBlob(done, "image/png"));
+    return image;
   } finally {
     URL.revokeObjectURL(url);
   }
+}
+
+async function rasterized(svg, scale) {
+  const image = await imageOf(svg), canvas = document.createElement("canvas");
+  canvas.width = image.width * scale;
+  canvas.height = image.height * scale;
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  return await new Promise((done) => canvas.toBlob(done, "image/png"));
 }
 
 // Rows with lists become rows with numbers, as Vega-Lite's "flatten" does.

@@ -124,13 +124,41 @@ function startPlayer(stage) {
   const frameSvg = () => withLightColors(new XMLSerializer().serializeToString(svg)
     .replace("<svg ", `<svg width="${stageWidth}" height="${stageHeight}" style="background:var(--paper)" `));
   const file = () => `clackers-${stage.dataset.player}-${now.toFixed(3)}s`;
+  // Records the motion from its beginning to its end at the chosen speed; a second press ends it there.
+  let filming = false;
+  async function film(pressed) {
+    if (filming) { filming = false; return; }
+    filming = true;
+    jump(0);
+    pressed.textContent = "Stop";
+    const canvas = document.createElement("canvas"), parts = [];
+    Object.assign(canvas, { width: stageWidth, height: stageHeight });
+    const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: "video/webm", videoBitsPerSecond: 4e6 });
+    recorder.addEventListener("dataavailable", (event) => parts.push(event.data));
+    const ended = new Promise((done) => recorder.addEventListener("stop", done));
+    const frame = async () => canvas.getContext("2d").drawImage(await imageOf(frameSvg()), 0, 0);
+    await frame();
+    recorder.start();
+    for (const begin = performance.now(); filming && now < end;) {
+      seek((speed * (performance.now() - begin)) / 1000);
+      await frame();
+      await new Promise(requestAnimationFrame);
+    }
+    recorder.stop();
+    await ended;
+    filming = false;
+    pressed.textContent = "Film";
+    save(new Blob(parts, { type: "video/webm" }), "video/webm", `clackers-${stage.dataset.player}.webm`);
+  }
+  const filmButton = button("Film", `Record a film: ${what}`, () => film(filmButton));
   tools.append(
     toggle,
     button("◂ impact", `Impact before: ${what}`, () => jump(allTimes.findLast((t) => t < now - 1e-9 * end) ?? 0)),
     button("impact ▸", `Impact after: ${what}`, () => jump(allTimes.find((t) => t > now + 1e-9 * end) ?? end)),
     slider, rate, ...(scene.runs.length ? [choice] : []),
     button("SVG", `Save this moment as SVG: ${what}`, () => save(frameSvg(), "image/svg+xml", `${file()}.svg`)),
-    button("PNG", `Save this moment as PNG: ${what}`, async () => save(await rasterized(frameSvg(), 2), "image/png", `${file()}.png`)));
+    button("PNG", `Save this moment as PNG: ${what}`, async () => save(await rasterized(frameSvg(), 2), "image/png", `${file()}.png`)),
+    ...(window.MediaRecorder ? [filmButton] : []));
   stage.addEventListener("keydown", (event) => {
     const step = end / 500;
     const moves = { ArrowLeft: -step, ArrowRight: step, PageUp: -10 * step, PageDown: 10 * step };
