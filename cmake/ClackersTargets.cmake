@@ -39,10 +39,13 @@ if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     "$<BUILD_INTERFACE:$<${for_use}:LINKER:-z,relro,-z,now>>")
 endif()
 
+if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+endif()
 # clackers_unity(<target>): the sources of a target are compiled in batches, which halves the time of a
 # clean build; docs/decisions/0008. Names at file scope are therefore unique within a target.
 function(clackers_unity target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CLACKERS_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CLACKERS_UNITY})
 endfunction()
 
 # clackers_module(<name> LINK <targets> [TEST_LINK <targets>]): the library clackers_<name> from

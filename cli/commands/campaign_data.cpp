@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 
 #include "clackers/base/check.hpp"
@@ -64,9 +65,13 @@ record::Sheet status_sheet(const campaign::Store& store) {
   return sheet;
 }
 
-// Parts of a campaign that are neither among the files nor finished in the database.
-void require_all_shards(const campaign::Store& into, const std::vector<std::string>& files) {
-  if (into.finished().size() == into.specification().tasks()) return;
+// Parts of a campaign that are neither among the files nor finished in the database, which is not
+// made for them.
+void require_all_shards(const std::string& database, const campaign::Specification& specification,
+                        const std::vector<std::string>& files) {
+  if (std::filesystem::exists(database) &&
+      open_database(database).finished().size() == specification.tasks())
+    return;
   std::vector<bool> found;
   for (const auto& file : files) {
     const auto name = open_database(file).shard();
@@ -85,8 +90,8 @@ void require_all_shards(const campaign::Store& into, const std::vector<std::stri
       fmt::format(
           "{}: {} of {} shards missing: {}{}. Name their files, or run them: clackers campaign "
           "run {} --shard {}",
-          into.path(), missing, found.size(), fmt::join(named, ", "),
-          missing > most_named ? ", ..." : "", into.specification().name(), named.front()),
+          database, missing, found.size(), fmt::join(named, ", "),
+          missing > most_named ? ", ..." : "", specification.name(), named.front()),
       "shard-missing");
 }
 
@@ -126,8 +131,8 @@ int merge_shards(const CampaignOptions& options, const std::string&) {
                     "cannot-read");
   {
     const auto specification = open_database(shards.front()).specification();
+    require_all_shards(database, specification, shards);
     auto store = campaign::Store::create_or_open(database, specification);
-    require_all_shards(store, shards);
     for (const auto& shard : shards) {
       const auto added = store.merge(shard, &interrupt_flag());
       if (!options.common.quiet) note(fmt::format("{}: {} tasks added", shard, added));

@@ -382,6 +382,7 @@ class BadInput(Campaign):
         self.run_spec("--shard", "999999/1000000")
         said = self.refused("campaign", "merge", self.path("new.db"), self.database + ".shard-999999-of-1000000",
                             code="shard-missing", says="999999 of 1000000 shards missing: 1/1000000")
+        self.assertFalse(os.path.exists(self.path("new.db")))
         self.assertLess(len(said), 600)
 
     def test_full_disk_loses_nothing_that_was_stored(self):

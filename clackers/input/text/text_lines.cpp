@@ -46,7 +46,10 @@ void refuse_other_formats(const std::string& name, std::string_view bytes) {
 
 }  // namespace
 
-TextLines::TextLines(InputFile file) : file_(std::move(file)), bytes_(block) {}
+// A small file needs no whole block.
+TextLines::TextLines(InputFile file)
+    : file_(std::move(file)),
+      bytes_(file_.size() > 0 ? std::min(std::size_t(file_.size()) + 1, block) : block) {}
 
 std::string TextLines::place() const { return fmt::format("{} line {}", name(), number_); }
 
