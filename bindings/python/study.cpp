@@ -36,6 +36,14 @@ using GivenProgram = std::tuple<std::string, double, std::string, bool, std::vec
 using GivenSolver = std::tuple<std::string, std::variant<GivenProgram, py::object>,
                                std::vector<double>, std::vector<double>>;
 
+// (reader, nodes, component) of result files.
+using GivenResults = std::tuple<std::string, std::vector<std::string>, std::string>;
+
+input::ResultChoice choice_of(const GivenResults& given) {
+  return input::result_choice(std::get<0>(given), std::get<1>(given), std::get<2>(given),
+                              "component");
+}
+
 // Runs a study in the caller's thread: (record, exception of Python that ended it), either None. A
 // study that leaves no record when it is interrupted throws Error (interrupted).
 py::tuple result_of(CallerThread& caller, const py::object& progress, const auto& make) {
@@ -112,8 +120,10 @@ py::tuple check(const std::vector<std::pair<std::string, py::list>>& subjects,
                 const py::list& events, const CaseChoice& chosen, const std::vector<double>& steps,
                 const std::vector<double>& tolerances, const std::vector<std::string>& columns,
                 const std::optional<std::string>& expect, std::optional<double> tolerance,
-                const std::string& command, const py::object& progress) {
+                const GivenResults& results, const std::string& command,
+                const py::object& progress) {
   study::CheckRequest request;
+  request.results = choice_of(results);
   request.subjects.clear();
   for (const auto& [name, histories] : subjects) {
     auto& subject = request.subjects.emplace_back(study::NamedHistories{{}, name});
@@ -137,8 +147,8 @@ py::tuple check(const std::vector<std::pair<std::string, py::list>>& subjects,
 // (comparison, exception of Python that ended it), either None.
 py::tuple compare(const py::list& first, const py::list& second, const std::vector<double>& steps,
                   const std::vector<double>& tolerances, const std::vector<std::string>& columns,
-                  std::optional<double> tolerance) {
-  study::AgainstRequest request{{}, columns, steps, tolerances, tolerance};
+                  std::optional<double> tolerance, const GivenResults& results) {
+  study::AgainstRequest request{{}, columns, steps, tolerances, tolerance, choice_of(results)};
   for (const auto history : first) request.sets[0].push_back(source_of(history));
   for (const auto history : second) request.sets[1].push_back(source_of(history));
   CallerThread caller;
@@ -163,12 +173,12 @@ void bind_study(py::module_& core) {
            py::arg("expect"), py::arg("options"), py::arg("command"), py::arg("progress"));
   core.def("check", &check, py::arg("subjects"), py::arg("events"), py::arg("case"),
            py::arg("steps"), py::arg("tolerances"), py::arg("columns"), py::arg("expect"),
-           py::arg("tolerance"), py::arg("command"), py::arg("progress"));
+           py::arg("tolerance"), py::arg("results"), py::arg("command"), py::arg("progress"));
   py::class_<study::AgainstResult, std::shared_ptr<study::AgainstResult>>(core, "Comparison")
       .def_readonly("is_within", &study::AgainstResult::is_within)
       .def_property_readonly("tables", &comparison_tables);
   core.def("compare", &compare, py::arg("first"), py::arg("second"), py::arg("steps"),
-           py::arg("tolerances"), py::arg("columns"), py::arg("tolerance"));
+           py::arg("tolerances"), py::arg("columns"), py::arg("tolerance"), py::arg("results"));
   core.def("tolerances_from", &solvers::tolerances_from, py::arg("text"));
   py::module_::import("atexit").attr("register")(py::cpp_function(&CallerThread::stop_all));
 }

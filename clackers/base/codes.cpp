@@ -179,8 +179,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "A history must be rows of numbers as text in ASCII or UTF-8, or a NumPy file (.npy); "
      "the file is binary, UTF-16, or has a line of more than 65536 bytes."},
     {"not-an-array", "refusal",
-     "A NumPy file (.npy) that is cut, damaged, longer than its array, of Python objects, or of "
-     "another shape than rows of numbers. Save the columns with numpy.save."},
+     "A file of arrays (.npy, .mat, NetCDF, HDF5) that is cut, damaged, longer than its array, of Python "
+     "objects, or of another shape than rows of numbers. Save t, u and v anew, or write csv."},
     {"no-column", "refusal",
      "A column that is needed is missing or appears twice, or the columns have no names. "
      "Name them in a header line or with --columns t,u1,v1,...; an underscore leaves one out."},

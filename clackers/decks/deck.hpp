@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "clackers/model/impact_problem.hpp"
+#include "clackers/model/motion.hpp"
 
 // Ready-to-run models of a problem for other programs.
 namespace clackers::decks {
@@ -17,6 +19,7 @@ struct Subject {
   /// in the file problem.json of the deck.
   std::vector<std::string> check;
   std::string command;  ///< that wrote it, for the first line of the model
+  std::shared_ptr<const model::Motion> motion{};  ///< the exact one, for units that give it
 };
 
 struct DeckFile {
@@ -30,6 +33,7 @@ struct Format {
   std::string program;  ///< "CalculiX 2.20"
   std::string contact;  ///< what takes the place of the contact
   std::string needs;    ///< the package of Debian; empty: the deck was not run by us
+  std::string probe;    ///< a command of the shell that ends well where the program is there
   std::vector<DeckFile> (*write)(const Subject& subject);
 };
 

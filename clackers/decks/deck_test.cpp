@@ -14,7 +14,8 @@ namespace clackers::decks {
 namespace {
 
 Subject subject_of(const std::string& name, const Settings& settings = {}) {
-  return {cases::make(name, settings).problem, {name}, "clackers export " + name};
+  auto chosen = cases::make(name, settings);
+  return {chosen.problem, {name}, "clackers export " + name, chosen.motion};
 }
 
 // The names of formats that take a case.
@@ -114,8 +115,15 @@ TEST(Network, LinksAreTheMatrices) {
 
 TEST(Network, AContactLastsItsTime) {
   const auto network = network_of(subject_of("stop"), "test", {});
-  // Half a period of one mass: pi sqrt(m / k), the stiffness in three digits.
-  EXPECT_NEAR(network.contact_time, 2.0 * 3.14159265 / 16.0, 1e-6);
+  // A sixteenth of the period, less in a run of 20 s, at least a quarter of that; half a period of one mass is
+  // pi sqrt(m / k), the stiffness in three digits.
+  const double period = 2.0 * 3.14159265;
+  const auto lasting = [](double end) {
+    return network_of(subject_of("stop", {{"t_end", end}}), "test", {}).contact_time;
+  };
+  EXPECT_NEAR(lasting(5.0), period / 16.0, 1e-6);
+  EXPECT_NEAR(network.contact_time, period * period / 16.0 / 20.0, 1e-6);
+  EXPECT_NEAR(lasting(200.0), period / 64.0, 1e-6);
   EXPECT_NEAR(3.14159265 / std::sqrt(network.contacts[0].stiffness), network.contact_time,
               1e-2 * network.contact_time);
 }

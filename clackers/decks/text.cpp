@@ -67,7 +67,7 @@ DeckFile run_script(const Subject& subject, const std::vector<Level>& levels,
                     std::string_view prepare) {
   std::string text =
       "#!/bin/sh\n# Runs the model at each level, then judges the motions. CLACKERS: the command, where it is not "
-      "on the PATH.\nset -eu\ncd \"$(dirname \"$0\")\"\n";
+      "on the PATH.\nset -eu\ncd \"$(dirname \"$0\")\"\n@needs@\n";
   if (!prepare.empty()) text += fmt::format("{}\n", prepare);
   text += fmt::format("solve() {{  # level, value\n  {}\n}}\n", solve);
   std::string files;

@@ -170,5 +170,18 @@ TEST(Events, MayBeTimesAloneOrNone) {
   EXPECT_REFUSED(read_events(other.path(), 2), "no-column", "no column t");
 }
 
+TEST(JoinedHistory, HasTheRowsOfBothFiles) {
+  const TestFile u("0 1 2\n0.5 3 4\n1 5 6\n"), v("0.5,7,8\n0.75,0,0\n1,9,10\n");
+  const auto joined = u.path() + "+" + v.path();
+  const auto h = read_history(joined, {.dof = 2, .columns = {"t", "u1", "u2+t", "v1", "v2"}});
+  EXPECT_EQ(h.motion.t, (std::vector{0.5, 1.0}));
+  EXPECT_EQ(h.motion.u, (std::vector{3.0, 4.0, 5.0, 6.0}));
+  EXPECT_EQ(h.motion.v, (std::vector{7.0, 8.0, 9.0, 10.0}));
+  EXPECT_REFUSED(read_history(joined, {.dof = 2, .columns = {"t", "u1", "u2"}}), "ragged-row",
+                 "joined by +");
+  EXPECT_REFUSED(read_history(joined, {.dof = 2, .columns = {"t", "u1", "u2+_", "v1", "v2"}}),
+                 "no-column", "no t");
+}
+
 }  // namespace
 }  // namespace clackers::input

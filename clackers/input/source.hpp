@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -33,6 +34,11 @@ struct ResultChoice {
   bool coordinates = false;          ///< u is the coordinate, not the displacement
   int most_nodes = 0;                ///< 0: one a mass
 };
+
+/// Reads what is asked in words: `component` is 1, 2, 3, coor1, coor2 or coor3, empty for 1. Throws InputError
+/// (out-of-range), which calls it `name`.
+ResultChoice result_choice(const std::string& reader, std::vector<std::string> nodes,
+                           const std::string& component, std::string_view name);
 
 /// What messages call a source: its path, "standard input", or the name of its columns.
 std::string name_of(const Source& source);

@@ -5,6 +5,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/files/input_file.hpp"
+#include "clackers/input/joined_table.hpp"
 #include "clackers/input/numbers/number_table.hpp"
 #include "clackers/input/results/result_table.hpp"
 #include "clackers/input/text/text_table.hpp"
@@ -21,7 +22,14 @@ std::unique_ptr<Table> open_table(const Source& source, const std::vector<std::s
                                   const ResultChoice& choice) {
   if (const auto* columns = std::get_if<NumberColumns>(&source))
     return std::make_unique<NumberTable>(*columns, names, kind, interrupt);
-  InputFile file(std::get<std::string>(source), interrupt);
+  const auto& path = std::get<std::string>(source);
+  if (const auto paths = joined_paths(path); paths.size() > 1) {
+    std::vector<std::unique_ptr<Table>> tables;
+    for (const auto& own : joined_names(path, names, paths.size()))
+      tables.push_back(open_table(paths[tables.size()], own, kind, interrupt, choice));
+    return std::make_unique<JoinedTable>(path, std::move(tables));
+  }
+  InputFile file(path, interrupt);
   if (kind == TableKind::history)
     if (const auto* reader = result_reader_of(file, choice))
       return std::make_unique<ResultTable>(std::move(file), *reader, choice, names);

@@ -43,13 +43,9 @@ std::vector<double> numbers_of(std::string_view option, std::string_view text) {
 }
 
 input::ResultChoice results_of(const CheckOptions& options) {
-  input::ResultChoice choice{.reader = options.reader};
-  if (!options.nodes.empty()) choice.nodes = parts_of("--node", options.nodes);
-  if (options.component.empty()) return choice;
-  choice.coordinates = options.component.starts_with("coor");
-  choice.direction =
-      int(read_whole("--component", options.component.substr(choice.coordinates ? 4 : 0), 1, 3));
-  return choice;
+  const auto nodes =
+      options.nodes.empty() ? std::vector<std::string>{} : parts_of("--node", options.nodes);
+  return input::result_choice(options.reader, nodes, options.component, "--component");
 }
 
 // Each name with the files behind it.
@@ -91,9 +87,9 @@ study::CheckRequest request_of(const CheckOptions& options, const std::string& l
 
 // Without an exact motion: the exit code is that of the tolerance.
 int run_against(const CheckOptions& options, const Command& command, const std::string& line) {
-  constexpr auto fitting =
-      std::to_array<std::string_view>({"--against", "--columns", "--steps", "--tolerances",
-                                       "--tolerance", "--report", "--format", "--out"});
+  constexpr auto fitting = std::to_array<std::string_view>(
+      {"--against", "--columns", "--reader", "--node", "--component", "--steps", "--tolerances",
+       "--tolerance", "--report", "--format", "--out"});
   const auto is_wrong = [&](const Option& option) {
     return std::ranges::find(fitting, option.name) == fitting.end() &&
            (!option.values().empty() || (option.name == "--impacts" && options.impacts));
@@ -114,6 +110,7 @@ int run_against(const CheckOptions& options, const Command& command, const std::
   if (!options.tolerances.empty())
     request.tolerances = numbers_of("--tolerances", options.tolerances);
   if (!options.tolerance.empty()) request.tolerance = read_number("--tolerance", options.tolerance);
+  request.results = results_of(options);
   ReportPage page(options.report, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop);
   auto found = study::check_against(request, &interrupt_flag());
@@ -228,7 +225,7 @@ void add_check(Grammar& root) {
   app->add_option(
          "--reader", options->reader,
          "Forces the reader of result files, which otherwise are known by their first lines: "
-         "calculix-dat, calculix-frd, abaqus-dat, nodout, mbdyn-mov, mat4; or table.")
+         "calculix-dat, calculix-frd, abaqus-dat, nodout, mbdyn-mov, mat4, mat5, hdf5, netcdf; or table.")
       ->option_text("NAME");
   app->add_option("--node", options->nodes,
                   "Nodes of a result file, one a mass. Default: all, in the order of the file.")

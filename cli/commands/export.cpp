@@ -45,7 +45,9 @@ decks::Subject subject_of(const ExportOptions& options, const std::string& line)
   decks::Subject subject;
   auto name = case_of(options.name, options.behind, options.problem);
   if (name.empty()) name = cases::default_case();
-  subject.problem = cases::make(name, read_settings(options.settings, options.problem)).problem;
+  auto chosen = cases::make(name, read_settings(options.settings, options.problem));
+  subject.problem = std::move(chosen.problem);
+  subject.motion = std::move(chosen.motion);
   subject.command = line;
   if (!options.problem.empty()) return subject;
   subject.check.push_back(name);

@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import subprocess
 import unittest
+from xml.etree import ElementTree
 
 from command import CommandTest, rows
 
@@ -44,6 +45,55 @@ class Export(CommandTest):
             done = subprocess.run(["tclsh"], input=script + model, capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual(len(self.text_of("out.csv").splitlines()), 202)
+
+        ast.parse((self.export("base-excited-pair", to="code-aster") / "model.comm").read_text())
+        model = (self.export("buildings", to="mbdyn") / "model.mbd").read_text()
+        begun, ended = ([line[len(word):] for line in model.splitlines() if line.startswith(word)] for word in ("begin", "end"))
+        self.assertEqual(begun, ended)
+        for kind in ("body", "joint", "structural"):
+            count = len([line for line in model.splitlines() if line.startswith(f"  {kind}: ") and "node;" not in line[:20]])
+            names = {"body": "rigid bodies", "joint": "joints", "structural": "structural nodes"}
+            self.assertIn(f"  {names[kind]}: {count};", model)
+
+    def test_units_keep_the_rules_of_the_standard(self):
+        for version, case in ((2, "three-parameter"), (3, "three-parameter"), (2, "sdof"), (3, "sdof")):
+            with self.subTest(version=version, case=case):
+                root = ElementTree.parse(self.export(case, to=f"fmu{version}") / "modelDescription.xml").getroot()
+                self.assertEqual((root.tag, root.get("fmiVersion")), ("fmiModelDescription", f"{version}.0"))
+                self.assertTrue(root.get("guid" if version == 2 else "instantiationToken"))
+                self.assertEqual([child.tag for child in root], ["ModelExchange", "CoSimulation", "UnitDefinitions", "DefaultExperiment",
+                                                                 "ModelVariables", "ModelStructure"])
+                variables = list(root.find("ModelVariables"))
+                references = [variable.get("valueReference") for variable in variables]
+                names = [variable.get("name") for variable in variables]
+                self.assertEqual((len(set(references)), len(set(names))), (len(variables), len(variables)))
+                units = {unit.get("name") for unit in root.iter("Unit")}
+                number = {variable.get("name"): variable.find("Real") if version == 2 else variable for variable in variables}
+                derivatives = []
+                for variable in variables:
+                    kind = variable.get("causality"), variable.get("variability"), variable.get("initial")
+                    real = number[variable.get("name")]
+                    self.assertIn(kind, {("independent", "continuous", None), ("output", "continuous", "exact"), ("local", "continuous", "calculated")})
+                    self.assertEqual(real.get("start") is not None, kind[2] == "exact")
+                    self.assertIn(real.get("unit"), units)
+                    if real.get("derivative"):
+                        # FMI 2 counts variables from 1, FMI 3 names value references.
+                        at = int(real.get("derivative")) - 1 if version == 2 else references.index(real.get("derivative"))
+                        self.assertEqual(variable.get("name"), f"der({names[at]})")
+                        derivatives.append(variable.get("name"))
+                structure = root.find("ModelStructure")
+
+                def named(old, new):
+                    if version == 2:
+                        return [names[int(each.get("index")) - 1] for each in structure.find(old)]
+                    return [names[references.index(each.get("valueReference"))] for each in structure.findall(new)]
+
+                self.assertEqual(named("Outputs", "Output"), [name for name in names if name[0] in "uv"])
+                self.assertEqual(named("Derivatives", "ContinuousStateDerivative"), derivatives)
+                self.assertEqual(named("InitialUnknowns", "InitialUnknown"), derivatives)
+                gaps = [name for name in names if name.startswith("gap")]
+                self.assertEqual(root.get("numberOfEventIndicators") if version == 2 else str(len(named("", "EventIndicator"))), str(len(gaps)))
+        self.refused("export", "penalized-pair", "--to", "fmu2", "--out", self.path("never"), says="one linear motion", code="no-deck")
 
     def test_a_problem_of_ones_own_goes_along(self):
         problem = self.path("frame.json")

@@ -4,6 +4,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+import zipfile
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
 from command import PROGRAM, CommandTest  # noqa: E402
@@ -26,13 +27,21 @@ def has_header(name):
 
 
 class Deck(CommandTest):
-    def agrees(self, to, *words):
+    def agrees(self, to, *words, run=()):
         self.good("export", *words, "--to", to, "--out", self.path(to), "--quiet")
         environment = {**os.environ, "CLACKERS": PROGRAM, "PYTHON": python_with_scipy() or "python3"}
-        done = subprocess.run([os.path.join(self.path(to), "run")], capture_output=True, text=True, env=environment)
+        done = subprocess.run([os.path.join(self.path(to), "run"), *run], capture_output=True, text=True, env=environment)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertTrue(done.stdout.startswith("Agrees: "), done.stdout + done.stderr)
         shutil.rmtree(self.path(to))
+
+
+class Missing(Deck):
+    def test_a_missing_program_is_named(self):
+        self.good("export", "stop", "--to", "scipy", "--out", self.path("scipy"), "--quiet")
+        done = subprocess.run([self.path("scipy/run")], capture_output=True, text=True, env={**os.environ, "PYTHON": "/bin/false"})
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("apt-get install python3-scipy", done.stderr)
 
 
 @unittest.skipUnless(python_with_scipy(), "needs python3-scipy")
@@ -41,6 +50,24 @@ class Scipy(Deck):
         self.agrees("scipy", "synchronized-pair", "--set", "eta=0.7")
         self.agrees("scipy", "forced-pair")
         self.agrees("scipy", "penalized-pair")
+
+
+@unittest.skipUnless(has_header("dlfcn.h") and shutil.which("zip"), "needs gcc and zip")
+class Fmu(Deck):
+    def test_units_are_exact_and_exchange_their_equations(self):
+        for to in ("fmu2", "fmu3"):
+            with self.subTest(to):
+                self.agrees(to, "forced-pair")
+                self.agrees(to, "buildings")
+                self.agrees(to, "stop", "--set", "eta=0.7", run=["me"])
+
+    def test_the_unit_has_its_binary_and_sources(self):
+        for to, platform in (("fmu2", "linux64"), ("fmu3", f"{os.uname().machine}-linux")):
+            self.good("export", "sdof", "--to", to, "--out", self.path(to), "--quiet")
+            subprocess.run([self.path(to) + "/run"], capture_output=True, env={**os.environ, "CLACKERS": PROGRAM}, check=True)
+            names = zipfile.ZipFile(self.path(to) + "/Model.fmu").namelist()
+            for name in ("modelDescription.xml", "sources/model.c", f"binaries/{platform}/Model.so"):
+                self.assertIn(name, names)
 
 
 @unittest.skipUnless(shutil.which("octave-cli"), "needs octave")
@@ -74,7 +101,7 @@ class Cvode(Deck):
 @unittest.skipUnless(shutil.which("ccx"), "needs calculix-ccx")
 class Calculix(Deck):
     def test_contact_and_none(self):
-        self.agrees("calculix", "stop", "--set", "t_end=7")
+        self.agrees("calculix", "stop")
         self.agrees("calculix", "sdof", "--set", "t_end=8")
 
 

@@ -16,6 +16,7 @@ namespace {
 
 constexpr auto table = std::to_array<Target>({
     {"history", read_history, mutate_numbers},
+    {"result", read_history, nullptr},
     {"npy", read_npy, nullptr},
     {"events", read_events, mutate_numbers},
     {"specification", read_specification, nullptr},

@@ -67,6 +67,19 @@ class Compared(unittest.TestCase):
                 self.assertEqual([mine for mine, _ in known], [theirs for _, theirs in known], name)
             self.assertEqual(table.title, sheet["title"])
 
+    def test_result_files_have_nodes_and_directions(self):
+        text = "".join(f"\n displacements (vx,vy,vz) for set ALL and time {t:14.7E}\n\n"
+                       f"  7 0.0 {u[1]:13.6E} 0.0\n 12 0.0 {u[0]:13.6E} 0.0\n" for t, u in zip(T, U))
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "run.dat")
+            path.write_text(text)
+            chosen = {"reader": "calculix-dat", "node": [12, 7], "component": 2}
+            self.assertLess(clackers.compare(path, (T, U), **chosen).differences["relative"].max(), 1e-6)
+            self.assertEqual(clackers.check(path, case=CASE, tolerance=1e-5, **chosen).verdict, "agrees")
+            self.assertGreater(clackers.compare(path, (T, U)).differences["relative"].max(), 0.1)
+            with self.assertRaisesRegex(clackers.InputError, "component = 4"):
+                clackers.compare(path, path, component=4)
+
 
 class Refused(unittest.TestCase):
     ROWS = {

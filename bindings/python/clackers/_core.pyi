@@ -127,6 +127,7 @@ def check(
     columns: Sequence[str],
     expect: str | None,
     tolerance: float | None,
+    results: tuple[str, list[str], str],
     command: str,
     progress: Callable[[float], object] | None,
 ) -> tuple[Record | None, BaseException | None]: ...
@@ -144,5 +145,6 @@ def compare(
     tolerances: Sequence[float],
     columns: Sequence[str],
     tolerance: float | None,
+    results: tuple[str, list[str], str],
 ) -> tuple[Comparison | None, BaseException | None]: ...
 def tolerances_from(text: str) -> list[float]: ...

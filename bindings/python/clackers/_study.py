@@ -176,6 +176,9 @@ def check(
     expect: str | None = None,
     tolerance: float | None = None,
     columns: str | Sequence[str] | None = None,
+    reader: str | None = None,
+    node: str | Sequence[str | int] | None = None,
+    component: int | str | None = None,
     name: str | Sequence[str] | None = None,
     progress: Progress = None,
     **parameters: float | str,
@@ -212,6 +215,12 @@ def check(
         Largest error in u over the largest envelope that is allowed.
     columns : str or list of str
         Names of the columns of files where a header lacks or differs: "t,u1,_,v1" or a list.
+    reader : str
+        Of result files of other programs: "calculix-dat", "table", ...; default the one that knows their first lines.
+    node : str or list
+        Nodes of a result file, one a mass: "12,7" or [12, 7]; default all, in the order of the file.
+    component : int or str
+        Direction in a result file, 1 to 3; "coor1" reads the coordinate as u. Default 1.
     name : str or list of str
         Of the history in the record, a list of several.
     progress : callable or bool
@@ -282,9 +291,10 @@ def check(
             columns=[] if columns is None else [_core.read_text("check", "columns", column) for column in _parts(columns)],
             expect=None if expect is None else _core.read_text("check", "expect", expect),
             tolerance=None if tolerance is None else _core.read_number("check", "tolerance", tolerance),
+            results=_results("check", reader, node, component),
             command=_line(
                 "check", _positional(given, keys, u, v, a) if "histories" in named else ["histories"], parameters, step=step, tolerances=tolerances, case=case,
-                expect=expect, tolerance=tolerance, columns=columns, name=name,
+                expect=expect, tolerance=tolerance, columns=columns, reader=reader, node=node, component=component, name=name,
             ),
             progress=report,
         )
@@ -317,6 +327,9 @@ def compare(
     tolerances: Sequence[float] | None = None,
     tolerance: float | None = None,
     columns: str | Sequence[str] | None = None,
+    reader: str | None = None,
+    node: str | Sequence[str | int] | None = None,
+    component: int | str | None = None,
 ) -> Comparison:
     """Compares two sets of histories of a motion that nobody knows exactly, at the times that both have.
 
@@ -332,6 +345,8 @@ def compare(
         Largest difference over the largest displacement that is allowed.
     columns : str or list of str
         Names of the columns of files where a header lacks or differs.
+    reader, node, component
+        Of result files, as ``clackers.check`` takes them.
 
     Returns
     -------
@@ -369,6 +384,7 @@ def compare(
         [] if tolerances is None else _core.read_vector("compare", "tolerances", tolerances).tolist(),
         [] if columns is None else [_core.read_text("compare", "columns", column) for column in _parts(columns)],
         None if tolerance is None else _core.read_number("compare", "tolerance", tolerance),
+        _results("compare", reader, node, component),
     )
     if core is None:
         raise stop or Interrupted(None)
@@ -460,8 +476,15 @@ def _is_path(value: object) -> TypeGuard[Path]:
     return isinstance(value, (str, os.PathLike))
 
 
-def _parts(columns: Sequence[str]) -> Sequence[str]:
+def _parts(columns: str | Sequence[str]) -> Sequence[str]:
     return columns.split(",") if isinstance(columns, str) else columns
+
+
+def _results(
+    who: str, reader: str | None, node: str | Sequence[str | int] | None, component: int | str | None
+) -> tuple[str, list[str], str]:
+    nodes = node.split(",") if isinstance(node, str) else [str(part) for part in node or ()]
+    return "" if reader is None else _core.read_text(who, "reader", reader), nodes, "" if component is None else str(component)
 
 
 def _is_history(value: object) -> bool:

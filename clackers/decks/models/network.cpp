@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -36,7 +37,10 @@ class Builder {
     model::problem_json(problem_);  // refuses what is no numbers
     take_masses();
     take_links();
-    network_.contact_time = shortest_period(problem_) / 16.0;
+    // Delays add up: the longer the run, the shorter the contacts.
+    const double period = shortest_period(problem_);
+    const double periods = (problem_.end - problem_.start.t) / period;
+    network_.contact_time = period / std::clamp(16.0 * periods, 16.0, 64.0);
     for (const auto& contact : problem_.contacts) take(contact, network_.contacts);
     if (const auto* found = model::one_sided_springs(problem_)) {
       if (!abilities_.springs)
@@ -122,7 +126,7 @@ Network network_of(const Subject& subject, std::string_view format, Abilities ab
 
 std::vector<Level> compliant_steps(const Network& network, const model::ImpactProblem<>& problem) {
   if (network.contacts.empty()) return steps(problem, shortest_period(problem) / 16.0, 5);
-  return steps(problem, network.contact_time / 16.0, 4);
+  return steps(problem, network.contact_time / 8.0, 4);
 }
 
 std::string_view compliant_claim(const Network& network, std::string_view smooth) {

@@ -47,7 +47,7 @@ struct Network {
 /// two displacements, and for what the format lacks.
 Network network_of(const Subject& subject, std::string_view format, Abilities abilities);
 
-/// The ladder of a compliant contact: from 16 to 128 steps a contact, or of a problem without contacts
+/// The ladder of a compliant contact: from 8 to 64 steps a contact, or of a problem without contacts
 /// from 16 to 256 a period; and what `check` expects of an integrator of that order.
 std::vector<Level> compliant_steps(const Network& network, const model::ImpactProblem<>& problem);
 std::string_view compliant_claim(const Network& network,

@@ -1,18 +1,9 @@
 #include "clackers/decks/rows.hpp"
-#include "clackers/decks/scripts/data.hpp"
+#include "clackers/decks/scripts/c_text.hpp"
 #include "clackers/decks/text.hpp"
 
 namespace clackers::decks {
 namespace {
-
-constexpr Syntax c_syntax = {
-    .comment = "//",
-    .table = "enum { @name@_rows = @rows@ };\nstatic const double @name@[] = {@values@};\n",
-    .vector = "static const double @name@[] = {@values@};\n",
-    .number = "static const double @name@ = @value@;\n",
-    .line = "",
-    .nothing = "0",
-};
 
 constexpr auto cvode_model =
     R"c(@head@// Build: cc model.c -lsundials_cvode -lsundials_nvecserial -lsundials_sunlinsoldense -lsundials_sunmatrixdense -lm
@@ -26,44 +17,10 @@ constexpr auto cvode_model =
 #include <sunmatrix/sunmatrix_dense.h>
 
 @data@
-enum { n = M_rows };
-
-static double dot(const double* a, const double* b) {
-  double sum = 0.0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-// M^-1 f, into f.
-static void solve(double* f) {
-  double A[n * n];
-  for (int i = 0; i < n * n; ++i) A[i] = M[i];
-  for (int k = 0; k < n; ++k)  // M is positive definite: no pivoting
-    for (int i = k + 1; i < n; ++i) {
-      const double factor = A[i * n + k] / A[k * n + k];
-      for (int j = k; j < n; ++j) A[i * n + j] -= factor * A[k * n + j];
-      f[i] -= factor * f[k];
-    }
-  for (int i = n - 1; i >= 0; --i) {
-    for (int j = i + 1; j < n; ++j) f[i] -= A[i * n + j] * f[j];
-    f[i] /= A[i * n + i];
-  }
-}
-
+@mechanics@
 static int motion(realtype t, N_Vector state, N_Vector rate, void* data) {
-  const double *u = N_VGetArrayPointer(state), *v = u + n;
-  double *du = N_VGetArrayPointer(rate), *force = du + n;
   (void)data;
-  for (int i = 0; i < n; ++i) du[i] = v[i], force[i] = -dot(C + i * n, v) - dot(K + i * n, u);
-  for (int k = 0; k < loads_rows; ++k) {
-    const double* load = loads + 4 * k;
-    force[(int)load[0] - 1] += load[1] * cos(load[2] * t + load[3]);
-  }
-  for (int k = 0; k < springs_rows; ++k) {
-    const double *row = springs + (n + 2) * k, gap = dot(row, u) - row[n];
-    for (int i = 0; i < n && gap < 0.0; ++i) force[i] -= row[n + 1] * gap * row[i];
-  }
-  solve(force);
+  rates(t, 0, N_VGetArrayPointer(state), N_VGetArrayPointer(rate));
   return 0;
 }
 
@@ -74,25 +31,6 @@ static int gaps(realtype t, N_Vector state, realtype* out, void* data) {
     out[k] = dot(contact, N_VGetArrayPointer(state)) - contact[n];
   }
   return 0;
-}
-
-// Newton's law, one contact after the other, until none of those that touch is closing.
-static void impacts(double* u, double* v, double tolerance) {
-  for (int trial = 0; trial < 1000; ++trial) {
-    const double* closing = NULL;
-    for (int k = 0; k < contacts_rows && closing == NULL; ++k) {
-      const double* contact = contacts + (n + 2) * k;
-      if (dot(contact, u) - contact[n] < tolerance && dot(contact, v) < 0.0) closing = contact;
-    }
-    if (closing == NULL) return;
-    double jump[n];
-    for (int i = 0; i < n; ++i) jump[i] = closing[i];
-    solve(jump);
-    const double impulse = -(1.0 + closing[n + 1]) * dot(closing, v) / dot(closing, jump);
-    for (int i = 0; i < n; ++i) v[i] += impulse * jump[i];
-  }
-  fputs("Several contacts stay closed: this program has no rule for that.\n", stderr);
-  exit(1);
 }
 
 static void write(FILE* file, double t, const double* y) {
@@ -141,7 +79,10 @@ int main(int count, char** words) {
       return 1;
     }
     before = t;
-    impacts(u, v, tolerance);
+    if (impacts(u, v, tolerance) < 0) {
+      fputs("Several contacts stay closed: this program has no rule for that.\n", stderr);
+      return 1;
+    }
     write(file, t, y);
     CVodeReInit(cvode, t, state);  // without it the impact is ignored, and no error is returned
   }
@@ -154,7 +95,8 @@ int main(int count, char** words) {
 
 std::vector<DeckFile> cvode(const Subject& subject) {
   return {{"model.c", filled(cvode_model, {{"head", head(subject, "cvode", "//")},
-                                           {"data", data(subject.problem, c_syntax)}})},
+                                           {"data", data(subject.problem, c_syntax)},
+                                           {"mechanics", c_mechanics}})},
           run_script(subject, tolerances(), "./model \"$2\" \"$1.csv\"", ".csv",
                      "--expect proper:5/6",  // tolerance^(k / (k + 1)) of errors per step, k = 5
                      "\"${CC:-cc}\" -O2 -o model model.c -lsundials_cvode -lsundials_nvecserial "

@@ -49,6 +49,12 @@ void set_row(Matrix& rows, std::size_t i, const model::Contact<>& contact, doubl
 
 }  // namespace
 
+std::string list_of(std::string_view name, const Matrix& rows, const Syntax& syntax) {
+  Writer writer(syntax);
+  writer.table(name, rows);
+  return writer.text();
+}
+
 std::string data(const model::ImpactProblem<>& problem, const Syntax& syntax) {
   model::problem_json(problem);  // refuses what is no numbers
   const auto n = problem.dof();

@@ -17,6 +17,9 @@ struct Syntax {
   std::string_view nothing{};  ///< the values of an empty list
 };
 
+/// A table of its own.
+std::string list_of(std::string_view name, const Eigen::MatrixXd& rows, const Syntax& syntax);
+
 /// The problem as assignments in a language: M, C, K, u0, v0, t0, last, and the tables contacts, springs
 /// and loads, each with comments. Throws InputError (linear-only) for forces that are no numbers.
 std::string data(const model::ImpactProblem<>& problem, const Syntax& syntax);

@@ -36,6 +36,25 @@ Number number_of(std::string_view text, const std::string& place) {
   return number;
 }
 
+std::optional<std::size_t> ChosenNodes::mass_of(std::string_view node) {
+  if (masses_.empty())
+    for (const auto& name : choice_.nodes) masses_.emplace(name, masses_.size());
+  if (const auto found = masses_.find(node); found != masses_.end()) return found->second;
+  if (!choice_.nodes.empty()) return {};
+  return masses_.emplace(std::string(node), masses_.size()).first->second;
+}
+
+void ChosenNodes::finish(const std::string& file,
+                         const std::function<bool(std::size_t mass)>& has_values) {
+  for (const auto& name : choice_.nodes)
+    if (const auto mass = mass_of(name); !mass || !has_values(*mass))
+      refuse(file, "--node", printable(name), "a node of the file", {}, "no-column");
+  if (masses_.size() > std::size_t(choice_.most_nodes))
+    refuse(file, "nodes", double(masses_.size()),
+           fmt::format("{}, one for each mass", choice_.most_nodes),
+           "Name the nodes of the masses with --node 1,2,...", "no-column");
+}
+
 void NodeRows::begin(const Number& time) {
   if (has_time_ && time.value == time_.value) return;
   end_row();
@@ -46,14 +65,7 @@ void NodeRows::begin(const Number& time) {
 void NodeRows::take(std::string_view node, char quantity, std::string_view text,
                     const std::string& place) {
   if (!has_time_) refuse(place, "value", printable(text), "a time above it", {}, "too-short");
-  if (masses_.empty())
-    for (const auto& name : choice_.nodes) masses_.emplace(name, masses_.size());
-  auto found = masses_.find(node);
-  if (found == masses_.end()) {
-    if (!choice_.nodes.empty()) return;
-    found = masses_.emplace(std::string(node), masses_.size()).first;
-  }
-  row_[{found->second, quantity}] = number_of(text, place);
+  if (const auto mass = nodes_.mass_of(node)) row_[{*mass, quantity}] = number_of(text, place);
 }
 
 void NodeRows::end_row() {
@@ -80,14 +92,9 @@ void NodeRows::end_row() {
 ResultRows NodeRows::finish() {
   end_row();
   if (columns_.empty()) refuse(file_, "values", 0.0, "rows of numbers", {}, "too-short");
-  for (const auto& name : choice_.nodes)
-    if (const auto mass = masses_.at(name);
-        std::ranges::none_of(columns_, [&](const Key& key) { return key.first == mass; }))
-      refuse(file_, "--node", name, "a node of the file", {}, "no-column");
-  if (masses_.size() > std::size_t(choice_.most_nodes))
-    refuse(file_, "nodes", double(masses_.size()),
-           fmt::format("{}, one for each mass", choice_.most_nodes),
-           "Name the nodes of the masses with --node 1,2,...", "no-column");
+  nodes_.finish(file_, [&](std::size_t mass) {
+    return std::ranges::any_of(columns_, [&](const Key& key) { return key.first == mass; });
+  });
   return std::move(rows_);
 }
 

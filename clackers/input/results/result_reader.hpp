@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,13 +33,28 @@ ResultRows read_abaqus_dat(InputFile file, const ResultChoice& choice);
 ResultRows read_nodout(InputFile file, const ResultChoice& choice);
 ResultRows read_mbdyn_mov(InputFile file, const ResultChoice& choice);
 ResultRows read_mat4(InputFile file, const ResultChoice& choice);
+ResultRows read_mat5(InputFile file, const ResultChoice& choice);
+ResultRows read_netcdf(InputFile file, const ResultChoice& choice);
 
-/// Gathers what a file says node by node into rows: nodes are masses in the order of the choice, or of their
-/// first appearance.
+/// Nodes are masses in the order of the choice, or of their first appearance.
+class ChosenNodes {
+ public:
+  explicit ChosenNodes(const ResultChoice& choice) : choice_(choice) {}
+
+  /// From 0; nothing for a node that was not chosen.
+  std::optional<std::size_t> mass_of(std::string_view node);
+  /// Throws InputError (no-column) where a chosen node has no values or there are more nodes than masses.
+  void finish(const std::string& file, const std::function<bool(std::size_t mass)>& has_values);
+
+ private:
+  const ResultChoice& choice_;
+  std::map<std::string, std::size_t, std::less<>> masses_;
+};
+
+/// Gathers what a file says node by node into rows.
 class NodeRows {
  public:
-  NodeRows(std::string file, const ResultChoice& choice)
-      : file_(std::move(file)), choice_(choice) {}
+  NodeRows(std::string file, const ResultChoice& choice) : file_(std::move(file)), nodes_(choice) {}
 
   /// What follows is of this time; the same time again goes on with its row. Throws InputError
   /// (ragged-row) where the row before lacks a value that the first has.
@@ -45,7 +62,7 @@ class NodeRows {
   /// A text that must be a number, of the quantity 'u', 'v' or 'a' of a node. Throws InputError with the place
   /// for another text (not-a-number, not-finite), and for a value before any time (too-short).
   void take(std::string_view node, char quantity, std::string_view text, const std::string& place);
-  /// Throws InputError (no-column) where a chosen node is missing or there are more nodes than masses.
+  /// Throws InputError (too-short) without rows, and as ChosenNodes does.
   ResultRows finish();
 
  private:
@@ -54,8 +71,7 @@ class NodeRows {
   void end_row();
 
   std::string file_;
-  const ResultChoice& choice_;
-  std::map<std::string, std::size_t, std::less<>> masses_;
+  ChosenNodes nodes_;
   std::vector<Key> columns_;  // of the first row
   std::map<Key, Number> row_;
   Number time_{};

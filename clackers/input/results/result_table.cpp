@@ -47,6 +47,22 @@ bool is_mat4(std::string_view bytes) {
          bytes[sizeof head + std::size_t(length) - 1] == '\0';
 }
 
+// Version 0x0100 and the order of bytes behind a text; version 7.3, 0x0200, is HDF5.
+bool is_mat5(std::string_view bytes) {
+  const auto version = bytes.size() < 128 ? bytes : bytes.substr(124, 4);
+  return version == std::string_view("\x00\x01IM", 4) ||
+         version == std::string_view("\x01\x00MI", 4);
+}
+// At the front, or behind a block of the user's.
+bool is_hdf5(std::string_view bytes) {
+  constexpr std::string_view mark = "\x89HDF\r\n\x1a\n";
+  return bytes.starts_with(mark) || (bytes.size() > 512 && bytes.substr(512).starts_with(mark));
+}
+bool is_netcdf(std::string_view bytes) {
+  return bytes.starts_with("CDF") && bytes.size() > 3 &&
+         (bytes[3] == 1 || bytes[3] == 2 || bytes[3] == 5);
+}
+
 /// All readers; a new one is a row here and its function.
 const std::vector<ResultReader> table = {
     {"calculix-dat", "CalculiX, *NODE PRINT", is_calculix_dat, read_calculix_dat},
@@ -55,6 +71,9 @@ const std::vector<ResultReader> table = {
     {"nodout", "LS-DYNA, *DATABASE_NODOUT", is_nodout, read_nodout},
     {"mbdyn-mov", "MBDyn, structural nodes", is_mbdyn_mov, read_mbdyn_mov},
     {"mat4", "Modelica and MATLAB, version 4", is_mat4, read_mat4},
+    {"mat5", "MATLAB and Octave, versions 5 to 7", is_mat5, read_mat5},
+    {"hdf5", "HDF5, NetCDF 4 and MATLAB 7.3", is_hdf5, read_netcdf},
+    {"netcdf", "NetCDF, MBDyn among others", is_netcdf, read_netcdf},
 };
 
 }  // namespace

@@ -1,10 +1,16 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
+#include <stdexcept>
 
+#include "clackers/base/error.hpp"
 #include "clackers/base/testing/test_file.hpp"
 #include "clackers/input/history.hpp"
+#include "clackers/input/results/arrays.hpp"
 #include "clackers/input/results/result_table.hpp"
+#include "clackers/input/testing/npy_bytes.hpp"
 
 namespace clackers::input {
 namespace {
@@ -233,6 +239,119 @@ TEST(Mat4, BentFilesAreRefused) {
   EXPECT_REFUSED(result(matrix("t", 3, 1, {0, 1, 2}) + matrix("u", 2, 2, {1, 2, 3, 4})),
                  "not-an-array", "lengths");
   EXPECT_REFUSED(result(matrix("x", 3, 1, {0, 1, 2})), "not-an-array", "t, u");
+}
+
+// An element of a file of version 5, filled to eight bytes.
+std::string element(std::uint32_t type, std::string bytes) {
+  const std::uint32_t tag[2] = {type, std::uint32_t(bytes.size())};
+  bytes.resize((bytes.size() + 7) / 8 * 8);
+  return std::string(reinterpret_cast<const char*>(tag), sizeof tag) + bytes;
+}
+
+std::string matrix_5(const std::string& name, int rows, int columns, const std::string& numbers,
+                     std::uint32_t kind = 6) {
+  return element(14, element(6, bytes_of<std::uint32_t>({kind, 0})) +
+                         element(5, bytes_of<std::int32_t>({rows, columns})) + element(1, name) +
+                         numbers);
+}
+
+std::string mat5(const std::string& elements) {
+  std::string head = "MATLAB 5.0 MAT-file";
+  head.resize(124, ' ');
+  return head + std::string("\x00\x01IM", 4) + elements;
+}
+
+const auto t5 = matrix_5("t", 1, 3, element(9, bytes_of<double>({0, 1, 2})));
+
+TEST(Mat5, TakesNumbersOfEveryType) {
+  const auto u = matrix_5("u", 3, 2, element(1, bytes_of<std::int8_t>({1, 2, 3, -4, 5, 6})));
+  const auto v = matrix_5("v", 3, 2, element(7, bytes_of<float>({1, 2, 3, 4, 5, 6.5})), 7);
+  const auto h = result(mat5(matrix_5("s", 1, 1, "", 2) +
+                             matrix_5("a", 1, 1, element(9, bytes_of<double>({9}))) + t5 + u + v));
+  EXPECT_EQ(h.motion.t, (Numbers{0, 1, 2}));
+  EXPECT_EQ(h.motion.u, (Numbers{1, -4, 2, 5, 3, 6}));
+  EXPECT_EQ(h.motion.v, (Numbers{1, 4, 2, 5, 3, 6.5}));
+}
+
+TEST(Mat5, BentFilesAreRefused) {
+  const auto u = matrix_5("u", 3, 1, element(9, bytes_of<double>({1, 2, 3})));
+  const auto whole = mat5(t5 + u);
+  EXPECT_EQ(result(whole, {}, 1).motion.u, (Numbers{1, 2, 3}));
+  for (const std::size_t cut : {1, 20, 40, 60})
+    EXPECT_REFUSED(result(whole.substr(0, whole.size() - cut)), "not-an-array", "ends within");
+  EXPECT_REFUSED(result(mat5(t5 + matrix_5("u", 4, 1, element(9, bytes_of<double>({1, 2, 3}))))),
+                 "not-an-array", "numbers of its shape");
+  EXPECT_REFUSED(result(mat5(t5 + matrix_5("u", 2, 1, element(9, bytes_of<double>({1, 2}))))),
+                 "not-an-array", "lengths");
+  EXPECT_REFUSED(result(mat5(element(15, "no stream of zlib"))), "not-an-array", "compressed");
+  EXPECT_REFUSED(
+      result(replaced(whole, std::string_view("\x00\x01IM", 4), std::string_view("\x01\x00MI", 4))),
+      "not-an-array", "big-endian");
+  EXPECT_REFUSED(result(mat5(matrix_5("t", 1, 3, element(99, "12345678")))), "not-an-array",
+                 "unknown type");
+}
+
+// A classic netCDF file with t and node.struct.7.X as MBDyn writes it, two rows.
+std::string netcdf_file() {
+  const auto whole = [](std::uint32_t value) { return bytes_of<std::uint32_t>({value}, true); };
+  const auto text = [&](std::string name) {
+    const auto size = whole(std::uint32_t(name.size()));
+    name.resize((name.size() + 3) / 4 * 4);
+    return size + name;
+  };
+  const auto none = whole(0) + whole(0);
+  auto head = std::string("CDF\x01") + whole(0) + whole(10) + whole(2) + text("time") + whole(2) +
+              text("Vec3") + whole(3) + none + whole(11) + whole(2);
+  const auto t = text("time") + whole(1) + whole(0) + none + whole(6) + whole(16);
+  const auto x =
+      text("node.struct.7.X") + whole(2) + whole(0) + whole(1) + none + whole(6) + whole(48);
+  const auto begin = std::uint32_t(head.size() + t.size() + x.size() + 8);
+  head += t + whole(begin) + x + whole(begin + 16);
+  return head + bytes_of<double>({0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, true);
+}
+
+// Where the library is not installed, the message names it.
+bool has_netcdf() {
+  try {
+    result(netcdf_file(), {}, 1);
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("libnetcdf"), std::string::npos);
+    return false;
+  }
+  return true;
+}
+
+TEST(NetCdf, TakesNodesOfMbdyn) {
+  if (!has_netcdf()) GTEST_SKIP() << "needs libnetcdf19";
+  const auto h = result(netcdf_file(), {.nodes = {"7"}, .direction = 2}, 1);
+  EXPECT_EQ(h.motion.t, (Numbers{0.0, 0.5}));
+  EXPECT_EQ(h.motion.u, (Numbers{2.0, 5.0}));
+  EXPECT_REFUSED(result(netcdf_file(), {.nodes = {"8"}}, 1), "no-column", "8");
+}
+
+TEST(NetCdf, BentFilesAreRefused) {
+  if (!has_netcdf()) GTEST_SKIP() << "needs libnetcdf19";
+  const auto whole = netcdf_file();
+  EXPECT_REFUSED(result(whole.substr(0, 60)), "not-an-array", "no whole file");
+  EXPECT_REFUSED(result(replaced(whole, "node", "nude")), "no-column");
+  EXPECT_REFUSED(result("\x89HDF\r\n\x1a\n and no more"), "not-an-array", "HDF");
+}
+
+TEST(OwnProcess, EndsForItself) {
+  const auto arrays = in_own_process("f", [] {
+    return std::vector<NamedArray>{{"t", {1, 2}, {3.0, 4.0}}, {"u", {}, {5.0}}};
+  });
+  ASSERT_EQ(arrays.size(), 2u);
+  EXPECT_EQ(arrays[0].shape, (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ(arrays[1].values, (Numbers{5.0}));
+  EXPECT_REFUSED(in_own_process("f", []() -> std::vector<NamedArray> { std::abort(); }),
+                 "not-an-array", "signal 6");
+  EXPECT_REFUSED(in_own_process("f", []() -> std::vector<NamedArray> { _exit(3); }), "not-an-array",
+                 "ended early");
+  EXPECT_REFUSED(
+      in_own_process("f",
+                     []() -> std::vector<NamedArray> { throw std::runtime_error("no group"); }),
+      "not-an-array", "no group");
 }
 
 TEST(ResultReaders, AreForcedOrRefused) {

@@ -167,7 +167,8 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
   for (const double t : request.tolerances)
     if (!(t > 0.0 && t < 1.0)) refuse("check", "--tolerances", t, "0 < tolerance < 1");
   if (request.tolerance) require_positive("check", "--tolerance", *request.tolerance);
-  input::HistoryOptions options{.columns = request.columns, .interrupt = interrupt};
+  input::HistoryOptions options{
+      .columns = request.columns, .interrupt = interrupt, .results = request.results};
   if (!request.steps.empty()) options.step = request.steps.front();
   options.dof = masses_of(ours.front(), options);
   const auto middle = std::min(given.size(), ours.size());

@@ -19,6 +19,7 @@ struct AgainstRequest {
   std::vector<double> steps;         ///< none, or one a history, over both sets [s]
   std::vector<double> tolerances;    ///< the same, instead of steps
   std::optional<double> tolerance;   ///< largest allowed difference over the largest displacement
+  input::ResultChoice results{};     ///< of files that other programs wrote
 };
 
 struct AgainstResult {

@@ -1,0 +1,399 @@
+#include "clackers/decks/scripts/c_text.hpp"
+
+namespace clackers::decks {
+
+const char* const fmu_model =
+    R"c(@head@// Unit of FMI @fmi@.0: co-simulation gives the exact motion, model exchange the equations of motion.
+// Build: cc -shared -fPIC -O2 -o Model.so model.c -lm
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FMI @fmi@
+@data@
+// a row a flight: its start [s], u [m] and v [m/s] behind the impact; rate [1/s] bounds those of the motion
+@flights@
+@mechanics@
+// Taylor's series, which is exact but for rounding: the motion is linear, its loads are harmonic.
+static void flow(double t, double span, double* y) {
+  const int parts = 1 + (int)(4.0 * rate * span);
+  const double h = span / parts;
+  for (int part = 0; part < parts; ++part) {
+    double d[2 * n], next[2 * n], factor = 1.0;
+    memcpy(d, y, sizeof d);
+    for (int order = 0; order < 24; ++order) {
+      rates(t + part * h, order, d, next);
+      factor *= h / (order + 1);
+      for (int i = 0; i < 2 * n; ++i) y[i] += factor * next[i];
+      memcpy(d, next, sizeof d);
+    }
+  }
+}
+
+static void exact(double t, double* y) {
+  const double* flight = flights + (flights_rows - 1) * (2 * n + 1);
+  while (flight > flights && flight[0] > t) flight -= 2 * n + 1;
+  memcpy(y, flight + 1, 2 * n * sizeof *y);
+  flow(flight[0], t - flight[0], y);
+}
+
+typedef struct {
+  double t, y[2 * n];
+} Unit;
+
+// By value reference: t, the states, their derivatives, the gaps.
+static double value_of(const Unit* unit, unsigned reference) {
+  double dy[2 * n];
+  if (reference == 0) return unit->t;
+  if (reference <= 2 * n) return unit->y[reference - 1];
+  if (reference <= 4 * n) {
+    rates(unit->t, 0, unit->y, dy);
+    return dy[reference - 2 * n - 1];
+  }
+  const double* contact = contacts + (n + 2) * (reference - 4 * n - 1);
+  return dot(contact, unit->y) - contact[n];
+}
+
+enum { ok, failed = 3, variables = 1 + 4 * n + contacts_rows };
+#ifdef _WIN32
+#define API __declspec(dllexport)
+#else
+#define API __attribute__((visibility("default")))
+#endif
+#define ABSENT(name) \
+  API int name() { return failed; }
+#if FMI == 2
+#define NAME(name) fmi2##name
+typedef int Boolean;
+#else
+#define NAME(name) fmi3##name
+typedef bool Boolean;
+#endif
+
+static void* new_unit(const char* token) {
+  if (strcmp(token, "@token@") != 0) return NULL;
+  Unit* unit = calloc(1, sizeof *unit);
+  if (unit != NULL) exact(unit->t = t0, unit->y);
+  return unit;
+}
+static int values_of(const Unit* unit, const unsigned* references, size_t count, double* values) {
+  for (size_t i = 0; i < count; ++i) {
+    if (references[i] >= variables) return failed;
+    values[i] = value_of(unit, references[i]);
+  }
+  return ok;
+}
+static int some(const Unit* unit, unsigned first, size_t wanted, double* values, size_t count) {
+  for (unsigned i = 0; i < count && count == wanted; ++i) values[i] = value_of(unit, first + i);
+  return count == wanted ? ok : failed;
+}
+static int start(Unit* unit, double t) {
+  if (!(t >= t0 && t <= last)) return failed;
+  exact(unit->t = t, unit->y);
+  return ok;
+}
+static int step(Unit* unit, double t, double h) {
+  const double end = t + h;
+  if (!(h >= 0.0 && end <= last + 1e-9 * (last - t0))) return failed;  // what follows is not known
+  exact(unit->t = end, unit->y);
+  return ok;
+}
+
+API const char* NAME(GetVersion)(void) { return FMI == 2 ? "2.0" : "3.0"; }
+API int NAME(SetDebugLogging)(Unit* unit, Boolean on, size_t count, const char* const* names) { return ok; }
+API void NAME(FreeInstance)(Unit* unit) { free(unit); }
+API int NAME(ExitInitializationMode)(Unit* unit) { return ok; }
+API int NAME(Terminate)(Unit* unit) { return ok; }
+API int NAME(Reset)(Unit* unit) { return start(unit, t0); }
+API int NAME(EnterEventMode)(Unit* unit) { return ok; }
+API int NAME(EnterContinuousTimeMode)(Unit* unit) { return ok; }
+API int NAME(CompletedIntegratorStep)(Unit* unit, Boolean final, Boolean* event, Boolean* terminate) {
+  *event = *terminate = false;
+  return ok;
+}
+API int NAME(SetTime)(Unit* unit, double t) {
+  unit->t = t;
+  return ok;
+}
+API int NAME(SetContinuousStates)(Unit* unit, const double* y, size_t count) {
+  if (count != 2 * n) return failed;
+  memcpy(unit->y, y, sizeof unit->y);
+  return ok;
+}
+API int NAME(GetContinuousStates)(Unit* unit, double* y, size_t count) { return some(unit, 1, 2 * n, y, count); }
+API int NAME(GetEventIndicators)(Unit* unit, double* z, size_t count) {
+  return some(unit, 4 * n + 1, contacts_rows, z, count);
+}
+API int NAME(GetNominalsOfContinuousStates)(Unit* unit, double* sizes, size_t count) {
+  for (size_t i = 0; i < count; ++i) sizes[i] = 1.0;
+  return ok;
+}
+
+#if FMI == 2
+typedef struct {
+  Boolean needed, terminate, nominals_changed, values_changed, has_next;
+  double next;
+} Event;
+API const char* fmi2GetTypesPlatform(void) { return "default"; }
+API void* fmi2Instantiate(const char* name, int type, const char* token, const char* resources, const void* functions,
+                          Boolean visible, Boolean logging) {
+  return new_unit(token);
+}
+API int fmi2SetupExperiment(Unit* unit, Boolean has_tolerance, double tolerance, double t, Boolean has_end, double end) {
+  return start(unit, t);
+}
+API int fmi2EnterInitializationMode(Unit* unit) { return ok; }
+API int fmi2NewDiscreteStates(Unit* unit, Event* event) {
+  const int count = impacts(unit->y, unit->y + n, 1e-9);
+  *event = (Event){.values_changed = count > 0};
+  return count < 0 ? failed : ok;
+}
+API int fmi2GetReal(Unit* unit, const unsigned* references, size_t count, double* values) {
+  return values_of(unit, references, count, values);
+}
+API int fmi2GetDerivatives(Unit* unit, double* dy, size_t count) { return some(unit, 2 * n + 1, 2 * n, dy, count); }
+API int fmi2DoStep(Unit* unit, double t, double h, Boolean final) { return step(unit, t, h); }
+API int fmi2GetStatus(Unit* unit, int kind, int* status) { return *status = ok; }
+ABSENT(fmi2GetInteger) ABSENT(fmi2GetBoolean) ABSENT(fmi2GetString) ABSENT(fmi2SetReal) ABSENT(fmi2SetInteger)
+ABSENT(fmi2SetBoolean) ABSENT(fmi2SetString) ABSENT(fmi2GetFMUstate) ABSENT(fmi2SetFMUstate) ABSENT(fmi2FreeFMUstate)
+ABSENT(fmi2SerializedFMUstateSize) ABSENT(fmi2SerializeFMUstate) ABSENT(fmi2DeSerializeFMUstate)
+ABSENT(fmi2GetDirectionalDerivative) ABSENT(fmi2SetRealInputDerivatives) ABSENT(fmi2GetRealOutputDerivatives)
+ABSENT(fmi2CancelStep) ABSENT(fmi2GetRealStatus) ABSENT(fmi2GetIntegerStatus) ABSENT(fmi2GetBooleanStatus)
+ABSENT(fmi2GetStringStatus)
+#else
+API void* fmi3InstantiateModelExchange(const char* name, const char* token, const char* resources, Boolean visible,
+                                       Boolean logging, void* environment, void* log) {
+  return new_unit(token);
+}
+API void* fmi3InstantiateCoSimulation(const char* name, const char* token, const char* resources, Boolean visible,
+                                      Boolean logging, Boolean events, Boolean early, const unsigned* required,
+                                      size_t count, void* environment, void* log, void* update) {
+  return new_unit(token);
+}
+API void* fmi3InstantiateScheduledExecution() { return NULL; }
+API int fmi3EnterInitializationMode(Unit* unit, Boolean has_tolerance, double tolerance, double t, Boolean has_end,
+                                    double end) {
+  return start(unit, t);
+}
+API int fmi3UpdateDiscreteStates(Unit* unit, Boolean* needed, Boolean* terminate, Boolean* nominals_changed,
+                                 Boolean* values_changed, Boolean* has_next, double* next) {
+  const int count = impacts(unit->y, unit->y + n, 1e-9);
+  *needed = *terminate = *nominals_changed = *has_next = false;
+  *values_changed = count > 0;
+  return count < 0 ? failed : ok;
+}
+API int fmi3GetFloat64(Unit* unit, const unsigned* references, size_t count, double* values, size_t room) {
+  return room < count ? failed : values_of(unit, references, count, values);
+}
+API int fmi3GetContinuousStateDerivatives(Unit* unit, double* dy, size_t count) {
+  return some(unit, 2 * n + 1, 2 * n, dy, count);
+}
+API int fmi3GetNumberOfContinuousStates(Unit* unit, size_t* count) {
+  *count = 2 * n;
+  return ok;
+}
+API int fmi3GetNumberOfEventIndicators(Unit* unit, size_t* count) {
+  *count = contacts_rows;
+  return ok;
+}
+API int fmi3DoStep(Unit* unit, double t, double h, Boolean final, Boolean* event, Boolean* terminate, Boolean* early,
+                   double* reached) {
+  *event = *terminate = *early = false;
+  const int status = step(unit, t, h);
+  *reached = unit->t;
+  return status;
+}
+API int fmi3EnterStepMode(Unit* unit) { return ok; }
+API int fmi3EvaluateDiscreteStates(Unit* unit) { return ok; }
+ABSENT(fmi3ActivateModelPartition) ABSENT(fmi3DeserializeFMUState) ABSENT(fmi3EnterConfigurationMode)
+ABSENT(fmi3ExitConfigurationMode) ABSENT(fmi3FreeFMUState) ABSENT(fmi3GetAdjointDerivative) ABSENT(fmi3GetBinary)
+ABSENT(fmi3GetBoolean) ABSENT(fmi3GetClock) ABSENT(fmi3GetDirectionalDerivative) ABSENT(fmi3GetFMUState)
+ABSENT(fmi3GetFloat32) ABSENT(fmi3GetInt16) ABSENT(fmi3GetInt32) ABSENT(fmi3GetInt64) ABSENT(fmi3GetInt8)
+ABSENT(fmi3GetIntervalDecimal) ABSENT(fmi3GetIntervalFraction) ABSENT(fmi3GetNumberOfVariableDependencies)
+ABSENT(fmi3GetOutputDerivatives) ABSENT(fmi3GetShiftDecimal) ABSENT(fmi3GetShiftFraction) ABSENT(fmi3GetString)
+ABSENT(fmi3GetUInt16) ABSENT(fmi3GetUInt32) ABSENT(fmi3GetUInt64) ABSENT(fmi3GetUInt8)
+ABSENT(fmi3GetVariableDependencies) ABSENT(fmi3SerializeFMUState) ABSENT(fmi3SerializedFMUStateSize)
+ABSENT(fmi3SetBinary) ABSENT(fmi3SetBoolean) ABSENT(fmi3SetClock) ABSENT(fmi3SetFMUState) ABSENT(fmi3SetFloat32)
+ABSENT(fmi3SetFloat64) ABSENT(fmi3SetInt16) ABSENT(fmi3SetInt32) ABSENT(fmi3SetInt64) ABSENT(fmi3SetInt8)
+ABSENT(fmi3SetIntervalDecimal) ABSENT(fmi3SetIntervalFraction) ABSENT(fmi3SetShiftDecimal)
+ABSENT(fmi3SetShiftFraction) ABSENT(fmi3SetString) ABSENT(fmi3SetUInt16) ABSENT(fmi3SetUInt32) ABSENT(fmi3SetUInt64)
+ABSENT(fmi3SetUInt8)
+#endif
+)c";
+
+const char* const fmu_simulate =
+    R"c(@head@// Drives the unit by the standard's sequence of calls: co-simulation (cs), or model exchange (me) with the classical
+// method of Runge and Kutta and events found by bisection. Build: cc simulate.c -ldl -lm
+// Usage: ./simulate Model.so cs|me STEP HISTORY.csv
+#include <dlfcn.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FMI @fmi@
+enum { n = @n@, states = 2 * n, gaps = @contacts@ };
+static const double t0 = @t0@, last = @last@;
+static const char* const token = "@token@";
+static void *library, *unit;
+
+static void* found(const char* name) {
+  void* function = dlsym(library, name);
+  if (function == NULL) fprintf(stderr, "no function %s\n", name), exit(2);
+  return function;
+}
+static void require(int status, const char* name) {
+  if (status != 0) fprintf(stderr, "%s returned %d\n", name, status), exit(1);
+}
+#if FMI == 2
+#define FULL(name) "fmi2" #name
+typedef int Boolean;
+#else
+#define FULL(name) "fmi3" #name
+typedef bool Boolean;
+#endif
+#define FUNCTION(name, types) ((int(*) types)found(FULL(name)))
+#define CALL(name, types, ...) require(FUNCTION(name, types)(__VA_ARGS__), FULL(name))
+#define PLAIN(name) CALL(name, (void*), unit)
+
+static void row(FILE* file, double t) {
+  unsigned references[states];
+  double values[states];
+  for (int i = 0; i < states; ++i) references[i] = i + 1;
+#if FMI == 2
+  CALL(GetReal, (void*, const unsigned*, size_t, double*), unit, references, states, values);
+#else
+  CALL(GetFloat64, (void*, const unsigned*, size_t, double*, size_t), unit, references, states, values, states);
+#endif
+  fprintf(file, "\n%.17g", t);
+  for (int i = 0; i < states; ++i) fprintf(file, ",%.17g", values[i]);
+}
+
+static void events(double* y) {
+#if FMI == 2
+  struct {
+    Boolean needed, terminate, nominals, values, has_next;
+    double next;
+  } event;
+  do CALL(NewDiscreteStates, (void*, void*), unit, &event);
+  while (event.needed);
+#else
+  Boolean needed, terminate, nominals, values, has_next;
+  double next;
+  do
+    CALL(UpdateDiscreteStates, (void*, Boolean*, Boolean*, Boolean*, Boolean*, Boolean*, double*), unit, &needed,
+         &terminate, &nominals, &values, &has_next, &next);
+  while (needed);
+#endif
+  PLAIN(EnterContinuousTimeMode);
+  CALL(GetContinuousStates, (void*, double*, size_t), unit, y, states);
+}
+
+static void set(double t, const double* y) {
+  CALL(SetTime, (void*, double), unit, t);
+  CALL(SetContinuousStates, (void*, const double*, size_t), unit, y, states);
+}
+
+// The state h later in `next`; the smallest of the event indicators there.
+static double advance(double t, double h, const double* y, double* next) {
+  const double share[] = {0.0, 0.5, 0.5, 1.0}, weight[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+  double rate[states] = {0}, stage[states], z[gaps + 1];
+  memcpy(next, y, states * sizeof *y);
+  for (int k = 0; k < 4; ++k) {
+    for (int i = 0; i < states; ++i) stage[i] = y[i] + share[k] * h * rate[i];
+    set(t + share[k] * h, stage);
+#if FMI == 2
+    CALL(GetDerivatives, (void*, double*, size_t), unit, rate, states);
+#else
+    CALL(GetContinuousStateDerivatives, (void*, double*, size_t), unit, rate, states);
+#endif
+    for (int i = 0; i < states; ++i) next[i] += weight[k] * h * rate[i];
+  }
+  set(t + h, next);
+  CALL(GetEventIndicators, (void*, double*, size_t), unit, z, gaps);
+  double least = 1.0;
+  for (int i = 0; i < gaps; ++i) least = z[i] < least ? z[i] : least;
+  return least;
+}
+
+static void exchange(FILE* file, long steps) {
+  double y[states], next[states];
+  events(y);
+  row(file, t0);
+  for (long k = 0; k < steps; ++k) {
+    const double end = t0 + (last - t0) * (k + 1) / steps;
+    for (double t = t0 + (last - t0) * k / steps; t < end;) {
+      double low = 0.0, high = end - t;
+      const bool event = advance(t, high, y, next) < 0.0;
+      for (int trial = 0; trial < 60 && event; ++trial) {
+        const double middle = 0.5 * (low + high);
+        *(advance(t, middle, y, next) < 0.0 ? &high : &low) = middle;
+      }
+      advance(t, high, y, next);
+      Boolean enter, terminate;
+      CALL(CompletedIntegratorStep, (void*, Boolean, Boolean*, Boolean*), unit, true, &enter, &terminate);
+      memcpy(y, next, sizeof y);
+      t = event ? t + high : end;
+      row(file, t);
+      if (!event) continue;
+      PLAIN(EnterEventMode);
+      events(y);
+      row(file, t);
+    }
+  }
+}
+
+static void co_simulate(FILE* file, long steps) {
+#if FMI == 3
+  Boolean event, terminate, early;
+  double reached;
+#endif
+  row(file, t0);
+  for (long k = 0; k < steps; ++k) {
+    const double t = t0 + (last - t0) * k / steps, end = t0 + (last - t0) * (k + 1) / steps;
+#if FMI == 2
+    CALL(DoStep, (void*, double, double, Boolean), unit, t, end - t, true);
+#else
+    CALL(DoStep, (void*, double, double, Boolean, Boolean*, Boolean*, Boolean*, double*), unit, t, end - t, true, &event,
+         &terminate, &early, &reached);
+#endif
+    row(file, end);
+  }
+}
+
+int main(int count, char** words) {
+  if (count < 5) return 2;
+  const bool co = strcmp(words[2], "cs") == 0;
+  library = dlopen(words[1], RTLD_NOW);
+  FILE* file = fopen(words[4], "w");
+  if (library == NULL || file == NULL) return 2;
+  fputc('t', file);
+  for (int i = 0; i < states; ++i) fprintf(file, ",%c%d", "uv"[i / n], i % n + 1);
+#if FMI == 2
+  unit = ((void* (*)(const char*, int, const char*, const char*, const void*, int, int))found("fmi2Instantiate"))(
+      "unit", co, token, "", NULL, 0, 0);
+  if (unit == NULL) return 1;
+  CALL(SetupExperiment, (void*, Boolean, double, double, Boolean, double), unit, 0, 0.0, t0, 1, last);
+  PLAIN(EnterInitializationMode);
+#else
+  unit = co ? ((void* (*)(const char*, const char*, const char*, bool, bool, bool, bool, const unsigned*, size_t, void*,
+                          void*, void*))found("fmi3InstantiateCoSimulation"))("unit", token, "", 0, 0, 0, 0, NULL, 0,
+                                                                               NULL, NULL, NULL)
+            : ((void* (*)(const char*, const char*, const char*, bool, bool, void*, void*))found(
+                  "fmi3InstantiateModelExchange"))("unit", token, "", 0, 0, NULL, NULL);
+  if (unit == NULL) return 1;
+  CALL(EnterInitializationMode, (void*, Boolean, double, double, Boolean, double), unit, 0, 0.0, t0, 1, last);
+#endif
+  PLAIN(ExitInitializationMode);
+  const long steps = lround((last - t0) / atof(words[3]));
+  (co ? co_simulate : exchange)(file, steps);
+  PLAIN(Terminate);
+  ((void (*)(void*))found(FULL(FreeInstance)))(unit);
+  fputc('\n', file);
+  return fclose(file) == 0 ? 0 : 1;
+}
+)c";
+
+}  // namespace clackers::decks
