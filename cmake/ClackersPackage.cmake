@@ -27,7 +27,7 @@ set(CPACK_COMPONENT_COMMAND_DESCRIPTION
 The command clackers prints exact motions with their impacts and judges
 time-integration methods against them.")
 
-set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS clackers-doc)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "clackers-doc, libnetcdf19")
 
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME clackers-doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
@@ -66,7 +66,7 @@ if(CLACKERS_PYTHON)
   math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib, python3-scipy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "libnetcdf19, python3-pandas, python3-matplotlib, python3-scipy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
     "${PROJECT_SOURCE_DIR}/cmake/debian/postinst;${PROJECT_SOURCE_DIR}/cmake/debian/prerm")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
