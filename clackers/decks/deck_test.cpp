@@ -115,13 +115,13 @@ TEST(Network, LinksAreTheMatrices) {
 
 TEST(Network, AContactLastsItsTime) {
   const auto network = network_of(subject_of("stop"), "test", {});
-  // A sixteenth of the period, less in a run of 20 s, at least a quarter of that; half a period of one mass is
+  // A sixteenth of the period for each period of the run, a 64th at least; half a period of one mass is
   // pi sqrt(m / k), the stiffness in three digits.
   const double period = 2.0 * 3.14159265;
   const auto lasting = [](double end) {
     return network_of(subject_of("stop", {{"t_end", end}}), "test", {}).contact_time;
   };
-  EXPECT_NEAR(lasting(5.0), period / 16.0, 1e-6);
+  EXPECT_NEAR(lasting(7.0), period * period / 16.0 / 7.0, 1e-6);
   EXPECT_NEAR(network.contact_time, period * period / 16.0 / 20.0, 1e-6);
   EXPECT_NEAR(lasting(200.0), period / 64.0, 1e-6);
   EXPECT_NEAR(3.14159265 / std::sqrt(network.contacts[0].stiffness), network.contact_time,

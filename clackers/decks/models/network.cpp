@@ -40,7 +40,7 @@ class Builder {
     // Delays add up: the longer the run, the shorter the contacts.
     const double period = shortest_period(problem_);
     const double periods = (problem_.end - problem_.start.t) / period;
-    network_.contact_time = period / std::clamp(16.0 * periods, 16.0, 64.0);
+    network_.contact_time = period / std::min(16.0 * periods, 64.0);
     for (const auto& contact : problem_.contacts) take(contact, network_.contacts);
     if (const auto* found = model::one_sided_springs(problem_)) {
       if (!abilities_.springs)
