@@ -13,6 +13,7 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/input/results/result_table.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/check/against.hpp"
 #include "cli/command.hpp"
@@ -40,6 +41,13 @@ std::vector<double> numbers_of(std::string_view option, std::string_view text) {
   std::vector<double> numbers;
   for (const auto& part : parts_of(option, text)) numbers.push_back(read_number(option, part));
   return numbers;
+}
+
+std::string reader_names() {
+  std::string names;
+  for (const auto& reader : input::result_readers())
+    names += (names.empty() ? "" : ", ") + reader.name;
+  return names;
 }
 
 input::ResultChoice results_of(const CheckOptions& options) {
@@ -197,7 +205,8 @@ void add_check(Grammar& root) {
                 "           [--baseline FILE.json]\n"});
   app->add_option(
          "FILE", options->files,
-         "Time histories, text or .npy; - for standard input. A case may stand before them.")
+         "Time histories: text, .npy or result files of other programs; - for standard input, a+b for "
+         "files of columns joined on their times. A case may stand before them.")
       ->reads_file("");
   app->add_option("--name", options->names,
                   "The name of the solver that wrote the FILEs behind it, up to the next --name: "
@@ -224,8 +233,8 @@ void add_check(Grammar& root) {
       ->option_text("t,u1,...");
   app->add_option(
          "--reader", options->reader,
-         "Forces the reader of result files, which otherwise are known by their first lines: "
-         "calculix-dat, calculix-frd, abaqus-dat, nodout, mbdyn-mov, mat4, mat5, hdf5, netcdf; or table.")
+         "Forces the reader of result files, which otherwise are known by their first bytes: " +
+             reader_names() + "; or table.")
       ->option_text("NAME");
   app->add_option("--node", options->nodes,
                   "Nodes of a result file, one a mass. Default: all, in the order of the file.")

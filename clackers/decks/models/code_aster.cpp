@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "clackers/base/number.hpp"
 #include "clackers/decks/models/network.hpp"
@@ -11,7 +12,7 @@ namespace {
 
 constexpr double apart = 1000.0;  // nodes in a line
 
-/// Places in a line, the ground last: a contact (DIS_CHOC) is closed by what shortens its element, so `upper`
+/// Places in a line, each of its own, the ground last: a contact (DIS_CHOC) is closed by what shortens its element, so `upper`
 /// stands behind `lower`.
 std::vector<int> places_of(const Network& network) {
   const auto n = int(network.masses.size());
@@ -26,6 +27,10 @@ std::vector<int> places_of(const Network& network) {
     if (place(stop.upper) <= place(stop.lower))
       refuse_deck("code-aster",
                   "its contacts push masses apart in a line, which these do not form");
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return places[i]; });
+  for (std::size_t rank = 0; rank < order.size(); ++rank) places[order[rank]] = int(rank);
   return places;
 }
 

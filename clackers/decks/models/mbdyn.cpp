@@ -63,10 +63,11 @@ std::vector<DeckFile> mbdyn(const Subject& subject) {
     bodies += fmt::format("  body: {0}, {0}, {1};\n", i + 1,
                           exact_number(network.masses[std::size_t(i)]));
   }
-  nodes += fmt::format("  structural: {}, static displacement, 0., 0., 0., 0., 0., 0.;\n", n + 1);
+  nodes +=
+      fmt::format("  structural: {}, static, 0., 0., 0., eye, 0., 0., 0., 0., 0., 0.;\n", n + 1);
   int joint = 0;
   auto joints = rods(network, joint);
-  joints += fmt::format("  joint: {}, clamp, {}, node;\n", ++joint, n + 1);
+  joints += fmt::format("  joint: {}, clamp, {}, node, node;\n", ++joint, n + 1);
   for (int number = 0; const auto& load : network.loads)
     forces += fmt::format(
         "  force: {}, absolute displacement, {}, 1., 0., 0., string, \"{}*cos({}*Time+{})\";\n",

@@ -34,7 +34,7 @@ void* library_function(const std::string& file, const std::string& library,
 
 /// Runs `work` in a process of its own, so that a library that fails on a damaged file ends only that. Throws
 /// InputError (not-an-array) with the message of an exception in it, or when it ends otherwise or takes
-/// more than a minute.
+/// more than a minute; Error (interrupted) when Ctrl-C ended it.
 std::vector<NamedArray> in_own_process(const std::string& file,
                                        const std::function<std::vector<NamedArray>()>& work);
 

@@ -1,6 +1,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -56,6 +57,7 @@ class Bytes {
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
+  for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
   alarm(most_seconds);
   Bytes bytes;
   std::string message;
@@ -119,6 +121,7 @@ std::vector<NamedArray> in_own_process(const std::string& file,
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   std::string message;
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) throw Error("interrupted", "interrupted");
   if (WIFSIGNALED(status))
     message = fmt::format("the library that reads it ended by signal {} ({})", WTERMSIG(status),
                           strsignal(WTERMSIG(status)));

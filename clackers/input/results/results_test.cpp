@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -346,6 +347,12 @@ TEST(OwnProcess, EndsForItself) {
   EXPECT_EQ(arrays[1].values, (Numbers{5.0}));
   EXPECT_REFUSED(in_own_process("f", []() -> std::vector<NamedArray> { std::abort(); }),
                  "not-an-array", "signal 6");
+  EXPECT_REFUSED(in_own_process("f",
+                                []() -> std::vector<NamedArray> {
+                                  raise(SIGINT);
+                                  return {};
+                                }),
+                 "interrupted");
   EXPECT_REFUSED(in_own_process("f", []() -> std::vector<NamedArray> { _exit(3); }), "not-an-array",
                  "ended early");
   EXPECT_REFUSED(
