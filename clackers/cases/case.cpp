@@ -182,8 +182,8 @@ std::vector<CaseRow> pair_rows() {
 const std::vector<CaseRow>& rows() {
   static const auto all = [] {
     auto list = pair_rows();
-    for (auto& row : assembly_rows()) list.push_back(std::move(row));
-    for (auto& row : orbit_rows()) list.push_back(std::move(row));
+    for (const auto more : {assembly_rows, orbit_rows, resting_rows})
+      for (auto& row : more()) list.push_back(std::move(row));
     return list;
   }();
   return all;

@@ -41,4 +41,7 @@ std::vector<CaseRow> orbit_rows();
 /// Any number of masses whose impacts are synchronized.
 std::vector<CaseRow> assembly_rows();
 
+/// Masses that come to rest on a stop or on each other.
+std::vector<CaseRow> resting_rows();
+
 }  // namespace clackers::cases

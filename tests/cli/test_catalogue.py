@@ -9,7 +9,8 @@ from command import PANEL, CommandTest, rows
 KINDS = ("cases", "integrators", "contacts", "methods", "pairs", "metrics")
 CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "three-parameter",
          "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly", "cradle",
-         "forced-pair", "base-excited-pair", "penalized-pair", "piecewise")
+         "forced-pair", "base-excited-pair", "penalized-pair", "piecewise", "ball",
+         "pressed-oscillator", "plastic-pair")
 
 
 class List(CommandTest):

@@ -1,0 +1,176 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "clackers/base/testing/refusal.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/exact/testing/test_oracle.hpp"
+
+// The cases that come to rest, against sums of their flights that use neither modes nor closed sums.
+namespace clackers::cases {
+namespace {
+
+using exact::testing_oracle::Box;
+using exact::testing_oracle::trials;
+using Number = long double;
+
+double constant(const Case& test_case, std::string_view name) {
+  for (const auto& c : test_case.constants)
+    if (c.name == name) return c.value;
+  ADD_FAILURE() << "no constant " << name;
+  return NAN;
+}
+
+/// m = 1, u'' = -k u - G above u = 0, flight by flight; the impacts accumulate at `rest`.
+struct Flights {
+  Number k, G, eta, u0, v0, rest = 0, impulse = 0, V = 0;
+  std::vector<std::pair<Number, Number>>
+      starts{};  // instant and speed of each flight after the first
+
+  Flights(Number k_, Number G_, Number eta_, Number u, Number v)
+      : k(k_), G(G_), eta(eta_), u0(u), v0(v) {
+    const Number w = std::sqrt(k);
+    V = std::sqrt(v * v + (k * u + 2 * G) * u);
+    rest = k == 0 ? (v + V) / G : (std::atan2(V, G / w) - std::atan2(-v, w * u + G / w)) / w;
+    for (Number speed = V; speed > V * 1e-22L;) {
+      impulse += (1 + eta) * speed;
+      speed *= eta;
+      if (speed == 0) break;
+      starts.push_back({rest, speed});
+      rest += k == 0 ? 2 * speed / G : 2 * std::atan(w * speed / G) / w;
+    }
+  }
+  std::pair<Number, Number> at(Number t) const {
+    if (t >= rest) return {0, 0};
+    const auto next = std::ranges::upper_bound(starts, t, {}, [](auto& s) { return s.first; });
+    const bool first = next == starts.begin();
+    const Number s = first ? t : t - (next - 1)->first, u = first ? u0 : 0,
+                 v = first ? v0 : (next - 1)->second;
+    if (k == 0) return {u + s * (v - G * s / 2), v - G * s};
+    const Number w = std::sqrt(k), c = std::cos(w * s), n = std::sin(w * s);
+    return {u * c + v / w * n - 2 * G / k * std::pow(std::sin(w * s / 2), 2),
+            v * c - (w * u + G / w) * n};
+  }
+};
+
+void expect_flights(Box& box, const Case& test_case, const Flights& known, double m) {
+  const auto& motion = *test_case.motion;
+  const double rest = double(known.rest), speed = double(known.V);
+  ASSERT_EQ(motion.closed_contacts().size(), 1u);
+  const auto closed = motion.closed_contacts()[0];
+  EXPECT_NEAR(constant(test_case, "t_rest"), rest, 1e-14 * rest);
+  EXPECT_NEAR(constant(test_case, "V"), speed, 1e-15 * speed);
+  const auto when = closed.accumulates ? closed.begins : motion.impact(1).when;
+  EXPECT_LE(when.lo, rest * (1 + 1e-15));
+  EXPECT_GE(when.hi, rest * (1 - 1e-15));
+  EXPECT_NEAR(closed.from, rest, 1e-6 * rest);
+  for (int i = 0; i < 12; ++i) {
+    const double t = i < 8 ? box.uniform(0.0, test_case.problem.end)
+                           : rest * (1.0 + (i % 2 == 0 ? 1.0 : -1.0) * box.decades(-9.0, -1.0));
+    const auto state = motion.at(t, model::Side::right), bound = motion.error_bound(t);
+    const auto [u, v] = known.at(t);
+    // 64 bits of the simulation, whose errors the flights carry on.
+    const double own = 1e-17 * (1.0 + t / rest);
+    EXPECT_NEAR(state.u[0], double(u), bound.u[0] + own * speed * rest) << t;
+    EXPECT_NEAR(state.v[0], double(v), bound.v[0] + own * 10.0 * speed) << t;
+  }
+  const double force = motion.contact_forces(test_case.problem.end, model::Side::left)[0];
+  EXPECT_NEAR(force, m * double(known.G), 1e-12 * force);
+}
+
+TEST(RestingCases, BallsRestWhenTheirFlightsAreOver) {
+  Box box(71);
+  for (int trial = 0; trial < trials(30); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 71, trial " << trial);
+    const double h0 = box.decades(-2.0, 2.0), g = box.decades(-1.0, 2.0),
+                 v0 = box.one_in(3) ? 0.0 : box.uniform(-5.0, 5.0),
+                 eta = trial % 8 == 0 ? 0.0 : box.uniform(0.01, 0.95);
+    const Flights known(0, g, eta, h0, v0);
+    const auto ball =
+        make("ball",
+             {{"h0", h0}, {"v0", v0}, {"g", g}, {"eta", eta}, {"t_end", 1.3 * double(known.rest)}});
+    expect_flights(box, ball, known, 1.0);
+    EXPECT_NEAR(constant(ball, "impulse"), double(known.impulse), 1e-14 * double(known.impulse));
+    EXPECT_NEAR(constant(ball, "lost"), double(known.V * known.V / 2),
+                1e-15 * double(known.V * known.V));
+  }
+}
+
+TEST(RestingCases, PressedOscillatorsRestWhenTheirFlightsAreOver) {
+  Box box(72);
+  for (int trial = 0; trial < trials(30); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 72, trial " << trial);
+    const double m = box.decades(-1.0, 1.0), k = m * box.decades(-2.0, 2.0),
+                 F = m * box.decades(-1.0, 1.0), u0 = box.decades(-2.0, 1.0),
+                 v0 = box.one_in(2) ? 0.0 : box.uniform(-2.0, 2.0),
+                 eta = trial % 8 == 0 ? 0.0 : box.uniform(0.01, 0.95);
+    const Flights known(Number(k) / m, Number(F) / m, eta, u0, v0);
+    const auto test_case = make("pressed-oscillator", {{"m", m},
+                                                       {"k", k},
+                                                       {"F", F},
+                                                       {"u0", u0},
+                                                       {"v0", v0},
+                                                       {"eta", eta},
+                                                       {"t_end", 1.3 * double(known.rest)}});
+    expect_flights(box, test_case, known, m);
+  }
+}
+
+TEST(RestingCases, AHarmonicForceReleasesWhereItBalancesTheConstantOne) {
+  const auto test_case = make("pressed-oscillator", {{"c", 0.1}, {"f1", 0.8}, {"phi", 0.4}});
+  const double phase = std::acos(-0.5 / 0.8), release = constant(test_case, "t_release");
+  EXPECT_NEAR(std::remainder(release + 0.4 - phase, 2.0 * std::numbers::pi), 0.0, 1e-12);
+  EXPECT_GT(test_case.motion->closed_contacts().size(), 1u);
+  const auto at = test_case.motion->at(release, model::Side::right);
+  EXPECT_NEAR(at.v[0], 0.0, 1e-14);
+  EXPECT_NEAR(at.a[0], 0.0, 1e-11);
+}
+
+TEST(RestingCases, APlasticPairIsTogetherAndApartByTurns) {
+  Box box(73);
+  const auto dyadic = [&](double low, double high) {
+    return 0x1p-6 * std::floor(box.uniform(low, high) * 0x1p6);
+  };
+  for (int trial = 0; trial < trials(30); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 73, trial " << trial);
+    const double m1 = dyadic(0.5, 3.0), m2 = dyadic(0.5, 3.0), W = dyadic(0.5, 2.0),
+                 X = 3.0 + 2.0 * std::floor(box.uniform(0.0, 4.0)),
+                 sigma = box.one_in(3) ? 0.0 : dyadic(0.02, 0.1), V = dyadic(0.25, 2.0);
+    const auto pair = make(
+        "plastic-pair",
+        {{"m1", m1}, {"m2", m2}, {"X", X}, {"W", W}, {"sigma", sigma}, {"V", V}, {"t_end", 10.0}});
+    const Number own = Number(X) * X * W * W, s = sigma,
+                 wc = std::sqrt((m1 * own + m2 * Number(W) * W) / (Number(m1) + m2)),
+                 together = std::numbers::pi_v<Number> / wc,
+                 period = together + std::numbers::pi_v<Number> / W;
+    EXPECT_NEAR(constant(pair, "T_c"), double(together), 1e-15);
+    EXPECT_NEAR(constant(pair, "factor"), double(std::exp(-s * period)), 1e-15);
+    for (int i = 0; i < 20; ++i) {
+      const double t = box.uniform(0.0, 10.0);
+      const Number whole = std::floor(t / period);
+      const bool apart = t - whole * period >= together;
+      const Number x = t - whole * period - (apart ? together : 0),
+                   size = (apart ? -V : V) * std::exp(-s * t);
+      const auto state = pair.motion->at(t, model::Side::right),
+                 bound = pair.motion->error_bound(t);
+      for (const Eigen::Index mass : {0, 1}) {
+        const Number f = !apart ? wc : mass == 0 ? Number(X) * W : Number(W);
+        const Number u = size * std::sin(f * x) / f, v = size * std::cos(f * x) - s * u;
+        EXPECT_NEAR(state.u[mass], double(u), bound.u[mass] + 1e-17 * X) << t;
+        EXPECT_NEAR(state.v[mass], double(v), bound.v[mass] + 1e-17 * X * X * W) << t;
+      }
+    }
+  }
+}
+
+TEST(RestingCases, AreRefusedWithTheReason) {
+  EXPECT_REFUSED(make("ball", {{"eta", 1.0}}), "out-of-range", "never comes to rest");
+  EXPECT_REFUSED(make("ball", {{"h0", 0.0}}), "out-of-range", "starts on the floor");
+  EXPECT_REFUSED(make("plastic-pair", {{"X", 4.0}}), "not-odd", "equal velocities");
+  EXPECT_REFUSED(make("plastic-pair", {{"sigma", 0.1}}), "not-exact-data",
+                 "short binary fractions");
+}
+
+}  // namespace
+}  // namespace clackers::cases
