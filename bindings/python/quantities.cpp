@@ -23,6 +23,13 @@ py::tuple energies(const Case& test_case, py::handle t) {
   return read_rows(*tables::energies(test_case, read_grid("energies", t)));
 }
 
+py::tuple points(const Case& test_case, py::handle t, py::handle at) {
+  const auto list = read_vector("points", "at", at);
+  const auto places = values_of(list);
+  return read_rows(
+      *tables::points(test_case, read_grid("points", t), {places.begin(), places.end()}));
+}
+
 py::tuple sensitivity(const Case& test_case, py::handle name, py::handle t) {
   const auto text = read_text("sensitivity", "name", name);
   return read_rows(*tables::sensitivity(test_case, read_grid("sensitivity", t), text));
@@ -38,6 +45,7 @@ py::tuple spectrum(const Case& test_case, py::handle n, py::handle highest) {
 
 void bind_quantities(py::module_& core) {
   core.def("energies", &energies, py::arg("case"), py::arg("t"));
+  core.def("points", &points, py::arg("case"), py::arg("t"), py::arg("at"));
   core.def("sensitivity", &sensitivity, py::arg("case"), py::arg("name"), py::arg("t"));
   core.def("spectrum", &spectrum, py::arg("case"), py::arg("n"), py::arg("highest"));
 }

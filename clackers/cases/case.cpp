@@ -182,7 +182,7 @@ std::vector<CaseRow> pair_rows() {
 const std::vector<CaseRow>& rows() {
   static const auto all = [] {
     auto list = pair_rows();
-    for (const auto more : {assembly_rows, orbit_rows, resting_rows})
+    for (const auto more : {assembly_rows, orbit_rows, resting_rows, bar_rows})
       for (auto& row : more()) list.push_back(std::move(row));
     return list;
   }();

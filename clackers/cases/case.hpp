@@ -11,6 +11,10 @@
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
 
+namespace clackers::exact {
+class BarContact;
+}
+
 namespace clackers::cases {
 
 /// What is known of a case before its parameters are.
@@ -29,6 +33,8 @@ struct Case {
   Settings values;  ///< all parameters, in the entry's order
   model::ImpactProblem<> problem;
   std::shared_ptr<const model::Motion> motion;
+  /// The bars of which the problem is a mesh; null for a structure of masses.
+  std::shared_ptr<const exact::BarContact> bars;
   std::vector<Quantity> constants;     ///< derived: m2, k2, omega_D2, r*, margin, ...
   std::vector<Quantity> indicators;    ///< I_ms, T_L, T_S, I_OC, with their threshold
   std::vector<double> damped_periods;  ///< of the free masses [s]

@@ -5,6 +5,7 @@
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/cases/testing/constants.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 
 // The cases that come to rest, against sums of their flights that use neither modes nor closed sums.
@@ -14,13 +15,6 @@ namespace {
 using exact::testing_oracle::Box;
 using exact::testing_oracle::trials;
 using Number = long double;
-
-double constant(const Case& test_case, std::string_view name) {
-  for (const auto& c : test_case.constants)
-    if (c.name == name) return c.value;
-  ADD_FAILURE() << "no constant " << name;
-  return NAN;
-}
 
 /// m = 1, u'' = -k u - G above u = 0, flight by flight; the impacts accumulate at `rest`.
 struct Flights {

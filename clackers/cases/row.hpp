@@ -41,6 +41,9 @@ std::vector<CaseRow> orbit_rows();
 /// Any number of masses whose impacts are synchronized.
 std::vector<CaseRow> assembly_rows();
 
+/// Elastic bars in contact, and their meshes.
+std::vector<CaseRow> bar_rows();
+
 /// Masses that come to rest on a stop or on each other.
 std::vector<CaseRow> resting_rows();
 

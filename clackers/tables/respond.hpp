@@ -54,6 +54,14 @@ std::unique_ptr<record::RowSource> energies(const cases::Case& test_case, const 
 /// for open ones. The case must outlive the rows. Throws InputError as respond() does.
 std::unique_ptr<record::RowSource> forces(const cases::Case& test_case, const TimeGrid& grid);
 
+/// The motion of a case's bars at places x [m], from -L1 (the far end of the left one of two) or 0 (the
+/// contact end) on: t,side,u1,v1,stress1[,u2,...],force,impulse,kinetic,elastic,potential, numbered by
+/// place. Two rows at times at which something jumps, sides "-" and "+". The case must outlive the
+/// rows. Throws InputError as respond() does, for a case without bars (no-closed-form), for places
+/// outside of them, and for more than 1e6 times.
+std::unique_ptr<record::RowSource> points(const cases::Case& test_case, const TimeGrid& grid,
+                                          const std::vector<double>& places);
+
 /// The columns of respond() differentiated: t,side,du1,dv1,da1[,du2,dv2,da2]. `name` is a raw
 /// parameter (m1 m2 k1 k2 c1 c2 eta gap u10 u20 v10 v20, all else fixed) or one of the case, what
 /// follows from it following; class:m1 is that of the case where both have the name. Throws

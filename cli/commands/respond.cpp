@@ -26,7 +26,7 @@ namespace {
 struct RespondOptions {
   CommonOptions common;
   std::vector<std::string> settings;
-  std::string name, behind, samples, step, times, digits, sensitivity, highest, report, problem;
+  std::string name, behind, samples, step, times, digits, sensitivity, highest, report, problem, at;
   bool impacts = false, plot = false, energy = false, spectrum = false, forces = false;
 
   int ways() const {
@@ -39,6 +39,7 @@ std::vector<std::string> other_kinds(const RespondOptions& options) {
   std::vector<std::string> kinds;
   if (options.energy) kinds.push_back("--energy");
   if (options.spectrum) kinds.push_back("--spectrum");
+  if (!options.at.empty()) kinds.push_back("--at");
   if (options.forces) kinds.push_back("--forces");
   if (!options.sensitivity.empty()) kinds.push_back("--sensitivity");
   return kinds;
@@ -67,8 +68,9 @@ void check_kind(const RespondOptions& options) {
                  "--highest is the highest frequency of --spectrum; add it, or leave it out.");
   if (kinds.empty()) return;
   if (kinds.size() > 1)
-    refuse_usage("respond", "takes only one of --energy, --forces, --spectrum and --sensitivity; " +
-                                kinds[0] + " and " + kinds[1] + " were given.");
+    refuse_usage("respond",
+                 "takes only one of --at, --energy, --forces, --spectrum and --sensitivity; " +
+                     kinds[0] + " and " + kinds[1] + " were given.");
   if (options.impacts)
     refuse_usage("respond", kinds[0] + " has rows of its own and takes no --impacts.");
   if (!options.digits.empty())
@@ -109,6 +111,12 @@ std::unique_ptr<record::RowSource> rows_of(const RespondOptions& options,
   const auto count = digits ? read_whole("--digits", options.digits, 1, 1000) : 0;
   const auto respond = [&](const tables::TimeGrid& grid) {
     if (options.energy) return tables::energies(test_case, grid);
+    if (!options.at.empty()) {
+      std::vector<double> places;
+      for (const auto& part : parts_of("--at", options.at))
+        places.push_back(read_number("--at", part));
+      return tables::points(test_case, grid, places);
+    }
     if (options.forces) return tables::forces(test_case, grid);
     if (!options.sensitivity.empty())
       return tables::sensitivity(test_case, grid, options.sensitivity);
@@ -189,7 +197,7 @@ void add_respond(Grammar& root) {
                      "           (--samples n | --step h | --times FILE | --impacts)\n"
                      "           [--digits n] [--plot] [--report FILE.html]\n"
                      "  clackers respond CASE [--set ...]\n"
-                     "           (--energy | --forces | --sensitivity NAME)\n"
+                     "           (--energy | --forces | --at x,... | --sensitivity NAME)\n"
                      "           (--samples n | --step h | --times FILE) [--plot]\n"
                      "  clackers respond CASE [--set ...] --spectrum --samples n --highest w\n"});
   app->add_option("CASE", options->name, "The case. All names: clackers list cases.");
@@ -219,6 +227,11 @@ void add_respond(Grammar& root) {
       "--forces", options->forces,
       "At the times, the forces of contacts that stay closed instead: force1, force2, ... "
       "[N], 0 for open ones.");
+  app->add_option(
+         "--at", options->at,
+         "At the times, points of the case's bars instead, at x from the contact [m]: u [m], v "
+         "[m/s] and stress [N/m^2] of each, then force [N], impulse [N s] and energies [J].")
+      ->option_text("x,...");
   app->add_option(
          "--sensitivity", options->sensitivity,
          "At the times, the response columns differentiated by NAME: m1 m2 k1 k2 c1 c2 eta "

@@ -33,7 +33,7 @@ class Help(CommandTest):
                "atlas": ["--jobs", "--specification", "--submit", "--exec", "--expect", "--author",
                          "--merge"],
                "respond": ["--case", "--problem", "--report", "--set", "--samples", "--step", "--times", "--impacts", "--collisions", "--plot",
-                           "--digits", "--energy", "--forces", "--sensitivity", "--spectrum", "--highest"],
+                           "--digits", "--energy", "--forces", "--at", "--sensitivity", "--spectrum", "--highest"],
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--samples-per-level", "--neighbours",
                           "--budget", "--exec", "--exec-batch", "--name", "--label", "--expect", "--tolerances", "--timeout",
                           "--work", "--fresh", "--environment", "--jobs", "--require", "--baseline", "--only",

@@ -48,6 +48,25 @@ class Columns(CommandTest):
                     self.assertLessEqual(len(line), 80, line)
 
 
+class Points(CommandTest):
+    def test_of_a_bar_have_two_rows_where_a_front_passes(self):
+        found = self.rows_of("respond", "bar-wall", "--at", "0,1/2", "--step", "0.25", "--set", "t_end=1")
+        self.assertEqual(",".join(found[0]), "t,side,u1,v1,stress1,u2,v2,stress2,force,impulse,kinetic,elastic,potential")
+        self.assertEqual([(row["t"], row["side"]) for row in found],
+                         [("0", ""), ("0.25", "-"), ("0.25", "+"), ("0.5", ""), ("0.75", "-"), ("0.75", "+"), ("1", "")])
+        self.assertEqual([row["v1"] for row in found], ["-1", "-1", "0", "0", "0", "0", "0"])
+        self.assertEqual([row["stress2"] for row in found], ["0", "0", "0", "0", "0", "-1", "-1"])
+        self.assertEqual([row["force"] for row in found], ["0", "0", "1", "1", "1", "1", "1"])
+        self.assertEqual(found[-1]["impulse"], "0.75")
+        self.assertEqual((found[-1]["kinetic"], found[-1]["elastic"]), ("0.125", "0.375"))
+
+    def test_lie_in_the_bars_of_a_case(self):
+        self.refused("respond", "bar-wall", "--at", "1.5", "--samples", "3", code="out-of-range", says="x = 1.5")
+        self.refused("respond", "two-bars", "--at", "-1.5", "--samples", "3", code="out-of-range", says="-1 <= x <= 2")
+        self.refused("respond", "stop", "--at", "0", "--samples", "3", code="no-closed-form", says="bar-wall")
+        self.refused("respond", "bar-wall", "--at", "0", "--impacts", code="bad-syntax", says="--at")
+
+
 class Times(CommandTest):
     def times(self, *arguments, **more):
         return [float(row["t"]) for row in self.rows_of("respond", *arguments, **more)

@@ -24,6 +24,7 @@ NOISE = 100_000  # bytes of a round
 
 CASE = clackers.case("stop")
 PAIR = clackers.case("three-parameter")
+BARS = clackers.case("bar-wall")
 T = np.linspace(0.0, CASE.end, 50)
 Y = CASE.problem.y0
 HISTORY = (T, *CASE.response(T))
@@ -66,7 +67,7 @@ CALLS = {
     "Case.response": lambda: CASE.response(T), "Case.envelope": lambda: CASE.envelope(T),
     "Case.error_bound": lambda: CASE.error_bound(T), "Case.impact_count": lambda: CASE.impact_count(1.0),
     "Case.impacts": lambda: CASE.impacts(1, 5), "Case.impact_table": CASE.impact_table, "Case.collisions": CASE.collisions,
-    "Case.energies": lambda: CASE.energies(T), "Case.sensitivity": lambda: PAIR.sensitivity("k2", T),
+    "Case.energies": lambda: CASE.energies(T), "Case.points": lambda: BARS.points(T[:2], [0.0, 0.5]), "Case.sensitivity": lambda: PAIR.sensitivity("k2", T),
     "Case.spectrum": lambda: CASE.spectrum(10, 5.0), "Case.tables": CASE.tables,
     "Case.indicators": lambda: clackers.case("stop").indicators, "Case.constants": lambda: CASE.constants,
     "Problem.load": lambda: CASE.problem.load(0.5), "Problem.rhs": lambda: CASE.problem.rhs(0.5, Y),

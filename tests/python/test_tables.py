@@ -26,6 +26,10 @@ class Quantities(unittest.TestCase):
         t = np.linspace(0.0, case.end, 301)
         self.check(case.energies(t), "respond", "synchronized-pair", "--set", "eta=0.5", "--samples", "301", "--energy")
 
+    def test_points_are_those_of_the_command(self):
+        t = np.linspace(0.0, 6.0, 25)
+        self.check(clackers.case("two-bars").points(t, [-0.5, 0.0, 2.0]), "respond", "two-bars", "--samples", "25", "--at=-0.5,0,2")
+
     def test_sensitivity_is_that_of_the_command(self):
         case = clackers.case("three-parameter")
         t = np.linspace(0.0, case.end, 101)

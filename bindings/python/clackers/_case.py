@@ -359,6 +359,36 @@ class Case:
         """
         return Table(*_core.energies(self._core, t))
 
+    def points(self, t: npt.ArrayLike, at: npt.ArrayLike) -> Table:
+        """Points of the case's bars at times ``t``: the continuum, of which ``problem`` is a mesh.
+
+        Parameters
+        ----------
+        t : array_like
+            Times [s], each in [0, end], in any order; a number is one time.
+        at : array_like
+            Places x [m], 0 at the contact; negative in the left one of two bars.
+
+        Returns
+        -------
+        Table
+            Columns t, side, then u1 [m], v1 [m/s], stress1 [N/m^2] and so on, numbered by place, force [N], impulse
+            [N s] of the contact, kinetic, elastic and potential energy [J]. Where something jumps two rows stand, side
+            -1 and side 1.
+
+        Raises
+        ------
+        InputError
+            As ``response`` does; for a case without bars, and for places outside of them.
+
+        Examples
+        --------
+        >>> import clackers
+        >>> clackers.case("bar-wall").points([1.0], at=[0.25])["stress1"]
+        array([-1.])
+        """
+        return Table(*_core.points(self._core, t, at))
+
     def sensitivity(self, name: str, t: npt.ArrayLike) -> Table:
         """The derivative of the motion by a parameter.
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
 
@@ -12,26 +11,20 @@
 #include "clackers/exact/pair/parameters.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/numerics/first_root.hpp"
+#include "clackers/numerics/wide.hpp"
 
 namespace clackers::exact {
 
 using numerics::Bounded;
+using numerics::narrowed;
+using numerics::Wide;
 
 namespace {
-
-using Wide = numerics::BoundedOf<boost::multiprecision::number<
-    boost::multiprecision::cpp_bin_float<256, boost::multiprecision::digit_base_2>,
-    boost::multiprecision::et_off>>;
 
 constexpr double largest_phase = 1e12;
 /// Nearer to resonance, a rounding of a frequency moves the orbit by more than 1e4 roundings.
 constexpr double least_detuning = 1e-4;
 
-Bounded narrowed(const Wide& x) {
-  const auto value = static_cast<long double>(x.value);
-  return {value, static_cast<long double>(x.error) +
-                     std::numeric_limits<long double>::epsilon() * std::abs(value)};
-}
 constexpr int instants = 2048;
 
 void require_whole(std::string_view who, double n) {

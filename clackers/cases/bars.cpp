@@ -1,0 +1,219 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "clackers/base/check.hpp"
+#include "clackers/base/error.hpp"
+#include "clackers/cases/row.hpp"
+#include "clackers/exact/bodies/bar_contact.hpp"
+#include "clackers/exact/bodies/bar_mesh.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
+
+// Elastic bars in contact, and their meshes: docs/manual/explanation/derivations/bars.md.
+namespace clackers::cases {
+namespace {
+
+using exact::Bar;
+using exact::BarContact;
+using exact::BarsParameters;
+using exact::NodeMass;
+
+constexpr double largest = 1e30;
+
+NodeMass node_mass(const ParameterValue& word) {
+  return word.text() == "lumped"       ? NodeMass::lumped
+         : word.text() == "consistent" ? NodeMass::consistent
+                                       : NodeMass::massless;
+}
+
+double within(const Case& test_case, const Values& value, const std::string& name, double least) {
+  return require_within(test_case.entry->name, name, value(name), least, largest);
+}
+
+// Of a bar whose parameters have this number behind their names.
+Bar bar_of(const Case& test_case, const Values& value, const std::string& number, double v0) {
+  const auto positive = [&](const char* name) {
+    return within(test_case, value, name + number, 1.0 / largest);
+  };
+  return {positive("L"), positive("E"), positive("rho"), positive("A"), v0};
+}
+
+// The largest difference of the displacements of mesh and bar, at 51 times and 17 nodes or fewer.
+double space_error(const model::Motion& mesh, const BarContact& bars,
+                   const std::vector<exact::BarMesh::Node>& nodes) {
+  constexpr int times = 50;
+  const std::size_t stride = (nodes.size() + 16) / 17;
+  double worst = 0.0;
+  for (int k = 0; k <= times; ++k) {
+    const double t = std::min(bars.end(), bars.end() * k / times);
+    const auto now = mesh.at(t, model::Side::right);
+    for (std::size_t i = 0; i < nodes.size(); i += stride) {
+      const double u = bars.at(nodes[i].bar, nodes[i].x, t, model::Side::right).u.nearest();
+      worst = std::max(worst, std::abs(now.u[Eigen::Index(i)] - u));
+    }
+  }
+  return worst;
+}
+
+// Bars, their mesh, and what all of them have in common.
+void use_bars(Case& test_case, const Values& value, const BarsParameters& parameters) {
+  const auto& who = test_case.entry->name;
+  const auto bars = std::make_shared<const BarContact>(parameters, who);
+  const auto mesh =
+      exact::bar_mesh(*bars, value("elements"), node_mass(value("mass")), value("eta"), who);
+  test_case.bars = bars;
+  test_case.problem = mesh.problem;
+  const auto motion = std::make_shared<const exact::PiecewiseMotion>(mesh.problem, who);
+  test_case.motion = motion;
+  // A rigid motion has no period; the run's length is what it has.
+  for (const auto& mode : motion->modes().modes())
+    test_case.damped_periods.push_back(
+        mode.oscillates() && mode.w > 0.0 ? 2.0 * std::numbers::pi / mode.w : bars->end());
+  auto& list = test_case.constants;
+  for (std::size_t b = 0; b < parameters.bars.size(); ++b) {
+    const auto wave = bars->wave(b);
+    const auto number = parameters.bars.size() == 1 ? std::string() : std::to_string(b + 1);
+    list.push_back({"c" + number, wave.speed.nearest(), "m/s", "speed of waves"});
+    list.push_back(
+        {"tau" + number, wave.transit.nearest(), "s", "L/c, a wave's way through the bar"});
+    list.push_back({"z" + number, wave.impedance.nearest(), "N s/m", "impedance A sqrt(E rho)"});
+    list.push_back({"m" + number, (wave.impedance * wave.transit).nearest(), "kg", "mass"});
+  }
+  list.push_back({"gap", bars->gap().nearest(), "m", "at t = 0"});
+  int count = 0;
+  for (const auto& event : bars->events()) {
+    count += event.closes ? 1 : 0;
+    if (count > 2) break;
+    list.push_back({fmt::format("t_{}{}", event.closes ? "closes" : "opens", std::max(count, 1)),
+                    event.t.nearest(), "s",
+                    event.closes ? "contact of the bar begins" : "and ends"});
+  }
+  list.push_back(
+      {"impulse", bars->impulse(bars->end()).nearest(), "N s", "of the bar's contact up to t_end"});
+  list.push_back({"h", parameters.bars[0].L / value("elements"), "m", "length of an element"});
+  list.push_back(
+      {"e_space", space_error(*motion, *bars, mesh.nodes), "m",
+       "largest difference between the displacements of mesh and bar, at 51 times: what no "
+       "integrator on this mesh can mend"});
+  list.push_back({"error_bound", motion->error_bound(motion->end()).u.maxCoeff(), "m",
+                  "of the displacements of the mesh's reference solution at t_end"});
+  list.push_back({"t_end", motion->end(), "s", "end of the run"});
+  list.push_back({"impacts", double(motion->impact_count(motion->end())), "",
+                  "number of impacts of the mesh up to t_end"});
+}
+
+void build_bar_wall(Case& test_case, const Values& value, double) {
+  const double V = within(test_case, value, "V", 1.0 / largest);
+  const auto bar = bar_of(test_case, value, "", -V);
+  BarsParameters p{{bar},
+                   within(test_case, value, "d", 1.0 / largest),
+                   require_positive(test_case.entry->name, "t_end", value("t_end"))};
+  use_bars(test_case, value, p);
+}
+
+void build_bouncing(Case& test_case, const Values& value, double) {
+  const auto& who = test_case.entry->name;
+  BarsParameters p{{bar_of(test_case, value, "", 0.0)},
+                   0.0,
+                   require_positive(who, "t_end", value("t_end")),
+                   within(test_case, value, "g", 1.0 / largest),
+                   value("N")};
+  if (!(p.N > 0.0 && p.N <= 1e3))
+    refuse(who, "N", p.N, "0 < N <= 1000", "It is the time of the first fall over L/c.");
+  if (p.N == 2.0)
+    refuse(who, "N", p.N, "another N than 2",
+           "The second contact would begin and the first end without a speed.", "not-admissible");
+  use_bars(test_case, value, p);
+  const double period = test_case.bars->period().nearest();
+  if (period > 0.0)
+    test_case.constants.push_back({"T", period, "s", "period of the bar, 4 (N + 1) L/c"});
+}
+
+void build_two_bars(Case& test_case, const Values& value, double) {
+  const auto& who = test_case.entry->name;
+  const double v1 = within(test_case, value, "v1", -largest),
+               v2 = within(test_case, value, "v2", -largest);
+  if (!(v1 > v2))
+    refuse(who, "v1", v1, fmt::format("v1 > v2 = {}", v2), "Otherwise the bars do not meet.");
+  const auto first = bar_of(test_case, value, "1", v1), second = bar_of(test_case, value, "2", v2);
+  BarsParameters p{{first, second},
+                   within(test_case, value, "d", 1.0 / largest),
+                   require_positive(who, "t_end", value("t_end"))};
+  use_bars(test_case, value, p);
+  const auto &wave1 = test_case.bars->wave(0), &wave2 = test_case.bars->wave(1);
+  const auto inverse = numerics::Bounded(1.0) / (wave1.impedance * wave1.transit) +
+                       numerics::Bounded(1.0) / (wave2.impedance * wave2.transit);
+  const auto& events = test_case.bars->events();
+  if (std::ranges::any_of(events, [](const auto& event) { return !event.closes; }))
+    test_case.constants.push_back(
+        {"restitution", (test_case.bars->impulse(p.end) * inverse).nearest() / (v1 - v2) - 1.0, "",
+         "of the centres of mass; the rest of the energy is kept as vibration"});
+}
+
+Parameter positive(std::string name, double standard, const char* unit, const char* meaning) {
+  auto allowed = fmt::format("1e-30 <= {} <= 1e+30", name);
+  return {std::move(name), standard, unit, std::move(allowed), meaning};
+}
+
+// What a bar has, then what the case has, then what its mesh has.
+std::vector<Parameter> parameters(const std::vector<std::string>& numbers,
+                                  std::vector<Parameter> own, double end) {
+  std::vector<Parameter> list;
+  for (const auto& number : numbers)
+    for (auto& p : {positive("L" + number, number == "2" ? 2.0 : 1.0, "m", "length"),
+                    positive("E" + number, 1.0, "N/m^2", "Young's modulus"),
+                    positive("rho" + number, 1.0, "kg/m^3", "density"),
+                    positive("A" + number, 1.0, "m^2", "area")})
+      list.push_back(p);
+  for (auto& p : own) list.push_back(std::move(p));
+  list.push_back(
+      {"elements", 16.0, "", "a whole number, 2 <= elements <= 200", "of the mesh, in each bar"});
+  list.push_back({"mass",
+                  "massless",
+                  "",
+                  "lumped, consistent or massless",
+                  "mass of the mesh's nodes",
+                  {},
+                  {{"lumped", "rho A h at each node, half of it at the ends"},
+                   {"consistent", "rho A h/6 [2 1; 1 2] an element"},
+                   {"massless", "lumped, that of contact nodes moved to their neighbours"}}});
+  list.push_back({"eta", 0.0, "", "0 <= eta <= 1; 0 for massless",
+                  "restitution of the mesh's contact node; the bar has none"});
+  list.push_back({"t_end", end, "s", "0 < t_end < infinity", "end of the run"});
+  return list;
+}
+
+}  // namespace
+
+std::vector<CaseRow> bar_rows() {
+  return {
+      {{"bar-wall", "An elastic bar that flies against a rigid wall, and its mesh.",
+        "none; Saint-Venant (1867)",
+        parameters({""},
+                   {positive("V", 1.0, "m/s", "speed towards the wall"),
+                    positive("d", 0.25, "m", "gap at t = 0")},
+                   4.0)},
+       build_bar_wall},
+      {{"bouncing-bar",
+        "An elastic bar that falls on a floor again and again, and its mesh; periodic for whole N >= 3.",
+        "none; D. Doyen, A. Ern, S. Piperno (2011)",
+        parameters({""},
+                   {{"N", 3.0, "", "0 < N <= 1000, not 2",
+                     "time of the first fall over L/c; the height is g (N L/c)^2/2"},
+                    positive("g", 0.125, "m/s^2", "gravity")},
+                   16.0)},
+       build_bouncing},
+      {{"two-bars", "Two elastic bars that meet, and their meshes.", "none; Saint-Venant (1867)",
+        parameters(
+            {"1", "2"},
+            {{"v1", 1.0, "m/s", "-1e+30 <= v1 <= 1e+30, v1 > v2", "velocity of the left bar"},
+             {"v2", 0.0, "m/s", "-1e+30 <= v2 <= 1e+30", "velocity of the right bar"},
+             positive("d", 0.25, "m", "gap at t = 0")},
+            6.0)},
+       build_two_bars},
+  };
+}
+
+}  // namespace clackers::cases

@@ -1,0 +1,178 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "clackers/base/testing/refusal.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/cases/testing/constants.hpp"
+#include "clackers/exact/bodies/bar_contact.hpp"
+#include "clackers/exact/testing/test_oracle.hpp"
+#include "clackers/model/harmonic_load.hpp"
+
+namespace clackers::cases {
+namespace {
+
+using exact::testing_oracle::Box;
+using exact::testing_oracle::trials;
+using model::Side;
+
+// How long the mesh of a bar with tau = 1 touches the wall, in its first contact.
+double contact_time(const Case& mesh) {
+  const auto& motion = *mesh.motion;
+  if (!mesh.problem.contacts.empty()) {
+    const auto closed = motion.closed_contacts().at(0);
+    return closed.until - closed.from;
+  }
+  // The node beside the massless one has the gap of the contact.
+  const double gap = constant(mesh, "gap"), begin = constant(mesh, "t_closes1");
+  const auto depth = [&](double t) { return motion.at(t, Side::right).u[0] + gap; };
+  double inside = begin + 0.5, outside = inside;
+  while (depth(outside) < 0.0) outside += 0.01;
+  for (inside = outside - 0.01; outside - inside > 1e-13;) {
+    const double middle = 0.5 * (inside + outside);
+    (depth(middle) < 0.0 ? inside : outside) = middle;
+  }
+  return inside - begin;
+}
+
+Case bar_at_wall(double elements, const char* mass, double eta = 0.0) {
+  return make("bar-wall", {{"elements", elements}, {"mass", mass}, {"eta", eta}});
+}
+
+TEST(BarCases, MeshesLeaveTheWallWhenTheirModesDo) {
+  struct Row {
+    double n, massless, lumped, consistent;
+  };
+  for (const auto& row : {Row{2, 2.33102849323, 2.09858458239, 1.84115498302},
+                          Row{4, 2.18866586781, 2.08314169926, 1.87725737289},
+                          Row{8, 2.10267652947, 2.05476486111, 1.93837476640},
+                          Row{16, 2.05766864381, 2.03702511913, 1.95633866955}}) {
+    EXPECT_NEAR(contact_time(bar_at_wall(row.n, "massless")), row.massless, 1e-11) << row.n;
+    EXPECT_NEAR(contact_time(bar_at_wall(row.n, "lumped")), row.lumped, 1e-11) << row.n;
+    EXPECT_NEAR(contact_time(bar_at_wall(row.n, "consistent")), row.consistent, 1e-11) << row.n;
+  }
+}
+
+// A uniform mesh whose contact node is held has the modes sin(i (2k - 1) pi/(2 n)); a plastic impact
+// leaves the velocities that are orthogonal to it.
+struct HeldModes {
+  int n;
+  bool consistent;
+  std::vector<double> omega, share;  // of each mode
+  HeldModes(int elements, bool spread) : n(elements), consistent(spread) {
+    for (int k = 1; k <= n; ++k) {
+      const double th = (2 * k - 1) * std::numbers::pi / (2 * n);
+      omega.push_back(2 * n * std::sin(th / 2) *
+                      (consistent ? std::sqrt(3.0 / (2.0 + std::cos(th))) : 1.0));
+      double norm = 0.0, load = 0.0;
+      for (int i = 1; i <= n; ++i) {
+        const double phi = std::sin(i * th), end = i == n ? 0.5 : 1.0;
+        load += end * phi;
+        norm += (consistent ? 2.0 / 3.0 : 1.0) * end * phi * phi;
+        if (consistent && i < n) norm += phi * std::sin((i + 1) * th) / 3.0;
+      }
+      share.push_back(load / norm);
+    }
+  }
+  double mode(int k, int i) const { return std::sin(i * (2 * k + 1) * std::numbers::pi / (2 * n)); }
+  double u(int i, double s) const {
+    double sum = 0.0;
+    for (int k = 0; k < n; ++k) sum -= share[k] * mode(k, i) * std::sin(omega[k] * s) / omega[k];
+    return sum;
+  }
+  double force(double s) const {
+    double a = 0.0;
+    for (int k = 0; k < n; ++k) a += share[k] * mode(k, 1) * std::sin(omega[k] * s) * omega[k];
+    return -n * u(1, s) + (consistent ? a / (6.0 * n) : 0.0);
+  }
+};
+
+TEST(BarCases, MeshesMoveAsTheirClosedModes) {
+  Box box(91);
+  for (int trial = 0; trial < trials(6); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 91, trial " << trial);
+    const int n = int(box.uniform(2.0, 17.0));
+    const bool consistent = box.one_in(2);
+    const HeldModes modes(n, consistent);
+    const double V = box.decades(-1.0, 1.0), L = box.decades(-1.0, 1.0), E = box.decades(-1.0, 1.0),
+                 rho = box.decades(-1.0, 1.0), A = box.decades(-1.0, 1.0),
+                 tau = L * std::sqrt(rho / E), d = V * tau * box.uniform(0.01, 1.0);
+    const auto mesh = make("bar-wall", {{"V", V},
+                                        {"L", L},
+                                        {"E", E},
+                                        {"rho", rho},
+                                        {"A", A},
+                                        {"d", d},
+                                        {"elements", n},
+                                        {"mass", consistent ? "consistent" : "lumped"},
+                                        {"t_end", d / V + 3.0 * tau}});
+    const auto closed = mesh.motion->closed_contacts().at(0);
+    EXPECT_NEAR(closed.from, d / V, 1e-13 * (d / V + tau));
+    EXPECT_NEAR(modes.force((closed.until - closed.from) / tau), 0.0, 1e-9);
+    EXPECT_GT(closed.until - closed.from, 1.8 * tau);
+    for (int i = 0; i < 8; ++i) {
+      const double s = box.uniform(0.02, 1.8), t = d / V + s * tau;
+      EXPECT_GT(modes.force(s), -1e-9);
+      const auto state = mesh.motion->at(t, Side::right), bound = mesh.motion->error_bound(t);
+      for (int node = 1; node <= n; ++node)
+        EXPECT_NEAR(state.u[node], -d + V * tau * modes.u(node, s),
+                    bound.u[node] + 1e-13 * (d + V * tau));
+      EXPECT_NEAR(mesh.motion->contact_forces(t, Side::right)[0],
+                  modes.force(s) * A * std::sqrt(E * rho) * V,
+                  1e-10 * n * A * std::sqrt(E * rho) * V);
+    }
+  }
+}
+
+TEST(BarCases, MeshesTendToTheBar) {
+  for (const auto* name : {"bar-wall", "bouncing-bar", "two-bars"})
+    for (const auto* mass : {"massless", "lumped", "consistent"}) {
+      double before = HUGE_VAL;
+      for (const double n : {4.0, 8.0}) {
+        const auto mesh = make(name, {{"elements", n}, {"mass", mass}, {"t_end", 6.0}});
+        EXPECT_LT(constant(mesh, "e_space"), 0.75 * before) << name << " " << mass;
+        before = constant(mesh, "e_space");
+        // All of the mass, and none of the weight lost.
+        const auto& s = mesh.problem.system;
+        EXPECT_NEAR(s.mass.sum(), *name == 't' ? 3.0 : 1.0, 1e-14);
+        EXPECT_NEAR((s.stiffness * Eigen::VectorXd::Ones(s.stiffness.rows())).norm(), 0.0, 1e-12);
+        if (*name == 'b' && name[1] == 'o') {
+          Eigen::VectorXd force = Eigen::VectorXd::Zero(s.mass.rows());
+          s.add_load(0.0, {force.data(), std::size_t(force.size())});
+          EXPECT_NEAR(force.sum(), -0.125, 1e-15);
+        }
+      }
+      EXPECT_LT(before, 0.45);
+    }
+}
+
+TEST(BarCases, PassTheirParametersOnToTheBars) {
+  const auto wall =
+      make("bar-wall", {{"L", 2.0}, {"E", 8.0}, {"rho", 2.0}, {"A", 3.0}, {"V", 0.5}});
+  EXPECT_EQ(constant(wall, "c"), 2.0);
+  EXPECT_EQ(constant(wall, "tau"), 1.0);
+  EXPECT_EQ(constant(wall, "z"), 12.0);
+  EXPECT_EQ(constant(wall, "t_closes1"), 0.5);
+  EXPECT_EQ(constant(wall, "t_opens1"), 2.5);
+  EXPECT_EQ(constant(wall, "impulse"), 12.0);
+  EXPECT_EQ(wall.bars->at(0, 1.0, 1.5, Side::right).stress.nearest(), -2.0);
+  const auto bouncing = make("bouncing-bar");
+  EXPECT_EQ(constant(bouncing, "gap"), 0.5625);
+  EXPECT_EQ(constant(bouncing, "T"), 16.0);
+  EXPECT_EQ(constant(bouncing, "t_closes1"), 3.0);
+  const auto two = make("two-bars");
+  EXPECT_EQ(constant(two, "restitution"), 0.5);
+  EXPECT_EQ(constant(two, "t_closes1"), 0.25);
+}
+
+TEST(BarCases, AreRefusedWithTheReason) {
+  EXPECT_REFUSED(make("bouncing-bar", {{"N", 2.0}}), "not-admissible", "without a speed");
+  EXPECT_REFUSED(make("two-bars", {{"v1", -1.0}}), "out-of-range", "do not meet");
+  EXPECT_REFUSED(make("bar-wall", {{"eta", 0.5}}), "out-of-range", "no impacts");
+  EXPECT_REFUSED(make("bar-wall", {{"elements", 2.5}}), "not-whole", "whole");
+  EXPECT_REFUSED(make("bar-wall", {{"elements", 1.0}}), "out-of-range", "elements");
+}
+
+}  // namespace
+}  // namespace clackers::cases

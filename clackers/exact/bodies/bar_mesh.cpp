@@ -1,0 +1,98 @@
+#include "clackers/exact/bodies/bar_mesh.hpp"
+
+#include <cmath>
+
+#include "clackers/base/error.hpp"
+#include "clackers/exact/pair/parameters.hpp"
+#include "clackers/model/harmonic_load.hpp"
+
+namespace clackers::exact {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double most_elements = 200.0;
+
+void require(std::string_view who, double elements, NodeMass mass, double eta) {
+  const double least = mass == NodeMass::massless ? 2.0 : 1.0;
+  if (!(elements >= least && elements <= most_elements))
+    refuse(who, "elements", elements,
+           "a whole number, 2 <= elements <= 200 (1 with mass at contact)");
+  if (elements != std::floor(elements))
+    refuse(who, "elements", elements, "a whole number", {}, "not-whole");
+  require_restitution(who, eta);
+  if (mass == NodeMass::massless && eta != 0.0)
+    refuse(who, "eta", eta, "eta = 0 with mass = massless",
+           "A contact node without mass has no impacts, so restitution has no meaning.");
+}
+
+}  // namespace
+
+BarMesh bar_mesh(const BarContact& bars, double elements, NodeMass mass, double eta,
+                 std::string_view who) {
+  require(who, elements, mass, eta);
+  const auto& p = bars.parameters();
+  const bool massless = mass == NodeMass::massless, two = p.bars.size() == 2;
+  const auto n = Index(elements), nodes = massless ? n : n + 1, dof = nodes * Index(p.bars.size());
+  BarMesh mesh;
+  mesh.nodes.resize(std::size_t(dof));
+  auto& problem = mesh.problem;
+  auto& system = problem.system;
+  system.mass = system.damping = system.stiffness = MatrixXd::Zero(dof, dof);
+  problem.start = {0.0, VectorXd::Zero(dof), VectorXd::Zero(dof)};
+  problem.end = bars.end();
+  VectorXd weight = VectorXd::Zero(dof);
+  // The element at the contact, where its node has no mass; of two bars both in series.
+  double compliance = 0.0;
+  std::vector<Index> contact_ends;
+  for (std::size_t b = 0; b < p.bars.size(); ++b) {
+    const auto& bar = p.bars[b];
+    const double h = bar.L / elements, m = bar.rho * bar.A * h, k = bar.E * bar.A / h;
+    // Of the node i from the contact end, 0 the end itself; the left bar comes first, backwards.
+    const auto place = [&](Index i) {
+      if (massless) i = std::max<Index>(i - 1, 0);
+      return two && b == 0 ? nodes - 1 - i : Index(b) * nodes + i;
+    };
+    contact_ends.push_back(place(0));
+    compliance += 1.0 / k;
+    for (Index i = 0; i < n; ++i) {
+      const Index first = place(i), second = place(i + 1);
+      if (mass == NodeMass::consistent) {
+        for (const Index j : {first, second}) system.mass(j, j) += m / 3.0;
+        system.mass(first, second) += m / 6.0;
+        system.mass(second, first) += m / 6.0;
+      } else {
+        for (const Index j : {first, second}) system.mass(j, j) += 0.5 * m;
+      }
+      for (const Index j : {first, second}) weight[j] -= 0.5 * m * p.g;
+      if (first == second) continue;  // the element of a massless node
+      for (const Index j : {first, second}) system.stiffness(j, j) += k;
+      system.stiffness(first, second) -= k;
+      system.stiffness(second, first) -= k;
+    }
+    for (Index i = massless ? 1 : 0; i <= n; ++i) {
+      mesh.nodes[std::size_t(place(i))] = {b, h * double(i)};
+      problem.start.v[place(i)] = bar.v0;
+    }
+  }
+  if (p.g > 0.0) {
+    std::vector<model::HarmonicForce> forces;
+    for (Index i = 0; i < dof; ++i) forces.push_back({int(i), weight[i], 0.0, 0.0});
+    system.add_load = model::HarmonicLoad(std::move(forces));
+  }
+  model::Contact<> contact{VectorXd::Unit(dof, contact_ends.back()), -bars.gap().nearest(), eta};
+  if (two) contact.direction[contact_ends.front()] = -1.0;
+  if (massless) {
+    contact.restitution = 1.0;  // without meaning
+    system.nonlinear = std::make_shared<model::OneSidedSprings>(
+        std::vector<model::Contact<>>{contact}, std::vector<double>{1.0 / compliance});
+  } else {
+    problem.contacts = {contact};
+  }
+  return mesh;
+}
+
+}  // namespace clackers::exact

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "clackers/exact/bodies/bar_contact.hpp"
+#include "clackers/model/impact_problem.hpp"
+
+namespace clackers::exact {
+
+/// Where the mass of linear elements is: at the nodes, spread (rho A h/6 [2 1; 1 2] an element), or at
+/// the nodes without that of the contact nodes, which their neighbours carry (mass redistribution:
+/// H. B. Khenous, P. Laborde, Y. Renard, Eur. J. Mech. A 27, 918-932 (2008)).
+enum class NodeMass { lumped, consistent, massless };
+
+/// The bars in linear elements of one length: what an integrator gets.
+struct BarMesh {
+  model::ImpactProblem<> problem;
+  /// Of each degree of freedom, ascending along x: the bar and the distance from its contact end [m].
+  struct Node {
+    std::size_t bar = 0;
+    double x = 0.0;
+  };
+  std::vector<Node> nodes;
+};
+
+/// `elements` in each bar. Massless contact nodes are eliminated: what is left of them is a one-sided
+/// spring, the element at the contact. Throws InputError, `who` first, unless 1 <= elements <= 200, a
+/// whole number, at least 2 where contact nodes are massless; and for a restitution of those.
+BarMesh bar_mesh(const BarContact& bars, double elements, NodeMass mass, double eta,
+                 std::string_view who);
+
+}  // namespace clackers::exact
