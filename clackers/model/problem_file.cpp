@@ -240,35 +240,45 @@ model::Contact<> contact_from(const Reader& reader, const toml::table& table, In
   return contact;
 }
 
+// A contact with a stiffness is a spring.
 void add_contacts(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
-  const auto* list = reader.tables(root, "contacts");
-  if (list == nullptr) return;
-  for (const auto& node : *list) {
-    const auto& table = *node.as_table();
-    reader.require_known(table, {"direction", "gap", "restitution"}, " of a contact");
+  std::vector<model::Contact<>> springs;
+  std::vector<double> stiffnesses;
+  const auto add = [&](const toml::table& table) {
     auto contact = contact_from(reader, table, problem.dof());
     contact.restitution = reader.number(table, "restitution", 1.0);
     if (!(contact.restitution >= 0.0 && contact.restitution <= 1.0))
       reader.fail(*table.get("restitution"),
                   fmt::format("restitution = {}; allowed: 0 to 1.", contact.restitution),
                   "out-of-range");
-    problem.contacts.push_back(std::move(contact));
-  }
-}
-
-void add_springs(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
-  const auto* list = reader.tables(root, "springs");
-  if (list == nullptr || list->empty()) return;
-  std::vector<model::Contact<>> contacts;
-  std::vector<double> stiffnesses;
-  for (const auto& node : *list) {
-    const auto& table = *node.as_table();
-    reader.require_known(table, {"direction", "gap", "stiffness"}, " of a spring");
-    contacts.push_back(contact_from(reader, table, problem.dof()));
-    stiffnesses.push_back(reader.number(table, "stiffness", "in N/m"));
-  }
-  problem.system.nonlinear =
-      std::make_shared<model::OneSidedSprings>(std::move(contacts), std::move(stiffnesses));
+    if (table.get("stiffness") == nullptr) return problem.contacts.push_back(std::move(contact));
+    if (contact.restitution != 1.0)
+      reader.fail(*table.get("restitution"),
+                  fmt::format("restitution = {}; allowed: 1, since a contact with a stiffness is "
+                              "an elastic spring.",
+                              contact.restitution),
+                  "penalty-needs-elastic");
+    const double stiffness = stiffnesses.emplace_back(reader.number(table, "stiffness", "in N/m"));
+    if (!(stiffness > 0.0))
+      reader.fail(*table.get("stiffness"),
+                  fmt::format("stiffness = {}; allowed: above 0 N/m.", stiffness), "out-of-range");
+    springs.push_back(std::move(contact));
+  };
+  if (const auto* list = reader.tables(root, "contacts"))
+    for (const auto& node : *list) {
+      reader.require_known(*node.as_table(), {"direction", "gap", "restitution", "stiffness"},
+                           " of a contact");
+      add(*node.as_table());
+    }
+  if (const auto* list = reader.tables(root, "springs"))
+    for (const auto& node : *list) {
+      reader.require_known(*node.as_table(), {"direction", "gap", "stiffness"}, " of a spring");
+      reader.need(*node.as_table(), "stiffness", "in N/m");
+      add(*node.as_table());
+    }
+  if (!springs.empty())
+    problem.system.nonlinear =
+        std::make_shared<model::OneSidedSprings>(std::move(springs), std::move(stiffnesses));
 }
 
 void add_loads(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
@@ -349,7 +359,6 @@ model::ImpactProblem<> problem_from_text(std::string_view text, const std::strin
   problem.start.v = v == nullptr ? VectorXd(VectorXd::Zero(n)) : reader.vector(*v, "v", n);
   add_contacts(reader, root, problem);
   add_loads(reader, root, problem);
-  add_springs(reader, root, problem);
   try {
     validate(problem);
   } catch (const InputError& error) {

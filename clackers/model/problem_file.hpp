@@ -21,6 +21,7 @@ extern const std::string_view example_problem;
 ///     direction = [1, -1]
 ///     gap = -0.05                 # m, optional
 ///     restitution = 0.8           # optional, 1
+///     stiffness = 400             # N/m, optional: the contact is one of [[springs]] instead
 ///     [[loads]]                   # any number: amplitude cos(frequency t + phase)
 ///     dof = 1                     # from 1
 ///     amplitude = 0.5             # N

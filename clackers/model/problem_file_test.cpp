@@ -69,6 +69,20 @@ TEST(ProblemFile, WhatIsOptionalHasItsDefault) {
   EXPECT_FALSE(problem.system.add_load);
 }
 
+TEST(ProblemFile, AContactWithAStiffnessIsASpring) {
+  const auto problem = read(with("restitution = 0.5", "stiffness = 400"));
+  EXPECT_TRUE(problem.contacts.empty());
+  const auto* springs = one_sided_springs(problem);
+  ASSERT_NE(springs, nullptr);
+  EXPECT_EQ(springs->stiffnesses(), std::vector{400.0});
+  EXPECT_EQ(springs->contacts()[0].gap, -0.125);
+  EXPECT_REFUSED(read(with("restitution = 0.5", "restitution = 0.5\nstiffness = 400")),
+                 "penalty-needs-elastic", "f.toml:", "0.5");
+  EXPECT_REFUSED(read(with("[[loads]]", "[[springs]]\ndirection = [1, 0]\n[[loads]]")), "no-column",
+                 "stiffness is missing");
+  EXPECT_REFUSED(read(with("restitution = 0.5", "stiffness = -1")), "out-of-range", "f.toml:11");
+}
+
 TEST(ProblemFile, NumbersMayBeFractionsInQuotes) {
   EXPECT_EQ(read(with("gap = -0.125", "gap = \"-1/8\"")).contacts[0].gap, -0.125);
   EXPECT_EQ(read(with("u = [1, -0.5]", "u = [\"4/3\", -0.5]")).start.u[0], 4.0 / 3.0);
