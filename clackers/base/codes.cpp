@@ -168,7 +168,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "Digits beyond double precision were asked of a program that was built without Arb (Debian: "
      "libflint-arb-dev). Install it, configure and build again."},
     {"no-enclosure", "refusal",
-     "More digits than a double has were asked of a motion that is known to double precision only."},
+     "More digits than a double has were asked of a motion that is known to double precision only, "
+     "or of values that contacts which stay closed, or impacts whose order is not certain, precede."},
     {"time-outside", "refusal",
      "A time lies outside the interval in which the motion is known."},
     {"three-limits", "refusal",

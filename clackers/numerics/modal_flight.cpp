@@ -88,6 +88,25 @@ ModalState advance(const Mode& mode, const ModalState& start, double s) {
   return {y, decay * (r * c - signed_square * p * n) - mode.sigma * y};
 }
 
+ModalState pushed(const Mode& mode, const ModalState& push, double s) {
+  const double x = 2.0 * mode.sigma * s;
+  double rate = s, displacement = 0.0;  // of a unit force
+  if (x > 0.5) {
+    rate = -std::expm1(-x) / (2.0 * mode.sigma);
+    displacement = (s - rate) / (2.0 * mode.sigma);
+  } else {
+    // s^2 times 1/2! - x/3! + x^2/4! - ...
+    double term = 0.5, sum = 0.0;
+    for (int k = 3; std::abs(term) > 0.25 * epsilon; ++k) {
+      sum += term;
+      term *= -x / k;
+    }
+    rate *= 1.0 - x * sum;
+    displacement = s * s * sum;
+  }
+  return {push.y * s + push.rate * displacement, push.rate * rate};
+}
+
 std::optional<ModalSystem> ModalSystem::make(const MatrixXd& mass, const MatrixXd& damping,
                                              const MatrixXd& stiffness) {
   if (!mass.allFinite() || !damping.allFinite() || !stiffness.allFinite()) return std::nullopt;

@@ -38,6 +38,9 @@ struct ModalState {
 /// r = rate + sigma y, c = cos w s and n = sin(w s)/w, or cosh and sinh, or 1 and s.
 ModalState advance(const Mode& mode, const ModalState& start, double s);
 
+/// The same from rest where omega is 0 and a constant force adds push.y to y' and push.rate to y''.
+ModalState pushed(const Mode& mode, const ModalState& push, double s);
+
 /// M a + C v + K u = 0 as a sum of modes,
 ///
 ///     u = sum_j shape_j y_j + rate_shape_j y_j'

@@ -33,38 +33,36 @@ ModalForm::ModalForm(const ModalSystem& system, std::span<const double> b,
       y_part -= d[i] * rate_shape * mode.omega_square;
       rate_part += d[i] * (shape - 2.0 * mode.sigma * rate_shape);
     }
-    if (y_part == 0.0 && rate_part == 0.0) continue;
-    Part part{.mode = j, .y = {y_part}, .rate = {rate_part}, .bound = {}, .omega = mode.omega};
-    for (int k = 0; k <= 4; ++k) {
-      part.bound[k] = mode.omega > 0.0 ? std::hypot(rate_part, y_part / mode.omega)
-                      : y_part != 0.0  ? infinity
-                                       : std::abs(rate_part);
-      if (k < 4) {
-        part.y[k] = y_part;
-        part.rate[k] = rate_part;
-      }
-      const double next = y_part - 2.0 * mode.sigma * rate_part;
-      y_part = -mode.omega_square * rate_part;
-      rate_part = next;
-    }
-    growth_ = std::max(growth_, mode.growth());
-    parts_.push_back(part);
+    add(system.modes()[j], j, y_part, rate_part);
   }
   std::ranges::sort(parts_, {}, &Part::omega);
 }
 
-double ModalForm::amplitude(const ModalSystem& system, std::span<const ModalState> start,
-                            double until) const {
-  double sum = 0.0;
-  for (const Part& part : parts_) {
-    const Mode& mode = system.modes()[part.mode];
-    const ModalState& now = start[part.mode];
-    sum += part.omega > 0.0
-               ? part.bound[0] * size(mode, now)
-               : std::abs(part.y[0]) * std::abs(now.y) +
-                     (std::abs(part.y[0]) * until + std::abs(part.rate[0])) * std::abs(now.rate);
+ModalForm::ModalForm(const ModalSystem& system, const Eigen::VectorXd& row, double offset)
+    : offset_(offset) {
+  const auto n = std::ssize(system.modes());
+  for (Eigen::Index j = 0; j < n; ++j)
+    add(system.modes()[std::size_t(j)], std::size_t(j), row[j], row[n + j]);
+  std::ranges::sort(parts_, {}, &Part::omega);
+}
+
+void ModalForm::add(const Mode& mode, std::size_t index, double y_part, double rate_part) {
+  if (y_part == 0.0 && rate_part == 0.0) return;
+  Part part{.mode = index, .y = {y_part}, .rate = {rate_part}, .bound = {}, .omega = mode.omega};
+  for (int k = 0; k <= 4; ++k) {
+    part.bound[k] = mode.omega > 0.0 ? std::hypot(rate_part, y_part / mode.omega)
+                    : y_part != 0.0  ? infinity
+                                     : std::abs(rate_part);
+    if (k < 4) {
+      part.y[k] = y_part;
+      part.rate[k] = rate_part;
+    }
+    const double next = y_part - 2.0 * mode.sigma * rate_part;
+    y_part = -mode.omega_square * rate_part;
+    rate_part = next;
   }
-  return growth_ > 0.0 ? sum * std::exp(growth_ * until) : sum;
+  growth_ = std::max(growth_, mode.growth());
+  parts_.push_back(part);
 }
 
 double ModalForm::rounding(const ModalSystem& system, std::span<const ModalState> start,
@@ -98,8 +96,11 @@ double ModalForm::derivative_bound(const ModalSystem& system, std::span<const Mo
 }
 
 void FormAhead::begin(const ModalSystem& system, const ModalForm& form,
-                      std::span<const ModalState> start, double sign) {
-  offset_ = sign * form.offset_;
+                      std::span<const ModalState> start, double sign,
+                      std::span<const ModalState> push) {
+  std::ranges::fill(constants_, 0.0);
+  constants_[0] = sign * form.offset_;
+  harmonics_.clear();
   sign_ = sign;
   growth_ = form.growth_;
   parts_.resize(form.parts_.size());
@@ -132,15 +133,34 @@ void FormAhead::begin(const ModalSystem& system, const ModalForm& form,
       to.mode = &mode;
       to.start = now;
       to.form = &from;
+      to.push = push.empty() ? ModalState{} : push[from.mode];
+      if (to.push.y != 0.0 || to.push.rate != 0.0) {
+        for (int k = 1; k < 4; ++k)
+          constants_[k] += sign * (from.y[k - 1] * to.push.y + from.rate[k - 1] * to.push.rate);
+        to.size = mode.sigma > 0.0 ? std::max(to.size, std::abs(to.push.rate) / (2.0 * mode.sigma))
+                                   : infinity;
+      }
     }
     faster += from.bound[0] * to.size;
     radian = 1.0 / from.omega;
   }
 }
 
-LocalBound FormAhead::operator()(double s) const {
-  LocalBound ahead;
-  ahead.value = offset_;
+LocalBound FormAhead::ahead(double s, double level, bool is_whole) const {
+  LocalBound ahead{constants_[0] - level, constants_[1],           constants_[2],
+                   constants_[3],         std::abs(constants_[2]), std::abs(constants_[3])};
+  for (const auto& [y, frequency] : harmonics_) {
+    const auto [sine, cosine] = sine_cosine(frequency * s);
+    const double real = y.real() * cosine - y.imag() * sine;
+    const double imaginary = y.real() * sine + y.imag() * cosine;
+    const double square = frequency * frequency, size = std::abs(y);
+    ahead.value += real;
+    ahead.slope -= frequency * imaginary;
+    ahead.second -= square * real;
+    ahead.third += square * frequency * imaginary;
+    ahead.curvature += square * size;
+    ahead.third_bound += square * frequency * size;
+  }
   double sigma = 0.0, decay = 1.0;
   for (const Part& part : parts_) {
     double z = 0.0;
@@ -157,20 +177,28 @@ LocalBound FormAhead::operator()(double s) const {
       ahead.third += part.cosine[3] * c + part.sine[3] * n;
       z = decay * part.size;
     } else {
-      const auto now = advance(*part.mode, part.start, s);
+      auto now = advance(*part.mode, part.start, s);
+      z = size(*part.mode, now);
+      if (part.push.y != 0.0 || part.push.rate != 0.0) {
+        const auto more = pushed(*part.mode, part.push, s);
+        now.y += more.y;
+        now.rate += more.rate;
+        // The rate goes to its limit without turning.
+        if (part.mode->sigma > 0.0) z = std::max(std::abs(now.rate), part.size);
+      }
       const auto& form = *part.form;
       ahead.value += sign_ * (form.y[0] * now.y + form.rate[0] * now.rate);
       ahead.slope += sign_ * (form.y[1] * now.y + form.rate[1] * now.rate);
       ahead.second += sign_ * (form.y[2] * now.y + form.rate[2] * now.rate);
       ahead.third += sign_ * (form.y[3] * now.y + form.rate[3] * now.rate);
-      z = size(*part.mode, now);
     }
     ahead.curvature += part.curvature * z;
     ahead.third_bound += part.third * z;
     // The next mode, resolved, is good for two radians of it or so: is the sum of these above the
     // amplitudes of the others for one?
     const double above = ahead.value - part.faster, x = part.radian_of_next;
-    if (x > 0.0 && above > 0.0 && above + x * (ahead.slope - 0.5 * x * ahead.curvature) > 0.0) {
+    if (!is_whole && x > 0.0 && above > 0.0 &&
+        above + x * (ahead.slope - 0.5 * x * ahead.curvature) > 0.0) {
       ahead.value = above;
       ahead.whole = false;
       break;

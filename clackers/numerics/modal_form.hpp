@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -19,11 +20,10 @@ class ModalForm {
   /// `d` may be empty.
   ModalForm(const ModalSystem& system, std::span<const double> b, std::span<const double> d,
             double offset);
+  /// row . (y_1, y_2, ..., y_1', y_2', ...) + offset
+  ModalForm(const ModalSystem& system, const Eigen::VectorXd& row, double offset);
 
   double offset() const { return offset_; }
-  /// Sum over the modes of the largest |part| in the `until` seconds after `start`.
-  double amplitude(const ModalSystem& system, std::span<const ModalState> start,
-                   double until) const;
   /// How far from its value s seconds after `start` it can be by rounding alone: 4 units a term and
   /// those of the phase omega s.
   double rounding(const ModalSystem& system, std::span<const ModalState> start, double s) const;
@@ -40,6 +40,8 @@ class ModalForm {
     double bound[5];       // |f^(k)| <= bound[k] z
     double omega;
   };
+  void add(const Mode& mode, std::size_t index, double y_part, double rate_part);
+
   std::vector<Part> parts_;  // by ascending omega
   double offset_ = 0.0, growth_ = 0.0;
 };
@@ -55,12 +57,19 @@ class FormAhead {
             double sign) {
     begin(system, form, start, sign);
   }
-  /// Another flight. Allocates only for more modes than ever before.
+  /// Another flight. Allocates only for more modes than ever before. `push` of each mode as for
+  /// pushed(), or empty.
   void begin(const ModalSystem& system, const ModalForm& form, std::span<const ModalState> start,
-             double sign);
+             double sign, std::span<const ModalState> push = {});
+  /// Adds `sign` times the real part of y e^(i frequency s) to the flight.
+  void add(std::complex<double> y, double frequency) {
+    harmonics_.push_back({sign_ * y, frequency});
+  }
 
-  /// What is known of it ahead of s.
-  LocalBound operator()(double s) const;
+  /// What is known of it, less `level`, ahead of s.
+  LocalBound operator()(double s, double level = 0.0) const { return ahead(s, level, false); }
+  /// Of all modes.
+  LocalBound whole(double s) const { return ahead(s, 0.0, true); }
 
  private:
   // A mode of the flight. Where it oscillates its part of the k-th derivative is
@@ -73,11 +82,19 @@ class FormAhead {
     double faster;            // amplitudes of all parts after this one
     double radian_of_next;    // 1/omega of the next part
     const Mode* mode;         // of one that does not oscillate, with its state and its form
-    ModalState start;
+    ModalState start, push;
     const ModalForm::Part* form;
   };
+  struct Harmonic {
+    std::complex<double> y;
+    double frequency;
+  };
+  LocalBound ahead(double s, double level, bool is_whole) const;
+
   std::vector<Part> parts_;
-  double offset_ = 0.0, sign_ = 1.0, growth_ = 0.0;
+  std::vector<Harmonic> harmonics_;
+  double constants_[4];  // the offset, and what pushes add to the derivatives
+  double sign_ = 1.0, growth_ = 0.0;
 };
 
 }  // namespace clackers::numerics

@@ -66,20 +66,45 @@ TEST(ModalForm, ItsDerivativesAreThoseOfTheMotion) {
   }
 }
 
-TEST(ModalForm, AmplitudeBoundsEveryKindOfMode) {
-  // Underdamped, overdamped, free, growing, and falling from an unstable equilibrium.
-  for (const auto& [sigma, square] :
-       {std::pair{0.05, 4.0}, {3.0, 1.0}, {0.0, 0.0}, {0.4, 0.0}, {-0.1, 4.0}, {0.1, -2.0}}) {
-    using One = Eigen::Matrix<double, 1, 1>;
+// A free mode, damped or not, that a constant force pushes, beside an oscillating mode and a harmonic
+// response: values are those of the pieces, and bounds hold ahead.
+TEST(FormAhead, PushesAndHarmonicsAreWholeDerivativesWithBounds) {
+  for (const double sigma : {0.0, 0.3}) {
     const auto [system, start] =
-        flight(One(1.0), One(2.0 * sigma), One(square), One(0.4), One(-1.0));
-    const double b = 2.0;
-    const ModalForm form(system, {&b, 1}, {}, 7.0);
-    double largest = 0.0;
-    for (double s = 0.0; s <= 5.0; s += 0.01)
-      largest = std::max(largest, std::abs(b * advance(system.modes()[0], start[0], s).y));
-    EXPECT_GE(form.amplitude(system, start, 5.0), largest * (1.0 - 1e-15)) << sigma << square;
-    EXPECT_LE(form.amplitude(system, start, 5.0), 30.0 * largest) << sigma << square;
+        flight(Eigen::Matrix2d::Identity(), Eigen::Vector2d(2.0 * sigma, 0.1).asDiagonal(),
+               Eigen::Vector2d(0.0, 9.0).asDiagonal(), Eigen::Vector2d(0.4, 0.2),
+               Eigen::Vector2d(-1.0, 0.5));
+    const std::vector<ModalState> push{{0.2, 0.7}, {}};
+    const ModalForm form(system, Eigen::Vector4d(1.0, 0.5, 0.3, 0.1), 2.0);
+    const std::complex<double> y(0.3, -0.8);
+    const double frequency = 1.7;
+    FormAhead ahead;
+    ahead.begin(system, form, start, -1.0, push);
+    ahead.add(y, frequency);
+    const auto value = [&](double s) {
+      // y'' = push.rate - 2 sigma (y' - push.y), by the closed form.
+      const double e = std::exp(-2.0 * sigma * s), x = 2.0 * sigma;
+      const double gain = sigma > 0.0 ? (1.0 - e) / x : s,
+                   way = sigma > 0.0 ? (s - gain) / x : s * s / 2;
+      const double free = 0.4 + 0.2 * s - 1.0 * gain + 0.7 * way, rate = -1.0 * e + 0.7 * gain;
+      const auto other = advance(system.modes()[1], start[1], s);
+      return -(2.0 + free + 0.3 * rate + 0.5 * other.y + 0.1 * other.rate +
+               (y * std::polar(1.0, frequency * s)).real());
+    };
+    for (double s = 0.0; s < 6.0; s += 0.37) {
+      const auto now = ahead.whole(s);
+      const double h = 1e-3;
+      EXPECT_NEAR(now.value, value(s), 1e-14 * 10.0);
+      EXPECT_NEAR(now.slope, (value(s + h) - value(s - h)) / (2.0 * h), 1e-4);
+      EXPECT_NEAR(now.second, ahead.whole(s + h).slope / h - now.slope / h, 0.1);
+      EXPECT_NEAR(now.third, (ahead.whole(s + h).second - now.second) / h, 0.2);
+      for (double later = s; later < 8.0; later += 0.05) {
+        EXPECT_LE(std::abs(ahead.whole(later).second), now.curvature);
+        EXPECT_LE(std::abs(ahead.whole(later).third), now.third_bound);
+      }
+      const auto known = ahead(s);
+      EXPECT_LE(known.value, now.value + 1e-14);
+    }
   }
 }
 

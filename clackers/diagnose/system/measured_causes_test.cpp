@@ -7,7 +7,6 @@
 
 #include "clackers/diagnose/testing/histories.hpp"
 #include "clackers/diagnose/testing/method_rows.hpp"
-#include "clackers/exact/flights/event_driven_motion.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
@@ -182,24 +181,23 @@ TEST(ShiftedTime, IsOfStepsOrSecondsAndOfNoLateLoad) {
   EXPECT_FALSE(shift_by(right, 0.0, 0.0));
 }
 
-model::Trajectory rows_of(const exact::EventDrivenMotion& motion, double h) {
+model::Trajectory rows_of(const exact::PiecewiseMotion& motion, double h) {
   model::Trajectory rows;
   rows.dof = motion.dof();
   for (int n = 0; n * h <= motion.end() * (1.0 + 1e-12); ++n)
     rows.t.push_back(std::min(n * h, motion.end()));
   rows.u.resize(rows.t.size() * std::size_t(rows.dof));
   rows.v.resize(rows.u.size());
-  motion.sample(rows.t, rows.u, rows.v);
+  motion.sample(rows.t, model::Side::right, {rows.u, rows.v, {}});
   return rows;
 }
 
 TEST(MeasuredCauses, AnImpulseThatOneMassFeelsMoreKeepsNoMomentum) {
   const auto right = chain(false);
-  const auto wrong =
-      exact::EventDrivenMotion::make(right, {.impulse_factor = {1.0, 0.9, 1.0, 1.0}}, right.end);
-  ASSERT_TRUE(wrong);
+  const exact::PiecewiseMotion wrong(right, {.impulse_factor = {1.0, 0.9, 1.0, 1.0}}, right.end,
+                                     3000);
   auto files = files_of(right);
-  for (const double h : {0.02, 0.01}) files.add(rows_of(*wrong, h), h);
+  for (const double h : {0.02, 0.01}) files.add(rows_of(wrong, h), h);
   const auto found = measured_causes(files.question());
   const auto* momentum = find(found, "momentum-not-kept");
   ASSERT_NE(momentum, nullptr) << codes(found);
@@ -217,15 +215,15 @@ model::Trajectory with_restitution(const Problem& right, double h,
   auto now = right;
   double next = 0.0;
   for (int impact = 0; now.start.t < right.end; ++impact) {
-    const auto flight = *exact::EventDrivenMotion::make(now, {}, right.end);
-    const double last = flight.impacts().empty() ? right.end : flight.impacts()[0].t;
+    const exact::PiecewiseMotion flight(now, {}, right.end, 3000);
+    const double last = flight.impact_count(right.end) == 0 ? right.end : flight.impact(1).t;
     for (; next < last; next += h) {
       rows.t.push_back(next);
-      flight.sample({&next, 1}, {&rows.u.emplace_back(), 1}, {&rows.v.emplace_back(), 1});
+      const auto state = flight.at(next, model::Side::right);
+      rows.u.push_back(state.u[0]);
+      rows.v.push_back(state.v[0]);
     }
-    double u = 0.0, v = 0.0;
-    flight.sample({&last, 1}, {&u, 1}, {&v, 1});
-    const double closing = v / right.contacts[0].restitution;
+    const double closing = flight.at(last, model::Side::right).v[0] / right.contacts[0].restitution;
     now.start = {last, Eigen::VectorXd::Zero(1),
                  Eigen::VectorXd::Constant(1, restitution(impact, closing) * closing)};
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "clackers/base/error.hpp"
+
 namespace clackers::diagnose {
 
 namespace {
@@ -78,16 +80,23 @@ std::optional<std::vector<double>> simulated(const Variation& variation,
     if (!std::isfinite(one)) return std::nullopt;
     last = std::max(last, one);
   }
-  const auto motion = exact::EventDrivenMotion::make(variation.problem, variation.law, last, 3000);
-  if (!motion) return std::nullopt;
+  const auto& system = variation.problem.system;
+  if (system.add_load || system.nonlinear) return std::nullopt;
+  std::optional<exact::PiecewiseMotion> motion;
+  try {
+    motion.emplace(variation.problem, variation.law, last, 3000);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
   const auto n = std::size_t(variation.problem.dof());
   // Rows less than a rounding before the start are at the start.
   const double rounding = 1e-9 * (last - start);
   std::size_t before = 0;
   while (before < times.size() && times[before] < start - rounding) ++before;
   for (std::size_t i = before; i < times.size(); ++i) times[i] = std::max(times[i], start);
-  std::vector<double> u(times.size() * n, std::numeric_limits<double>::quiet_NaN());
-  motion->sample(std::span(times).subspan(before), std::span(u).subspan(before * n), {});
+  std::vector<double> u(times.size() * n, std::numeric_limits<double>::quiet_NaN()), v(u.size());
+  motion->sample(std::span(times).subspan(before), model::Side::right,
+                 {std::span(u).subspan(before * n), std::span(v).subspan(before * n), {}});
   return u;
 }
 

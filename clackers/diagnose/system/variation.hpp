@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "clackers/exact/flights/event_driven_motion.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/model/impact_problem.hpp"
 
 namespace clackers::diagnose {
@@ -43,7 +43,7 @@ struct Variation {
 };
 
 /// The displacements at the rows' times `t` (ascending), row-major; rows before the start are NaN.
-/// Nothing where the motion is not available.
+/// Nothing where the motion is not available, or has a load.
 std::optional<std::vector<double>> simulated(const Variation& variation, std::span<const double> t);
 
 }  // namespace clackers::diagnose

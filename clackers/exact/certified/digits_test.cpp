@@ -4,8 +4,11 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
-#include "clackers/base/error.hpp"
+#include "clackers/base/testing/refusal.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
+#include "clackers/exact/testing/taylor_simulator.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 
 namespace clackers::certified {
@@ -13,12 +16,14 @@ namespace {
 
 using exact::ExactDataPair;
 using exact::PairParameters;
+using exact::PiecewiseMotion;
 using exact::SynchronizedPair;
 using model::Side;
 
 #ifdef CLACKERS_HAS_ARB
 
 using exact::testing_oracle::Real;
+using exact::testing_oracle::TaylorSimulator;
 
 std::string code_of(const model::Motion& motion, long long digits) {
   try {
@@ -142,6 +147,104 @@ TEST(Digits, RefuseNumbersOfDigitsOutsideTheirRangeAndOtherMotions) {
   EXPECT_EQ(code_of(motion, 1), "accepted");
   EXPECT_EQ(code_of(motion, 1000), "accepted");
   EXPECT_EQ(code_of(Foreign(), 20), "no-enclosure");
+}
+
+// Three masses with coupled damping, two contacts and a load.
+model::ImpactProblem<> chain() {
+  model::ImpactProblem<> problem;
+  problem.system.mass = Eigen::Vector3d(1.0, 2.0, 0.7).asDiagonal();
+  problem.system.stiffness = Eigen::MatrixXd{{3.0, -1.0, 0.0}, {-1.0, 2.5, -0.8}, {0.0, -0.8, 9.0}};
+  problem.system.damping = Eigen::MatrixXd{{0.1, 0.0, 0.0}, {0.0, 0.3, -0.05}, {0.0, -0.05, 0.08}};
+  problem.system.add_load = model::HarmonicLoad({{0, 0.4, 1.3, 0.2}, {2, 0.3, 0.0, 0.0}});
+  problem.contacts = {model::contact_between(3, 0, 1, 0.8),
+                      {Eigen::Vector3d(0.0, 0.0, 1.0), -0.2, 0.9}};
+  problem.contacts[0].gap = -0.3;
+  problem.start = {0.0, Eigen::Vector3d(0.5, 0.0, 0.1), Eigen::Vector3d(-0.4, 0.9, -1.0)};
+  problem.end = 8.0;
+  return problem;
+}
+
+TEST(Digits, OfAProblemAreThoseOfASimulation) {
+  const auto problem = chain();
+  const PiecewiseMotion motion(problem);
+  ASSERT_GE(motion.impact_count(8.0), 5);
+  Digits digits(motion, 60);
+  TaylorSimulator simulator(problem);
+  long long k = 0;
+  const auto expect_near = [](const std::string& text, const Real& known) {
+    EXPECT_LE(abs(Real(text) - known), Real("1e-57") * (1 + abs(known))) << text;
+  };
+  for (const double t : {2.0, 4.0, 8.0}) {
+    while (const auto found = simulator.next(t)) {
+      const auto hit = digits.impact(++k);
+      expect_near(hit.t, found->t);
+      expect_near(hit.impulse, found->impulse);
+    }
+    const auto now = digits.at(t, Side::right);
+    const auto known = simulator.at(t);
+    for (std::size_t i = 0; i < 3; ++i) {
+      expect_near(now.u[i], known.u[long(i)]);
+      expect_near(now.v[i], known.v[long(i)]);
+      expect_near(now.a[i], known.a[long(i)]);
+    }
+  }
+  EXPECT_EQ(k, motion.impact_count(8.0));
+}
+
+// The closed form of a mass that meets a spring at its equilibrium: half
+// periods of two frequencies.
+TEST(Digits, OfSpringsThatCloseAndOpen) {
+  model::ImpactProblem<> problem;
+  problem.system.mass = problem.system.stiffness = Eigen::MatrixXd::Identity(1, 1);
+  problem.system.damping = Eigen::MatrixXd::Zero(1, 1);
+  problem.system.nonlinear = std::make_shared<model::OneSidedSprings>(
+      std::vector<model::Contact<>>{{Eigen::VectorXd::Ones(1), 0.0, 1.0}}, std::vector{8.0});
+  problem.start = {0.0, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
+  problem.end = 6.0;
+  const PiecewiseMotion motion(problem);
+  Digits digits(motion, 50);
+  const Real pi = boost::math::constants::pi<Real>();
+  // Closed from pi/2 to pi/2 + pi/3, then a free half period.
+  const auto at = [&](double t) { return Real(digits.at(t, Side::right).u[0]); };
+  EXPECT_LE(abs(at(2.0) + sin(3 * (2 - pi / 2)) / 3), Real("1e-49"));
+  EXPECT_LE(abs(at(4.0) - sin(4 - 5 * pi / 6)), Real("1e-49"));
+  EXPECT_LE(abs(at(6.0) + sin(3 * (6 - 11 * pi / 6)) / 3), Real("1e-49"));
+}
+
+TEST(Digits, AreRefusedWhereContactsAreHeld) {
+  auto problem = chain();
+  problem.contacts[1].restitution = 0.0;
+  problem.system.add_load = model::HarmonicLoad({{2, -4.0, 0.0, 0.0}});
+  const PiecewiseMotion motion(problem);
+  ASSERT_FALSE(motion.closed_contacts().empty());
+  Digits digits(motion, 20);
+  EXPECT_REFUSED(digits.at(8.0, Side::right), "no-enclosure", "held");
+}
+
+// After a slow impact the phase of mass 1 has an error of 1e-10; whether it meets mass 2 at the least distance of
+// them, within 2e-11, needs the state by balls.
+TEST(PiecewiseMotion, ErrorsThatLeaveAContactUndecidedAreMadeSmaller) {
+  model::ImpactProblem<> problem;
+  problem.system.mass = Eigen::MatrixXd::Identity(2, 2);
+  problem.system.stiffness = Eigen::Vector2d(1.0, 5.0).asDiagonal();
+  problem.system.damping = Eigen::MatrixXd::Zero(2, 2);
+  problem.contacts = {{Eigen::Vector2d(1.0, 0.0), 1e-10 - 1.0, 0.5}};
+  problem.start = {0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d(-1.0, -3.0)};
+  problem.end = 6.0;
+  const Eigen::Vector2d apart(1.0, -1.0);
+  const PiecewiseMotion alone(problem);
+  EXPECT_GT(alone.error_bound(4.0).v[0], 1e-11);
+  const auto slope = [&](double t) { return apart.dot(alone.at(t, Side::right).v); };
+  double lo = 2.0, hi = 2.0;
+  while (!(slope(lo) < 0.0 && slope(hi) > 0.0)) lo = std::exchange(hi, hi + 0.01);
+  for (int halving = 0; halving < 60; ++halving)
+    (slope(0.5 * (lo + hi)) < 0.0 ? lo : hi) = 0.5 * (lo + hi);
+  const double least = apart.dot(alone.at(lo, Side::right).u);
+  for (const double distance : {-2e-11, 2e-11}) {
+    problem.contacts.resize(1);
+    problem.contacts.push_back({apart, least + distance, 1.0});
+    EXPECT_EQ(PiecewiseMotion(problem).impact_count(lo + 0.01), distance > 0.0 ? 2 : 1) << distance;
+  }
 }
 
 #else

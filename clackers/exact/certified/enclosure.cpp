@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/exact/certified/flights_enclosure.hpp"
 #include "clackers/exact/certified/shaped_enclosure.hpp"
 
 namespace clackers::certified {
@@ -191,6 +192,8 @@ ImpactBalls Enclosure::impact(long long k, long bits) {
 std::unique_ptr<Enclosure> enclosure_of(const model::Motion& motion) {
   if (const auto* shaped = dynamic_cast<const exact::ShapedMotion*>(&motion))
     return std::make_unique<ShapedEnclosure>(*shaped);
+  if (const auto* flights = dynamic_cast<const exact::PiecewiseMotion*>(&motion))
+    return std::make_unique<FlightsEnclosure>(*flights);
   return std::make_unique<PairEnclosure>(Inputs(motion));
 }
 

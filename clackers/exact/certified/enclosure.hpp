@@ -5,16 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "clackers/exact/certified/ball.hpp"
+#include "clackers/exact/certified/ball_flights.hpp"
 #include "clackers/exact/certified/inputs.hpp"
 #include "clackers/model/motion.hpp"
 
 namespace clackers::certified {
-
-/// Displacement [m], velocity [m/s] and acceleration [m/s^2] of each mass.
-struct KinematicBalls {
-  std::vector<Ball> u, v, a;
-};
 
 /// One impact.
 struct ImpactBalls {
@@ -66,6 +61,8 @@ class Enclosure {
   /// At t after k flights.
   virtual KinematicBalls at_now(long long k, double t) = 0;
   virtual ImpactBalls impact_now(long long k) = 0;
+  /// The flight that holds t.
+  virtual long long flight(double t, model::Side side);
 
   Ball instant_now(long long k);
   /// eta^k exp(-sigma t)
@@ -75,7 +72,6 @@ class Enclosure {
 
  private:
   long long natural_flight(double t);
-  long long flight(double t, model::Side side);
   double nearest_double_to_instant(long long k);
 };
 

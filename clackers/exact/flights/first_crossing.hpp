@@ -47,7 +47,7 @@ inline std::optional<double> departure(const numerics::LocalBound& gap, double l
 Crossing settle(auto&& gap, auto&& error, double level, double s) {
   using enum Crossing::Status;
   const double start = s;
-  auto now = gap(s);
+  auto now = gap.whole(s);
   const double first_value = std::max(now.value, 0.0);
   const auto falls_beyond = [&](double depth) {
     const double x = 2.0 * (std::max(now.value, 0.0) + depth) / -now.slope;
@@ -59,7 +59,7 @@ Crossing settle(auto&& gap, auto&& error, double level, double s) {
   double beyond = certain_depth / certain_gap * level;
   if (!falls_beyond(beyond)) beyond = certain_depth * error(s);
   const auto root = [&](double from, double to, double at_to) {
-    const auto value = [&](double x) { return gap(x).value; };
+    const auto value = [&](double x) { return gap.whole(x).value; };
     return numerics::shrink(value, {from, first_value, to, at_to}, 0.5 * epsilon * to).b;
   };
   // Newton's step from here would change the gap by no more than a share of its error.
@@ -74,7 +74,7 @@ Crossing settle(auto&& gap, auto&& error, double level, double s) {
         const double change = -now.value / now.slope;
         s = std::max(start, s + change);
         if (std::abs(change) <= epsilon * s || s == start) break;
-        now = gap(s);
+        now = gap.whole(s);
       }
       return {certain, s, now.value, beyond / certain_depth};
     }
@@ -83,15 +83,15 @@ Crossing settle(auto&& gap, auto&& error, double level, double s) {
     before = s;
     s += now.second > 0.0 ? -now.slope / now.second
                           : std::max(-now.slope / now.curvature, epsilon * s);
-    now = gap(s);
+    now = gap.whole(s);
   }
   if (!is_least() || !std::isfinite(now.value)) return {undecided};
   if (s > before && now.slope > 0.0) {
     const double width = std::sqrt(0.01 * level / std::max(now.curvature, level));
-    const auto falls = [&](double x) { return -gap(x).slope; };
+    const auto falls = [&](double x) { return -gap.whole(x).slope; };
     if (s - before > width)
-      s = numerics::shrink(falls, {before, -gap(before).slope, s, -now.slope}, width).b;
-    now = gap(s);
+      s = numerics::shrink(falls, {before, -gap.whole(before).slope, s, -now.slope}, width).b;
+    now = gap.whole(s);
   }
   const double here = error(s);
   if (now.value <= -certain_depth * here) return {certain, root(start, s, now.value), 0.0, here};
@@ -100,20 +100,18 @@ Crossing settle(auto&& gap, auto&& error, double level, double s) {
   return {uncertain, s, now.value, here, start};
 }
 
-/// The first closing of `gap` after `from`, where it comes near to zero by `until`. `gap(s)` is a LocalBound, and all that is
-/// in it is of the gap itself; `level` is certain_gap times a bound on its error up to `until`.
+/// The first closing of `gap` after `from`, where it comes near to zero by `until`. gap(s, level) is the LocalBound of
+/// it less a level, gap.whole(s) that of which all is of the gap itself; `level` is certain_gap times a
+/// bound on its error up to `until`.
 /// Dips below `level` of a quarter of it may remain unnoticed, so nothing above 3/4 of it is
 /// passed that is not open for certain.
 Crossing first_crossing(auto&& gap, auto&& error, double level, double from, double until,
                         int most_steps) {
   using enum Crossing::Status;
-  const auto raised = [&](double s) {
-    auto now = gap(s);
-    now.value -= level;
-    return now;
-  };
+  const auto raised = [&](double s) { return gap(s, level); };
+  const auto value = [&](double s) { return gap.whole(s).value - level; };
   while (from < until) {
-    const auto now = gap(from);
+    const auto now = gap.whole(from);
     double near = from;
     if (!(now.value <= level && now.slope < 0.0)) {
       const double shortest = std::sqrt(2.0 * level / std::max(now.curvature, 1e-300));
@@ -122,13 +120,11 @@ Crossing first_crossing(auto&& gap, auto&& error, double level, double from, dou
       if (root.status == numerics::FirstRoot::Status::none) return {};
       near = root.s;
       // Its last step may have been too long for a low arc.
-      if (const auto beyond = raised(near); beyond.value < -0.5 * level) {
-        const auto value = [&](double x) { return raised(x).value; };
+      if (const double beyond = value(near); beyond < -0.5 * level) {
         const double before = std::max(from, near - shortest), at_before = value(before);
-        near = at_before > 0.0 ? numerics::shrink(value, {before, at_before, near, beyond.value},
-                                                  0.01 * shortest)
-                                     .a
-                               : before;
+        near = at_before > 0.0
+                   ? numerics::shrink(value, {before, at_before, near, beyond}, 0.01 * shortest).a
+                   : before;
       }
     }
     const auto found = settle(gap, error, level, near);

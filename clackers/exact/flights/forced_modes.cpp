@@ -20,52 +20,17 @@ using Matrix = ForcedModes::Matrix;
 using Vector = ForcedModes::Vector;
 using Complex = std::complex<double>;
 
-namespace {
-
-// Symmetric; a product such as S' K S leaves 1e-12 of the largest eigenvalue.
-void require_no_negative_eigenvalue(std::string_view who, const char* name, const Matrix& x,
-                                    const char* reason) {
-  const Vector values = numerics::symmetric_eigenvalues(x);
-  if (!(values.minCoeff() >= -1e-12 * values.cwiseAbs().maxCoeff()))
-    throw InputError(fmt::format("{}: {} has the eigenvalue {:.6g}; allowed: none below 0. {}", who,
-                                 name, values.minCoeff(), reason),
-                     "not-positive-definite");
-}
-
-// Of a unit force on a mode without stiffness, s seconds after rest: the rate, and the displacement.
-std::pair<double, double> pushed(double sigma, double s) {
-  const double x = 2.0 * sigma * s;
-  if (x > 0.5) {
-    const double rate = -std::expm1(-x) / (2.0 * sigma);
-    return {rate, (s - rate) / (2.0 * sigma)};
-  }
-  // s^2 times 1/2! - x/3! + x^2/4! - ...
-  double term = 0.5, sum = 0.0;
-  for (int k = 3; std::abs(term) > 0.25 * epsilon; ++k) {
-    sum += term;
-    term *= -x / k;
-  }
-  return {s * (1.0 - x * sum), s * s * sum};
-}
-
-}  // namespace
-
 ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view who,
                          const Matrix& basis, const Vector& offset)
     : mass_(problem.system.mass),
       damping_(problem.system.damping),
       stiffness_(problem.system.stiffness),
       offset_(offset) {
-  validate(problem);
   const auto& add_load = problem.system.add_load;
   const auto* load = add_load.target<model::HarmonicLoad>();
   if (problem.system.nonlinear || (add_load && load == nullptr))
     refuse(who, "system", "with a nonlinear force or any load", "linear, with harmonic loads", {},
            "linear-only");
-  require_no_negative_eigenvalue(who, "the stiffness matrix", stiffness_,
-                                 "The structure would not return to its rest.");
-  require_no_negative_eigenvalue(who, "the damping matrix", damping_,
-                                 "The damping would feed energy in.");
   const auto reduced = [&](const Matrix& x) {
     const Matrix y = basis.transpose() * x * basis;
     return Matrix(0.5 * (y + y.transpose()));
@@ -94,7 +59,6 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
     inverse_ = inverse;
   else
     inverse_ << inverse.leftCols(free) * (of_forces * mass_), impulse_response_ * mass_;
-  push_ = Vector::Zero(2 * free);
   const Matrix inverse_mass = basis * of_forces;
   if (load != nullptr)
     for (const auto& f : load->forces())
@@ -126,8 +90,9 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
     if (load_of_mode == 0.0 && g[j] == 0.0) continue;
     const double size = mode.omega_square + frequency * frequency;
     if (size == 0.0) {
-      push_[j] += g[j].real();
-      push_[n + j] += g[n + j].real();
+      push_.resize(std::size_t(n));
+      push_[std::size_t(j)].y += g[j].real();
+      push_[std::size_t(j)].rate += g[n + j].real();
       continue;
     }
     if (!(std::abs(dynamic) > 1e-8 * size))
@@ -198,10 +163,10 @@ Vector ForcedModes::advanced(const Vector& z, double s, double push) const {
     const auto now = numerics::advance(mode, {z[j], z[n + j]}, s);
     later[j] = now.y;
     later[n + j] = now.rate;
-    if (push == 0.0 || (push_[j] == 0.0 && push_[n + j] == 0.0)) continue;
-    const auto [rate, displacement] = pushed(mode.sigma, s);
-    later[j] += push * (push_[j] * s + push_[n + j] * displacement);
-    later[n + j] += push * push_[n + j] * rate;
+    if (push == 0.0 || push_.empty() || mode.omega > 0.0) continue;
+    const auto more = numerics::pushed(mode, push_[std::size_t(j)], s);
+    later[j] += push * more.y;
+    later[n + j] += push * more.rate;
   }
   return later;
 }
@@ -235,48 +200,45 @@ auto ForcedModes::observe(const Vector& on_u, const Vector& on_v, const Vector& 
   for (int order = 0; order < 5; ++order, row = derived(row)) seen.by_state.col(order) = row;
   seen.constant = constant + on_u.dot(offset_);
   seen.constant_size = std::abs(constant) + on_u.cwiseAbs().dot(offset_.cwiseAbs());
+  seen.form = {system_, seen.by_state.col(0), seen.constant};
   for (const auto& force : forces_) {
-    seen.direct.push_back(on_a.cast<Complex>().dot(force.acceleration) +
-                          on_load.cast<Complex>().dot(force.applied));
+    seen.response.push_back(seen.by_state.col(0).cast<Complex>().dot(force.steady) +
+                            on_a.cast<Complex>().dot(force.acceleration) +
+                            on_load.cast<Complex>().dot(force.applied));
     seen.direct_size.push_back(on_a.cwiseAbs().dot(force.acceleration.cwiseAbs()) +
                                on_load.cwiseAbs().dot(force.applied.cwiseAbs()));
   }
   return seen;
 }
 
-numerics::LocalBound ForcedModes::ahead(const Observable& seen, const Vector& free, double t,
-                                        double later, double horizon) const {
-  const auto now = advanced(free, later);
-  const auto size = sizes(now, horizon);
-  const Eigen::Vector4d of_modes = seen.by_state.leftCols(4).transpose() * now;
-  const Eigen::Vector3d pushed = seen.by_state.leftCols(3).transpose() * push_;
-  numerics::LocalBound bound;
-  bound.value = of_modes[0] + seen.constant;
-  bound.slope = of_modes[1] + pushed[0];
-  bound.second = of_modes[2] + pushed[1];
-  bound.third = of_modes[3] + pushed[2];
-  bound.curvature = this->bound(seen.by_state.col(2), size) + std::abs(pushed[1]);
-  bound.third_bound = this->bound(seen.by_state.col(3), size) + std::abs(pushed[2]);
-  for (std::size_t i = 0; i < forces_.size(); ++i) {
-    const double frequency = forces_[i].frequency, square = frequency * frequency;
-    const auto y = seen.by_state.col(0).cast<Complex>().dot(forces_[i].steady) + seen.direct[i];
-    const auto turned = y * std::polar(1.0, frequency * (t + later));
-    bound.value += turned.real();
-    bound.slope -= frequency * turned.imag();
-    bound.second -= square * turned.real();
-    bound.curvature += square * std::abs(y);
-    bound.third += square * frequency * turned.imag();
-    bound.third_bound += square * frequency * std::abs(y);
-  }
-  return bound;
+std::vector<numerics::ModalState> ForcedModes::states(const Vector& free) {
+  const Index n = free.size() / 2;
+  std::vector<numerics::ModalState> states;
+  for (Index j = 0; j < n; ++j) states.push_back({free[j], free[n + j]});
+  return states;
+}
+
+void ForcedModes::look_ahead(numerics::FormAhead& to, const Observable& seen,
+                             std::span<const numerics::ModalState> free, double t,
+                             double sign) const {
+  to.begin(system_, seen.form, free, sign, push_);
+  for (std::size_t i = 0; i < forces_.size(); ++i)
+    to.add(seen.response[i] * std::polar(1.0, forces_[i].frequency * t), forces_[i].frequency);
+}
+
+numerics::LocalBound ForcedModes::now(const Observable& seen, const Vector& free, double t) const {
+  numerics::FormAhead ahead;
+  look_ahead(ahead, seen, states(free), t);
+  return ahead.whole(0.0);
 }
 
 double ForcedModes::fourth_bound(const Observable& seen, const Vector& free, double horizon) const {
-  double most =
-      bound(seen.by_state.col(4), sizes(free, horizon)) + std::abs(seen.by_state.col(3).dot(push_));
+  double most = bound(seen.by_state.col(4), sizes(free, horizon));
+  for (std::size_t j = 0; j < push_.size(); ++j)
+    most += std::abs(seen.by_state(Index(j), 3) * push_[j].y) +
+            std::abs(seen.by_state(dof() + Index(j), 3) * push_[j].rate);
   for (std::size_t i = 0; i < forces_.size(); ++i)
-    most += std::pow(forces_[i].frequency, 4) *
-            std::abs(seen.by_state.col(0).cast<Complex>().dot(forces_[i].steady) + seen.direct[i]);
+    most += std::pow(forces_[i].frequency, 4) * std::abs(seen.response[i]);
   return most;
 }
 
@@ -298,10 +260,12 @@ ForcedModes::Sizes ForcedModes::sizes(const Vector& z, double s, double push) co
     size.y[j] = std::abs(z[j]) + s * std::abs(z[n + j]);
     if (omega > 0.0) {
       size.y[j] = std::min(size.y[j], size.rate[j] / omega);
-    } else if (push > 0.0) {
-      const double added = pushed(system_.modes()[std::size_t(j)].sigma, s).first;
-      size.rate[j] += std::abs(push_[n + j]) * added;
-      size.y[j] += s * (std::abs(push_[j]) + std::abs(push_[n + j]) * added);
+    } else if (push > 0.0 && !push_.empty()) {
+      const auto& [y, rate] = push_[std::size_t(j)];
+      const double added =
+          numerics::pushed(system_.modes()[std::size_t(j)], {0.0, std::abs(rate)}, s).rate;
+      size.rate[j] += added;
+      size.y[j] += s * (std::abs(y) + added);
     }
   }
   return size;

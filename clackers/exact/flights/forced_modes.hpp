@@ -7,7 +7,7 @@
 
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/numerics/first_root.hpp"
-#include "clackers/numerics/modal_flight.hpp"
+#include "clackers/numerics/modal_form.hpp"
 
 namespace clackers::exact {
 
@@ -24,9 +24,9 @@ class ForcedModes {
   using Matrix = Eigen::MatrixXd;
   using Vector = Eigen::VectorXd;
 
-  /// Throws InputError, `who` first, for an invalid problem, a load that is no HarmonicLoad, a nonlinear force, stiffness
-  /// or damping with a negative eigenvalue, modes of which the motion is no sum, and a force in
-  /// resonance with an undamped mode.
+  /// Throws InputError, `who` first, for a load that is no HarmonicLoad, a nonlinear force, modes of
+  /// which the motion is no sum, and a force in resonance with an undamped mode. Bounds hold where
+  /// stiffness and damping have no negative eigenvalue.
   ForcedModes(const model::ImpactProblem<>& problem, std::string_view who)
       : ForcedModes(problem, who, Matrix::Identity(problem.dof(), problem.dof()),
                     Vector::Zero(problem.dof())) {}
@@ -42,16 +42,17 @@ class ForcedModes {
     Eigen::VectorXd defect_per_time;  ///< what the response leaves of the equations, as a rate of z
   };
   /// A linear function of u, v, a and the loads, such as a gap or the force of a constraint:
-  /// constant + by_state.col(0) . z + the real parts of direct e^(i frequency t), of the whole state z.
+  /// constant + by_state.col(0) . z + the real parts of response e^(i frequency t), of the free state z.
   struct Observable {
     Matrix by_state;  ///< a column for each derivative, of order 0 to 4
     Vector size;      ///< what was added up for the first of them
     double constant = 0.0, constant_size = 0.0;
-    std::vector<std::complex<double>> direct;  ///< of each force
+    std::vector<std::complex<double>> response;  ///< to each force
     std::vector<double> direct_size;
+    numerics::ModalForm form;  ///< of the free state
     bool vanishes() const {
       return constant == 0.0 && by_state.isZero(0.0) &&
-             std::ranges::all_of(direct, [](const auto& x) { return x == 0.0; });
+             std::ranges::all_of(response, [](const auto& x) { return x == 0.0; });
     }
   };
   /// Bounds on |y| and |y'| of each mode.
@@ -82,9 +83,13 @@ class ForcedModes {
   /// on_u . u + on_v . v + on_a . a + on_load . f + constant
   Observable observe(const Vector& on_u, const Vector& on_v, const Vector& on_a,
                      const Vector& on_load, double constant) const;
-  /// `later` seconds after t, where the free state is `free`. The bounds hold for `horizon` seconds.
-  numerics::LocalBound ahead(const Observable& seen, const Vector& free, double t, double later,
-                             double horizon) const;
+  /// A free state for the next.
+  static std::vector<numerics::ModalState> states(const Vector& free);
+  /// `sign` times it, from t on, where the free state is `free`.
+  void look_ahead(numerics::FormAhead& to, const Observable& seen,
+                  std::span<const numerics::ModalState> free, double t, double sign = 1.0) const;
+  /// At t itself.
+  numerics::LocalBound now(const Observable& seen, const Vector& free, double t) const;
   /// A bound on its fourth derivative.
   double fourth_bound(const Observable& seen, const Vector& free, double horizon) const;
   /// What rounding does to it in a state of these sizes, at t.
@@ -99,8 +104,6 @@ class ForcedModes {
   /// z of the motion without the steady response s seconds later; `push` 0 without constant forces on
   /// modes that have no stiffness.
   Vector advanced(const Vector& z, double s, double push = 1.0) const;
-  /// What those forces add to dz/dt.
-  const Vector& push() const { return push_; }
   /// dz/dt of the modes alone.
   Vector rate(const Vector& z) const;
   /// The acceleration [m/s^2] in the state z, steady response included, at t.
@@ -126,7 +129,7 @@ class ForcedModes {
   std::vector<Matrix> derivatives_, derivative_sizes_;
   Matrix inverse_, impulse_response_;       // z by (u, v), and by impulses
   Matrix basis_residual_, force_residual_;  // of z: its own error, and the rate of it
-  Vector push_;
+  std::vector<numerics::ModalState> push_;  // what constant forces add to dz/dt; empty for none
   std::vector<Force> forces_;
 };
 

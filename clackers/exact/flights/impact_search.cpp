@@ -18,27 +18,29 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int most_search_steps = 1000000;
+/// Without bounds impacts less than this share of the fastest radian apart are of one instant.
+constexpr double nearly_together = 1e-10;
 
 }  // namespace
 
-double PiecewiseMotion::Builder::error_of(const ForcedModes::Observable& seen,
-                                          const MatrixXd& covariance, double s) const {
-  const auto size = modes().sizes(flight().free, s);
+double PiecewiseMotion::Builder::error_of(std::size_t i, double s) const {
+  const auto& seen = watched(i);
+  const double rounding = modes().rounding(seen, modes().sizes(flight().free, s), flight().t + s);
+  if (!m_.has_bounds_) return rounding;
   const auto row = seen.by_state.col(0);
-  return factor() * std::sqrt(row.dot(covariance * row)) +
-         modes().rounding(seen, size, flight().t + s);
+  return factor() * std::sqrt(row.dot(m_.covariance_after(flight(), s) * row)) + rounding;
 }
 
 auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
   const double span = m_.end_ - flight().t;
-  if (rests_ || !(span > 0.0)) return {};
+  if (is_over_ || !(span > 0.0)) return {};
   const double fastest =
       std::max({modes().system().fastest(), highest_force(), stiffest_, 1e-3 / span});
   std::vector<double> from(springs());
   double first = std::min(span, 16.0 / fastest);
   for (std::size_t i = 0; i < springs(); ++i)
     if (begins_[i] == Begin::by_speed)
-      if (const auto gap = ahead(row(i).seen, 0.0); gap.second < 0.0 && gap.slope > 0.0)
+      if (const auto gap = watch(i, 0.0); gap.second < 0.0 && gap.slope > 0.0)
         first = std::min(first, -8.0 * gap.slope / gap.second);
   for (double to = first, begin = 0.0;; begin = to, to = std::min(span, 2.0 * to)) {
     const auto level = levels(to);
@@ -47,7 +49,7 @@ auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
         const auto opens = opening(i, level[i]);
         if (begins_[i] == Begin::by_speed && come_to_rest(i, level[i], opens.has_value()))
           return next_contacts();
-        if (!opens) refuse_closed(i, ahead(watched(i), 0.0), level[i]);
+        if (!opens) refuse_closed(i, watch(i, 0.0), level[i]);
         from[i] = *opens;
       }
       begin = flight().unresolved.seconds;
@@ -64,15 +66,10 @@ auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
 std::optional<std::pair<std::size_t, double>> PiecewiseMotion::Builder::next_switching(
     double from, double until, double fastest) const {
   std::optional<std::pair<std::size_t, double>> first;
-  for (std::size_t i = springs(); i < contacts_.size(); ++i) {
-    const double sign = closed_[flight().regime][i] ? -1.0 : 1.0;
-    const auto signed_gap = [&](double s) {
-      auto gap = ahead(row(i).seen, s);
-      for (double* x : {&gap.value, &gap.slope, &gap.second, &gap.third}) *x *= sign;
-      return gap;
-    };
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (!is_spring(i) && !passed_[i]) continue;
     const auto root =
-        numerics::first_root(signed_gap, from, until, 1e-7 / fastest, most_search_steps);
+        numerics::first_root(ahead_[i], from, until, 1e-7 / fastest, most_search_steps);
     if (root.status == numerics::FirstRoot::Status::undecided) refuse_length();
     if (root.status != numerics::FirstRoot::Status::found) continue;
     first = {i, root.s};
@@ -90,24 +87,25 @@ void PiecewiseMotion::Builder::refuse_length() const {
 
 std::vector<double> PiecewiseMotion::Builder::levels(double s) const {
   if (springs() == 0) return {};
-  const VectorXd deviation = flight().covariance.diagonal().cwiseSqrt();
-  const auto carried = modes().sizes(deviation, s, 0.0), size = modes().sizes(flight().free, s);
-  const VectorXd local = modes().local_errors(flight().free, flight().t, s);
+  const auto size = modes().sizes(flight().free, s);
   std::vector<double> level;
+  for (std::size_t i = 0; i < springs(); ++i)
+    level.push_back(certain_gap * modes().rounding(watched(i), size, flight().t + s));
+  if (!m_.has_bounds_) return level;
+  const auto carried = modes().sizes(flight().covariance.diagonal().cwiseSqrt(), s, 0.0);
+  const VectorXd local = modes().local_errors(flight().free, flight().t, s);
   for (std::size_t i = 0; i < springs(); ++i) {
-    const auto& seen = watched(i);
-    const double error = modes().bound(seen.by_state.col(0), carried) +
-                         seen.by_state.col(0).cwiseProduct(local).norm();
-    level.push_back(certain_gap *
-                    (factor() * error + modes().rounding(seen, size, flight().t + s)));
+    const auto row = watched(i).by_state.col(0);
+    level[i] +=
+        certain_gap * factor() * (modes().bound(row, carried) + row.cwiseProduct(local).norm());
   }
   return level;
 }
 
 std::optional<double> PiecewiseMotion::Builder::opening(std::size_t i, double level) const {
   const double from = flight().unresolved.seconds;
-  if (is_held(i) && watched(i).vanishes()) return m_.end_ + 1.0;
-  auto gap = ahead(watched(i), from);
+  if (passed_[i] || (is_held(i) && watched(i).vanishes())) return m_.end_ + 1.0;
+  auto gap = watch(i, from);
   const auto begin = begins_[i];
   if (begin == Begin::open) {
     if (gap.value > level || gap.slope < 0.0) return from;
@@ -131,11 +129,9 @@ auto PiecewiseMotion::Builder::search(const std::vector<double>& level,
   std::vector<Closing> closings;
   double until = to;
   for (std::size_t i = 0; i < springs(); ++i) {
-    const auto gap = [&](double s) { return ahead(watched(i), s); };
-    const auto error = [&](double s) {
-      return error_of(watched(i), m_.covariance_after(flight(), s), s);
-    };
-    const auto found = first_crossing(gap, error, level[i], from[i], until, most_search_steps);
+    const auto error = [&](double s) { return error_of(i, s); };
+    const auto found =
+        first_crossing(ahead_[i], error, level[i], from[i], until, most_search_steps);
     const double t = flight().t + found.s;
     switch (found.status) {
       case Crossing::Status::none:
@@ -149,8 +145,9 @@ auto PiecewiseMotion::Builder::search(const std::vector<double>& level,
         until = std::min(until, found.s);
         break;
       case Crossing::Status::certain: {
-        const double rate = std::abs(gap(found.s).slope);
-        closings.push_back({i, found.s, found.error, found.error / rate + 4.0 * epsilon * t});
+        double time_error = found.error / std::abs(watch(i, found.s).slope) + 4.0 * epsilon * t;
+        if (!m_.has_bounds_) time_error += nearly_together / modes().system().fastest();
+        closings.push_back({i, found.s, found.error, time_error});
         until = std::min(until, closings.back().last());
       }
     }
@@ -158,12 +155,11 @@ auto PiecewiseMotion::Builder::search(const std::vector<double>& level,
   // Those up to `to` at most; the window that follows has the others.
   std::erase_if(closings, [&](const Closing& c) { return c.s > to; });
   std::ranges::stable_sort(closings, {}, &Closing::s);
-  if (closings.size() > 1)
+  if (closings.size() > 1 && m_.has_bounds_)
     for (Closing& closing : closings) {
       if (closing.is_soft) continue;
       const double before = closing.gap_error;
-      closing.gap_error =
-          error_of(watched(closing.contact), m_.covariance_after(flight(), closing.s), closing.s);
+      closing.gap_error = error_of(closing.contact, closing.s);
       closing.time_error *= closing.gap_error / before;
       closing.time_error += 4.0 * epsilon * (flight().t + closing.s);
     }
@@ -174,10 +170,10 @@ auto PiecewiseMotion::Builder::search(const std::vector<double>& level,
 auto PiecewiseMotion::Builder::soft_landing(std::size_t i, const Crossing& found) const -> Closing {
   double open = found.near, near = found.s;
   const double level = 2.0 * certain_gap * found.error;
-  if (ahead(row(i).seen, open).value <= level) near = open;
+  if (watch(i, open).value <= level) near = open;
   for (int halving = 0; halving < 60 && near > open; ++halving) {
     const double middle = 0.5 * (open + near);
-    (ahead(row(i).seen, middle).value > level ? open : near) = middle;
+    (watch(i, middle).value > level ? open : near) = middle;
   }
   return {i, near, found.error, found.s - near, true};
 }

@@ -33,7 +33,7 @@ auto PiecewiseMotion::Builder::closing_first(const std::vector<Closing>& closing
                          is_impact(first) && is_impact(next);
     if (acts != together.end() &&
         (first.is_soft || next.is_soft || is_held(first.contact) != is_held(next.contact) ||
-         !close_together(problem_, acts->contact, next.contact)))
+         (m_.has_bounds_ && !close_together(problem_, acts->contact, next.contact))))
       throw InputError(
           fmt::format("{}: contacts {} and {} close {:.3g} s apart near t = {:.9g} s, the error of "
                       "that is {:.3g} s, and the first impact changes the second; allowed: impacts "
@@ -59,6 +59,8 @@ void PiecewiseMotion::Builder::happen(const std::vector<Closing>& closings) {
     land(closings.front());
   else if (is_held(closings.front().contact))
     release(closings);
+  else if (departs())
+    depart(closings.front());
   else
     collide(closings);
 }
@@ -67,8 +69,9 @@ double PiecewiseMotion::Builder::deviation(const State& state, const VectorXd& r
   double size = row.cwiseAbs().dot(state.z.cwiseAbs());
   for (const auto& force : m_.regimes_[state.regime].forces())
     size += (1.0 + force.frequency * state.t) * row.cwiseAbs().dot(force.steady.cwiseAbs());
-  return factor() * std::sqrt(row.dot(state.covariance * row)) +
-         epsilon * double(m_.dof() + 4) * size;
+  const double rounding = epsilon * double(m_.dof() + 4) * size;
+  return m_.has_bounds_ ? factor() * std::sqrt(row.dot(state.covariance * row)) + rounding
+                        : rounding;
 }
 
 void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
@@ -80,12 +83,12 @@ void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
   State state = seen_in(base, before);
   auto closed = held(now);
   VectorXd q = VectorXd::Zero(Index(springs())), shared = VectorXd::Zero(state.z.size());
-  for (const auto i : closed) shared -= ahead(*m_.forces_[now][i], s).value * rows[i].impulse;
+  for (const auto i : closed) shared -= watch(i, s).value * rows[i].impulse;
   // Terms of second order over those of first order.
   double nonlinear = 0.0;
   for (const auto& closing : closings) {
     closed.push_back(closing.contact);
-    const auto gap = ahead(row(closing.contact).seen, s);
+    const auto gap = watch(closing.contact, s);
     const double delay = closing.gap_error / gap.slope;
     nonlinear +=
         std::abs(delay / gap.slope) * (std::abs(gap.second) + gap.third_bound * std::abs(delay));
@@ -97,11 +100,12 @@ void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
   State after = state;
   for (const auto i : closed) after.z += rows[i].impulse * impulses[Index(i)];
   const auto carry = [&](const VectorXd& more) {
-    MatrixXd saltation = MatrixXd::Identity(state.z.size(), state.z.size());
-    VectorXd time_error = VectorXd::Zero(state.z.size());
-    add_saltation(base, closings, impulses, state.z, a_before, more, saltation, time_error);
+    if (!m_.has_bounds_) return;
+    auto [left, right, time_error] = saltation(base, closings, impulses, state.z, a_before, more);
     time_error *= 4.0 * epsilon * std::max(t, s);
-    after.covariance = saltation * state.covariance * saltation.transpose();
+    // Side after side, so that rounding is that of what is left.
+    after.covariance = state.covariance + left * (right.transpose() * state.covariance);
+    after.covariance += (after.covariance * right).eval() * left.transpose();
     after.covariance *= std::pow(1.0 + 4.0 * nonlinear, 2);
     after.covariance.diagonal() += time_error.cwiseAbs2();
   };
@@ -113,20 +117,50 @@ void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
   if (at_rest(free.displacement(after.z), free.velocity(after.z), modes().velocity(before.z))) {
     begin(std::move(after));
     m_.flights_.back().free.setZero();
-    rests_ = true;
+    is_over_ = true;
     return;
   }
   const auto after_rest = staying(closed, impulses, after);
   const auto next = resting(after, after_rest);
   if (next != base) {
     const auto seen = seen_in(next, after);
-    const VectorXd steady = m_.regimes_[next].steady(t);
+    const VectorXd of_free = seen.z - m_.regimes_[next].steady(t);
     for (const auto i : held(next))
-      shared += m_.regimes_[next].ahead(*m_.forces_[next][i], seen.z - steady, t, 0.0, 0.0).value *
-                rows[i].impulse;
+      shared += m_.regimes_[next].now(*m_.forces_[next][i], of_free, t).value * rows[i].impulse;
     carry(shared);
   }
-  begin(seen_in(next, after));
+  begin(seen_in(after_impact(next), after));
+}
+
+void PiecewiseMotion::Builder::depart(const Closing& closing) {
+  const auto i = closing.contact;
+  double t = flight().t + closing.s;
+  if (law_.grid > 0.0) {
+    // A contact within a rounding of a grid time acts there.
+    const double start = problem_.start.t;
+    t = std::max(t, start + law_.grid * std::ceil((t - start) / law_.grid - 1e-9));
+    if (t > m_.end_) {
+      is_over_ = true;
+      return;
+    }
+  }
+  const auto& row = this->row(i);
+  State state{flight().regime, t, m_.total(flight(), t), {}};
+  if (const double rate = row.rate().dot(state.z); rate < 0.0) {
+    const int count = int(m_.hits_.size()) + 1;
+    double impulse = -(1.0 + contacts_[i].restitution) * rate / delassus(state.regime, i, i);
+    if (count == law_.missed) impulse = 0.0;
+    if (count == law_.doubled) impulse *= 2.0;
+    VectorXd direction = contacts_[i].direction;
+    if (!law_.impulse_factor.empty())
+      direction.array() *= Eigen::Map<const Eigen::ArrayXd>(law_.impulse_factor.data(), m_.dof());
+    state.z += impulse * modes().impulse(direction);
+    m_.hits_.push_back({t, 0.0, impulse, int(i), m_.flights_.size() - 1});
+  }
+  passed_[i] =
+      row.rate().dot(state.z) < 0.0 || (law_.grid > 0.0 && watch(i, t - flight().t).value < 0.0);
+  opens_[i] = Begin::by_speed;
+  begin(seen_in(after_impact(state.regime), state));
 }
 
 std::vector<std::size_t> PiecewiseMotion::Builder::staying(const std::vector<std::size_t>& closed,
@@ -191,11 +225,10 @@ VectorXd PiecewiseMotion::Builder::solve(std::size_t regime, const VectorXd& q,
   return values;
 }
 
-void PiecewiseMotion::Builder::add_saltation(std::size_t regime,
-                                             const std::vector<Closing>& closings,
-                                             const VectorXd& impulses, const VectorXd& z,
-                                             const VectorXd& a_before, VectorXd shared,
-                                             MatrixXd& saltation, VectorXd& time_error) const {
+auto PiecewiseMotion::Builder::saltation(std::size_t regime, const std::vector<Closing>& closings,
+                                         const VectorXd& impulses, const VectorXd& z,
+                                         const VectorXd& a_before, VectorXd shared) const
+    -> Saltation {
   const auto& rows = rows_[regime];
   std::vector<std::size_t> active;
   for (std::size_t i = 0; i < springs(); ++i)
@@ -218,13 +251,18 @@ void PiecewiseMotion::Builder::add_saltation(std::size_t regime,
       law.col(c) *= 1.0 + problem_.contacts[i].restitution;
   rates = law * rates;  // -impulses by z
   pressed = law * pressed;
+  Saltation found{MatrixXd::Zero(z.size(), 2 * count + 1), MatrixXd::Zero(z.size(), 2 * count + 1),
+                  VectorXd::Zero(z.size())};
+  Index column = count;
   const auto add = [&](std::size_t contact, const VectorXd& jump) {
-    saltation += jump * (rows[contact].gap().transpose() / rows[contact].rate().dot(z));
-    time_error += jump.cwiseAbs();
+    found.left.col(column) = jump;
+    found.right.col(column++) = rows[contact].gap() / rows[contact].rate().dot(z);
+    found.time_error += jump.cwiseAbs();
   };
   for (Index c = 0; c < count; ++c) {
     const auto i = active[std::size_t(c)];
-    saltation -= rows[i].impulse * rates.row(c);
+    found.left.col(c) = -rows[i].impulse;
+    found.right.col(c) = rates.row(c).transpose();
     const VectorXd jump = impulses[Index(i)] * m_.regimes_[regime].rate(rows[i].impulse) +
                           pressed[c] * rows[i].impulse;
     if (closes(i))
@@ -233,6 +271,7 @@ void PiecewiseMotion::Builder::add_saltation(std::size_t regime,
       shared += jump;
   }
   if (!shared.isZero(0.0)) add(closings.front().contact, shared);
+  return found;
 }
 
 }  // namespace clackers::exact

@@ -10,6 +10,11 @@
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
+
+#ifdef CLACKERS_HAS_ARB
+#include "clackers/exact/certified/flights_enclosure.hpp"
+#endif
 
 namespace clackers::exact {
 
@@ -19,13 +24,25 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr std::size_t most_flights = 100000;
 constexpr double most_bytes = 2e9;
+
+// Symmetric; a product such as S' K S leaves 1e-12 of the largest eigenvalue.
+void require_no_negative_eigenvalue(std::string_view who, const char* name, const MatrixXd& x,
+                                    const char* reason) {
+  const VectorXd values = numerics::symmetric_eigenvalues(x);
+  if (!(values.minCoeff() >= -1e-12 * values.cwiseAbs().maxCoeff()))
+    throw InputError(fmt::format("{}: {} has the eigenvalue {:.6g}; allowed: none below 0. {}", who,
+                                 name, values.minCoeff(), reason),
+                     "not-positive-definite");
+}
 
 }  // namespace
 
-PiecewiseMotion::Builder::Builder(const model::ImpactProblem<>& problem, PiecewiseMotion& motion)
+PiecewiseMotion::Builder::Builder(const model::ImpactProblem<>& problem, const ImpactLaw& law,
+                                  std::size_t most_flights, PiecewiseMotion& motion)
     : problem_(problem),
+      law_(law),
+      most_flights_(most_flights),
       m_(motion),
       lcp_(problem.contacts.size()),
       contacts_(problem.contacts),
@@ -34,23 +51,58 @@ PiecewiseMotion::Builder::Builder(const model::ImpactProblem<>& problem, Piecewi
     contacts_.insert(contacts_.end(), springs->contacts().begin(), springs->contacts().end());
     stiffnesses_ = springs->stiffnesses();
   }
+  passed_.resize(springs());
+  ahead_.resize(contacts_.size());
 }
 
 void PiecewiseMotion::Builder::build() {
   start();
   for (;;) {
-    const auto closings = next_contacts();
+    const auto closings = sharp_closings();
     if (switching_)
       change_regime();
     else if (!closings.empty())
-      happen(closing_first(closings));
+      happen(closings);
     else
       return;
   }
 }
 
+auto PiecewiseMotion::Builder::sharp_closings() -> std::vector<Closing> {
+  try {
+    const auto closings = next_contacts();
+    return closings.empty() ? closings : closing_first(closings);
+  } catch (const InputError& error) {
+    if (error.code() != Code("not-admissible") || !sharpen()) throw;
+    return sharp_closings();
+  }
+}
+
+bool PiecewiseMotion::Builder::sharpen() {
+#ifdef CLACKERS_HAS_ARB
+  // Of more masses it would take minutes.
+  constexpr int most_masses = 8;
+  const auto now = m_.flights_.size() - 1;
+  if (!m_.has_bounds_ || now == 0 || sharp_ == now || m_.dof() > most_masses) return false;
+  if (!balls_) balls_ = std::make_shared<certified::FlightsEnclosure>(m_);
+  const auto exact = balls_->doubles(now, flight().t);
+  if (!exact) return false;
+  sharp_ = now;
+  switching_.reset();
+  State state{flight().regime, flight().t, modes().state(exact->first, exact->second),
+              MatrixXd::Zero(2 * modes().dof(), 2 * modes().dof())};
+  m_.flights_.pop_back();
+  opens_ = begins_;
+  begin(std::move(state));
+  m_.flights_.back().covariance = m_.covariance_after(flight(), 0.0);
+  return true;
+#else
+  return false;
+#endif
+}
+
 void PiecewiseMotion::Builder::start() {
-  std::vector<bool> closed(contacts_.size());
+  std::vector<bool> closed(contacts_.size() + 1);
   regime(closed);  // is checked first
   for (std::size_t i = springs(); i < contacts_.size(); ++i) {
     const auto& contact = contacts_[i];
@@ -61,7 +113,7 @@ void PiecewiseMotion::Builder::start() {
                          std::sqrt(stiffnesses_[i - springs()] * contact.direction.dot(response)));
   }
   const auto n = m_.dof();
-  State state{regime(closed), 0.0, {}, MatrixXd::Zero(2 * n, 2 * n)};
+  State state{regime(closed), problem_.start.t, {}, MatrixXd::Zero(2 * n, 2 * n)};
   const auto& modes = m_.regimes_[state.regime];
   state.z = modes.state(problem_.start.u, problem_.start.v);
   begin(state);
@@ -80,9 +132,8 @@ void PiecewiseMotion::Builder::start() {
   }
   const auto next = resting(state, touching);
   m_.flights_.clear();
-  const MatrixXd map = change(state.regime, next);
-  begin({next, 0.0, m_.regimes_[next].state(problem_.start.u, problem_.start.v),
-         map * state.covariance * map.transpose()});
+  begin({next, state.t, m_.regimes_[next].state(problem_.start.u, problem_.start.v),
+         mapped(change(state.regime, next), state.covariance)});
 }
 
 std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
@@ -94,7 +145,8 @@ std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
   if (const auto* load = problem_.system.add_load.target<model::HarmonicLoad>())
     forces = load->forces();
   std::vector<std::size_t> held;
-  for (std::size_t j = 0; j < closed.size(); ++j) {
+  if (closed.back()) structure.system.damping *= law_.damping_after_impact;
+  for (std::size_t j = 0; j < contacts_.size(); ++j) {
     if (!closed[j]) continue;
     if (j < springs()) {
       held.push_back(j);
@@ -186,6 +238,13 @@ std::size_t PiecewiseMotion::Builder::with_held(std::size_t regime,
   return this->regime(closed);
 }
 
+std::size_t PiecewiseMotion::Builder::after_impact(std::size_t regime) {
+  if (law_.damping_after_impact == 1.0) return regime;
+  auto closed = closed_[regime];
+  closed.back() = true;
+  return this->regime(closed);
+}
+
 MatrixXd PiecewiseMotion::Builder::change(std::size_t from, std::size_t to) const {
   const auto &before = m_.regimes_[from], &after = m_.regimes_[to];
   if (from == to) return MatrixXd::Identity(2 * before.dof(), 2 * before.dof());
@@ -198,14 +257,19 @@ MatrixXd PiecewiseMotion::Builder::change(std::size_t from, std::size_t to) cons
 void PiecewiseMotion::Builder::change_regime() {
   const auto [contact, s] = *std::exchange(switching_, std::nullopt);
   const auto now = flight().regime;
+  const double t = flight().t + s;
+  State state{now, t, m_.total(flight(), t), m_.covariance_after(flight(), s)};
+  if (!is_spring(contact)) {
+    passed_[contact] = false;
+    opens_[contact] = Begin::by_speed;
+    return begin(std::move(state));
+  }
+  const double time_error =
+      error_of(contact, s) / std::abs(watch(contact, s).slope) + 4.0 * epsilon * t;
+  m_.flights_.back().switches = Event{{t - time_error, t + time_error}, {contact}};
   auto closed = closed_[now];
   closed[contact].flip();
-  const auto next = regime(closed);
-  const double t = flight().t + s;
-  const VectorXd before = m_.total(flight(), t);
-  const MatrixXd map = change(now, next);
-  begin({next, t, m_.regimes_[next].state(modes().displacement(before), modes().velocity(before)),
-         map * m_.covariance_after(flight(), s) * map.transpose()});
+  begin(seen_in(regime(closed), state));
   m_.flights_.back().covariance = m_.covariance_after(flight(), 0.0);
   if (closed[contact]) m_.spring_contacts_.push_back(t);
 }
@@ -213,12 +277,12 @@ void PiecewiseMotion::Builder::change_regime() {
 void PiecewiseMotion::Builder::begin(State state) {
   auto& [regime, t, z, covariance] = state;
   const double bytes = 8.0 * double(covariance.size()) * double(m_.flights_.size() + 1);
-  if (m_.flights_.size() >= most_flights || bytes > most_bytes)
+  if (m_.flights_.size() >= most_flights_ || bytes > most_bytes)
     throw InputError(
         fmt::format(
-            "{}: {} impacts up to t = {:.6g} s, and {:.2g} GB for their errors; allowed: 1e5 "
+            "{}: {} impacts up to t = {:.6g} s, and {:.2g} GB for their errors; allowed: {:g} "
             "impacts and 2 GB. Impacts may accumulate there; end the run earlier.",
-            m_.who_, m_.flights_.size(), t, bytes * 1e-9),
+            m_.who_, m_.flights_.size(), t, bytes * 1e-9, double(most_flights_)),
         "out-of-memory");
   for (std::size_t i = 0; i < springs(); ++i) {
     const auto now = std::ranges::find_if(
@@ -234,12 +298,21 @@ void PiecewiseMotion::Builder::begin(State state) {
   begins_ = std::exchange(opens_, std::vector<Begin>(springs(), Begin::open));
   for (std::size_t i = 0; i < springs(); ++i)
     if (is_held(i)) begins_[i] = Begin::open;
+  const auto states = ForcedModes::states(flight().free);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const bool is_behind = is_spring(i) ? closed_[flight().regime][i] : passed_[i];
+    modes().look_ahead(ahead_[i], watched(i), states, t, is_behind ? -1.0 : 1.0);
+  }
 }
 
 PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, std::string_view who)
-    : who_(who), end_(problem.end) {
+    : who_(who), problem_(problem), end_(problem.end) {
   validate(problem);
   if (problem.start.t != 0.0) refuse(who, "start", problem.start.t, "t = 0");
+  require_no_negative_eigenvalue(who, "the stiffness matrix", problem.system.stiffness,
+                                 "The structure would not return to its rest.");
+  require_no_negative_eigenvalue(who, "the damping matrix", problem.system.damping,
+                                 "The damping would feed energy in.");
   const auto& contacts = problem.contacts;
   for (std::size_t i = 0; i < contacts.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -251,7 +324,19 @@ PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, std::str
                         who, j + 1, i + 1),
             "redundant-contacts");
     }
-  Builder(problem, *this).build();
+  Builder(problem, {}, 100000, *this).build();
+}
+
+PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, const ImpactLaw& law,
+                                 double until, int most_impacts)
+    : who_("event-driven motion"), problem_(problem), end_(until), has_bounds_(false) {
+  for (const auto& contact : problem.contacts) {
+    const double gap = contact.gap_at(problem.start.u);
+    const double size = contact.direction.cwiseAbs().dot(problem.start.u.cwiseAbs());
+    if (!(gap >= -1e-12 * (size + std::abs(contact.gap))))
+      refuse(who_, "gap", gap, "no contact violated at the start");
+  }
+  Builder(problem, law, std::size_t(most_impacts) + 1, *this).build();
 }
 
 model::ImpactProblem<> with_springs(model::ImpactProblem<> problem, double stiffness) {

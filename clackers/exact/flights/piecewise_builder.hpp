@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,6 +11,10 @@
 #include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/numerics/first_root.hpp"
 #include "clackers/numerics/lcp.hpp"
+
+namespace clackers::certified {
+class FlightsEnclosure;
+}
 
 namespace clackers::exact {
 
@@ -21,8 +26,9 @@ class PiecewiseMotion::Builder {
   using VectorXd = Eigen::VectorXd;
 
  public:
-  /// Both outlive it.
-  Builder(const model::ImpactProblem<>& problem, PiecewiseMotion& motion);
+  /// All outlive it.
+  Builder(const model::ImpactProblem<>& problem, const ImpactLaw& law, std::size_t most_flights,
+          PiecewiseMotion& motion);
 
   void build();
 
@@ -58,7 +64,8 @@ class PiecewiseMotion::Builder {
   const Flight& flight() const { return m_.flights_.back(); }
   const ForcedModes& modes() const { return m_.modes(flight()); }
   const Row& row(std::size_t i) const { return rows_[flight().regime][i]; }
-  bool is_held(std::size_t i) const { return closed_[flight().regime][i]; }
+  bool is_spring(std::size_t i) const { return i >= springs(); }
+  bool is_held(std::size_t i) const { return !is_spring(i) && closed_[flight().regime][i]; }
   /// What must not become negative: the gap of an open contact, the force of a held one.
   const ForcedModes::Observable& watched(std::size_t i) const {
     return is_held(i) ? *m_.forces_[flight().regime][i] : row(i).seen;
@@ -70,8 +77,10 @@ class PiecewiseMotion::Builder {
     return rows_[regime][i].rate().dot(rows_[regime][j].impulse);
   }
 
-  /// The structure with these contacts held and these springs closed.
+  /// The structure with these contacts held and these springs closed; the last entry is for what an
+  /// ImpactLaw changes after the first impact.
   std::size_t regime(const std::vector<bool>& closed);
+  std::size_t after_impact(std::size_t regime);
   std::size_t with_held(std::size_t regime, const std::vector<std::size_t>& contacts, bool held);
   std::vector<std::size_t> held(std::size_t regime) const;
   /// Of held contacts the last are the coordinates u = offset + basis q, and the forces that the
@@ -84,13 +93,21 @@ class PiecewiseMotion::Builder {
   /// A spring closes or opens. Displacements, velocities and forces are continuous.
   void change_regime();
   MatrixXd change(std::size_t from, std::size_t to) const;
+  MatrixXd mapped(const MatrixXd& map, const MatrixXd& covariance) const {
+    return m_.has_bounds_ ? MatrixXd(map * covariance * map.transpose()) : MatrixXd();
+  }
   void start();
   void begin(State state);
+  /// Begins the flight again from its state by balls, whose error is that of rounding it. False where
+  /// this was done, or is not possible.
+  bool sharpen();
+  /// What closes first, with a sharper state where the error does not show it.
+  std::vector<Closing> sharp_closings();
 
-  numerics::LocalBound ahead(const ForcedModes::Observable& seen, double s) const {
-    return modes().ahead(seen, flight().free, flight().t, s, m_.end_);
-  }
-  double error_of(const ForcedModes::Observable& seen, const MatrixXd& covariance, double s) const;
+  /// What is watched, of springs and of contacts that were passed the distance from coming back.
+  numerics::LocalBound watch(std::size_t i, double s) const { return ahead_[i].whole(s); }
+  /// A bound on the error of what is watched of contact i, s seconds into the flight.
+  double error_of(std::size_t i, double s) const;
   /// The flight is searched in windows, each twice as long as the one before, so that the error of
   /// gaps is bounded by about what it is.
   std::vector<Closing> next_contacts();
@@ -129,13 +146,23 @@ class PiecewiseMotion::Builder {
   /// p >= 0 with w = q + W p >= 0, one of each pair 0, of these contacts.
   VectorXd solve(std::size_t regime, const VectorXd& q, const std::vector<std::size_t>& contacts,
                  double t);
-  /// S = R + sum over contacts of g_c n_c'/(n_c . f-): contact c, whose gap a perturbation changes
+  /// An impact that departs from Newton's law.
+  void depart(const Closing& closing);
+  bool departs() const {
+    return law_.missed > 0 || law_.doubled > 0 || law_.grid > 0.0 || !law_.impulse_factor.empty();
+  }
+  /// What an impact does to errors, 1 + left right', and to those of its time.
+  struct Saltation {
+    MatrixXd left, right;
+    VectorXd time_error;
+  };
+  /// R + sum over contacts of g_c n_c'/(n_c . f-): contact c, whose gap a perturbation changes
   /// by n_c . dx, comes that over its gap rate earlier, and g_c is its part of f+ - R f-. Of
   /// contacts that close together this holds while they stay together, or do not act on each other.
   /// `shared` is what contacts that were closed before, or are after, add to the parts.
-  void add_saltation(std::size_t regime, const std::vector<Closing>& closings,
-                     const VectorXd& impulses, const VectorXd& z, const VectorXd& a_before,
-                     VectorXd shared, MatrixXd& saltation, VectorXd& time_error) const;
+  Saltation saltation(std::size_t regime, const std::vector<Closing>& closings,
+                      const VectorXd& impulses, const VectorXd& z, const VectorXd& a_before,
+                      VectorXd shared) const;
 
   /// A bound on the error of row . z, for a state as `state`.
   double deviation(const State& state, const VectorXd& row) const;
@@ -165,17 +192,23 @@ class PiecewiseMotion::Builder {
   std::optional<Unresolved> left_out(const Bounce& bounce, const State& free, State& held) const;
 
   const model::ImpactProblem<>& problem_;
+  const ImpactLaw& law_;
+  const std::size_t most_flights_;
   PiecewiseMotion& m_;
   numerics::LcpSolver lcp_;
   std::vector<model::Contact<>> contacts_;  // those of the problem, then springs
   std::vector<double> stiffnesses_;         // of the springs
   std::vector<std::vector<bool>> closed_;   // of each regime
+  std::vector<bool> passed_;                // contacts that an impact left without effect
+  std::vector<numerics::FormAhead> ahead_;  // of each contact in this flight
   std::deque<std::vector<Row>> rows_;       // of each regime
   std::optional<std::pair<std::size_t, double>> switching_;
   double stiffest_ = 0.0;              // frequency of a spring and the masses that it joins
   std::vector<Begin> begins_, opens_;  // of this flight, of the next
-  bool rests_ = false;
-  std::string no_rest_;  // why impacts that accumulate were not seen to end in rest
+  std::optional<std::size_t> sharp_;   // the last flight that was begun again
+  std::shared_ptr<certified::FlightsEnclosure> balls_;
+  bool is_over_ = false;  // nothing collides any more
+  std::string no_rest_;   // why impacts that accumulate were not seen to end in rest
 };
 
 }  // namespace clackers::exact

@@ -8,6 +8,7 @@
 
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/exact/flights/simultaneity.hpp"
 
 namespace clackers::exact {
 
@@ -28,6 +29,23 @@ std::size_t PiecewiseMotion::flight_at(double t, Side side) const {
   return after == flights_.begin() ? 0 : std::size_t(after - flights_.begin()) - 1;
 }
 
+auto PiecewiseMotion::event(std::size_t flight) const -> std::optional<Event> {
+  if (flight + 1 >= flights_.size() || std::ranges::any_of(closed_, [&](const auto& closed) {
+        return closed.begins.lo <= flights_[flight + 1].t;
+      }))
+    return std::nullopt;
+  if (flights_[flight].switches) return flights_[flight].switches;
+  std::optional<Event> event;
+  for (const auto& hit : std::ranges::equal_range(hits_, flight, {}, &Hit::flight)) {
+    if (!(hit.impulse > 0.0)) continue;
+    if (!event) event = Event{{hit.t - hit.time_error, hit.t + hit.time_error}, {}};
+    for (const auto other : event->contacts)
+      if (!close_together(problem_, other, std::size_t(hit.contact))) return std::nullopt;
+    event->contacts.push_back(std::size_t(hit.contact));
+  }
+  return event;
+}
+
 void PiecewiseMotion::sample(std::span<const double> times, Side side,
                              model::SampleBuffers out) const {
   const auto n = std::size_t(dof());
@@ -36,16 +54,18 @@ void PiecewiseMotion::sample(std::span<const double> times, Side side,
     const auto& flight = flights_[flight_at(times[i], side)];
     const auto& modes = this->modes(flight);
     const VectorXd now = total(flight, times[i]);
-    const auto put = [&](std::span<double> to, const VectorXd& x) {
-      Eigen::Map<VectorXd>(to.data() + i * n, dof()) = x;
+    const auto at = [&](std::span<double> to) {
+      return Eigen::Map<VectorXd>(to.data() + i * n, dof());
     };
-    put(out.u, modes.displacement(now));
-    put(out.v, modes.velocity(now));
-    if (!out.a.empty()) put(out.a, modes.acceleration(now, times[i]));
+    at(out.u) = modes.offset();
+    at(out.u).noalias() += modes.derivative(0) * now;
+    at(out.v).noalias() = modes.derivative(1) * now;
+    if (!out.a.empty()) at(out.a) = modes.acceleration(now, times[i]);
   }
 }
 
 MatrixXd PiecewiseMotion::covariance_after(const Flight& flight, double s) const {
+  if (!has_bounds_) return {};
   MatrixXd both = modes(flight).carried(flight.covariance, s);
   both.diagonal() += modes(flight).local_errors(flight.free, flight.t, s).cwiseAbs2();
   return both;
@@ -59,7 +79,9 @@ double PiecewiseMotion::factor(std::size_t flight) const {
 
 Kinematics PiecewiseMotion::error_bound(double t) const {
   const Index n = dof();
-  Kinematics bound{VectorXd::Zero(n), VectorXd::Zero(n), VectorXd::Zero(n)}, apart = bound;
+  const VectorXd least = VectorXd::Constant(n, has_bounds_ ? 0.0 : infinity);
+  Kinematics bound{least, least, least}, apart = bound;
+  if (!has_bounds_) return bound;
   const auto last = flight_at(t, Side::right);
   for (auto k = flight_at(t, Side::left); k <= last; ++k) {
     const auto& flight = flights_[k];
@@ -127,7 +149,7 @@ VectorXd PiecewiseMotion::contact_forces(double t, Side side) const {
   for (std::size_t i = 0; i < forces.size(); ++i)
     if (forces[i])
       values[Index(i)] =
-          modes(flight).ahead(*forces[i], flight.free, flight.t, t - flight.t, 0.0).value;
+          modes(flight).now(*forces[i], modes(flight).advanced(flight.free, t - flight.t), t).value;
   return values;
 }
 

@@ -11,6 +11,21 @@
 
 namespace clackers::exact {
 
+/// How impacts depart from Newton's law at the instant of contact. The default is the law itself.
+struct ImpactLaw {
+  /// The impulse is multiplied by these, one factor a mass; empty for 1. A factor that differs from
+  /// mass to mass does not conserve momentum.
+  std::vector<double> impulse_factor{};
+  /// Impact that has no effect, and the one whose impulse acts twice; from 1, 0 for none. After
+  /// a missed one masses pass through each other and come back without an impact.
+  int missed = 0, doubled = 0;
+  /// Impacts act at the first time start + n grid [s] that is not before the contact, with the
+  /// velocities of that time; 0 for the instant of contact.
+  double grid = 0.0;
+  /// Damping is multiplied by this after the first impact.
+  double damping_after_impact = 1.0;
+};
+
 /// The motion of any linear structure with contacts, flight by flight: between impacts modes of
 /// free vibration and the steady response to harmonic forces, impacts located by steps that pass no
 /// contact (first_crossing.hpp). Contacts that close together (simultaneity.hpp) obey Newton's law
@@ -40,6 +55,12 @@ class PiecewiseMotion : public model::Motion {
   /// errors.
   explicit PiecewiseMotion(const model::ImpactProblem<>& problem,
                            std::string_view who = "piecewise");
+  /// The motion in double precision from start.t on, whatever the error: what it would not let be
+  /// seen is decided by rounding, and error_bound() is infinite. Restitution may be above 1, and damping
+  /// below 0; impacts that depart from Newton's law come one after another. Throws InputError as above for what is not
+  /// available, a contact violated at the start and more than `most_impacts` flights.
+  PiecewiseMotion(const model::ImpactProblem<>& problem, const ImpactLaw& law, double until,
+                  int most_impacts);
 
   int dof() const override { return int(regimes_[0].dof()); }
   double end() const override { return end_; }
@@ -54,6 +75,22 @@ class PiecewiseMotion : public model::Motion {
   model::MotionImpact impact(long long index) const override;
   std::vector<model::ClosedContact> closed_contacts() const override { return closed_; }
   Eigen::VectorXd contact_forces(double t, model::Side side) const override;
+
+  /// What ends a flight: contacts that close together and push, or a spring that closes or opens, whose number
+  /// follows those of the contacts.
+  struct Event {
+    model::TimeEnclosure when;
+    std::vector<std::size_t> contacts;
+  };
+  /// Of flight 0, 1, ..., for a second way to the motion. Nothing where contacts are held by then, or
+  /// close together by no symmetry, or where it does not end.
+  std::optional<Event> event(std::size_t flight) const;
+  /// The flight at t, and the one that impact 1, 2, ... ends.
+  std::size_t flight_at(double t, model::Side side) const;
+  std::size_t flight_before(long long impact) const {
+    return hits_[std::size_t(impact - 1)].flight;
+  }
+  const model::ImpactProblem<>& problem() const { return problem_; }
 
   /// Of the structure with all springs open.
   const numerics::ModalSystem& modes() const { return regimes_[0].system(); }
@@ -74,8 +111,9 @@ class PiecewiseMotion : public model::Motion {
     double t = 0.0;
     std::size_t regime = 0;
     Vector free;                 // z without the steady response
-    Eigen::MatrixXd covariance;  // sum of D D' of the errors of z so far, at t
+    Eigen::MatrixXd covariance;  // sum of D D' of the errors of z so far, at t; with bounds
     Unresolved unresolved{};
+    std::optional<Event> switches{};  // the spring that ends it
   };
   struct Hit {
     double t = 0.0, time_error = 0.0, impulse = 0.0;
@@ -87,10 +125,11 @@ class PiecewiseMotion : public model::Motion {
   Vector total(const Flight& flight, double t) const;
   Eigen::MatrixXd covariance_after(const Flight& flight, double s) const;
   double factor(std::size_t flight) const;
-  std::size_t flight_at(double t, model::Side side) const;
 
   std::string who_;
+  model::ImpactProblem<> problem_;
   double end_ = 0.0;
+  bool has_bounds_ = true;
   std::deque<ForcedModes> regimes_;  // the first has no closed spring and no held contact
   /// Of each regime, for each contact of the problem: its force, where it is held.
   std::deque<std::vector<std::optional<ForcedModes::Observable>>> forces_;

@@ -18,11 +18,9 @@ using Eigen::VectorXd;
 auto PiecewiseMotion::Builder::seen_in(std::size_t regime, const State& state) const -> State {
   if (regime == state.regime) return state;
   const auto& modes = m_.regimes_[state.regime];
-  const MatrixXd map = change(state.regime, regime);
-  State seen{regime, state.t,
-             m_.regimes_[regime].state(modes.displacement(state.z), modes.velocity(state.z)),
-             map * state.covariance * map.transpose()};
-  return seen;
+  return {regime, state.t,
+          m_.regimes_[regime].state(modes.displacement(state.z), modes.velocity(state.z)),
+          mapped(change(state.regime, regime), state.covariance)};
 }
 
 std::size_t PiecewiseMotion::Builder::resting(const State& state,
@@ -61,7 +59,7 @@ std::size_t PiecewiseMotion::Builder::resting_by_jerk(const State& state,
   const VectorXd free = state.z - modes.steady(state.t);
   VectorXd q = VectorXd::Zero(Index(springs()));
   for (const auto i : contacts)
-    q[Index(i)] = modes.ahead(rows_[state.regime][i].seen, free, state.t, 0.0, 0.0).third;
+    q[Index(i)] = modes.now(rows_[state.regime][i].seen, free, state.t).third;
   const auto rates = solve(state.regime, q, contacts, state.t);
   std::vector<std::size_t> pressed;
   for (const auto i : contacts) {
@@ -97,25 +95,26 @@ void PiecewiseMotion::Builder::release(const std::vector<Closing>& closings) {
     if (closed_[next][closing.contact] && contacts.size() == 1)
       refuse_graze(closing.contact, t, 0.0, closing.gap_error);
     const auto& row = rows_[open.regime][closing.contact];
-    const double jerk = std::abs(ahead(watched(closing.contact), s).slope);
-    open.covariance.diagonal() +=
-        (0.5 * jerk * std::pow(closing.time_error, 2) * row.impulse).cwiseAbs2();
+    const double jerk = std::abs(watch(closing.contact, s).slope);
+    if (m_.has_bounds_)
+      open.covariance.diagonal() +=
+          (0.5 * jerk * std::pow(closing.time_error, 2) * row.impulse).cwiseAbs2();
   }
   begin(seen_in(next, open));
 }
 
 bool PiecewiseMotion::Builder::come_to_rest(std::size_t i, double level, bool is_resolved) {
   const double eta = problem_.contacts[i].restitution, t = flight().t;
-  const auto gap = ahead(row(i).seen, 0.0);
+  const auto gap = watch(i, 0.0);
   const double fall = -gap.second;
-  if (!(eta < 1.0 && gap.slope > 0.0 && fall > 0.0)) return false;
+  if (departs() || !(eta < 1.0 && gap.slope > 0.0 && fall > 0.0)) return false;
   if (is_resolved && gap.slope * gap.slope > 600.0 * fall * level) return false;
   const auto base = flight().regime, next = with_held(base, {i}, true);
   const State now{base, t, m_.total(flight(), t), flight().covariance};
   auto held = seen_in(next, now);
   const auto& modes = m_.regimes_[next];
   const double w = delassus(base, i, i);
-  const auto force = modes.ahead(*m_.forces_[next][i], held.z - modes.steady(t), t, 0.0, m_.end_);
+  const auto force = modes.now(*m_.forces_[next][i], held.z - modes.steady(t), t);
   const double uncertain = deviation(now, row(i).rate()), speed = gap.slope + uncertain;
   double least = 0.9 * std::min(fall, w * force.value);
   double most = 1.1 * std::max(fall, w * force.value);
@@ -146,10 +145,9 @@ bool PiecewiseMotion::Builder::come_to_rest(std::size_t i, double level, bool is
   if (!skipped) return false;
 
   // The sum of the flights to second order in the speed; docs/manual/explanation/derivations.
-  const auto& structure = m_.regimes_[0];
   const VectorXd response = this->modes().velocity(row(i).impulse) / w;
   const double alpha = w * force.value, jerk = -w * force.slope,
-               drag = row(i).rate().dot(this->modes().impulse(structure.damping() * response));
+               drag = row(i).rate().dot(this->modes().impulse(this->modes().damping() * response));
   const double rho = 2.0 / 3.0 * (jerk + drag * alpha) / (alpha * alpha),
                kappa = (2.0 * rho - 2.0 * drag / alpha) / alpha;
   const double v = gap.slope, once = 1.0 - eta, twice = 1.0 - eta * eta;
@@ -199,7 +197,7 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
     const bool is_held = j < springs() && closed_[held.regime][j];
     const auto& seen = is_held ? *m_.forces_[held.regime][j] : rows_[held.regime][j].seen;
     if (is_held && seen.vanishes()) continue;
-    const auto ahead = after.ahead(seen, z, held.t, 0.0, m_.end_);
+    const auto ahead = after.now(seen, z, held.t);
     const double sign = j >= springs() && closed_[held.regime][j] ? -1.0 : 1.0;
     const double lost = seconds * (std::abs(ahead.slope) + 0.5 * seconds * ahead.curvature);
     double error =
@@ -208,14 +206,14 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
     if (!(sign * ahead.value - lost > error)) return std::nullopt;
     // Between its impacts the contact leaves a held one the force of the flights.
     if (is_held &&
-        !(before.ahead(*m_.forces_[free.regime][j], z_free, held.t, 0.0, 0.0).value - 2.0 * lost >
-          error))
+        !(before.now(*m_.forces_[free.regime][j], z_free, held.t).value - 2.0 * lost > error))
       return std::nullopt;
   }
   const VectorXd momentum = gap * seconds * of_stiffness + drift * of_damping;
   const VectorXd displacement =
       2.0 * gap * seconds * after.change(slowing, VectorXd::Zero(m_.dof()));
-  held.covariance += momentum * momentum.transpose() + displacement * displacement.transpose();
+  if (m_.has_bounds_)
+    held.covariance += momentum * momentum.transpose() + displacement * displacement.transpose();
   return skipped;
 }
 
@@ -227,7 +225,7 @@ void PiecewiseMotion::Builder::land(const Closing& closing) {
   const double s = closing.s, t = flight().t + s;
   const State now{flight().regime, t, m_.total(flight(), t), m_.covariance_after(flight(), s)};
   auto held = seen_in(with_held(now.regime, {i}, true), now);
-  const auto gap = ahead(row(i).seen, s);
+  const auto gap = watch(i, s);
   const double level = std::abs(gap.value) + certain_gap * closing.gap_error;
   const double opening = std::max(gap.second, 0.0) + deviation(now, row(i).seen.by_state.col(2));
   const double fall = -gap.third;

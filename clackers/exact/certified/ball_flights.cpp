@@ -1,0 +1,293 @@
+#ifdef CLACKERS_HAS_ARB
+
+#include "clackers/exact/certified/ball_flights.hpp"
+
+#include <arb_mat.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/base/error.hpp"
+
+namespace clackers::certified {
+namespace {
+
+using Vector = std::vector<Ball>;
+
+// X with A X = B; both row by row.
+Vector solved(const Vector& a, const Vector& b) {
+  const auto n = long(std::llround(std::sqrt(double(a.size())))), m = long(b.size()) / n;
+  arb_mat_t left, right;
+  arb_mat_init(left, n, n);
+  arb_mat_init(right, n, m);
+  for (long i = 0; i < n; ++i) {
+    for (long j = 0; j < n; ++j)
+      arb_set(arb_mat_entry(left, i, j), a[std::size_t(i * n + j)].get());
+    for (long j = 0; j < m; ++j)
+      arb_set(arb_mat_entry(right, i, j), b[std::size_t(i * m + j)].get());
+  }
+  const bool is_found = arb_mat_solve(right, left, right, WorkingBits::now()) != 0;
+  Vector x(b.size());
+  for (long i = 0; i < n; ++i)
+    for (long j = 0; j < m; ++j)
+      arb_swap(x[std::size_t(i * m + j)].get(), arb_mat_entry(right, i, j));
+  arb_mat_clear(left);
+  arb_mat_clear(right);
+  if (!is_found)
+    throw InputError(
+        "digits: a mass matrix or contacts that are nearly "
+        "singular; allowed: others.",
+        "no-enclosure");
+  return x;
+}
+
+Ball upper(const Ball& x) {
+  Ball bound;
+  arb_get_abs_ubound_arf(arb_midref(bound.get()), x.get(), WorkingBits::now());
+  return bound;
+}
+
+Ball radius(const Ball& x) {
+  Ball radius;
+  arb_get_rad_arb(radius.get(), x.get());
+  return radius;
+}
+
+Ball largest(const Vector& x) {
+  Ball most;
+  for (const auto& value : x)
+    if (const Ball now = upper(value); most < now) most = now;
+  return most;
+}
+
+}  // namespace
+
+BallFlights::BallFlights(const model::ImpactProblem<>& problem)
+    : problem_(problem),
+      springs_(model::one_sided_springs(problem)),
+      n_(std::size_t(problem.dof())) {
+  if (const auto* load = problem.system.add_load.target<model::HarmonicLoad>())
+    forces_ = load->forces();
+  size_ = 2 * n_ + 1 + 2 * forces_.size();
+  const auto& s = problem.system;
+  Vector mass, identity(n_ * n_);
+  for (std::size_t i = 0; i < n_; ++i) {
+    for (std::size_t j = 0; j < n_; ++j) mass.emplace_back(s.mass(long(i), long(j)));
+    identity[i * n_ + i] = 1.0;
+  }
+  inverse_mass_ = solved(mass, identity);
+  for (std::size_t i = 0; springs_ != nullptr && i < springs_->contacts().size(); ++i)
+    closed_.push_back(springs_->contacts()[i].gap_at(problem.start.u) < 0.0);
+  find_rate();
+
+  t_ = problem.start.t;
+  y_.resize(size_);
+  for (std::size_t i = 0; i < n_; ++i) {
+    y_[i] = problem.start.u[long(i)];
+    y_[n_ + i] = Ball(problem.start.v[long(i)]) / unit_;
+  }
+  y_[2 * n_] = 1.0;
+  for (std::size_t j = 0; j < forces_.size(); ++j) {
+    const Ball phase = Ball(forces_[j].phase) + Ball(forces_[j].frequency) * t_;
+    y_[2 * n_ + 1 + 2 * j] = cos(phase);
+    y_[2 * n_ + 2 + 2 * j] = sin(phase);
+  }
+}
+
+const model::Contact<>& BallFlights::contact(std::size_t i) const {
+  const auto count = problem_.contacts.size();
+  return i < count ? problem_.contacts[i] : springs_->contacts()[i - count];
+}
+
+// M^-1 times a force.
+Vector BallFlights::responses(const Eigen::VectorXd& force) const {
+  Vector a(n_);
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t j = 0; j < n_; ++j)
+      if (force[long(j)] != 0.0) a[i] = a[i] + inverse_mass_[i * n_ + j] * force[long(j)];
+  return a;
+}
+
+void BallFlights::find_rate() {
+  rate_.assign(size_ * size_, {});
+  const auto& s = problem_.system;
+  Vector squares(n_ * n_), dampings(n_ * n_), offset(n_);
+  for (std::size_t j = 0; j < n_; ++j) {
+    const auto k = responses(s.stiffness.col(long(j))), c = responses(s.damping.col(long(j)));
+    for (std::size_t i = 0; i < n_; ++i) {
+      squares[i * n_ + j] = k[i];
+      dampings[i * n_ + j] = c[i];
+    }
+  }
+  for (std::size_t k = 0; k < closed_.size(); ++k) {
+    if (!closed_[k]) continue;
+    const auto& spring = springs_->contacts()[k];
+    const auto response = responses(spring.direction);
+    for (std::size_t i = 0; i < n_; ++i) {
+      const Ball force = response[i] * springs_->stiffnesses()[k];
+      offset[i] = offset[i] + force * spring.gap;
+      for (std::size_t j = 0; j < n_; ++j)
+        if (const double b = spring.direction[long(j)]; b != 0.0)
+          squares[i * n_ + j] = squares[i * n_ + j] + force * b;
+    }
+  }
+  // A power of 2, and the same for all regimes, so that a state may go on in
+  // another.
+  if (const double square = largest(squares).middle(); y_.empty() && square > 0.0)
+    unit_ = std::exp2(std::round(0.5 * std::log2(square)));
+  for (std::size_t i = 0; i < n_; ++i) {
+    entry(i, n_ + i) = unit_;
+    for (std::size_t j = 0; j < n_; ++j) {
+      entry(n_ + i, j) = -(squares[i * n_ + j] / unit_);
+      entry(n_ + i, n_ + j) = -dampings[i * n_ + j];
+    }
+    entry(n_ + i, 2 * n_) = offset[i] / unit_;
+  }
+  for (std::size_t j = 0; j < forces_.size(); ++j) {
+    const auto& f = forces_[j];
+    const auto cosine = 2 * n_ + 1 + 2 * j;
+    const auto response = responses(Eigen::VectorXd::Unit(long(n_), f.dof) * f.amplitude);
+    for (std::size_t i = 0; i < n_; ++i) entry(n_ + i, cosine) = response[i] / unit_;
+    entry(cosine, cosine + 1) = -f.frequency;
+    entry(cosine + 1, cosine) = f.frequency;
+  }
+  norm_ = Ball();
+  for (std::size_t i = 0; i < size_; ++i) {
+    Ball sum;
+    for (std::size_t j = 0; j < size_; ++j) sum = sum + upper(entry(i, j));
+    if (norm_ < sum) norm_ = upper(sum);
+  }
+}
+
+Vector BallFlights::rate(const Vector& y) const {
+  Vector rate(size_);
+  for (std::size_t i = 0; i < size_; ++i)
+    for (std::size_t j = 0; j < size_; ++j) {
+      const Ball& a = rate_[i * size_ + j];
+      if (!a.is_zero() && !y[j].is_zero())
+        arb_addmul(rate[i].get(), a.get(), y[j].get(), WorkingBits::now());
+    }
+  return rate;
+}
+
+// In parts of |A| h <= 4, so that no term is much larger than the sum. What
+// follows a term T of order k is at most |T| q/(1 - q), q = |A| h/(k + 1).
+Vector BallFlights::advanced(const Ball& s) const {
+  const double whole = (norm_ * upper(s)).middle();
+  const auto parts = std::max(1.0, std::ceil(0.25 * whole));
+  const Ball h = s / parts, reach = upper(norm_ * upper(h));
+  Vector y = y_;
+  for (double part = 0.0; part < parts; ++part) {
+    Vector term = y;
+    std::vector<bool> moves(size_, false);
+    for (long k = 1;; ++k) {
+      term = rate(term);
+      for (std::size_t i = 0; i < size_; ++i) {
+        term[i] = term[i] * h / double(k);
+        moves[i] = moves[i] || !term[i].is_zero();
+        y[i] = y[i] + term[i];
+      }
+      const Ball q = reach / double(k + 1), rest = upper(largest(term) * q * 2.0);
+      // An entry without a term of the first orders has none.
+      if (k < long(size_) || !(q < Ball(0.5))) continue;
+      if (!(rest < scaled(largest(y), -WorkingBits::now())) && !rest.is_zero()) continue;
+      for (std::size_t i = 0; i < size_; ++i)
+        if (moves[i]) arb_add_error(y[i].get(), rest.get());
+      break;
+    }
+  }
+  return y;
+}
+
+KinematicBalls BallFlights::at(const Ball& t) const {
+  const auto y = advanced(t - t_), change = rate(y);
+  KinematicBalls now;
+  for (std::size_t i = 0; i < n_; ++i) {
+    now.u.push_back(y[i]);
+    now.v.push_back(y[n_ + i] * unit_);
+    now.a.push_back(change[n_ + i] * unit_);
+  }
+  return now;
+}
+
+// With `first` = 0; with n its rate over unit_.
+Ball BallFlights::gap(std::size_t i, const Vector& y, std::size_t first) const {
+  const auto& c = contact(i);
+  Ball sum = first == 0 ? -Ball(c.gap) : Ball();
+  for (std::size_t j = 0; j < n_; ++j)
+    if (const double b = c.direction[long(j)]; b != 0.0) sum = sum + y[first + j] * b;
+  return sum;
+}
+
+// Newton's method of intervals.
+bool BallFlights::end(std::size_t i, double lo, double hi) {
+  Ball s = Ball(lo) - t_;
+  const Ball last = Ball(hi) - t_;
+  arb_union(s.get(), s.get(), last.get(), WorkingBits::now());
+  for (bool is_narrower = true; is_narrower;) {
+    Ball middle;
+    arb_get_mid_arb(middle.get(), s.get());
+    const Ball slope = gap(i, advanced(s), n_) * unit_;
+    if (slope.holds_zero()) return false;
+    const Ball next = middle - gap(i, advanced(middle), 0) / slope;
+    Ball both;
+    if (arb_intersection(both.get(), s.get(), next.get(), WorkingBits::now()) == 0) return false;
+    is_narrower = radius(scaled(both, 1)) < radius(s);
+    s = both;
+  }
+  y_ = advanced(s);
+  t_ = t_ + s;
+  return true;
+}
+
+std::vector<Ball> BallFlights::collide(const std::vector<std::size_t>& contacts) {
+  Vector delassus, speeds;
+  std::vector<Vector> of_unit;
+  for (const auto i : contacts) of_unit.push_back(responses(contact(i).direction));
+  for (const auto i : contacts) {
+    const auto& b = contact(i).direction;
+    for (const auto& response : of_unit) {
+      Ball sum;
+      for (std::size_t k = 0; k < n_; ++k)
+        if (b[long(k)] != 0.0) sum = sum + response[k] * b[long(k)];
+      delassus.push_back(sum);
+    }
+    speeds.push_back(-(gap(i, y_, n_) * unit_ * (Ball(1.0) + contact(i).restitution)));
+  }
+  const auto impulses = solved(delassus, speeds);
+  const auto before = y_;
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    for (std::size_t k = 0; k < n_; ++k)
+      y_[n_ + k] = y_[n_ + k] + impulses[c] * of_unit[c][k] / unit_;
+  // A single mass is at the contact exactly, and as fast as the law says.
+  for (const auto i : contacts) {
+    const auto& b = contact(i).direction;
+    if ((b.array() != 0.0).count() != 1) continue;
+    long k = 0;
+    b.cwiseAbs().maxCoeff(&k);
+    y_[std::size_t(k)] = Ball(contact(i).gap) / b[k];
+    y_[n_ + std::size_t(k)] = -(before[n_ + std::size_t(k)] * contact(i).restitution);
+  }
+  return impulses;
+}
+
+bool BallFlights::pass(const exact::PiecewiseMotion::Event& event) {
+  if (!end(event.contacts.front(), event.when.lo, event.when.hi)) return false;
+  if (const auto count = problem_.contacts.size(); event.contacts.front() >= count) {
+    closed_[event.contacts.front() - count].flip();
+    find_rate();
+  } else {
+    collide(event.contacts);
+  }
+  return true;
+}
+
+bool BallFlights::is_known(long bits) const {
+  const Ball least = scaled(largest(y_), -bits);
+  return std::ranges::all_of(
+      y_, [&](const Ball& x) { return radius(x) < least || arb_is_exact(x.get()) != 0; });
+}
+
+}  // namespace clackers::certified
+
+#endif

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <vector>
+
+#include "clackers/exact/certified/ball.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
+#include "clackers/model/harmonic_load.hpp"
+
+namespace clackers::certified {
+
+/// Displacement [m], velocity [m/s] and acceleration [m/s^2] of each mass.
+struct KinematicBalls {
+  std::vector<Ball> u, v, a;
+};
+
+/// The flights of a linear structure with harmonic loads, contacts and
+/// one-sided springs, whose impacts are known but for their digits: y' = A y of
+/// displacements, velocities, the loads' phases and 1, by Taylor series of
+/// balls with a bound on what is left out. Knows no modes. All with the working
+/// bits that it was made with, and of the doubles of the problem as they stand.
+class BallFlights {
+ public:
+  /// `problem` outlives it. Contacts that are springs have the numbers after
+  /// the others.
+  explicit BallFlights(const model::ImpactProblem<>& problem);
+
+  /// In this flight, at any t.
+  KinematicBalls at(const Ball& t) const;
+  /// Where this flight began [s].
+  const Ball& begin() const { return t_; }
+  /// Ends the flight where contact i closes, or a spring opens, between lo and
+  /// hi [s], the only such instant there. False where the balls are too wide to
+  /// show that the gap moves all the time.
+  bool end(std::size_t i, double lo, double hi);
+  /// Newton's law at contacts that close together and push: the impulses.
+  std::vector<Ball> collide(const std::vector<std::size_t>& contacts);
+  /// Goes on in the next flight. False as end().
+  bool pass(const exact::PiecewiseMotion::Event& event);
+
+  /// Whether every displacement and velocity is known to this many bits of the
+  /// largest.
+  bool is_known(long bits) const;
+
+ private:
+  using Vector = std::vector<Ball>;
+
+  const model::Contact<>& contact(std::size_t i) const;
+  Ball& entry(std::size_t row, std::size_t column) { return rate_[row * size_ + column]; }
+  Vector responses(const Eigen::VectorXd& force) const;
+  void find_rate();
+  Vector rate(const Vector& y) const;
+  Vector advanced(const Ball& s) const;
+  Ball gap(std::size_t i, const Vector& y, std::size_t first) const;
+
+  const model::ImpactProblem<>& problem_;
+  const model::OneSidedSprings* springs_;
+  std::vector<model::HarmonicForce> forces_;
+  std::vector<bool> closed_;  // of the springs
+  std::size_t n_, size_;
+  double unit_ = 1.0;    // of rates [1/s]: y has v over it
+  Vector inverse_mass_;  // row by row
+  Vector rate_;          // A, row by row
+  Ball norm_;            // of A
+  Ball t_;
+  Vector y_;
+};
+
+}  // namespace clackers::certified

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "clackers/exact/certified/ball_flights.hpp"
+#include "clackers/exact/certified/enclosure.hpp"
+
+namespace clackers::certified {
+
+/// Of a motion flight by flight, which has proven what ends each: BallFlights
+/// with more and more bits. Throws InputError (no-enclosure) from where
+/// contacts are held.
+class FlightsEnclosure : public Enclosure {
+ public:
+  explicit FlightsEnclosure(const exact::PiecewiseMotion& motion)
+      : Enclosure({}), motion_(motion) {}
+
+  /// u and v of the masses at t in flight 0, 1, ..., each the nearest double give or take a unit. Nothing where
+  /// the flight has no enclosure, or would take more than 512 bits.
+  std::optional<std::pair<Eigen::VectorXd, Eigen::VectorXd>> doubles(std::size_t flight, double t);
+
+  double fraction_bits(long long) const override { return 16384.0 + 4400.0 * motion_.dof(); }
+  bool is_undamped() const override { return false; }
+
+ protected:
+  const Ball& omega() override { return none_; }
+  const Ball& sigma() override { return none_; }
+  long long flight(double t, model::Side side) override {
+    return static_cast<long long>(motion_.flight_at(t, side));
+  }
+  KinematicBalls at_now(long long k, double t) override;
+  ImpactBalls impact_now(long long k) override;
+
+ private:
+  /// Null where it takes more bits.
+  const BallFlights* begun(std::size_t flight);
+
+  const exact::PiecewiseMotion& motion_;
+  const Ball none_;  // there is no Omega
+  long bits_ = 0;
+  std::vector<BallFlights> begun_;
+};
+
+}  // namespace clackers::certified
