@@ -7,6 +7,7 @@
 #include "clackers/base/codes.hpp"
 #include "clackers/methods/method.hpp"
 #include "clackers/methods/stepping/step_plan.hpp"
+#include "clackers/methods/stepping/step_powers.hpp"
 #include "clackers/model/run.hpp"
 #include "clackers/model/system.hpp"
 
@@ -38,6 +39,14 @@ class AnyStepper {
   /// Fills states[i], i >= 1, from states[0], the state at step `first` of the plan; times are counted,
   /// or an adaptive one's own. Returns the number of steps: up to one that failed or ends the plan.
   virtual std::size_t advance(long long first, std::span<State> states) = 0;
+  /// Goes on from `now` by at most `most` whole steps for as long as the cubics of all gaps stay open;
+  /// see StepPowers::advance(). `now` becomes the state after them, but for its time. Returns their
+  /// number; 0 where the stepper cannot.
+  virtual std::size_t fly(State& now, const Gaps& gaps, std::size_t most, double* u, double* v) {
+    static_cast<void>(now), static_cast<void>(gaps), static_cast<void>(most);
+    static_cast<void>(u), static_cast<void>(v);
+    return 0;
+  }
   /// Goes back into the block that advance() has just filled, to states[steps]: the next step or
   /// partial step is from there. The work is that of one step more, since its end has been seen.
   virtual void rewind(long long first, std::span<const State> states, std::size_t steps) = 0;

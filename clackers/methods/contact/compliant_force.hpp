@@ -8,13 +8,14 @@
 
 #include "clackers/methods/contact/compliant_law.hpp"
 #include "clackers/methods/contact/contact_set.hpp"
+#include "clackers/methods/stepping/motion_equation.hpp"
 
 namespace clackers::methods {
 
 /// The compliant forces of closed contacts, in addition to the force that a system has already. Which
 /// are closed is decided between steps, so that no force jumps within one. All are open at first.
 template <int Dof>
-class CompliantForce final : public model::NonlinearForce<Dof> {
+class CompliantForce final : public SwitchedForce<Dof> {
  public:
   using Vector = model::Vector<Dof>;
   using Matrix = model::Matrix<Dof>;
@@ -39,6 +40,9 @@ class CompliantForce final : public model::NonlinearForce<Dof> {
   void open(std::size_t j) { contacts_[j].is_closed = false; }
   void open_all() {
     for (auto& contact : contacts_) contact.is_closed = false;
+  }
+  bool vanishes() const override {
+    return !other_ && std::ranges::none_of(contacts_, &Contact::is_closed);
   }
 
   void add(const Vector& u, const Vector& v, Vector& p) const override {

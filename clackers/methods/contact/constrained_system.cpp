@@ -149,6 +149,13 @@ const Eigen::VectorXd& ConstrainedSystem<Dof>::contact_forces(const State& now) 
 }
 
 template <int Dof>
+double ConstrainedSystem<Dof>::gap_acceleration(std::size_t contact, const State& now) {
+  const auto& forces = contact_forces(now);
+  return acceleration_[to_index(contact)] +
+         contacts_.response().delassus.row(to_index(contact)).dot(forces);
+}
+
+template <int Dof>
 double ConstrainedSystem<Dof>::release_margin(std::size_t contact, const State& now) {
   const double force = contact_forces(now)[to_index(contact)];
   // The rounding of every gap acceleration, as the force that makes it.

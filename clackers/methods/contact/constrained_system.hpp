@@ -52,6 +52,8 @@ class ConstrainedSystem {
   /// The forces [N] along the rows that keep the active contacts closed at this instant; 0 at the
   /// others. Valid until the next call.
   const Eigen::VectorXd& contact_forces(const State& now);
+  /// The acceleration of a gap [m/s^2] under the forces of the active contacts.
+  double gap_acceleration(std::size_t contact, const State& now);
   /// The force of an active contact and what its rounding may amount to [N]. A contact does not
   /// pull: where this is negative the contact opens.
   double release_margin(std::size_t contact, const State& now);

@@ -110,8 +110,12 @@ std::optional<Objection> ContactSet<Dof>::solve(const ContactResponse<Dof>& resp
 }
 
 template <int Dof>
-std::optional<Objection> ContactSet<Dof>::impact(Rows rows, Vector& v, Eigen::VectorXd& impulses) {
-  for (const auto i : rows) q_[to_index(i)] = (1.0 + restitution(i)) * gap_rate(i, v);
+std::optional<Objection> ContactSet<Dof>::impact(Rows rows, Vector& v, Eigen::VectorXd& impulses,
+                                                 Rows plastic) {
+  for (const auto i : rows) {
+    const double eta = std::ranges::binary_search(plastic, i) ? 0.0 : restitution(i);
+    q_[to_index(i)] = (1.0 + eta) * gap_rate(i, v);
+  }
   auto no = solve(response_, rows, q_, impulses);
   if (!no)
     for (const auto i : rows) v += impulses[to_index(i)] * response_.velocity.col(to_index(i));

@@ -79,9 +79,10 @@ class ContactSet {
   ///     v(+) = v(-) + M^-1 B^T P,   0 <= U(+) + eta U(-) _|_ P >= 0
   ///
   /// `v` becomes v(+). Kinetic energy does not grow if all rows close or rest, U(-) <= 0, or if all
-  /// eta are equal; so contacts that separate should not take part. Returns what solve() does;
-  /// after a failure `v` is unchanged.
-  std::optional<Objection> impact(Rows rows, Vector& v, Eigen::VectorXd& impulses);
+  /// eta are equal; so contacts that separate should not take part. eta of `plastic` rows, ascending,
+  /// counts as 0. Returns what solve() does; after a failure `v` is unchanged.
+  std::optional<Objection> impact(Rows rows, Vector& v, Eigen::VectorXd& impulses,
+                                  Rows plastic = {});
 
   /// "redundant-contacts" where the rows of B depend linearly on each other, or nothing.
   std::optional<Objection> redundancy(Rows rows);

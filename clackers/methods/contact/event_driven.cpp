@@ -38,6 +38,11 @@ solved for all of them. A contact is let go where its force changes sign. Contac
 closed at once with linearly dependent b_j end the run, and so do more than 1000 events in one
 step.
 
+Rest        impacts with eta < 1 of a contact that is pressed, A < 0, accumulate; the last of them
+            is taken with eta = 0, after which the contact is an active constraint: where the next
+            flight would rise by less than rounding of the gap, or the closing speed is below 2^-26
+            of the largest one of the run and the next flight shorter than 2^-16 h (of the run, if adaptive).
+
 Order       that of the integrator.
 Stability   that of the integrator.
 Dissipation none at impacts with eta = 1.
@@ -73,7 +78,7 @@ class EventDriven::Loop {
   Loop(const Integrator& integrator, const EventDriven&, model::ImpactProblem<Dof> problem,
        const StepPlan& plan)
       : problem_(std::move(problem)),
-        time_loop_(plan, problem_.dof()),
+        time_loop_(plan, problem_),
         contacts_(problem_),
         constrained_(problem_.system, contacts_),
         resolution_(contacts_, plan, problem_.start),
@@ -86,8 +91,7 @@ class EventDriven::Loop {
         v_before_(problem_.start.v),
         impulses_(contacts_.no_impulses()),
         is_adaptive_(plan.is_adaptive()) {
-    closed_.reserve(contacts_.size());
-    before_.reserve(contacts_.size());
+    for (auto* list : {&closed_, &before_, &captured_}) list->reserve(contacts_.size());
   }
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
@@ -113,9 +117,12 @@ class EventDriven::Loop {
     return constrained_.is_any_active() ? *constrained_stepper_ : *free_stepper_;
   }
 
+  bool is_open() const { return !constrained_.is_any_active(); }
+  void pass(std::size_t count, auto&& before) { resolution_.pass(count, before); }
+
   // True where nothing can have happened between the two ends of a step.
   bool is_quiet(const State& before, const State& now) {
-    resolution_.pass(before);
+    pass(1, [&](std::size_t) -> const State& { return before; });
     const double length = now.t - before.t;
     const bool is_free = !constrained_.is_any_active();
     for (std::size_t i = 0; i < contacts_.size(); ++i)
@@ -182,6 +189,7 @@ class EventDriven::Loop {
   // False: the run ends.
   bool start(Recorder<Dof>& out) {
     searches_ = 0;
+    fastest_ = 0.0;
     counted_until_ = problem_.start.t;
     free_stepper_->reset();
     constrained_stepper_->reset();
@@ -292,7 +300,11 @@ class EventDriven::Loop {
       return contacts_.gap_rate(i, from_.v) > 0.0 && !is_resting(i, from_.v);
     });
     v_before_ = from_.v;
-    if (const auto no = contacts_.impact(closed_, from_.v, impulses_)) return fail(*no, out);
+    captured_.clear();
+    for (const auto i : closed_)
+      if (ends_in_rest(i)) captured_.push_back(i);
+    if (const auto no = contacts_.impact(closed_, from_.v, impulses_, captured_))
+      return fail(*no, out);
     for (const auto i : closed_) {
       const double impulse = impulses_[static_cast<Eigen::Index>(i)];
       if (!(impulse > 0.0)) continue;
@@ -301,6 +313,18 @@ class EventDriven::Loop {
     }
     std::erase_if(closed_, [&](std::size_t i) { return !is_resting_after_impact(i); });
     return decide(from_, out);
+  }
+
+  // Whether the impact of contact i, which closes at from_, is the last of those that accumulate; see
+  // the card.
+  bool ends_in_rest(std::size_t i) {
+    const double speed = -contacts_.gap_rate(i, from_.v), eta = contacts_.restitution(i);
+    fastest_ = std::max(fastest_, speed);
+    const double press = -constrained_.gap_acceleration(i, from_);
+    if (!(speed > 0.0 && press > 0.0 && eta < 1.0)) return false;
+    const double rebound = eta * speed, flight = 2.0 * rebound / press;
+    return 0.25 * rebound * flight <= contacts_.rounding(i, from_.u) ||
+           (speed <= 0x1p-26 * fastest_ && flight <= 0x1p-16 * h_);
   }
 
   // The contacts that hold the structure at from_ let it go. False: the run ends.
@@ -341,7 +365,8 @@ class EventDriven::Loop {
   // Newton's law leaves the rate -eta U(-) where there is an impulse.
   bool is_resting_after_impact(std::size_t i) const {
     if (impulses_[static_cast<Eigen::Index>(i)] > 0.0)
-      return contacts_.restitution(i) == 0.0 || is_resting(i, v_before_);
+      return contacts_.restitution(i) == 0.0 || is_resting(i, v_before_) ||
+             std::ranges::binary_search(captured_, i);
     if (!is_resting(i, v_before_)) return false;
     return std::abs(contacts_.gap_rate(i, from_.v) - contacts_.gap_rate(i, v_before_)) <=
            contacts_.rate_rounding(i, v_before_) + contacts_.rate_rounding(i, from_.v);
@@ -362,7 +387,8 @@ class EventDriven::Loop {
   State from_;
   Vector v_before_;
   Eigen::VectorXd impulses_;
-  std::vector<std::size_t> closed_, before_;
+  std::vector<std::size_t> closed_, before_, captured_;
+  double fastest_ = 0.0;  // largest closing speed of the run
   bool is_adaptive_;
   double counted_until_ = 0.0;  // events are counted until the end of a step as it was begun
   int counted_ = 0;

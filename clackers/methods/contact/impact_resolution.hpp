@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <vector>
 
 #include "clackers/methods/contact/contact_set.hpp"
@@ -46,15 +48,15 @@ class ImpactResolution {
     kept_.fill(from);
     flight_ = 0;
   }
-  /// The end of a step.
-  void pass(const State& now) {
+  /// `count` steps, from the states before(0), before(1), ...
+  void pass(std::size_t count, auto&& before) {
     if (!is_needed_) return;
-    ++steps_;
-    ++flight_;
-    if ((flight_ & (flight_ - 1)) == 0) {
+    steps_ += static_cast<long long>(count);
+    for (auto next = std::bit_ceil(flight_ + 1); next <= flight_ + count; next *= 2) {
       kept_[1] = kept_[2];
-      kept_[2] = now;
+      kept_[2] = before(next - flight_ - 1);
     }
+    flight_ += count;
   }
 
   /// Adds to `closed`, ascending, the contacts that close together with `first`, which is one of
@@ -78,7 +80,8 @@ class ImpactResolution {
   std::array<State, most_steps + 1> states_;
   State halves_;
   Vector d_, w_, e_;  // errors of a step, and of the run
-  long long steps_ = 0, flight_ = 0;
+  long long steps_ = 0;
+  std::size_t flight_ = 0;
 };
 
 extern template class ImpactResolution<1>;

@@ -175,7 +175,7 @@ class Penalty::Loop {
       : problem_(rigid),
         force_(std::make_shared<CompliantForce<Dof>>(compliant_law(penalty.law), rigid,
                                                      penalty.stiffnesses(rigid))),
-        time_loop_(plan, problem_.dof()),
+        time_loop_(plan, problem_),
         at_(problem_.start) {
     problem_.system.nonlinear = force_;
     stepper_ = integrator.stepper(problem_.system, plan);
@@ -201,6 +201,8 @@ class Penalty::Loop {
   }
 
   AnyStepper<Dof>& stepper() { return *stepper_; }
+
+  bool is_open() const { return force_->vanishes(); }
 
   bool is_quiet(const State& before, const State& now) const {
     for (std::size_t j = 0; j < problem_.contacts.size(); ++j)

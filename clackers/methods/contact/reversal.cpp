@@ -63,7 +63,7 @@ class Reversal::Loop {
   Loop(const Integrator& integrator, const Reversal&, model::ImpactProblem<Dof> problem,
        const StepPlan& plan)
       : problem_(std::move(problem)),
-        time_loop_(plan, problem_.dof()),
+        time_loop_(plan, problem_),
         contacts_(problem_),
         stepper_(integrator.stepper(problem_.system, plan)),
         v_before_(problem_.start.v),
@@ -87,6 +87,8 @@ class Reversal::Loop {
   }
 
   AnyStepper<Dof>& stepper() { return *stepper_; }
+
+  bool is_open() const { return true; }
 
   bool is_quiet(const State&, const State& now) const {
     for (std::size_t i = 0; i < contacts_.size(); ++i)

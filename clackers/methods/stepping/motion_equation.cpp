@@ -26,6 +26,7 @@ constexpr Point gauss[] = {{0.06943184420297371239, 0.17392742256872692869},
 template <int Dof>
 MotionEquation<Dof>::MotionEquation(const model::SmoothSystem<Dof>& system)
     : s_(system),
+      switched_(dynamic_cast<const SwitchedForce<Dof>*>(system.nonlinear.get())),
       r_(Vector::Zero(system.dof())),
       u_(r_),
       v_(r_),
@@ -56,7 +57,6 @@ void MotionEquation<Dof>::rebuild() {
   by_v_ = -s_.damping;
   mass_.solve_in_place(by_u_);
   mass_.solve_in_place(by_v_);
-  is_free_ = !s_.nonlinear && !s_.add_load;
 }
 
 template <int Dof>

@@ -21,6 +21,14 @@ namespace clackers::methods {
 template <int Dof>
 using Scratch = std::conditional_t<Dof == model::any_dof, model::Vector<Dof>&, model::Vector<Dof>>;
 
+/// A nonlinear force that is switched on and off between steps.
+template <int Dof>
+class SwitchedForce : public model::NonlinearForce<Dof> {
+ public:
+  /// True while p = 0 for every u and v.
+  virtual bool vanishes() const = 0;
+};
+
 /// A load of a step: f(t), or (1 - weight) f(t) + weight f(other).
 struct LoadTime {
   double t, other = 0.0, weight = 0.0;
@@ -65,7 +73,7 @@ class MotionEquation {
     a.noalias() -= s_.stiffness * u;
     if (s_.add_load)
       s_.add_load(t, std::span<double>(a.data(), static_cast<std::size_t>(a.size())));
-    if (s_.nonlinear) subtract_nonlinear(u, v, a);
+    if (!is_linear()) subtract_nonlinear(u, v, a);
     mass_.solve_in_place(a);
     ++tally_.evaluations;
   }
@@ -73,7 +81,7 @@ class MotionEquation {
   /// Calls `steps` with a function that does the same as accelerate(); where there is neither load
   /// nor nonlinear force it is two products. One branch a step and not one an evaluation.
   void with_acceleration(auto&& steps) {
-    if (is_free_) {
+    if (is_free()) {
       steps([this](double, const Vector& u, const Vector& v, Vector& a) {
         a.noalias() = by_u_ * u;
         a.noalias() += by_v_ * v;
@@ -112,7 +120,7 @@ class MotionEquation {
   /// which starts at the given a, finds no solution.
   void solve(const LoadTime& load, const Weights& w, const Vector& u0, const Vector& v0, Vector& a,
              const Vector* shift = nullptr) {
-    if (s_.nonlinear) {
+    if (!is_linear()) {
       if (!solve_nonlinear(load, w, u0, v0, a, shift)) fail("newton-failed");
       return;
     }
@@ -161,6 +169,10 @@ class MotionEquation {
     tally_.evaluations += s_.add_load ? step.loads : 1;
   }
 
+  /// Whether the motion is linear now, and whether it has no load, too.
+  bool is_linear() const { return !s_.nonlinear || (switched_ && switched_->vanishes()); }
+  bool is_free() const { return !s_.add_load && is_linear(); }
+
   /// True after something has failed; the state computed since is meaningless.
   bool failed() const { return tally_.failed; }
   /// The first failure. Meaningful only where failed().
@@ -168,6 +180,7 @@ class MotionEquation {
 
   const Tally& tally() const { return tally_; }
   void set_tally(const Tally& tally) { tally_ = tally; }
+  void add_evaluations(long long count) { tally_.evaluations += count; }
   void add_work(model::Work& work) const {
     work.force_evaluations += tally_.evaluations;
     work.factorizations += tally_.factorizations;
@@ -202,6 +215,7 @@ class MotionEquation {
                const Vector& a, const Vector* shift);
 
   const model::SmoothSystem<Dof>& s_;
+  const SwitchedForce<Dof>* switched_;  // its nonlinear force, where it is such a one
   Solver mass_;
   Vector r_, u_, v_, magnitude_, term_, correction_;
   Vector point_, part_, stage_u_, stage_v_;
@@ -214,7 +228,6 @@ class MotionEquation {
   const Vector* chord_ = nullptr;           // its start, where p is a mean over one
   StageSolver stages_;
   std::array<Vector, most_scratch> scratch_;
-  bool is_free_ = true;
   Tally tally_;
 };
 

@@ -20,11 +20,15 @@ class Recorder {
   using State = model::State<Dof>;
   using Vector = model::Vector<Dof>;
 
-  static constexpr std::size_t block = 256;  ///< states
+  static constexpr std::size_t block = 256;  ///< states, or up to `more` more
+  static constexpr std::size_t more = 8;
 
   /// Allocates everything the run will need.
   explicit Recorder(Eigen::Index dof)
-      : dof_(static_cast<std::size_t>(dof)), t_(block), u_(block * dof_), v_(block * dof_) {}
+      : dof_(static_cast<std::size_t>(dof)),
+        t_(block + more),
+        u_(t_.size() * dof_),
+        v_(u_.size()) {}
 
   /// Forgets the last run; the sink must outlive the new one.
   void begin(model::Sink& sink) {
@@ -41,6 +45,16 @@ class Recorder {
       v_[count_ * size() + i] = now.v[static_cast<Eigen::Index>(i)];
     }
     return ++count_ < block || flush();
+  }
+
+  /// Where the next states go, row-major, of room() of them; append() takes those written there.
+  std::size_t room() const { return block + more - count_; }
+  double* t() { return &t_[count_]; }
+  double* u() { return &u_[count_ * size()]; }
+  double* v() { return &v_[count_ * size()]; }
+  bool append(std::size_t states) {
+    count_ += states;
+    return count_ < block || flush();
   }
 
   /// Takes an impact at `after`, the state on its later side. False: the run ends here.

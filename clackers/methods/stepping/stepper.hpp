@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include "clackers/base/check.hpp"
 #include "clackers/methods/integrator.hpp"
@@ -64,6 +68,18 @@ class Stepper final : public AnyStepper<Dof> {
     }
   }
 
+  std::size_t fly(State& now, const Gaps& gaps, std::size_t most, double* u, double* v) override {
+    if constexpr (is_one_step) {
+      if (!equation_.is_free() || (!powers_.exists() && !make_powers())) return 0;
+      pack(now, memory_);
+      const std::size_t made = powers_.advance(unknowns_, gaps, plan_.h, most, u, v);
+      unpack(now, memory_);
+      equation_.add_evaluations(static_cast<long long>(made) * evaluations_);
+      return made;
+    }
+    return AnyStepper<Dof>::fly(now, gaps, most, u, v);
+  }
+
   void rewind(long long first, std::span<const State> states, std::size_t steps) override {
     memory_ = first_memory_;
     equation_.set_tally(first_tally_);
@@ -102,7 +118,12 @@ class Stepper final : public AnyStepper<Dof> {
   void add_work(model::Work& work) const override { equation_.add_work(work); }
 
  private:
+  static constexpr bool remembers_acceleration =
+      std::is_same_v<Memory, AccelerationMemory::Memory<Dof>>;
+  static constexpr bool is_one_step = remembers_acceleration || std::is_empty_v<Memory>;
+
   void prepare() {
+    powers_.clear();
     equation_.drop_all();
     integrator_.prepare(equation_, plan_.h);
     equation_.keep();
@@ -124,6 +145,46 @@ class Stepper final : public AnyStepper<Dof> {
     return states.size() - 1;
   }
 
+  // Memory and state as the unknowns of the step, and back.
+  void pack(const State& x, const Memory& memory) {
+    const auto n = std::size_t(x.u.size());
+    std::copy_n(x.u.data(), n, &unknowns_[0]);
+    std::copy_n(x.v.data(), n, &unknowns_[n]);
+    if constexpr (remembers_acceleration) std::copy_n(memory.a.data(), n, &unknowns_[2 * n]);
+  }
+  void unpack(State& x, Memory& memory) const {
+    const auto n = std::size_t(x.u.size());
+    std::copy_n(&unknowns_[0], n, x.u.data());
+    std::copy_n(&unknowns_[n], n, x.v.data());
+    if constexpr (remembers_acceleration) std::copy_n(&unknowns_[2 * n], n, memory.a.data());
+  }
+
+  // By steps from unit vectors. False where they would take longer than they save.
+  bool make_powers() {
+    const auto n = std::size_t(part_.u.size()), size = (remembers_acceleration ? 3 : 2) * n;
+    constexpr auto steps = StepPowers::steps;
+    if (size > StepPowers::most_unknowns || plan_.whole < static_cast<long long>(4 * steps * size))
+      return false;
+    const auto tally = equation_.tally();
+    powers_.resize(n, size);
+    unknowns_.resize(size);
+    for (std::size_t column = 0; column < size; ++column) {
+      std::fill(unknowns_.begin(), unknowns_.end(), 0.0);
+      unknowns_[column] = 1.0;
+      unpack(part_, part_memory_);
+      for (std::size_t power = 1; power <= steps; ++power) {
+        integrator_.advance(equation_, plan_.h, part_, part_memory_);
+        pack(part_, part_memory_);
+        for (std::size_t row = 0; row < size; ++row)
+          powers_.entry(power, row, column) = unknowns_[row];
+      }
+    }
+    evaluations_ =
+        (equation_.tally().evaluations - tally.evaluations) / static_cast<long long>(size * steps);
+    equation_.set_tally(tally);
+    return true;
+  }
+
   void step(long long k, State& now, Memory& memory) {
     integrator_.advance(equation_, plan_.h, now, memory);
     now.t = plan_.time(k);
@@ -136,6 +197,9 @@ class Stepper final : public AnyStepper<Dof> {
   Memory memory_, first_memory_, part_memory_;
   typename MotionEquation<Dof>::Tally first_tally_;
   State part_;
+  StepPowers powers_;
+  std::vector<double> unknowns_;
+  long long evaluations_ = 0;  // a step
 };
 
 }  // namespace clackers::methods

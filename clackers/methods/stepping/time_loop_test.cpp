@@ -16,6 +16,7 @@ struct Scripted {
   int handled = 0;
 
   AnyStepper<1>& stepper() { return *own; }
+  bool is_open() const { return false; }
   bool is_quiet(const State&, const State& now) const {
     for (const double t : times)
       if (now.t == t) return false;
@@ -51,7 +52,7 @@ Run run(double end, std::vector<double> times, Handled answer, model::Sink* othe
   recorder.begin(other != nullptr ? *other : sink);
   const auto start = checks::displaced();
   treatment.own->restart(start);
-  TimeLoop<1> loop(plan, 1);
+  TimeLoop<1> loop(plan, {system, {}, start});
   const auto steps = loop.run(treatment, start, recorder);
   model::Work work;
   treatment.own->add_work(work);

@@ -25,15 +25,15 @@ struct Radau : NothingRemembered {
 
   template <int Dof>
   void prepare(MotionEquation<Dof>& equation, double h) const {
-    if (!equation.system().nonlinear) map(equation, h);
+    if (equation.is_linear()) map(equation, h);
   }
 
   template <int Dof>
   void advance(MotionEquation<Dof>& equation, double h, model::State<Dof>& x, Memory<Dof>&) const {
-    if (equation.system().nonlinear)
-      iterate(equation, h, x);
-    else
+    if (equation.is_linear())
       equation.apply(map(equation, h), x.t, x.u, x.v);
+    else
+      iterate(equation, h, x);
     x.t += h;
   }
 

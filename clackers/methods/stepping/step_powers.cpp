@@ -1,0 +1,148 @@
+#include "clackers/methods/stepping/step_powers.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "clackers/methods/stepping/step_powers.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace clackers::methods::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<double, StepPowers::steps>;
+
+// What the compiler does not know, it finds in the arguments: Dof = 0.
+template <std::size_t Dof, std::size_t Size>
+HWY_INLINE void multiply(const double* table, std::size_t size, const double* x, double* y) {
+  const Lanes d;
+  constexpr std::size_t count = StepPowers::steps;
+  if constexpr (Dof > 0) size = Size;
+  for (std::size_t row = 0; row < size; ++row)
+    for (std::size_t lane = 0; lane < count; lane += hn::Lanes(d)) {
+      const double* p = table + row * size * count + lane;
+      auto even = hn::Mul(hn::Set(d, x[0]), hn::Load(d, p));
+      auto odd = hn::Mul(hn::Set(d, x[1]), hn::Load(d, p + count));
+      std::size_t j = 2;
+      for (; j + 1 < size; j += 2) {
+        even = hn::Add(even, hn::Mul(hn::Set(d, x[j]), hn::Load(d, p + j * count)));
+        odd = hn::Add(odd, hn::Mul(hn::Set(d, x[j + 1]), hn::Load(d, p + (j + 1) * count)));
+      }
+      if (j < size) even = hn::Add(even, hn::Mul(hn::Set(d, x[j]), hn::Load(d, p + j * count)));
+      hn::Store(hn::Add(even, odd), d, y + row * count + lane);
+    }
+}
+
+// Whether all states are so far from all contacts that steps from them and to them are quiet: both
+// inner control points of their cubics, g + h/3 g' and g - h/3 g', are open.
+HWY_INLINE bool are_far(const Gaps& gaps, double third, std::size_t dof, const double* y) {
+  const Lanes d;
+  constexpr std::size_t count = StepPowers::steps;
+  std::size_t i = 0;
+  for (std::size_t contact = 0; contact < gaps.ends.size(); ++contact) {
+    const std::size_t first = i, end = gaps.ends[contact];
+    for (std::size_t lane = 0; lane < count; lane += hn::Lanes(d)) {
+      auto gap = hn::Set(d, -gaps.gaps[contact]), rate = hn::Zero(d);
+      for (i = first; i < end; ++i) {
+        const auto factor = hn::Set(d, gaps.entries[i].factor);
+        const double* at = y + gaps.entries[i].mass * count + lane;
+        gap = hn::Add(gap, hn::Mul(factor, hn::Load(d, at)));
+        rate = hn::Add(rate, hn::Mul(factor, hn::Load(d, at + dof * count)));
+      }
+      const auto margin = hn::Sub(gap, hn::Mul(hn::Set(d, third), hn::Abs(rate)));
+      if (!hn::AllTrue(d, hn::Ge(margin, hn::Zero(d)))) return false;
+    }
+  }
+  return true;
+}
+
+// One of them, at a distance `stride` between unknowns: whether a step from it, or one to it, may be quiet.
+HWY_INLINE bool is_far(const Gaps& gaps, double third, std::size_t dof, const double* x,
+                       std::size_t stride, double direction) {
+  std::size_t i = 0;
+  for (std::size_t contact = 0; contact < gaps.ends.size(); ++contact) {
+    double gap = -gaps.gaps[contact], rate = 0.0;
+    for (; i < gaps.ends[contact]; ++i) {
+      const auto [mass, factor] = gaps.entries[i];
+      gap += factor * x[mass * stride];
+      rate += factor * x[(dof + mass) * stride];
+    }
+    if (!(gap >= 0.0 && gap + direction * third * rate >= 0.0)) return false;
+  }
+  return true;
+}
+
+HWY_INLINE void deliver(std::size_t dof, const double* y, double* out) {
+  const Lanes d;
+  constexpr std::size_t count = StepPowers::steps;
+  for (std::size_t lane = 0; lane < count; lane += hn::Lanes(d)) {
+    const auto row = [&](std::size_t i) HWY_ATTR { return hn::Load(d, y + i * count + lane); };
+    if (dof == 1) hn::StoreU(row(0), d, out + lane);
+    if (dof == 2) hn::StoreInterleaved2(row(0), row(1), d, out + 2 * lane);
+  }
+  if (dof > 2)
+    for (std::size_t lane = 0; lane < count; ++lane)
+      for (std::size_t i = 0; i < dof; ++i) out[lane * dof + i] = y[i * count + lane];
+}
+
+template <std::size_t Dof, std::size_t Size>
+std::size_t advance_sized(const double* table, std::size_t dof, std::size_t size, double* x,
+                          double* y, const Gaps& gaps, double third, std::size_t most, double* u,
+                          double* v) {
+  constexpr std::size_t count = StepPowers::steps;
+  if constexpr (Dof > 0) dof = Dof, size = Size;
+  std::size_t made = 0;
+  if (!is_far(gaps, third, dof, x, 1, 1.0)) return 0;
+  while (made + count <= most) {
+    multiply<Dof, Size>(table, size, x, y);
+    deliver(dof, y, u + made * dof);
+    deliver(dof, y + dof * count, v + made * dof);
+    std::size_t quiet = count;
+    const bool goes_on = are_far(gaps, third, dof, y);
+    if (!goes_on)
+      for (quiet = 0; quiet < count; ++quiet)
+        if ((quiet > 0 && !is_far(gaps, third, dof, y + quiet - 1, count, 1.0)) ||
+            !is_far(gaps, third, dof, y + quiet, count, -1.0))
+          break;
+    if (quiet > 0)
+      for (std::size_t i = 0; i < size; ++i) x[i] = y[i * count + quiet - 1];
+    made += quiet;
+    if (!goes_on) break;
+  }
+  return made;
+}
+
+std::size_t advance(const double* table, std::size_t dof, std::size_t size, double* x, double* y,
+                    const Gaps& gaps, double third, std::size_t most, double* u, double* v) {
+  const auto sized = [&]<std::size_t Dof, std::size_t Size>() {
+    return advance_sized<Dof, Size>(table, dof, size, x, y, gaps, third, most, u, v);
+  };
+  if (dof == 1 && size == 2) return sized.template operator()<1, 2>();
+  if (dof == 1 && size == 3) return sized.template operator()<1, 3>();
+  if (dof == 2 && size == 4) return sized.template operator()<2, 4>();
+  if (dof == 2 && size == 6) return sized.template operator()<2, 6>();
+  return sized.template operator()<0, 0>();
+}
+
+}  // namespace clackers::methods::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clackers::methods {
+
+HWY_EXPORT(advance);
+
+void StepPowers::resize(std::size_t dof, std::size_t size) {
+  dof_ = dof;
+  size_ = size;
+  table_.resize(size * size);
+  y_.resize(size);
+}
+
+std::size_t StepPowers::advance(std::span<double> x, const Gaps& gaps, double h, std::size_t most,
+                                double* u, double* v) {
+  return HWY_DYNAMIC_DISPATCH(advance)(table_[0].powers, dof_, size_, x.data(), y_[0].powers, gaps,
+                                       h / 3.0, most, u, v);
+}
+
+}  // namespace clackers::methods
+#endif

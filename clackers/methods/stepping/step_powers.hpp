@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "clackers/model/impact_problem.hpp"
+
+namespace clackers::methods {
+
+/// The gaps of a problem, for many states at once.
+struct Gaps {
+  struct Entry {
+    std::size_t mass;
+    double factor;
+  };
+  std::vector<Entry> entries;     ///< of all rows b, without zeros
+  std::vector<std::size_t> ends;  ///< of each row in `entries`
+  std::vector<double> gaps;
+
+  template <int Dof>
+  explicit Gaps(const std::vector<model::Contact<Dof>>& contacts) {
+    for (const auto& contact : contacts) {
+      for (Eigen::Index i = 0; i < contact.direction.size(); ++i)
+        if (contact.direction[i] != 0.0)
+          entries.push_back({static_cast<std::size_t>(i), contact.direction[i]});
+      ends.push_back(entries.size());
+      gaps.push_back(contact.gap);
+    }
+  }
+};
+
+/// Eight steps at once of an integrator whose step is a matrix P: the powers P, P², ..., P^8 act on the
+/// state x = (u, v) or (u, v, a) before them. Products and sums are rounded one by one in a fixed order,
+/// so that vectors of all lengths have the same bits.
+class StepPowers {
+ public:
+  static constexpr std::size_t steps = 8;
+  /// With more unknowns the matrices take longer than sparse steps.
+  static constexpr std::size_t most_unknowns = 64;
+
+  bool exists() const { return size_ > 0; }
+  void clear() { size_ = 0; }
+  /// Powers of `size` unknowns, which is 2 or 3 times `dof`; the caller fills entries.
+  void resize(std::size_t dof, std::size_t size);
+  double& entry(std::size_t power, std::size_t row, std::size_t column) {
+    return table_[row * size_ + column].powers[power - 1];
+  }
+
+  /// Goes on from x by steps of h while the cubics through gaps and gap rates of consecutive states
+  /// stay open. `u` and `v`, row-major (step, mass), become the states after the steps. Returns how
+  /// many were made, at most `most`; x becomes the state after them.
+  std::size_t advance(std::span<double> x, const Gaps& gaps, double h, std::size_t most, double* u,
+                      double* v);
+
+ private:
+  struct alignas(64) Eight {
+    double powers[steps];
+  };
+
+  std::size_t dof_ = 0, size_ = 0;
+  std::vector<Eight> table_, y_;
+};
+
+}  // namespace clackers::methods
