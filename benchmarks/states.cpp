@@ -118,6 +118,82 @@ void integrate_without_impacts(const model::ImpactProblem<>& problem, double h, 
   if (x[0] == 12345.0) fmt::print(" ");
 }
 
+// A chain of n unit masses and springs, every second spring a contact that may close; and RK4 on it as one would
+// write it in C.
+model::ImpactProblem<> chain(Eigen::Index n, double gap) {
+  model::ImpactProblem<> p;
+  p.system.mass = Eigen::MatrixXd::Identity(n, n);
+  p.system.stiffness = 2.0 * p.system.mass;
+  for (Eigen::Index i = 1; i < n; ++i)
+    p.system.stiffness(i, i - 1) = p.system.stiffness(i - 1, i) = -1.0;
+  p.system.damping = 0.01 * p.system.stiffness;
+  p.contacts = {model::contact_between(n, 0, 1)};
+  p.contacts[0].gap = -gap;
+  p.start = {0.0, Eigen::VectorXd::LinSpaced(n, 1.0, 0.0),
+             Eigen::VectorXd::LinSpaced(n, 0.0, -1.0)};
+  p.end = 50.0;
+  return p;
+}
+
+void integrate_chain(const model::ImpactProblem<>& problem, double h, long steps) {
+  const auto n = std::size_t(problem.dof());
+  std::vector<double> u(problem.start.u.begin(), problem.start.u.end()),
+      v(problem.start.v.begin(), problem.start.v.end()), x(u), y(v), du(u), dv(v), a(u);
+  const auto rate = [&](const std::vector<double>& p, const std::vector<double>& q) {
+    for (std::size_t i = 0; i < n; ++i) {
+      double u_sum = 2.0 * p[i], v_sum = 2.0 * q[i];
+      if (i > 0) u_sum -= p[i - 1], v_sum -= q[i - 1];
+      if (i + 1 < n) u_sum -= p[i + 1], v_sum -= q[i + 1];
+      a[i] = -u_sum - 0.01 * v_sum;
+    }
+  };
+  for (long k = 0; k < steps; ++k) {
+    du.assign(n, 0.0);
+    dv.assign(n, 0.0);
+    for (int stage = 0; stage < 4; ++stage) {
+      rate(stage == 0 ? u : x, stage == 0 ? v : y);
+      const double weight = stage == 0 || stage == 3 ? h / 6.0 : h / 3.0,
+                   part = stage == 2 ? h : 0.5 * h;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double speed = stage == 0 ? v[i] : y[i];
+        du[i] += weight * speed;
+        dv[i] += weight * a[i];
+        x[i] = u[i] + part * speed;
+        y[i] = v[i] + part * a[i];
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      u[i] += du[i];
+      v[i] += dv[i];
+    }
+  }
+  if (u[0] == 12345.0) fmt::print(" ");
+}
+
+void race_chains(Eigen::Index n) {
+  const auto open = chain(n, 9.0), hits = chain(n, 0.0);
+  constexpr long steps = 10000;
+  const double h = open.end / double(steps);
+  std::vector<Row> rows{
+      {"banded RK4 in a loop, no contact", [&] { integrate_chain(open, h, steps); }, 0, {}}};
+  const auto add = [&](const std::string& name, const model::ImpactProblem<>& problem,
+                       const char* what) {
+    const auto run = std::shared_ptr(methods::method(name)->prepare(problem, h));
+    rows.push_back({name + what,
+                    [run] {
+                      ReadingSink sink;
+                      run->advance(sink);
+                    },
+                    0,
+                    {}});
+  };
+  for (const std::string name : {"rk4", "newmark", "generalized-alpha", "newmark+penalty"}) {
+    add(name, open, ", gaps open");
+    add(name, hits, ", impacts");
+  }
+  race(fmt::format("A step of a chain of {} masses", n), double(steps), rows);
+}
+
 void race_runs() {
   const SynchronizedPair motion({.t_end = 200.0});
   const auto problem = motion.problem();
@@ -127,7 +203,8 @@ void race_runs() {
                          [&] { integrate_without_impacts(problem, h, steps); },
                          0,
                          {}}};
-  for (const std::string name : {"rk4", "newmark"}) {
+  for (const std::string name : {"rk4", "newmark", "generalized-alpha:rho=0.8", "bathe",
+                                 "radau-iia-5", "exponential", "newmark+penalty"}) {
     const auto run = std::shared_ptr(methods::method(name)->prepare(problem, h));
     rows.push_back({"one step of " + name + ", impacts located",
                     [run] {
@@ -221,5 +298,7 @@ int main(int argc, char** argv) {
   race_sampling({0.05, 81.0}, 400.0);
   race_sampling({2e-5, 400001.0}, 1e6);
   race_runs();
+  race_chains(10);
+  race_chains(100);
   if (argc > 1) write_rows(argv[1]);
 }

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <type_traits>
 
+#include "clackers/numerics/banded.hpp"
+
 namespace clackers::numerics {
 
 /// Solves A x = b for a symmetric positive definite A, many times for one A. Hides one decision:
 /// an inverse for the one or two unknowns known at compile time, a Cholesky factorization
-/// otherwise. Only the lower triangle of A is read. After the first compute() of a size nothing
+/// otherwise, within the band where A has a narrow one. Only the lower triangle of A is read. After the first compute() of a size nothing
 /// is allocated.
 template <int Dof>
 class SpdSolver {
@@ -31,6 +33,9 @@ class SpdSolver {
       solver_(0, 1) = solver_(1, 0) = -scale * a(1, 0);
       return a(0, 0) > 0.0 && determinant > 0.0 && std::isfinite(determinant);
     } else {
+      width_ = half_bandwidth(a);
+      if (is_banded(a.rows(), width_)) return factorize_band(a);
+      width_ = -1;
       solver_.compute(a);
       return solver_.info() == Eigen::Success && solver_.matrixLLT().diagonal().allFinite();
     }
@@ -40,13 +45,54 @@ class SpdSolver {
   template <class Derived>
   void solve_in_place(Eigen::MatrixBase<Derived>& x) const {
     if constexpr (Dof == Eigen::Dynamic)
-      solver_.solveInPlace(x);
+      width_ < 0 ? solver_.solveInPlace(x) : solve_band(x);
     else
       x = (solver_ * x).eval();
   }
 
  private:
+  using Index = Eigen::Index;
+
+  // band_(k, i) = L(i, i - k), and 1/L(i, i) for k = 0.
+  bool factorize_band(const Matrix& a) {
+    const Index n = a.rows();
+    band_.setZero(width_ + 1, n);
+    for (Index i = 0; i < n; ++i)
+      for (Index j = std::max(i - width_, Index(0)); j <= i; ++j) {
+        double sum = a(i, j);
+        for (Index k = std::max(i - width_, Index(0)); k < j; ++k)
+          sum -= band_(i - k, i) * band_(j - k, j);
+        if (j < i) {
+          band_(i - j, i) = sum * band_(0, j);
+        } else {
+          if (!(sum > 0.0 && std::isfinite(sum))) return false;
+          band_(0, i) = 1.0 / std::sqrt(sum);
+        }
+      }
+    return true;
+  }
+
+  template <class Derived>
+  void solve_band(Eigen::MatrixBase<Derived>& x) const {
+    const Index n = band_.cols();
+    for (Index column = 0; column < x.cols(); ++column) {
+      auto y = x.col(column);
+      for (Index i = 0; i < n; ++i) {
+        double sum = y[i];
+        for (Index k = std::min(width_, i); k >= 1; --k) sum -= band_(k, i) * y[i - k];
+        y[i] = sum * band_(0, i);
+      }
+      for (Index i = n; i-- > 0;) {
+        double sum = y[i];
+        for (Index k = std::min(width_, n - 1 - i); k >= 1; --k) sum -= band_(k, i + k) * y[i + k];
+        y[i] = sum * band_(0, i);
+      }
+    }
+  }
+
   std::conditional_t<Dof == Eigen::Dynamic, Eigen::LLT<Matrix>, Matrix> solver_;
+  Eigen::MatrixXd band_;
+  Index width_ = -1;
 };
 
 }  // namespace clackers::numerics

@@ -24,6 +24,7 @@ std::string contacts_named(std::vector<std::size_t> rows, std::size_t last) {
 template <int Dof>
 ContactSet<Dof>::ContactSet(const model::ImpactProblem<Dof>& problem)
     : contacts_(problem.contacts),
+      gaps_(contacts_),
       lcp_(contacts_.size()),
       factors_(contacts_.size()),
       q_(to_index(contacts_.size())) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clackers/methods/method.hpp"
+#include "clackers/methods/stepping/step_powers.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/numerics/lcp.hpp"
 #include "clackers/numerics/spd_solver.hpp"
@@ -47,9 +48,9 @@ class ContactSet {
   Eigen::VectorXd no_impulses() const { return Eigen::VectorXd::Zero(q_.size()); }
 
   /// g [m]: open where positive.
-  double gap(std::size_t i, const Vector& u) const { return contacts_[i].gap_at(u); }
+  double gap(std::size_t i, const Vector& u) const { return product(i, u) - contacts_[i].gap; }
   /// U = dg/dt [m/s]: closing where negative.
-  double gap_rate(std::size_t i, const Vector& v) const { return contacts_[i].gap_rate(v); }
+  double gap_rate(std::size_t i, const Vector& v) const { return product(i, v); }
   /// How far from 0 the gap can be by rounding only [m]: n products and the gap, and as much
   /// again for u itself being rounded, twice.
   double rounding(std::size_t i, const Vector& u) const;
@@ -88,7 +89,13 @@ class ContactSet {
   std::optional<Objection> redundancy(Rows rows);
 
  private:
+  double product(std::size_t i, const Vector& x) const {
+    if constexpr (Dof == model::any_dof) return gaps_.product(i, x);
+    return row(i).dot(x);
+  }
+
   std::vector<model::Contact<Dof>> contacts_;
+  Gaps gaps_;
   ContactResponse<Dof> response_;
   numerics::LcpSolver lcp_;
   numerics::PrincipalCholesky factors_;

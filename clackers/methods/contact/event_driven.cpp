@@ -38,15 +38,15 @@ solved for all of them. A contact is let go where its force changes sign. Contac
 closed at once with linearly dependent b_j end the run, and so do more than 1000 events in one
 step.
 
-Rest        impacts with eta < 1 of a contact that is pressed, A < 0, accumulate; the last of them
-            is taken with eta = 0, after which the contact is an active constraint: where the next
-            flight would rise by less than rounding of the gap, or the closing speed is below 2^-26
-            of the largest one of the run and the next flight shorter than 2^-16 h (of the run, if adaptive).
-
 Order       that of the integrator.
 Stability   that of the integrator.
 Dissipation none at impacts with eta = 1.
 Memory      what the integrator remembers is dropped at each impact.
+Rest        impacts with eta < 1 of a contact that is pressed, A < 0, accumulate; the last of them
+            is taken with eta = 0, after which the contact is active: where the next flight would
+            rise by less than rounding of the gap, or the closing speed is below 2^-26 of the
+            largest one of the run and the next flight shorter than 2^-16 h, or 2^-16 of the run
+            of an adaptive integrator.
 Cost        two products a contact and step; about ten partial steps an impact, seventy more where
             contacts that share a mass close in one step.
 Source      L. F. Shampine, I. Gladwell, R. W. Brankin, ACM Trans. Math. Softw. 17, 11-25 (1991).

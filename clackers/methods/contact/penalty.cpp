@@ -176,6 +176,7 @@ class Penalty::Loop {
         force_(std::make_shared<CompliantForce<Dof>>(compliant_law(penalty.law), rigid,
                                                      penalty.stiffnesses(rigid))),
         time_loop_(plan, problem_),
+        contacts_(problem_),
         at_(problem_.start) {
     problem_.system.nonlinear = force_;
     stepper_ = integrator.stepper(problem_.system, plan);
@@ -206,8 +207,7 @@ class Penalty::Loop {
 
   bool is_quiet(const State& before, const State& now) const {
     for (std::size_t j = 0; j < problem_.contacts.size(); ++j)
-      if (force_->is_closed(j) ? has_left(j, before) : problem_.contacts[j].gap_at(now.u) < 0.0)
-        return false;
+      if (force_->is_closed(j) ? has_left(j, before) : contacts_.gap(j, now.u) < 0.0) return false;
     return true;
   }
 
@@ -223,7 +223,7 @@ class Penalty::Loop {
       at_ = before;
       if (s > 0.0) at_ = stepper_->partial(before, s);
       at_.t = std::min(before.t + s, now.t);
-      w0 = -problem_.contacts[j].gap_rate(at_.v);
+      w0 = -contacts_.gap_rate(j, at_.v);
       if (!out.impact(at_, static_cast<int>(j), at_.v, 0.0)) return Handled::ended;
     }
     if (stepper_->failed()) {
@@ -244,25 +244,22 @@ class Penalty::Loop {
   };
 
   bool has_left(std::size_t j, const State& at) const {
-    const auto& contact = problem_.contacts[j];
-    return contact.gap_at(at.u) >= 0.0 && contact.gap_rate(at.v) > 0.0;
+    return contacts_.gap(j, at.u) >= 0.0 && contacts_.gap_rate(j, at.v) > 0.0;
   }
 
   bool is_touched(std::size_t j, const State& before, const State& now) const {
-    return (!force_->is_closed(j) || has_left(j, before)) &&
-           problem_.contacts[j].gap_at(now.u) < 0.0;
+    return (!force_->is_closed(j) || has_left(j, before)) && contacts_.gap(j, now.u) < 0.0;
   }
 
   // After `before`; 0 where the contact is violated there, because it was left and touched again in
   // the step that ends there.
   double touch_time(std::size_t j, const State& before, const State& now) {
-    const auto& contact = problem_.contacts[j];
-    const double g0 = contact.gap_at(before.u), g1 = contact.gap_at(now.u);
+    const double g0 = contacts_.gap(j, before.u), g1 = contacts_.gap(j, now.u);
     if (!(g0 >= 0.0)) return 0.0;
     const double length = now.t - before.t;
     ++searches_;
     return numerics::shrink(
-               [&](double s) { return contact.gap_at(stepper_->partial(before, s).u); },
+               [&](double s) { return contacts_.gap(j, stepper_->partial(before, s).u); },
                {0.0, g0, length, g1}, std::numeric_limits<double>::epsilon() * length)
         .a;
   }
@@ -270,6 +267,7 @@ class Penalty::Loop {
   model::ImpactProblem<Dof> problem_;
   std::shared_ptr<CompliantForce<Dof>> force_;
   TimeLoop<Dof> time_loop_;
+  ContactSet<Dof> contacts_;
   std::unique_ptr<AnyStepper<Dof>> stepper_;
   State at_;
   std::vector<Touch> touches_;

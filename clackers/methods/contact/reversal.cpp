@@ -30,6 +30,8 @@ Stability   that of the integrator.
 Dissipation none in kinetic energy with eta = 1; the energy of the penetration is wrong at
             random.
 Memory      what the integrator remembers is dropped at each impact.
+Rest        none: a pressed contact has an impact in each step and sinks with the speed
+            (1 - eta)/(1 + eta) A h/2, A the acceleration that presses it.
 Cost        two products a contact and step.
 Source      common practice; the order is the position of the impact in its step, known to h.
 )";

@@ -43,14 +43,14 @@ closed together take part in one impact, 0 <= b_j.v(+) + eta b_j.v(-) _|_ P_j >=
 
 A contact is an active constraint when it is closed, its gap rate is 0 and the others would
 close it, until its force is negative: after an impact with eta = 0, from a start at rest, or
-when impacts have accumulated, so that the gap would rise by less than its rounding before the
-next one; the rest of the accumulation, shorter than 1e-6 of a period, is left out. States are
-delivered after each step, which the motion does not depend on.
+at rest. States are delivered after each step, which the motion does not depend on.
 
 Order       none: exact but for rounding, at every step.
 Stability   for every h.
 Dissipation none but that of the structure.
 Memory      none.
+Rest        when impacts have accumulated, so that the gap would rise by less than its rounding before
+            the next one; what is left out is shorter than 1e-6 of a period.
 Cost        a sine, a cosine and an exponential a mode for each state, and about 15 such an impact,
             at any ratio of the frequencies; an eigenvalue problem for each set of active contacts.
 Source      A. Soroushian, A. Ahmadi, H. Amiri, Sci. Iran. B (2018), for the sums of modes between

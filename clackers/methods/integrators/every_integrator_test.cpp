@@ -42,6 +42,27 @@ TEST_P(EveryIntegrator, RefusesStepsThatAreNotPositiveAndFinite) {
     EXPECT_THROW(chosen->stepper(system, checks::endless(0.0, h)), InputError) << h;
 }
 
+// Restarted after every second step, as by impacts inside their start, multistep methods have the order of the
+// steps that they start with, or for two steps their own.
+TEST(Multistep, RestartedInsideItsStartHasTheOrderThatItsCardStates) {
+  const checks::Waves<1> problem(1, 0.3);
+  for (const std::string name : {"bdf2", "houbolt", "park", "bdf3", "bdf4", "bdf5", "bdf6"}) {
+    const bool is_second = integrator(name)->facts().smooth_order < 2.5;
+    const auto error = [&](double h) {
+      auto now = problem.exact(1.0);
+      checks::SingleSteps<1> stepper(name, problem.system, h, now);
+      for (int i = 1; double(i) * h < 4.0; ++i) {
+        stepper.step(now);
+        if (i % 2 != 0) continue;
+        stepper->restart(now);
+      }
+      return (now.u - problem.exact(now.t).u).norm();
+    };
+    const auto fit = checks::observed_order(error, 1.0 / 8, 5);
+    EXPECT_NEAR(fit.order, is_second ? 2.0 : 5.0, is_second ? 0.2 : 0.5) << name;
+  }
+}
+
 std::vector<std::string> registered(bool is_linear_too) {
   std::vector<std::string> all;
   for (const auto& entry : entries()) {

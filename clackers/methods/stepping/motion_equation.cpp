@@ -1,5 +1,6 @@
 #include "clackers/methods/stepping/motion_equation.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -42,8 +43,6 @@ MotionEquation<Dof>::MotionEquation(const model::SmoothSystem<Dof>& system)
       dp_dv_(matrix_),
       by_chord_(matrix_),
       other_(matrix_),
-      by_u_(matrix_),
-      by_v_(matrix_),
       tangent_(system.dof()) {
   for (auto& factors : factors_) factors.solver.compute(system.mass);  // allocates
   scratch_.fill(r_);
@@ -53,10 +52,20 @@ MotionEquation<Dof>::MotionEquation(const model::SmoothSystem<Dof>& system)
 template <int Dof>
 void MotionEquation<Dof>::rebuild() {
   mass_.compute(s_.mass);
-  by_u_ = -s_.stiffness;
-  by_v_ = -s_.damping;
-  mass_.solve_in_place(by_u_);
-  mass_.solve_in_place(by_v_);
+  mass_matrix_ = s_.mass;
+  damping_ = s_.damping;
+  stiffness_ = s_.stiffness;
+  if (s_.nonlinear) {
+    mass_size_ = s_.mass.cwiseAbs();
+    damping_size_ = s_.damping.cwiseAbs();
+    stiffness_size_ = s_.stiffness.cwiseAbs();
+  }
+  matrix_ = -s_.stiffness;
+  mass_.solve_in_place(matrix_);
+  by_u_ = matrix_;
+  matrix_ = -s_.damping;
+  mass_.solve_in_place(matrix_);
+  by_v_ = matrix_;
 }
 
 template <int Dof>
@@ -102,9 +111,13 @@ void MotionEquation<Dof>::subtract_nonlinear(const Vector& u, const Vector& v, V
   r -= magnitude_;
 }
 
-// dp_du_ and dp_dv_ at (u, v).
+// dp_du_ and dp_dv_, or their rows, at (u, v).
 template <int Dof>
 void MotionEquation<Dof>::add_tangent(const Vector& u, const Vector& v) {
+  if constexpr (Dof == model::any_dof) {
+    has_rows_ = chord_ == nullptr && switched_ && switched_->find_tangent_rows(u, v, rows_);
+    if (has_rows_) return;
+  }
   dp_du_.setZero();
   dp_dv_.setZero();
   if (chord_ == nullptr) return s_.nonlinear->add_tangent(u, v, dp_du_, dp_dv_);
@@ -139,14 +152,39 @@ bool MotionEquation<Dof>::solve_nonlinear(const LoadTime& load, const Weights& w
       continue;
     }
     last = unbalanced;
+    correct(w);
+    a += correction_;
+    ++tally_.iterations;
+  }
+  return false;
+}
+
+// correction_ becomes the tangent's solution for r_. Rows b add d b b^T, with the formula of Sherman and
+// Morrison for them one by one: z = A^-1 b with the matrix A before.
+template <int Dof>
+void MotionEquation<Dof>::correct(const Weights& w) {
+  if (!has_rows_) {
     matrix_ = w.a * s_.mass + w.v * (s_.damping + dp_dv_) + w.u * (s_.stiffness + dp_du_);
     tangent_.compute(matrix_);
     correction_ = tangent_.solve(r_);
-    a += correction_;
-    ++tally_.iterations;
     ++tally_.factorizations;
+    return;
   }
-  return false;
+  const auto& solver = factorized(w);
+  const auto add_row = [&](std::size_t i, Vector& x) {
+    const auto& [b, by_u, by_v] = rows_[i];
+    const double d = w.u * by_u + w.v * by_v;
+    x -= d * b->dot(x) / (1.0 + d * b->dot(by_rows_[i])) * by_rows_[i];
+  };
+  correction_ = r_;
+  solver.solve_in_place(correction_);
+  by_rows_.resize(std::max(by_rows_.size(), rows_.size()), r_);
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    by_rows_[j] = *rows_[j].b;
+    solver.solve_in_place(by_rows_[j]);
+    for (std::size_t i = 0; i < j; ++i) add_row(i, by_rows_[j]);
+    add_row(j, correction_);
+  }
 }
 
 // r_ becomes the unbalanced force at (a, u_, v_). True if it is nothing but rounding: each entry
@@ -160,20 +198,30 @@ bool MotionEquation<Dof>::balance(const LoadTime& load, const Weights& w, const 
   r_ = term_ = magnitude_;
   subtract_nonlinear(u_, v_, r_);  // leaves p in magnitude_
   magnitude_ = magnitude_.cwiseAbs() + term_.cwiseAbs();
-  const auto add = [this](const Matrix& matrix, const Vector& x) {
-    r_.noalias() -= matrix * x;
-    magnitude_.noalias() += matrix.cwiseAbs() * x.cwiseAbs();
+  const auto add = [this](const Banded& matrix, const Banded& sizes, const Vector& x) {
+    matrix.subtract_product(x, r_);
+    part_ = x.cwiseAbs();
+    sizes.add_product(part_, magnitude_);
   };
   term_ = w.a * a;
-  add(s_.mass, term_);
-  if (shift != nullptr) add(s_.mass, *shift);
-  add(s_.damping, v_);
-  add(s_.stiffness, u_);
+  add(mass_matrix_, mass_size_, term_);
+  if (shift != nullptr) add(mass_matrix_, mass_size_, *shift);
+  add(damping_, damping_size_, v_);
+  add(stiffness_, stiffness_size_, u_);
   // u and v are themselves rounded sums of a predictor and the part of the unknown.
   term_ = u0.cwiseAbs() + std::abs(w.u) * a.cwiseAbs();
-  magnitude_.noalias() += (s_.stiffness.cwiseAbs() + dp_du_.cwiseAbs()) * term_;
-  term_ = v0.cwiseAbs() + std::abs(w.v) * a.cwiseAbs();
-  magnitude_.noalias() += (s_.damping.cwiseAbs() + dp_dv_.cwiseAbs()) * term_;
+  stiffness_size_.add_product(term_, magnitude_);
+  part_ = v0.cwiseAbs() + std::abs(w.v) * a.cwiseAbs();
+  damping_size_.add_product(part_, magnitude_);
+  if (has_rows_) {
+    for (const auto& [b, by_u, by_v] : rows_)
+      magnitude_ +=
+          (std::abs(by_u) * b->cwiseAbs().dot(term_) + std::abs(by_v) * b->cwiseAbs().dot(part_)) *
+          b->cwiseAbs();
+  } else {
+    magnitude_.noalias() += dp_du_.cwiseAbs() * term_;
+    magnitude_.noalias() += dp_dv_.cwiseAbs() * part_;
+  }
   const double factor =
       (3.0 * double(a.size()) + 13.0) * 0.5 * std::numeric_limits<double>::epsilon();
   for (Eigen::Index i = 0; i < r_.size(); ++i)

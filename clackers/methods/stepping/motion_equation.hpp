@@ -6,11 +6,13 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "clackers/base/codes.hpp"
 #include "clackers/methods/stepping/linear_step.hpp"
 #include "clackers/model/run.hpp"
 #include "clackers/model/system.hpp"
+#include "clackers/numerics/banded.hpp"
 #include "clackers/numerics/spd_solver.hpp"
 
 namespace clackers::methods {
@@ -25,8 +27,17 @@ using Scratch = std::conditional_t<Dof == model::any_dof, model::Vector<Dof>&, m
 template <int Dof>
 class SwitchedForce : public model::NonlinearForce<Dof> {
  public:
+  /// A part by_u b b^T of dp/du and by_v b b^T of dp/dv.
+  struct Row {
+    const model::Vector<Dof>* b;
+    double by_u, by_v;
+  };
+
   /// True while p = 0 for every u and v.
   virtual bool vanishes() const = 0;
+  /// Fills `rows` with all parts of the tangents at (u, v). False where they have others.
+  virtual bool find_tangent_rows(const model::Vector<Dof>& u, const model::Vector<Dof>& v,
+                                 std::vector<Row>& rows) const = 0;
 };
 
 /// A load of a step: f(t), or (1 - weight) f(t) + weight f(other).
@@ -69,8 +80,9 @@ class MotionEquation {
 
   /// a becomes M^-1 (f(t) - C v - K u - p(u, v)).
   void accelerate(double t, const Vector& u, const Vector& v, Vector& a) {
-    a.noalias() = -(s_.damping * v);
-    a.noalias() -= s_.stiffness * u;
+    a.setZero();
+    damping_.subtract_product(v, a);
+    stiffness_.subtract_product(u, a);
     if (s_.add_load)
       s_.add_load(t, std::span<double>(a.data(), static_cast<std::size_t>(a.size())));
     if (!is_linear()) subtract_nonlinear(u, v, a);
@@ -83,8 +95,9 @@ class MotionEquation {
   void with_acceleration(auto&& steps) {
     if (is_free()) {
       steps([this](double, const Vector& u, const Vector& v, Vector& a) {
-        a.noalias() = by_u_ * u;
-        a.noalias() += by_v_ * v;
+        a.setZero();
+        by_u_.add_product(u, a);
+        by_v_.add_product(v, a);
         ++tally_.evaluations;
       });
     } else {
@@ -124,9 +137,10 @@ class MotionEquation {
       if (!solve_nonlinear(load, w, u0, v0, a, shift)) fail("newton-failed");
       return;
     }
-    a.noalias() = -(s_.damping * v0);
-    a.noalias() -= s_.stiffness * u0;
-    if (shift != nullptr) a.noalias() -= s_.mass * *shift;
+    a.setZero();
+    damping_.subtract_product(v0, a);
+    stiffness_.subtract_product(u0, a);
+    if (shift != nullptr) mass_matrix_.subtract_product(*shift, a);
     if (s_.add_load) add_load(load, a);
     factorized(w).solve_in_place(a);
     ++tally_.evaluations;
@@ -209,6 +223,7 @@ class MotionEquation {
   void add_load(const LoadTime& load, Vector& to);
   void subtract_nonlinear(const Vector& u, const Vector& v, Vector& r);
   void add_tangent(const Vector& u, const Vector& v);
+  void correct(const Weights& w);
   bool solve_nonlinear(const LoadTime& load, const Weights& w, const Vector& u0, const Vector& v0,
                        Vector& a, const Vector* shift);
   bool balance(const LoadTime& load, const Weights& w, const Vector& u0, const Vector& v0,
@@ -220,7 +235,13 @@ class MotionEquation {
   Vector r_, u_, v_, magnitude_, term_, correction_;
   Vector point_, part_, stage_u_, stage_v_;
   Matrix matrix_, dp_du_, dp_dv_, by_chord_, other_;
-  Matrix by_u_, by_v_;  // -M^-1 K and -M^-1 C: a = by_u u + by_v v
+  using Banded = numerics::BandedMatrix<Dof>;
+  Banded mass_matrix_, damping_, stiffness_;
+  Banded mass_size_, damping_size_, stiffness_size_;  // magnitudes of their entries
+  Banded by_u_, by_v_;                                // -M^-1 K and -M^-1 C: a = by_u u + by_v v
+  bool has_rows_ = false;                             // in place of dp_du_ and dp_dv_
+  std::vector<typename SwitchedForce<Dof>::Row> rows_;
+  std::vector<Vector> by_rows_;
   Eigen::PartialPivLU<Matrix> tangent_;
   std::array<Factors, most_factors> factors_;
   std::size_t used_ = 0, kept_ = 0;

@@ -19,6 +19,14 @@ struct Gaps {
   std::vector<std::size_t> ends;  ///< of each row in `entries`
   std::vector<double> gaps;
 
+  /// b . x of a row.
+  double product(std::size_t row, const auto& x) const {
+    double sum = 0.0;
+    for (std::size_t k = row > 0 ? ends[row - 1] : 0; k < ends[row]; ++k)
+      sum += entries[k].factor * x[static_cast<Eigen::Index>(entries[k].mass)];
+    return sum;
+  }
+
   template <int Dof>
   explicit Gaps(const std::vector<model::Contact<Dof>>& contacts) {
     for (const auto& contact : contacts) {

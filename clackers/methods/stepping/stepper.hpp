@@ -44,6 +44,8 @@ class Stepper final : public AnyStepper<Dof> {
     require_step(who_, plan_.h);
     part_.u = part_.v = model::Vector<Dof>::Zero(system.dof());
     prepare();
+    if constexpr (is_one_step)
+      if (equation_.is_free()) make_powers();
   }
 
   void rebuild() override {
@@ -70,7 +72,7 @@ class Stepper final : public AnyStepper<Dof> {
 
   std::size_t fly(State& now, const Gaps& gaps, std::size_t most, double* u, double* v) override {
     if constexpr (is_one_step) {
-      if (!equation_.is_free() || (!powers_.exists() && !make_powers())) return 0;
+      if (!powers_.exists() || !equation_.is_free()) return 0;
       pack(now, memory_);
       const std::size_t made = powers_.advance(unknowns_, gaps, plan_.h, most, u, v);
       unpack(now, memory_);
@@ -159,12 +161,12 @@ class Stepper final : public AnyStepper<Dof> {
     if constexpr (remembers_acceleration) std::copy_n(&unknowns_[2 * n], n, memory.a.data());
   }
 
-  // By steps from unit vectors. False where they would take longer than they save.
-  bool make_powers() {
+  // By steps from unit vectors, where these save more than they take.
+  void make_powers() {
     const auto n = std::size_t(part_.u.size()), size = (remembers_acceleration ? 3 : 2) * n;
     constexpr auto steps = StepPowers::steps;
     if (size > StepPowers::most_unknowns || plan_.whole < static_cast<long long>(4 * steps * size))
-      return false;
+      return;
     const auto tally = equation_.tally();
     powers_.resize(n, size);
     unknowns_.resize(size);
@@ -182,7 +184,6 @@ class Stepper final : public AnyStepper<Dof> {
     evaluations_ =
         (equation_.tally().evaluations - tally.evaluations) / static_cast<long long>(size * steps);
     equation_.set_tally(tally);
-    return true;
   }
 
   void step(long long k, State& now, Memory& memory) {

@@ -29,6 +29,7 @@ Order       2 in smooth motion; none through impacts.
 Stability   for every h in smooth motion; impacts add energy.
 Dissipation none in flight for C = 0.
 Memory      a0, contact included.
+Rest        none: impacts with eta = 1 do not accumulate.
 Cost        one evaluation and one back-substitution a step, and as many again in each iteration;
             one factorization.
 Source      J. C. Simo, T. A. Laursen, Comput. Struct. 42, 97-116 (1992).

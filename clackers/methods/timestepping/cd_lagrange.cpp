@@ -23,6 +23,8 @@ Order       2 in smooth motion; 1 of the upper envelope through impacts, errors 
 Stability   omega h <= 2.
 Dissipation none in flight for C = 0: the scheme is symplectic.
 Memory      w0, kept as acceleration and velocity.
+Rest        accumulating impacts end in a contact that is closed to less than the motion of one step;
+            its force is reported as an impulse in each step.
 Cost        one evaluation and one back-substitution a step, one more at an impact with its
             complementarity problem; one factorization.
 Source      F.-E. Fekak, M. Brun, A. Gravouil, B. Depale, Comput. Mech. 60, 233-258 (2017);

@@ -30,6 +30,9 @@ Order       2 in smooth motion; 1 of the upper envelope through impacts, errors 
 Stability   omega h <= 2 for C = 0, less with damping, which is explicit.
 Dissipation none in flight for C = 0.
 Memory      none.
+Rest        with eta > 0 a pressed contact has an impact in each step and sinks with the speed
+            (1 - eta)/(1 + eta) A h/2, A the acceleration that presses it; with eta = 0 p holds it,
+            which is not reported.
 Cost        two evaluations a step; an impact or a closed contact a complementarity problem.
 Source      T. Schindler, V. Acary, Math. Comput. Simul. 95, 180-199 (2014); T. Schindler et al.,
             Comput. Methods Appl. Mech. Eng. 290, 250-276 (2015).

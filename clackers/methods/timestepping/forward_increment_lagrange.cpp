@@ -28,6 +28,7 @@ Order       2 in smooth motion, and in displacement through impacts with eta = 0
 Stability   omega h <= 2.
 Dissipation none in flight for C = 0.
 Memory      u0, kept as acceleration and velocity.
+Rest        from the first impact on; the force is reported as an impulse every second step.
 Cost        one evaluation and one back-substitution a step, one more in contact with a
             complementarity problem; one factorization.
 Source      N. J. Carpenter, R. L. Taylor, M. G. Katona, Int. J. Numer. Methods Eng. 32, 103-128

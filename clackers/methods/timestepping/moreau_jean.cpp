@@ -27,6 +27,8 @@ Order       1 of the upper envelope; in smooth motion 2 for theta = 1/2, otherwi
 Stability   for every h.
 Dissipation none in flight for theta = 1/2, C = 0; grows with theta.
 Memory      none.
+Rest        accumulating impacts end in a contact that is closed to less than the motion of one step;
+            its force is reported as an impulse in each step.
 Cost        one evaluation and one back-substitution a step, one more at an impact with its
             complementarity problem; one factorization.
 Source      J. J. Moreau, Comput. Methods Appl. Mech. Eng. 177, 329-349 (1999).

@@ -26,6 +26,7 @@ Stability   for every h in smooth motion; impacts add energy.
 Dissipation none in flight for C = 0; the mean of the logarithm over all positions of the impact in
             the step is a factor 2.1 of the kinetic energy at a stop.
 Memory      a0, contact included.
+Rest        none: impacts with eta = 1 do not accumulate.
 Cost        one evaluation and one back-substitution a step, one more at an impact with its
             complementarity problem; one factorization.
 Source      V. Acary, Z. Angew. Math. Mech. 96, 585-603 (2016), on why not.

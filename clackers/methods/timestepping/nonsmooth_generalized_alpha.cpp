@@ -30,6 +30,8 @@ Order       2 in smooth motion; 1 of the upper envelope through impacts, errors 
 Stability   for every h.
 Dissipation none in flight for rho = 1, C = 0; grows as rho falls, for high frequencies first.
 Memory      a0 and s0; both live through an impact.
+Rest        accumulating impacts end in a contact that is closed to less than the motion of one step;
+            its force is reported as an impulse in each step.
 Cost        one evaluation and one back-substitution a step, one more at an impact with its
             complementarity problem; one factorization.
 Source      Q.-Z. Chen, V. Acary, G. Virlez, O. Bruls, Int. J. Numer. Methods Eng. 96, 487-511

@@ -28,6 +28,8 @@ Order       2 in smooth motion; 1 through impacts, with errors on a line where o
 Stability   omega h <= 2.
 Dissipation none in flight for C = 0.
 Memory      u0, kept as acceleration and velocity.
+Rest        accumulating impacts end in a contact that is closed to less than the motion of one step;
+            its force is reported as an impulse every second step.
 Cost        one evaluation and one back-substitution a step, one more in both steps of an impact
             with its complementarity problem; one factorization.
 Source      L. Paoli, M. Schatzman, SIAM J. Numer. Anal. 40, 702-733 and 734-768 (2002).

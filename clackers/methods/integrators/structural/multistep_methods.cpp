@@ -28,7 +28,8 @@ Member<Multistep> backward(std::size_t k, const Backward& x) {
     memory = "u and v of one step; the first step, also after an impact, is average acceleration.";
   if (k > 2)
     memory = fmt::format(
-        "u and v of {0} steps; the first {0}, also after an impact, are of Dormand and Prince.",
+        "u and v of {0} steps; the first {0}, also after an impact, are of Dormand and Prince, of\n"
+        "            order 5, which is the order where impacts are less than {0} steps apart.",
         words[k - 1]);
   return {fmt::format("bdf{}", k),
           fmt::format("{}backward difference formula of order {}",

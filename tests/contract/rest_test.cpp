@@ -1,0 +1,151 @@
+// What every treatment and method does where impacts accumulate to rest, as its card says, against the exact motion.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "clackers/exact/flights/piecewise_motion.hpp"
+#include "clackers/methods/registry.hpp"
+#include "clackers/model/trajectory.hpp"
+
+namespace clackers {
+namespace {
+
+constexpr double height = 0.25, force = 0.25;
+
+// A unit mass on a unit spring, pressed against a stop at `height`: the contact force at rest is `force`.
+model::ImpactProblem<> pressed_mass(double eta) {
+  model::ImpactProblem<> problem;
+  problem.system.mass = problem.system.stiffness = Eigen::MatrixXd::Identity(1, 1);
+  problem.system.damping = Eigen::MatrixXd::Zero(1, 1);
+  problem.contacts = {{Eigen::VectorXd::Ones(1), height, eta}};
+  problem.start = {0.0, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
+  problem.end = 20.0;
+  return problem;
+}
+
+// What a method does, in units of the step h but for event-driven and piecewise-exact, whose h is 0 here.
+struct Rest {
+  double late = 0.0;         // the last gap of 1e-3 or more, after the exact one [s]
+  double penetration = 0.0;  // largest [m]
+  double sinking = 0.0;      // in the last second [m/s], over the acceleration that presses
+  double share = 0.0;        // of the force in the impulses reported in the last second
+  double speed = 0.0;        // largest in the last second [m/s]
+};
+
+Rest rest_of(const std::string& name, double eta, double h) {
+  const auto problem = pressed_mass(eta);
+  const exact::PiecewiseMotion motion(problem);
+  EXPECT_FALSE(motion.closed_contacts().at(0).opens);
+  EXPECT_NEAR(motion.contact_forces(problem.end, model::Side::left)[0], force, 1e-15);
+  model::TrajectorySink sink(true);
+  const auto method = methods::method(name);
+  const auto resolution = method->facts().is_adaptive ? methods::Resolution::by_tolerance(1e-10)
+                                                      : methods::Resolution(h);
+  const auto outcome = method->prepare(problem, resolution)->advance(sink);
+  EXPECT_TRUE(outcome.finished) << outcome.detail;
+  const auto& path = sink.trajectory();
+  Rest rest;
+  double last = 0.0, exact = 0.0, before = 0.0;
+  for (std::size_t i = 0; i < path.t.size(); ++i) {
+    const double t = path.t[i], gap = path.u[i] - height;
+    if (gap > 1e-3) last = t;
+    if (motion.at(t, model::Side::right).u[0] - height > 1e-3) exact = t;
+    rest.penetration = std::max(rest.penetration, -gap);
+    if (t < 19.0)
+      before = gap;
+    else
+      rest.speed = std::max(rest.speed, std::abs(path.v[i]));
+  }
+  rest.late = std::abs(last - exact);
+  rest.sinking = (before - (path.u.back() - height)) / force;
+  for (const auto& impact : *path.impacts)
+    if (impact.t >= 19.0) rest.share += impact.impulse / force;
+  return rest;
+}
+
+struct Claim {
+  std::string name;
+  double eta;
+  Rest rest;  // its late, penetration and speed are bounds in units of h
+};
+
+// With their sentence "Rest" in the card.
+const std::vector<Claim>& claims() {
+  // A of the card is `force`.
+  constexpr double half = (1.0 - 0.5) / (1.0 + 0.5) / 2.0;
+  static const std::vector<Claim> all{
+      {"newmark+event-driven", 0.5, {}},
+      {"rk4+event-driven", 0.5, {}},
+      {"bdf3+event-driven", 0.5, {}},
+      {"exponential+event-driven", 0.5, {}},
+      {"dopri5+event-driven", 0.5, {}},
+      {"newmark+event-driven", 0.0, {}},
+      {"piecewise-exact", 0.5, {}},
+      {"piecewise-exact", 0.0, {}},
+      {"newmark+reversal",
+       0.5,
+       {.late = 6.0, .penetration = 1.0, .sinking = half, .share = 1.0, .speed = 1.0}},
+      {"rk4+reversal",
+       0.0,
+       {.late = 1.0, .penetration = 3.0, .sinking = 0.5, .share = 1.0, .speed = 1.0}},
+      {"d1-minus",
+       0.5,
+       {.late = 6.0, .penetration = 1.0, .sinking = half, .share = 1.0, .speed = 1.0}},
+      {"d1-minus", 0.0, {.late = 1.0, .penetration = 1.0}},
+      {"moreau-jean", 0.5, {.late = 6.0, .penetration = 1.0, .share = 1.0}},
+      {"moreau-jean", 0.0, {.late = 1.0, .penetration = 1.0, .share = 1.0}},
+      {"nonsmooth-generalized-alpha",
+       0.5,
+       {.late = 6.0, .penetration = 1.0, .share = 1.0, .speed = 1.0}},
+      {"nonsmooth-generalized-alpha", 0.0, {.late = 1.0, .penetration = 1.0, .share = 1.0}},
+      {"cd-lagrange", 0.5, {.late = 6.0, .penetration = 1.0, .share = 1.0}},
+      {"cd-lagrange", 0.0, {.late = 1.0, .penetration = 1.0, .share = 1.0}},
+      {"paoli-schatzman", 0.5, {.late = 6.0, .penetration = 1.0, .share = 1.0}},
+      {"forward-increment-lagrange", 0.0, {.late = 1.0, .penetration = 1.0, .share = 1.0}}};
+  return all;
+}
+
+TEST(Rest, IsReachedAsTheCardSays) {
+  for (const auto& [name, eta, claim] : claims())
+    for (const double h : {0.01 * 0.9973, 0.0025 * 0.9973}) {
+      SCOPED_TRACE(testing::Message() << name << " eta " << eta << " h " << h);
+      const auto rest = rest_of(name, eta, h);
+      EXPECT_LE(rest.late, claim.late * h + 1e-12);
+      EXPECT_LE(rest.penetration, claim.penetration * h + 1e-14);
+      EXPECT_NEAR(rest.sinking, claim.sinking * h, 0.15 * claim.sinking * h + 1e-6 * claim.late);
+      EXPECT_NEAR(rest.share, claim.share, 0.15 * claim.share);
+      EXPECT_LE(rest.speed, claim.speed * h + 1e-14);
+    }
+}
+
+// On a spring that carries the force, at the same place for every step, and nothing is reported.
+TEST(Rest, OfACompliantContactIsOnItsSpring) {
+  for (const std::string law : {"kelvin-voigt", "kelvin-voigt-no-tension", "hunt-crossley",
+                                "lankarani-nikravesh", "ye", "jankowski"}) {
+    SCOPED_TRACE(law);
+    const auto rest = rest_of("newmark+penalty:law=" + law, 0.5, 0.0025);
+    EXPECT_GT(rest.penetration, 1e-5);
+    EXPECT_NEAR(rest.sinking, 0.0, 1e-12);
+    EXPECT_LT(rest.speed, 1e-12);
+    EXPECT_EQ(rest.share, 0.0);
+  }
+}
+
+TEST(Rest, IsClaimedByEveryTreatment) {
+  for (const auto& entry : methods::entries()) {
+    if (entry.kind == "integrator") continue;
+    SCOPED_TRACE(entry.name);
+    EXPECT_NE(entry.card.find("\nRest        "), std::string::npos);
+    const auto name = (entry.kind == "contact" ? "newmark+" : "") + entry.name;
+    const bool is_measured = std::ranges::any_of(
+        claims(), [&](const Claim& claim) { return claim.name.ends_with(entry.name); });
+    EXPECT_TRUE(is_measured || methods::method(name)->objection(pressed_mass(0.5))) << name;
+  }
+}
+
+}  // namespace
+}  // namespace clackers
