@@ -84,6 +84,7 @@ template <int Dof>
 void ConstrainedSystem<Dof>::project(const Vector& u) {
   is_active_.assign(is_active_.size(), false);
   for (const auto i : active_) is_active_[i] = true;
+  if (active_.empty()) return;
   projector_.setIdentity();
   factors_.compute(contacts_.response().delassus, active_);
   for (Eigen::Index column = 0; column < projector_.cols(); ++column) {

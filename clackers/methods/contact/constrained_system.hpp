@@ -31,6 +31,7 @@ class ConstrainedSystem {
   ConstrainedSystem(const ConstrainedSystem&) = delete;
   ConstrainedSystem& operator=(const ConstrainedSystem&) = delete;
 
+  /// Of the active contacts; where there are none, that of the last ones.
   const model::SmoothSystem<Dof>& system() const { return constrained_; }
   bool is_active(std::size_t contact) const { return is_active_[contact]; }
   bool is_any_active() const { return !active_.empty(); }

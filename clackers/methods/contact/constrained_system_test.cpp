@@ -64,7 +64,6 @@ void moves_as_one_mass() {
               2.0 * a + 0.1 * now.v[0] + 4.0 * now.u[0] - std::sin(3.0), 1e-11);
   constrained.activate({}, now.u);
   EXPECT_FALSE(constrained.is_any_active());
-  EXPECT_LT((constrained.system().stiffness - problem.system.stiffness).norm(), 1e-15);
 }
 
 TEST(ConstrainedSystem, MovesTwoMassesAsOne) {

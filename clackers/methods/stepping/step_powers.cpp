@@ -32,43 +32,25 @@ HWY_INLINE void multiply(const double* table, std::size_t size, const double* x,
     }
 }
 
-// Whether all states are so far from all contacts that steps from them and to them are quiet: both
-// inner control points of their cubics, g + h/3 g' and g - h/3 g', are open.
-HWY_INLINE bool are_far(const Gaps& gaps, double third, std::size_t dof, const double* y) {
-  const Lanes d;
-  constexpr std::size_t count = StepPowers::steps;
+// How many of the first states, `stride` apart, are so far from all contacts that steps from them and to
+// them are quiet: both inner control points of their cubics, g + h/3 g' and g - h/3 g', are open.
+template <class D>
+HWY_INLINE std::size_t count_far(D d, const Gaps& gaps, double third, std::size_t dof,
+                                 const double* y, std::size_t stride) {
+  auto is_far = hn::Eq(hn::Zero(d), hn::Zero(d));
   std::size_t i = 0;
   for (std::size_t contact = 0; contact < gaps.ends.size(); ++contact) {
-    const std::size_t first = i, end = gaps.ends[contact];
-    for (std::size_t lane = 0; lane < count; lane += hn::Lanes(d)) {
-      auto gap = hn::Set(d, -gaps.gaps[contact]), rate = hn::Zero(d);
-      for (i = first; i < end; ++i) {
-        const auto factor = hn::Set(d, gaps.entries[i].factor);
-        const double* at = y + gaps.entries[i].mass * count + lane;
-        gap = hn::Add(gap, hn::Mul(factor, hn::Load(d, at)));
-        rate = hn::Add(rate, hn::Mul(factor, hn::Load(d, at + dof * count)));
-      }
-      const auto margin = hn::Sub(gap, hn::Mul(hn::Set(d, third), hn::Abs(rate)));
-      if (!hn::AllTrue(d, hn::Ge(margin, hn::Zero(d)))) return false;
-    }
-  }
-  return true;
-}
-
-// One of them, at a distance `stride` between unknowns: whether a step from it, or one to it, may be quiet.
-HWY_INLINE bool is_far(const Gaps& gaps, double third, std::size_t dof, const double* x,
-                       std::size_t stride, double direction) {
-  std::size_t i = 0;
-  for (std::size_t contact = 0; contact < gaps.ends.size(); ++contact) {
-    double gap = -gaps.gaps[contact], rate = 0.0;
+    auto gap = hn::Set(d, -gaps.gaps[contact]), rate = hn::Zero(d);
     for (; i < gaps.ends[contact]; ++i) {
-      const auto [mass, factor] = gaps.entries[i];
-      gap += factor * x[mass * stride];
-      rate += factor * x[(dof + mass) * stride];
+      const auto factor = hn::Set(d, gaps.entries[i].factor);
+      const double* at = y + gaps.entries[i].mass * stride;
+      gap = hn::Add(gap, hn::Mul(factor, hn::Load(d, at)));
+      rate = hn::Add(rate, hn::Mul(factor, hn::Load(d, at + dof * stride)));
     }
-    if (!(gap >= 0.0 && gap + direction * third * rate >= 0.0)) return false;
+    is_far = hn::And(is_far, hn::Ge(gap, hn::Mul(hn::Set(d, third), hn::Abs(rate))));
   }
-  return true;
+  const auto first = hn::FindFirstTrue(d, hn::Not(is_far));
+  return first < 0 ? hn::Lanes(d) : static_cast<std::size_t>(first);
 }
 
 HWY_INLINE void deliver(std::size_t dof, const double* y, double* out) {
@@ -90,23 +72,20 @@ std::size_t advance_sized(const double* table, std::size_t dof, std::size_t size
                           double* v) {
   constexpr std::size_t count = StepPowers::steps;
   if constexpr (Dof > 0) dof = Dof, size = Size;
+  const Lanes d;
   std::size_t made = 0;
-  if (!is_far(gaps, third, dof, x, 1, 1.0)) return 0;
+  if (count_far(hn::CappedTag<double, 1>(), gaps, third, dof, x, 1) == 0) return 0;
   while (made + count <= most) {
     multiply<Dof, Size>(table, size, x, y);
     deliver(dof, y, u + made * dof);
     deliver(dof, y + dof * count, v + made * dof);
-    std::size_t quiet = count;
-    const bool goes_on = are_far(gaps, third, dof, y);
-    if (!goes_on)
-      for (quiet = 0; quiet < count; ++quiet)
-        if ((quiet > 0 && !is_far(gaps, third, dof, y + quiet - 1, count, 1.0)) ||
-            !is_far(gaps, third, dof, y + quiet, count, -1.0))
-          break;
+    std::size_t quiet = 0;
+    for (std::size_t lane = 0; lane == quiet && lane < count; lane += hn::Lanes(d))
+      quiet += count_far(d, gaps, third, dof, y + lane, count);
     if (quiet > 0)
       for (std::size_t i = 0; i < size; ++i) x[i] = y[i * count + quiet - 1];
     made += quiet;
-    if (!goes_on) break;
+    if (quiet < count) break;
   }
   return made;
 }

@@ -76,17 +76,11 @@ TEST(StepPowers, EndBeforeTheFirstStepWhoseGapMayClose) {
     const auto path = path_of(dof, size);
     ASSERT_LT(path.made, 392u);
     EXPECT_NE(path.made % StepPowers::steps, 0u);
-    const double third = 0.01 / 3.0;
-    const auto margin = [&](const double* u, const double* v, double sign) {
+    for (std::size_t k = 0; k < path.made; ++k) {
+      const double *u = &path.u[k * dof], *v = &path.v[k * dof];
       const double gap = u[0] - (dof > 1 ? 0.25 * u[1] : 0.0) + 0.5;
       const double rate = v[0] - (dof > 1 ? 0.25 * v[1] : 0.0);
-      return std::min(gap, gap + sign * third * rate);
-    };
-    for (std::size_t k = 0; k < path.made; ++k) {
-      EXPECT_GE(margin(&path.u[k * dof], &path.v[k * dof], -1.0), 0.0) << k;
-      if (k + 1 < path.made) {
-        EXPECT_GE(margin(&path.u[k * dof], &path.v[k * dof], 1.0), 0.0) << k;
-      }
+      EXPECT_GE(gap, 0.01 / 3.0 * std::abs(rate)) << k;
     }
     // From the state reached there no step is made.
     auto next = rotations(dof, size, 0.01);
@@ -118,7 +112,7 @@ model::ImpactProblem<> pair_between_walls() {
   return p;
 }
 
-model::ImpactProblem<> chain(Eigen::Index n) {
+model::ImpactProblem<> unit_chain(Eigen::Index n) {
   model::ImpactProblem<> p;
   p.system.mass = Eigen::MatrixXd::Identity(n, n);
   p.system.stiffness = 2.0 * Eigen::MatrixXd::Identity(n, n);
@@ -138,7 +132,7 @@ model::ImpactProblem<> chain(Eigen::Index n) {
 TEST(StepPowers, MakeTheStepsOfEveryIntegratorAndTreatment) {
   auto soft = runs::RattlingMass{.eta = 0.9}.problem(31.0);
   soft.system.stiffness *= 1.21;
-  for (const auto& problem : {soft, pair_between_walls(), chain(3)})
+  for (const auto& problem : {soft, pair_between_walls(), unit_chain(3)})
     for (const auto& name : pairs()) {
       const auto chosen = method(name);
       const bool is_penalty = name.find("penalty") != std::string::npos;
