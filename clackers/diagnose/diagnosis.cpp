@@ -254,6 +254,11 @@ const std::vector<Implication>& implications() {
                     of_time = of_group(CauseGroup::time), of_method = of_group(CauseGroup::method),
                     of_ladder = Codes{"wrong-limit", "noise-floor", "commensurate-steps"},
                     of_output = of_group(CauseGroup::output);
+  static const auto of_rigid_impacts = [] {
+    auto codes = of_group(CauseGroup::impacts);
+    std::erase_if(codes, [](const Code& code) { return code.name() == "contact-compliant"; });
+    return codes;
+  }();
   static const std::vector<Implication> table{
       // Numbers that are not those of the case: nothing fitted to them means anything.
       {unreadable, all({of_system,
@@ -272,7 +277,7 @@ const std::vector<Implication>& implications() {
                        {"velocity-order-lower", "output-resampled"}})},
       {of_system, all({of_method, {"wrong-limit", "noise-floor"}})},
       // Each impact early or late by what the closing speed makes of the gap.
-      {of_gap, all({of_impacts, of_time, of_method, {"wrong-limit", "noise-floor"}})},
+      {of_gap, all({of_rigid_impacts, of_time, of_method, {"wrong-limit", "noise-floor"}})},
       {{"impact-missed", "impact-doubled"},
        all({of_system,
             of_gap,
@@ -284,8 +289,10 @@ const std::vector<Implication>& implications() {
        all({of_method, {"noise-floor", "impact-tolerance", "impact-at-step-end"}})},
       // Times that are late by steps have the right limit.
       {{"time-shifted", "time-drifts"}, {"wrong-limit"}, -less_sure, "steps"},
+      // Rows inside a contact show that it lasts; a fit of rigid impacts does not see them.
       {{"contact-compliant"},
        all({of_system,
+            of_gap,
             of_time,
             of_method,
             {"wrong-limit", "noise-floor", "impact-tolerance", "impact-at-step-end",

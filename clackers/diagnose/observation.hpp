@@ -44,6 +44,13 @@ struct Observation {
   /// from an impact of the history or the reference, or unequally spaced, are left out. What
   /// velocities of another order or half a step away show. NaN without velocities or such rows.
   double velocity_mismatch = std::numeric_limits<double>::quiet_NaN();
+
+  /// The opening where it holds the first impact and what follows, else the sample.
+  const model::Trajectory& rows_with_impacts() const {
+    const bool has_impact = sample.impacts && !sample.impacts->empty() && !opening.t.empty() &&
+                            opening.t.back() > sample.impacts->front().t + 0.5;
+    return has_impact ? opening : sample;
+  }
 };
 
 inline constexpr std::size_t most_sample_rows = 1500, most_opening_rows = 4096,

@@ -19,20 +19,13 @@ struct Impulses {
   int impacts = 0;         ///< that the rows reach
 };
 
-// The opening where it holds the first impact and what follows, else the sample.
-const model::Trajectory& rows_of(const Observation& seen) {
-  const bool has_impact =
-      !seen.opening.t.empty() && seen.opening.t.back() > seen.sample.impacts->front().t + 0.5;
-  return has_impact ? seen.opening : seen.sample;
-}
-
 Impulses impulses_of(const Observation& seen, const model::ImpactProblem<>& problem) {
   constexpr int most_rows = 2000;
   // Pulls between open rows count above this many times what flights before the first impact show.
   constexpr double above_flights = 10.0;
   constexpr int least_flights = 10;
   const auto& contact = problem.contacts.front();
-  const auto& rows = rows_of(seen);
+  const auto& rows = seen.rows_with_impacts();
   const measure::FreeMotion motion(problem.system);
   const double mass = 1.0 / contact.direction.dot(motion.response(contact.direction));
   const double first = seen.sample.impacts->front().t;

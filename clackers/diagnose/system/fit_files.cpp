@@ -1,5 +1,6 @@
 #include "clackers/diagnose/system/fit_files.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "clackers/diagnose/system/hypotheses.hpp"
@@ -19,6 +20,17 @@ bool is_served(const model::ImpactProblem<>& problem) {
          s.stiffness.diagonal().minCoeff() > 0.0;
 }
 
+void find_least_gap(FitFile& file, const Observation& seen, const model::Contact<>& contact) {
+  const auto& rows = seen.rows_with_impacts();
+  const auto n = std::size_t(rows.dof);
+  file.least_gap = INFINITY;
+  for (std::size_t i = 0; i < rows.t.size(); ++i) {
+    const Eigen::Map<const Eigen::VectorXd> u(&rows.u[i * n], rows.dof);
+    file.least_gap = std::min(file.least_gap, contact.gap_at(u));
+    if (i > 0) file.gap_spacing = std::max(file.gap_spacing, rows.t[i] - rows.t[i - 1]);
+  }
+}
+
 }  // namespace
 
 FitQuestion fit_question(const DiagnosisInput& question) {
@@ -28,12 +40,14 @@ FitQuestion fit_question(const DiagnosisInput& question) {
   for (auto at = question.histories.rbegin(); at != question.histories.rend(); ++at) {
     const double step = at->facts.step;
     if (!made.files.empty() && !(step >= least_ratio * made.files.back().step)) continue;
-    FitFile file{step, fit_rows(*at, question.problem, question.motion), {}};
+    FitFile file{.step = step, .rows = fit_rows(*at, question.problem, question.motion)};
     if (!std::isfinite(file.rows.distance) ||
         !(file.rows.distance > floors_above * file.rows.floor)) {
       if (made.files.empty()) return made;
       continue;
     }
+    if (!question.problem.contacts.empty())
+      find_least_gap(file, *at, question.problem.contacts.front());
     made.files.push_back(std::move(file));
     if (made.files.size() == most_fit_files) break;
   }

@@ -11,8 +11,11 @@ namespace clackers::diagnose {
 /// A history that changed systems are fitted to.
 struct FitFile {
   double step = 0.0;  ///< [s], or a tolerance
+  /// Of all rows that are kept, among them those of the first impacts: the least gap of the contact [m],
+  /// and how far apart they are [s].
+  double least_gap = 0.0, gap_spacing = 0.0;
   FitRows rows;
-  SystemFit smooth;  ///< of frequencies and damping; empty until fitted
+  SystemFit smooth{};  ///< of frequencies and damping; empty until fitted
 };
 
 /// What the fits share.

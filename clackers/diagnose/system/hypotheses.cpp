@@ -138,6 +138,19 @@ std::vector<Parameter> smooth_parameters(const model::ImpactProblem<>& problem) 
   return all;
 }
 
+Hypothesis hypothesis_of(const Parameter& parameter) {
+  switch (parameter.change) {
+    case Change::frequency:
+      return {"frequency-differs", parameter};
+    case Change::restitution:
+      return {"restitution-differs", parameter};
+    case Change::mass_ratio:
+      return {"mass-ratio-differs", parameter};
+    default:
+      return {"damping-differs", parameter};
+  }
+}
+
 bool equivalent(const Hypothesis& one, const Hypothesis& other, Eigen::Index dof) {
   if (&one == &other) return true;
   if (!one.parameter || !other.parameter) {

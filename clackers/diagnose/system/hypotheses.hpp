@@ -31,6 +31,8 @@ std::vector<Hypothesis> impact_hypotheses(const model::ImpactProblem<>& problem,
 /// Frequency and damping of each mass, and the ratio of masses at impacts: what a method's own error
 /// changes.
 std::vector<Parameter> smooth_parameters(const model::ImpactProblem<>& problem);
+/// The hypothesis that one of these, or the restitution, is another one.
+Hypothesis hypothesis_of(const Parameter& parameter);
 
 /// Whether one of these explains nothing that the other does not: no evidence against it.
 bool equivalent(const Hypothesis& one, const Hypothesis& other, Eigen::Index dof);

@@ -169,6 +169,12 @@ std::vector<Diagnosis> impact_causes(const DiagnosisInput& question) {
   ImpactFiles files;
   for (const auto& seen : question.histories) files.push_back(locate_impacts(seen, problem));
   const double finest = files.back().step;
+  // The other history, and those near it; of tolerances the next one is ten times as large.
+  double most_other = most_other_step * finest;
+  const auto other = std::ranges::find_if(files.rbegin(), files.rend(), [&](const auto& file) {
+    return file.step >= least_other_step * finest;
+  });
+  if (other != files.rend()) most_other = std::max(most_other, other->step);
   std::vector<Diagnosis> found;
   for (int contact = 0; contact < std::ssize(problem.contacts); ++contact) {
     const auto add = [&](Code code, double value, std::string unit = "1") -> Diagnosis& {
@@ -189,7 +195,7 @@ std::vector<Diagnosis> impact_causes(const DiagnosisInput& question) {
           .evidence.push_back({"files", double(files.size())});
     Impacts fine, coarse;
     for (const auto& file : files) {
-      if (file.step > most_other_step * finest) continue;
+      if (file.step > most_other) continue;
       const auto impacts = bounces_of(file, contact, slowest);
       auto& to = file.step < least_other_step * finest ? fine : coarse;
       to.insert(to.end(), impacts.begin(), impacts.end());

@@ -80,7 +80,9 @@ class Solver {
     fit.distance = distance;
     for (std::size_t k = 0; k < values_.size(); ++k) {
       fit.values.push_back(values_[k] * unit_[k]);
-      fit.uncertainty.push_back(spread_.size() ? spread_[Index(k)] * distance * unit_[k] : 0.0);
+      const double spread = spread_.size() ? spread_[Index(k)] * unit_[k] : 0.0;
+      fit.uncertainty.push_back(spread * distance);
+      fit.effect.push_back(spread > 0.0 ? 2.0 / spread / std::sqrt(double(rows_.u.size())) : 0.0);
     }
     return fit;
   }

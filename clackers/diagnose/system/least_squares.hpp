@@ -13,6 +13,7 @@ struct SystemFit {
   std::vector<double> values;       ///< one a parameter; empty: not available
   double distance = 0.0;            ///< rms of what is left
   std::vector<double> uncertainty;  ///< half widths by the residual, as if it were noise
+  std::vector<double> effect;       ///< rms that a unit of each makes of the rows; 0 for none
 };
 
 /// Gauss-Newton on exact simulations, first over the beginning of the history, then over windows of

@@ -30,19 +30,6 @@ constexpr double least_fall = 1.5;
 constexpr double least_period_order = 1.3, most_period_order = 4.7;
 constexpr double limit_confidence = 0.7, period_confidence = 0.6;
 
-Hypothesis hypothesis_of(const Parameter& parameter) {
-  switch (parameter.change) {
-    case Change::frequency:
-      return {"frequency-differs", parameter};
-    case Change::restitution:
-      return {"restitution-differs", parameter};
-    case Change::mass_ratio:
-      return {"mass-ratio-differs", parameter};
-    default:
-      return {"damping-differs", parameter};
-  }
-}
-
 // A parameter's values in the files, finest first.
 struct Sequence {
   Hypothesis hypothesis;
@@ -130,9 +117,7 @@ std::vector<Diagnosis> smooth_limits(const FitQuestion& question) {
       sequences[k].values.push_back(fit.values[k]);
       if (!steps.empty()) continue;
       sequences[k].uncertainty = fit.uncertainty[k];
-      if (fit.uncertainty[k] > 0.0)
-        sequences[k].effect =
-            2.0 * fit.distance / fit.uncertainty[k] / std::sqrt(double(file.rows.u.size()));
+      sequences[k].effect = fit.effect[k];
     }
     if (steps.empty()) gain = file.rows.distance / std::max(fit.distance, 1e-300);
     steps.push_back(file.step);

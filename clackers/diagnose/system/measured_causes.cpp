@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 
 #include "clackers/diagnose/ladder/ladder_families.hpp"
@@ -279,7 +280,7 @@ Diagnosis diagnosis_by(const FlightChange& change, std::span<const double> value
 
 }  // namespace
 
-std::vector<Diagnosis> flight_causes(const DiagnosisInput& question) {
+std::vector<Diagnosis> flight_causes(const DiagnosisInput& question, System* solved) {
   if (!is_elsewhere(question)) return {};
   const auto& finest = question.histories.back();
   const auto other = std::ranges::find_if(
@@ -315,6 +316,10 @@ std::vector<Diagnosis> flight_causes(const DiagnosisInput& question) {
     found.back().evidence.push_back({"files", 2.0});
     at += count;
   }
+  if (solved == nullptr) return found;
+  at = 0;
+  for (const auto change : best->changes)
+    for (const auto& parameter : changes[change].parameters) parameter(*solved, best->values[at++]);
   return found;
 }
 
@@ -326,9 +331,13 @@ bool is_elsewhere(const DiagnosisInput& question) {
 
 std::vector<Diagnosis> measured_causes(const DiagnosisInput& question) {
   if (question.histories.empty()) return {};
-  auto found = flight_causes(question);
-  // Of equations that differ impacts are not where the case's have them.
-  return found.empty() ? impact_causes(question) : found;
+  auto solved = question.problem;
+  auto found = flight_causes(question, &solved.system);
+  const auto& q = question;
+  std::ranges::move(impact_causes({solved, q.motion, q.histories, q.ladder, q.displacement,
+                                   q.velocity, q.limit, q.by_tolerance, q.is_this_system}),
+                    std::back_inserter(found));
+  return found;
 }
 
 }  // namespace clackers::diagnose

@@ -15,13 +15,14 @@ inline constexpr double least_other_step = 1.8, same_share = 0.1;
 ///
 /// Flights: a row is moved to the next one by the case's own equations; what is missing there in
 /// velocity is fitted by what a change of each stiffness, damper and mass, of each load and by a
-/// constant force would make of it, one or two at once, where is_elsewhere(). Without such a change:
-/// impact_causes(). A cause has the same value in histories of different steps; what a method does
+/// constant force would make of it, one or two at once, where is_elsewhere(). Then impact_causes() by
+/// the equations that the flights have. A cause has the same value in histories of different steps; what a method does
 /// falls with the step.
 std::vector<Diagnosis> measured_causes(const DiagnosisInput& question);
 
-/// The part of flights.
-std::vector<Diagnosis> flight_causes(const DiagnosisInput& question);
+/// The part of flights. `solved`: the system of the case, which becomes that of the flights.
+std::vector<Diagnosis> flight_causes(const DiagnosisInput& question,
+                                     model::SmoothSystem<>* solved = nullptr);
 
 /// Whether the errors stop, or are as large as the motion.
 bool is_elsewhere(const DiagnosisInput& question);

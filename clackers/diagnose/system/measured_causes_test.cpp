@@ -86,6 +86,20 @@ const std::vector<ChainFault>& chain_faults() {
       {"restitution of one contact",
        [](Problem& p) { p.contacts[1].restitution = 0.75; },
        {{"restitution-differs", 0.75, "1", 0, {{"contact", 2.0}}}}},
+      {"load and restitution",
+       [=](Problem& p) {
+         load(0.9, 0.0)(p);
+         p.contacts[0].restitution = 0.6;
+       },
+       {{"load-differs", 0.9, "1"}, {"restitution-differs", 0.6, "1", 0, {{"contact", 1.0}}}}},
+      // By the masses that the flights have impulses keep momentum.
+      {"mass and restitution",
+       [](Problem& p) {
+         p.system.mass(0, 0) *= 1.1;
+         p.contacts[0].restitution = 0.6;
+       },
+       {{"mass-differs", 10.0, "%", 0, {{"mass", 1.0}}},
+        {"restitution-differs", 0.6, "1", 0, {{"contact", 1.0}}}}},
   };
   return all;
 }

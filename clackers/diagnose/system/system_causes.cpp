@@ -27,12 +27,15 @@ constexpr double least_file_fall = 1.3;
 /// A value that a method's error makes moves by 40 % at least from one file to the next, whose step
 /// is 1.8 times as large, where it falls with the power 0.6 or more.
 constexpr double constant_change = 0.15;
+/// A parameter beside a cause is named where it makes this part of the distance.
+constexpr double least_part_beside = 0.03;
 /// A shift this near to a whole number of half steps is one.
 constexpr double whole_share = 0.03;
 
 struct Trial {
   const Hypothesis* hypothesis = nullptr;
   double d = 0.0, uncertainty = 0.0, gain = 0.0;
+  SystemFit beside{};  ///< of frequencies and damping fitted with it; empty without
 };
 
 Trial tried(const FitFile& file, const Hypothesis& hypothesis, const FitQuestion& question) {
@@ -72,6 +75,7 @@ Trial tried_beside(const FitFile& file, const Hypothesis& hypothesis, const FitQ
     trial.uncertainty = fit.uncertainty.back();
   }
   trial.gain = file.smooth.distance / std::max({fit.distance, file.rows.floor, 1e-300});
+  trial.beside = std::move(fit);
   return trial;
 }
 
@@ -106,8 +110,8 @@ Trial tried_at_step_ends(const FitFile& file, const Hypothesis& hypothesis,
   return trial;
 }
 
-// Whether the gap keeps its contact, and is no delay: where all impacts are as fast, late ones look
-// like another gap, so that it must be more than a step away.
+// Whether the gap keeps its contact, is where the rows turn back, and is no delay: where all impacts are
+// as fast, late ones look like another gap, so that it must be more than a step away.
 bool is_possible_gap(double d, const FitFile& file, const FitQuestion& question) {
   const auto& direction = question.problem.contacts.front().direction;
   double reach = 0.0;
@@ -115,8 +119,9 @@ bool is_possible_gap(double d, const FitFile& file, const FitQuestion& question)
     if (file.rows.inverse_scale[i] > 0.0)
       reach += std::abs(direction[Eigen::Index(i)]) / file.rows.inverse_scale[i];
   if (!(std::abs(d) < 0.5 * reach)) return false;
-  constexpr double as_fast = 1.05, most_steps = 1.05;
+  constexpr double as_fast = 1.05, most_steps = 1.05, most_spacings = 1.5;
   const auto [least, largest] = closing_speeds(question);
+  if (std::abs(d - file.least_gap) > most_spacings * file.gap_spacing * largest) return false;
   return largest > as_fast * least || std::abs(d) > most_steps * file.step * largest;
 }
 
@@ -228,12 +233,34 @@ bool is_smooth(const Parameter& parameter) {
   }
 }
 
-// The cause that one hypothesis is, with the values of other files beside that of the finest.
-std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestion& question) {
+// The parameters fitted with a cause that have one value in two files: what the method's error makes
+// of them falls with the step.
+std::vector<Diagnosis> together_with(const Trial& fine, const Trial& coarse,
+                                     const FitQuestion& question) {
+  std::vector<Diagnosis> found;
+  if (coarse.beside.values.empty()) return found;
+  const double noticeable = least_part_beside * question.files.front().rows.distance;
+  for (std::size_t k = 0; k < question.smooth.size(); ++k) {
+    const double value = fine.beside.values[k];
+    const double apart = std::abs(coarse.beside.values[k] - value);
+    if (apart > same_share * std::abs(value) ||
+        std::abs(value) * fine.beside.effect[k] < noticeable)
+      continue;
+    found.push_back(hypothesis_of(question.smooth[k])
+                        .diagnosis(question.problem, value, apart + fine.beside.uncertainty[k]));
+    found.back().confidence = sure;
+    found.back().evidence.push_back({"files", 2.0});
+  }
+  return found;
+}
+
+// The cause that one hypothesis is, with the values of other files beside that of the finest, and what
+// is wrong beside it.
+std::vector<Diagnosis> judged(const Race& found, Try attempt, const FitQuestion& question) {
   const auto& best = found.best;
   const auto& finest = question.files.front();
   const double lead = best.gain / std::max(found.second.gain, 1.0);
-  if (!(best.gain >= least_system_gain && lead >= least_lead)) return std::nullopt;
+  if (!(best.gain >= least_system_gain && lead >= least_lead)) return {};
   const auto& hypothesis = *best.hypothesis;
   double confidence = confidence_of(best.gain, least_system_gain), spread = best.uncertainty;
   int files = 1;
@@ -244,12 +271,12 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
   const bool whole =
       in_steps && std::abs(halves) >= 1.0 && std::abs(steps - 0.5 * halves) <= whole_share;
   bool grows = false;
+  std::vector<Diagnosis> beside;
   for (std::size_t i = 1; i < std::min<std::size_t>(question.files.size(), 3); ++i) {
     const auto& other = question.files[i];
     const auto trial = attempt(other, hypothesis, question);
     if (trial.gain < least_gain_beside) {
-      if (i == 1 && other.rows.distance > least_file_fall * finest.rows.distance)
-        return std::nullopt;
+      if (i == 1 && other.rows.distance > least_file_fall * finest.rows.distance) return {};
       break;
     }
     if (hypothesis.parameter) {
@@ -257,21 +284,22 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
       const bool constant = std::abs(trial.d - best.d) <= constant_change * std::abs(best.d);
       const bool with_step = whole && std::abs(trial.d / best.d - factor) <= 0.1 * factor;
       if (!constant && !with_step) {
-        if (i == 1) return std::nullopt;
+        if (i == 1) return {};
         break;
       }
       grows = with_step;
       spread = std::max(spread, std::abs(trial.d - best.d * (with_step ? factor : 1.0)));
     }
+    if (i == 1) beside = together_with(best, trial, question);
     ++files;
   }
   if (files == 1) {
     // A parameter among six fits an error that has grown as large as the motion.
-    if (attempt == tried_beside && hypothesis.parameter) return std::nullopt;
+    if (attempt == tried_beside && hypothesis.parameter) return {};
     const double least = hypothesis.parameter && !is_smooth(*hypothesis.parameter)
                              ? least_impact_gain_alone
                              : least_gain_alone;
-    if (best.gain < least || may_be_numerical(best, finest, question)) return std::nullopt;
+    if (best.gain < least || may_be_numerical(best, finest, question)) return {};
     confidence = std::min(0.9, confidence_of(best.gain, least));
     grows = whole;
   }
@@ -288,7 +316,8 @@ std::optional<Diagnosis> judged(const Race& found, Try attempt, const FitQuestio
     diagnosis.runner_up = found.second.hypothesis->code.name();
     diagnosis.evidence.push_back({"runner-up-gain", found.second.gain});
   }
-  return diagnosis;
+  beside.insert(beside.begin(), std::move(diagnosis));
+  return beside;
 }
 
 // Impacts that may be missed or doubled: about where the history leaves the reference.
@@ -350,7 +379,7 @@ std::vector<Diagnosis> fitted_causes(const DiagnosisInput& asked) {
       hypotheses.push_back(std::move(one));
 
   const auto trials = all_tried(tried, hypotheses, question);
-  if (auto cause = judged(race(trials, dof), tried, question)) return {*cause};
+  if (auto causes = judged(race(trials, dof), tried, question); !causes.empty()) return causes;
 
   // The method's own error first.
   for (auto& file : question.files)
@@ -362,16 +391,18 @@ std::vector<Diagnosis> fitted_causes(const DiagnosisInput& asked) {
     if (parameter ? question.files.size() > 1 && !is_smooth(*parameter) : one.gain >= nearest)
       remaining.push_back(*one.hypothesis);
   }
-  if (auto cause =
-          judged(race(all_tried(tried_beside, remaining, question), dof), tried_beside, question))
-    return {*cause};
+  if (auto causes =
+          judged(race(all_tried(tried_beside, remaining, question), dof), tried_beside, question);
+      !causes.empty())
+    return causes;
   if (!question.by_tolerance) {
     std::erase_if(remaining, [](const Hypothesis& one) {
       return !one.parameter || one.parameter->change != Change::restitution;
     });
-    if (auto cause = judged(race(all_tried(tried_at_step_ends, remaining, question), dof),
-                            tried_at_step_ends, question))
-      return {*cause};
+    if (auto causes = judged(race(all_tried(tried_at_step_ends, remaining, question), dof),
+                             tried_at_step_ends, question);
+        !causes.empty())
+      return causes;
   }
   auto limits = smooth_limits(question);
   return limits.empty() ? flight_causes(asked) : limits;

@@ -82,6 +82,35 @@ TEST(SystemCauses, PrintedDigitsAreNoCause) {
   EXPECT_TRUE(system_causes(solved(which, problem, "method=rk4", 0.1, 3, 4).question()).empty());
 }
 
+TEST(SystemCauses, WhatIsWrongBesideRestitutionIsNamed) {
+  const auto which = cases::make("stop");
+  for (const bool of_damping : {true, false})
+    for (const auto* solver : {"method=rk4", "method=newmark"}) {
+      auto problem = which.problem;
+      problem.contacts[0].restitution = 0.9;
+      (of_damping ? problem.system.damping : problem.system.stiffness)(0, 0) *= 1.1;
+      const auto found = system_causes(solved(which, problem, solver, 0.05, 3).question());
+      const auto* beside = find(found, of_damping ? "damping-differs" : "frequency-differs");
+      ASSERT_EQ(found.size(), 2u) << codes(found);
+      EXPECT_EQ(found[0].code, "restitution-differs");
+      EXPECT_NEAR(found[0].value, 0.9, 1e-3);
+      ASSERT_NE(beside, nullptr) << codes(found);
+      const double expected = of_damping ? 10.0 : 100.0 * (std::sqrt(1.1) - 1.0);
+      EXPECT_NEAR(beside->value, expected, 0.02 * expected) << solver;
+      EXPECT_GE(beside->confidence, sure);
+    }
+}
+
+TEST(SystemCauses, AGapThatNoRowReachesIsNone) {
+  const auto which = cases::make("three-parameter", {{"N", 1.0}, {"xi1", 0.0}});
+  for (const auto* spring : {"300", "1000"})
+    EXPECT_FALSE(find(system_causes(solved(which, which.problem,
+                                           std::string("method=newmark spring=") + spring, 0.025, 3)
+                                        .question()),
+                      "gap-differs"))
+        << spring;
+}
+
 TEST(SystemCauses, RestitutionIsFoundBesideImpactsAtTheEndsOfSteps) {
   const auto which = cases::make("three-parameter", {{"N", 2.0}});
   auto problem = which.problem;

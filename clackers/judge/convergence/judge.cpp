@@ -162,11 +162,10 @@ Verdict compare_floor(const LadderFit& fit, const Claim& claim, const JudgeConte
   // As large as the motion, and of no stiffness.
   if (fit.reason == Code("simultaneous-impacts").name() && claim.reason.empty())
     return Verdict::agrees;
-  // Errors that fall for certain have no floor; of no order that a method has, they bend towards one
-  // or still come from their coarse range.
+  // Errors that fall have no floor; of no order that a method has, they bend towards one or still come
+  // from their coarse range.
   if (!has_floor)
-    return shows_a_line(fit) && (fit.order <= fit.spread || fit.order < lowest_real_order ||
-                                 is_above_floor(fit, facts))
+    return shows_a_line(fit) && (fit.order < lowest_real_order || is_above_floor(fit, facts))
                ? Verdict::undecided
                : Verdict::disagrees;
   return claim.reason.empty() || fit.reason == claim.reason ? Verdict::agrees : Verdict::disagrees;

@@ -28,7 +28,7 @@ LadderFit envelope_decides(const Range& range, const FitContext& context) {
   const auto tail = range.last(shortest_window);
   if (tail && is_flat(*tail)) return stagnates(range, context, *tail);
   if (slope < -straight_rates && slope < -upper->spread) return diverges(range.blank);
-  if (!(slope > straight_rates && slope > upper->spread)) return undecided(range, "more-samples");
+  if (!(slope > straight_rates && slope > spread)) return undecided(range, "more-samples");
   auto fit = range.blank;
   fit.has_line = fit.on_envelope = true;
   fit.order = slope;

@@ -55,8 +55,10 @@ RuleResult tolerance_ladder(const Range& range, const FitContext& context) {
   fit.smallest_step = std::exp(points.x.back());
   const auto line = numerics::fit_line(points.x, points.y);
   fit.scatter = std::exp(std::max(line.largest_above, line.largest_below));
-  if (std::abs(line.slope) <= straight_rates) {
-    fit.floor = std::exp(points.y.back());
+  // Above a floor a line falls by more than its uncertainty.
+  const bool has_floor = fit.floor > 0.0;
+  if (std::abs(line.slope) <= std::max(straight_rates, has_floor ? line.slope_spread : 0.0)) {
+    if (!has_floor) fit.floor = std::exp(points.y.back());
     fit.floor_step = fit.largest_step;
     return shows(fit, Behaviour::stagnating, floor_reason(context, true).name());
   }
