@@ -69,7 +69,6 @@ LadderFit lower_term(const Range& range, const FitContext& context, const TwoTer
 }  // namespace
 
 RuleResult cancellation(const Range& range, const FitContext& context) {
-  if (range.tracked_levels() < shortest_window) return {};
   const auto law = best_law(range);
   if (!law || law->octaves_of_p() < 1.0) return {};
   if (law->q == 0.0 && law->octaves_of_q() >= octaves_to_floor)

@@ -46,18 +46,10 @@ bool is_rough(const Range& range, int first, int last) {
 
 // The law a h^p + c over the levels up to the finest, where it describes them and p rules three
 // octaves.
-std::optional<TwoTerms> law_with_floor(const Range& range, const FitContext& context) {
-  auto law = fit_two_terms(range.levels, range.tracked, range.clear, {});
-  if (!law) return {};
-  const double claimed = context.claimed_order;
-  if (claimed > 0.0 && std::abs(law->p - claimed) <= 0.1 * claimed) {
-    const double spread = law->p_spread;
-    const auto held = fit_two_terms(range.levels, range.tracked, range.clear, {.p = claimed});
-    if (held && held->scatter <= law->scatter) law = held;
-    law->p_spread = std::max(law->p_spread, spread);
-  }
+std::optional<TwoTerms> law_with_floor(const Range& range) {
+  const auto law = fit_two_terms(range.levels, range.tracked, range.clear, {});
   constexpr double significant = 3.0, most_uncertain = 0.25;
-  if (law->scatter > straight_scatter || law->b < significant * law->b_error ||
+  if (!law || law->scatter > straight_scatter || law->b < significant * law->b_error ||
       law->octaves_of_p() < shortest_line || law->octaves_of_q() < -1.5 ||
       law->p_spread > most_uncertain * law->p)
     return {};
@@ -70,21 +62,16 @@ bool has_no_trend(const RawPoints& points) {
   return std::abs(line.slope) - line.slope_spread < straight_rates;
 }
 
-// What the law leaves of the points where the floor rules has no trend, neither of all nor of those
-// of the last level.
-bool floor_is_flat(const Range& range, const RawPoints& points, const TwoTerms& law) {
-  RawPoints below, last;
-  const double last_level = range.level(range.clear).x.front();
+// What the law leaves of the points where the floor rules has no trend.
+bool floor_is_flat(const RawPoints& points, const TwoTerms& law) {
+  RawPoints below;
   for (std::size_t i = 0; i < points.x.size(); ++i) {
     if (std::exp(points.x[i]) >= law.crossing) continue;
     const double off = points.y[i] - std::log(law.error_at(std::exp(points.x[i])));
     below.x.push_back(points.x[i]);
     below.y.push_back(off);
-    if (points.x[i] > last_level) continue;
-    last.x.push_back(points.x[i]);
-    last.y.push_back(off);
   }
-  return has_no_trend(below) && has_no_trend(last);
+  return has_no_trend(below);
 }
 
 LadderFit with_law(const Range& range, const TwoTerms& law, Floor floor) {
@@ -120,7 +107,7 @@ LadderFit stagnates(const Range& range, const FitContext& context, const Window&
               .rough = context.noise || is_rough(range, flat.first, flat.last)};
   if (floor.error >= context.saturation) return undecided(range, "larger-than-motion");
   const auto reason = floor_reason(context, floor.rough).name();
-  if (const auto law = law_with_floor(range, context)) {
+  if (const auto law = law_with_floor(range)) {
     floor.step = law->crossing;
     const auto fit = with_law(range, *law, floor);
     return shows(fit, behaviour_above(fit, floor, context), reason);
@@ -148,10 +135,9 @@ RuleResult plateau(const Range& range, const FitContext& context) {
 }
 
 RuleResult line_with_floor(const Range& range, const FitContext& context) {
-  if (range.tracked_levels() < shortest_window) return {};
-  const auto law = law_with_floor(range, context);
+  const auto law = law_with_floor(range);
   const auto points = raw_points(range.levels, range.tracked, range.clear);
-  if (!law || !floor_is_flat(range, points, *law)) return {};
+  if (!law || !floor_is_flat(points, *law)) return {};
   // A term of order one that begins to show bends a line as a floor does.
   const auto other =
       law->p > 1.0 + straight_rates
