@@ -35,6 +35,13 @@ TEST(Diagnose, CorrectSolversHaveNoCauseButTheirOwnErrors) {
   }
 }
 
+TEST(Diagnose, RowsInsideAContactCountMoreThanAFittedGap) {
+  const Diagnosis gap{.code = "gap-differs", .confidence = 1.0};
+  const Diagnosis compliant{.code = "contact-compliant", .confidence = 0.9};
+  EXPECT_TRUE(brings_about(compliant, gap));
+  EXPECT_FALSE(brings_about(gap, compliant));
+}
+
 TEST(Diagnose, TheRowOfACauseSaysWhetherItIsAnotherSystemOrNoise) {
   const auto found = [](const char* code, double confidence) {
     Diagnosis cause;

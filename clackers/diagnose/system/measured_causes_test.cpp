@@ -128,6 +128,15 @@ TEST(MeasuredCauses, OneWrongLinkMassLoadOrContactOfAChainIsNamed) {
     }
 }
 
+TEST(MeasuredCauses, HistoriesMayBeADecadeApart) {
+  const auto right = chain(true);
+  auto wrong = right;
+  chain_faults().back().put(wrong);
+  auto files = files_of(right);
+  for (const double h : {0.02, 0.002}) files.add(run("rk4", wrong, h), h);
+  EXPECT_EQ(codes(measured_causes(files.question())), "mass-differs restitution-differs");
+}
+
 TEST(MeasuredCauses, ARightSolverHasNone) {
   const auto right = chain(true);
   for (const auto* method : {"rk4", "newmark"}) {

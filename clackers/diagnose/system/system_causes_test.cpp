@@ -101,6 +101,15 @@ TEST(SystemCauses, WhatIsWrongBesideRestitutionIsNamed) {
     }
 }
 
+TEST(SystemCauses, WhatMakesNextToNothingBesideRestitutionIsNotNamed) {
+  const auto which = cases::make("stop");
+  auto problem = which.problem;
+  problem.contacts[0].restitution = 0.9;
+  problem.system.damping *= 1.001;
+  EXPECT_EQ(codes(system_causes(solved(which, problem, "method=rk4", 0.05, 3).question())),
+            "restitution-differs");
+}
+
 TEST(SystemCauses, AGapThatNoRowReachesIsNone) {
   const auto which = cases::make("three-parameter", {{"N", 1.0}, {"xi1", 0.0}});
   for (const auto* spring : {"300", "1000"})
