@@ -26,7 +26,10 @@ class CMakeBuild(build_ext):
         folder = ROOT / BUILD / "cmake"
         options = {
             "CMAKE_BUILD_TYPE": "Release",
-            "CMAKE_CXX_FLAGS_RELEASE": "-O2 -DNDEBUG " + os.environ.get("CXXFLAGS", ""),
+            # -O1 compiles faster than -O2 and runs some 5 % slower, since Eigen's operators are always inlined. GCC
+            # collects garbage once it holds 400 MB.
+            "CMAKE_CXX_FLAGS_RELEASE": "-O1 --param ggc-min-expand=1000 --param ggc-min-heapsize=400000 -DNDEBUG "
+            + os.environ.get("CXXFLAGS", ""),
             # No name of a folder of this machine in the module.
             "CMAKE_CXX_FLAGS": f"-ffile-prefix-map={ROOT}=.",
             "CMAKE_MODULE_LINKER_FLAGS": "-s",
@@ -37,7 +40,7 @@ class CMakeBuild(build_ext):
         }
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         self.run_cmake("-S", ROOT, "-B", folder, *generator, *(f"-D{name}={value}" for name, value in options.items()))
-        self.run_cmake("--build", folder, "--target", "clackers_python", "--parallel", os.cpu_count() or 1)
+        self.run_cmake("--build", folder, "--target", "clackers_python", "--parallel", compilers())
         built = next((folder / "python/clackers").glob("_core.*.so"))
         target = pathlib.Path(self.get_ext_fullpath(extension.name))
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -56,6 +59,12 @@ class CMakeBuild(build_ext):
             shown.write("\r" + 50 * " " + "\r")
         if run.returncode != 0:
             raise SystemExit(f"clackers: cmake {' '.join(map(str, arguments))} ended with status {run.returncode}.")
+
+
+def compilers():
+    """How many may run at once: each takes up to 2 GB."""
+    memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    return max(1, min(os.cpu_count() or 1, memory // 2_000_000_000))
 
 
 def terminal():

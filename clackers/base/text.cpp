@@ -52,6 +52,10 @@ std::size_t bytes_of(std::string_view text, std::size_t width) {
   return i;
 }
 
+bool is_wider(std::string_view text, std::size_t width) {
+  return bytes_of(text, width) < text.size();
+}
+
 // Where to break a text longer than `width`: the number of bytes that go on the first line.
 std::size_t break_at(std::string_view text, std::size_t width, LongWords long_words) {
   const auto whole = bytes_of(text, width);
@@ -85,7 +89,7 @@ void wrap_line(std::string_view line, std::size_t width, LongWords long_words,
   auto rest = line.substr(indent);
   const auto hanging = indent + hanging_indent(rest);
   std::string margin(indent < width ? indent : 0, ' ');
-  while (display_width(rest) > width - margin.size()) {
+  while (is_wider(rest, width - margin.size())) {
     const auto length = break_at(rest, width - margin.size(), long_words);
     auto head = rest.substr(0, length);
     head = head.substr(0, head.find_last_not_of(' ') + 1);

@@ -64,6 +64,12 @@ TEST(Wrap, RejoinsTheLinesOfAParagraphAndNoOthers) {
   EXPECT_EQ(rejoin(""), "");
 }
 
+TEST(Wrap, TakesTimeInProportionToItsLength) {
+  const std::string text(std::size_t(1) << 22,
+                         'x');  // minutes if each line looked at the whole rest
+  EXPECT_EQ(wrap(text, 80).size(), (text.size() + 79) / 80);
+}
+
 TEST(Wrap, NoLineIsWiderThanAsked) {
   const std::string text =
       "A sentence, with words such as generalized-alpha:rho=0.8+event-driven and ±±±±±±±±±±±±±±.";

@@ -89,6 +89,14 @@ TEST(ProblemFile, NumbersMayBeFractionsInQuotes) {
   EXPECT_REFUSED(read(with("end = 20", "end = \"1/0\"")), "not-finite", "end = 1/0");
 }
 
+TEST(ProblemFile, NegativeZeroIsZero) {
+  for (const auto* zero : {"-0.0", "\"-0\"", "\"-5e-324/3\""}) {
+    const auto problem = read(with("gap = -0.125", std::string("gap = ") + zero));
+    const auto text = problem_json(problem);
+    EXPECT_EQ(problem_json(read(text)), text) << zero;
+  }
+}
+
 TEST(ProblemFile, BadTextIsRefusedWithItsLine) {
   EXPECT_REFUSED(read("M = [[1]\nend = "), "bad-syntax", "f.toml:");
   EXPECT_REFUSED(read(with("end = 20", "ned = 20")), "unknown-name",

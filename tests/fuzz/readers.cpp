@@ -120,6 +120,9 @@ void read_times(std::string_view bytes) {
   for (const double t : times) require(t >= 0.0 && t <= 20.0, "times lie within the run");
 }
 
+constexpr auto placeholders = {"case", "case:text",     "h", "n", "tolerance", "events", "out",
+                               "runs", "runs:tolerance"};
+
 // The command of --exec.
 void read_command(std::string_view bytes) {
   const solvers::CommandTemplate command{std::string(bytes)};
@@ -127,8 +130,7 @@ void read_command(std::string_view bytes) {
   require(command.identity() == command.identity(), "a program stays the same");
   const auto filled = [&](const char* value) {
     std::vector<solvers::PlaceholderValue> values;
-    for (const auto* name : {"case", "case:text", "h", "n", "tolerance", "events", "out"})
-      values.push_back({name, value});
+    for (const auto* name : placeholders) values.push_back({name, value});
     return command.filled(values);
   };
   // Whatever a value holds, it is one word in single quotes and changes nothing around it.
@@ -138,8 +140,7 @@ void read_command(std::string_view bytes) {
   for (auto at = strange.find(quoted); at != std::string::npos; at = strange.find(quoted, at + 1))
     ++count;
   std::size_t used = 0;
-  for (const auto* name : {"case", "case:text", "h", "n", "tolerance", "events", "out"})
-    used += command.uses(name) ? 1 : 0;
+  for (const auto* name : placeholders) used += command.uses(name) ? 1 : 0;
   require(used > 0 && count >= used, "a value is quoted");
   require(strange.size() - plain.size() == count * (quoted.size() - 5) ||
               bytes.find("; $x `y` \"z") != std::string_view::npos,

@@ -112,7 +112,7 @@ double TomlReader::number(const toml::node& node, const std::string& what) const
          fmt::format("{} = {}; allowed: a finite number.", what,
                      text == nullptr ? fmt::to_string(value) : text->get()),
          "not-finite");
-  return value;
+  return value + 0.0;  // -0 would come back from JSON as 0
 }
 
 double TomlReader::number(const toml::table& table, const char* key, double standard) const {
