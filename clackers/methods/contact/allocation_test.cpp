@@ -49,11 +49,14 @@ TEST(StepLoop, AllocatesNothingForAnyMethodAndSize) {
   for (const auto& name : pairs())
     for (const int n : {1, 2, 5})
       for (const double eta : {1.0, 0.0}) {
-        const auto problem = masses(n, eta, eta == 1.0 && n != 2);
+        const bool has_load = eta == 0.0 || n == 1;
+        const auto problem = masses(n, eta, has_load);
         const auto chosen = method(name);
         if (chosen->objection(problem)) continue;
         // A penalty is a nonlinear force; Newton's iteration of general size may allocate.
         if (n > 2 && name.find("penalty") != std::string::npos) continue;
+        // An eigenvalue problem for each set of active contacts; it takes no load.
+        if (name == "piecewise-exact") continue;
         const auto prepared = chosen->prepare(problem, runs::resolution_of(*chosen, 0.01));
         CountingSink sink;
         is_counting = true;
