@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "clackers/judge/testing/synthetic_ladder.hpp"
 
@@ -171,6 +174,24 @@ TEST(Judge, AnEnvelopeThatMayBeAnythingIsUndecided) {
     EXPECT_NEAR(found.displacement.spread, 0.52, 0.03);
     EXPECT_EQ(found.verdict, Verdict::undecided);
   }
+}
+
+TEST(Judge, WhatTheFitNoticesIsEvidence) {
+  const auto numbers = [](const Assessment& found, std::string_view code) {
+    const auto at = std::ranges::find(found.evidence, code, &Evidence::code);
+    return at == found.evidence.end() ? std::vector<double>() : at->numbers;
+  };
+  const auto few = judge(uncertain(1.0), rough);
+  EXPECT_EQ(few.reason, "more-samples");
+  EXPECT_EQ(numbers(few, "more-samples"),
+            (std::vector<double>{few.displacement.order, few.displacement.spread}));
+  const auto unstable = judge(scores([](double h) { return h > 0.011 ? 1e9 : h * h; }), second);
+  EXPECT_EQ(numbers(unstable, "unstable-coarse-steps"),
+            std::vector<double>{unstable.displacement.stable_step});
+  const auto flat = scores([](double h) { return 0.2 + 1e-3 * h; });
+  const double finest = flat.back().runs.back().step, contact = 15.0 * finest;
+  EXPECT_EQ(numbers(judge(flat, floor_claim, {.contact_time = contact}), "steps-per-contact"),
+            (std::vector<double>{contact / finest, contact}));
 }
 
 // Errors that a compliant contact left of two buildings, coarse steps first: a floor of two octaves
