@@ -37,12 +37,13 @@ auto PiecewiseMotion::event(std::size_t flight) const -> std::optional<Event> {
     return std::nullopt;
   if (flights_[flight].switches) return flights_[flight].switches;
   std::optional<Event> event;
-  for (const auto& hit : std::ranges::equal_range(hits_, flight, {}, &Hit::flight)) {
-    if (!(hit.impulse > 0.0)) continue;
-    if (!event) event = Event{{hit.t - hit.time_error, hit.t + hit.time_error}, {}};
+  auto hit = std::ranges::lower_bound(hits_, flight, {}, &Hit::flight);
+  for (; hit != hits_.end() && hit->flight == flight; ++hit) {
+    if (!(hit->impulse > 0.0)) continue;
+    if (!event) event = Event{{hit->t - hit->time_error, hit->t + hit->time_error}, {}};
     for (const auto other : event->contacts)
-      if (!close_together(problem_, other, std::size_t(hit.contact))) return std::nullopt;
-    event->contacts.push_back(std::size_t(hit.contact));
+      if (!close_together(problem_, other, std::size_t(hit->contact))) return std::nullopt;
+    event->contacts.push_back(std::size_t(hit->contact));
   }
   return event;
 }
