@@ -43,7 +43,7 @@ std::string flights_of(const Subject& subject, std::string_view format) {
 // FNV-1a.
 std::string token_of(std::string_view text) {
   std::uint64_t hash = 14695981039346656037u;
-  for (const unsigned char c : text) hash = (hash ^ c) * 1099511628211u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
   return fmt::format("{{{:016x}}}", hash);
 }
 

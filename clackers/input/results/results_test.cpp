@@ -278,7 +278,7 @@ TEST(Mat5, BentFilesAreRefused) {
   const auto u = matrix_5("u", 3, 1, element(9, bytes_of<double>({1, 2, 3})));
   const auto whole = mat5(t5 + u);
   EXPECT_EQ(result(whole, {}, 1).motion.u, (Numbers{1, 2, 3}));
-  for (const std::size_t cut : {1, 20, 40, 60})
+  for (const std::size_t cut : {1u, 20u, 40u, 60u})
     EXPECT_REFUSED(result(whole.substr(0, whole.size() - cut)), "not-an-array", "ends within");
   EXPECT_REFUSED(result(mat5(t5 + matrix_5("u", 4, 1, element(9, bytes_of<double>({1, 2, 3}))))),
                  "not-an-array", "numbers of its shape");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "clackers/judge/convergence/fit/range.hpp"
+#include "clackers/judge/convergence/fit/two_terms.hpp"
 #include "clackers/judge/convergence/fit/window.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 
@@ -76,6 +77,43 @@ double spread_of_largest(std::span<const LevelView> levels, const Envelope& foun
   return numerics::student_t95(int(freedom + weight)) * std::sqrt(pooled);
 }
 
+// The largest errors of an envelope, a level each.
+std::vector<LevelView> largest_of(std::span<const LevelView> levels, const Envelope& found) {
+  std::vector<LevelView> largest;
+  for (int i = found.first; i <= found.last; ++i) {
+    LevelView level;
+    level.x = {std::log(levels[std::size_t(i)].step)};
+    level.y = {std::log(levels[std::size_t(i)].error)};
+    largest.push_back(std::move(level));
+  }
+  return largest;
+}
+
+// What the line and a law leave of the largest errors.
+std::pair<double, double> squares_of(const std::vector<LevelView>& largest, const Envelope& found,
+                                     const TwoTerms& law) {
+  double of_line = 0.0, of_law = 0.0;
+  for (const auto& level : largest) {
+    const double x = level.x.front(), y = level.y.front();
+    of_line += std::pow(y - found.line.at(x), 2);
+    of_law += std::pow(y - std::log(law.error_at(std::exp(x))), 2);
+  }
+  return {of_line, of_law};
+}
+
+// The whole order k where the envelope lies significantly above k, by half at most, and the blend
+// a h^k + b h^(k+1) follows the largest errors better than their line does; 0 otherwise.
+double order_of_blend(std::span<const LevelView> levels, const Envelope& found) {
+  const double slope = found.line.slope, lower = std::floor(slope);
+  if (lower < 1.0 || slope - lower <= found.line.slope_spread || slope - lower > 0.5) return 0.0;
+  const auto largest = largest_of(levels, found);
+  const auto law =
+      fit_two_terms(largest, 0, int(largest.size()) - 1, {.p = lower + 1.0, .q = lower});
+  if (!law) return 0.0;
+  const auto [of_line, of_law] = squares_of(largest, found, *law);
+  return of_law <= of_line ? lower : 0.0;
+}
+
 }  // namespace
 
 bool zigzags(std::span<const LevelView> levels, int first, int last) {
@@ -128,6 +166,10 @@ std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, i
   found.scatter = std::exp(furthest);
   found.order = found.line.slope;
   found.spread = spread_of_largest(levels, found);
+  if (const double lower = order_of_blend(levels, found); lower > 0.0) {
+    found.spread = std::max(found.spread, found.order - lower);
+    found.order = lower;
+  }
   return found;
 }
 

@@ -44,7 +44,9 @@ struct Envelope {
 };
 
 /// Fits the envelope over [first, last], without those coarsest levels that lie more than a factor
-/// `leading_level` off the line of medians; at least four levels stay. Nothing for fewer than four levels.
+/// `leading_level` off the line of medians; at least four levels stay. Where a blend of two adjacent
+/// whole orders follows it better than a line, the order is the lower one, which is left as the step
+/// goes to zero, and the spread reaches to the slope. Nothing for fewer than four levels.
 std::optional<Envelope> envelope(std::span<const LevelView> levels, int first, int last);
 
 }  // namespace clackers::judge

@@ -72,6 +72,20 @@ TEST(Irregular, TheEnvelopeGoesThroughTheLargestErrors) {
   EXPECT_EQ(upper->first, 0);
 }
 
+TEST(Irregular, ABlendOfTwoOrdersHasTheLowerOne) {
+  for (const double second : {30.0, 100.0}) {
+    auto made = ladder([&](double h) { return h + second * h * h; });
+    for (auto& level : made)
+      for (std::size_t j = 0; j < level.size(); ++j)
+        if (j != 3) level[j].error /= 20.0;
+    const auto upper = envelope(view(made), 0, 7);
+    ASSERT_TRUE(upper.has_value());
+    EXPECT_GT(upper->line.slope - upper->line.slope_spread, 1.0) << second;
+    EXPECT_EQ(upper->order, 1.0) << second;
+    EXPECT_GE(upper->spread, upper->line.slope - 1.0) << second;
+  }
+}
+
 TEST(Irregular, CoarseLevelsFarOffTheLineAreLeftOut) {
   for (const double off : {0.1, 10.0}) {
     const auto made = ladder([&](double h) { return h * (h > 0.013 ? off : 1.0); });
