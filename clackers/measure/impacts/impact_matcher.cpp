@@ -27,13 +27,15 @@ ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double
       tracks_(std::size_t(std::max(contacts, 1))) {
   for (const auto& closed : reference.closed_contacts()) {
     if (!closed.accumulates) continue;
-    double from = closed.from;
+    double from = closed.from, room = apart * step_;
     auto last = impact_of(closed.contact, reference.impact_count(from), -1);
-    while (last && from - last->t < apart * step_) {
+    while (last) {
+      room = std::max(apart, delays * double(last->index)) * step_;
+      if (from - last->t >= room) break;
       from = last->t;
       last = impact_of(closed.contact, last->index - 1, -1);
     }
-    accumulations_.push_back({closed.contact, from, closed.until});
+    accumulations_.push_back({closed.contact, from, closed.until, 0.25 * room});
   }
   // The impact of each contact before the start may still be found late.
   const auto before = start > 0.0 ? reference.impact_count(start) : 0;
@@ -63,10 +65,10 @@ std::optional<ImpactMatcher::Target> ImpactMatcher::target(int contact, long lon
   return Target{impact->index, impact->t, 0.25 * spacing, impact->when.hi - impact->when.lo};
 }
 
-// A report may be a step early or late.
+// A report may be early, or a step late.
 bool ImpactMatcher::accumulates(int contact, double t) const {
   return std::ranges::any_of(accumulations_, [&](const Accumulation& each) {
-    return each.contact == contact && t >= each.from - step_ && t <= each.until + step_;
+    return each.contact == contact && t >= each.from - each.early && t <= each.until + step_;
   });
 }
 

@@ -40,8 +40,9 @@ bool rests_in_contact(const model::Motion& reference, const std::vector<model::C
 ///   close it again and again.
 /// - A true impact in the last two steps may come too late to be seen: it is expected only if
 ///   found. So is the last one before a run that starts late.
-/// - Where impacts accumulate to a contact that stays closed, those less than `apart` steps before
-///   the next one are expected only if found, and no report from there on is extra until it opens.
+/// - Where impacts accumulate to a contact that stays closed, those less than `apart` steps, or
+///   `delays` steps for each impact so far, before the next one are expected only if found, and no
+///   report from there on is extra until it opens.
 class ImpactMatcher {
  public:
   /// `step` [s] of the run, its first time `start` [s], and the number of the problem's contacts.
@@ -83,8 +84,11 @@ class ImpactMatcher {
   struct Accumulation {
     int contact = 0;
     double from = 0.0, until = 0.0;  ///< [s]
+    double early = 0.0;              ///< how long before `from` a report is no extra one [s]
   };
-  static constexpr double apart = 32.0;
+  // Steps between impacts that a run resolves, and for each impact so far: a method that takes
+  // impacts at the end of a step is late by up to a step an impact.
+  static constexpr double apart = 32.0, delays = 6.0;
   bool accumulates(int contact, double t) const;
   void settle(int contact, const Track& track);
   void advance(int contact, double t);

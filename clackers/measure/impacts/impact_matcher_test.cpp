@@ -71,6 +71,20 @@ TEST(ImpactMatcher, ExpectsOnlyImpactsThatStepsResolve) {
   EXPECT_SCORE(found({5.0, 7.5, 8.75, 15.5, 17.0}), 4, 5, 4, 0, 1);
 }
 
+TEST(ImpactMatcher, ExpectsMoreRoomAfterManyImpacts) {
+  const Chatter reference;
+  const auto found = [&](double step, const std::vector<double>& reports) {
+    ImpactMatcher matcher(reference, step);
+    for (const double t : reports) matcher.take(t);
+    return matcher.score(20.0, 1e-12);
+  };
+  // The sixth comes 35 steps before the seventh: a method that is late by a step an impact does not
+  // resolve it.
+  EXPECT_SCORE(found(0.0022, {5.0, 7.5, 8.75, 9.375, 9.6875, 17.0}), 6, 6, 6, 0, 0);
+  // It may be reported early.
+  EXPECT_SCORE(found(0.0045, {5.0, 7.5, 8.75, 9.375, 9.6875, 9.815, 17.0}), 6, 6, 6, 0, 0);
+}
+
 TEST(ImpactMatcher, CountsAMissedOneWithoutLosingTheOthers) {
   EXPECT_SCORE(match({2.0, 10.1, 14.0, 18.0}), 5, 4, 4, 1, 0);
   EXPECT_SCORE(match({6.0, 10.0, 14.0, 18.0}), 5, 4, 4, 1, 0);
