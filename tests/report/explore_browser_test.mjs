@@ -45,6 +45,13 @@ await run(async () => {
   check("the keyboard turns dials", await page.locator("#xi1").inputValue() === "0.055");
   check("the command has the same motion", (await page.locator("#again-command").textContent()).startsWith("clackers respond synchronized-pair --set X=3,r=2.95,xi1=0.05"));
 
+  await page.evaluate(() => { dial("xi1").max = 0.9; });
+  await turn(page, "xi1", 0.6);
+  await turn(page, "a_t", 0.25);
+  await settled(page);
+  check("one impact is enough to know the time between impacts", await page.evaluate(() => data.impacts.length === 1
+    && document.querySelectorAll("#facts dd")[1].textContent) === "3.927 s", await page.locator("#facts dd").nth(1).textContent());
+
   for (const options of [{}, { dark: true }, { width: 390 }]) {
     const other = await open(options);
     const found = await violations(other);

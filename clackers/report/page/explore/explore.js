@@ -65,9 +65,16 @@ const impactsOf = ({ pair, end }) => {
   return times;
 };
 
+// A run of a treatment at the chosen step: states at all its times, and its largest error.
+function runOf(chosen, treatment) {
+  const run = { name: treatment.name, step: `h = ${chosen.h.toPrecision(3)} s`, t: [], states: [] };
+  run.error = errorOf(chosen, treatment, chosen.h, (t, state) => { run.t.push(t); run.states.push(state); });
+  return run;
+}
+
 // Rows of the figures: the exact motion and runs, at most `most` points each; of a run that grows its start.
-function rowsOf(chosen, times) {
-  const { pair, end, h } = chosen, most = 1500, rows = [];
+function rowsOf({ pair, end }, times, runs) {
+  const most = 1500, rows = [];
   const add = (is, name, t, state, flight) => {
     const energy = pair.energy(state);
     state.u.forEach((u, i) => rows.push({ is, of: name ?? `mass ${i + 1}`, curve: `${name ?? ""}${i}`, flight: `${i} ${flight}`, t, u, v: state.v[i], energy: energy[i] }));
@@ -76,22 +83,21 @@ function rowsOf(chosen, times) {
     const t = n * end / most;
     add("exact", null, t, pair.at(t), times.filter((time) => time <= t).length);
   }
-  for (const treatment of shown()) {
-    const every = Math.max(1, Math.ceil(end / h / most));
-    let n = 0, grown = false;
-    integrate(pair, treatment, end, h, (t, state) => {
-      grown ||= Math.max(...state.u.map(Math.abs)) > 1.5 * pair.largest;
-      if (!grown && n++ % every === 0) add("run", treatment.name, t, state, 0);
-    });
+  for (const { name, t, states } of runs) {
+    const every = Math.max(1, Math.ceil(t.length / most));
+    const grown = states.findIndex(({ u }) => Math.max(...u.map(Math.abs)) > 1.5 * pair.largest);
+    states.slice(0, grown < 0 ? states.length : grown).forEach((state, n) => { if (n % every === 0) add("run", name, t[n], state, 0); });
   }
   return rows;
 }
 
-function errorOf({ pair, end }, treatment, h) {
+// The largest error of a displacement in a run; `visit(t, state)` sees its states.
+function errorOf({ pair, end }, treatment, h, visit = () => {}) {
   let worst = 0;
-  integrate(pair, treatment, end, h, (t, { u }) => {
+  integrate(pair, treatment, end, h, (t, state) => {
     const exact = pair.at(t);
-    for (const i of [0, 1]) worst = Math.max(worst, Math.abs(u[i] - exact.u[i]) / pair.largest);
+    for (const i of [0, 1]) worst = Math.max(worst, Math.abs(state.u[i] - exact.u[i]) / pair.largest);
+    visit(t, state);
   });
   return worst;
 }
@@ -115,12 +121,12 @@ function orderOf(rows) {
   return points.reduce((sum, [a, b]) => sum + (a - x) * (b - y), 0) / points.reduce((sum, [a]) => sum + (a - x) ** 2, 0);
 }
 
-function showFacts(chosen, times, ladder) {
-  const facts = { "impacts in the motion": times.length, "time between impacts": `${(times.length > 1 ? times[1] - times[0] : 1 / (2 * times[0])).toPrecision(4)} s` };
-  for (const treatment of shown()) {
-    const rows = ladder.filter((row) => row.of === treatment.name);
-    facts[treatment.name] = rows.length > 1
-      ? `error ${errorOf(chosen, treatment, chosen.h).toExponential(1)} at this step, order ${orderOf(rows).toFixed(1)} over the finest steps`
+function showFacts({ pair }, times, runs, ladder) {
+  const facts = { "impacts in the motion": times.length, "time between impacts": `${(2 * pair.impactTime(1)).toPrecision(4)} s` };
+  for (const { name, error } of runs) {
+    const rows = ladder.filter((row) => row.of === name);
+    facts[name] = rows.length > 1
+      ? `error ${error.toExponential(1)} at this step, order ${orderOf(rows).toFixed(1)} over the finest steps`
       : "grows without bound";
   }
   dial("facts").replaceChildren(...Object.entries(facts).flatMap(([term, text]) => ["dt", "dd"].map((tag, i) => {
@@ -130,27 +136,24 @@ function showFacts(chosen, times, ladder) {
   })));
 }
 
-function motionOf(chosen, times) {
-  const t = Array.from({ length: 1501 }, (_, n) => n * chosen.end / 1500), states = t.map(chosen.pair.at);
-  const runs = shown().map((treatment) => {
-    const run = { name: treatment.name, step: `h = ${chosen.h.toPrecision(3)} s`, t: [], u: [[], []] };
-    integrate(chosen.pair, treatment, chosen.end, chosen.h, (time, { u }) => { run.t.push(time); u.forEach((x, i) => run.u[i].push(x)); });
-    return run;
-  });
+function motionOf({ pair, end }, times, runs) {
+  const t = Array.from({ length: 1501 }, (_, n) => n * end / 1500);
+  const places = (states) => [0, 1].map((i) => states.map((state) => state.u[i]));
   return {
     blocks: [{ column: 0, height: 1 }, { column: 1, height: 1 }], springs: [{ one: 0, other: -1 }, { one: 1, other: -1 }],
     contacts: [{ left: 0, right: 1, gap: 0 }], impacts: times.map((time) => ({ t: time, contact: 0 })), leftward: true,
-    t, u: [0, 1].map((i) => states.map((state) => state.u[i])), runs
+    t, u: places(t.map(pair.at)), runs: runs.map(({ name, step, t: at, states }) => ({ name, step, t: at, u: places(states) }))
   };
 }
 
 // All that the dials decide; figures that are drawn already take the new rows.
 function compute() {
   const chosen = chosenParameters(), times = impactsOf(chosen), ladder = ladderOf(chosen);
+  const runs = shown().map((treatment) => runOf(chosen, treatment));
   Object.assign(data, {
-    curves: rowsOf(chosen, times), impacts: times.map((t, i) => ({ k: i + 1, t })), ladder, chosen: [{ h: chosen.h }], motion: motionOf(chosen, times)
+    curves: rowsOf(chosen, times, runs), impacts: times.map((t, i) => ({ k: i + 1, t })), ladder, chosen: [{ h: chosen.h }], motion: motionOf(chosen, times, runs)
   });
-  showFacts(chosen, times, ladder);
+  showFacts(chosen, times, runs, ladder);
   for (const [name, view] of Object.entries(embedded)) {
     for (const set of Object.keys(datasets(specifications[name]))) view.data(set, structuredClone(data[set]));
     view.runAsync();
