@@ -38,8 +38,8 @@ std::string_view to_string(SubjectKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::string_view to_string(Resolution resolution) {
-  return resolution == Resolution::step ? "step" : "tolerance";
+std::string_view to_string(RefinementParameter parameter) {
+  return parameter == RefinementParameter::step ? "step" : "tolerance";
 }
 
 std::string_view to_string(RefinementEnd end) {

@@ -139,8 +139,8 @@ constexpr bool is_solver(SubjectKind kind) { return kind >= SubjectKind::program
 
 /// What the levels of a subject refine: steps [s], or the tolerances of an adaptive solver, which
 /// then stand in every `step`.
-enum class Resolution { step, tolerance };
-std::string_view to_string(Resolution resolution);  ///< "step", "tolerance"
+enum class RefinementParameter { step, tolerance };
+std::string_view to_string(RefinementParameter parameter);  ///< "step", "tolerance"
 
 /// What a user says of a subject beside its name: "precision" = "single".
 using Labels = std::map<std::string, std::string>;
@@ -160,7 +160,7 @@ struct Subject {
   double contact_time = 0.0;          ///< [s], 0 for rigid contact
   std::string refusal, refusal_code;  ///< why a method cannot take the case; empty when it can
   bool complete = true;               ///< false: interrupted before its last level
-  Resolution resolution = Resolution::step;
+  RefinementParameter refined_by = RefinementParameter::step;
   std::vector<Level> levels;             ///< coarsest first
   std::optional<Refinement> refinement;  ///< nothing where the plan of the case was enough
   /// Behaviour, verdict, reason (a code) and numbers; `assessment.verdict` is the verdict.

@@ -192,7 +192,7 @@ void fields(auto& archive, Like<Subject> auto& x) {
   archive.added("labels", x.labels);
   each(archive, "claim", x.claim, "tolerance", x.tolerance, "contact_time", x.contact_time,
        "refusal", x.refusal, "refusal_code", x.refusal_code, "complete", x.complete);
-  archive.added("resolution", x.resolution);
+  archive.added("resolution", x.refined_by);
   archive("levels", x.levels);
   archive.added("refinement", x.refinement);
   each(archive, "assessment", x.assessment, "self_convergence", x.self_convergence);

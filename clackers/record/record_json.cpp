@@ -187,8 +187,8 @@ class Reader {
         {RefinementEnd::decided, RefinementEnd::budget, RefinementEnd::rounding_floor,
          RefinementEnd::too_many_steps, RefinementEnd::run_failed, RefinementEnd::interrupted});
   }
-  static void read(const Json& json, const std::string& where, Resolution& x) {
-    read_word(json, where, x, {Resolution::step, Resolution::tolerance});
+  static void read(const Json& json, const std::string& where, RefinementParameter& x) {
+    read_word(json, where, x, {RefinementParameter::step, RefinementParameter::tolerance});
   }
   static void read(const Json& json, const std::string& where, judge::Mismatch& x) {
     using enum judge::Mismatch;

@@ -134,7 +134,7 @@ TEST(RecordJson, ReadsRecordsOfEarlierVersions) {
   const auto read = record_from_json(json_text(json)).cases[0].subjects[0];
   EXPECT_EQ(read.assessment.reason, "more-samples");
   EXPECT_EQ(read.assessment.displacement.reason, "more-samples");
-  EXPECT_EQ(read.resolution, Resolution::step);
+  EXPECT_EQ(read.refined_by, RefinementParameter::step);
   EXPECT_TRUE(read.diagnoses.empty());
   EXPECT_EQ(read.levels[0].runs[1].printed, "");
   EXPECT_EQ(read.assessment.evidence.at(0).code, "other-impacts");

@@ -73,14 +73,14 @@ Cell line(const Row& row) {
 
 Cell count(auto value) { return value > 0 ? Cell(static_cast<long long>(value)) : Cell(); }
 
-template <record::Resolution resolved_by>
+template <record::RefinementParameter parameter>
 Cell resolution(const Row& row) {
-  const bool has = row.score.runs > 0 && row.subject->resolution == resolved_by;
+  const bool has = row.score.runs > 0 && row.subject->refined_by == parameter;
   return has ? number(row.score.step) : Cell();
 }
 
 bool is_by_step(const record::Subject& subject) {
-  return subject.resolution == record::Resolution::step;
+  return subject.refined_by == record::RefinementParameter::step;
 }
 
 bool is_history(const record::Subject& subject) {
@@ -170,8 +170,8 @@ const Column all[] = {
     {"file", "", "file", "", "history, as given", name, true, file<&File::file>},
     {"file_name", "", "file", "", "history, without its folder", name, false, short_file},
     {"level", "", "level", "", "1 is the coarsest", Kind::count, true, [](const Row& row) { return count(row.level); }},
-    {"step", "s", "step", "", "h", Kind::number, true, resolution<record::Resolution::step>},
-    {"tolerance", "", "tolerance", "", "of an adaptive solver, which has no step", Kind::number, true, resolution<record::Resolution::tolerance>},
+    {"step", "s", "step", "", "h", Kind::number, true, resolution<record::RefinementParameter::step>},
+    {"tolerance", "", "tolerance", "", "of an adaptive solver, which has no step", Kind::number, true, resolution<record::RefinementParameter::tolerance>},
     {"step_source", "", "step from", "", "data (median spacing), name or option", word, true, [](const Row& row) { return file_of(row) ? text(to_string(file_of(row)->step_source)) : Cell(); }},
     {"steps_per_fast_period", "", "steps per fast period", "", "shortest damped period of the free masses / h", Kind::number, true, steps_per_fast_period},
     {"runs", "", "runs", "", "of the level", Kind::count, false, [](const Row& row) { return count(row.score.runs); }},

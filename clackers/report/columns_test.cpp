@@ -158,7 +158,7 @@ TEST(Columns, ARunOfALadderOfTolerancesHasAToleranceAndNoStep) {
   const auto row = run_row(problem, subject, 2, run);
   EXPECT_EQ(column("step").get(row), Cell(run.score.step));
   EXPECT_EQ(column("tolerance").get(row), Cell());
-  subject.resolution = record::Resolution::tolerance;
+  subject.refined_by = record::RefinementParameter::tolerance;
   EXPECT_EQ(column("step").get(row), Cell());
   EXPECT_EQ(column("tolerance").get(row), Cell(run.score.step));
 }

@@ -170,7 +170,7 @@ record::Subject assessed(const CheckRequest& request, const std::string& name,
   subject.claim = request.expect.value_or(Claim{});
   subject.tolerance = request.tolerance;
   const bool by_tolerance = choose_steps(entries, problem) || !request.tolerances.empty();
-  if (by_tolerance) subject.resolution = record::Resolution::tolerance;
+  if (by_tolerance) subject.refined_by = record::RefinementParameter::tolerance;
   require_finite(entries);
   require_different_steps(is_alone ? "check" : "check --name " + name, entries);
   SubjectStudy study(problem, std::move(subject));

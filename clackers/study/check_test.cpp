@@ -116,7 +116,7 @@ TEST_F(Check, TolerancesAreLevels) {
   request.tolerances = {1e-3, 1e-5, 1e-7};
   const auto record = check(request);
   const auto& subject = record.cases[0].subjects[0];
-  EXPECT_EQ(subject.resolution, record::Resolution::tolerance);
+  EXPECT_EQ(subject.refined_by, record::RefinementParameter::tolerance);
   ASSERT_EQ(subject.levels.size(), 3u);
   EXPECT_EQ(subject.levels[2].step, 1e-7);
   request.steps = {0.01, 0.005, 0.0025};

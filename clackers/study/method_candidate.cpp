@@ -79,7 +79,7 @@ record::Subject subject_of(const methods::Method& method, const StudyCase& probl
   subject.claim =
       methods::claim_on(facts, problem.problem.problem, collides, problem.shared.has_value());
   if (facts.is_adaptive) {
-    subject.resolution = record::Resolution::tolerance;
+    subject.refined_by = record::RefinementParameter::tolerance;
     // The estimate falls with the power of the step that the error over a run does.
     if (subject.claim.order > 0.0) subject.claim.order = 1.0;
   }

@@ -37,7 +37,7 @@ CandidateFacts SolverCandidate::facts() const {
   facts.subject.labels = asked_.labels;
   facts.subject.claim = asked_.claim;
   const bool by_tolerance = !asked_.tolerances.empty();
-  if (by_tolerance) facts.subject.resolution = record::Resolution::tolerance;
+  if (by_tolerance) facts.subject.refined_by = record::RefinementParameter::tolerance;
   facts.levels = by_tolerance ? asked_.tolerances : asked_.steps;
   // Callables are called in one thread.
   facts.is_serial = asked_.kind == record::SubjectKind::callable;

@@ -79,7 +79,7 @@ TEST_F(SolversUnderTest, AreRunWithTheirTolerances) {
   ASSERT_EQ(runs_.size(), 2u);
   EXPECT_EQ(runs_[1].tolerance, 1e-6);
   EXPECT_EQ(runs_[0].step, runs_[1].step);
-  EXPECT_EQ(record.cases[0].subjects[0].resolution, record::Resolution::tolerance);
+  EXPECT_EQ(record.cases[0].subjects[0].refined_by, record::RefinementParameter::tolerance);
 }
 
 TEST_F(SolversUnderTest, KeepTheFailuresOfTheirRuns) {

@@ -80,7 +80,9 @@ class SubjectStudy {
   };
 
   bool is_method() const { return subject_.kind == record::SubjectKind::method; }
-  bool by_tolerance() const { return subject_.resolution == record::Resolution::tolerance; }
+  bool by_tolerance() const {
+    return subject_.refined_by == record::RefinementParameter::tolerance;
+  }
   std::vector<PlannedLevel> planned(const record::RefinementPlan& plan) const;
   void group();
   void decide();

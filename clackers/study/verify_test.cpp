@@ -54,7 +54,7 @@ TEST(Verify, AssessesAdaptiveMethodsOverTolerances) {
   auto request = small({"dopri5", "rk4"});
   const auto record = verify(request);
   const auto& adaptive = subjects(record).at(0);
-  EXPECT_EQ(adaptive.resolution, record::Resolution::tolerance);
+  EXPECT_EQ(adaptive.refined_by, record::RefinementParameter::tolerance);
   ASSERT_EQ(adaptive.levels.size(), 8u);
   for (std::size_t i = 0; i < adaptive.levels.size(); ++i) {
     const auto& level = adaptive.levels[i];
@@ -68,7 +68,7 @@ TEST(Verify, AssessesAdaptiveMethodsOverTolerances) {
   EXPECT_EQ(adaptive.claim.order, 1.0);
   EXPECT_EQ(adaptive.assessment.verdict, Verdict::agrees);
   EXPECT_FALSE(adaptive.refinement);
-  EXPECT_EQ(subjects(record).at(1).resolution, record::Resolution::step);
+  EXPECT_EQ(subjects(record).at(1).refined_by, record::RefinementParameter::step);
 
   request.plan.tolerances = {1e-4, 1e-6};
   EXPECT_EQ(subjects(verify(request)).at(0).levels.size(), 2u);

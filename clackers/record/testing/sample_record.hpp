@@ -114,7 +114,7 @@ inline Record sample_record() {
   without.against_reference = {true, "wrong-limit", 7.25};
   without.extrapolation = {true, "differences-turn", {0.3, -tiny}, 1e-9, 2e-10, 6};
   without.extrapolation_error = 3e-9;
-  method.resolution = Resolution::tolerance;
+  method.refined_by = RefinementParameter::tolerance;
   method.diagnoses = {
       {"restitution-differs",
        0.99,

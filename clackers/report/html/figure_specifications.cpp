@@ -144,7 +144,7 @@ Json figure_specifications(const record::CaseRecord& problem) {
     all["response"]["layer"].push_back(
         specification_of(assets::history_rows_vl_json, names, masses));
   const bool by_step = std::ranges::any_of(problem.subjects, [](const record::Subject& subject) {
-    return subject.resolution == record::Resolution::step;
+    return subject.refined_by == record::RefinementParameter::step;
   });
   const Json step{{"x_step", by_step ? "step h [s]" : "tolerance"}};
   if (has_convergence(problem))

@@ -167,7 +167,7 @@ FigureText response_text(const record::CaseRecord& record, const Place& place) {
 
 FigureText convergence_text(const record::CaseRecord& problem) {
   const bool by_step = std::ranges::any_of(problem.subjects, [](const record::Subject& subject) {
-    return subject.resolution == record::Resolution::step;
+    return subject.refined_by == record::RefinementParameter::step;
   });
   return {
       "convergence",

@@ -209,7 +209,7 @@ TEST(Html, CausesOfHistoriesStandAboveTheNumbersOnce) {
 TEST(Html, ToleranceIsOnTheAxisOfALadderOfTolerances) {
   auto record = sample_check();
   EXPECT_TRUE(has(html(record), "step h [s]"));
-  record.cases[0].subjects[0].resolution = record::Resolution::tolerance;
+  record.cases[0].subjects[0].refined_by = record::RefinementParameter::tolerance;
   EXPECT_FALSE(has(html(record), "step h"));
 }
 

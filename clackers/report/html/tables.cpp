@@ -195,7 +195,7 @@ std::string verdicts_html(const record::CaseRecord& problem, const Place& place)
         "verdicts");
   out += failures_html(problem, place);
   const bool by_step = std::ranges::all_of(problem.subjects, [](const record::Subject& subject) {
-    return subject.resolution == record::Resolution::step;
+    return subject.refined_by == record::RefinementParameter::step;
   });
   const auto histories = summary_table(problem, record::SubjectKind::histories);
   if (!histories.rows.empty())

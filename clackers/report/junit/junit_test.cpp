@@ -116,7 +116,7 @@ TEST(Junit, ALadderOfTolerancesHasNoStep) {
   auto record = sample_record();
   EXPECT_FALSE(property(test_of(record, "newmark"), "step").empty());
   EXPECT_EQ(property(test_of(record, "newmark"), "solver_tolerance"), "");
-  record.cases[0].subjects[0].resolution = record::Resolution::tolerance;
+  record.cases[0].subjects[0].refined_by = record::RefinementParameter::tolerance;
   const auto test = test_of(record, record.cases[0].subjects[0].name);
   EXPECT_EQ(property(test, "step"), "");
   EXPECT_FALSE(property(test, "solver_tolerance").empty());

@@ -103,7 +103,7 @@ TEST(Text, OfHistoriesTheCauseAndTheAnswerStandBeforeTheNumbers) {
   EXPECT_LT(text.find("[restitution-differs]"), text.find(answer));
   EXPECT_LT(text.find(answer), text.find("imp."));
   EXPECT_FALSE(has(text, "tolerance"));
-  subject.resolution = record::Resolution::tolerance;
+  subject.refined_by = record::RefinementParameter::tolerance;
   text = text_of_record(record);
   EXPECT_TRUE(has(text, "tolerance"));
   EXPECT_FALSE(has(text, "h = "));

@@ -56,7 +56,8 @@ struct NextOption {
 
 std::optional<NextOption> deciding_option(const record::CaseRecord& problem,
                                           const record::Subject& subject) {
-  if (problem.plan.levels == 0 || subject.resolution != record::Resolution::step) return {};
+  if (problem.plan.levels == 0 || subject.refined_by != record::RefinementParameter::step)
+    return {};
   const auto& fit = subject.assessment.displacement;
   // Runs of a program that fails do not profit from another step.
   if (!subject.complete || fit.behaviour != Behaviour::undecided ||
@@ -157,7 +158,7 @@ std::string plan_text(const record::CaseRecord& problem) {
       short_number(finest, 3), per_period(plan.coarsest), per_period(finest));
   const auto is_adaptive = [](const record::Subject& subject) {
     return subject.kind == record::SubjectKind::method && !subject.levels.empty() &&
-           subject.resolution == record::Resolution::tolerance;
+           subject.refined_by == record::RefinementParameter::tolerance;
   };
   const auto adaptive = std::ranges::find_if(problem.subjects, is_adaptive);
   if (adaptive == problem.subjects.end()) return steps;
@@ -284,7 +285,7 @@ VerdictLine verdict_line(const record::Record& record) {
 }
 
 std::string resolution_text(const record::Subject& subject, double step, int digits) {
-  return subject.resolution == record::Resolution::tolerance
+  return subject.refined_by == record::RefinementParameter::tolerance
              ? "tolerance " + short_number(step, digits)
              : fmt::format("h = {} s", short_number(step, digits));
 }

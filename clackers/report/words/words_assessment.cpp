@@ -40,7 +40,7 @@ std::string range_text(const record::Subject& subject, const judge::LadderFit& f
   const double from = is_known ? fit.largest_step : nominal(fit.first_level);
   const double to = is_known ? fit.smallest_step : nominal(fit.last_level);
   if (from == to) return resolution_text(subject, from);
-  const bool is_step = subject.resolution == record::Resolution::step;
+  const bool is_step = subject.refined_by == record::RefinementParameter::step;
   return fmt::format("{} to {}{}", resolution_text(subject, from), short_number(to, 3),
                      is_step ? " s" : "");
 }
@@ -56,7 +56,7 @@ std::string floor_part(const record::Subject& subject, const judge::LadderFit& f
 }
 
 std::string tolerance_sentence(const record::Subject& subject, const judge::LadderFit& fit) {
-  if (subject.resolution != record::Resolution::tolerance || !fit.has_line) return {};
+  if (subject.refined_by != record::RefinementParameter::tolerance || !fit.has_line) return {};
   const bool is_proportional = std::abs(fit.order - 1.0) <= judge::tolerance_proportional;
   return fmt::format("The error is {}proportional to the tolerance.",
                      is_proportional ? "" : "not ");

@@ -26,14 +26,14 @@ std::string list(const std::vector<double>& steps) {
 }
 
 std::string with_unit(const record::Subject& subject, const std::vector<double>& steps) {
-  return subject.resolution == record::Resolution::tolerance
+  return subject.refined_by == record::RefinementParameter::tolerance
              ? fmt::format("tolerance{} {}", steps.size() == 1 ? "" : "s", list(steps))
              : fmt::format("h = {} s", list(steps));
 }
 
 // The next finer levels: half the step, or a tenth of the tolerance.
 std::vector<double> finer(const record::Subject& subject, double finest, int count) {
-  const double ratio = subject.resolution == record::Resolution::tolerance ? 10.0 : 2.0;
+  const double ratio = subject.refined_by == record::RefinementParameter::tolerance ? 10.0 : 2.0;
   std::vector<double> steps;
   for (int i = 1; i <= count; ++i) steps.push_back(finest / std::pow(ratio, i));
   return steps;
@@ -68,9 +68,10 @@ std::string one_file(const record::Subject& subject, const measure::RunScore& ru
         " {} of {} matched{}.", run.impacts->matched, counted(run.impacts->expected, "impact"),
         run.impacts->extra > 0 ? fmt::format(", {} extra", run.impacts->extra) : "");
   return text +
-         fmt::format(" One {} gives no order: add the same run at {}; at least four are needed.",
-                     subject.resolution == record::Resolution::tolerance ? "tolerance" : "step",
-                     with_unit(subject, finer(subject, run.step, 3)));
+         fmt::format(
+             " One {} gives no order: add the same run at {}; at least four are needed.",
+             subject.refined_by == record::RefinementParameter::tolerance ? "tolerance" : "step",
+             with_unit(subject, finer(subject, run.step, 3)));
 }
 
 }  // namespace
@@ -91,7 +92,7 @@ std::string hint_text(const record::Subject& subject) {
       subject.levels, [](const record::Level& level) { return level.runs.size() == 1; });
   const bool scatters = fit.reason == "one-sample-a-level" || fit.reason == "more-samples" ||
                         fit.reason == Code("no-convergence-yet").name();
-  if (single && scatters && subject.resolution == record::Resolution::step) {
+  if (single && scatters && subject.refined_by == record::RefinementParameter::step) {
     std::vector<double> between;
     for (int i = 1; i <= 3; ++i) between.push_back(runs.front()->step * std::exp2(-0.25 * i));
     return fmt::format(

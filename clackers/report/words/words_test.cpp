@@ -155,7 +155,7 @@ TEST(AssessmentText, AnEarlyEndIsSaidFirst) {
 
 TEST(AssessmentText, ALadderOfTolerancesHasTheRatioOfTheError) {
   auto subject = assessed(Behaviour::proper);
-  subject.resolution = record::Resolution::tolerance;
+  subject.refined_by = record::RefinementParameter::tolerance;
   auto& fit = subject.assessment.displacement;
   fit.steps = {1e-3, 1e-4, 1e-5};
   subject.assessment.evidence = {{"error-over-tolerance", Verdict::not_claimed, {12.0, 9.0, 15.0}}};
@@ -190,7 +190,7 @@ TEST(HintText, OfFewLevelsHasTheMissingOnes) {
   EXPECT_EQ(hint_text(histories({0.02, 0.01}, "too-few-levels")),
             "2 levels; at least 4 are needed: add the same run at h = 0.005 and 0.0025 s.");
   auto subject = histories({1e-3, 1e-4}, "too-few-levels");
-  subject.resolution = record::Resolution::tolerance;
+  subject.refined_by = record::RefinementParameter::tolerance;
   EXPECT_TRUE(has(hint_text(subject), "at tolerances 1e-5 and 1e-6."));
 }
 
@@ -275,7 +275,7 @@ TEST(NoteTexts, OfASolverNameItsRun) {
   subject.name = "mine";
   subject.levels[0].runs[0].score.step = 0.02;
   EXPECT_TRUE(note_texts(subject)[1].starts_with("mine at h = 0.02 s: The first row"));
-  subject.resolution = record::Resolution::tolerance;
+  subject.refined_by = record::RefinementParameter::tolerance;
   EXPECT_TRUE(note_texts(subject)[1].starts_with("mine at tolerance 0.02: The first row"));
 }
 
