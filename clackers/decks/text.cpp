@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -56,7 +55,7 @@ std::vector<Level> steps(const model::ImpactProblem<>& problem, double coarsest,
 
 double shortest_period(const model::ImpactProblem<>& problem) {
   const auto& system = problem.system;
-  const auto squares = numerics::eigenvalues(system.mass.ldlt().solve(system.stiffness));
+  const auto squares = numerics::eigenvalues(numerics::solved(system.mass, system.stiffness));
   const double highest = squares.real().maxCoeff();
   const double span = problem.end - problem.start.t;
   return highest > 0.0 ? std::min(span, 2.0 * std::numbers::pi / std::sqrt(highest)) : span;

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-
 #include <cmath>
 #include <limits>
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::model {
 namespace {
@@ -50,12 +49,8 @@ void require_symmetric(std::string_view what, const Eigen::MatrixXd& x, Index do
 // A pivot that is no more than the rounding of its factorization, n units of its diagonal entry,
 // says nothing of its sign.
 bool is_positive_definite(const Eigen::MatrixXd& x) {
-  const Eigen::LLT<Eigen::MatrixXd> factors(x);
-  if (factors.info() != Eigen::Success) return false;
-  const double unit = double(x.rows()) * std::numeric_limits<double>::epsilon();
-  for (Index i = 0; i < x.rows(); ++i)
-    if (!(std::pow(factors.matrixLLT()(i, i), 2) > unit * x(i, i))) return false;
-  return true;
+  return numerics::Cholesky(x).is_definite(
+      x, double(x.rows()) * std::numeric_limits<double>::epsilon());
 }
 
 void require_contact(const Contact<>& contact, std::size_t number, Index dof,

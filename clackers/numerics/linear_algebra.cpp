@@ -1,6 +1,5 @@
 #include "clackers/numerics/linear_algebra.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -44,7 +43,29 @@ MatrixXd hankel(std::span<const MatrixXd> samples, Eigen::Index blocks, Eigen::I
 
 MatrixXd inverse(const MatrixXd& a) { return a.inverse(); }
 
-MatrixXd solved(const MatrixXd& a, const MatrixXd& b) { return a.llt().solve(b); }
+Cholesky::Cholesky(const MatrixXd& a) : factors_(a) {}
+
+bool Cholesky::is_definite(const MatrixXd& a, double rounding) const {
+  if (factors_.info() != Eigen::Success) return false;
+  const auto pivots = factors_.matrixLLT().diagonal().array().square();
+  return (pivots > rounding * a.diagonal().array()).all();
+}
+
+MatrixXd Cholesky::solve(const MatrixXd& b) const { return factors_.solve(b); }
+
+MatrixXd solved(const MatrixXd& a, const MatrixXd& b) { return Cholesky(a).solve(b); }
+
+MatrixXd shortest_solution(const MatrixXd& a, const MatrixXd& b) {
+  return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(a).solve(b);
+}
+
+// In L^T Z they are the orthogonal complement of L^-1 rows^T.
+MatrixXd unseen_directions(const MatrixXd& rows, const MatrixXd& mass) {
+  const Eigen::LLT<MatrixXd> factors(mass);
+  const MatrixXd seen = factors.matrixL().solve(rows.transpose());
+  const MatrixXd q = Eigen::HouseholderQR<MatrixXd>(seen).householderQ();
+  return factors.matrixU().solve(q.rightCols(rows.cols() - rows.rows()));
+}
 
 VectorXd least_squares(const MatrixXd& a, const VectorXd& b, double threshold) {
   Eigen::ColPivHouseholderQR<MatrixXd> qr(a);

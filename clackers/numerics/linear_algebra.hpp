@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Cholesky>
 #include <complex>
 #include <optional>
 #include <span>
@@ -13,8 +13,28 @@ namespace clackers::numerics {
 /// The inverse by LU with partial pivoting.
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
 
+/// A = L L^T of a symmetric positive definite A.
+class Cholesky {
+ public:
+  explicit Cholesky(const Eigen::MatrixXd& a);
+
+  /// Whether each pivot is more than `rounding` times its diagonal entry of A.
+  bool is_definite(const Eigen::MatrixXd& a, double rounding) const;
+  /// X of A X = B.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+
+ private:
+  Eigen::LLT<Eigen::MatrixXd> factors_;
+};
+
 /// X of A X = B for a symmetric positive definite A.
 Eigen::MatrixXd solved(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// X of A X = B, or the shortest that makes |A X - B| least.
+Eigen::MatrixXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// Columns Z with rows Z = 0 and Z^T M Z = 1, for independent rows and a positive definite M.
+Eigen::MatrixXd unseen_directions(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& mass);
 
 /// x that makes |A x - b| least, by QR with column pivoting; pivots below `threshold` times the
 /// largest count as 0. A negative threshold is Eigen's own.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +9,7 @@
 
 #include "clackers/base/number.hpp"
 #include "clackers/model/problem_file.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::decks {
 namespace {
@@ -101,7 +101,7 @@ class Builder {
                   fmt::format("contact {} has restitution {}, but its contact returns all energy",
                               stops.size() + 1, contact.restitution));
     const double softness =
-        contact.direction.dot(problem_.system.mass.ldlt().solve(contact.direction));
+        contact.direction.dot(numerics::solved(problem_.system.mass, contact.direction).col(0));
     stop->stiffness = rounded(std::pow(std::numbers::pi / network_.contact_time, 2) / softness, 3);
     stops.push_back(*stop);
   }

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
 
 #include "clackers/base/number.hpp"
 #include "clackers/decks/models/network.hpp"
 #include "clackers/decks/rows.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::decks {
 namespace {
@@ -128,7 +128,7 @@ class Model {
     Eigen::VectorXd force = -p.system.stiffness * p.start.u - p.system.damping * p.start.v;
     for (const auto& load : network_.loads)
       force[load.dof] += load.amplitude * std::cos(load.frequency * p.start.t + load.phase);
-    return p.system.mass.ldlt().solve(force);
+    return numerics::solved(p.system.mass, force);
   }
 
   const Subject& subject_;

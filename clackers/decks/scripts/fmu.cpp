@@ -9,6 +9,7 @@
 #include "clackers/decks/scripts/c_text.hpp"
 #include "clackers/decks/text.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::decks {
 namespace {
@@ -32,8 +33,8 @@ std::string flights_of(const Subject& subject, std::string_view format) {
   }
   const auto& [mass, damping, stiffness] =
       std::tie(problem.system.mass, problem.system.damping, problem.system.stiffness);
-  double rate =
-      std::max(std::sqrt(mass.ldlt().solve(stiffness).norm()), mass.ldlt().solve(damping).norm());
+  double rate = std::max(std::sqrt(numerics::solved(mass, stiffness).norm()),
+                         numerics::solved(mass, damping).norm());
   if (const auto* found = problem.system.add_load.target<model::HarmonicLoad>())
     for (const auto& force : found->forces()) rate = std::max(rate, force.frequency);
   return list_of("flights", rows, c_syntax) +

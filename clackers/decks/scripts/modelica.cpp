@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
-
 #include "clackers/base/number.hpp"
 #include "clackers/decks/rows.hpp"
 #include "clackers/decks/text.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/model/problem_file.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::decks {
 namespace {
@@ -48,7 +47,7 @@ std::string forces(const model::ImpactProblem<>& problem) {
 std::string impacts(const model::ImpactProblem<>& problem) {
   std::string text;
   for (const auto& contact : problem.contacts) {
-    const Eigen::VectorXd jump = problem.system.mass.ldlt().solve(contact.direction);
+    const Eigen::VectorXd jump = numerics::solved(problem.system.mass, contact.direction);
     const auto b = braces(contact.direction);
     text += fmt::format("  {} {} * u < {} then\n    reinit(v, pre(v) - {} * ({} * pre(v)) * {});\n",
                         text.empty() ? "when" : "elsewhen", b, exact_number(contact.gap),

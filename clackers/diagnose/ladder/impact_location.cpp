@@ -1,12 +1,12 @@
 #include "clackers/diagnose/ladder/impact_location.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "clackers/measure/errors/mechanics.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -95,7 +95,7 @@ class Locator {
     }
     for (Eigen::Index c = 0; c < count; ++c)
       inertia.row(c) = contacts[std::size_t(numbers[std::size_t(c)])].direction.transpose() * along;
-    return v + along * inertia.completeOrthogonalDecomposition().solve(asked);
+    return v + along * numerics::shortest_solution(inertia, asked);
   }
 
   double kinetic(const Eigen::VectorXd& v) const { return std::sqrt(v.dot(mass_ * v)); }
@@ -107,8 +107,7 @@ class Locator {
     for (std::size_t c = 0; c < contacts.size(); ++c)
       along.col(Eigen::Index(c)) = motion_.response(contacts[c].direction);
     const Eigen::MatrixXd weighted = along.transpose() * mass_;
-    const Eigen::VectorXd impulses =
-        (weighted * along).completeOrthogonalDecomposition().solve(weighted * jump);
+    const Eigen::VectorXd impulses = numerics::shortest_solution(weighted * along, weighted * jump);
     return kinetic(jump - along * impulses);
   }
 

@@ -2,16 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <optional>
 
 #include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::diagnose {
 namespace {
@@ -212,10 +213,11 @@ class FlightFits {
     for (const auto change : changes)
       for (Eigen::Index k = 0; k < count_[change]; ++k) at.push_back(first_[change] + k);
     const Eigen::MatrixXd part = gram_(at, at);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(part);
+    const numerics::Cholesky solver(part);
     Fitted found{std::move(changes), {}, {}, 0.0};
-    if (solver.rank() < part.rows()) return found;
-    found.values = solver.solve(Eigen::VectorXd(onto_(at)));
+    if (!solver.is_definite(part, double(part.rows()) * std::numeric_limits<double>::epsilon()))
+      return found;
+    found.values = solver.solve(onto_(at));
     double left = (fit_.lack - fit_.columns(Eigen::all, at) * found.values).squaredNorm();
     found.gain = std::sqrt(square_ / std::max(left, 1e-300));
     left /= double(fit_.lack.size());

@@ -1,17 +1,18 @@
 #include "clackers/measure/impacts/shared_impacts.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::measure {
 namespace {
 
 // Whether an impulse at one of these contacts changes the gap rate of another.
 bool share_masses(std::span<const int> contacts, const model::ImpactProblem<>& problem,
-                  const Eigen::LLT<Eigen::MatrixXd>& mass) {
+                  const numerics::Cholesky& mass) {
   Eigen::MatrixXd rows(problem.dof(), Eigen::Index(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
     rows.col(Eigen::Index(i)) = problem.contacts[std::size_t(contacts[i])].direction;
@@ -30,7 +31,7 @@ std::optional<SharedInstant> first_shared_instant(const model::Motion& reference
   constexpr long long most_impacts = 1000;
   if (problem.contacts.size() < 2) return {};
   const auto count = std::min(reference.impact_count(reference.end()), most_impacts);
-  std::optional<Eigen::LLT<Eigen::MatrixXd>> mass;
+  std::optional<numerics::Cholesky> mass;
   std::vector<int> contacts;
   double first = 0.0, hi = -std::numeric_limits<double>::infinity();
   const auto found = [&]() -> bool {

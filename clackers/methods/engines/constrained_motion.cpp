@@ -1,9 +1,9 @@
 #include "clackers/methods/engines/constrained_motion.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <utility>
+
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::methods {
 
@@ -63,16 +63,11 @@ std::optional<ConstrainedMotion> ConstrainedMotions::make(
         b.row(row) = rows_.row(i);
         gaps[row++] = gaps_[i];
       }
-    const Eigen::LLT<MatrixXd> mass(mass_);
-    const MatrixXd response = mass.solve(b.transpose());
-    const Eigen::LDLT<MatrixXd> delassus(b * response);
-    force_rows = delassus.solve(response.transpose());
-    // Directions that keep the contacts closed, orthonormal with respect to M: in L^T u they are the
-    // orthogonal complement of L^-1 B^T.
-    const MatrixXd weighted = mass.matrixL().solve(b.transpose());
-    const MatrixXd q = Eigen::HouseholderQR<MatrixXd>(weighted).householderQ();
-    MatrixXd basis(n, n - active);
-    if (active < n) basis = mass.matrixU().solve(q.rightCols(n - active));
+    const MatrixXd response = numerics::solved(mass_, b.transpose());
+    const MatrixXd delassus = b * response;
+    force_rows = numerics::shortest_solution(delassus, response.transpose());
+    // Directions that keep the contacts closed.
+    const MatrixXd basis = numerics::unseen_directions(b, mass_);
     const MatrixXd inverse = basis.transpose() * mass_;
     const MatrixXd stiffness = basis.transpose() * stiffness_ * basis;
     auto modes = numerics::ModalSystem::make(MatrixXd::Identity(n - active, n - active),
@@ -80,10 +75,10 @@ std::optional<ConstrainedMotion> ConstrainedMotions::make(
     if (!modes) return std::nullopt;
     motion.modes = modes->seen_through(basis, inverse);
     if (!gaps.isZero(0.0)) {
-      motion.rest = response * delassus.solve(gaps);
+      motion.rest = response * numerics::shortest_solution(delassus, gaps);
       if (active < n)
-        motion.rest -= basis * stiffness.completeOrthogonalDecomposition().solve(
-                                   basis.transpose() * (stiffness_ * motion.rest));
+        motion.rest -= basis * numerics::shortest_solution(
+                                   stiffness, basis.transpose() * (stiffness_ * motion.rest));
     }
   }
   for (Index i = 0, row = 0; i < rows_.rows(); ++i) {
