@@ -27,10 +27,8 @@ class Locator {
   double frequency() const { return frequency_; }
 
   // Steps of w h <= 0.02 cost 0.02^5 / 120 = 3e-11 of the state each.
-  FreeState moved(FreeState state, double s) const {
-    const int steps = 1 + int(std::min(1e4, std::abs(s) * frequency_ / 0.02));
-    for (int i = 0; i < steps; ++i) state = motion_.moved(state, s / steps);
-    return state;
+  FreeState moved(const FreeState& state, double s) const {
+    return motion_.moved(state, s, 1 + int(std::min(1e4, std::abs(s) * frequency_ / 0.02)));
   }
 
   // The state where the gap closes, nearest in the direction of `reach` [s].

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
@@ -32,10 +33,11 @@ Impulses impulses_of(const Observation& seen, const model::ImpactProblem<>& prob
   double flight_force = 0.0, speed = 0.0;
   int flights = 0;
   Impulses sum;
+  auto to = measure::row_state(rows, 0);
   for (std::size_t i = 0; i + 1 < rows.t.size() && sum.rows < most_rows; ++i) {
-    const double s = rows.t[i + 1] - rows.t[i];
+    const auto from = std::exchange(to, measure::row_state(rows, i + 1));
+    const double s = to.t - from.t;
     if (!(s > 0.0)) continue;
-    const auto from = measure::row_state(rows, i), to = measure::row_state(rows, i + 1);
     speed = std::max(speed, std::abs(contact.gap_rate(from.v)));
     const double impulse = mass * contact.gap_rate(to.v - motion.moved(from, s).v);
     if (contact.gap_at(from.u) > 0.0 && contact.gap_at(to.u) > 0.0) {

@@ -19,6 +19,8 @@ constexpr int most_iterations = 8;
 constexpr std::size_t least_window_rows = 8;
 /// Parameters that have no effect on a window stay as they are.
 constexpr double least_effect = 1e-9;
+/// A history that is nearer than this to the reference, in envelopes, has the phases of the case.
+constexpr double small_distance = 0.05;
 
 double fastest(const model::ImpactProblem<>& problem) {
   double square = 0.0;
@@ -136,7 +138,7 @@ SystemFit fit_system(const FitRows& rows, const Variation& base,
   const std::size_t all = rows.t.size();
   double best = solver.improve(all, most_iterations);
   const auto direct = solver.values();
-  if (!(best < 0.02 * rows.distance) && !parameters.empty()) {
+  if (rows.distance > small_distance && !(best < 0.02 * rows.distance)) {
     std::fill(solver.values().begin(), solver.values().end(), 0.0);
     const double omega = std::max(fastest(base.problem), 1e-300);
     for (double span = 3.0 / omega;; span *= 2.0) {

@@ -126,10 +126,8 @@ struct FlightFit {
 class Mover {
  public:
   Mover(const System& system, double fastest) : motion_(system), fastest_(fastest) {}
-  Eigen::VectorXd velocity(FreeState state, double s) const {
-    const int steps = 1 + int(std::abs(s) * fastest_ / 0.05);
-    for (int i = 0; i < steps; ++i) state = motion_.moved(state, s / steps);
-    return state.v;
+  Eigen::VectorXd velocity(const FreeState& state, double s) const {
+    return motion_.moved(state, s, 1 + int(std::abs(s) * fastest_ / 0.05)).v;
   }
 
  private:

@@ -35,30 +35,57 @@ FreeMotion::FreeMotion(const model::SmoothSystem<>& system)
       inverse_mass_(
           numerics::solved(system.mass, Eigen::MatrixXd::Identity(system.dof(), system.dof()))) {}
 
-Eigen::VectorXd FreeMotion::acceleration(double t, const Eigen::VectorXd& u,
-                                         const Eigen::VectorXd& v) const {
-  Eigen::VectorXd force = -(system_.damping * v) - system_.stiffness * u;
+// In fixed sizes a step takes no memory.
+template <int Dof>
+model::Vector<Dof> FreeMotion::acceleration_of(double t, const model::Vector<Dof>& u,
+                                               const model::Vector<Dof>& v) const {
+  const auto fixed = [](const Eigen::MatrixXd& x) {
+    return Eigen::Map<const model::Matrix<Dof>>(x.data(), x.rows(), x.cols());
+  };
+  model::Vector<Dof> force = -(fixed(system_.damping) * v) - fixed(system_.stiffness) * u;
   if (system_.add_load) system_.add_load(t, {force.data(), std::size_t(force.size())});
   if (system_.nonlinear) {
     Eigen::VectorXd internal = Eigen::VectorXd::Zero(force.size());
     system_.nonlinear->add(u, v, internal);
     force -= internal;
   }
-  return inverse_mass_ * force;
+  return fixed(inverse_mass_) * force;
 }
 
-FreeState FreeMotion::moved(const FreeState& from, double s) const {
-  const auto& [t, u, v] = from;
-  const double half = 0.5 * s;
-  const Eigen::VectorXd a1 = acceleration(t, u, v);
-  const Eigen::VectorXd v2 = v + half * a1;
-  const Eigen::VectorXd a2 = acceleration(t + half, u + half * v, v2);
-  const Eigen::VectorXd v3 = v + half * a2;
-  const Eigen::VectorXd a3 = acceleration(t + half, u + half * v2, v3);
-  const Eigen::VectorXd v4 = v + s * a3;
-  const Eigen::VectorXd a4 = acceleration(t + s, u + s * v3, v4);
-  return {t + s, u + s / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4),
-          v + s / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)};
+template <int Dof>
+FreeState FreeMotion::moved_by(const FreeState& from, double s, int steps) const {
+  using Vector = model::Vector<Dof>;
+  const double h = s / steps, half = 0.5 * h;
+  double t = from.t;
+  Vector u = from.u, v = from.v;
+  for (int step = 0; step < steps; ++step, t += h) {
+    const Vector a1 = acceleration_of<Dof>(t, u, v);
+    const Vector v2 = v + half * a1;
+    const Vector a2 = acceleration_of<Dof>(t + half, u + half * v, v2);
+    const Vector v3 = v + half * a2;
+    const Vector a3 = acceleration_of<Dof>(t + half, u + half * v2, v3);
+    const Vector v4 = v + h * a3;
+    const Vector a4 = acceleration_of<Dof>(t + h, u + h * v3, v4);
+    u += h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4);
+    v += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+  }
+  return {t, u, v};
+}
+
+Eigen::VectorXd FreeMotion::acceleration(double t, const Eigen::VectorXd& u,
+                                         const Eigen::VectorXd& v) const {
+  return acceleration_of<model::any_dof>(t, u, v);
+}
+
+FreeState FreeMotion::moved(const FreeState& from, double s, int steps) const {
+  switch (from.u.size()) {
+    case 1:
+      return moved_by<1>(from, s, steps);
+    case 2:
+      return moved_by<2>(from, s, steps);
+    default:
+      return moved_by<model::any_dof>(from, s, steps);
+  }
 }
 
 MechanicalEnergy::MechanicalEnergy(const model::SmoothSystem<>& system)

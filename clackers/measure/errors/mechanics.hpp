@@ -30,15 +30,21 @@ class FreeMotion {
 
   /// M^-1 (f(t) - C v - K u - p(u, v)) [m/s^2].
   Eigen::VectorXd acceleration(double t, const Eigen::VectorXd& u, const Eigen::VectorXd& v) const;
-  /// The state s [s] later, or earlier where s < 0: one step of the classical Runge-Kutta method of
+  /// The state s [s] later, or earlier where s < 0: equal steps of the classical Runge-Kutta method of
   /// fourth order, local error O(s^5).
-  FreeState moved(const FreeState& from, double s) const;
+  FreeState moved(const FreeState& from, double s, int steps = 1) const;
   /// M^-1 b: the velocity that a unit impulse along b gives.
   Eigen::VectorXd response(const Eigen::VectorXd& b) const { return inverse_mass_ * b; }
 
   const model::SmoothSystem<>& system() const { return system_; }
 
  private:
+  template <int Dof>
+  model::Vector<Dof> acceleration_of(double t, const model::Vector<Dof>& u,
+                                     const model::Vector<Dof>& v) const;
+  template <int Dof>
+  FreeState moved_by(const FreeState& from, double s, int steps) const;
+
   const model::SmoothSystem<>& system_;
   Eigen::MatrixXd inverse_mass_;
 };
