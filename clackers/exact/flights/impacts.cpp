@@ -110,9 +110,11 @@ void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
     after.covariance.diagonal() += time_error.cwiseAbs2();
   };
   carry(shared);
-  for (const auto& closing : closings)
+  for (const auto& closing : closings) {
     m_.hits_.push_back({t, closing.time_error, impulses[Index(closing.contact)],
                         int(closing.contact), m_.flights_.size() - 1});
+    after.time_error = std::max(after.time_error, closing.time_error);
+  }
   const auto& free = m_.regimes_[base];
   if (at_rest(free.displacement(after.z), free.velocity(after.z), modes().velocity(before.z))) {
     begin(std::move(after));

@@ -275,7 +275,7 @@ void PiecewiseMotion::Builder::change_regime() {
 }
 
 void PiecewiseMotion::Builder::begin(State state) {
-  auto& [regime, t, z, covariance] = state;
+  auto& [regime, t, z, covariance, time_error] = state;
   const double bytes = 8.0 * double(covariance.size()) * double(m_.flights_.size() + 1);
   if (m_.flights_.size() >= most_flights_ || bytes > most_bytes)
     throw InputError(
@@ -288,7 +288,7 @@ void PiecewiseMotion::Builder::begin(State state) {
     const auto now = std::ranges::find_if(
         m_.closed_, [&](const auto& c) { return c.contact == int(i) && !c.opens; });
     if (closed_[regime][i] && now == m_.closed_.end()) {
-      m_.closed_.push_back({int(i), t, m_.end_, {t, t}});
+      m_.closed_.push_back({int(i), t, m_.end_, {t - time_error, t + time_error}});
     } else if (!closed_[regime][i] && now != m_.closed_.end()) {
       now->until = t;
       now->opens = true;

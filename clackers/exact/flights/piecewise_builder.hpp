@@ -53,12 +53,13 @@ class PiecewiseMotion::Builder {
   };
   /// How the gap of a contact begins in a flight: the derivatives below this order are 0.
   enum class Begin { open, by_speed, by_acceleration, by_jerk };
-  /// z in a regime, and the error of it.
+  /// z in a regime, the error of it, and that of the instant where an impact sets it.
   struct State {
     std::size_t regime = 0;
     double t = 0.0;
     VectorXd z;
     MatrixXd covariance;
+    double time_error = 0.0;
   };
 
   const Flight& flight() const { return m_.flights_.back(); }

@@ -20,7 +20,7 @@ auto PiecewiseMotion::Builder::seen_in(std::size_t regime, const State& state) c
   const auto& modes = m_.regimes_[state.regime];
   return {regime, state.t,
           m_.regimes_[regime].state(modes.displacement(state.z), modes.velocity(state.z)),
-          mapped(change(state.regime, regime), state.covariance)};
+          mapped(change(state.regime, regime), state.covariance), state.time_error};
 }
 
 std::size_t PiecewiseMotion::Builder::resting(const State& state,

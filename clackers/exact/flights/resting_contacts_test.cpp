@@ -108,7 +108,7 @@ TEST(RestingContacts, ABallAndAPressedOscillatorComeToRestAsTheirFormulasSay) {
     SCOPED_TRACE(testing::Message() << "seed 41, trial " << trial);
     const double m = box.decades(-1.0, 1.0), f = m * box.decades(-0.5, 1.0),
                  k = trial % 2 == 0 ? 0.0 : m * box.decades(-1.0, 1.0), u = box.decades(-1.0, 0.5),
-                 eta = box.uniform(0.02, 0.9);
+                 eta = trial % 8 == 7 ? 0.0 : box.uniform(0.02, 0.9);
     SCOPED_TRACE(testing::Message() << std::hexfloat << "m " << m << " k " << k << " f " << f
                                     << " u " << u << " eta " << eta);
     const PressedMass known(m, k, f, u, eta);
@@ -119,7 +119,7 @@ TEST(RestingContacts, ABallAndAPressedOscillatorComeToRestAsTheirFormulasSay) {
     ++tally.members;
     ASSERT_EQ(motion.closed_contacts().size(), 1u);
     const auto closed = motion.closed_contacts()[0];
-    EXPECT_TRUE(closed.accumulates);
+    EXPECT_EQ(closed.accumulates, eta > 0.0);
     EXPECT_FALSE(closed.opens);
     EXPECT_TRUE(Real(closed.begins.lo) <= known.rest() && known.rest() <= Real(closed.begins.hi));
     EXPECT_LT(closed.begins.hi - closed.begins.lo, 2e-3 * rest);

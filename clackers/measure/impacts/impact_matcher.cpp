@@ -27,15 +27,19 @@ ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double
       tracks_(std::size_t(std::max(contacts, 1))) {
   for (const auto& closed : reference.closed_contacts()) {
     if (!closed.accumulates) continue;
-    double from = closed.from, room = apart * step_;
+    double from = closed.from, after_next = 0.0;
     auto last = impact_of(closed.contact, reference.impact_count(from), -1);
-    while (last) {
-      room = std::max(apart, delays * double(last->index)) * step_;
-      if (from - last->t >= room) break;
+    const auto is_resolved = [&] {
+      return from - last->t >= apart * step_ && after_next >= delays * double(last->index) * step_;
+    };
+    while (last && !is_resolved()) {
+      after_next = from - last->t;
       from = last->t;
       last = impact_of(closed.contact, last->index - 1, -1);
     }
-    accumulations_.push_back({closed.contact, from, closed.until, 0.25 * room});
+    // A report may be early.
+    from -= 0.5 * (from - (last ? last->t : 0.0));
+    accumulations_.push_back({closed.contact, from, closed.until + step_});
   }
   // The impact of each contact before the start may still be found late.
   const auto before = start > 0.0 ? reference.impact_count(start) : 0;
@@ -65,10 +69,9 @@ std::optional<ImpactMatcher::Target> ImpactMatcher::target(int contact, long lon
   return Target{impact->index, impact->t, 0.25 * spacing, impact->when.hi - impact->when.lo};
 }
 
-// A report may be early, or a step late.
 bool ImpactMatcher::accumulates(int contact, double t) const {
   return std::ranges::any_of(accumulations_, [&](const Accumulation& each) {
-    return each.contact == contact && t >= each.from - each.early && t <= each.until + step_;
+    return each.contact == contact && t >= each.from && t <= each.until;
   });
 }
 

@@ -40,9 +40,10 @@ bool rests_in_contact(const model::Motion& reference, const std::vector<model::C
 ///   close it again and again.
 /// - A true impact in the last two steps may come too late to be seen: it is expected only if
 ///   found. So is the last one before a run that starts late.
-/// - Where impacts accumulate to a contact that stays closed, those less than `apart` steps, or
-///   `delays` steps for each impact so far, before the next one are expected only if found, and no
-///   report from there on is extra until it opens.
+/// - Where impacts accumulate to a contact that stays closed, the last one expected for certain is
+///   that with a flight of `apart` steps after it, followed by one of `delays` steps for each impact
+///   so far. From the middle of the flight after it on, impacts are expected only if found, and no
+///   report is extra until the contact opens.
 class ImpactMatcher {
  public:
   /// `step` [s] of the run, its first time `start` [s], and the number of the problem's contacts.
@@ -84,11 +85,11 @@ class ImpactMatcher {
   struct Accumulation {
     int contact = 0;
     double from = 0.0, until = 0.0;  ///< [s]
-    double early = 0.0;              ///< how long before `from` a report is no extra one [s]
   };
-  // Steps between impacts that a run resolves, and for each impact so far: a method that takes
-  // impacts at the end of a step is late by up to a step an impact.
-  static constexpr double apart = 32.0, delays = 6.0;
+  // Steps between impacts that a run resolves. A method whose impact takes two steps is late by as
+  // much an impact; one that takes it at the end of a step leaves the penetration of that step with eta
+  // of the speed, 1/eta of a step early or late. The flight after the next is eta times the next one.
+  static constexpr double apart = 32.0, delays = 12.0;
   bool accumulates(int contact, double t) const;
   void settle(int contact, const Track& track);
   void advance(int contact, double t);

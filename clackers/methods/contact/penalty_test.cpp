@@ -249,6 +249,17 @@ TEST(Penalty, AContactThatIsPressedStaysClosedAndCarriesTheLoad) {
   }
 }
 
+// Unloaded, the contact decays until it is lost in subnormal numbers.
+TEST(Penalty, AContactThatDecaysToNothingEndsNoRun) {
+  for (const std::string integrator : {"newmark", "central-difference"})
+    for (const double h : {0.01, 0.005, 0.001}) {
+      const auto [path, outcome] = run(integrator + "+penalty:law=kelvin-voigt",
+                                       mass_on_stop(1.0, 0.1, 1.0, 1.0, 0.0, 0.0, 20.0), h);
+      EXPECT_TRUE(outcome.finished) << integrator << " h " << h << ": " << outcome.detail;
+      EXPECT_LT(std::abs(path.u.back()), 1e-300) << integrator << " h " << h;
+    }
+}
+
 TEST(Penalty, TheLastShorterStepHasItsContactForce) {
   // The run is no multiple of the step, and its last one closes the contact.
   auto p = mass_on_stop(1.0, 0.0, 0.0, 0.0, -1.0, 1.0, 0.0105);

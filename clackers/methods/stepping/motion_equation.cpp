@@ -189,7 +189,8 @@ void MotionEquation<Dof>::correct(const Weights& w) {
 
 // r_ becomes the unbalanced force at (a, u_, v_). True if it is nothing but rounding: each entry
 // is a sum of 3 n products and a few terms, so its error is below (3 n + 13) 2^-53 times the sum
-// of their magnitudes; p counts through its tangent, since a gap is a difference of large terms.
+// of their magnitudes; p counts through its tangent, since a gap is a difference of large terms. Sums
+// and products below the least normal number are rounded as if they were of its size.
 template <int Dof>
 bool MotionEquation<Dof>::balance(const LoadTime& load, const Weights& w, const Vector& u0,
                                   const Vector& v0, const Vector& a, const Vector* shift) {
@@ -197,7 +198,9 @@ bool MotionEquation<Dof>::balance(const LoadTime& load, const Weights& w, const 
   if (s_.add_load) add_load(load, magnitude_);
   r_ = term_ = magnitude_;
   subtract_nonlinear(u_, v_, r_);  // leaves p in magnitude_
+  constexpr double least = std::numeric_limits<double>::min();
   magnitude_ = magnitude_.cwiseAbs() + term_.cwiseAbs();
+  magnitude_.array() += least;
   const auto add = [this](const Banded& matrix, const Banded& sizes, const Vector& x) {
     matrix.subtract_product(x, r_);
     part_ = x.cwiseAbs();
@@ -209,9 +212,9 @@ bool MotionEquation<Dof>::balance(const LoadTime& load, const Weights& w, const 
   add(damping_, damping_size_, v_);
   add(stiffness_, stiffness_size_, u_);
   // u and v are themselves rounded sums of a predictor and the part of the unknown.
-  term_ = u0.cwiseAbs() + std::abs(w.u) * a.cwiseAbs();
+  term_ = (u0.cwiseAbs() + std::abs(w.u) * a.cwiseAbs()).array() + least;
   stiffness_size_.add_product(term_, magnitude_);
-  part_ = v0.cwiseAbs() + std::abs(w.v) * a.cwiseAbs();
+  part_ = (v0.cwiseAbs() + std::abs(w.v) * a.cwiseAbs()).array() + least;
   damping_size_.add_product(part_, magnitude_);
   if (has_rows_) {
     for (const auto& [b, by_u, by_v] : rows_)

@@ -23,8 +23,12 @@ class Leapfrog : public SteppingScheme<Dof> {
       Base::y_;
 
   Leapfrog(std::string_view name, model::ImpactProblem<Dof> problem, const StepPlan& plan,
-           int impact_steps)
-      : Base(std::move(problem), plan, impact_steps), name_(name), a0_(y_), a1_(a0_), shift_(a0_) {
+           int most_impact_steps)
+      : Base(std::move(problem), plan, most_impact_steps),
+        name_(name),
+        a0_(y_),
+        a1_(a0_),
+        shift_(a0_) {
     prepare(plan.h);
   }
 

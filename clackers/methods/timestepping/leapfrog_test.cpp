@@ -116,6 +116,17 @@ TEST(PaoliSchatzman, TwoStepsOfAnImpactAreReportedAsOne) {
     }
 }
 
+// Where the weight presses the contact on after two steps, their impact is one.
+TEST(PaoliSchatzman, AnImpactOfThreeStepsIsReportedAsOne) {
+  for (int i = 0; i < 200; ++i) {
+    auto p = mass_on_stop(1.0, 0.0, 0.0, 0.1 + 1e-4 * i, -1.0, 0.5, 0.3);
+    p.system.add_load = [](double, std::span<double> f) { f[0] -= 9.81; };
+    const auto impacts = *run("paoli-schatzman", p, 0.002).trajectory.impacts;
+    ASSERT_GE(impacts.size(), 2u);
+    EXPECT_GT(impacts[1].t, impacts[0].t + 0.1) << i;
+  }
+}
+
 TEST(PaoliSchatzman, AnImpactThatTheRunCutsIsReportedAtItsEnd) {
   const auto p = mass_on_stop(2.0, 0.0, 0.0, 1.05, -1.0, 1.0, 1.1);
   const auto path = run("paoli-schatzman", p, 0.1).trajectory;

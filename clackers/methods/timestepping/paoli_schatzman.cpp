@@ -19,8 +19,9 @@ for M a + C v + K u + p(u, v) = f(t) + B^T L:
     v1 = (u2 - u0) / 2 h
     0 <= (b.u2 + eta b.u0) / (1 + eta) - gap _|_ L >= 0   at every contact
 
-The first step is that of Taylor's series. An impact takes two steps: its impulse is the sum of
-both h L, reported at the second; a lasting contact is a row of such impacts. With eta = 0 at all
+The first step is that of Taylor's series. An impact takes two steps, or three where the forces press
+the contact on after it: its impulse is the sum of all h L, reported at the last; a lasting contact is a
+row of such impacts. With eta = 0 at all
 contacts it is forward-increment-lagrange, of another order: that one is to be used.
 
 Order       2 in smooth motion; 1 through impacts, with errors on a line where others scatter, since
@@ -29,7 +30,7 @@ Stability   omega h <= 2.
 Dissipation none in flight for C = 0.
 Memory      u0, kept as acceleration and velocity.
 Rest        accumulating impacts end in a contact that is closed to less than the motion of one step;
-            its force is reported as an impulse every second step.
+            its force is reported as an impulse every third step.
 Cost        one evaluation and one back-substitution a step, one more in both steps of an impact
             with its complementarity problem; one factorization.
 Source      L. Paoli, M. Schatzman, SIAM J. Numer. Anal. 40, 702-733 and 734-768 (2002).
@@ -60,7 +61,7 @@ template <int Dof>
 class PaoliSchatzman::Loop final : public Leapfrog<Dof> {
  public:
   Loop(const PaoliSchatzman&, model::ImpactProblem<Dof> problem, const StepPlan& plan)
-      : Leapfrog<Dof>(name, std::move(problem), plan, 2) {}
+      : Leapfrog<Dof>(name, std::move(problem), plan, 3) {}
 
  private:
   // u2 = u1 + h y and u0 = u1 - h before_.

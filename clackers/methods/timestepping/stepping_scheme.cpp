@@ -9,7 +9,7 @@ namespace clackers::methods {
 
 template <int Dof>
 SteppingScheme<Dof>::SteppingScheme(model::ImpactProblem<Dof> problem, const StepPlan& plan,
-                                    int impact_steps)
+                                    int most_impact_steps)
     : problem_(std::move(problem)),
       equation_(problem_.system),
       contacts_(problem_),
@@ -22,10 +22,9 @@ SteppingScheme<Dof>::SteppingScheme(model::ImpactProblem<Dof> problem, const Ste
       impulses_(Eigen::VectorXd::Zero(Eigen::Index(contacts_.size()))),
       change_(impulses_),
       plan_(plan),
-      is_two_steps_(impact_steps == 2),
-      after_(x0_),
+      most_impact_steps_(most_impact_steps),
       least_(contacts_.size(), 0.0),
-      unfinished_(contacts_.size(), {false, 0.0, x0_.v}),
+      unfinished_(contacts_.size(), {0, 0.0, x0_.v, x0_}),
       q_(impulses_) {
   rows_.reserve(contacts_.size());
 }
@@ -35,7 +34,7 @@ void SteppingScheme<Dof>::advance(Recorder<Dof>& out) {
   equation_.set_tally({});
   steps_ = 0;
   failure_.reset();
-  for (auto& impact : unfinished_) impact.exists = false;
+  for (auto& impact : unfinished_) impact.steps = 0;
   x0_ = problem_.start;
   start();
   if (!out.append(x0_)) return;
@@ -134,22 +133,29 @@ bool SteppingScheme<Dof>::is_settled(double) const {
 
 template <int Dof>
 bool SteppingScheme<Dof>::report(Recorder<Dof>& out) {
+  const auto give = [&](std::size_t j) {
+    auto& impact = unfinished_[j];
+    impact.steps = 0;
+    return out.impact(impact.after, static_cast<int>(j), impact.before, impact.impulse);
+  };
+  // Those that ended with the step before are the earlier ones.
+  for (std::size_t j = 0; j < contacts_.size(); ++j)
+    if (unfinished_[j].steps == 2 && !(impulses_[Eigen::Index(j)] > 0.0) && !give(j)) return false;
   for (std::size_t j = 0; j < contacts_.size(); ++j) {
     const double impulse = impulses_[Eigen::Index(j)];
-    auto& first = unfinished_[j];
-    if (!first.exists && !(impulse > 0.0)) continue;
-    if (is_two_steps_ && !first.exists && x1_.t < plan_.end) {
-      first.exists = true;
-      first.impulse = impulse;
-      first.before = before_;
-      continue;
+    auto& impact = unfinished_[j];
+    if (impact.steps == 0) {
+      if (!(impulse > 0.0)) continue;
+      impact.before = before_;
+      impact.impulse = 0.0;
     }
-    const double total = first.exists ? first.impulse + impulse : impulse;
-    if (!first.exists) first.before = before_;
-    first.exists = false;
-    after_ = x1_;
-    after_.v = y_;
-    if (!out.impact(after_, static_cast<int>(j), first.before, total)) return false;
+    ++impact.steps;
+    impact.impulse += impulse;
+    impact.after = x1_;
+    impact.after.v = y_;
+    const bool may_go_on =
+        impact.steps < most_impact_steps_ && (impact.steps == 1 || impulse > 0.0);
+    if (!(may_go_on && x1_.t < plan_.end) && !give(j)) return false;
   }
   return true;
 }

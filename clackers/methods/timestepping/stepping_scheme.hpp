@@ -36,9 +36,11 @@ class SteppingScheme {
   model::Work work() const;
 
  protected:
-  /// An impact takes `impact_steps`, 1 or 2: the impulses of so many steps are reported as one. A
-  /// scheme calls prepare() of the plan's step in its constructor.
-  SteppingScheme(model::ImpactProblem<Dof> problem, const StepPlan& plan, int impact_steps = 1);
+  /// An impact takes one step, or where `most_impact_steps` is 2 or 3 two and as long as there are
+  /// impulses up to so many: those of its steps are reported as one. A scheme calls prepare() of the
+  /// plan's step in its constructor.
+  SteppingScheme(model::ImpactProblem<Dof> problem, const StepPlan& plan,
+                 int most_impact_steps = 1);
 
   /// Does what depends only on the system and the step, and fills `response_`.
   virtual void prepare(double h) = 0;
@@ -80,10 +82,11 @@ class SteppingScheme {
   std::optional<Objection> failure_;  ///< why impulses or forces were not found
 
  private:
-  struct Unfinished {  // an impact whose first step has been made
-    bool exists = false;
+  struct Unfinished {  // an impact of which so many steps have been made
+    int steps = 0;
     double impulse = 0.0;
     Vector before;
+    State after;
   };
 
   bool step(double h, double t1, Recorder<Dof>& out);
@@ -92,8 +95,7 @@ class SteppingScheme {
   bool report(Recorder<Dof>& out);
 
   StepPlan plan_;
-  bool is_two_steps_;
-  State after_;  // an impact
+  int most_impact_steps_;
   std::vector<double> least_;
   std::vector<Unfinished> unfinished_;
   Eigen::VectorXd q_;

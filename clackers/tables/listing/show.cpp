@@ -95,13 +95,15 @@ std::optional<record::Sheet> closed_sheet(const cases::Case& test_case) {
                       {}};
   for (const auto& c : closed) {
     if (sheet.rows.size() == impacts_shown) break;
+    const auto count = test_case.motion->impact_count(c.from);
+    const bool by_impact = count > 0 && test_case.motion->impact(count).t == c.from;
     const auto begins = c.accumulates
                             ? fmt::format(
                                   "infinitely many impacts, those after t = {:.10g} s within "
                                   "the error bound",
                                   c.resolved)
-                        : c.begins.hi > c.begins.lo ? "landing without speed"
-                        : c.from > 0.0              ? "impact without rebound"
+                        : by_impact    ? "impact without rebound"
+                        : c.from > 0.0 ? "landing without speed"
                                        : "closed at the start; Newton's law holds for all closed "
                                          "contacts at once";
     sheet.rows.push_back({double(c.contact + 1), c.from, c.until, c.begins.hi - c.begins.lo, begins,
