@@ -199,6 +199,8 @@ void race_runs() {
   const auto problem = motion.problem();
   constexpr long steps = 200000;
   const double h = motion.end() / double(steps);
+  measure::SharedStates shared(std::make_shared<const SynchronizedPair>(motion), problem.start.t);
+  const auto* states = shared.of(h, steps);
   std::vector<Row> rows{{"one RK4 step of Boost.odeint, no impacts",
                          [&] { integrate_without_impacts(problem, h, steps); },
                          0,
@@ -219,6 +221,13 @@ void race_runs() {
                       run->advance(sink);
                     },
                     rows.size() - 1,
+                    {}});
+    rows.push_back({"the same beside shared states of the reference",
+                    [&, run] {
+                      measure::ErrorSink sink(motion, problem, h, {.states = states});
+                      run->advance(sink);
+                    },
+                    rows.size() - 2,
                     {}});
   }
   race("Making states and assessing them: default pair, 200 000 steps", double(steps), rows);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "clackers/base/jobs/progress.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/observation.hpp"
+#include "clackers/measure/errors/shared_states.hpp"
 #include "clackers/measure/impacts/shared_impacts.hpp"
 #include "clackers/record/record.hpp"
 #include "clackers/solvers/solver.hpp"
@@ -19,6 +21,7 @@ struct StudyCase {
   cases::Case problem;
   record::CaseSummary summary;
   std::optional<measure::SharedInstant> shared;  ///< the first of the reference
+  std::shared_ptr<measure::SharedStates> states;
 };
 
 StudyCase study_case(cases::Case problem);

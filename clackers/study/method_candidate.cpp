@@ -20,8 +20,8 @@ namespace {
 // Costs of a state, relative: with errors, for timing only, with metrics.
 constexpr double error_state = 1.0, timed_state = 0.5, measured_state = 10.0;
 
-// The clock of a thread costs and errs by less than a microsecond: a thousandth of this.
-constexpr double shortest_timing = 1e-3;  // [s]
+// The clock of a thread costs and errs by less than a microsecond: a hundredth of this.
+constexpr double shortest_timing = 1e-4;  // [s]
 constexpr int most_repetitions = 1000;
 
 record::Curve curve_of(const measure::ErrorHistory& history, int dof) {
@@ -134,7 +134,9 @@ std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& sha
   if (task.wanted.observation) return observed(*run, task, share, interrupt);
   measure::ErrorSink errors(
       motion, problem, task.run.step,
-      {.impacts_are_reported = reports_impacts_, .history_bins = task.wanted.history_bins});
+      {.impacts_are_reported = reports_impacts_,
+       .history_bins = task.wanted.history_bins,
+       .states = by_tolerance ? nullptr : problem_.states->of(task.run.step, task.run.steps)});
   model::TrajectorySink stored(reports_impacts_);
   RunRecorder recorder(errors, task.wanted.metrics ? &stored : nullptr);
   WatchedSink watched(&recorder, share, error_state, interrupt);

@@ -286,7 +286,8 @@ record::CaseRecord case_record(const VerifyRequest& request, CaseStudy& study) {
 StudyCase study_case(cases::Case problem) {
   auto summary = tables::summary_of(problem);
   auto shared = measure::first_shared_instant(*problem.motion, problem.problem);
-  return {std::move(problem), std::move(summary), std::move(shared)};
+  auto states = std::make_shared<measure::SharedStates>(problem.motion, problem.problem.start.t);
+  return {std::move(problem), std::move(summary), std::move(shared), std::move(states)};
 }
 
 record::RefinementPlan checked_plan(const RefinementRequest& request, const StudyCase& problem,

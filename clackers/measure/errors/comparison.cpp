@@ -86,19 +86,31 @@ Meter Comparison::fill_meter(const Comparison& comparison) {
   auto next = impacts.begin();
   Meter meter(comparison.reference_, comparison.problem_);
   std::size_t reference_row = 0;
-  const auto part = [dof](std::span<const double> all, std::size_t row) {
-    return all.empty() ? all : all.subspan(row * dof, dof);
+  const auto part = [dof](std::span<const double> all, std::size_t row, std::size_t rows = 1) {
+    return all.empty() ? all : all.subspan(row * dof, rows * dof);
+  };
+  // States that follow each other are taken together.
+  std::size_t waiting = 0, first = 0, first_reference = 0;
+  const auto take_waiting = [&] {
+    meter.take({&given.t[first], waiting},
+               {part(given.u, first, waiting), part(given.v, first, waiting)},
+               {part(comparison.reference_u_, first_reference, waiting),
+                part(comparison.reference_v_, first_reference, waiting)});
+    waiting = 0;
   };
   const auto take_state = [&](std::size_t row, std::size_t reference) {
-    meter.take(
-        {&given.t[row], 1}, {part(given.u, row), part(given.v, row)},
-        {part(comparison.reference_u_, reference), part(comparison.reference_v_, reference)});
+    if (reference != first_reference + waiting) take_waiting();  // behind limits that were added
+    if (waiting++ > 0) return;
+    first = row;
+    first_reference = reference;
   };
   const auto take_limit = [&](std::size_t row, std::size_t reference) {
+    take_waiting();
     meter.take_displacements(&given.u[row * dof], &comparison.reference_u_[reference * dof]);
   };
   // As a run does: an impact comes after the state at its time.
   const auto take_impacts = [&](double before) {
+    if (next != impacts.end() && (*next)->t < before) take_waiting();
     for (; next != impacts.end() && (*next)->t < before; ++next)
       meter.take(model::ReportedImpact{(*next)->t, (*next)->contact, (*next)->u, (*next)->v_before,
                                        (*next)->v_after, (*next)->impulse});
@@ -119,6 +131,7 @@ Meter Comparison::fill_meter(const Comparison& comparison) {
       take_state(row, reference_row - 1);
     else
       take_limit(row, reference_row - 1);
+    take_waiting();
     if (has_v)
       meter.take(
           model::ReportedImpact{t, 0, {}, part(given.v, row), part(given.v, row + 1), unknown});
@@ -128,6 +141,7 @@ Meter Comparison::fill_meter(const Comparison& comparison) {
     else
       take_limit(row, reference_row);
   }
+  take_waiting();
   take_impacts(std::nextafter(given.t.back(), infinity));
   return meter;
 }

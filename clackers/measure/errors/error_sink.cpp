@@ -10,7 +10,7 @@ namespace clackers::measure {
 namespace {
 
 constexpr auto sink_name = "error sink";
-constexpr std::size_t sink_block = 256;
+constexpr auto sink_block = StateErrors::most;
 
 const model::ImpactProblem<>& checked(const model::ImpactProblem<>& problem,
                                       const model::Motion& reference) {
@@ -43,14 +43,21 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
   require_positive(sink_name, "energy of the reference", meter_.energy_scale());
 }
 
-void ErrorSink::sample_reference(std::span<const double> times) {
+StateRows ErrorSink::reference_at(std::span<const double> times) {
+  const auto size = times.size() * dof_;
+  if (options_.states != nullptr && options_.states->holds(taken_, times)) {
+    const auto part = [&](const std::vector<double>& all) {
+      return std::span(all).subspan(taken_ * dof_, size);
+    };
+    return {part(options_.states->u), part(options_.states->v)};
+  }
   // start + n h may pass the end by a rounding of the product and one of the sum.
   const double end = reference_.end(), slack = 4.0 * std::numeric_limits<double>::epsilon() * end;
   for (std::size_t i = 0; i < times.size(); ++i)
     times_[i] = times[i] > end && times[i] <= end + slack ? end : times[i];
-  const auto size = times.size() * dof_;
-  reference_.sample({times_.data(), times.size()}, model::Side::right,
-                    {{u_reference_.data(), size}, {v_reference_.data(), size}, {}});
+  const model::SampleBuffers out{{u_reference_.data(), size}, {v_reference_.data(), size}, {}};
+  reference_.sample({times_.data(), times.size()}, model::Side::right, out);
+  return {out.u, out.v};
 }
 
 bool ErrorSink::take(const model::SampleBlock& block) {
@@ -66,13 +73,14 @@ void ErrorSink::take_part(const model::SampleBlock& block, std::size_t from, std
   const auto t = block.t.subspan(from, count);
   const auto u = block.u.subspan(from * dof_, count * dof_);
   const auto v = block.v.subspan(from * dof_, count * dof_);
-  sample_reference(t);
-  meter_.take(t, {u, v}, {u_reference_, v_reference_});
+  const auto reference = reference_at(t);
+  taken_ += count;
+  meter_.take(t, {u, v}, reference);
   if (options_.history_bins == 0) return;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < dof_; ++j)
       relative_[j] =
-          std::abs(u[i * dof_ + j] - u_reference_[i * dof_ + j]) / envelope_[Eigen::Index(j)];
+          std::abs(u[i * dof_ + j] - reference.u[i * dof_ + j]) / envelope_[Eigen::Index(j)];
     history_.take(t[i], relative_);
   }
 }

@@ -5,6 +5,7 @@
 #include "clackers/measure/errors/error_history.hpp"
 #include "clackers/measure/errors/meter.hpp"
 #include "clackers/measure/errors/score.hpp"
+#include "clackers/measure/errors/shared_states.hpp"
 #include "clackers/measure/impacts/impact_matcher.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
@@ -17,6 +18,8 @@ namespace clackers::measure {
 struct ErrorSinkOptions {
   bool impacts_are_reported = true;  ///< false: the score has no impacts
   int history_bins = 0;              ///< of the error history, 0 for none
+  /// The reference at the times to expect; null: at all times it is sampled.
+  const GridStates* states = nullptr;
 };
 
 /// Measures one run while it happens: takes its states and impacts, samples the reference at the
@@ -39,7 +42,7 @@ class ErrorSink : public model::Sink {
 
  private:
   void take_part(const model::SampleBlock& block, std::size_t from, std::size_t count);
-  void sample_reference(std::span<const double> times);
+  StateRows reference_at(std::span<const double> times);
 
   const model::Motion& reference_;
   std::size_t dof_;
@@ -47,6 +50,7 @@ class ErrorSink : public model::Sink {
   ErrorSinkOptions options_;
   std::vector<model::Contact<>> contacts_;
   Eigen::VectorXd envelope_;
+  std::size_t taken_ = 0;
   std::vector<double> times_, u_reference_, v_reference_, relative_;  ///< of one block
   Meter meter_;
   ImpactMatcher impacts_;

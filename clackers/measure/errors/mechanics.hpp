@@ -13,6 +13,8 @@
 
 namespace clackers::measure {
 
+class StateErrors;
+
 using FreeState = model::State<model::any_dof>;
 
 /// Row `i` of a history that has velocities.
@@ -59,12 +61,15 @@ class MechanicalEnergy {
   double potential(const double* u) const { return 0.5 * form(stiffness_, u); }
   double total(const double* u, const double* v) const { return kinetic(v) + potential(u); }
 
- private:
-  // The entries of a matrix that are not zero, row by row.
+  /// The entries of a matrix that are not zero, row by row.
   struct Rows {
     std::vector<std::size_t> ends, columns;
     std::vector<double> values;
   };
+  const Rows& mass() const { return mass_; }
+  const Rows& stiffness() const { return stiffness_; }
+
+ private:
   static Rows rows_of(const Eigen::MatrixXd& matrix);
 
   // x' A x.
@@ -117,13 +122,11 @@ class VelocityError {
   explicit VelocityError(const model::Motion& reference,
                          JumpingQuantity quantity = JumpingQuantity::velocity);
 
-  /// Takes the states at output times with the true velocities, right limits, row-major (time,
-  /// mass). Times ascend. No impact taken later may lie before the last but one of them.
-  void take(std::span<const double> t, std::span<const double> v,
-            std::span<const double> v_reference);
-  void take(double t, std::span<const double> v, std::span<const double> v_reference) {
-    take({&t, 1}, v, v_reference);
-  }
+  /// Takes the state at an output time with the true velocities, right limits. Times ascend. No impact
+  /// taken later may lie before the last but one of them.
+  void take(double t, std::span<const double> v, std::span<const double> v_reference);
+  /// The same of many times, at most StateErrors::most, by their errors.
+  void take(std::span<const double> t, StateErrors& errors);
   /// Takes an impact after the output times before it, before or after an output time equal to its
   /// own.
   void take(const model::ReportedImpact& impact);
@@ -139,7 +142,7 @@ class VelocityError {
   };
   using Errors = std::vector<double>;
 
-  void take_first(double t, const double* v, const double* v_reference);
+  void go_on(double t);
   void close();
   void pass(const Jump& jump, double& from, Errors& error);
   const model::MotionImpact* join(double from);

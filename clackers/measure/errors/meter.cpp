@@ -46,11 +46,10 @@ Meter::Meter(const model::Motion& reference, const model::ImpactProblem<>& probl
     : reference_(reference),
       dof_(std::size_t(reference.dof())),
       scale_(reference.peak()),
-      energy_(problem.system),
-      energy_scale_(largest_energy(energy_, reference, problem)),
+      errors_(dof_, problem.system),
+      energy_scale_(largest_energy(errors_.energies(), reference, problem)),
       first_(problem.start.t),
       last_(first_),
-      u_error_(dof_),
       velocity_(reference) {}
 
 void Meter::take(std::span<const double> t, const StateRows& found, const StateRows& reference) {
@@ -59,46 +58,32 @@ void Meter::take(std::span<const double> t, const StateRows& found, const StateR
   last_ = t.back();
   states_ += std::ssize(t);
   has_velocities_ = !found.v.empty();
-  if (has_velocities_) velocity_.take(t, found.v, reference.v);
-  for (std::size_t row = 0; row < found.u.size(); row += dof_) {
-    for (std::size_t j = 0; j < dof_; ++j) {
-      const double error = std::abs(found.u[row + j] - reference.u[row + j]);
-      u_error_[j] = std::max(u_error_[j], error);
-      // The difference of a number that is not finite and itself is NaN.
-      finite_ += error - error;
-    }
-    if (!has_velocities_) continue;
-    for (std::size_t j = 0; j < dof_; ++j) finite_ += found.v[row + j] - found.v[row + j];
-    const double energy = energy_.total(&found.u[row], &found.v[row]);
-    const double expected = energy_.total(&reference.u[row], &reference.v[row]);
-    energy_error_ = std::max(energy_error_, std::abs(energy - expected));
-    energy_ratio_ = expected > 0.0 ? energy / expected : unknown;
+  for (std::size_t from = 0; from < t.size(); from += StateErrors::most) {
+    const auto count = std::min(StateErrors::most, t.size() - from), row = from * dof_;
+    errors_.take(count, &found.u[row], has_velocities_ ? &found.v[row] : nullptr, &reference.u[row],
+                 has_velocities_ ? &reference.v[row] : nullptr);
+    if (has_velocities_) velocity_.take(t.subspan(from, count), errors_);
   }
-}
-
-void Meter::take_displacements(const double* found, const double* reference) {
-  ++states_;
-  for (std::size_t j = 0; j < dof_; ++j)
-    u_error_[j] = std::max(u_error_[j], std::abs(found[j] - reference[j]));
 }
 
 RunScore Meter::score() const {
   RunScore score;
   score.energy_error =
-      has_velocities_ && energy_scale_ > 0.0 ? energy_error_ / energy_scale_ : unknown;
-  score.energy_ratio = energy_ratio_;
+      has_velocities_ && energy_scale_ > 0.0 ? errors_.energy() / energy_scale_ : unknown;
+  score.energy_ratio = errors_.energy_ratio();
   score.v_error = has_velocities_ ? 0.0 : unknown;
   score.rounding_floor = rounding_floor(reference_, states_, first_, last_);
   const double length = last_ - first_;
   for (std::size_t j = 0; j < dof_; ++j) {
     const auto mass = Eigen::Index(j);
-    score.u_error_absolute = std::max(score.u_error_absolute, u_error_[j]);
-    score.u_error = std::max(score.u_error, u_error_[j] / scale_.u[mass]);
+    const double error = errors_.u()[j];
+    score.u_error_absolute = std::max(score.u_error_absolute, error);
+    score.u_error = std::max(score.u_error, error / scale_.u[mass]);
     if (has_velocities_ && length > 0.0)
       score.v_error =
           std::max(score.v_error, velocity_.integral(int(j)) / (length * scale_.v[mass]));
   }
-  if (finite_ != 0.0)
+  if (!errors_.is_finite())
     score.u_error = score.u_error_absolute = score.v_error = score.energy_error = infinity;
   return score;
 }

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
-#include <vector>
 
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/measure/errors/score.hpp"
+#include "clackers/measure/errors/state_errors.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
 
@@ -38,14 +37,17 @@ class Meter {
   /// Takes the limits of a jump as VelocityError does; they are no states for the energy.
   void take(const model::ReportedImpact& impact) { velocity_.take(impact); }
   /// Takes displacements at one time within a jump, where u is continuous: one entry a mass.
-  void take_displacements(const double* found, const double* reference);
+  void take_displacements(const double* found, const double* reference) {
+    ++states_;
+    errors_.take_displacements(found, reference);
+  }
 
   /// The errors so far; step, outcome, work, time and impacts are left as they are in a new score. A
   /// state that was not finite makes the errors infinite. NaN stands for what is not known: errors
   /// of velocities and energy without velocities, the energy's without a positive scale.
   RunScore score() const;
   /// Largest |error in u| of each mass [m].
-  std::span<const double> u_errors() const { return u_error_; }
+  std::span<const double> u_errors() const { return errors_.u(); }
   const VelocityError& velocity() const { return velocity_; }
   /// The largest energy of the reference over the run [J]: that at the start, unless it has none there
   /// or a load brings some; then the largest at 1024 equal parts.
@@ -56,15 +58,11 @@ class Meter {
   const model::Motion& reference_;
   std::size_t dof_;
   model::Kinematics scale_;
-  MechanicalEnergy energy_;
+  StateErrors errors_;
   double energy_scale_;
   double first_, last_;  ///< times of the first and last state [s]
   long long states_ = 0;
-  std::vector<double> u_error_;
-  double energy_error_ = 0.0;
-  double energy_ratio_ = std::numeric_limits<double>::quiet_NaN();
   bool has_velocities_ = true;
-  double finite_ = 0.0;  ///< 0 while every state is finite, then NaN
   VelocityError velocity_;
 };
 

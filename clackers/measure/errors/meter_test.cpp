@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "clackers/cases/case.hpp"
@@ -81,6 +82,16 @@ TEST(MeterOfRows, TakesReportedImpactsForTheLimitsOfJumps) {
   EXPECT_GT(score(h, problem).v_error, 1e-5);
   h.impacts->front().v_after[0] = std::nan("");
   EXPECT_LT(score(h, problem).v_error, 1e-15) << "what is not known is not used";
+}
+
+TEST(MeterOfRows, OfALaterStartIsOverItsOwnLength) {
+  const auto problem = pair_case();
+  auto h = exact_history(problem, 0.01, true);
+  const auto late = std::lower_bound(h.t.begin(), h.t.end(), 1.2) - h.t.begin();
+  h.t.erase(h.t.begin(), h.t.begin() + late);
+  for (auto* part : {&h.u, &h.v}) part->erase(part->begin(), part->begin() + 2 * late);
+  for (std::size_t i = 0; i < h.t.size(); ++i) h.v[2 * i] += 1e-3;
+  EXPECT_NEAR(score(h, problem).v_error, 1e-3 / problem.motion->peak().v[0], 1e-14);
 }
 
 TEST(MeterOfRows, KnowsNothingOfWhatTheHistoryLacks) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/measure/errors/state_errors.hpp"
+
 namespace clackers::measure {
 namespace {
 
@@ -31,26 +33,39 @@ std::span<const double> VelocityError::part(const model::Kinematics& now) const 
   return {part.data(), std::size_t(part.size())};
 }
 
-void VelocityError::take(std::span<const double> t, std::span<const double> v,
-                         std::span<const double> v_reference) {
-  // The interval in front of them, and that between them, may hold an impact.
-  const auto slow = std::min<std::size_t>(2, t.size());
-  for (std::size_t i = 0; i < slow; ++i) take_first(t[i], &v[i * dof_], &v_reference[i * dof_]);
-  for (std::size_t i = slow; i < t.size(); ++i) {
-    const double half = 0.5 * (to_ - from_);
-    for (std::size_t j = 0; j < dof_; ++j) {
-      const double left = from_error_[j], right = to_error_[j];
-      sum_[j] += half * (left + right);
-      squares_[j] += half * (left * left + right * right);
-      from_error_[j] = right;
-      to_error_[j] = std::abs(v[i * dof_ + j] - v_reference[i * dof_ + j]);
-    }
-    from_ = to_;
-    to_ = t[i];
-  }
+void VelocityError::take(double t, std::span<const double> v, std::span<const double> v_reference) {
+  go_on(t);
+  for (std::size_t i = 0; i < dof_; ++i) to_error_[i] = std::abs(v[i] - v_reference[i]);
 }
 
-void VelocityError::take_first(double t, const double* v, const double* v_reference) {
+void VelocityError::take(std::span<const double> t, StateErrors& errors) {
+  // The interval in front of them, and that between the first two, may hold an impact.
+  const auto slow = std::min<std::size_t>(2, t.size());
+  for (std::size_t i = 0; i < slow; ++i) {
+    go_on(t[i]);
+    for (std::size_t j = 0; j < dof_; ++j) to_error_[j] = errors.v(j)[i];
+  }
+  if (t.size() <= slow) return;
+  const auto intervals = t.size() - slow;
+  double half[StateErrors::most + 8];
+  for (std::size_t i = 0; i < intervals; ++i) half[i] = 0.5 * (t[i + 1] - t[i]);
+  std::fill_n(half + intervals, 8, 0.0);
+  for (std::size_t j = 0; j < dof_; ++j) {
+    double* e = errors.v(j);
+    e[0] = from_error_[j];  // behind an impact at that time
+    double sums[2] = {sum_[j], squares_[j]};
+    add_trapezoids(intervals, half, e, sums);
+    sum_[j] = sums[0];
+    squares_[j] = sums[1];
+    from_error_[j] = e[t.size() - 2];
+    to_error_[j] = e[t.size() - 1];
+  }
+  from_ = t[t.size() - 2];
+  to_ = t.back();
+}
+
+// Makes t the end of the interval that is open.
+void VelocityError::go_on(double t) {
   if (taken_ > 0) {
     close();
     from_ = to_;
@@ -59,7 +74,6 @@ void VelocityError::take_first(double t, const double* v, const double* v_refere
   }
   taken_ = std::min(taken_ + 1, 2);
   to_ = t;
-  for (std::size_t i = 0; i < dof_; ++i) to_error_[i] = std::abs(v[i] - v_reference[i]);
 }
 
 void VelocityError::take(const model::ReportedImpact& impact) {
