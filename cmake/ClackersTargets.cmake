@@ -14,6 +14,8 @@ target_include_directories(clackers_options INTERFACE
 # Contracting a * b + c to one rounding would break the error-free sums of double_double.hpp, and
 # make results depend on the machine.
 target_compile_options(clackers_options INTERFACE -ffp-contract=off)
+# Loads what is used alone.
+target_link_options(clackers_options INTERFACE $<BUILD_INTERFACE:LINKER:--as-needed>)
 option(CLACKERS_UNITY "Compile small sources in batches" ON)
 if(CLACKERS_DEVELOPER)
   set(shadow -Wshadow)
