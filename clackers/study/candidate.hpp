@@ -20,8 +20,8 @@ namespace clackers::study {
 struct StudyCase {
   cases::Case problem;
   record::CaseSummary summary;
-  std::optional<measure::SharedInstant> shared;  ///< the first of the reference
-  std::shared_ptr<measure::SharedStates> states;
+  std::optional<measure::SharedInstant> shared;   ///< the first of the reference
+  std::shared_ptr<measure::SharedStates> states;  ///< of the reference; may be null
 };
 
 StudyCase study_case(cases::Case problem);

@@ -132,11 +132,12 @@ std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& sha
       method_->prepare(problem, by_tolerance ? methods::Resolution::by_tolerance(task.run.tolerance)
                                              : methods::Resolution(task.run.step));
   if (task.wanted.observation) return observed(*run, task, share, interrupt);
-  measure::ErrorSink errors(
-      motion, problem, task.run.step,
-      {.impacts_are_reported = reports_impacts_,
-       .history_bins = task.wanted.history_bins,
-       .states = by_tolerance ? nullptr : problem_.states->of(task.run.step, task.run.steps)});
+  measure::ErrorSink errors(motion, problem, task.run.step,
+                            {.impacts_are_reported = reports_impacts_,
+                             .history_bins = task.wanted.history_bins,
+                             .states = by_tolerance || !problem_.states
+                                           ? nullptr
+                                           : problem_.states->of(task.run.step, task.run.steps)});
   model::TrajectorySink stored(reports_impacts_);
   RunRecorder recorder(errors, task.wanted.metrics ? &stored : nullptr);
   WatchedSink watched(&recorder, share, error_state, interrupt);
