@@ -51,6 +51,8 @@ const std::vector<Format> table = {
      R"(command -v "${AS_RUN:-run_aster}")", code_aster},
     {"mbdyn", "MBDyn 1.7 or later", "a spring in compression only, of stated stiffness", "",
      "command -v mbdyn", mbdyn},
+    {"sdf", "Gazebo, SDFormat",
+     "no model: Gazebo takes only poses from <state>, no initial velocities", "", "", nullptr},
     {"julia", "Julia with OrdinaryDiffEq", located, "", "julia -e 'using OrdinaryDiffEq'", julia},
 };
 
@@ -68,6 +70,9 @@ const Format& format_of(std::string_view name) {
 }
 
 std::vector<DeckFile> deck(const Format& format, const Subject& subject) {
+  if (format.write == nullptr) refuse_deck(format.name, format.contact);
+  if (!subject.method.empty() && !format.name.starts_with("fmu"))
+    refuse_deck(format.name, "a method goes into a unit only; use --to fmu2 or --to fmu3");
   auto files = format.write(subject);
   for (auto& file : files)
     if (file.name == "run")

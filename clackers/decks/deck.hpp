@@ -20,6 +20,7 @@ struct Subject {
   std::vector<std::string> check;
   std::string command;  ///< that wrote it, for the first line of the model
   std::shared_ptr<const model::Motion> motion{};  ///< the exact one, for units that give it
+  std::string method{};  ///< of a unit that gives its motion instead: "rk4"
 };
 
 struct DeckFile {
@@ -34,7 +35,7 @@ struct Format {
   std::string contact;  ///< what takes the place of the contact
   std::string needs;    ///< the package of Debian; empty: the deck was not run by us
   std::string probe;    ///< a command of the shell that ends well where the program is there
-  std::vector<DeckFile> (*write)(const Subject& subject);
+  std::vector<DeckFile> (*write)(const Subject& subject);  ///< none: `contact` says why not
 };
 
 /// All formats, those that our tests run first.

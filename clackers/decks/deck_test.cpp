@@ -18,6 +18,13 @@ Subject subject_of(const std::string& name, const Settings& settings = {}) {
   return {chosen.problem, {name}, "clackers export " + name, chosen.motion};
 }
 
+// Those that write a model.
+std::vector<Format> written() {
+  std::vector<Format> all(formats().begin(), formats().end());
+  std::erase_if(all, [](const Format& format) { return format.write == nullptr; });
+  return all;
+}
+
 // The names of formats that take a case.
 std::vector<std::string> takers(const Subject& subject) {
   std::vector<std::string> names;
@@ -34,11 +41,11 @@ bool takes(const std::vector<std::string>& names, std::string_view name) {
 }
 
 TEST(Decks, ThePairGoesIntoEveryFormat) {
-  EXPECT_EQ(takers(subject_of("three-parameter")).size(), formats().size());
+  EXPECT_EQ(takers(subject_of("three-parameter")).size(), written().size());
 }
 
 TEST(Decks, RunEndsWithTheCheckOfTheCase) {
-  for (const auto& format : formats()) {
+  for (const auto& format : written()) {
     const auto files = deck(format, subject_of("stop"));
     const auto run = std::ranges::find(files, "run", &DeckFile::name);
     ASSERT_NE(run, files.end()) << format.name;
@@ -51,7 +58,7 @@ TEST(Decks, RunEndsWithTheCheckOfTheCase) {
 
 TEST(Decks, FilesAreNamedAndFilled) {
   const auto names = file_names();
-  for (const auto& format : formats())
+  for (const auto& format : written())
     for (const auto& file : deck(format, subject_of("three-parameter"))) {
       EXPECT_TRUE(std::ranges::find(names, file.name) != names.end()) << file.name;
       EXPECT_EQ(file.text.back(), '\n') << format.name << ' ' << file.name;
@@ -61,7 +68,7 @@ TEST(Decks, FilesAreNamedAndFilled) {
 }
 
 TEST(Decks, SaysThatItWasNotRun) {
-  for (const auto& format : formats()) {
+  for (const auto& format : written()) {
     const auto text = deck(format, subject_of("three-parameter")).front().text;
     EXPECT_NE(text.find("clackers export three-parameter"), text.npos) << format.name;
     EXPECT_EQ(text.find("Not run: ") != text.npos, format.needs.empty()) << format.name;
@@ -96,6 +103,24 @@ TEST(Decks, WhatAFormatLacksIsRefused) {
   EXPECT_REFUSED(deck(format_of("mujoco"), subject_of("assembly")), "no-deck", "mass matrix",
                  "mujoco");
   EXPECT_REFUSED(format_of("scypi"), "unknown-name", "scipy");
+}
+
+TEST(Decks, AMethodGoesIntoUnitsOnly) {
+  auto subject = subject_of("buildings");
+  subject.method = "rk3+event-driven";
+  const auto files = deck(format_of("fmu3"), subject);
+  const auto& model = files.front().text;
+  EXPECT_NE(model.find("enum { method_rows = 4 };"), model.npos);
+  EXPECT_NE(model.find("-1, 2, 0,\n"), model.npos);
+  EXPECT_REFUSED(deck(format_of("scipy"), subject), "no-deck", "--to fmu2", "scipy");
+  subject.method = "newmark";
+  EXPECT_REFUSED(deck(format_of("fmu2"), subject), "no-deck", "Runge-Kutta", "newmark");
+  subject.method = "rk5";
+  EXPECT_REFUSED(deck(format_of("fmu2"), subject), "unknown-name", "rk5");
+}
+
+TEST(Decks, AFormatWithoutInitialVelocitiesIsRefused) {
+  EXPECT_REFUSED(deck(format_of("sdf"), subject_of("stop")), "no-deck", "velocities", "sdf");
 }
 
 TEST(Network, LinksAreTheMatrices) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -71,6 +72,8 @@ class Integrator {
   virtual ~Integrator() = default;
   /// Claims nothing through impacts.
   virtual Facts facts() const = 0;
+  /// Of an explicit Runge-Kutta method its a_ij by rows and b as the last row; of others nothing.
+  virtual Eigen::MatrixXd coefficients() const { return {}; }
   /// The system must outlive the stepper. Throws InputError unless 0 < h < infinity, or the plan has
   /// a tolerance where it is adaptive, and for a system that it cannot step with h.
   virtual StepperPointer<1> stepper(const model::SmoothSystem<1>& system,

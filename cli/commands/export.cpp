@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 struct ExportOptions {
   CommonOptions common;  ///< its `out` is the folder
-  std::string name, behind, problem, to;
+  std::string name, behind, problem, to, method;
   std::vector<std::string> settings;
   bool list = false;
 };
@@ -49,6 +49,7 @@ decks::Subject subject_of(const ExportOptions& options, const std::string& line)
   subject.problem = std::move(chosen.problem);
   subject.motion = std::move(chosen.motion);
   subject.command = line;
+  subject.method = options.method;
   if (!options.problem.empty()) return subject;
   subject.check.push_back(name);
   for (const auto& setting : options.settings)
@@ -102,13 +103,15 @@ void add_export(Grammar& root) {
       {.examples = "  clackers export --list\n"
                    "  clackers export three-parameter --to calculix --out pair\n"
                    "  clackers export stop --set eta=0.7 --to scipy --out stop\n"
-                   "  clackers export --problem frame.toml --to opensees --out frame\n",
+                   "  clackers export --problem frame.toml --to opensees-tcl --out frame\n"
+                   "  clackers export stop --to fmu2 --method rk4 --out stop-rk4\n",
        .about =
            "Writes a case, or a problem of your own, as a complete model of another program: masses, springs, "
            "dampers, loads, the initial state, the contact of that program, and a script `run`, "
            "which runs it on a ladder of steps or tolerances and judges the motions with clackers check. "
            "What a format cannot express is refused.",
        .usage = "  clackers export [CASE] --to FORMAT --out FOLDER [--set name=value,...]\n"
+                "           [--method METHOD]\n"
                 "  clackers export --problem FILE --to FORMAT --out FOLDER\n"
                 "  clackers export --list\n"});
   app->add_option("CASE", options->name,
@@ -118,6 +121,11 @@ void add_export(Grammar& root) {
   add_problem_option(*app, options->problem);
   app->add_option("--to", options->to, "The format (clackers export --list).")
       ->option_text("FORMAT");
+  app->add_option(
+         "--method", options->method,
+         "With fmu2 and fmu3: an explicit Runge-Kutta method, impacts located, whose motion "
+         "co-simulation gives instead of the exact one, a step a communication step.")
+      ->option_text("METHOD");
   app->add_flag("--list", options->list, "The formats, and which of them our tests run.");
   add_common_options(*app, options->common);
   app->get_option("--out")

@@ -61,6 +61,10 @@ class Fmu(Deck):
                 self.agrees(to, "buildings")
                 self.agrees(to, "stop", "--set", "eta=0.7", run=["me"])
 
+    def test_units_of_a_method_have_its_order(self):
+        self.agrees("fmu2", "buildings", "--method", "rk4")
+        self.agrees("fmu3", "forced-pair", "--method", "rk3")
+
     def test_the_unit_has_its_binary_and_sources(self):
         for to, platform in (("fmu2", "linux64"), ("fmu3", f"{os.uname().machine}-linux")):
             self.good("export", "sdof", "--to", to, "--out", self.path(to), "--quiet")

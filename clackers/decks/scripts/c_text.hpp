@@ -79,8 +79,14 @@ static int impacts(double* u, double* v, double tolerance) {
 }
 )c";
 
-/// A unit of FMI 2 or 3 behind the data, the flights and the mechanics, and a program that drives it.
+/// Locates impacts: behind advance(t, h, y, next), a step that returns the smallest gap at its end.
+extern const char* const c_located;
+
+/// A unit of FMI 2 or 3 behind the data and the mechanics, with one of two motions, exact or of a method,
+/// and a program that drives it.
 extern const char* const fmu_model;
+extern const char* const fmu_exact;
+extern const char* const fmu_method;
 extern const char* const fmu_simulate;
 
 }  // namespace clackers::decks

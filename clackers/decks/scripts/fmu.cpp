@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include "clackers/decks/rows.hpp"
 #include "clackers/decks/scripts/c_text.hpp"
 #include "clackers/decks/text.hpp"
+#include "clackers/methods/registry.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 
@@ -41,6 +43,31 @@ std::string flights_of(const Subject& subject, std::string_view format) {
          fmt::format("static const double rate = {};\n", exact_number(rate));
 }
 
+// What co-simulation gives.
+struct Motion {
+  std::string name, claim, text;
+};
+
+Motion motion_of(const Subject& subject, std::string_view format) {
+  if (subject.method.empty())
+    return {"the exact motion", "exact",
+            filled(fmu_exact, {{"numbers", flights_of(subject, format)}})};
+  const auto event_driven = std::string_view("+event-driven");
+  std::string_view name = subject.method;
+  if (name.ends_with(event_driven)) name.remove_suffix(event_driven.size());
+  const auto integrator = methods::integrator(name);
+  const auto coefficients = integrator->coefficients();
+  if (coefficients.size() == 0)
+    refuse_deck(format,
+                fmt::format("{} is not an explicit Runge-Kutta method of fixed steps, such as "
+                            "rk4, rk3 and dopri5-fixed-step",
+                            name));
+  return {fmt::format("{}{}, a step a communication step", name, event_driven),
+          fmt::format("proper:{}", integrator->facts().smooth_order),
+          filled(fmu_method,
+                 {{"numbers", list_of("method", coefficients, c_syntax)}, {"located", c_located}})};
+}
+
 // FNV-1a.
 std::string token_of(std::string_view text) {
   std::uint64_t hash = 14695981039346656037u;
@@ -53,7 +80,7 @@ class Description {
   Description(const model::ImpactProblem<>& problem, int version)
       : problem_(problem), version_(version) {}
 
-  std::string text(std::string_view token) {
+  std::string text(std::string_view token, std::string_view motion) {
     const auto n = int(problem_.dof()), contacts = int(problem_.contacts.size());
     variable("time", "independent", "", "s", {});
     for (const auto& [letter, unit, start] :
@@ -75,7 +102,8 @@ class Description {
                            (old ? "" : unknowns("EventIndicator", "", 4 * n + 1, contacts));
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<fmiModelDescription fmiVersion=\"{}.0\" modelName=\"Model\" {}=\"{}\" generationTool=\"Clackers\" "
+        "<fmiModelDescription fmiVersion=\"{}.0\" modelName=\"Model\" {}=\"{}\" "
+        "description=\"{}\" generationTool=\"Clackers\" "
         "variableNamingConvention=\"structured\"{}>\n"
         "  <ModelExchange modelIdentifier=\"Model\">{}</ModelExchange>\n"
         "  <CoSimulation modelIdentifier=\"Model\" canHandleVariableCommunicationStepSize=\"true\">{}</CoSimulation>\n"
@@ -84,7 +112,7 @@ class Description {
         "</UnitDefinitions>\n"
         "  <DefaultExperiment startTime=\"{}\" stopTime=\"{}\"/>\n"
         "  <ModelVariables>\n{}  </ModelVariables>\n  <ModelStructure>\n{}  </ModelStructure>\n</fmiModelDescription>\n",
-        version_, old ? "guid" : "instantiationToken", token,
+        version_, old ? "guid" : "instantiationToken", token, motion,
         old ? fmt::format(" numberOfEventIndicators=\"{}\"", contacts) : "", sources, sources,
         exact_number(problem_.start.t), exact_number(problem_.end), variables_, structure);
   }
@@ -116,7 +144,7 @@ class Description {
 };
 
 constexpr auto prepare = R"sh(mode=${1:-cs}  # cs: co-simulation, me: model exchange
-case $mode in cs) claim=exact ;; me) claim=proper:4 ;; *) echo "run: cs or me" >&2; exit 2 ;; esac
+case $mode in cs) claim=@claim@ ;; me) claim=proper:4 ;; *) echo "run: cs or me" >&2; exit 2 ;; esac
 "${CC:-cc}" -shared -fPIC -O2 -o Model.so model.c -lm
 "${CC:-cc}" -O2 -o simulate simulate.c -ldl -lm
 rm -rf fmu Model.fmu
@@ -127,14 +155,16 @@ cp modelDescription.xml fmu && cp Model.so "fmu/binaries/@platform@" && cp @sour
 std::vector<DeckFile> unit(const Subject& subject, int version) {
   const auto& problem = subject.problem;
   const auto format = fmt::format("fmu{}", version);
-  const auto flights = flights_of(subject, format);
+  const auto motion = motion_of(subject, format);
   const auto numbers = data(problem, c_syntax);
-  const auto token = token_of(numbers + flights);
+  const auto token = token_of(numbers + motion.text);
   const auto number = std::to_string(version);
   const Words words{{"head", head(subject, format, "//")},
                     {"fmi", number},
                     {"data", numbers},
-                    {"flights", flights},
+                    {"gives", motion.name},
+                    {"motion", motion.text},
+                    {"located", c_located},
                     {"mechanics", c_mechanics},
                     {"token", token},
                     {"n", fmt::format("{}", problem.dof())},
@@ -143,12 +173,13 @@ std::vector<DeckFile> unit(const Subject& subject, int version) {
                     {"last", exact_number(problem.end)}};
   std::vector<DeckFile> files{
       {"model.c", filled(fmu_model, words)},
-      {"modelDescription.xml", Description(problem, version).text(token)},
+      {"modelDescription.xml", Description(problem, version).text(token, motion.name)},
       {"simulate.c", filled(fmu_simulate, words)},
       run_script(subject, steps(problem, shortest_period(problem) / 16.0),
                  "./simulate ./Model.so \"$mode\" \"$2\" \"$1.csv\"", ".csv", "--expect \"$claim\"",
                  filled(prepare,
-                        {{"platform", version == 2 ? "linux64" : "$(uname -m)-linux"},
+                        {{"claim", motion.claim},
+                         {"platform", version == 2 ? "linux64" : "$(uname -m)-linux"},
                          {"sources", version == 2 ? "model.c" : "model.c buildDescription.xml"}}))};
   if (version == 3)
     files.push_back(

@@ -3,7 +3,7 @@
 namespace clackers::decks {
 
 const char* const fmu_model =
-    R"c(@head@// Unit of FMI @fmi@.0: co-simulation gives the exact motion, model exchange the equations of motion.
+    R"c(@head@// Unit of FMI @fmi@.0: co-simulation gives @gives@, model exchange the equations of motion.
 // Build: cc -shared -fPIC -O2 -o Model.so model.c -lm
 #include <math.h>
 #include <stdbool.h>
@@ -12,32 +12,9 @@ const char* const fmu_model =
 
 #define FMI @fmi@
 @data@
-// a row a flight: its start [s], u [m] and v [m/s] behind the impact; rate [1/s] bounds those of the motion
-@flights@
 @mechanics@
-// Taylor's series, which is exact but for rounding: the motion is linear, its loads are harmonic.
-static void flow(double t, double span, double* y) {
-  const int parts = 1 + (int)(4.0 * rate * span);
-  const double h = span / parts;
-  for (int part = 0; part < parts; ++part) {
-    double d[2 * n], next[2 * n], factor = 1.0;
-    memcpy(d, y, sizeof d);
-    for (int order = 0; order < 24; ++order) {
-      rates(t + part * h, order, d, next);
-      factor *= h / (order + 1);
-      for (int i = 0; i < 2 * n; ++i) y[i] += factor * next[i];
-      memcpy(d, next, sizeof d);
-    }
-  }
-}
-
-static void exact(double t, double* y) {
-  const double* flight = flights + (flights_rows - 1) * (2 * n + 1);
-  while (flight > flights && flight[0] > t) flight -= 2 * n + 1;
-  memcpy(y, flight + 1, 2 * n * sizeof *y);
-  flow(flight[0], t - flight[0], y);
-}
-
+enum { ok, failed = 3 };
+@motion@
 typedef struct {
   double t, y[2 * n];
 } Unit;
@@ -55,7 +32,7 @@ static double value_of(const Unit* unit, unsigned reference) {
   return dot(contact, unit->y) - contact[n];
 }
 
-enum { ok, failed = 3, variables = 1 + 4 * n + contacts_rows };
+enum { variables = 1 + 4 * n + contacts_rows };
 #ifdef _WIN32
 #define API __declspec(dllexport)
 #else
@@ -74,7 +51,7 @@ typedef bool Boolean;
 static void* new_unit(const char* token) {
   if (strcmp(token, "@token@") != 0) return NULL;
   Unit* unit = calloc(1, sizeof *unit);
-  if (unit != NULL) exact(unit->t = t0, unit->y);
+  if (unit != NULL) begin(unit->t = t0, unit->y);
   return unit;
 }
 static int values_of(const Unit* unit, const unsigned* references, size_t count, double* values) {
@@ -88,15 +65,10 @@ static int some(const Unit* unit, unsigned first, size_t wanted, double* values,
   for (unsigned i = 0; i < count && count == wanted; ++i) values[i] = value_of(unit, first + i);
   return count == wanted ? ok : failed;
 }
-static int start(Unit* unit, double t) {
-  if (!(t >= t0 && t <= last)) return failed;
-  exact(unit->t = t, unit->y);
-  return ok;
-}
+static int start(Unit* unit, double t) { return begin(unit->t = t, unit->y); }
 static int step(Unit* unit, double t, double h) {
-  const double end = t + h;
-  if (!(h >= 0.0 && end <= last + 1e-9 * (last - t0))) return failed;  // what follows is not known
-  exact(unit->t = end, unit->y);
+  if (!(h >= 0.0) || go(unit->t, t + h, unit->y) != ok) return failed;
+  unit->t = t + h;
   return ok;
 }
 

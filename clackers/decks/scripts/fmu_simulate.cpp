@@ -98,6 +98,7 @@ static double advance(double t, double h, const double* y, double* next) {
   return least;
 }
 
+@located@
 static void exchange(FILE* file, long steps) {
   double y[states], next[states];
   events(y);
@@ -105,17 +106,12 @@ static void exchange(FILE* file, long steps) {
   for (long k = 0; k < steps; ++k) {
     const double end = t0 + (last - t0) * (k + 1) / steps;
     for (double t = t0 + (last - t0) * k / steps; t < end;) {
-      double low = 0.0, high = end - t;
-      const bool event = advance(t, high, y, next) < 0.0;
-      for (int trial = 0; trial < 60 && event; ++trial) {
-        const double middle = 0.5 * (low + high);
-        *(advance(t, middle, y, next) < 0.0 ? &high : &low) = middle;
-      }
-      advance(t, high, y, next);
+      const double rest = end - t, passed = located(t, rest, y, next);
+      const bool event = passed != rest;
       Boolean enter, terminate;
       CALL(CompletedIntegratorStep, (void*, Boolean, Boolean*, Boolean*), unit, true, &enter, &terminate);
       memcpy(y, next, sizeof y);
-      t = event ? t + high : end;
+      t = event ? t + passed : end;
       row(file, t);
       if (!event) continue;
       PLAIN(EnterEventMode);

@@ -53,7 +53,7 @@ Rest        when impacts have accumulated, so that the gap would rise by less th
             the next one; what is left out is shorter than 1e-6 of a period.
 Cost        a sine, a cosine and an exponential a mode for each state, and about 15 such an impact,
             at any ratio of the frequencies; an eigenvalue problem for each set of active contacts.
-Source      A. Soroushian, A. Ahmadi, H. Amiri, Sci. Iran. B (2018), for the sums of modes between
+Source      A. Soroushian, G. Ahmadi, S. Amiri, Sci. Iran. B (2018), for the sums of modes between
             impacts; V. Acary, B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems,
             Springer (2008), chapter 8, for events.
 )";

@@ -50,6 +50,10 @@ class FamilyIntegrator final : public Integrator {
     facts.name = text_;
     return facts;
   }
+  Eigen::MatrixXd coefficients() const override {
+    if constexpr (requires { family_.coefficients(); }) return family_.coefficients();
+    return {};
+  }
   StepperPointer<1> stepper(const model::SmoothSystem<1>& system,
                             const StepPlan& plan) const override {
     return std::make_unique<Stepper<Family, 1>>(family_, name_, system, plan);

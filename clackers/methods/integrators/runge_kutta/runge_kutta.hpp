@@ -69,6 +69,7 @@ struct RungeKutta {
   static constexpr int stages = Table.stages;
 
   Facts facts() const;
+  Eigen::MatrixXd coefficients() const;
 
   template <int Dof>
   struct Memory {

@@ -27,6 +27,16 @@ Facts RungeKutta<Table>::facts() const {
   return {.smooth_order = Table.order, .stability_limit = limit_of(Table.a, Table.b, Table.stages)};
 }
 
+template <const auto& Table>
+Eigen::MatrixXd RungeKutta<Table>::coefficients() const {
+  Eigen::MatrixXd all(Table.stages + 1, Table.stages);
+  for (int j = 0; j < Table.stages; ++j) {
+    for (int i = 0; i < Table.stages; ++i) all(i, j) = Table.a[std::size_t(i)][std::size_t(j)];
+    all(Table.stages, j) = Table.b[std::size_t(j)];
+  }
+  return all;
+}
+
 std::vector<Row> runge_kutta_methods() {
   return {
       row<RungeKutta<classical>>(
