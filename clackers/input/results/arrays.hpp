@@ -28,8 +28,9 @@ ResultRows rows_of(const std::string& file, const std::vector<NamedArray>& array
                    const ResultChoice& choice);
 
 /// A function of a library of the system, opened when it is first asked for, so that the command needs neither
-/// the library nor time for it at its start. Throws FileError (cannot-read) with the package to install.
-void* library_function(const std::string& file, const std::string& library,
+/// the library nor time for it at its start; of its file names the first that is there. Throws FileError
+/// (cannot-read) with the package of Debian 12 to install.
+void* library_function(const std::string& file, const std::vector<const char*>& libraries,
                        const std::string& package, const char* name);
 
 /// Runs `work` in a process of its own, so that a library that fails on a damaged file ends only that. Throws

@@ -1,6 +1,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -93,15 +94,17 @@ std::string all_of(int from) {
 
 }  // namespace
 
-void* library_function(const std::string& file, const std::string& library,
+void* library_function(const std::string& file, const std::vector<const char*>& libraries,
                        const std::string& package, const char* name) {
   // It stays open until the end of the program.
-  auto* handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* handle = nullptr;
+  for (const auto* library : libraries)
+    if (handle == nullptr) handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
   auto* function = handle == nullptr ? nullptr : dlsym(handle, name);
   if (function == nullptr)
-    throw FileError(fmt::format("cannot read {}: it needs the library {}. Install it (on Debian "
-                                "{}), or write the history as csv.",
-                                file, library, package),
+    throw FileError(fmt::format("cannot read {}: it needs a library, {}. Install it (on Debian "
+                                "12 {}), or write the history as csv.",
+                                file, fmt::join(libraries, " or "), package),
                     "cannot-read");
   return function;
 }

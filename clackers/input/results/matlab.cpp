@@ -146,7 +146,7 @@ std::string inflated(const std::string& file, MatlabReader& reader, std::string_
   constexpr std::size_t most_ratio = 1100;
   const auto uncompress =
       reinterpret_cast<int (*)(char*, unsigned long*, const char*, unsigned long)>(
-          library_function(file, "libz.so.1", "zlib1g", "uncompress"));
+          library_function(file, {"libz.so.1"}, "zlib1g", "uncompress"));
   const auto most = std::min(most_array_bytes, most_ratio * bytes.size() + 64);
   for (std::size_t room = std::min(most, 8 * bytes.size() + 64);; room = std::min(most, 4 * room)) {
     std::string text(room, '\0');

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <vector>
 
 #include "clackers/input/results/arrays.hpp"
 
@@ -11,6 +12,10 @@ namespace {
 
 constexpr std::size_t longest_name = 256;  // NC_MAX_NAME
 constexpr int deepest = 16, most_dimensions = 4;
+
+// netCDF 4.7 to 4.9.2 (Debian 11 and 12, Ubuntu 22.04 and 24.04, Fedora), 4.9.3 (Debian 13), and what a
+// development package or another system has.
+const std::vector<const char*> libraries{"libnetcdf.so.19", "libnetcdf.so.22", "libnetcdf.so"};
 
 // The functions of netCDF's C library, whose interface has not changed since version 4.0; it reads HDF5 as well.
 struct NetCdf {
@@ -28,7 +33,7 @@ struct NetCdf {
   explicit NetCdf(const std::string& file) {
     const auto load = [&](auto& function, const char* name) {
       function = reinterpret_cast<std::decay_t<decltype(function)>>(
-          library_function(file, "libnetcdf.so.19", "libnetcdf19", name));
+          library_function(file, libraries, "libnetcdf19", name));
     };
     load(open_mem, "nc_open_mem");
     load(strerror, "nc_strerror");
