@@ -35,7 +35,7 @@ constexpr double most_build = 600.0, most_version = 60.0;  // [s]
 
 struct EnginesOptions {
   CommonOptions common;  ///< its `out` is the folder of run and page
-  std::string action, engines, jobs;
+  std::string action = "list", engines, jobs;
   std::vector<std::string> names, cases, settings;
   bool all = false;
 };
@@ -182,6 +182,13 @@ int run_engines(const EnginesOptions& options, std::span<const Engine> engines,
   const auto done = run_tasks(store, {}, jobs, options.common.quiet);
   if (store.finished().size() > 0) write_page(options, store, folder, line);
   if (done.interrupted) throw Interrupted();
+  auto common = options.common;
+  common.out.clear();
+  Results results(common, OnInterrupt::stop);
+  const auto rows = store.query(
+      "SELECT \"case\", method, behaviour, \"order\", u_error, diagnosis FROM subjects ORDER BY task");
+  write_rows(*rows, results, "engines", common.quiet);
+  results.finish();
   return 0;
 }
 
@@ -220,7 +227,7 @@ int run(EnginesOptions& options, const std::string& line) {
 
 void add_engines(Grammar& root) {
   const auto options = std::make_shared<EnginesOptions>();
-  auto* app = root.add_subcommand("engines", "ACTION [NAME ...]", "engines of others, judged");
+  auto* app = root.add_subcommand("engines", "[ACTION] [NAME ...]", "engines of others, judged");
   set_help(
       *app,
       {.examples = "  clackers engines list\n"
@@ -233,7 +240,7 @@ void add_engines(Grammar& root) {
            "is not installed is named with the package to install. FOLDER receives engines.db, "
            "the database of the campaign, and index.html, its page. After an interruption the "
            "same command continues.",
-       .usage = "  clackers engines list\n"
+       .usage = "  clackers engines [list]\n"
                 "  clackers engines show NAME\n"
                 "  clackers engines run [NAME ...|--all] [--case CASE[:name=value,...]]\n"
                 "           [--setting NAME] [--jobs n] [--out FOLDER]\n"

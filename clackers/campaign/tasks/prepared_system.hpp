@@ -17,7 +17,6 @@ class PreparedSystem {
   PreparedSystem(const Specification& specification, System system);
 
   const System& system() const { return system_; }
-  bool is_admissible() const { return study_.has_value(); }
 
   /// A record with one subject, valid until the next call; nullptr when interrupted. `solver` is there
   /// for a method that is none of the catalogue.
