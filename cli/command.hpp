@@ -88,6 +88,11 @@ void add_export(Grammar& root);
 void add_paper(Grammar& root);
 void add_explain(Grammar& root);
 void add_explore(Grammar& root);
+void add_report(Grammar& root);
+void add_cite(Grammar& root);
+
+/// What `clackers --version --verbose` prints.
+std::string version_text();
 
 /// Reads the arguments, without the name of the program, and runs the command they name. Returns
 /// its exit code; throws InputError for what does not follow the grammar, and what commands throw.

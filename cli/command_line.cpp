@@ -189,10 +189,12 @@ void add_commands(Grammar& grammar) {
       .about = "Exact motions of colliding structures, and verdicts on time-integration methods.",
       .usage = ""};
   grammar.program.add_flag("--help", unused_flag, "This help.");
-  grammar.program.add_flag("--version", unused_flag, "The version.");
-  for (const auto add :
-       {add_list, add_show, add_respond, add_verify, add_check, add_campaign, add_atlas,
-        add_engines, add_export, add_paper, add_explore, add_explain, add_help})
+  grammar.program.add_flag(
+      "--version", unused_flag,
+      "The version; with --verbose behind it also compiler, vectors and libraries.");
+  for (const auto add : {add_list, add_show, add_respond, add_verify, add_check, add_campaign,
+                         add_atlas, add_engines, add_export, add_report, add_paper, add_explore,
+                         add_explain, add_cite, add_help})
     add(grammar);
   for (auto& command : grammar.commands) command.add_flag("--help", unused_flag, "This help.");
 }
@@ -209,7 +211,10 @@ int run_command_line(const std::vector<std::string>& arguments) {
     return 0;
   }
   if (first == "--version") {
-    print("clackers " CLACKERS_VERSION "\n");
+    if (!rest.empty() && rest.front() != "--verbose")
+      refuse_syntax(fmt::format("--version takes --verbose, not \"{}\".", rest.front()),
+                    grammar.program);
+    print(rest.empty() ? "clackers " CLACKERS_VERSION "\n" : version_text());
     return 0;
   }
   // Unlisted: called by the build and the shells.

@@ -75,10 +75,10 @@ class NumberRows : public RowSource {
 struct Axes {
   bool log_x = false, log_y = false;
   double highest = std::numeric_limits<double>::infinity();  ///< what is above is cut off
-  std::string y{};  ///< what several curves have in common, for their axis
-  double mark = std::numeric_limits<double>::quiet_NaN();  ///< a line at this x, NaN for none
-  std::string mark_text{};                                 ///< what it is
-  std::string note{};  ///< what a reader must know of the curves
+  std::string y{};              ///< what several curves have in common, for their axis
+  std::vector<double> marks{};  ///< lines at these x
+  std::string mark_text{};      ///< what they are
+  std::string note{};           ///< what a reader must know of the curves
 };
 
 /// Rows held in memory.

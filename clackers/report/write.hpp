@@ -1,6 +1,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,17 +59,18 @@ void write_changes(const study::BaselineComparison& changes, std::ostream& out,
 /// A record as one self-contained page that opens without a network.
 std::string html(const record::Record& record, const study::BaselineComparison* changes = nullptr);
 
-/// Sheets as such a page: tables, texts, and figures of the curves; `name` is what they are about.
-/// With the `motion` of a case, which has no subjects, its response and animation stand first.
-std::string html(std::span<const record::Sheet> sheets, const std::string& name,
-                 const record::Provenance& from, const record::CaseRecord* motion = nullptr,
-                 const std::string& command = "show");
-
 /// Where the dials of the page of `clackers explore` stand at first: a synchronized pair of
 /// m1 = 1 kg, k1 = 1 N/m and u1(0) = 1 m over 20 a_t seconds.
 struct Dials {
   double X = 9.0, xi1 = 0.05, a_t = 1.0, r = 3.0, eta = 1.0;
 };
+
+/// Sheets as such a page: tables, texts, and figures of the curves; `name` is what they are about.
+/// With the `motion` of a case, which has no subjects, its response and animation stand first; with
+/// `dials` they, and runs of methods, move with these.
+std::string html(std::span<const record::Sheet> sheets, const std::string& name,
+                 const record::Provenance& from, const record::CaseRecord* motion = nullptr,
+                 const std::string& command = "show", const std::optional<Dials>& dials = {});
 
 /// A page whose dials move the exact motion of a synchronized pair, and runs of methods beside it.
 std::string explore(const Dials& dials, const record::Provenance& from);

@@ -12,6 +12,7 @@
 #include "clackers/record/record.hpp"
 #include "clackers/report/write.hpp"
 #include "cli/command.hpp"
+#include "cli/commands/dials.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/options.hpp"
 #include "cli/values.hpp"
@@ -27,28 +28,6 @@ struct ExploreOptions {
   std::string name = "three-parameter";
 };
 
-report::Dials dials_of(const ExploreOptions& options) {
-  const auto test_case = cases::make(options.name, read_settings(options.settings));
-  const auto value = [&](const char* name) { return double(value_of(test_case.values, name)); };
-  if (options.name == "three-parameter")
-    return {4.0 * value("N") + 1.0, value("xi1"), value("a_t"), 3.0, 1.0};
-  if (options.name != "synchronized-pair")
-    throw InputError("explore has dials for three-parameter and synchronized-pair, not for " +
-                         options.name + ". Its motion: clackers respond " + options.name +
-                         " --report page.html",
-                     "no-closed-form");
-  for (const auto* name : {"m1", "k1", "A"})
-    if (value(name) != 1.0)
-      throw InputError(
-          fmt::format("explore: {} = {}; the dials are for m1 = 1 kg, k1 = 1 N/m and A = 1 m.",
-                      name, value(name)),
-          "out-of-range");
-  if (value("X") < 1.0 || value("eta") == 0.0)
-    throw InputError("explore: X must be 1 or more and eta above 0; see clackers respond.",
-                     "out-of-range");
-  return {value("X"), value("xi1"), value("t_end") / 20.0, value("r"), value("eta")};
-}
-
 // Where a person looks at a desktop; the browser stays when this command ends.
 void open_in_browser(std::string file) {
   if (isatty(STDERR_FILENO) == 0 ||
@@ -61,7 +40,7 @@ void open_in_browser(std::string file) {
 }
 
 int run(const ExploreOptions& options, const std::string& line) {
-  const auto dials = dials_of(options);
+  const auto dials = dials_of(cases::make(options.name, read_settings(options.settings)));
   const auto file = options.common.out.empty() ? default_file : options.common.out;
   ReportPage page(file, options.common, OnInterrupt::stop);
   if (!page.write(report::explore(dials, record::provenance(line)))) return 4;
@@ -70,6 +49,35 @@ int run(const ExploreOptions& options, const std::string& line) {
 }
 
 }  // namespace
+
+report::Dials dials_of(const cases::Case& test_case) {
+  const auto& name = test_case.entry->name;
+  const auto value = [&](const char* of) { return double(value_of(test_case.values, of)); };
+  if (name == "three-parameter")
+    return {4.0 * value("N") + 1.0, value("xi1"), value("a_t"), 3.0, 1.0};
+  if (name != "synchronized-pair")
+    throw InputError("explore has dials for three-parameter and synchronized-pair, not for " +
+                         name + ". Its motion: clackers respond " + name + " --report page.html",
+                     "no-closed-form");
+  for (const auto* fixed : {"m1", "k1", "A"})
+    if (value(fixed) != 1.0)
+      throw InputError(
+          fmt::format("explore: {} = {}; the dials are for m1 = 1 kg, k1 = 1 N/m and A = 1 m.",
+                      fixed, value(fixed)),
+          "out-of-range");
+  if (value("X") < 1.0 || value("eta") == 0.0)
+    throw InputError("explore: X must be 1 or more and eta above 0; see clackers respond.",
+                     "out-of-range");
+  return {value("X"), value("xi1"), value("t_end") / 20.0, value("r"), value("eta")};
+}
+
+std::optional<report::Dials> usual_dials(const cases::Case& test_case) try {
+  const auto dials = dials_of(test_case);
+  const bool is_usual = dials.X <= 41.0 && dials.xi1 <= 0.3 && dials.a_t <= 5.0 && dials.r <= 4.5;
+  return is_usual ? std::optional(dials) : std::nullopt;
+} catch (const InputError&) {
+  return {};
+}
 
 void add_explore(Grammar& root) {
   const auto options = std::make_shared<ExploreOptions>();

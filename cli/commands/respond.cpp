@@ -12,6 +12,7 @@
 #include "clackers/report/write.hpp"
 #include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
+#include "cli/commands/dials.hpp"
 #include "cli/files/paths.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
@@ -155,7 +156,7 @@ std::string page_of(const cases::Case& test_case, const RespondOptions& options,
   return report::html(
       tables::show_case(options.name, read_settings(options.settings, options.problem),
                         cases::default_threshold),
-      options.name, record::provenance(line), &motion, "respond");
+      options.name, record::provenance(line), &motion, "respond", usual_dials(test_case));
 }
 
 int run(RespondOptions options, const std::string& line) {

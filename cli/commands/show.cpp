@@ -13,6 +13,7 @@
 #include "clackers/tables/listing.hpp"
 #include "clackers/tables/respond.hpp"
 #include "cli/command.hpp"
+#include "cli/commands/dials.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
 #include "cli/options.hpp"
@@ -73,11 +74,15 @@ int run(ShowOptions options, const std::string& line) {
   results.finish();
   if (!page.wanted()) return 0;
   std::optional<record::CaseRecord> motion;
-  if (is_case(options.name))
-    motion = tables::response_record(
-        cases::make(options.name, read_settings(options.settings, options.problem)));
+  std::optional<report::Dials> dials;
+  if (is_case(options.name)) {
+    const auto test_case =
+        cases::make(options.name, read_settings(options.settings, options.problem));
+    motion = tables::response_record(test_case);
+    dials = usual_dials(test_case);
+  }
   return page.write(report::html(sheets, options.name, record::provenance(line),
-                                 motion ? &*motion : nullptr))
+                                 motion ? &*motion : nullptr, "show", dials))
              ? 0
              : 4;
 }

@@ -5,15 +5,7 @@
 
 namespace clackers::report {
 
-std::string explore(const Dials& dials, const record::Provenance& from) {
-  Page page;
-  page.command = "explore";
-  page.title = "Two masses that clack";
-  page.heading = "Two masses that clack: turn the dials";
-  page.lead =
-      "Two damped masses collide again and again at their common equilibrium, and their motion is "
-      "known exactly. m<sub>1</sub> = 1 kg, k<sub>1</sub> = 1 N/m, u<sub>1</sub>(0) = 1 m.";
-  int number = 1;
+void add_dials(Page& page, const Dials& dials, int& number) {
   const auto figure = [&](const FigureText& text) { return figure_html(number, {}, text); };
   const auto animation =
       fill(assets::player_html,
@@ -62,20 +54,33 @@ std::string explore(const Dials& dials, const record::Provenance& from) {
   page.sections.push_back({"phase-section", "Phase", "Phase and energy",
                            "<div class=\"pair\">\n" + phase + energy + "</div>\n"});
   page.sections.push_back(
-      {"again", "Again", "The same motion with all digits",
+      {"digits", "Digits", "The same motion with all digits",
        "<div class=\"command\"><pre id=\"again-command\"></pre><button type=\"button\" "
        "data-copy=\"again-command\">Copy</button></div>\n<p>The address of this page keeps the "
        "dials: send it, or bookmark it.</p>\n"});
   page.style = assets::explore_css;
   page.data["dials"] = {
       {"X", dials.X}, {"xi1", dials.xi1}, {"a_t", dials.a_t}, {"r", dials.r}, {"eta", dials.eta}};
-  page.specifications = nlohmann::ordered_json::parse(assets::explore_json);
+  page.specifications.update(nlohmann::ordered_json::parse(assets::explore_json));
   page.scripts = {assets::synchronized_pair_js,
                   assets::runs_js,
                   assets::explore_js,
                   assets::page_js,
                   assets::scene_js,
                   assets::player_js};
+}
+
+std::string explore(const Dials& dials, const record::Provenance& from) {
+  Page page;
+  page.command = "explore";
+  page.title = "Two masses that clack";
+  page.heading = "Two masses that clack: turn the dials";
+  page.lead =
+      "Two damped masses collide again and again at their common equilibrium, and their motion is "
+      "known exactly. m<sub>1</sub> = 1 kg, k<sub>1</sub> = 1 N/m, u<sub>1</sub>(0) = 1 m.";
+  page.data = page.specifications = nlohmann::ordered_json::object();
+  int number = 1;
+  add_dials(page, dials, number);
   return page_html(page, from);
 }
 

@@ -188,16 +188,17 @@ Json curves_specification(const record::Sheet& sheet, std::string_view name) {
   std::vector<std::string> names;
   for (std::size_t c = 1; c < sheet.columns.size(); ++c) names.push_back(sheet.columns[c].label());
   Json mark = Json::array();
-  if (std::isfinite(axes.mark))
-    mark.push_back({{"x", rounded(axes.mark)}, {"text", axes.mark_text}});
+  for (const double x : axes.marks) mark.push_back({{"x", rounded(x)}, {"text", axes.mark_text}});
   const auto x_title = sheet.columns[0].label();
+  auto x_axis = axis(x_title, axes.log_x, ratio_label());
+  if (sheet.columns[0].kind == record::ColumnKind::whole) x_axis["tickMinStep"] = 1;
   return specification_of(
       assets::curves_vl_json, names,
       {{"data", std::string(name)},
        {"x_scale", scale(axes.log_x)},
        {"y_scale", scale(axes.log_y)},
        {"x_title", x_title},
-       {"x_axis", axis(x_title, axes.log_x, ratio_label())},
+       {"x_axis", x_axis},
        {"y_axis", axis(names.size() == 1 ? names[0] : axes.y, axes.log_y, power_label("y"))},
        {"mark", mark}});
 }

@@ -8,6 +8,7 @@
 #include "clackers/record/record.hpp"
 #include "clackers/report/assets.hpp"
 #include "clackers/report/html/tables.hpp"
+#include "clackers/report/write.hpp"
 
 namespace clackers::report {
 
@@ -31,6 +32,9 @@ struct Page {
 /// One self-contained page that opens without a network: style, libraries and figures inside. Its
 /// content security policy allows the scripts of this library and nothing else.
 std::string page_html(const Page& page, const record::Provenance& from);
+
+/// Adds sections whose dials move the exact motion of a pair and runs of methods; `number` counts figures.
+void add_dials(Page& page, const Dials& dials, int& number);
 
 /// A section for each subject of a case: finding, facts, levels, what one would conclude without the
 /// exact solution, and metrics.

@@ -89,8 +89,10 @@ std::string legend(const record::Sheet& sheet) {
 FigureText figure_of(const record::Sheet& sheet) {
   const auto& axes = *sheet.curves;
   std::string reading;
-  if (std::isfinite(axes.mark))
+  if (axes.marks.size() == 1)
     reading += fmt::format("The dashed line is the {}. ", escape(axes.mark_text));
+  else if (!axes.marks.empty())
+    reading += fmt::format("Dashed lines are {}. ", escape(axes.mark_text));
   if (std::isfinite(axes.highest))
     reading += fmt::format("Values above {} are cut off. ", html_number(axes.highest, 3));
   const auto name = name_of(sheet);
@@ -106,7 +108,7 @@ FigureText figure_of(const record::Sheet& sheet) {
 
 std::string html(std::span<const record::Sheet> sheets, const std::string& name,
                  const record::Provenance& from, const record::CaseRecord* motion,
-                 const std::string& command) {
+                 const std::string& command, const std::optional<Dials>& dials) {
   Page page;
   page.command = command;
   page.title = "clackers: " + name;
@@ -116,9 +118,13 @@ std::string html(std::span<const record::Sheet> sheets, const std::string& name,
   if (motion != nullptr) {
     page.heading = escape(case_text(motion->problem, "\u00a0"));
     page.lead = lead_html(*motion);
+    if (has_player(*motion)) page.data["motion"] = player_data(*motion);
+  }
+  if (motion != nullptr && dials) {
+    add_dials(page, *dials, number);
+  } else if (motion != nullptr) {
     auto data = figure_data(*motion);
     for (const auto* rows : {"response", "impacts"}) page.data[rows] = data[rows];
-    if (has_player(*motion)) page.data["motion"] = player_data(*motion);
     page.specifications["response"] = figure_specifications(*motion)["response"];
     page.sections.push_back({"figures", "Figures", "Figures", response_html(*motion, {}, number)});
   }
@@ -126,10 +132,10 @@ std::string html(std::span<const record::Sheet> sheets, const std::string& name,
     if (sheet.curves) {
       page.data[name_of(sheet)] = points(sheet);
       page.specifications[name_of(sheet)] = curves_specification(sheet, name_of(sheet));
-      if (motion == nullptr && number == 1)
-        page.sections.push_back({"figures", "Figures", "Figures", {}});
-      auto& figures = *std::ranges::find(page.sections, "figures", &PageSection::id);
-      figures.html += figure_html(number, {}, figure_of(sheet));
+      auto figures = std::ranges::find(page.sections, "figures", &PageSection::id);
+      if (figures == page.sections.end())
+        figures = page.sections.insert(figures, {"figures", "Figures", "Figures", {}});
+      figures->html += figure_html(number, {}, figure_of(sheet));
     } else {
       const auto section = name_of(sheet);
       auto link = section;

@@ -13,14 +13,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::vector<record::Sheet> sheets() {
-  return {
-      {"clackers/facts/1", "Facts", {{"name", "", ""}, {"value", "m", ""}}, {{"a<b", 0.25}}},
-      {"clackers/card/1", "Card", {{"card", "", ""}}, {{"u1 = u0 & v0"}}},
-      {"clackers/decay/1",
-       "Decay",
-       {{"h/T", "", "step"}, {"slow", "", "slow mass, u_s"}, {"fast", "", ""}},
-       {{0.1, 1.0, 0.5}, {1.0, 2.0, {}}, {10.0, 4.0, 0.25}},
-       record::Axes{.log_x = true, .highest = 3.0, .y = "u", .mark = 2.0, .mark_text = "limit"}}};
+  return {{"clackers/facts/1", "Facts", {{"name", "", ""}, {"value", "m", ""}}, {{"a<b", 0.25}}},
+          {"clackers/card/1", "Card", {{"card", "", ""}}, {{"u1 = u0 & v0"}}},
+          {"clackers/decay/1",
+           "Decay",
+           {{"h/T", "", "step"}, {"slow", "", "slow mass, u_s"}, {"fast", "", ""}},
+           {{0.1, 1.0, 0.5}, {1.0, 2.0, {}}, {10.0, 4.0, 0.25}},
+           record::Axes{
+               .log_x = true, .highest = 3.0, .y = "u", .marks = {2.0}, .mark_text = "limit"}}};
 }
 
 // What stands in the script element `id` of the page.

@@ -230,8 +230,8 @@ std::string curves(const record::Sheet& sheet, const Style& style) {
       curve.push_back(value <= axes.highest ? value : std::numeric_limits<double>::quiet_NaN());
     }
   }
-  if (std::isfinite(axes.mark)) {
-    picture.marks = {axes.mark};
+  if (!axes.marks.empty()) {
+    picture.marks = axes.marks;
     picture.title += "; ▲ " + axes.mark_text;
   }
   return draw(std::move(picture), style);

@@ -125,7 +125,7 @@ TEST(CurvesPlot, HasTheNamesOfTheCurvesAndLogarithmicAxes) {
 }
 
 TEST(CurvesPlot, MarksALimitOnItsAxis) {
-  const auto out = lines(curves(decay({.log_x = true, .mark = 1.0, .mark_text = "limit"}), {}));
+  const auto out = lines(curves(decay({.log_x = true, .marks = {1.0}, .mark_text = "limit"}), {}));
   EXPECT_NE(out[0].find("▲ limit"), std::string::npos);
   EXPECT_EQ(display_width(out[10].substr(0, out[10].find("▲"))), 45u);  // the middle
 }

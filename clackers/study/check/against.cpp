@@ -237,7 +237,7 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
   result.sheets = {std::move(masses), std::move(sets)};
   result.differences = difference_curves(a, b, rows, peaks);
   if (first_mass > 0) {
-    result.differences.curves->mark = first_visible;
+    result.differences.curves->marks = {first_visible};
     result.differences.curves->mark_text =
         fmt::format("first difference above {}, of mass {} at t = {:.6g} s", visible_difference,
                     first_mass, first_visible);

@@ -128,7 +128,7 @@ std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integ
   if (all.front() < limit && limit < all.back()) {
     for (const double power : linear(-0.1, 0.1, 41)) all.push_back(limit * std::pow(10.0, power));
     std::ranges::sort(all);
-    radius.curves->mark = limit;
+    radius.curves->marks = {limit};
     radius.curves->mark_text = fmt::format("stability limit h/T = {:.4g}, omega h = {:.4g}", limit,
                                            integrator.facts().stability_limit);
   }

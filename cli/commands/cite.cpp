@@ -1,0 +1,51 @@
+#include <memory>
+
+#include "clackers/tables/citations.hpp"
+#include "cli/command.hpp"
+#include "cli/files/output_stream.hpp"
+#include "cli/files/paths.hpp"
+
+namespace clackers::cli {
+namespace {
+
+struct CiteOptions {
+  std::vector<std::string> names;
+  std::string record;
+};
+
+int run(const CiteOptions& options) {
+  auto used = tables::used_of(options.names);
+  if (!options.record.empty()) {
+    const auto more = tables::used_in(read_baseline(options.record));
+    used.methods.insert(used.methods.end(), more.methods.begin(), more.methods.end());
+    used.cases.insert(used.cases.end(), more.cases.begin(), more.cases.end());
+    used.others = more.others;
+  }
+  OutputStream out(1, "standard output", OnInterrupt::stop);
+  out << tables::bibtex(used);
+  out.finish();
+  return 0;
+}
+
+}  // namespace
+
+void add_cite(Grammar& root) {
+  const auto options = std::make_shared<CiteOptions>();
+  auto* app = root.add_subcommand("cite", "[NAME ...]", "BibTeX of what was used");
+  set_help(*app,
+           {.examples = "  clackers cite\n"
+                        "  clackers cite newmark+penalty three-parameter\n"
+                        "  clackers cite --record record.json > clackers.bib\n",
+            .about = "Prints BibTeX: the program, the paper whose systems it makes exact, and the "
+                     "sources of methods, as their cards name them. Comments name what uses each "
+                     "entry, and what has none.",
+            .usage = "  clackers cite [METHOD|CASE ...] [--record FILE.json]\n"});
+  app->add_option("NAME", options->names, "Methods and cases (clackers list).")
+      ->option_text("METHOD|CASE");
+  app->add_option("--record", options->record,
+                  "A record of verify or check (--format json): all methods and cases in it.")
+      ->reads_file("FILE.json");
+  app->run = [options](const std::string&) { return run(*options); };
+}
+
+}  // namespace clackers::cli
