@@ -5,6 +5,8 @@ import re
 import subprocess
 import tempfile
 
+import gallery
+
 COMMANDS_LINE = re.compile(r"^  clackers ([a-z]+) ", re.MULTILINE)
 # Sheets of curves, by their schema, drawn as figures by figures.mjs.
 FIGURES = ("accuracy", "spectral-radius", "overshoot")
@@ -97,6 +99,7 @@ def methods(command):
         "# Methods\n\nA method is an integrator and a contact treatment joined by `+`, or a method that needs no separate "
         "treatment. Without `+contact` the treatment is `event-driven`.\n\n" + toctree(row[0] for row in listed["rows"]) +
         "\n## In one table\n\n" + sheet_table(listed) + "\n## All pairs and what they claim\n\n" + sheet_table(pairs))
+    texts["reference/gallery.md"] = gallery.page(command, record)
     return texts
 
 
