@@ -25,7 +25,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "These runs are not enough for a verdict. The message says what to change."},
     {"contact-stiffness", "reason",
      "The floor is the model error of a compliant contact: "
-     "each impact lasts a contact time instead of an instant. "
+     "each impact lasts a contact time instead of an instant; of dry friction that of a law under which nothing comes to rest. "
      "A larger contact stiffness lowers it, and needs smaller steps."},
     {"tolerance-floor", "reason",
      "The floor is an iteration tolerance of the method; tighten it."},
@@ -148,7 +148,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "A contact touches a degree of freedom without stiffness of its own, or, for a nonlinear law, the problem starts without "
      "energy, so there is no default for the penalty contact; give penalty:stiffness=VALUE."},
     {"linear-only", "refusal",
-     "The problem has a nonlinear force, a load or a free motion that the method, which solves linear equations in closed form or once a step, does not take."},
+     "The problem has a nonlinear force, dry friction, a load or a free motion that the method, which solves linear equations in closed form or once a step, does not take. "
+     "event-driven, penalty and moreau-jean take dry friction."},
     {"redundant-contacts", "refusal",
      "The directions of contacts that are closed together depend linearly on each other, so their impulses are not unique; remove one of them."},
     {"integrator-not-taken", "refusal",

@@ -28,15 +28,9 @@ NodeMass node_mass(const ParameterValue& word) {
                                        : NodeMass::massless;
 }
 
-double within(const Case& test_case, const Values& value, const std::string& name, double least) {
-  return require_within(test_case.entry->name, name, value(name), least, largest);
-}
-
 // Of a bar whose parameters have this number behind their names.
 Bar bar_of(const Case& test_case, const Values& value, const std::string& number, double v0) {
-  const auto positive = [&](const char* name) {
-    return within(test_case, value, name + number, 1.0 / largest);
-  };
+  const auto positive = [&](const char* name) { return within(test_case, value, name + number); };
   return {positive("L"), positive("E"), positive("rho"), positive("A"), v0};
 }
 
@@ -105,11 +99,9 @@ void use_bars(Case& test_case, const Values& value, const BarsParameters& parame
 }
 
 void build_bar_wall(Case& test_case, const Values& value, double) {
-  const double V = within(test_case, value, "V", 1.0 / largest);
+  const double V = within(test_case, value, "V");
   const auto bar = bar_of(test_case, value, "", -V);
-  BarsParameters p{{bar},
-                   within(test_case, value, "d", 1.0 / largest),
-                   require_positive(test_case.entry->name, "t_end", value("t_end"))};
+  BarsParameters p{{bar}, within(test_case, value, "d"), end_of(test_case, value)};
   use_bars(test_case, value, p);
 }
 
@@ -117,8 +109,8 @@ void build_bouncing(Case& test_case, const Values& value, double) {
   const auto& who = test_case.entry->name;
   BarsParameters p{{bar_of(test_case, value, "", 0.0)},
                    0.0,
-                   require_positive(who, "t_end", value("t_end")),
-                   within(test_case, value, "g", 1.0 / largest),
+                   end_of(test_case, value),
+                   within(test_case, value, "g"),
                    value("N")};
   if (!(p.N > 0.0 && p.N <= 1e3))
     refuse(who, "N", p.N, "0 < N <= 1000", "It is the time of the first fall over L/c.");
@@ -138,9 +130,7 @@ void build_two_bars(Case& test_case, const Values& value, double) {
   if (!(v1 > v2))
     refuse(who, "v1", v1, fmt::format("v1 > v2 = {}", v2), "Otherwise the bars do not meet.");
   const auto first = bar_of(test_case, value, "1", v1), second = bar_of(test_case, value, "2", v2);
-  BarsParameters p{{first, second},
-                   within(test_case, value, "d", 1.0 / largest),
-                   require_positive(who, "t_end", value("t_end"))};
+  BarsParameters p{{first, second}, within(test_case, value, "d"), end_of(test_case, value)};
   use_bars(test_case, value, p);
   const auto &wave1 = test_case.bars->wave(0), &wave2 = test_case.bars->wave(1);
   const auto inverse = numerics::Bounded(1.0) / (wave1.impedance * wave1.transit) +
@@ -150,11 +140,6 @@ void build_two_bars(Case& test_case, const Values& value, double) {
     test_case.constants.push_back(
         {"restitution", (test_case.bars->impulse(p.end) * inverse).nearest() / (v1 - v2) - 1.0, "",
          "of the centres of mass; the rest of the energy is kept as vibration"});
-}
-
-Parameter positive(std::string name, double standard, const char* unit, const char* meaning) {
-  auto allowed = fmt::format("1e-30 <= {} <= 1e+30", name);
-  return {std::move(name), standard, unit, std::move(allowed), meaning};
 }
 
 // What a bar has, then what the case has, then what its mesh has.
@@ -181,7 +166,7 @@ std::vector<Parameter> parameters(const std::vector<std::string>& numbers,
                    {"massless", "lumped, that of contact nodes moved to their neighbours"}}});
   list.push_back({"eta", 0.0, "", "0 <= eta <= 1; 0 for massless",
                   "restitution of the mesh's contact node; the bar has none"});
-  list.push_back({"t_end", end, "s", "0 < t_end < infinity", "end of the run"});
+  list.push_back(t_end(end));
   return list;
 }
 

@@ -17,7 +17,20 @@
 namespace clackers::cases {
 
 Parameter eta() { return {"eta", 1.0, "", "0 <= eta <= 1", "restitution; 1 is elastic"}; }
-Parameter t_end() { return {"t_end", 20.0, "s", "0 < t_end < infinity", "end of the run"}; }
+Parameter t_end(double standard) {
+  return {"t_end", standard, "s", "0 < t_end < infinity", "end of the run"};
+}
+Parameter positive(std::string name, double standard, const char* unit, const char* meaning) {
+  auto allowed = fmt::format("1e-30 <= {} <= 1e+30", name);
+  return {std::move(name), standard, unit, std::move(allowed), meaning};
+}
+
+double within(const Case& test_case, const Values& value, const std::string& name, double least) {
+  return require_within(test_case.entry->name, name, value(name), least, 1e30);
+}
+double end_of(const Case& test_case, const Values& value) {
+  return require_positive(test_case.entry->name, "t_end", value("t_end"));
+}
 
 double ratio(const Case& test_case, double N) {
   constexpr double largest_N = 249'999'999;
@@ -182,7 +195,8 @@ std::vector<CaseRow> pair_rows() {
 const std::vector<CaseRow>& rows() {
   static const auto all = [] {
     auto list = pair_rows();
-    for (const auto more : {assembly_rows, orbit_rows, resting_rows, bar_rows})
+    for (const auto more :
+         {assembly_rows, orbit_rows, resting_rows, friction_rows, elliptic_rows, bar_rows})
       for (auto& row : more()) list.push_back(std::move(row));
     return list;
   }();

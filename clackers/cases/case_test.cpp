@@ -57,8 +57,11 @@ TEST(Cases, BuildAProblemAndItsReferenceThatFitTogether) {
         s.mass * start.a + s.damping * start.v + s.stiffness * start.u - forces;
     const Eigen::VectorXd size = s.stiffness.cwiseAbs() * start.u.cwiseAbs() + forces.cwiseAbs() +
                                  s.damping.cwiseAbs() * start.v.cwiseAbs();
-    const Eigen::VectorXd error = s.mass.cwiseAbs() * bound.a + s.damping.cwiseAbs() * bound.v +
-                                  s.stiffness.cwiseAbs() * bound.u;
+    // Friction has any force up to its limit.
+    Eigen::VectorXd friction = Eigen::VectorXd::Zero(rest.size());
+    for (const auto& f : test_case.problem.frictions) friction += f.limit * f.direction.cwiseAbs();
+    const Eigen::VectorXd error = friction + s.mass.cwiseAbs() * bound.a +
+                                  s.damping.cwiseAbs() * bound.v + s.stiffness.cwiseAbs() * bound.u;
     for (Eigen::Index i = 0; i < rest.size(); ++i)
       EXPECT_LE(std::abs(rest[i]), roundings * size[i] + error[i]);
     for (const auto* list : {&test_case.constants, &test_case.indicators})

@@ -69,7 +69,7 @@ void build_ball(Case& test_case, const Values& value, double) {
   auto& problem = test_case.problem;
   problem = mass_above_stop(1.0, 0.0, 0.0, eta, {{0, -g, 0.0, 0.0}});
   problem.start = {0.0, VectorXd::Constant(1, h0), VectorXd::Constant(1, v0)};
-  problem.end = require_positive(who, "t_end", value("t_end"));
+  problem.end = end_of(test_case, value);
   const double V = std::hypot(v0, std::sqrt(2.0 * g * h0));
   // (v0 + V)/g without cancellation.
   const double t_1 = v0 > 0.0 ? (v0 + V) / g : 2.0 * h0 / (V - v0);
@@ -138,7 +138,7 @@ void build_pressed(Case& test_case, const Values& value, double) {
   auto& problem = test_case.problem;
   problem = mass_above_stop(m, c, k, eta, std::move(forces));
   problem.start = {0.0, VectorXd::Constant(1, u0), VectorXd::Constant(1, v0)};
-  problem.end = require_positive(who, "t_end", value("t_end"));
+  problem.end = end_of(test_case, value);
   const double end = problem.end, square = k / m - 0.25 * (c / m) * (c / m);
   test_case.damped_periods = {square > 0.0 ? 2.0 * pi / std::sqrt(square) : end};
   if (f1 > 0.0) test_case.damped_periods[0] = std::min(test_case.damped_periods[0], 2.0 * pi / nu);
@@ -193,7 +193,7 @@ void build_plastic(Case& test_case, const Values& value, double) {
   problem.system.damping = diagonal(product("c1", 2.0 * m1, sigma), product("c2", 2.0 * m2, sigma));
   problem.contacts = {model::contact_between(2, 0, 1, 0.0)};
   problem.start = {0.0, VectorXd::Zero(2), VectorXd::Constant(2, V)};
-  problem.end = require_positive(who, "t_end", value("t_end"));
+  problem.end = end_of(test_case, value);
   const double w_c = std::sqrt((k1 + k2) / (m1 + m2) - sigma * sigma), T_c = pi / w_c, T = pi / W;
   test_case.damped_periods = {2.0 * pi / (X * W), 2.0 * pi / W};
   test_case.constants = {
@@ -208,9 +208,6 @@ void build_plastic(Case& test_case, const Values& value, double) {
   use_flights(test_case);
 }
 
-Parameter positive(const char* name, double standard, const char* unit, const char* meaning) {
-  return {name, standard, unit, std::string("1e-30 <= ") + name + " <= 1e+30", meaning};
-}
 Parameter not_negative(const char* name, double standard, const char* unit, const char* meaning) {
   return {name, standard, unit, std::string("0 <= ") + name + " <= 1e+30", meaning};
 }
@@ -233,7 +230,7 @@ std::vector<CaseRow> resting_rows() {
          any("v0", 0.0, "m/s", "initial velocity, upwards"),
          positive("g", 9.81, "m/s^2", "gravity"),
          {"eta", 0.8, "", "0 <= eta < 1", "restitution"},
-         {"t_end", 5.0, "s", "0 < t_end < infinity", "end of the run"}}},
+         t_end(5.0)}},
        build_ball},
       {{"pressed-oscillator",
         "A damped mass that a force presses on a stop, with or without a harmonic part: it comes to "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,7 +26,15 @@ struct CaseRow {
 
 /// Parameters that mean the same in every case.
 Parameter eta();
-Parameter t_end();
+Parameter t_end(double standard = 20.0);
+/// From 1e-30 to 1e30.
+Parameter positive(std::string name, double standard, const char* unit, const char* meaning);
+
+/// The number of a parameter, from `least` to 1e30, and the end of the run. Throw InputError outside.
+double within(const Case& test_case, const Values& value, const std::string& name,
+              double least = 1e-30);
+double end_of(const Case& test_case, const Values& value);
+
 Parameter xi1();
 Parameter whole_N();
 Parameter scale(const char* name, double default_value, const char* unit, const char* allowed,
@@ -43,6 +52,12 @@ std::vector<CaseRow> assembly_rows();
 
 /// Elastic bars in contact, and their meshes.
 std::vector<CaseRow> bar_rows();
+
+/// Nonlinear oscillators above a stop.
+std::vector<CaseRow> elliptic_rows();
+
+/// Masses under dry friction.
+std::vector<CaseRow> friction_rows();
 
 /// Masses that come to rest on a stop or on each other.
 std::vector<CaseRow> resting_rows();

@@ -7,6 +7,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/decks/rows.hpp"
 #include "clackers/decks/text.hpp"
+#include "clackers/model/nonlinear_springs.hpp"
 #include "clackers/model/problem_file.hpp"
 
 namespace clackers::decks {
@@ -73,6 +74,8 @@ std::vector<DeckFile> deck(const Format& format, const Subject& subject) {
   if (format.write == nullptr) refuse_deck(format.name, format.contact);
   if (!subject.method.empty() && !format.name.starts_with("fmu"))
     refuse_deck(format.name, "a method goes into a unit only; use --to fmu2 or --to fmu3");
+  if (!subject.problem.frictions.empty() || model::nonlinear_springs(subject.problem))
+    refuse_deck(format.name, "its models have neither dry friction nor nonlinear springs yet");
   auto files = format.write(subject);
   for (auto& file : files)
     if (file.name == "run")

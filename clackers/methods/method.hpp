@@ -41,7 +41,8 @@ struct Facts {
 /// by their stiffnesses, whatever these are: they claim a floor, but not that stiffness lowers it.
 inline Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool collides,
                       bool shares_impacts = false) {
-  const bool is_of_impacts = collides || facts.through_impacts.behaviour == Behaviour::exact;
+  const bool is_of_impacts =
+      collides || !problem.frictions.empty() || facts.through_impacts.behaviour == Behaviour::exact;
   const Claim claim =
       is_of_impacts ? facts.through_impacts : Claim{Behaviour::proper, facts.smooth_order, {}};
   if (shares_impacts && claim.behaviour == Behaviour::stagnating) return {claim.behaviour, 0.0, {}};
@@ -58,6 +59,15 @@ struct Objection {
   std::string sentence;
   Code code;
 };
+
+/// Of a method without a law of friction, to a problem that has it.
+inline Objection objection_to_friction(const std::string& who) {
+  return {
+      who +
+          ": the problem has dry friction, for which it has no law. Use event-driven, penalty or "
+          "moreau-jean.",
+      "linear-only"};
+}
 
 /// What a run is to resolve: a step, or the tolerance of an adaptive method.
 struct Resolution {

@@ -127,6 +127,12 @@ std::unique_ptr<model::Run> prepare_run(const Method& method, const model::Impac
   return run.template operator()<model::any_dof>();
 }
 
+/// A contact treatment that has a law of friction, and another loop for problems with it.
+template <class T>
+concept TakesFriction = requires {
+  typename T::template FrictionLoop<1>;
+};
+
 /// A contact treatment of type T.
 template <class T>
 class TypedTreatment final : public Treatment {
@@ -147,6 +153,7 @@ class TypedTreatment final : public Treatment {
   }
   std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const override {
+    if (!TakesFriction<T> && !problem.frictions.empty()) return objection_to_friction(method.name);
     return treatment_.objection(method, problem);
   }
   double contact_time(const model::ImpactProblem<>& problem) const override {
@@ -155,6 +162,10 @@ class TypedTreatment final : public Treatment {
   std::unique_ptr<model::Run> prepare(const Method& method, const Integrator& integrator,
                                       const model::ImpactProblem<>& problem,
                                       const Resolution& resolution) const override {
+    if constexpr (TakesFriction<T>)
+      if (!problem.frictions.empty())
+        return prepare_run<T::template FrictionLoop>(method, problem, resolution, integrator,
+                                                     treatment_);
     return prepare_run<T::template Loop>(method, problem, resolution, integrator, treatment_);
   }
 
@@ -170,6 +181,8 @@ class StandaloneMethod final : public Method {
 
   Facts facts() const override { return scheme_.facts(); }
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const override {
+    if (!requires { T::takes_friction; } && !problem.frictions.empty())
+      return objection_to_friction(std::string(T::name));
     return scheme_.objection(problem);
   }
   std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>& problem,

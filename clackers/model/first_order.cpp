@@ -16,7 +16,14 @@ using Constant = Eigen::Map<const VectorXd>;
 }  // namespace
 
 FirstOrder::FirstOrder(const ImpactProblem<>& problem)
-    : problem_(problem), mass_(problem.system.mass) {}
+    : problem_(problem), mass_(problem.system.mass) {
+  if (!problem.frictions.empty())
+    throw InputError(
+        "problem: dry friction has any force within its limit where nothing slides, so that no rate "
+        "follows from the state; allowed: problems without friction. Use M, C, K and the frictions of the "
+        "problem itself.",
+        "linear-only");
+}
 
 void FirstOrder::rate(double t, std::span<const double> y, std::span<double> rate) const {
   const auto& system = problem_.system;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -55,6 +56,14 @@ class OneSidedSprings final : public NonlinearForce<any_dof> {
         dp_du += stiffnesses_[j] * contacts_[j].direction * contacts_[j].direction.transpose();
   }
 
+  double potential(const Vector& u) const override {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < contacts_.size(); ++j) {
+      const double g = std::min(contacts_[j].gap_at(u), 0.0);
+      sum += 0.5 * stiffnesses_[j] * g * g;
+    }
+    return sum;
+  }
   bool has_kinks() const override { return true; }
 
   const std::vector<Contact<>>& contacts() const { return contacts_; }

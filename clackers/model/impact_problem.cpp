@@ -72,6 +72,18 @@ void require_contact(const Contact<>& contact, std::size_t number, Index dof,
         "starts-in-contact");
 }
 
+void require_friction(const Friction<>& friction, std::size_t number, Index dof) {
+  const auto who = fmt::format("friction {}", number);
+  require_vector(who + " direction", friction.direction, dof);
+  if (friction.direction.isZero(0.0))
+    throw InputError(
+        fmt::format("{}: direction = 0; allowed: a row with an entry other than 0.", who),
+        "out-of-range");
+  require_finite(who, "limit", friction.limit);
+  require_within(who, "kinetic", friction.kinetic, 0.0, friction.limit);
+  require_finite(who, "velocity", friction.velocity);
+}
+
 }  // namespace
 
 void validate(const ImpactProblem<>& problem) {
@@ -97,6 +109,8 @@ void validate(const ImpactProblem<>& problem) {
            fmt::format("end > start = {}, in seconds", problem.start.t));
   for (std::size_t i = 0; i < problem.contacts.size(); ++i)
     require_contact(problem.contacts[i], i + 1, dof, problem.start);
+  for (std::size_t i = 0; i < problem.frictions.size(); ++i)
+    require_friction(problem.frictions[i], i + 1, dof);
 }
 
 template <int Dof>
@@ -117,9 +131,12 @@ ImpactProblem<Dof> with_dof(const ImpactProblem<>& problem) {
     ImpactProblem<Dof> fixed{{s.mass, s.damping, s.stiffness, s.add_load, nullptr},
                              {},
                              {problem.start.t, problem.start.u, problem.start.v},
-                             problem.end};
+                             problem.end,
+                             {}};
     for (const auto& c : problem.contacts)
       fixed.contacts.push_back({c.direction, c.gap, c.restitution});
+    for (const auto& f : problem.frictions)
+      fixed.frictions.push_back({f.direction, f.limit, f.kinetic, f.velocity});
     return fixed;
   }
 }

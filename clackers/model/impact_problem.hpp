@@ -20,6 +20,20 @@ struct Contact {
   double gap_rate(const Vector<Dof>& v) const { return direction.dot(v); }
 };
 
+/// Dry friction along b, of a constant normal force: with the sliding speed s = b . v - velocity the
+/// structure feels -kinetic sgn(s) b, and where s = 0 the force lambda b, |lambda| <= limit, that keeps it
+/// so; C. A. Coulomb (1785).
+template <int Dof = any_dof>
+struct Friction {
+  Vector<Dof> direction;  ///< b, dimensionless
+  double limit = 0.0;     ///< of the static force [N]
+  double kinetic = 0.0;   ///< force while it slides [N], at most the limit
+  double velocity = 0.0;  ///< b . v at which nothing slides [m/s]: that of a belt
+
+  /// s [m/s].
+  double sliding_speed(const Vector<Dof>& v) const { return direction.dot(v) - velocity; }
+};
+
 /// The contact that keeps u_i - u_j >= 0, of `dof` displacements.
 inline Contact<> contact_between(Eigen::Index dof, Eigen::Index i, Eigen::Index j,
                                  double restitution = 1.0) {
@@ -37,13 +51,15 @@ struct ImpactProblem {
   std::vector<Contact<Dof>> contacts;  ///< empty: no contact anywhere
   State<Dof> start;
   double end = 0.0;
+  std::vector<Friction<Dof>> frictions{};
 
   Eigen::Index dof() const { return system.dof(); }
 };
 
 /// Throws InputError unless sizes fit, all numbers are finite, the mass matrix is symmetric
 /// positive definite, damping and stiffness are symmetric, restitutions lie in [0, 1], no contact
-/// is violated at the start, and the end lies after the start.
+/// is violated at the start, the forces of friction are 0 <= kinetic <= limit, and the end lies after the
+/// start.
 void validate(const ImpactProblem<>& problem);
 
 /// The same problem with its number of degrees of freedom known at compile time (Dof is 1, 2 or

@@ -98,7 +98,8 @@ class Motion {
   /// The contacts that stay closed, ascending by `from`. Impacts that accumulate before are not
   /// among those counted.
   virtual std::vector<ClosedContact> closed_contacts() const { return {}; }
-  /// The force of each contact at t [N], along its direction; empty where no contact stays closed.
+  /// The force of each contact and then of each row of friction at t [N], along its direction; empty where
+  /// no contact stays closed and nothing rubs.
   virtual Eigen::VectorXd contact_forces(double t, Side) const {
     require_inside("contact forces", t, end());
     return {};

@@ -19,6 +19,7 @@
 #include "clackers/base/number.hpp"
 #include "clackers/base/text.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/model/nonlinear_springs.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::model {
@@ -117,7 +118,7 @@ toml::array array_of(std::span<const double> numbers) {
 // Of lines key=values as problem_file_text() writes them.
 toml::table table_from_lines(std::string_view text, const std::string& name) {
   toml::table root, start;
-  toml::array contacts, loads, springs;
+  toml::array contacts, loads, springs, frictions, laws;
   std::map<std::string, toml::array> matrices;
   for (int number = 1; !text.empty(); ++number) {
     const auto line = text.substr(0, text.find('\n'));
@@ -138,7 +139,8 @@ toml::table table_from_lines(std::string_view text, const std::string& name) {
     const auto n = all.size();
     const bool in_contact = key == "gap" || key == "restitution";
     if (n == 0 || (in_contact && contacts.empty()) || (key == "load" && n != 4) ||
-        (key == "spring" && n < 3))
+        (key == "spring" && n < 3) || (key == "friction" && n < 4) ||
+        ((key == "sine" || key == "cubic") && n < 3))
       refuse_syntax(
           place, fmt::format("\"{}\"; allowed: lines as {{case:text}} has them", printable(line)));
     if (key == "M" || key == "C" || key == "K")
@@ -158,6 +160,16 @@ toml::table table_from_lines(std::string_view text, const std::string& name) {
       springs.push_back(toml::table{{"direction", array_of(all.first(n - 2))},
                                     {"gap", all[n - 2]},
                                     {"stiffness", all[n - 1]}});
+    else if (key == "sine" || key == "cubic")
+      laws.push_back(toml::table{{"direction", array_of(all.first(n - 2))},
+                                 {"law", key},
+                                 {"stiffness", all[n - 2]},
+                                 {"length", all[n - 1]}});
+    else if (key == "friction")
+      frictions.push_back(toml::table{{"direction", array_of(all.first(n - 3))},
+                                      {"limit", all[n - 3]},
+                                      {"kinetic", all[n - 2]},
+                                      {"velocity", all[n - 1]}});
     else if (key != "dof" && key != "contacts")
       root.insert_or_assign(key, all[0]);
   }
@@ -166,6 +178,8 @@ toml::table table_from_lines(std::string_view text, const std::string& name) {
   root.insert_or_assign("contacts", std::move(contacts));
   root.insert_or_assign("loads", std::move(loads));
   root.insert_or_assign("springs", std::move(springs));
+  root.insert_or_assign("frictions", std::move(frictions));
+  root.insert_or_assign("nonlinear_springs", std::move(laws));
   return root;
 }
 
@@ -229,15 +243,17 @@ class Reader : public TomlReader {
   }
 };
 
+VectorXd direction_from(const Reader& reader, const toml::table& table, Index dof) {
+  auto direction = reader.vector(
+      reader.need(table, "direction", "a number for each degree of freedom"), "direction", dof);
+  if (direction.isZero(0.0))
+    reader.fail(table, "direction = 0; allowed: a number other than 0 in it.", "out-of-range");
+  return direction;
+}
+
 // Direction and gap of a contact or a spring.
 model::Contact<> contact_from(const Reader& reader, const toml::table& table, Index dof) {
-  model::Contact<> contact;
-  contact.direction = reader.vector(
-      reader.need(table, "direction", "a number for each degree of freedom"), "direction", dof);
-  contact.gap = reader.number(table, "gap", 0.0);
-  if (contact.direction.isZero(0.0))
-    reader.fail(table, "direction = 0; allowed: a number other than 0 in it.", "out-of-range");
-  return contact;
+  return {direction_from(reader, table, dof), reader.number(table, "gap", 0.0)};
 }
 
 // A contact with a stiffness is a spring.
@@ -279,6 +295,52 @@ void add_contacts(const Reader& reader, const toml::table& root, model::ImpactPr
   if (!springs.empty())
     problem.system.nonlinear =
         std::make_shared<model::OneSidedSprings>(std::move(springs), std::move(stiffnesses));
+}
+
+void add_nonlinear_springs(const Reader& reader, const toml::table& root,
+                           model::ImpactProblem<>& problem) {
+  const auto* list = reader.tables(root, "nonlinear_springs");
+  if (list == nullptr || list->empty()) return;
+  if (problem.system.nonlinear)
+    reader.fail(*list, "one-sided and nonlinear springs; allowed: one kind.", "linear-only");
+  using Springs = model::NonlinearSprings;
+  std::vector<Springs::Row> rows;
+  for (const auto& node : *list) {
+    const auto& table = *node.as_table();
+    reader.require_known(table, {"direction", "law", "stiffness", "length"}, " of a spring");
+    const auto& law_node = reader.need(table, "law", "sine or cubic");
+    const auto law = reader.word(law_node, "law");
+    if (law != "sine" && law != "cubic")
+      reader.fail(law_node, fmt::format("law = {}; allowed: sine, cubic.", printable(law)),
+                  "unknown-name");
+    rows.push_back({direction_from(reader, table, problem.dof()),
+                    law == "sine" ? Springs::Law::sine : Springs::Law::cubic,
+                    reader.number(table, "stiffness", "in N/m, of cubic in N/m^3"),
+                    reader.number(table, "length", 0.0)});
+    if (law == "sine" && !(rows.back().length > 0.0))
+      reader.fail(table, fmt::format("length = {}; allowed: above 0 m.", rows.back().length),
+                  "out-of-range");
+  }
+  problem.system.nonlinear = std::make_shared<Springs>(std::move(rows));
+}
+
+void add_frictions(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
+  const auto* list = reader.tables(root, "frictions");
+  if (list == nullptr) return;
+  for (const auto& node : *list) {
+    const auto& table = *node.as_table();
+    reader.require_known(table, {"direction", "limit", "kinetic", "velocity"}, " of a friction");
+    model::Friction<> row{direction_from(reader, table, problem.dof()),
+                          reader.number(table, "limit", "in N"), 0.0,
+                          reader.number(table, "velocity", 0.0)};
+    row.kinetic = reader.number(table, "kinetic", row.limit);
+    if (!(row.kinetic >= 0.0 && row.kinetic <= row.limit))
+      reader.fail(table,
+                  fmt::format("limit = {}, kinetic = {}; allowed: 0 <= kinetic <= limit, in N.",
+                              row.limit, row.kinetic),
+                  "out-of-range");
+    problem.frictions.push_back(std::move(row));
+  }
 }
 
 void add_loads(const Reader& reader, const toml::table& root, model::ImpactProblem<>& problem) {
@@ -333,7 +395,10 @@ void require_plausible(const std::string& name, const model::ImpactProblem<>& pr
 model::ImpactProblem<> problem_from_text(std::string_view text, const std::string& name) {
   const auto root = table_from(text, name);
   const Reader reader(name);
-  reader.require_known(root, {"M", "C", "K", "end", "start", "contacts", "loads", "springs"}, "");
+  reader.require_known(root,
+                       {"M", "C", "K", "end", "start", "contacts", "loads", "springs",
+                        "nonlinear_springs", "frictions"},
+                       "");
   model::ImpactProblem<> problem;
   auto& system = problem.system;
   system.mass = reader.matrix(reader.need(root, "M", "the mass matrix in kg"), "M", -1);
@@ -359,6 +424,8 @@ model::ImpactProblem<> problem_from_text(std::string_view text, const std::strin
   problem.start.v = v == nullptr ? VectorXd(VectorXd::Zero(n)) : reader.vector(*v, "v", n);
   add_contacts(reader, root, problem);
   add_loads(reader, root, problem);
+  add_nonlinear_springs(reader, root, problem);
+  add_frictions(reader, root, problem);
   try {
     validate(problem);
   } catch (const InputError& error) {

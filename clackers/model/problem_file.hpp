@@ -31,6 +31,16 @@ extern const std::string_view example_problem;
 ///     direction = [1, -1]
 ///     gap = 0                     # m, optional
 ///     stiffness = 400             # N/m
+///     [[nonlinear_springs]]       # any number: x = direction . u
+///     direction = [1, 0]
+///     law = "sine"                # stiffness length sin(x/length), or cubic: stiffness x^3
+///     stiffness = 400             # N/m, of cubic N/m^3
+///     length = 2                  # m
+///     [[frictions]]               # any number: dry friction along the direction
+///     direction = [1, 0]
+///     limit = 0.2                 # N, of the static force
+///     kinetic = 0.1               # N, optional: the limit
+///     velocity = 0                # m/s, optional: direction . v at which nothing slides
 ///
 /// in TOML, as JSON (this object, or one with it as member "problem"), or as the lines of
 /// problem_file_text(). A number may be a text with a fraction, "1/3".
@@ -56,9 +66,12 @@ model::ImpactProblem<> read_problem(const std::string& path);
 ///
 ///      "loads": [{"dof": 1, "amplitude": 2, "frequency": 3, "phase": 0}],
 ///      "springs": [{"direction": [1, -1], "gap": 0, "stiffness": 400}],
+///      "nonlinear_springs": [{"direction": [1], "law": "sine", "stiffness": 9.8, "length": 1}],
+///      "frictions": [{"direction": [1, 0], "limit": 0.2, "kinetic": 0.1, "velocity": 0}],
 ///
 /// add the forces amplitude cos(frequency t + phase) on the right, dof from 1, and
-/// stiffness min(direction . u - gap, 0) direction on the left. Throws InputError (linear-only) for
+/// stiffness min(direction . u - gap, 0) direction and kinetic sgn(s) direction, s = direction . v - velocity,
+/// on the left; where s = 0 friction is what keeps it so, up to its limit. Throws InputError (linear-only) for
 /// any other load or nonlinear force.
 std::string problem_json(const model::ImpactProblem<>& problem);
 
@@ -79,7 +92,7 @@ std::string problem_file_json(std::string_view case_name, const model::ImpactPro
 ///     restitution1=1
 ///
 /// with the last three lines for each contact, then lines load1=dof amplitude frequency phase and
-/// spring1=direction gap stiffness for each load and spring. Throws as problem_json does.
+/// spring1=direction gap stiffness, sine1= or cubic1=direction stiffness length and friction1=direction limit kinetic velocity for each of them. Throws as problem_json does.
 std::string problem_file_text(const model::ImpactProblem<>& problem);
 
 }  // namespace clackers::model

@@ -8,6 +8,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/files/json.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/model/nonlinear_springs.hpp"
 
 namespace clackers::model {
 namespace {
@@ -28,10 +29,11 @@ const model::HarmonicLoad* harmonic(const Problem& problem) {
 }
 void require_numbers(const Problem& problem) {
   if ((problem.system.add_load && harmonic(problem) == nullptr) ||
-      (problem.system.nonlinear && model::one_sided_springs(problem) == nullptr))
+      (problem.system.nonlinear && model::one_sided_springs(problem) == nullptr &&
+       model::nonlinear_springs(problem) == nullptr))
     throw InputError(
         "problem: its load or nonlinear force cannot be written as numbers; allowed: M, C and K, "
-        "harmonic loads and one-sided springs.",
+        "harmonic loads, one-sided, sine and cubic springs.",
         "linear-only");
 }
 
@@ -74,6 +76,22 @@ std::string problem_json(const Problem& problem) {
                                  one_sided->contacts()[i].gap, one_sided->stiffnesses()[i]));
     forces += fmt::format(" \"springs\": [{}],\n", fmt::join(rows, ", "));
   }
+  if (const auto* springs = model::nonlinear_springs(problem)) {
+    std::vector<std::string> rows;
+    for (const auto& row : springs->rows())
+      rows.push_back(
+          fmt::format(R"({{"direction": {}, "law": "{}", "stiffness": {}, "length": {}}})",
+                      list(numbers(row.direction)), row.name(), row.stiffness, row.length));
+    forces += fmt::format(" \"nonlinear_springs\": [{}],\n", fmt::join(rows, ", "));
+  }
+  if (!problem.frictions.empty()) {
+    std::vector<std::string> rows;
+    for (const auto& f : problem.frictions)
+      rows.push_back(
+          fmt::format(R"({{"direction": {}, "limit": {}, "kinetic": {}, "velocity": {}}})",
+                      list(numbers(f.direction)), f.limit, f.kinetic, f.velocity));
+    forces += fmt::format(" \"frictions\": [{}],\n", fmt::join(rows, ", "));
+  }
   return fmt::format(
       "{{\"M\": {}, \"C\": {}, \"K\": {},\n \"contacts\": [{}],\n{}"
       " \"start\": {{\"t\": {}, \"u\": {}, \"v\": {}}}, \"end\": {}}}",
@@ -114,6 +132,15 @@ std::string problem_file_text(const Problem& problem) {
       text += fmt::format("spring{}={} {} {}\n", i + 1,
                           fmt::join(numbers(one_sided->contacts()[i].direction), " "),
                           one_sided->contacts()[i].gap, one_sided->stiffnesses()[i]);
+  number = 0;
+  if (const auto* springs = model::nonlinear_springs(problem))
+    for (const auto& row : springs->rows())
+      text += fmt::format("{}{}={} {} {}\n", row.name(), ++number,
+                          fmt::join(numbers(row.direction), " "), row.stiffness, row.length);
+  number = 0;
+  for (const auto& f : problem.frictions)
+    text += fmt::format("friction{}={} {} {} {}\n", ++number, fmt::join(numbers(f.direction), " "),
+                        f.limit, f.kinetic, f.velocity);
   return text;
 }
 

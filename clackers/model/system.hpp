@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -36,6 +37,11 @@ class NonlinearForce {
   /// dp_du += dp/du [N/m], dp_dv += dp/dv [N s/m].
   virtual void add_tangent(const Vector<Dof>& u, const Vector<Dof>& v, Matrix<Dof>& dp_du,
                            Matrix<Dof>& dp_dv) const = 0;
+  /// The energy that p stores at u [J], 0 at u = 0; NaN where p has no potential.
+  virtual double potential(const Vector<Dof>& u) const {
+    static_cast<void>(u);
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   /// True where derivatives of p jump, so that a step across a jump has an error of second order.
   virtual bool has_kinks() const { return false; }
 };

@@ -308,6 +308,13 @@ void PiecewiseMotion::Builder::begin(State state) {
 PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, std::string_view who)
     : who_(who), problem_(problem), end_(problem.end) {
   validate(problem);
+  if (!problem.frictions.empty())
+    throw InputError(
+        fmt::format("{}: the problem has dry friction, whose motion is not followed flight "
+                    "by flight; allowed: contacts. Take the cases slider, belt or "
+                    "forced-slider.",
+                    who),
+        "linear-only");
   if (problem.start.t != 0.0) refuse(who, "start", problem.start.t, "t = 0");
   require_no_negative_eigenvalue(who, "the stiffness matrix", problem.system.stiffness,
                                  "The structure would not return to its rest.");

@@ -30,22 +30,24 @@ Flights::States Flights::at_time(double t, Side side) const {
 }
 
 void Flights::sample(std::span<const double> times, Side side, model::SampleBuffers out) const {
-  model::require_buffers("motion", out, times.size(), 2);
+  const auto n = std::size_t(dof());
+  model::require_buffers("motion", out, times.size(), n);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto now = at_time(times[i], side);
-    for (std::size_t j = 0; j < 2; ++j) {
-      out.u[2 * i + j] = now[j].u.nearest();
-      out.v[2 * i + j] = now[j].v.nearest();
-      if (!out.a.empty()) out.a[2 * i + j] = now[j].a.nearest();
+    for (std::size_t j = 0; j < n; ++j) {
+      out.u[n * i + j] = now[j].u.nearest();
+      out.v[n * i + j] = now[j].v.nearest();
+      if (!out.a.empty()) out.a[n * i + j] = now[j].a.nearest();
     }
   }
 }
 
 Kinematics Flights::error_bound(double t) const {
-  Kinematics bound{Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)};
+  const auto zero = Eigen::VectorXd::Zero(dof());
+  Kinematics bound{zero, zero, zero};
   for (const auto side : {Side::left, Side::right}) {
     const auto now = at_time(t, side);
-    for (Eigen::Index j = 0; j < 2; ++j) {
+    for (Eigen::Index j = 0; j < dof(); ++j) {
       const auto& mass = now[std::size_t(j)];
       bound.u[j] = std::max(bound.u[j], mass.u.nearest_error());
       bound.v[j] = std::max(bound.v[j], mass.v.nearest_error());
@@ -71,9 +73,10 @@ model::MotionImpact Flights::impact(long long index) const {
         "beyond-last-impact");
   const auto instant_of_impact = instant(index);
   const auto limit = limits(index);
-  const auto kinematics = [](const States& states) {
-    Kinematics k{Eigen::VectorXd(2), Eigen::VectorXd(2), Eigen::VectorXd(2)};
-    for (Eigen::Index j = 0; j < 2; ++j) {
+  const auto kinematics = [this](const States& states) {
+    const auto n = dof();
+    Kinematics k{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+    for (Eigen::Index j = 0; j < n; ++j) {
       const auto& mass = states[std::size_t(j)];
       k.u[j] = mass.u.nearest();
       k.v[j] = mass.v.nearest();
@@ -83,7 +86,8 @@ model::MotionImpact Flights::impact(long long index) const {
   };
   const auto energy = [&](const Kinematics& k) {
     const auto& s = problem_.system;
-    return 0.5 * (k.v.dot(s.mass * k.v) + k.u.dot(s.stiffness * k.u));
+    const double stored = s.nonlinear ? s.nonlinear->potential(k.u) : 0.0;
+    return 0.5 * (k.v.dot(s.mass * k.v) + k.u.dot(s.stiffness * k.u)) + stored;
   };
   model::MotionImpact hit;
   hit.index = index;

@@ -8,13 +8,14 @@
 
 namespace clackers::exact {
 
-/// Two masses, free between impacts, in closed form: flight k lasts from impact k to impact k + 1,
-/// flight 0 from an instant before t = 0. Every formula is evaluated with its running error, from
+/// One or two masses, free between impacts, in closed form: flight k lasts from impact k to impact k + 1,
+/// flight 0 from an instant at or before t = 0. Without impacts, from one change of stick and slip to the
+/// next. Every formula is evaluated with its running error, from
 /// the binary64 parameters on, so that error_bound() needs no derivation of its own.
 /// Const, safe to share between threads.
 class Flights : public model::Motion {
  public:
-  int dof() const override { return 2; }
+  int dof() const override { return int(problem_.dof()); }
   double end() const override { return problem_.end; }
   void sample(std::span<const double> times, model::Side side,
               model::SampleBuffers out) const override;
@@ -33,7 +34,7 @@ class Flights : public model::Motion {
   struct MassState {
     Bounded u, v, a;
   };
-  using States = std::array<MassState, 2>;
+  using States = std::array<MassState, 2>;  // of the first dof() masses
 
   /// The instant of impact k = 1, 2, ...; of k = 0 the beginning of the first flight.
   virtual Bounded instant(long long k) const = 0;

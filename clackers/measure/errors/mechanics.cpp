@@ -89,6 +89,9 @@ FreeState FreeMotion::moved(const FreeState& from, double s, int steps) const {
 }
 
 MechanicalEnergy::MechanicalEnergy(const model::SmoothSystem<>& system)
-    : mass_(rows_of(system.mass)), stiffness_(rows_of(system.stiffness)) {}
+    : mass_(rows_of(system.mass)),
+      stiffness_(rows_of(system.stiffness)),
+      dof_(system.dof()),
+      nonlinear_(system.nonlinear) {}
 
 }  // namespace clackers::measure

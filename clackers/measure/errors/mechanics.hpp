@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -51,14 +52,19 @@ class FreeMotion {
   Eigen::MatrixXd inverse_mass_;
 };
 
-/// Kinetic energy v' M v / 2 and potential energy u' K u / 2 of a linear structure [J].
+/// Kinetic energy v' M v / 2 and potential energy u' K u / 2 of a structure [J], and what a nonlinear force
+/// stores; NaN where that has no potential.
 class MechanicalEnergy {
  public:
   explicit MechanicalEnergy(const model::SmoothSystem<>& system);
 
   /// `v` [m/s] and `u` [m]: one entry a degree of freedom.
   double kinetic(const double* v) const { return 0.5 * form(mass_, v); }
-  double potential(const double* u) const { return 0.5 * form(stiffness_, u); }
+  double potential(const double* u) const {
+    const double linear = 0.5 * form(stiffness_, u);
+    if (!nonlinear_) return linear;
+    return linear + nonlinear_->potential(Eigen::Map<const Eigen::VectorXd>(u, dof_));
+  }
   double total(const double* u, const double* v) const { return kinetic(v) + potential(u); }
 
   /// The entries of a matrix that are not zero, row by row.
@@ -85,6 +91,8 @@ class MechanicalEnergy {
   }
 
   Rows mass_, stiffness_;
+  Eigen::Index dof_ = 0;
+  std::shared_ptr<const model::NonlinearForce<model::any_dof>> nonlinear_;  // may be empty
 };
 
 inline std::vector<double> entries(const Eigen::VectorXd& vector) {

@@ -16,7 +16,7 @@ double largest_energy(const MechanicalEnergy& energy, const model::Motion& refer
   };
   double scale = at(problem.start.t);
   constexpr int parts = 1024;
-  if (problem.system.add_load || !(scale > 0.0))
+  if (problem.system.add_load || !problem.frictions.empty() || !(scale > 0.0))
     for (int i = 1; i <= parts; ++i) scale = std::max(scale, at(reference.end() * i / parts));
   return scale;
 }

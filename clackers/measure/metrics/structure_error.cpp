@@ -10,7 +10,8 @@ namespace clackers::measure {
 
 MetricValue energy_error(const Comparison& comparison, Energy energy) {
   const auto& system = comparison.problem().system;
-  if (system.nonlinear)
+  const double potential = MechanicalEnergy(system).potential(comparison.reference_u().data());
+  if (std::isnan(potential))
     return not_measured("The structure has a nonlinear force, whose potential is not known.");
   if (energy != Energy::potential && !comparison.has_velocities())
     return not_measured("The history has no velocities.");

@@ -47,7 +47,7 @@ ConstrainedSystem<Dof>::ConstrainedSystem(const model::SmoothSystem<Dof>& free,
       factors_(contacts.size()) {
   const auto n = free.dof();
   projector_ = matrix_ = Matrix::Identity(n, n);
-  constant_ = force_ = size_ = Vector::Zero(n);
+  constant_ = drift_ = force_ = size_ = Vector::Zero(n);
   active_.reserve(contacts.size());
   solution_ = forces_ = acceleration_ = rounding_ = earlier_ = contacts.no_impulses();
   constrained_.add_load = [this](double t, std::span<double> force) { add_load(t, force); };
@@ -59,6 +59,17 @@ template <int Dof>
 void ConstrainedSystem<Dof>::activate(Rows contacts, const Vector& u) {
   active_.assign(contacts.begin(), contacts.end());
   project(u);
+}
+
+template <int Dof>
+void ConstrainedSystem<Dof>::hold(Rows rows, const State& now) {
+  activate(rows, now.u);
+  if (active_.empty()) return;
+  since_ = now.t;
+  force_ = now.v;
+  force_.noalias() -= projector_ * now.v;
+  constant_.noalias() += free_.damping * force_;
+  drift_.noalias() = free_.stiffness * force_;
 }
 
 template <int Dof>
@@ -106,7 +117,7 @@ void ConstrainedSystem<Dof>::project(const Vector& u) {
 
 template <int Dof>
 void ConstrainedSystem<Dof>::add_load(double t, std::span<double> force) {
-  force_ = -constant_;
+  force_ = -constant_ - (t - since_) * drift_;
   if (free_.add_load)
     free_.add_load(t, std::span<double>(force_.data(), static_cast<std::size_t>(force_.size())));
   Eigen::Map<Vector> to(force.data(), force_.size());

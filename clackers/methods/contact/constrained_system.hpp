@@ -39,6 +39,8 @@ class ConstrainedSystem {
 
   /// Makes these contacts, closed at `u` and not redundant, the active ones.
   void activate(Rows contacts, const Vector& u);
+  /// The same for rows whose rates b . v at `now` are kept, whatever these are.
+  void hold(Rows rows, const State& now);
 
   /// Makes those of `resting` active that stay closed: contacts that are closed with gap rate 0 at
   /// `now`. Their gap accelerations A and forces F solve, with those A0 of the motion without them,
@@ -73,9 +75,10 @@ class ConstrainedSystem {
   model::SmoothSystem<Dof> constrained_;
   std::vector<std::size_t> active_;
   std::vector<bool> is_active_;
-  numerics::PrincipalCholesky factors_;  // of W_aa
-  Matrix projector_, matrix_;            // Q
-  Vector constant_, force_, size_;
+  numerics::PrincipalCholesky factors_;     // of W_aa
+  Matrix projector_, matrix_;               // Q
+  Vector constant_, drift_, force_, size_;  // drift_: growth of constant_ from since_ on
+  double since_ = 0.0;
   Eigen::VectorXd solution_, forces_;
   Eigen::VectorXd acceleration_, rounding_, earlier_;  // of the gaps, without contact forces
 };

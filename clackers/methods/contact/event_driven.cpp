@@ -6,6 +6,7 @@
 #include "clackers/methods/contact/constrained_system.hpp"
 #include "clackers/methods/contact/crossing.hpp"
 #include "clackers/methods/contact/impact_resolution.hpp"
+#include "clackers/methods/contact/stick_slip.hpp"
 #include "clackers/methods/rows.hpp"
 #include "clackers/methods/stepping/time_loop.hpp"
 
@@ -38,6 +39,11 @@ solved for all of them. A contact is let go where its force changes sign. Contac
 closed at once with linearly dependent b_j end the run, and so do more than 1000 events in one
 step.
 
+A row of dry friction slides, which is a constant force, or sticks, which is a constraint: it stops
+where the cubic through sliding speed and its rate, and then the step map, cross 0, and sticks there
+if the force that holds it is within its limit. It slides where that force crosses the limit, looked
+for at the ends of steps. Friction is taken without contacts, and of rows that share no mass.
+
 Order       that of the integrator.
 Stability   that of the integrator.
 Dissipation none at impacts with eta = 1.
@@ -59,12 +65,23 @@ Source      L. F. Shampine, I. Gladwell, R. W. Brankin, ACM Trans. Math. Softw. 
   }
   std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const {
+    if (auto no = objection_to_stick_slip(method.name, problem)) return no;
     return objection_to_closed_contacts(method.name, problem);
   }
   double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
 
   template <int Dof>
   class Loop;
+  template <int Dof>
+  class FrictionLoop;
+};
+
+template <int Dof>
+class EventDriven::FrictionLoop final : public StickSlip<Dof> {
+ public:
+  FrictionLoop(const Integrator& integrator, const EventDriven&,
+               const model::ImpactProblem<Dof>& problem, const StepPlan& plan)
+      : StickSlip<Dof>(integrator, problem, plan) {}
 };
 
 /// A run with located impacts. While nothing is near a contact and no contact is active, a step is

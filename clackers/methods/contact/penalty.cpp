@@ -11,6 +11,7 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/methods/contact/compliant_force.hpp"
+#include "clackers/methods/contact/friction_rows.hpp"
 #include "clackers/methods/rows.hpp"
 #include "clackers/methods/stepping/time_loop.hpp"
 #include "clackers/numerics/roots.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr double default_factor = 1e4;
 constexpr double contacts_per_period = 40.0;
+constexpr double share_of_speed = 0.01, steps_a_contact = 25.0;
 
 // The degree of freedom whose stiffness sets the default of a contact.
 template <int Dof>
@@ -62,13 +64,16 @@ const std::vector<Field<Penalty>>& Penalty::fields() {
     return std::vector<Field<Penalty>>{
         law_field,
         {"stiffness", "0 < stiffness < infinity", "k of the law [N/m], or [N/m^1.5]",
-         &Penalty::stiffness, "1e4 k1 or more, or of the same contact time"}};
+         &Penalty::stiffness, "1e4 k1 or more, or of the same contact time"},
+        {"width", "0 < width < infinity", "sliding speed of the regular law of friction [m/s]",
+         &Penalty::width, "a hundredth of limit/(m_e omega)"}};
   }();
   return all;
 }
 
 void Penalty::validate() const {
   if (!std::isnan(stiffness)) require_positive(name, "stiffness", stiffness);
+  if (!std::isnan(width)) require_positive(name, "width", width);
 }
 
 Claim Penalty::claim(const Facts&) const {
@@ -113,6 +118,14 @@ std::optional<Objection> Penalty::objection_to(const Facts& method) const {
 
 std::optional<Objection> Penalty::objection(const Facts& method,
                                             const model::ImpactProblem<>& problem) const {
+  if (auto no = objection_to_friction_with_contacts(method.name, problem)) return no;
+  for (const double w : widths(problem))
+    if (!(w > 0.0 && std::isfinite(w)))
+      return Objection{
+          method.name +
+              ": the problem has friction on a mass without a spring of its own, so that "
+              "its law has no default width. Give one: penalty:width=VALUE, in m/s.",
+          "no-default-stiffness"};
   const auto& chosen = compliant_law(law);
   for (const auto& contact : problem.contacts) {
     const double eta = contact.restitution;
@@ -152,12 +165,32 @@ double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
   const ContactSet<model::any_dof> contacts(problem);
   const auto all = stiffnesses(problem);
   double shortest = std::numeric_limits<double>::infinity();
+  const ContactSet<model::any_dof> rows(contacts_of_frictions(problem));
+  const auto speeds = widths(problem);
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    shortest =
+        std::min(shortest, steps_a_contact * speeds[j] /
+                               (rows.inverse_effective_mass(j) * problem.frictions[j].limit));
   for (std::size_t j = 0; j < contacts.size(); ++j) {
     const double mass = 1.0 / contacts.inverse_effective_mass(j);
     shortest =
         std::min(shortest, chosen.contact_time(all[j], mass, largest_speed(chosen, problem, mass)));
   }
   return std::isfinite(shortest) ? shortest : 0.0;
+}
+
+template <int Dof>
+std::vector<double> Penalty::widths(const model::ImpactProblem<Dof>& problem) const {
+  const auto as_contacts = contacts_of_frictions(problem);
+  const ContactSet<Dof> rows(as_contacts);
+  std::vector<double> all;
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    all.push_back(!std::isnan(width)
+                      ? width
+                      : share_of_speed * problem.frictions[j].limit *
+                            rows.inverse_effective_mass(j) /
+                            std::sqrt(fastest_squared(problem.system, as_contacts.contacts[j])));
+  return all;
 }
 
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<1>&) const;
@@ -272,6 +305,45 @@ class Penalty::Loop {
   State at_;
   std::vector<Touch> touches_;
   long long steps_ = 0, searches_ = 0;
+};
+
+/// A run with regular friction.
+template <int Dof>
+class Penalty::FrictionLoop {
+ public:
+  using State = model::State<Dof>;
+
+  FrictionLoop(const Integrator& integrator, const Penalty& penalty,
+               const model::ImpactProblem<Dof>& problem, const StepPlan& plan)
+      : problem_(problem), time_loop_(plan, problem_) {
+    problem_.system.nonlinear =
+        std::make_shared<RegularFriction<Dof>>(problem, penalty.widths(problem));
+    stepper_ = integrator.stepper(problem_.system, plan);
+  }
+  FrictionLoop(const FrictionLoop&) = delete;
+  FrictionLoop& operator=(const FrictionLoop&) = delete;
+
+  void advance(Recorder<Dof>& out) {
+    stepper_->reset();
+    stepper_->restart(problem_.start);
+    steps_ = time_loop_.run(*this, problem_.start, out);
+  }
+  model::Work work() const {
+    model::Work work;
+    work.steps = steps_;
+    stepper_->add_work(work);
+    return work;
+  }
+  AnyStepper<Dof>& stepper() { return *stepper_; }
+  bool is_open() const { return false; }
+  bool is_quiet(const State&, const State&) const { return true; }
+  Handled handle(const State&, const State&, Recorder<Dof>&) { return Handled::unchanged; }
+
+ private:
+  model::ImpactProblem<Dof> problem_;
+  TimeLoop<Dof> time_loop_;
+  std::unique_ptr<AnyStepper<Dof>> stepper_;
+  long long steps_ = 0;
 };
 
 template Row row<Penalty>();

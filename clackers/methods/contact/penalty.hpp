@@ -51,6 +51,14 @@ mass bounce where the true masses do not collide. For the other laws it is the o
 contact time at the approach speed sqrt(2 E/m_e), the largest that the energy E at the start
 allows.
 
+Dry friction becomes a smooth force of the sliding speed s, with x = s/width
+
+    F = kinetic tanh x + (limit - kinetic) x/3 exp((1 - x^2/9)/2)
+
+under which nothing comes to rest: what should stick creeps. The default width is a hundredth of
+the speed limit/(m_e omega) that a mass in the row, alone on its springs of frequency omega, gains
+by the limit; a step of m_e width/limit or less resolves it. Friction is taken without contacts.
+
 Order       none: the error comes to stand at the contact time, of order k^(-1/2) for linear
             laws and k^(-2/5) for the others.
 Stability   that of the integrator with the stiffness of the closed contact.
@@ -69,6 +77,8 @@ Source      P. Wriggers, Computational Contact Mechanics, 2nd ed., Springer (200
   std::string law{compliant_laws().front().name};
   /// [N/m], with n = 3/2 [N/m^1.5], > 0; NaN: the default above.
   double stiffness = std::numeric_limits<double>::quiet_NaN();
+  /// [m/s], > 0; NaN: the default above.
+  double width = std::numeric_limits<double>::quiet_NaN();
 
   /// Throws InputError unless 0 < stiffness < infinity, or NaN.
   void validate() const;
@@ -81,12 +91,17 @@ Source      P. Wriggers, Computational Contact Mechanics, 2nd ed., Springer (200
   /// The shortest of the contacts', at the largest approach speed that the energy at the start
   /// allows [s]; 0 without contacts, and where that speed is needed and 0.
   double contact_time(const model::ImpactProblem<>& problem) const;
+  /// Of the regular law of each row of friction [m/s]; infinite where there is no default.
+  template <int Dof>
+  std::vector<double> widths(const model::ImpactProblem<Dof>& problem) const;
   /// Of each contact [N/m^n]. Infinite, NaN or 0 where there is no default.
   template <int Dof>
   std::vector<double> stiffnesses(const model::ImpactProblem<Dof>& problem) const;
 
   template <int Dof>
   class Loop;
+  template <int Dof>
+  class FrictionLoop;
 };
 
 }  // namespace clackers::methods

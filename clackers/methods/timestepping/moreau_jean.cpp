@@ -22,6 +22,12 @@ The contact is thus decided by a predictor at half a step, and the impact happen
 the step. It is reported at the end of the step. Contacts with linearly dependent b that need
 impulses in one step end the run.
 
+Rows of dry friction have the impulses L of the same step with
+
+    |L| <= h limit where b.v1 = velocity,   L = -h kinetic sgn(b.v1 - velocity) elsewhere
+
+of rows that slid in the step before with h kinetic for both. Friction is taken without contacts.
+
 Order       1 of the upper envelope; in smooth motion 2 for theta = 1/2, otherwise 1, and where
             that error, of the size (theta - 1/2) h, is the larger one, errors lie on a line.
 Stability   for every h.
@@ -33,6 +39,7 @@ Cost        one evaluation and one back-substitution a step, one more at an impa
             complementarity problem; one factorization.
 Source      J. J. Moreau, Comput. Methods Appl. Mech. Eng. 177, 329-349 (1999).
 )";
+  static constexpr bool takes_friction = true;
   static const std::vector<Field<MoreauJean>>& fields() {
     static const std::vector<Field<MoreauJean>> all = {
         {"theta", "1/2 <= theta <= 1", "weight of the end of the step", &MoreauJean::theta}};
@@ -55,6 +62,7 @@ Source      J. J. Moreau, Comput. Methods Appl. Mech. Eng. 177, 329-349 (1999).
             .through_impacts = {Behaviour::irregular, 1.0, {}}};
   }
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const {
+    if (auto no = objection_to_friction_with_contacts(specification(*this), problem)) return no;
     return objection_to_closed_contacts(specification(*this), problem);
   }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "clackers/base/constants.hpp"
+
 namespace clackers::methods {
 
 template <int Dof>
@@ -25,7 +27,14 @@ SteppingScheme<Dof>::SteppingScheme(model::ImpactProblem<Dof> problem, const Ste
       most_impact_steps_(most_impact_steps),
       least_(contacts_.size(), 0.0),
       unfinished_(contacts_.size(), {0, 0.0, x0_.v, x0_}),
-      q_(impulses_) {
+      q_(impulses_),
+      frictions_(contacts_of_frictions(problem_)),
+      response_to_friction_(frictions_.response()),
+      friction_(frictions_.no_impulses()),
+      last_friction_(friction_),
+      slip_(friction_),
+      sticks_(frictions_.size(), true),
+      holds_(sticks_) {
   rows_.reserve(contacts_.size());
 }
 
@@ -35,6 +44,8 @@ void SteppingScheme<Dof>::advance(Recorder<Dof>& out) {
   steps_ = 0;
   failure_.reset();
   for (auto& impact : unfinished_) impact.steps = 0;
+  sticks_.assign(sticks_.size(), true);
+  friction_.setZero();
   x0_ = problem_.start;
   start();
   if (!out.append(x0_)) return;
@@ -65,6 +76,7 @@ void SteppingScheme<Dof>::respond(std::string_view who, double h,
   const auto& effective = equation_.factorized(weights);
   require_definite(who, h, equation_.failed());
   contacts_.respond(effective, response_);
+  frictions_.respond(effective, response_to_friction_);
 }
 
 template <int Dof>
@@ -82,6 +94,7 @@ bool SteppingScheme<Dof>::find_impulses(double h, double t1, Recorder<Dof>& out)
   impulses_.setZero();
   jump_.setZero();
   if (failure_) return out.fail(failure_->code, t1, failure_->sentence);
+  if (frictions_.size() > 0) return find_friction(h, t1, out);
   complete(h);
   for (std::size_t j = 0; j < contacts_.size(); ++j) least_[j] = least_rate(j, h);
   // A motion that is not finite is the recorder's to report.
@@ -100,6 +113,61 @@ bool SteppingScheme<Dof>::find_impulses(double h, double t1, Recorder<Dof>& out)
     complete(h);
   }
   return equation_.failed() ? out.fail_step(t1, equation_.failure()) : true;
+}
+
+// The step is made anew with the impulses of friction until these change no more; for linear forces the
+// second one is the last.
+template <int Dof>
+bool SteppingScheme<Dof>::find_friction(double h, double t1, Recorder<Dof>& out) {
+  for (int i = 0;; ++i) {
+    jump_.noalias() = frictions_.response().velocity * friction_;
+    complete(h);
+    if (equation_.failed()) return out.fail_step(t1, equation_.failure());
+    if (!y_.allFinite()) return true;
+    last_friction_ = friction_;
+    improve_friction(h);
+    const double size =
+        std::max(last_friction_.cwiseAbs().maxCoeff(), friction_.cwiseAbs().maxCoeff());
+    if ((friction_ - last_friction_).cwiseAbs().maxCoeff() <= 0x1p-40 * size) break;
+    if (i == most_iterations())
+      return out.fail("complementarity-failed", t1, "the iteration for friction does not end");
+  }
+  for (std::size_t j = 0; j < frictions_.size(); ++j)
+    sticks_[j] = holds_[j] || std::abs(friction_[to_index(j)]) < h * problem_.frictions[j].kinetic;
+  return true;
+}
+
+// Projected iteration of Gauss and Seidel around the sliding speeds of y_; the response is symmetric
+// and positive definite. A row that sticks and reaches its limit slides.
+template <int Dof>
+void SteppingScheme<Dof>::improve_friction(double h) {
+  const auto& w = response_to_friction_.delassus;
+  slip_.noalias() = -(w * friction_);
+  for (std::size_t j = 0; j < frictions_.size(); ++j)
+    slip_[to_index(j)] += problem_.frictions[j].sliding_speed(y_);
+  holds_ = sticks_;
+  for (bool changes = true; changes;) {
+    changes = false;
+    double moved = 0.0;
+    for (int sweep = 0; sweep < 1000; ++sweep) {
+      moved = 0.0;
+      for (std::size_t j = 0; j < frictions_.size(); ++j) {
+        const auto i = to_index(j);
+        const auto& f = problem_.frictions[j];
+        const double most = h * (holds_[j] ? f.limit : f.kinetic);
+        const double free = slip_[i] + w.row(i).dot(friction_) - w(i, i) * friction_[i];
+        const double now = std::clamp(-free / w(i, i), -most, most);
+        moved = std::max(moved, std::abs(now - friction_[i]) / std::max(most, 1e-300));
+        friction_[i] = now;
+      }
+      if (moved <= epsilon) break;
+    }
+    for (std::size_t j = 0; j < frictions_.size(); ++j)
+      if (holds_[j] && std::abs(friction_[to_index(j)]) >= h * problem_.frictions[j].limit) {
+        holds_[j] = false;
+        changes = true;
+      }
+  }
 }
 
 // Adds all contacts below their least rate to rows_.

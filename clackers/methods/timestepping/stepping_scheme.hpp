@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "clackers/methods/contact/contact_set.hpp"
+#include "clackers/methods/contact/friction_rows.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
 #include "clackers/methods/stepping/recorder.hpp"
 #include "clackers/methods/stepping/step_plan.hpp"
@@ -91,6 +91,8 @@ class SteppingScheme {
 
   bool step(double h, double t1, Recorder<Dof>& out);
   bool find_impulses(double h, double t1, Recorder<Dof>& out);
+  bool find_friction(double h, double t1, Recorder<Dof>& out);
+  void improve_friction(double h);
   void take_violated();
   bool report(Recorder<Dof>& out);
 
@@ -99,6 +101,11 @@ class SteppingScheme {
   std::vector<double> least_;
   std::vector<Unfinished> unfinished_;
   Eigen::VectorXd q_;
+  ContactSet<Dof> frictions_;                  // as contacts
+  ContactResponse<Dof> response_to_friction_;  // of y
+  Eigen::VectorXd friction_;                   // impulses of the step [N s]
+  Eigen::VectorXd last_friction_, slip_;
+  std::vector<bool> sticks_, holds_;  // in the step before, and in this one
   long long steps_ = 0;
 };
 

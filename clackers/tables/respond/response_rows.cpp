@@ -51,11 +51,14 @@ std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const T
 std::unique_ptr<record::RowSource> forces(const cases::Case& test_case, const TimeGrid& grid) {
   require_inside(test_case, grid);
   const auto& motion = *test_case.motion;
-  const auto count = std::ssize(test_case.problem.contacts);
+  const auto contacts = std::ssize(test_case.problem.contacts),
+             frictions = std::ssize(test_case.problem.frictions), count = contacts + frictions;
   std::vector<record::Column> columns;
-  for (int i = 1; i <= count; ++i)
+  for (int i = 1; i <= contacts; ++i)
     columns.push_back({fmt::format("force{}", i), "N",
                        fmt::format("of contact {} while it stays closed, along its direction", i)});
+  for (int i = 1; i <= frictions; ++i)
+    columns.push_back({fmt::format("friction{}", i), "N", "of dry friction, along its direction"});
   return std::make_unique<TimedRows>(
       motion, grid, "clackers/forces/1", "Contact forces of " + test_case.entry->name, columns, 64,
       one_by_one([&motion, count](double t, model::Side side, double* row) {

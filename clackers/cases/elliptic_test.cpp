@@ -1,0 +1,199 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "clackers/base/testing/refusal.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/cases/testing/constants.hpp"
+#include "clackers/exact/testing/test_oracle.hpp"
+#include "clackers/model/problem_file.hpp"
+
+// The nonlinear oscillators, against Taylor series of their equations of motion with impacts found by
+// bisection: no elliptic functions.
+namespace clackers::cases {
+namespace {
+
+using exact::testing_oracle::Box;
+using exact::testing_oracle::trials;
+using model::Side;
+using Number = long double;
+constexpr int terms = 30;
+struct Series {
+  std::array<Number, std::size_t(terms)> values{};
+  Number& operator[](int n) { return values[std::size_t(n)]; }
+  const Number& operator[](int n) const { return values[std::size_t(n)]; }
+};
+
+// From u and v the Taylor coefficients of u.
+using Expansion = std::function<Series(Number u, Number v)>;
+
+Expansion pendulum(Number l, Number g) {
+  return [l, g](Number u0, Number v0) {
+    // With x = u/l, s = sin x and c = cos x: s' = c x', c' = -s x'.
+    Series u, s, c;
+    u[0] = u0, u[1] = v0;
+    s[0] = std::sin(u0 / l), c[0] = std::cos(u0 / l);
+    for (int n = 0; n + 2 < terms; ++n) {
+      u[n + 2] = -g * s[n] / ((n + 1) * (n + 2));
+      Number ds = 0, dc = 0;
+      for (int i = 0; i <= n; ++i) {
+        const Number rate = (n - i + 1) * u[n - i + 1] / l;
+        ds += c[i] * rate;
+        dc -= s[i] * rate;
+      }
+      s[n + 1] = ds / (n + 1), c[n + 1] = dc / (n + 1);
+    }
+    return u;
+  };
+}
+
+Expansion duffing(Number w2, Number b) {
+  return [w2, b](Number u0, Number v0) {
+    Series u, square;
+    u[0] = u0, u[1] = v0;
+    for (int n = 0; n + 2 < terms; ++n) {
+      Number cube = 0;
+      for (int i = 0; i <= n; ++i) square[n] += u[i] * u[n - i];
+      for (int i = 0; i <= n; ++i) cube += square[i] * u[n - i];
+      u[n + 2] = -(w2 * u[n] + b * cube) / ((n + 1) * (n + 2));
+    }
+    return u;
+  };
+}
+
+struct Bouncer {
+  Expansion expansion;
+  Number step, eta, t, u, v;
+  long long impacts = 0;
+  Number first = 0, fastest = 0;
+
+  std::pair<Number, Number> after(const Series& series, Number h) const {
+    Number x = 0, rate = 0;
+    for (int n = terms; n-- > 0;) x = x * h + series[n];
+    for (int n = terms; n-- > 1;) rate = rate * h + n * series[n];
+    return {x, rate};
+  }
+  void run_to(Number end) {
+    while (t < end) {
+      const Number h = std::min(step, end - t);
+      const auto series = expansion(u, v);
+      const auto next = after(series, h);
+      if (next.first >= 0) {
+        t += h;
+        std::tie(u, v) = next;
+        continue;
+      }
+      Number inside = 0, outside = h;
+      for (int i = 0; i < 70; ++i) {
+        const Number middle = (inside + outside) / 2;
+        (after(series, middle).first >= 0 && (middle > 0) ? inside : outside) = middle;
+      }
+      if (impacts++ == 0) first = t + outside, fastest = -after(series, outside).second;
+      t += outside;
+      v = -eta * after(series, outside).second;
+      u = 0;
+    }
+  }
+};
+
+void expect_simulated(Box& box, const Case& test_case, const Expansion& expansion, double eta) {
+  const auto& start = test_case.problem.start;
+  const double period = constant(test_case, "T_0"), end = test_case.motion->end();
+  Bouncer known{expansion, Number(period) / 150, eta, 0, start.u[0], 0};
+  const auto size = test_case.motion->envelope(0.0);
+  for (int i = 1; i <= 6; ++i) {
+    const double t = end * (i - box.uniform(0.0, 1.0)) / 6.0;
+    known.run_to(t);
+    const auto now = test_case.motion->at(t, Side::right), bound = test_case.motion->error_bound(t);
+    const double own = 4e-16 * (1.0 + t / period);
+    EXPECT_NEAR(now.u[0], double(known.u), bound.u[0] + own * size.u[0]) << t;
+    EXPECT_NEAR(now.v[0], double(known.v), bound.v[0] + own * size.v[0]) << t;
+    EXPECT_LT(bound.u[0], 2e-15 * size.u[0]);
+    EXPECT_EQ(test_case.motion->impact_count(t), known.impacts);
+  }
+  if (known.impacts == 0) return;
+  const auto hit = test_case.motion->impact(1);
+  EXPECT_NEAR(hit.t, double(known.first), 1e-15 * (period + hit.t));
+  EXPECT_NEAR(hit.before.v[0], -double(known.fastest), 1e-15 * double(known.fastest));
+  EXPECT_NEAR(hit.after.v[0], eta * double(known.fastest), 1e-15 * double(known.fastest));
+  EXPECT_EQ(hit.before.u[0], 0.0);
+  // The energy of the start is that at the stop.
+  const double stored = test_case.problem.system.nonlinear->potential(start.u) +
+                        0.5 * test_case.problem.system.stiffness(0, 0) * start.u[0] * start.u[0];
+  EXPECT_NEAR(hit.energy_before, stored, 1e-14 * stored);
+  EXPECT_NEAR(hit.energy_after, eta * eta * stored, 1e-14 * stored);
+}
+
+TEST(EllipticCases, PendulumsSwingAsTheirTaylorSeries) {
+  Box box(111);
+  for (int trial = 0; trial < trials(30); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 111, trial " << trial);
+    const double l = box.decades(-1.0, 1.0), g = box.decades(-1.0, 1.0),
+                 theta0 = box.one_in(3) ? box.decades(-3.0, 0.0) : box.uniform(0.1, 3.1),
+                 eta = box.one_in(4) ? 1.0 : box.uniform(0.05, 1.0);
+    expect_simulated(box,
+                     make("pendulum", {{"l", l},
+                                       {"g", g},
+                                       {"theta0", theta0},
+                                       {"eta", eta},
+                                       {"t_end", box.uniform(1.0, 30.0) * std::sqrt(l / g)}}),
+                     pendulum(l, g), eta);
+  }
+}
+
+TEST(EllipticCases, DuffingOscillatorsSwingAsTheirTaylorSeries) {
+  Box box(112);
+  for (int trial = 0; trial < trials(30); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 112, trial " << trial);
+    const double m = box.decades(-1.0, 1.0), k = box.decades(-1.0, 1.0),
+                 u0 = box.decades(-1.0, 1.0),
+                 b = k / (u0 * u0) *
+                     (box.one_in(2) ? -box.uniform(0.0, 0.99) : box.decades(-3.0, 2.0)),
+                 eta = box.one_in(4) ? 1.0 : box.uniform(0.05, 1.0);
+    expect_simulated(box,
+                     make("duffing-stop", {{"m", m},
+                                           {"k", k},
+                                           {"b", b},
+                                           {"u0", u0},
+                                           {"eta", eta},
+                                           {"t_end", box.uniform(1.0, 30.0) * std::sqrt(m / k)}}),
+                     duffing(Number(k) / m, Number(b) / m), eta);
+  }
+}
+
+TEST(EllipticCases, HaveTheirTextbookPeriods) {
+  const auto ratio = [](double degrees) {
+    return constant(make("pendulum", {{"theta0", degrees * std::numbers::pi / 180.0}}),
+                    "T_0/T_linear");
+  };
+  EXPECT_NEAR(ratio(30.0), 1.0174, 5e-5);
+  EXPECT_NEAR(ratio(90.0), 1.18034, 5e-6);
+  EXPECT_NEAR(ratio(0.01), 1.0, 1e-8);
+  // Small motion is that above a rigid stop.
+  const auto small = make("duffing-stop", {{"b", 0.0}, {"eta", 0.9}});
+  const auto stop = make("stop", {{"xi1", 0.0}, {"eta", 0.9}});
+  for (const double t : {0.3, 1.9, 7.0, 19.0})
+    EXPECT_NEAR(small.motion->at(t, Side::right).u[0], stop.motion->at(t, Side::right).u[0], 1e-15);
+}
+
+TEST(EllipticCases, ProblemsAreReadAsTheyAreWritten) {
+  for (const auto* name : {"pendulum", "duffing-stop", "belt"}) {
+    const auto problem = make(name).problem;
+    const auto json = model::problem_json(problem), lines = model::problem_file_text(problem);
+    EXPECT_EQ(model::problem_json(model::problem_from_text(json, name)), json);
+    EXPECT_EQ(model::problem_file_text(model::problem_from_text(lines, name)), lines);
+  }
+}
+
+TEST(EllipticCases, AreRefusedWithTheReason) {
+  EXPECT_REFUSED(make("pendulum", {{"theta0", 3.2}}), "out-of-range", "stand");
+  EXPECT_REFUSED(make("pendulum", {{"eta", 0.0}}), "out-of-range", "rests on the stop");
+  EXPECT_REFUSED(make("duffing-stop", {{"b", -1.0}}), "not-admissible", "away from the stop");
+  EXPECT_REFUSED(make("pendulum", {{"t_end", 1e7}}), "out-of-range", "impacts");
+}
+
+}  // namespace
+}  // namespace clackers::cases

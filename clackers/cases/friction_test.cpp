@@ -1,0 +1,204 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "clackers/base/testing/refusal.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/cases/testing/constants.hpp"
+#include "clackers/exact/testing/test_oracle.hpp"
+#include "clackers/model/harmonic_load.hpp"
+
+// The cases with dry friction, against Taylor series of the equation of motion with changes of stick and slip
+// found by bisection: neither sines nor numbers of half swings.
+namespace clackers::cases {
+namespace {
+
+using exact::testing_oracle::Box;
+using exact::testing_oracle::trials;
+using model::Side;
+using Number = long double;
+
+struct Simulation {
+  Number m, k, limit, kinetic, belt, t = 0, u, v;
+  Number cosine = 0, sine = 0, W = 0;  // the load is `cosine`, -`sine`/W times W is its rate
+  int sign = 0;
+
+  explicit Simulation(const model::ImpactProblem<>& p)
+      : m(p.system.mass(0, 0)),
+        k(p.system.stiffness(0, 0)),
+        limit(p.frictions[0].limit),
+        kinetic(p.frictions[0].kinetic),
+        belt(p.frictions[0].velocity),
+        u(p.start.u[0]),
+        v(p.start.v[0]) {
+    if (const auto* load = p.system.add_load.target<model::HarmonicLoad>()) {
+      const auto& f = load->forces().at(0);
+      cosine = f.amplitude * std::cos(Number(f.phase));
+      sine = f.amplitude * std::sin(Number(f.phase));
+      W = f.frequency;
+    }
+    decide();
+  }
+  Number push() const { return cosine - k * u; }
+  void decide() {
+    const Number held = push();
+    sign = std::abs(held) <= limit * (1 + 1e-17L) ? 0 : held > 0 ? 1 : -1;
+  }
+  // The state h later, while neither stick nor slip changes.
+  Simulation after(Number h) const {
+    Simulation next = *this;
+    next.t += h;
+    constexpr int terms = 40;
+    Number un = u, vn = v, cn = cosine, sn = sine, power = 1;
+    Number sum_u = 0, sum_v = 0, sum_c = 0, sum_s = 0;
+    for (int n = 0; n < terms; ++n) {
+      sum_u += un * power;
+      sum_v += vn * power;
+      sum_c += cn * power;
+      sum_s += sn * power;
+      const Number constant = n == 0 ? -sign * kinetic : 0;
+      const Number a = sign == 0 ? 0 : (cn - k * un + constant) / m;
+      const Number u1 = vn / (n + 1), v1 = a / (n + 1), c1 = -W * sn / (n + 1),
+                   s1 = W * cn / (n + 1);
+      un = u1, vn = v1, cn = c1, sn = s1;
+      power *= h;
+    }
+    next.u = sum_u, next.v = sum_v, next.cosine = sum_c, next.sine = sum_s;
+    return next;
+  }
+  bool goes_on() const {
+    return sign == 0 ? std::abs(push()) <= limit * (1 + 1e-17L) : sign * (v - belt) >= 0;
+  }
+  void run_to(Number end) {
+    const Number w = std::max(std::sqrt(k / m), W);
+    while (t < end) {
+      const Number h = std::min(Number(0.05) / w, end - t);
+      auto next = after(h);
+      if (next.goes_on() || h < 1e-19L * (t + 1 / w)) {
+        *this = next;
+        continue;
+      }
+      Number inside = 0, outside = h;
+      for (int i = 0; i < 70; ++i) {
+        const Number middle = (inside + outside) / 2;
+        (after(middle).goes_on() ? inside : outside) = middle;
+      }
+      *this = after(outside);
+      const bool stuck = sign == 0;
+      if (!stuck) v = belt;
+      decide();
+      if (stuck && sign == 0) sign = push() > 0 ? 1 : -1;
+    }
+  }
+};
+
+void expect_simulated(Box& box, const Case& test_case) {
+  Simulation simulation(test_case.problem);
+  const auto& motion = *test_case.motion;
+  const auto size = motion.envelope(0.0);
+  const double end = motion.end();
+  for (int i = 1; i <= 6; ++i) {
+    const double t = end * (i - box.uniform(0.0, 1.0)) / 6.0;
+    simulation.run_to(t);
+    const auto now = motion.at(t, Side::right), bound = motion.error_bound(t);
+    // The problem's own numbers are rounded, near resonance a phase with the amplitude's factor, and so is the
+    // simulation, step by step.
+    const double load = double(std::hypot(simulation.cosine, simulation.sine)),
+                 own = (2e-16 + 1e-17 * 20.0 * t / test_case.damped_periods[0]) *
+                       (load > 0.0 ? 20.0 : 1.0);
+    EXPECT_NEAR(now.u[0], double(simulation.u), bound.u[0] + own * size.u[0]) << "t = " << t;
+    EXPECT_NEAR(now.v[0], double(simulation.v), bound.v[0] + own * 4.0 * size.v[0]) << "t = " << t;
+    EXPECT_LE(std::abs(now.u[0]), size.u[0] * (1.0 + 1e-15));
+    EXPECT_LE(std::abs(now.v[0]), size.v[0] * (1.0 + 1e-15));
+    // m a = load - k u + friction.
+    const auto& f = test_case.problem.frictions[0];
+    const double friction = motion.contact_forces(t, Side::right)[0];
+    if (simulation.sign != 0) {
+      EXPECT_NEAR(friction, -simulation.sign * f.kinetic,
+                  1e-14 * (f.limit + double(simulation.k) * size.u[0] + load));
+    } else {
+      EXPECT_LE(std::abs(friction), f.limit * (1.0 + 1e-14));
+    }
+  }
+}
+
+TEST(FrictionCases, SlidersComeToRestAsTheirTaylorSeries) {
+  Box box(101);
+  for (int trial = 0; trial < trials(40); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 101, trial " << trial);
+    const double m = box.decades(-1.0, 1.0), k = box.decades(-1.0, 1.0),
+                 x0 = box.decades(-2.0, 2.0), F = k * x0 * box.uniform(0.02, 0.99);
+    const double T = std::numbers::pi * std::sqrt(m / k), n = std::ceil(0.5 * (k * x0 / F - 1.0));
+    const auto slider =
+        make("slider", {{"m", m}, {"k", k}, {"F", F}, {"x0", x0}, {"t_end", (n + 1.0) * T}});
+    EXPECT_NEAR(constant(slider, "t_rest"), n * T, 1e-14 * n * T);
+    expect_simulated(box, slider);
+    EXPECT_EQ(slider.motion->at(slider.motion->end(), Side::left).v[0], 0.0);
+  }
+}
+
+TEST(FrictionCases, BeltsDragAsTheirTaylorSeries) {
+  Box box(102);
+  for (int trial = 0; trial < trials(40); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 102, trial " << trial);
+    const double m = box.decades(-1.0, 1.0), k = box.decades(-1.0, 1.0),
+                 Fs = box.decades(-1.0, 1.0), Fd = Fs * box.uniform(0.0, 0.95),
+                 w = std::sqrt(k / m), V = box.decades(-1.5, 1.0) * w * (Fs - Fd) / k;
+    const auto belt =
+        make("belt", {{"m", m}, {"k", k}, {"Fs", Fs}, {"Fd", Fd}, {"V", V}, {"t_end", 1.0}});
+    const double T = constant(belt, "T");
+    expect_simulated(
+        box,
+        make("belt", {{"m", m}, {"k", k}, {"Fs", Fs}, {"Fd", Fd}, {"V", V}, {"t_end", 2.7 * T}}));
+  }
+}
+
+TEST(FrictionCases, ForcedSlidersSwingAsTheirTaylorSeries) {
+  Box box(103);
+  int made = 0;
+  for (int trial = 0; made < trials(40); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 103, trial " << trial);
+    const double m = box.decades(-1.0, 1.0), k = box.decades(-1.0, 1.0), P = box.decades(-1.0, 1.0),
+                 W = std::sqrt(k / m) * box.uniform(0.3, 2.5), F = P * box.uniform(0.01, 0.7);
+    try {
+      const auto forced = make("forced-slider", {{"m", m},
+                                                 {"k", k},
+                                                 {"F", F},
+                                                 {"P", P},
+                                                 {"W", W},
+                                                 {"t_end", 5.0 * std::numbers::pi / W}});
+      ++made;
+      expect_simulated(box, forced);
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.code().name(), "not-admissible");
+      ASSERT_LT(trial, 20 * (made + 20));
+    }
+  }
+}
+
+TEST(FrictionCases, HaveTheirTextbookNumbers) {
+  const auto forced = make("forced-slider");
+  EXPECT_NEAR(constant(forced, "amplitude"), 2.501787881, 1e-9);
+  const auto slider = make("slider", {{"F", 0.25}, {"x0", 1.25}});  // |k u| = F holds
+  EXPECT_EQ(constant(slider, "half_swings"), 2.0);
+  EXPECT_EQ(constant(slider, "u_rest"), 0.25);
+  EXPECT_NEAR(constant(slider, "lost"), 0.5 * (1.5625 - 0.0625), 1e-15);
+  const auto belt = make("belt");
+  EXPECT_EQ(constant(belt, "T_stick"), 4.0);
+  EXPECT_NEAR(constant(belt, "T_slip"), 2.0 * (std::numbers::pi - std::atan(2.0)), 1e-15);
+  EXPECT_EQ(belt.motion->at(2.0, Side::right).v[0], 0.25);
+  EXPECT_EQ(belt.motion->at(4.0, Side::left).a[0], 0.0);
+  EXPECT_EQ(belt.motion->at(4.0, Side::right).a[0], -0.5);
+}
+
+TEST(FrictionCases, AreRefusedWithTheReason) {
+  EXPECT_REFUSED(make("slider", {{"F", 2.0}}), "not-admissible", "never moves");
+  EXPECT_REFUSED(make("slider", {{"F", 1e-11}}), "out-of-range", "half swings");
+  EXPECT_REFUSED(make("belt", {{"Fd", 1.0}}), "not-admissible", "no stick and slip");
+  EXPECT_REFUSED(make("forced-slider", {{"W", 1.0}}), "not-admissible", "resonance");
+  EXPECT_REFUSED(make("forced-slider", {{"F", 0.9}}), "not-admissible", "stop");
+}
+
+}  // namespace
+}  // namespace clackers::cases
