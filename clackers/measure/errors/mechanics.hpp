@@ -61,10 +61,13 @@ class MechanicalEnergy {
   /// `v` [m/s] and `u` [m]: one entry a degree of freedom.
   double kinetic(const double* v) const { return 0.5 * form(mass_, v); }
   double potential(const double* u) const {
-    const double linear = 0.5 * form(stiffness_, u);
-    if (!nonlinear_) return linear;
-    return linear + nonlinear_->potential(Eigen::Map<const Eigen::VectorXd>(u, dof_));
+    return 0.5 * form(stiffness_, u) + (is_nonlinear() ? stored(u) : 0.0);
   }
+  /// What the nonlinear force stores, where there is one.
+  double stored(const double* u) const {
+    return nonlinear_->potential(Eigen::Map<const Eigen::VectorXd>(u, dof_));
+  }
+  bool is_nonlinear() const { return nonlinear_ != nullptr; }
   double total(const double* u, const double* v) const { return kinetic(v) + potential(u); }
 
   /// The entries of a matrix that are not zero, row by row.

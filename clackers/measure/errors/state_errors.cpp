@@ -92,9 +92,16 @@ HWY_INLINE void take_sized(const MechanicalEnergy& mechanics, std::size_t count,
       if (!has_v) continue;
       const auto found = energy(mechanics, u + lane, v + lane);
       const auto expected = energy(mechanics, ru + lane, rv + lane);
-      most = hn::Max(most, hn::Abs(hn::Sub(found, expected)));
+      if (!mechanics.is_nonlinear()) most = hn::Max(most, hn::Abs(hn::Sub(found, expected)));
       hn::StoreU(found, d, energies + lane);
       hn::StoreU(expected, d, energies + group + lane);
+    }
+    if (!has_v || !mechanics.is_nonlinear()) continue;
+    for (std::size_t lane = 0; lane < group; ++lane) {
+      const std::size_t row = std::min(first + lane, count - 1) * dof;
+      energies[lane] += mechanics.stored(rows[0] + row);
+      energies[group + lane] += mechanics.stored(rows[2] + row);
+      out.energy = std::max(out.energy, std::abs(energies[lane] - energies[group + lane]));
     }
   }
   for (std::size_t j = 0; j < dof; ++j)

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 
+#include "clackers/model/nonlinear_springs.hpp"
 #include "clackers/numerics/testing/forced_target.hpp"
 
 namespace clackers::measure {
@@ -89,6 +91,32 @@ TEST(StateErrors, AreTheLargestOfAllStates) {
       EXPECT_TRUE(std::equal(all.begin(), all.begin() + long(dof), u_alone.begin()));
       EXPECT_EQ(u_alone[dof], 0.0);
     }
+}
+
+TEST(StateErrors, TakeInWhatANonlinearSpringStores) {
+  constexpr std::size_t count = 21;
+  const Rows rows(2, count);
+  auto system = system_of(2);
+  system.nonlinear =
+      std::make_shared<model::NonlinearSprings>(std::vector<model::NonlinearSprings::Row>{
+          {Eigen::Vector2d(1.0, -1.0), model::NonlinearSprings::Law::cubic, 3.0}});
+  const auto energy = [&](const std::vector<double>& u, const std::vector<double>& v,
+                          std::size_t i) {
+    const Eigen::Vector2d x(u[2 * i], u[2 * i + 1]), y(v[2 * i], v[2 * i + 1]);
+    return 0.5 * (y.dot(system.mass * y) + x.dot(system.stiffness * x)) +
+           0.75 * std::pow(x[0] - x[1], 4);
+  };
+  double largest = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    largest = std::max(largest, std::abs(energy(rows.u, rows.v, i) -
+                                         energy(rows.u_reference, rows.v_reference, i)));
+  StateErrors errors(2, system);
+  errors.take(count, rows.u.data(), rows.v.data(), rows.u_reference.data(),
+              rows.v_reference.data());
+  EXPECT_NEAR(errors.energy(), largest, 1e-14 * largest);
+  const double last = energy(rows.u, rows.v, count - 1),
+               expected = energy(rows.u_reference, rows.v_reference, count - 1);
+  EXPECT_NEAR(errors.energy_ratio(), last / expected, 1e-14 * last / expected);
 }
 
 TEST(StateErrors, HaveTheSameBitsInVectorsOfAllLengths) {
