@@ -26,7 +26,7 @@ double error_of(const methods::Method& method, const cases::Case& test_case,
 }
 
 // The largest error of eight neighbouring steps.
-double envelope(const methods::Method& method, const cases::Case& test_case, double steps) {
+double upper_envelope(const methods::Method& method, const cases::Case& test_case, double steps) {
   double worst = 0.0;
   for (int i = 0; i < 8; ++i)
     worst = std::max(
@@ -40,7 +40,7 @@ double order(const methods::Method& method, const cases::Case& test_case, double
   for (int i = 0; i < 4; ++i) {
     const double n = steps * std::exp2(i);
     x.push_back(-std::log2(n));
-    y.push_back(std::log2(envelope(method, test_case, n)));
+    y.push_back(std::log2(upper_envelope(method, test_case, n)));
   }
   return numerics::fit_line(x, y).slope;
 }
