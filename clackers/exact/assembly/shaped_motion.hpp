@@ -43,6 +43,8 @@ class ShapedMotion : public model::Motion {
               model::SampleBuffers out) const override;
   /// The largest value over a flight, times E at t; 0 at rest.
   model::Kinematics envelope(double t) const override;
+  /// The envelope at t = 0: it never grows.
+  model::Kinematics peak() const override { return envelope(0.0); }
   /// E times FlightShape::error(); three units of 2^-53 of the envelope for phase, E and the rounding
   /// of the envelope itself; and, where E is subnormal, some spacings of such numbers.
   model::Kinematics error_bound(double t) const override;

@@ -335,6 +335,9 @@ TEST(ShapedMotion, StaysWithinItsEnvelopeAndReachesMostOfIt) {
     EXPECT_GT(u.minCoeff(), 0.7);
     EXPECT_GT(v.minCoeff(), 0.7);
     EXPECT_GT(a.minCoeff(), 0.7);
+    // The largest of many times.
+    const auto peak = motion->peak(), sampled = motion->Motion::peak();
+    EXPECT_TRUE(peak.u == sampled.u && peak.v == sampled.v && peak.a == sampled.a);
   }
 }
 
