@@ -1,6 +1,8 @@
 #include "clackers/numerics/line_fit.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
@@ -32,7 +34,13 @@ void validate(std::span<const double> x, std::span<const double> y) {
 
 double student_t95(int freedom) {
   if (!(freedom >= 1)) refuse(who, "degrees of freedom", double(freedom), "at least 1");
-  return boost::math::quantile(boost::math::students_t(double(freedom)), 0.975);
+  // A value takes microseconds, and fits ask for the same ones.
+  static std::array<std::atomic<double>, 512> known{};
+  const auto index = std::size_t(freedom);
+  double t = index < known.size() ? known[index].load() : 0.0;
+  if (t == 0.0) t = boost::math::quantile(boost::math::students_t(double(freedom)), 0.975);
+  if (index < known.size()) known[index] = t;
+  return t;
 }
 
 LineFit fit_line(std::span<const double> x, std::span<const double> y) {

@@ -32,7 +32,8 @@ class SharedStates {
   /// fit. Valid as long as this is.
   const GridStates* of(double h, long long steps);
 
-  static constexpr std::size_t most_numbers = std::size_t(1) << 22;
+  /// The default ladder of the default case needs three quarters.
+  static constexpr std::size_t most_numbers = std::size_t(1) << 23;
 
  private:
   struct Entry {
