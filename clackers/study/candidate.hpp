@@ -9,6 +9,7 @@
 #include "clackers/base/jobs/progress.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/observation.hpp"
+#include "clackers/measure/errors/meter.hpp"
 #include "clackers/measure/errors/shared_states.hpp"
 #include "clackers/measure/impacts/shared_impacts.hpp"
 #include "clackers/record/record.hpp"
@@ -22,6 +23,7 @@ struct StudyCase {
   record::CaseSummary summary;
   std::optional<measure::SharedInstant> shared;   ///< the first of the reference
   std::shared_ptr<measure::SharedStates> states;  ///< of the reference; may be null
+  std::shared_ptr<const measure::Scales> scales;  ///< of errors; may be null
 };
 
 StudyCase study_case(cases::Case problem);

@@ -41,8 +41,8 @@ record::Curve motion_of(const model::Trajectory& history) {
 }
 
 // Displacements over the largest envelopes.
-std::vector<double> relative(std::vector<double> u, const model::Motion& motion) {
-  const auto envelope = motion.peak().u;
+std::vector<double> relative(std::vector<double> u, const StudyCase& problem) {
+  const auto envelope = problem.scales ? problem.scales->peak.u : problem.problem.motion->peak().u;
   for (std::size_t i = 0; i < u.size(); ++i) u[i] /= envelope[Eigen::Index(i)];
   return u;
 }
@@ -137,7 +137,8 @@ std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& sha
                              .history_bins = task.wanted.history_bins,
                              .states = by_tolerance || !problem_.states
                                            ? nullptr
-                                           : problem_.states->of(task.run.step, task.run.steps)});
+                                           : problem_.states->of(task.run.step, task.run.steps),
+                             .scales = problem_.scales.get()});
   model::TrajectorySink stored(reports_impacts_);
   RunRecorder recorder(errors, task.wanted.metrics ? &stored : nullptr);
   WatchedSink watched(&recorder, share, error_state, interrupt);
@@ -150,7 +151,7 @@ std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& sha
     result.run.error_history = curve_of(errors.history(), motion.dof());
   result.seconds = processor_time() - start;
   if (!outcome.finished) return result;
-  if (facts_.has_ends) result.end_u = relative(recorder.last_u(), motion);
+  if (facts_.has_ends) result.end_u = relative(recorder.last_u(), problem_);
   // A state that is not finite is no row of a history.
   if (task.wanted.metrics && std::isfinite(result.run.score.u_error)) {
     auto metrics = record::all_metrics(

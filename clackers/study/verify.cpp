@@ -287,7 +287,10 @@ StudyCase study_case(cases::Case problem) {
   auto summary = tables::summary_of(problem);
   auto shared = measure::first_shared_instant(*problem.motion, problem.problem);
   auto states = std::make_shared<measure::SharedStates>(problem.motion, problem.problem.start.t);
-  return {std::move(problem), std::move(summary), std::move(shared), std::move(states)};
+  auto scales =
+      std::make_shared<const measure::Scales>(measure::scales_of(*problem.motion, problem.problem));
+  return {std::move(problem), std::move(summary), std::move(shared), std::move(states),
+          std::move(scales)};
 }
 
 record::RefinementPlan checked_plan(const RefinementRequest& request, const StudyCase& problem,

@@ -84,7 +84,8 @@ Meter Comparison::fill_meter(const Comparison& comparison) {
         impact.t >= given.t.front())
       impacts.push_back(&impact);
   auto next = impacts.begin();
-  Meter meter(comparison.reference_, comparison.problem_);
+  Meter meter(comparison.reference_, comparison.problem_,
+              scales_of(comparison.reference_, comparison.problem_));
   std::size_t reference_row = 0;
   const auto part = [dof](std::span<const double> all, std::size_t row, std::size_t rows = 1) {
     return all.empty() ? all : all.subspan(row * dof, rows * dof);
@@ -219,7 +220,8 @@ void Comparison::match_impacts(double step) {
     matcher.take(impact.t,
                  rests_in_contact(reference_, problem_.contacts, impact.contact, impact.t),
                  impact.contact);
-  score_ = matcher.score(t.back(), rounding_floor(reference_, std::ssize(t), t.front(), t.back()));
+  score_ = matcher.score(
+      t.back(), rounding_floor(reference_, reference_.peak(), std::ssize(t), t.front(), t.back()));
   for (const auto& pair : matcher.pairs(t.back()))
     matches_.push_back({pair.report, reference_.impact(pair.reference)});
 }

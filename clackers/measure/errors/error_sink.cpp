@@ -33,14 +33,15 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
       u_reference_(sink_block * dof_),
       v_reference_(sink_block * dof_),
       relative_(dof_),
-      meter_(reference, checked(problem, reference)),
+      meter_(reference, problem,
+             options.scales != nullptr ? *options.scales
+                                       : scales_of(reference, checked(problem, reference))),
       impacts_(reference, step, 0.0, int(problem.contacts.size())),
       history_(options.history_bins, reference.dof(), problem.start.t, problem.end) {
-  const auto scale = reference.peak();
-  envelope_ = scale.u;
-  for (const double u : scale.u) require_positive(sink_name, "envelope of u", u);
-  for (const double v : scale.v) require_positive(sink_name, "envelope of v", v);
-  require_positive(sink_name, "energy of the reference", meter_.energy_scale());
+  const auto& [peak, energy] = meter_.scales();
+  for (const double u : peak.u) require_positive(sink_name, "envelope of u", u);
+  for (const double v : peak.v) require_positive(sink_name, "envelope of v", v);
+  require_positive(sink_name, "energy of the reference", energy);
 }
 
 StateRows ErrorSink::reference_at(std::span<const double> times) {
@@ -79,8 +80,8 @@ void ErrorSink::take_part(const model::SampleBlock& block, std::size_t from, std
   if (options_.history_bins == 0) return;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < dof_; ++j)
-      relative_[j] =
-          std::abs(u[i * dof_ + j] - reference.u[i * dof_ + j]) / envelope_[Eigen::Index(j)];
+      relative_[j] = std::abs(u[i * dof_ + j] - reference.u[i * dof_ + j]) /
+                     meter_.scales().peak.u[Eigen::Index(j)];
     history_.take(t[i], relative_);
   }
 }

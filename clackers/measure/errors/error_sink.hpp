@@ -20,6 +20,7 @@ struct ErrorSinkOptions {
   int history_bins = 0;              ///< of the error history, 0 for none
   /// The reference at the times to expect; null: at all times it is sampled.
   const GridStates* states = nullptr;
+  const Scales* scales = nullptr;  ///< of the case, where they are known
 };
 
 /// Measures one run while it happens: takes its states and impacts, samples the reference at the
@@ -49,7 +50,6 @@ class ErrorSink : public model::Sink {
   double step_;
   ErrorSinkOptions options_;
   std::vector<model::Contact<>> contacts_;
-  Eigen::VectorXd envelope_;
   std::size_t taken_ = 0;
   std::vector<double> times_, u_reference_, v_reference_, relative_;  ///< of one block
   Meter meter_;

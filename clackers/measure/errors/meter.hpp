@@ -17,7 +17,17 @@ double relative_bound(const model::Motion& reference, const model::Kinematics& s
 
 /// What errors may be by rounding, a unit of each of `states`, or by the error bound of the reference
 /// at 17 equidistant times from `first` to `last` [s], whichever is larger; relative as u_error is.
-double rounding_floor(const model::Motion& reference, long long states, double first, double last);
+double rounding_floor(const model::Motion& reference, const model::Kinematics& scale,
+                      long long states, double first, double last);
+
+/// What errors of runs on a case are divided by. To find it takes as long as a run.
+struct Scales {
+  model::Kinematics peak;  ///< of the reference
+  /// The largest energy of the reference over the run [J]: that at the start, unless it has none there
+  /// or a load brings some; then the largest at 1024 equal parts.
+  double energy;
+};
+Scales scales_of(const model::Motion& reference, const model::ImpactProblem<>& problem);
 
 /// States of all masses, row-major (time, mass).
 struct StateRows {
@@ -29,8 +39,8 @@ struct StateRows {
 /// energy v' M v / 2 + u' K u / 2 to the largest energy of the reference over the run.
 class Meter {
  public:
-  /// Motion and problem must outlive the meter.
-  Meter(const model::Motion& reference, const model::ImpactProblem<>& problem);
+  /// Motion must outlive the meter.
+  Meter(const model::Motion& reference, const model::ImpactProblem<>& problem, Scales scales);
 
   /// Takes states at output times, in order, with the right limits of the reference.
   void take(std::span<const double> t, const StateRows& found, const StateRows& reference);
@@ -49,17 +59,14 @@ class Meter {
   /// Largest |error in u| of each mass [m].
   std::span<const double> u_errors() const { return errors_.u(); }
   const VelocityError& velocity() const { return velocity_; }
-  /// The largest energy of the reference over the run [J]: that at the start, unless it has none there
-  /// or a load brings some; then the largest at 1024 equal parts.
-  double energy_scale() const { return energy_scale_; }
+  const Scales& scales() const { return scales_; }
   double last() const { return last_; }  ///< time of the last state [s]
 
  private:
   const model::Motion& reference_;
   std::size_t dof_;
-  model::Kinematics scale_;
+  Scales scales_;
   StateErrors errors_;
-  double energy_scale_;
   double first_, last_;  ///< times of the first and last state [s]
   long long states_ = 0;
   bool has_velocities_ = true;

@@ -130,8 +130,8 @@ TEST(MeterOfRows, EnergyErrorsAreRelativeToTheLargestEnergyOfTheRun) {
   h.v[last] += 1.0;
   const Comparison comparison(h, *problem.motion, problem.problem);
   // Energy changes by at most 5 % of its largest within a part of 1/1024.
-  EXPECT_NEAR(comparison.meter().energy_scale(), largest, 0.05 * largest);
-  EXPECT_NEAR(comparison.score(0.01).energy_error * comparison.meter().energy_scale(),
+  EXPECT_NEAR(comparison.meter().scales().energy, largest, 0.05 * largest);
+  EXPECT_NEAR(comparison.score(0.01).energy_error * comparison.meter().scales().energy,
               std::abs(energy.kinetic(&h.v[last]) - before), 1e-9 * largest);
 }
 

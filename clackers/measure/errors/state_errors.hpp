@@ -23,7 +23,6 @@ class StateErrors {
   /// Takes displacements alone.
   void take_displacements(const double* found, const double* reference);
 
-  const MechanicalEnergy& energies() const { return energies_; }
   const std::vector<double>& u() const { return totals_.u; }  ///< largest |u - u*| of each mass [m]
   double energy() const { return totals_.energy; }            ///< largest |E - E*| [J]
   /// E / E* of the last state; NaN where E* is 0.

@@ -15,7 +15,7 @@ MetricValue energy_error(const Comparison& comparison, Energy energy) {
     return not_measured("The structure has a nonlinear force, whose potential is not known.");
   if (energy != Energy::potential && !comparison.has_velocities())
     return not_measured("The history has no velocities.");
-  const double scale = comparison.meter().energy_scale();
+  const double scale = comparison.meter().scales().energy;
   if (!(scale > 0.0)) return not_measured("The reference has no energy.");
   if (energy == Energy::total) return measured(comparison.meter().score().energy_error);
 
