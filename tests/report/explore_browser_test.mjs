@@ -1,4 +1,4 @@
-// Opens the page of `clackers explore` in headless Chromium: node explore_browser_test.mjs FILE.html
+// Opens a page with dials in headless Chromium: node explore_browser_test.mjs FILE.html [MEMBERS.json]
 import { readFileSync } from "node:fs";
 import { check, file, open as openPage, run, violations } from "./browser.mjs";
 
@@ -12,7 +12,7 @@ await run(async () => {
   const page = await open();
   check("all figures are drawn", await page.evaluate(() => document.documentElement.dataset.figures) === "drawn");
 
-  const members = JSON.parse(readFileSync(`${file}.json`, "utf8"));
+  const members = JSON.parse(readFileSync(process.argv[3] ?? `${file}.json`, "utf8"));
   const worst = await page.evaluate((rows) => Math.max(...rows.flatMap(([X, r, xi1, eta, t, ...known]) => {
     const { u, v } = synchronizedPair({ X, r, xi1, eta }).at(t);
     return [...u, ...v].map((value, i) => Math.abs(value - known[i]) / known[i + 4]);
