@@ -191,7 +191,8 @@ Json curves_specification(const record::Sheet& sheet, std::string_view name) {
   for (const double x : axes.marks) mark.push_back({{"x", rounded(x)}, {"text", axes.mark_text}});
   const auto x_title = sheet.columns[0].label();
   auto x_axis = axis(x_title, axes.log_x, ratio_label());
-  if (sheet.columns[0].kind == record::ColumnKind::whole) x_axis["tickMinStep"] = 1;
+  if (sheet.columns[0].kind == record::ColumnKind::whole)
+    for (const auto& row : sheet.rows) x_axis["values"].push_back(record::number_in(row[0]));
   return specification_of(
       assets::curves_vl_json, names,
       {{"data", std::string(name)},
