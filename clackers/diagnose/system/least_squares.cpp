@@ -20,7 +20,7 @@ constexpr std::size_t least_window_rows = 8;
 /// Parameters that have no effect on a window stay as they are.
 constexpr double least_effect = 1e-9;
 /// A history that is nearer than this to the reference, in envelopes, has the phases of the case.
-constexpr double small_distance = 0.05;
+constexpr double small_distance = 0.01;
 
 double fastest(const model::ImpactProblem<>& problem) {
   double square = 0.0;
