@@ -68,6 +68,22 @@ TEST(SystemCauses, RestitutionIsTheValueItself) {
   EXPECT_EQ(found[0].fact("expected"), 0.5);
 }
 
+TEST(SystemCauses, OneFileNamesAFrequencyThatNoMethodMakes) {
+  const auto which = cases::make("three-parameter", {{"N", 1.0}});
+  auto problem = which.problem;
+  problem.system.stiffness(1, 1) *= 1.05;
+  const auto causes = [&](double turn) {
+    return system_causes(solved(which, problem, "method=rk4", turn, 1).question());
+  };
+  const auto found = causes(0.1);
+  ASSERT_EQ(codes(found), "frequency-differs");
+  EXPECT_NEAR(found[0].value, 100.0 * (std::sqrt(1.05) - 1.0), 1e-3);
+  EXPECT_LE(found[0].confidence, 0.9);
+  EXPECT_EQ(found[0].fact("files"), 1.0);
+  // (0.25)^2/2 is more than that.
+  EXPECT_EQ(codes(causes(0.25)), "");
+}
+
 TEST(SystemCauses, WhatRoundingMakesIsNoCause) {
   const auto which = cases::make("three-parameter");
   Files files{which};

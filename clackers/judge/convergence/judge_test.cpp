@@ -57,6 +57,20 @@ const Claim second{Behaviour::proper, 2.0, ""}, fourth{Behaviour::proper, 4.0, "
     rough{Behaviour::irregular, 1.0, ""},
     floor_claim{Behaviour::stagnating, 0.0, "contact-stiffness"};
 
+TEST(Judge, AnOrderOfLargeErrorsThatStillRisesIsUndecided) {
+  const auto judged = [](double size) {
+    const auto error = [size](double h) {
+      const double octaves = std::log2(0.05 / h);
+      return size * std::exp2(-0.9 * octaves - 0.015 * octaves * octaves);
+    };
+    return judge(scores(error, {.levels = 4, .samples = 1}), second, {});
+  };
+  const auto coarse = judged(1.0);
+  EXPECT_EQ(coarse.verdict, Verdict::undecided);
+  EXPECT_EQ(coarse.reason, "too-few-levels");
+  EXPECT_EQ(judged(0.01).verdict, Verdict::disagrees);
+}
+
 TEST(Judge, WhatIsClaimedAndFoundAgrees) {
   const auto found = judge(scores(power(2.0)), second);
   EXPECT_EQ(found.verdict, Verdict::agrees);
