@@ -113,11 +113,9 @@ std::vector<Hypothesis> parameter_hypotheses(const model::ImpactProblem<>& probl
   return all;
 }
 
-std::vector<Hypothesis> impact_hypotheses(const model::ImpactProblem<>& problem, int first,
-                                          int last) {
+std::vector<Hypothesis> impact_hypotheses(int first, int last) {
   std::vector<Hypothesis> all;
-  if (problem.contacts.empty()) return all;
-  for (int k = std::max(first, 1); k <= last; ++k) {
+  for (int k = first; k <= last; ++k) {
     all.push_back({"impact-missed", {}, {.missed = k}});
     all.push_back({"impact-doubled", {}, {.doubled = k}});
   }

@@ -26,8 +26,7 @@ struct Hypothesis {
 /// One row a parameter that the problem has.
 std::vector<Hypothesis> parameter_hypotheses(const model::ImpactProblem<>& problem);
 /// Missed and doubled impacts first..last, and no contact at all.
-std::vector<Hypothesis> impact_hypotheses(const model::ImpactProblem<>& problem, int first,
-                                          int last);
+std::vector<Hypothesis> impact_hypotheses(int first, int last);
 /// Frequency and damping of each mass, and the ratio of masses at impacts: what a method's own error
 /// changes.
 std::vector<Parameter> smooth_parameters(const model::ImpactProblem<>& problem);

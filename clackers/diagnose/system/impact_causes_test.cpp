@@ -78,13 +78,29 @@ TEST(ImpactCauses, RestitutionThatDependsOnThePlaceInTheStepScatters) {
   EXPECT_GE(2 * found, all);
 }
 
+TEST(ImpactCauses, OneHistoryShowsItsRestitution) {
+  for (const int i : law_plans) {
+    auto plan = ladder_plan(i);
+    plan.steps = {plan.steps.back()};
+    const auto found = causes_of(plan, "method=newmark", 0.97);
+    ASSERT_EQ(codes(found), "restitution-differs") << i;
+    EXPECT_NEAR(found[0].value, 0.97 * restitution(plan), 0.002) << i;
+  }
+}
+
 TEST(ImpactCauses, RightSolversHaveNone) {
   for (const int i : law_plans)
     for (const auto* solver :
          {first_order, "method=implicit-euler contact=end-of-step", "method=euler",
           "method=newmark contact=start-of-step", "method=newmark beta=0.3025 gamma=0.6",
-          "method=rk4 contact=linear", "contact=moreau", "method=rk4 event-tolerance=1e-3"})
-      EXPECT_EQ(codes(causes_of(ladder_plan(i), solver)), "") << i << ' ' << solver;
+          "method=rk4 contact=linear", "contact=moreau", "method=rk4 event-tolerance=1e-3"}) {
+      auto plan = ladder_plan(i);
+      EXPECT_EQ(codes(causes_of(plan, solver)), "") << i << ' ' << solver;
+      for (const double step : ladder_plan(i).steps) {
+        plan.steps = {step};
+        EXPECT_EQ(codes(causes_of(plan, solver)), "") << i << ' ' << solver << " h = " << step;
+      }
+    }
 }
 
 }  // namespace

@@ -330,7 +330,6 @@ bool is_elsewhere(const DiagnosisInput& question) {
 }
 
 std::vector<Diagnosis> measured_causes(const DiagnosisInput& question) {
-  if (question.histories.empty()) return {};
   auto solved = question.problem;
   auto found = flight_causes(question, &solved.system);
   const auto& q = question;

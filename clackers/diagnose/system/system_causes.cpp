@@ -231,8 +231,7 @@ std::vector<Diagnosis> fitted_causes(const DiagnosisInput& asked) {
   auto hypotheses = parameter_hypotheses(question.problem);
   const auto [first, last] = impacts_near_departure(finest, question);
   if (last >= first && last < 3000)
-    for (auto& one : impact_hypotheses(question.problem, first, last))
-      hypotheses.push_back(std::move(one));
+    for (auto& one : impact_hypotheses(first, last)) hypotheses.push_back(std::move(one));
 
   const auto trials = all_tried(tried, hypotheses, question);
   if (auto causes = judged(race(trials, dof), tried, question); !causes.empty()) return causes;
@@ -267,6 +266,7 @@ std::vector<Diagnosis> fitted_causes(const DiagnosisInput& asked) {
 }  // namespace
 
 std::vector<Diagnosis> system_causes(const DiagnosisInput& asked) {
+  if (asked.histories.empty()) return {};
   if (!can_be_varied(asked.problem)) {
     if (auto shift = shifted_time(asked)) return {*shift};
     return measured_causes(asked);

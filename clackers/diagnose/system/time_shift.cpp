@@ -40,7 +40,6 @@ Shift shift_of(const FileSample& file) {
 std::optional<Diagnosis> shifted_time(const DiagnosisInput& question) {
   constexpr double least_gain = 30.0, least_gain_alone = 100.0, least_gain_beside = 3.0;
   constexpr double same = 0.1, whole_share = 0.03, visible = 1e-9;
-  if (question.histories.empty()) return {};
   const FileSample finest(question.histories.back(), question.motion);
   if (!(finest.distance().u > visible)) return {};
   const auto found = shift_of(finest);
