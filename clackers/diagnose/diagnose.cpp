@@ -30,14 +30,10 @@ bool is_of_right_methods(const Diagnosis& found) {
 }
 
 void add(std::vector<Diagnosis>& all, std::vector<Diagnosis> more) {
-  for (auto& one : more) {
-    if (!(one.confidence >= least_confidence)) continue;
-    const auto same = std::ranges::find(all, one.code, &Diagnosis::code);
-    if (same == all.end())
+  for (auto& one : more)
+    if (one.confidence >= least_confidence &&
+        std::ranges::find(all, one.code, &Diagnosis::code) == all.end())
       all.push_back(std::move(one));
-    else if (same->confidence < one.confidence)
-      *same = std::move(one);
-  }
 }
 
 }  // namespace

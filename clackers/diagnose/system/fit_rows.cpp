@@ -41,14 +41,6 @@ std::vector<double> FitRows::residual(const Variation& variation, std::size_t ro
   return std::move(*found);
 }
 
-double FitRows::distance_of(std::size_t rows) const {
-  double sum = 0.0;
-  const auto size = rows * dof();
-  for (std::size_t i = 0; i < size; ++i)
-    if (!std::isnan(u[i])) sum += (u[i] - reference[i]) * (u[i] - reference[i]);
-  return std::sqrt(sum / double(std::max<std::size_t>(1, size)));
-}
-
 FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& problem,
                  const model::Motion& motion) {
   FitRows rows;
@@ -68,9 +60,10 @@ FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& p
   rows.reference.resize(rows.u.size());
   std::vector<double> v(rows.u.size());
   motion.sample(rows.t, model::Side::right, {rows.reference, v, {}});
-  for (std::size_t i = 0; i < rows.reference.size(); ++i)
-    rows.reference[i] *= rows.inverse_scale[i % n];
-  rows.distance = rows.distance_of(rows.t.size());
+  auto apart = rows.u;
+  for (std::size_t i = 0; i < apart.size(); ++i)
+    apart[i] -= rows.reference[i] *= rows.inverse_scale[i % n];
+  rows.distance = rms(apart);
 
   // How far the simulation is from the reference, as the problem stands and with frequencies changed
   // in their last digits: both must be small against the distance.

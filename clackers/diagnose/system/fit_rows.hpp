@@ -25,8 +25,6 @@ struct FitRows {
   /// u - the motion of the variation, of the rows up to `rows`; empty where it is not available.
   /// Rows before the start of that motion are 0.
   std::vector<double> residual(const Variation& variation, std::size_t rows) const;
-  /// Rms of u - reference over these rows.
-  double distance_of(std::size_t rows) const;
 };
 
 double rms(std::span<const double> values);

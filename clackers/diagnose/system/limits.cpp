@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "clackers/diagnose/system/hypotheses.hpp"
 
@@ -38,6 +40,35 @@ struct Sequence {
   double effect = 0.0;       // rms that a unit of the parameter makes of the finest
 };
 
+// values = limit + constant h^order, orders 1 to 4 in halves.
+struct PowerLimit {
+  double limit = 0.0, order = 0.0;
+  double residual = INFINITY;  // largest distance of a value from the law
+};
+
+PowerLimit power_limit(std::span<const double> steps, std::span<const double> values) {
+  const auto n = double(steps.size());
+  PowerLimit best;
+  for (double order = 1.0; order <= 4.0; order += 0.5) {
+    double sx = 0.0, sxx = 0.0, sy = 0.0, sxy = 0.0;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const double x = std::pow(steps[i] / steps.front(), order);
+      sx += x;
+      sxx += x * x;
+      sy += values[i];
+      sxy += x * values[i];
+    }
+    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    PowerLimit law{(sy - slope * sx) / n, order, 0.0};
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      law.residual = std::max(
+          law.residual,
+          std::abs(values[i] - law.limit - slope * std::pow(steps[i] / steps.front(), order)));
+    if (law.residual < best.residual) best = law;
+  }
+  return best;
+}
+
 std::optional<PowerLimit> significant_limit(const Sequence& sequence,
                                             std::span<const double> steps) {
   const double first = sequence.values[0];
@@ -46,8 +77,8 @@ std::optional<PowerLimit> significant_limit(const Sequence& sequence,
   if (spread < constant_share * std::abs(first)) return PowerLimit{first, 0.0, spread};
   if (steps.size() < least_limit_files) return std::nullopt;
   const auto law = power_limit(steps, sequence.values);
-  if (!law || !(std::abs(law->limit) > least_limit_share * std::abs(sequence.values[0])) ||
-      !(std::abs(law->limit) > residuals_above * law->residual))
+  if (!(std::abs(law.limit) > least_limit_share * std::abs(sequence.values[0])) ||
+      !(std::abs(law.limit) > residuals_above * law.residual))
     return std::nullopt;
   return law;
 }
@@ -74,31 +105,6 @@ std::optional<Diagnosis> period_error(const FitQuestion& question,
 }
 
 }  // namespace
-
-std::optional<PowerLimit> power_limit(std::span<const double> steps,
-                                      std::span<const double> values) {
-  const auto n = double(steps.size());
-  if (steps.size() < 3) return std::nullopt;
-  std::optional<PowerLimit> best;
-  for (double order = 1.0; order <= 4.0; order += 0.5) {
-    double sx = 0.0, sxx = 0.0, sy = 0.0, sxy = 0.0;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      const double x = std::pow(steps[i] / steps.front(), order);
-      sx += x;
-      sxx += x * x;
-      sy += values[i];
-      sxy += x * values[i];
-    }
-    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-    PowerLimit law{(sy - slope * sx) / n, order, 0.0};
-    for (std::size_t i = 0; i < steps.size(); ++i)
-      law.residual = std::max(
-          law.residual,
-          std::abs(values[i] - law.limit - slope * std::pow(steps[i] / steps.front(), order)));
-    if (!best || law.residual < best->residual) best = law;
-  }
-  return best;
-}
 
 std::vector<Diagnosis> smooth_limits(const FitQuestion& question) {
   auto parameters = question.smooth;

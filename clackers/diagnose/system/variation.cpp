@@ -80,8 +80,6 @@ std::optional<std::vector<double>> simulated(const Variation& variation,
     if (!std::isfinite(one)) return std::nullopt;
     last = std::max(last, one);
   }
-  const auto& system = variation.problem.system;
-  if (system.add_load || system.nonlinear) return std::nullopt;
   std::optional<exact::PiecewiseMotion> motion;
   try {
     motion.emplace(variation.problem, variation.law, last, 3000);

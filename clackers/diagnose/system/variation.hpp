@@ -43,7 +43,7 @@ struct Variation {
 };
 
 /// The displacements at the rows' times `t` (ascending), row-major; rows before the start are NaN.
-/// Nothing where the motion is not available, or has a load.
+/// Nothing where the motion is not available. The system has no load.
 std::optional<std::vector<double>> simulated(const Variation& variation, std::span<const double> t);
 
 }  // namespace clackers::diagnose

@@ -77,7 +77,6 @@ std::optional<Evidence> other_motion(const measure::RunScore& finest, const Hist
 }
 
 std::optional<Evidence> ends_early(const HistoryFacts& facts) {
-  if (!(facts.end > 0.0)) return {};
   const bool before_impacts = facts.expected > 0 && facts.expected_to_last == 0;
   if (facts.last >= early_end * facts.end && !before_impacts) return {};
   return evidence("ends-early", Verdict::undecided,
@@ -107,7 +106,6 @@ std::optional<Evidence> error_over_tolerance(const measure::Ladder& ladder, cons
       most = std::max(most, factor);
       ++runs;
     }
-  if (runs == 0) return {};
   return evidence("error-over-tolerance", Verdict::not_claimed,
                   {std::exp(sum / runs), least, most});
 }

@@ -310,6 +310,14 @@ TEST(Judge, MissedOrExtraImpactsOnTheFinestLevelsDisagree) {
   EXPECT_EQ(judge(coarse, second).verdict, Verdict::agrees);
 }
 
+TEST(Judge, AnUndecidedLadderDisagreesOnlyWhereAllRunsMissAsManyImpacts) {
+  auto ladder = scores(power(2.0), {.levels = 2});
+  every_run(ladder, 0, [](measure::RunScore& run) { run.impacts->missed = 1; });
+  EXPECT_EQ(judge(ladder, second).verdict, Verdict::disagrees);
+  ladder[1].runs[3].impacts->missed = 2;
+  EXPECT_EQ(judge(ladder, second).verdict, Verdict::undecided);
+}
+
 TEST(Judge, LateImpactsDoNotContradictAFloorButMissedOnesDo) {
   auto late = scores([](double) { return 0.9; });
   every_run(late, 0, [](measure::RunScore& run) {

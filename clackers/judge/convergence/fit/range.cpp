@@ -43,7 +43,7 @@ Range range_of(std::span<const ErrorLevel> ladder, const FitContext& context) {
     range.blank.errors.push_back(level.error);
     coincident += level.coincident;
   }
-  if (runs > 0) range.blank.coincident_share = double(coincident) / runs;
+  range.blank.coincident_share = double(coincident) / std::max(1, runs);
   if (range.finest < 0 || !range.level(range.finest).usable) return range;
   note_unstable_steps(range, ladder);
   range.first = range.finest;
