@@ -6,7 +6,8 @@ import unittest
 from command import CommandTest, run
 
 CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "three-parameter",
-         "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly")
+         "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly",
+         "cradle", "forced-pair", "base-excited-pair")
 TEXTS = ("t", "side")
 
 

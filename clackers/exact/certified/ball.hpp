@@ -37,6 +37,12 @@ class Ball {
   }
   ~Ball() { arb_clear(x_); }
 
+  static Ball pi() {
+    Ball c;
+    arb_const_pi(c.get(), WorkingBits::now());
+    return c;
+  }
+
   arb_ptr get() { return x_; }
   arb_srcptr get() const { return x_; }
 
@@ -98,6 +104,16 @@ inline Ball exp(const Ball& a) {
   arb_exp(c.get(), a.get(), WorkingBits::now());
   return c;
 }
+inline Ball expm1(const Ball& a) {
+  Ball c;
+  arb_expm1(c.get(), a.get(), WorkingBits::now());
+  return c;
+}
+inline Ball sinh(const Ball& a) {
+  Ball c;
+  arb_sinh(c.get(), a.get(), WorkingBits::now());
+  return c;
+}
 inline Ball sin(const Ball& a) {
   Ball c;
   arb_sin(c.get(), a.get(), WorkingBits::now());
@@ -111,11 +127,6 @@ inline Ball cos(const Ball& a) {
 inline Ball power(const Ball& a, unsigned long n) {
   Ball c;
   arb_pow_ui(c.get(), a.get(), n, WorkingBits::now());
-  return c;
-}
-inline Ball pi() {
-  Ball c;
-  arb_const_pi(c.get(), WorkingBits::now());
   return c;
 }
 /// a 2^n, exactly.

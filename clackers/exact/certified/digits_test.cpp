@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
+#include "clackers/exact/orbit/cradle.hpp"
+#include "clackers/exact/orbit/forced_pair.hpp"
 #include "clackers/exact/testing/taylor_simulator.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 
@@ -31,6 +34,109 @@ std::string code_of(const model::Motion& motion, long long digits) {
     return "accepted";
   } catch (const InputError& error) {
     return std::string(error.code().name());
+  }
+}
+
+Real real(const std::string& text) { return Real(text); }
+
+// m u'' + c u' + k u = 0 of both masses; between the doubles nearest to two impacts the limits there go on.
+TEST(Digits, OfACradleObeyItsEquations) {
+  const exact::CradleParameters p{.omega2 = 1.75, .xi2 = 0.3};
+  const exact::Cradle cradle(p);
+  Digits digits(cradle, 60);
+  EXPECT_EQ(digits.at(0.0, Side::right).v[1], "0");
+  const Real omegas[] = {p.omega1, p.omega2}, dampings[] = {p.xi1, p.xi2};
+  for (double t = 0.4; t < 12.0; t += 1.3) {
+    const auto now = digits.at(t, Side::right);
+    EXPECT_TRUE((now.u[0] == "0") != (now.u[1] == "0"));
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_LE(abs(Real(real(now.a[i]) + 2 * dampings[i] * omegas[i] * real(now.v[i]) +
+                         omegas[i] * omegas[i] * real(now.u[i]))),
+                Real("1e-57"));
+  }
+  for (const long long k : {1LL, 2LL, 3LL}) {
+    const auto hit = digits.impact(k);
+    const double t = cradle.impact(k).t;
+    const Real late = Real(t) - real(hit.t);
+    EXPECT_EQ(hit.before.v[0], hit.after.v[1]);
+    EXPECT_EQ(hit.before.v[1], hit.after.v[0]);
+    for (const auto& [side, limit] :
+         {std::pair(Side::left, hit.before), std::pair(Side::right, hit.after)}) {
+      const auto near = digits.at(t, side);
+      for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_LE(abs(Real(real(near.u[i]) - late * real(limit.v[i]))), Real("1e-29"));
+        EXPECT_LE(abs(Real(real(near.v[i]) - real(limit.v[i]) - late * real(limit.a[i]))),
+                  Real("1e-29"));
+      }
+    }
+  }
+  const exact::Cradle undamped({.xi1 = 0.0, .xi2 = 0.0});
+  EXPECT_EQ(Digits(undamped, 20).at(0.0, Side::right).v[0], "0");
+  EXPECT_EQ(real(Digits(undamped, 20).at(0.0, Side::right).u[0]), 1);
+}
+
+const Real least("1e-47");
+
+// u'' + 2 sigma u' + (w^2 + sigma^2) u is a harmonic force, and the law holds at both ends of a flight.
+TEST(Digits, OfAForcedPairObeyItsEquations) {
+  const exact::ForcedPairParameters p;
+  const exact::ForcedPair pair(p);
+  Digits digits(pair, 50);
+  const Real nu = 2 * boost::math::constants::pi<Real>() * p.n / p.T;
+  const Real speeds[] = {p.V1, -p.V1};
+  const double offsets[] = {p.D1, p.D2}, frequencies[] = {p.omega1, p.omega2};
+  const auto begin = digits.at(2.5, Side::right), end = digits.at(7.5, Side::left);
+  const auto hit = digits.impact(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LE(abs(real(begin.u[i]) - offsets[i]), least);
+    EXPECT_LE(abs(real(end.u[i]) - offsets[i]), least);
+    EXPECT_LE(abs(real(begin.v[i]) - speeds[i]), least);
+    EXPECT_LE(abs(Real(real(end.v[i]) * p.eta + speeds[i])), least);
+    EXPECT_LE(abs(real(hit.before.v[i]) - real(end.v[i])), least);
+    EXPECT_LE(abs(real(hit.before.a[i]) - real(end.a[i])), least);
+    EXPECT_LE(abs(real(hit.after.a[i]) - real(begin.a[i])), least);
+    Real forces[3];
+    const double times[] = {3.0, 4.5, 6.25};
+    for (int j = 0; j < 3; ++j) {
+      const auto now = digits.at(times[j], Side::right);
+      forces[j] =
+          real(now.a[i]) + 2 * Real(p.sigma1) * real(now.v[i]) +
+          (Real(frequencies[i]) * frequencies[i] + Real(p.sigma1) * p.sigma1) * real(now.u[i]);
+    }
+    // Of such a force three values are linearly dependent.
+    const auto sine = [&](int a, int b) { return sin(Real(nu * (times[b] - times[a]))); };
+    const Real sum = forces[0] * sine(1, 2) + forces[1] * sine(2, 0) + forces[2] * sine(0, 1);
+    EXPECT_LE(abs(sum), least);
+  }
+  EXPECT_EQ(real(hit.t), Real("7.5"));
+  EXPECT_LE(abs(real(hit.impulse) - Real(p.V1) * (1 + 1 / Real(p.eta))), least);
+  Real energy = 0;
+  for (std::size_t i = 0; i < 2; ++i)
+    energy += (speeds[i] * speeds[i] +
+               (Real(frequencies[i]) * frequencies[i] + Real(p.sigma1) * p.sigma1) * offsets[i] *
+                   offsets[i]) /
+              2;
+  EXPECT_LE(abs(Real(real(hit.energy_after) - energy)), least);
+}
+
+TEST(Digits, OfAPairUnderBaseExcitationObeyItsEquations) {
+  const exact::BaseExcitedParameters p;
+  const exact::ForcedPair pair(p);
+  Digits digits(pair, 50);
+  EXPECT_EQ(digits.at(0.0, Side::right).v[0], "0");
+  EXPECT_EQ(digits.at(5.0, Side::right).v[1], "0");
+  const Real nu = 2 * boost::math::constants::pi<Real>() * p.n / p.T;
+  const auto before = digits.at(3.75, Side::left), after = digits.at(3.75, Side::right);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LE(abs(real(before.u[i])), least);
+    EXPECT_LE(abs(Real(real(before.v[i]) + real(after.v[i]))), least);
+    for (const double t : {4.0, 5.5, 6.0}) {
+      const auto now = digits.at(t, Side::right);
+      const Real w = i == 0 ? p.omega1 : p.omega2;
+      EXPECT_LE(
+          abs(Real(real(now.a[i]) + w * w * real(now.u[i]) + p.A_g * cos(Real(nu * (t - 3.75))))),
+          least);
+    }
   }
 }
 

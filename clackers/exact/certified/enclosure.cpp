@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "clackers/exact/certified/flights_enclosure.hpp"
+#include "clackers/exact/certified/orbit_enclosure.hpp"
 #include "clackers/exact/certified/shaped_enclosure.hpp"
 
 namespace clackers::certified {
@@ -79,7 +80,7 @@ const PairEnclosure::Constants& PairEnclosure::constants() {
 }
 
 Ball Enclosure::instant_now(long long k) {
-  return (Ball(double(k - 1)) + timing_.first_impact) * pi() / omega();
+  return (Ball(double(k - 1)) + timing_.first_impact) * Ball::pi() / omega();
 }
 
 Ball Enclosure::instant(long long k, long bits) {
@@ -90,7 +91,7 @@ Ball Enclosure::instant(long long k, long bits) {
 // The k with t_k <= t < t_(k+1). It is never on the edge: t_k is transcendental, Omega being algebraic.
 long long Enclosure::natural_flight(double t) {
   const auto floor_of_turns = [&] {
-    const Ball turns = omega() * t / pi() + (1.0 - timing_.first_impact);
+    const Ball turns = omega() * t / Ball::pi() + (1.0 - timing_.first_impact);
     Ball whole;
     arb_floor(whole.get(), turns.get(), WorkingBits::now());
     return whole;
@@ -194,6 +195,9 @@ std::unique_ptr<Enclosure> enclosure_of(const model::Motion& motion) {
     return std::make_unique<ShapedEnclosure>(*shaped);
   if (const auto* flights = dynamic_cast<const exact::PiecewiseMotion*>(&motion))
     return std::make_unique<FlightsEnclosure>(*flights);
+  if (const auto* orbit = dynamic_cast<const exact::Flights*>(&motion);
+      orbit != nullptr && orbit->parameters().index() != 0)
+    return std::make_unique<OrbitEnclosure>(*orbit);
   return std::make_unique<PairEnclosure>(Inputs(motion));
 }
 

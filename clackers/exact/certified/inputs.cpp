@@ -37,8 +37,8 @@ Inputs::Inputs(const model::Motion& motion) {
   const auto* known = exact::as_closed_form(motion);
   if (known == nullptr)
     throw InputError(
-        "digits: this motion is known to double precision only; allowed: the cases of one mass and "
-        "of the synchronized pair, buildings, row, alternating and assembly, penalized-pair and "
+        "digits: this motion is known to double precision only; allowed: the cases of one mass and of "
+        "the synchronized pair, buildings, row, alternating and assembly, penalized-pair and "
         "problem files.",
         "no-enclosure");
   *this =

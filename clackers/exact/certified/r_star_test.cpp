@@ -50,7 +50,7 @@ Ball graze_angle(double X_odd, long bits) {
     // The proof: h is rising and changes its sign within this distance, all within (pi, 3 pi/2).
     const Ball reach = scaled(Ball(1.0), -(bits + 8));
     const Ball low = x - reach, high = x + reach;
-    if (pi() < low && high < Ball(1.5) * pi() && stationary(X, low).is_negative() &&
+    if (Ball::pi() < low && high < Ball(1.5) * Ball::pi() && stationary(X, low).is_negative() &&
         stationary(X, high).is_positive()) {
       arb_add_error_2exp_si(x.get(), -(bits + 8));
       return x;
@@ -107,7 +107,7 @@ bool is_apart_around(const Ball& X, const Ball& r, double low, double high) {
       everywhere(0.0, 1.5, [&](const Ball& x) { return slope(X, r, x).is_positive(); });
   const bool left = everywhere(1.5, low, [&](const Ball& x) { return is_apart(X, r, x); });
   // Where X sin(x/X) > r, sin(x) has no say any more; sin rises up to theta = pi/2, X pi/2.
-  const Ball end = X * pi() / 2.0;
+  const Ball end = X * Ball::pi() / 2.0;
   double last = high;
   while (last < 12.0 && !(X * sin(Ball(last) / X) > r)) last += 0.25;
   const bool tail = Ball(last) < end;
@@ -153,7 +153,7 @@ TEST(RStar, Equation18OfXOf3HoldsForRBelow3AndGrazesAt3) {
   EXPECT_TRUE(everywhere(1.5, 4.0, [&](const Ball& x) { return is_apart(X, 3.0, x); }));
   EXPECT_TRUE(
       everywhere(4.0, 4.75, [&](const Ball& x) { return curvature(X, 3.0, x).is_positive(); }));
-  const Ball end = Ball(1.5) * pi();
+  const Ball end = Ball(1.5) * Ball::pi();
   EXPECT_TRUE(end < Ball(4.75) && separation(X, 3.0, end).holds_zero());
   EXPECT_TRUE(slope(X, 3.0, end).holds_zero());
   EXPECT_TRUE(separation(X, std::nextafter(3.0, 0.0), end).is_positive());

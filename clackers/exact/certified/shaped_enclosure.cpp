@@ -268,7 +268,7 @@ KinematicBalls ShapedEnclosure::at_now(long long k, double t) {
   if (phase.is_exact)
     phase.halves = 1.0 - 2.0 * timing_.first_impact;
   else
-    phase.turns = omega() * t / pi() - (double(k) - 0.5 + timing_.first_impact);
+    phase.turns = omega() * t / Ball::pi() - (double(k) - 0.5 + timing_.first_impact);
   return state(phase, decay_now(k, Ball(t)));
 }
 

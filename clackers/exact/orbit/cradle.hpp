@@ -6,15 +6,6 @@
 
 namespace clackers::exact {
 
-/// The free parameters of a cradle. Both masses are 1 kg and u1(0) = 1 m.
-struct CradleParameters {
-  double omega1 = 1.0;  ///< undamped frequency of mass 1, above [rad/s], 1e-30 to 1e30
-  double omega2 = 1.7;  ///< of mass 2 [rad/s]
-  double xi1 = 0.05;    ///< damping ratio of mass 1, 0 <= xi1 < 1
-  double xi2 = 0.05;    ///< of mass 2
-  double t_end = 20.0;  ///< [s]
-};
-
 /// Two equal masses that touch at rest and collide elastically, one of them at rest at each impact:
 /// they exchange their velocities, as the balls of Newton's cradle do. Mass 1 is away above while
 /// mass 2 rests, then mass 2 below while mass 1 rests; a flight of mass i is half a damped period
@@ -32,24 +23,19 @@ class Cradle : public Flights {
   model::Kinematics envelope(double t) const override;
 
   /// Length of a flight of mass `i` = 0 or 1 [s].
-  double flight_time(int i) const { return masses_[std::size_t(i)].half_period.nearest(); }
+  double flight_time(int i) const { return exact_.masses[std::size_t(i)].half_period.nearest(); }
   /// By how much a perturbation relative to the motion grows from one impact to the next in the long
   /// run, at least 1: that of the resting mass may grow, or decay more slowly than the motion.
   double perturbation_growth() const;
 
  protected:
-  Bounded instant(long long k) const override;
-  States state(long long k, const Bounded& s) const override;
+  Bounded instant(long long k) const override { return exact_.instant(k); }
+  States state(long long k, const Bounded& s) const override { return exact_.state(k, s); }
   long long near_flight(double t) const override;
-  Limits limits(long long k) const override;
+  Limits limits(long long k) const override { return exact_.limits(k); }
 
  private:
-  struct Mass {
-    Bounded omega, sigma, w, half_period, decay;  // decay = sigma half_period
-  };
-  Bounded speed(long long k) const;  // at the beginning of flight k
-
-  std::array<Mass, 2> masses_;
+  CradleFormulas<Bounded> exact_;
 };
 
 }  // namespace clackers::exact

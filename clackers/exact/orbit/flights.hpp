@@ -1,7 +1,6 @@
 #pragma once
 
-#include <array>
-
+#include "clackers/exact/orbit/formulas.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
 #include "clackers/numerics/bounded.hpp"
@@ -28,13 +27,18 @@ class Flights : public model::Motion {
 
   /// What a method is given, each number the nearest double.
   const model::ImpactProblem<>& problem() const { return problem_; }
+  /// Of motions whose formulas are written for numbers of any kind.
+  const FlightsParameters& parameters() const { return parameters_; }
+  long long flight_at(double t, model::Side side) const;
 
  protected:
   using Bounded = numerics::Bounded;
-  struct MassState {
-    Bounded u, v, a;
-  };
-  using States = std::array<MassState, 2>;  // of the first dof() masses
+  using MassState = MassStateOf<Bounded>;
+  using States = StatesOf<Bounded>;  // of the first dof() masses
+  using Limits = LimitsOf<Bounded>;
+
+  Flights() = default;
+  explicit Flights(const FlightsParameters& parameters) : parameters_(parameters) {}
 
   /// The instant of impact k = 1, 2, ...; of k = 0 the beginning of the first flight.
   virtual Bounded instant(long long k) const = 0;
@@ -42,16 +46,11 @@ class Flights : public model::Motion {
   virtual States state(long long k, const Bounded& s) const = 0;
   /// The flight that holds at t, give or take one.
   virtual long long near_flight(double t) const = 0;
-  /// Both limits at impact k.
-  struct Limits {
-    States before, after;
-    Bounded impulse;
-  };
   virtual Limits limits(long long k) const = 0;
 
-  long long flight_at(double t, model::Side side) const;
   States at_time(double t, model::Side side) const;
 
+  FlightsParameters parameters_;
   model::ImpactProblem<> problem_;
 };
 

@@ -76,45 +76,38 @@ std::vector<Change<BaseExcitedParameters>> changes() {
           {"T", &P::T, 0.25, 0.0}};
 }
 
+void require_detuned(std::string_view who, int i, double omega, double T, const Wide& distance) {
+  if (std::abs(distance.nearest()) >= least_detuning) return;
+  throw InputError(
+      fmt::format("{}: omega{} T = {:.6g} pi; allowed: away from resonance. Mass {} alone "
+                  "makes whole or half oscillations between impacts, and no force of finite "
+                  "amplitude keeps the orbit; change T or omega{} by a few percent.",
+                  who, i, (Wide(omega) * T / Wide::pi()).nearest(), i, i),
+      "not-admissible");
+}
+
+void require_detuned(std::string_view who, int i, double omega, double sigma, double T) {
+  const auto sine = sin(Wide(omega) * T * 0.5), growth = sinh(Wide(sigma) * T * 0.5);
+  require_detuned(who, i, omega, T, sqrt(growth * growth + sine * sine));
+}
+
+// Constants are computed with 256 bits.
+OrbitFormulas<Bounded> narrowed_orbit(const OrbitFormulas<Wide>& wide) {
+  OrbitFormulas<Bounded> orbit;
+  orbit.T = narrowed(wide.T);
+  orbit.nu = narrowed(wide.nu);
+  orbit.n = wide.n;
+  orbit.eta = wide.eta;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& x = wide.masses[i];
+    orbit.masses[i] = {narrowed(x.m), narrowed(x.w),  narrowed(x.sigma),
+                       narrowed(x.D), narrowed(x.V),  narrowed(x.P),
+                       narrowed(x.Q), narrowed(x.p0), narrowed(x.p1)};
+  }
+  return orbit;
+}
+
 }  // namespace
-
-class ForcedPair::Constants {
- public:
-  Constants(double T, double n, double eta)
-      : T_(T), nu_(Wide(2.0) * Wide::pi() * n / T), eta_(eta) {}
-
-  const Wide& nu() const { return nu_; }
-  Wide half_phase(double omega) const { return Wide(omega) * T_ * 0.5; }
-
-  void require_detuned(std::string_view who, int i, double omega, const Wide& distance) const {
-    if (std::abs(distance.nearest()) >= least_detuning) return;
-    throw InputError(
-        fmt::format("{}: omega{} T = {:.6g} pi; allowed: away from resonance. Mass {} alone "
-                    "makes whole or half oscillations between impacts, and no force of finite "
-                    "amplitude keeps the orbit; change T or omega{} by a few percent.",
-                    who, i, (Wide(omega) * T_ / Wide::pi()).nearest(), i, i),
-        "not-admissible");
-  }
-
-  // P, Q and the particular solution, from V and D.
-  Mass complete(std::string_view who, int i, MassOf<Wide> mass) const {
-    const auto half = mass.w * T_ * 0.5, damped = mass.sigma * T_;
-    const auto sine = sin(half), growth = sinh(damped * 0.5);
-    const auto square = growth * growth + sine * sine;
-    require_detuned(who, i, mass.w.nearest(), sqrt(square));
-    const auto B = mass.V * (Wide(1.0) + eta_) / (Wide(4.0) * eta_ * mass.w * square);
-    mass.P = B * Wide(2.0) * sine * cos(half);
-    mass.Q = B * (expm1(damped) + Wide(2.0) * sine * sine);
-    mass.p0 = mass.D - mass.P;
-    mass.p1 = (mass.V - mass.w * mass.Q + mass.sigma * mass.P) / nu_;
-    return {narrowed(mass.m), narrowed(mass.w),  narrowed(mass.sigma),
-            narrowed(mass.D), narrowed(mass.V),  narrowed(mass.P),
-            narrowed(mass.Q), narrowed(mass.p0), narrowed(mass.p1)};
-  }
-
- private:
-  Wide T_, nu_, eta_;
-};
 
 void ForcedPair::build(std::string_view who, const ForcedPairParameters& p) {
   require_scale(who, "m1", p.m1, 1e-30, 1e30);
@@ -129,10 +122,9 @@ void ForcedPair::build(std::string_view who, const ForcedPairParameters& p) {
   require_within(who, "D1", p.D1, -1e30, 1e30);
   require_within(who, "D2", p.D2, -1e30, 1e30);
   require_scale(who, "V1", p.V1, 1e-30, 1e30);
-  const Constants constants = begin(p.T, p.n, p.eta);
-  const Wide V2 = -(Wide(p.m1) * p.V1 / p.m2);
-  masses_ = {constants.complete(who, 1, {p.m1, p.omega1, p.sigma1, p.D1, p.V1, {}, {}, {}, {}}),
-             constants.complete(who, 2, {p.m2, p.omega2, p.sigma2, p.D2, V2, {}, {}, {}, {}})};
+  require_detuned(who, 1, p.omega1, p.sigma1, p.T);
+  require_detuned(who, 2, p.omega2, p.sigma2, p.T);
+  orbit_ = narrowed_orbit(OrbitFormulas<Wide>(p));
 }
 
 void ForcedPair::build(std::string_view who, const BaseExcitedParameters& p) {
@@ -142,27 +134,11 @@ void ForcedPair::build(std::string_view who, const BaseExcitedParameters& p) {
   require_run(who, p.T, p.n, p.omega1, p.omega2, p.t_end);
   if (!(std::abs(p.A_g) >= 1e-30 && std::abs(p.A_g) <= 1e30))
     refuse(who, "A_g", p.A_g, "1e-30 <= |A_g| <= 1e+30");
-  const Constants constants = begin(p.T, p.n, 1.0);
-  const auto velocity = [&](int i, double omega) {
-    const auto half = constants.half_phase(omega), cosine = cos(half);
-    constants.require_detuned(who, i, omega, sin(half));
-    constants.require_detuned(who, i, omega, cosine);
-    return Wide(p.A_g) * omega * sin(half) /
-           (cosine * (Wide(omega) + constants.nu()) * (Wide(omega) - constants.nu()));
-  };
-  const auto V1 = velocity(1, p.omega1), V2 = velocity(2, p.omega2);
-  const auto m2 = -(Wide(p.m1) * V1 / V2);
-  masses_ = {constants.complete(who, 1, {p.m1, p.omega1, 0.0, 0.0, V1, {}, {}, {}, {}}),
-             constants.complete(who, 2, {m2, p.omega2, 0.0, 0.0, V2, {}, {}, {}, {}})};
-}
-
-ForcedPair::Constants ForcedPair::begin(double T, double n, double eta) {
-  Constants constants(T, n, eta);
-  T_ = T;
-  nu_ = narrowed(constants.nu());
-  n_ = n;
-  eta_ = eta;
-  return constants;
+  for (const auto& [i, omega] : {std::pair(1, p.omega1), std::pair(2, p.omega2)}) {
+    require_detuned(who, i, omega, 0.0, p.T);
+    require_detuned(who, i, omega, p.T, cos(Wide(omega) * p.T * 0.5));
+  }
+  orbit_ = narrowed_orbit(OrbitFormulas<Wide>(p));
 }
 
 // The gap starts at 0 and opens. |g''| and |g'''| are bounded for the whole flight, so the steps of first_root pass no
@@ -170,7 +146,7 @@ ForcedPair::Constants ForcedPair::begin(double T, double n, double eta) {
 std::optional<ForcedPair::Closing> ForcedPair::closing() const {
   const double T = this->T(), speed = velocity(0) - velocity(1), nu = this->nu();
   double curvature = 0.0, third = 0.0, fastest = nu;
-  for (const auto& mass : masses_) {
+  for (const auto& mass : orbit_.masses) {
     const double square = mass.square().nearest(), own = std::sqrt(square);
     const double free = square * std::hypot(mass.P.nearest(), mass.Q.nearest());
     const double steady = nu * nu * std::hypot(mass.p0.nearest(), mass.p1.nearest());
@@ -179,9 +155,10 @@ std::optional<ForcedPair::Closing> ForcedPair::closing() const {
     fastest = std::max(fastest, own);
   }
   const auto bound = [&](double s) {
-    const auto mass1 = mass_state(masses_[0], s), mass2 = mass_state(masses_[1], s);
+    const auto mass1 = orbit_.mass_state(orbit_.masses[0], s),
+               mass2 = orbit_.mass_state(orbit_.masses[1], s);
     numerics::LocalBound gap;
-    gap.value = ((mass1.u - mass2.u) - (masses_[0].D - masses_[1].D)).nearest();
+    gap.value = ((mass1.u - mass2.u) - (orbit_.masses[0].D - orbit_.masses[1].D)).nearest();
     gap.slope = (mass1.v - mass2.v).nearest();
     gap.second = (mass1.a - mass2.a).nearest();
     gap.curvature = curvature * (1.0 + 1e-9);
@@ -201,11 +178,12 @@ std::optional<ForcedPair::Closing> ForcedPair::closing() const {
 
 double ForcedPair::smallest_share() const {
   const double T = this->T(), speed = velocity(0) - velocity(1);
-  double least = std::min(1.0, 1.0 / eta_);
+  double least = std::min(1.0, 1.0 / orbit_.eta);
   for (int i = 1; i < instants; ++i) {
     const double s = T * i / instants;
     const auto g =
-        (mass_state(masses_[0], s).u - mass_state(masses_[1], s).u) - (masses_[0].D - masses_[1].D);
+        (orbit_.mass_state(orbit_.masses[0], s).u - orbit_.mass_state(orbit_.masses[1], s).u) -
+        (orbit_.masses[0].D - orbit_.masses[1].D);
     least = std::min(least, g.nearest() * T / (speed * s * (T - s)));
   }
   return least;
@@ -215,7 +193,7 @@ template <class Parameters>
 void ForcedPair::require_open(std::string_view who, const Parameters& p) const {
   const auto opens = [&](const Parameters& other) {
     try {
-      ForcedPair orbit;
+      ForcedPair orbit{FlightsParameters(other)};
       orbit.build(who, other);
       return orbit.velocity(0) > 0.0 && orbit.velocity(1) < 0.0 && !orbit.closing();
     } catch (const InputError&) {
@@ -247,13 +225,13 @@ void ForcedPair::require_open(std::string_view who, const Parameters& p) const {
       "not-admissible");
 }
 
-ForcedPair::ForcedPair(const ForcedPairParameters& p, std::string_view who) {
+ForcedPair::ForcedPair(const ForcedPairParameters& p, std::string_view who) : Flights(p) {
   build(who, p);
   require_open(who, p);
   make_problem(p.t_end);
 }
 
-ForcedPair::ForcedPair(const BaseExcitedParameters& p, std::string_view who) {
+ForcedPair::ForcedPair(const BaseExcitedParameters& p, std::string_view who) : Flights(p) {
   build(who, p);
   require_open(who, p);
   make_problem(p.t_end);
@@ -262,10 +240,11 @@ ForcedPair::ForcedPair(const BaseExcitedParameters& p, std::string_view who) {
 // F cos phi = m [(w^2 + sigma^2 - nu^2) p0 + 2 sigma nu p1] and -F sin phi the same of (p1, -p0), for
 // phases from an impact on; t = 0 is n half turns later.
 ForcedPair::Force ForcedPair::force(const Mass& mass) const {
-  const auto stiff = mass.square() - nu_ * nu_, damped = Bounded(2.0) * mass.sigma * nu_;
+  const auto stiff = mass.square() - orbit_.nu * orbit_.nu,
+             damped = Bounded(2.0) * mass.sigma * orbit_.nu;
   const auto cosine = mass.m * (stiff * mass.p0 + damped * mass.p1);
   const auto sine = mass.m * (stiff * mass.p1 - damped * mass.p0);
-  const bool turned = std::fmod(n_, 2.0) != 0.0;
+  const bool turned = std::fmod(orbit_.n, 2.0) != 0.0;
   const auto sign = turned ? -1.0L : 1.0L;
   return {static_cast<double>(std::hypot(cosine.value, sine.value)),
           static_cast<double>(std::atan2(-sign * sine.value, sign * cosine.value))};
@@ -276,7 +255,7 @@ void ForcedPair::make_problem(double t_end) {
   auto& system = problem_.system;
   system.mass = system.damping = system.stiffness = Eigen::MatrixXd::Zero(2, 2);
   for (int i = 0; i < 2; ++i) {
-    const auto& mass = masses_[std::size_t(i)];
+    const auto& mass = orbit_.masses[std::size_t(i)];
     system.mass(i, i) = mass.m.nearest();
     system.damping(i, i) = (Bounded(2.0) * mass.m * mass.sigma).nearest();
     system.stiffness(i, i) = (mass.m * mass.square()).nearest();
@@ -284,7 +263,8 @@ void ForcedPair::make_problem(double t_end) {
     forces.push_back({i, amplitude, nu(), phase});
   }
   system.add_load = model::HarmonicLoad(std::move(forces));
-  problem_.contacts = {{Eigen::Vector2d(1.0, -1.0), (masses_[0].D - masses_[1].D).nearest(), eta_}};
+  problem_.contacts = {{Eigen::Vector2d(1.0, -1.0),
+                        (orbit_.masses[0].D - orbit_.masses[1].D).nearest(), orbit_.eta}};
   problem_.end = t_end;
   const auto start = at(0.0, model::Side::right);
   problem_.start = {0.0, start.u, start.v};
@@ -292,48 +272,15 @@ void ForcedPair::make_problem(double t_end) {
   find_size();
 }
 
-Flights::MassState ForcedPair::mass_state(const Mass& mass, const Bounded& s) const {
-  const auto decay = exp(-(mass.sigma * s));
-  const auto phase = mass.w * s, turn = Bounded(2.0) * Bounded::pi() * n_ * (s / T_);
-  const auto c = cos(phase), n = sin(phase), C = cos(turn), N = sin(turn);
-  const auto h = decay * (mass.P * c + mass.Q * n);
-  const auto h1 = decay * mass.w * (mass.Q * c - mass.P * n) - mass.sigma * h;
-  const auto h2 = -(Bounded(2.0) * mass.sigma * h1 + mass.square() * h);
-  const auto p = mass.p0 * C + mass.p1 * N, p1 = nu_ * (mass.p1 * C - mass.p0 * N);
-  return {h + p, h1 + p1, h2 - nu_ * nu_ * p};
-}
-
-Bounded ForcedPair::instant(long long k) const {
-  return (Bounded(static_cast<double>(k)) - 0.5) * T_;
-}
-
 long long ForcedPair::near_flight(double t) const {
   return static_cast<long long>(std::floor(t / T() + 0.5));
-}
-
-Flights::States ForcedPair::state(long long, const Bounded& s) const {
-  return {mass_state(masses_[0], s), mass_state(masses_[1], s)};
-}
-
-Flights::Limits ForcedPair::limits(long long) const {
-  Limits limit;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto& mass = masses_[i];
-    // The force, the displacement and so the spring are the same on either side.
-    const auto after = mass_state(mass, 0.0);
-    const auto V = -(mass.V / eta_);
-    limit.before[i] = {mass.D, V, after.a - Bounded(2.0) * mass.sigma * (V - mass.V)};
-    limit.after[i] = {mass.D, mass.V, after.a};
-  }
-  limit.impulse = masses_[0].m * masses_[0].V * (Bounded(1.0) + Bounded(1.0) / eta_);
-  return limit;
 }
 
 void ForcedPair::find_size() {
   size_ = {Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)};
   for (int i = 0; i <= instants; ++i)
     for (Eigen::Index j = 0; j < 2; ++j) {
-      const auto now = mass_state(masses_[std::size_t(j)], T() * i / instants);
+      const auto now = orbit_.mass_state(orbit_.masses[std::size_t(j)], T() * i / instants);
       size_.u[j] = std::max(size_.u[j], std::abs(now.u.nearest()));
       size_.v[j] = std::max(size_.v[j], std::abs(now.v.nearest()));
       size_.a[j] = std::max(size_.a[j], std::abs(now.a.nearest()));
