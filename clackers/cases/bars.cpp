@@ -9,6 +9,7 @@
 #include "clackers/cases/row.hpp"
 #include "clackers/exact/bodies/bar_contact.hpp"
 #include "clackers/exact/bodies/bar_mesh.hpp"
+#include "clackers/exact/bodies/mass_on_bar.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
 
 // Elastic bars in contact, and their meshes: docs/manual/explanation/derivations/bars.md.
@@ -35,46 +36,69 @@ Bar bar_of(const Case& test_case, const Values& value, const std::string& number
 }
 
 // The largest difference of the displacements of mesh and bar, at 51 times and 17 nodes or fewer.
-double space_error(const model::Motion& mesh, const BarContact& bars,
-                   const std::vector<exact::BarMesh::Node>& nodes) {
+double space_error(const model::Motion& motion, const exact::BarMotion& bars,
+                   const exact::BarMesh& mesh) {
   constexpr int times = 50;
+  const auto& nodes = mesh.nodes;
   const std::size_t stride = (nodes.size() + 16) / 17;
   double worst = 0.0;
   for (int k = 0; k <= times; ++k) {
     const double t = std::min(bars.end(), bars.end() * k / times);
-    const auto now = mesh.at(t, model::Side::right);
+    const auto now = motion.at(t, model::Side::right);
     for (std::size_t i = 0; i < nodes.size(); i += stride) {
       const double u = bars.at(nodes[i].bar, nodes[i].x, t, model::Side::right).u.nearest();
-      worst = std::max(worst, std::abs(now.u[Eigen::Index(i)] - u));
+      worst = std::max(worst, std::abs(now.u[mesh.first + Eigen::Index(i)] - u));
     }
   }
   return worst;
 }
 
-// Bars, their mesh, and what all of them have in common.
-void use_bars(Case& test_case, const Values& value, const BarsParameters& parameters) {
+// The mesh of the bars that the case has already, as what methods get.
+void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& meshed) {
   const auto& who = test_case.entry->name;
-  const auto bars = std::make_shared<const BarContact>(parameters, who);
   const auto mesh =
-      exact::bar_mesh(*bars, value("elements"), node_mass(value("mass")), value("eta"), who);
-  test_case.bars = bars;
+      exact::bar_mesh(meshed, value("elements"), node_mass(value("mass")), value("eta"), who);
   test_case.problem = mesh.problem;
   const auto motion = std::make_shared<const exact::PiecewiseMotion>(mesh.problem, who);
   test_case.motion = motion;
   // A rigid motion has no period; the run's length is what it has.
   for (const auto& mode : motion->modes().modes())
     test_case.damped_periods.push_back(
-        mode.oscillates() && mode.w > 0.0 ? 2.0 * std::numbers::pi / mode.w : bars->end());
+        mode.oscillates() && mode.w > 0.0 ? 2.0 * std::numbers::pi / mode.w : motion->end());
+  const auto& bars = *test_case.bars;
   auto& list = test_case.constants;
-  for (std::size_t b = 0; b < parameters.bars.size(); ++b) {
-    const auto wave = bars->wave(b);
-    const auto number = parameters.bars.size() == 1 ? std::string() : std::to_string(b + 1);
-    list.push_back({"c" + number, wave.speed.nearest(), "m/s", "speed of waves"});
-    list.push_back(
-        {"tau" + number, wave.transit.nearest(), "s", "L/c, a wave's way through the bar"});
-    list.push_back({"z" + number, wave.impedance.nearest(), "N s/m", "impedance A sqrt(E rho)"});
-    list.push_back({"m" + number, (wave.impedance * wave.transit).nearest(), "kg", "mass"});
-  }
+  list.push_back(
+      {"impulse", bars.impulse(bars.end()).nearest(), "N s", "of the bar's contact up to t_end"});
+  list.push_back({"h", meshed.bars[0].L / value("elements"), "m", "length of an element"});
+  list.push_back(
+      {"e_space", space_error(*motion, bars, mesh), "m",
+       "largest difference between the displacements of mesh and bar, at 51 times: what no "
+       "integrator on this mesh can mend"});
+  list.push_back({"error_bound", motion->error_bound(motion->end()).u.maxCoeff(), "m",
+                  "of the displacements of the mesh's reference solution at t_end"});
+  list.push_back({"t_end", motion->end(), "s", "end of the run"});
+  list.push_back({"impacts", double(motion->impact_count(motion->end())), "",
+                  "number of impacts of the mesh up to t_end"});
+}
+
+void add_wave(std::vector<Quantity>& list, const std::string& number,
+              const BarContact::Wave& wave) {
+  list.push_back({"c" + number, wave.speed.nearest(), "m/s", "speed of waves"});
+  list.push_back(
+      {"tau" + number, wave.transit.nearest(), "s", "L/c, a wave's way through the bar"});
+  list.push_back({"z" + number, wave.impedance.nearest(), "N s/m", "impedance A sqrt(E rho)"});
+  list.push_back({"m" + number, (wave.impedance * wave.transit).nearest(), "kg", "mass"});
+}
+
+// Bars, their mesh, and what all of them have in common.
+std::shared_ptr<const BarContact> use_bars(Case& test_case, const Values& value,
+                                           const BarsParameters& parameters) {
+  const auto bars = std::make_shared<const BarContact>(parameters, test_case.entry->name);
+  test_case.bars = bars;
+  auto& list = test_case.constants;
+  for (std::size_t b = 0; b < parameters.bars.size(); ++b)
+    add_wave(list, parameters.bars.size() == 1 ? std::string() : std::to_string(b + 1),
+             bars->wave(b));
   list.push_back({"gap", bars->gap().nearest(), "m", "at t = 0"});
   int count = 0;
   for (const auto& event : bars->events()) {
@@ -84,18 +108,8 @@ void use_bars(Case& test_case, const Values& value, const BarsParameters& parame
                     event.t.nearest(), "s",
                     event.closes ? "contact of the bar begins" : "and ends"});
   }
-  list.push_back(
-      {"impulse", bars->impulse(bars->end()).nearest(), "N s", "of the bar's contact up to t_end"});
-  list.push_back({"h", parameters.bars[0].L / value("elements"), "m", "length of an element"});
-  list.push_back(
-      {"e_space", space_error(*motion, *bars, mesh.nodes), "m",
-       "largest difference between the displacements of mesh and bar, at 51 times: what no "
-       "integrator on this mesh can mend"});
-  list.push_back({"error_bound", motion->error_bound(motion->end()).u.maxCoeff(), "m",
-                  "of the displacements of the mesh's reference solution at t_end"});
-  list.push_back({"t_end", motion->end(), "s", "end of the run"});
-  list.push_back({"impacts", double(motion->impact_count(motion->end())), "",
-                  "number of impacts of the mesh up to t_end"});
+  use_mesh(test_case, value, {parameters.bars, bars->gap().nearest(), bars->end(), parameters.g});
+  return bars;
 }
 
 void build_bar_wall(Case& test_case, const Values& value, double) {
@@ -117,8 +131,7 @@ void build_bouncing(Case& test_case, const Values& value, double) {
   if (p.N == 2.0)
     refuse(who, "N", p.N, "another N than 2",
            "The second contact would begin and the first end without a speed.", "not-admissible");
-  use_bars(test_case, value, p);
-  const double period = test_case.bars->period().nearest();
+  const double period = use_bars(test_case, value, p)->period().nearest();
   if (period > 0.0)
     test_case.constants.push_back({"T", period, "s", "period of the bar, 4 (N + 1) L/c"});
 }
@@ -131,15 +144,31 @@ void build_two_bars(Case& test_case, const Values& value, double) {
     refuse(who, "v1", v1, fmt::format("v1 > v2 = {}", v2), "Otherwise the bars do not meet.");
   const auto first = bar_of(test_case, value, "1", v1), second = bar_of(test_case, value, "2", v2);
   BarsParameters p{{first, second}, within(test_case, value, "d"), end_of(test_case, value)};
-  use_bars(test_case, value, p);
-  const auto &wave1 = test_case.bars->wave(0), &wave2 = test_case.bars->wave(1);
+  const auto bars = use_bars(test_case, value, p);
+  const auto wave1 = bars->wave(0), wave2 = bars->wave(1);
   const auto inverse = numerics::Bounded(1.0) / (wave1.impedance * wave1.transit) +
                        numerics::Bounded(1.0) / (wave2.impedance * wave2.transit);
-  const auto& events = test_case.bars->events();
+  const auto events = bars->events();
   if (std::ranges::any_of(events, [](const auto& event) { return !event.closes; }))
     test_case.constants.push_back(
-        {"restitution", (test_case.bars->impulse(p.end) * inverse).nearest() / (v1 - v2) - 1.0, "",
+        {"restitution", (bars->impulse(p.end) * inverse).nearest() / (v1 - v2) - 1.0, "",
          "of the centres of mass; the rest of the energy is kept as vibration"});
+}
+
+void build_mass_on_bar(Case& test_case, const Values& value, double) {
+  const exact::MassOnBarParameters p{
+      bar_of(test_case, value, "", 0.0), within(test_case, value, "M"),
+      within(test_case, value, "V"),     within(test_case, value, "d"),
+      value("far").text() == "fixed",    end_of(test_case, value)};
+  const auto motion = std::make_shared<const exact::MassOnBar>(p, test_case.entry->name);
+  test_case.bars = motion;
+  auto& list = test_case.constants;
+  add_wave(list, "", motion->wave());
+  list.push_back({"t_closes1", motion->begins().nearest(), "s", "contact of the bar begins"});
+  list.push_back({"t_opens1", motion->ends().nearest(), "s", "and ends"});
+  list.push_back(
+      {"v_after", motion->rebound().nearest(), "m/s", "velocity of the mass afterwards"});
+  use_mesh(test_case, value, {{p.bar}, p.gap, p.end, 0.0, p.M, p.V, p.is_fixed});
 }
 
 // What a bar has, then what the case has, then what its mesh has.
@@ -198,6 +227,22 @@ std::vector<CaseRow> bar_rows() {
              positive("d", 0.25, "m", "gap at t = 0")},
             6.0)},
        build_two_bars},
+      {{"mass-on-bar",
+        "A rigid mass that flies against the end of an elastic bar at rest, and its mesh.",
+        "none; A. Barre de Saint-Venant, A. Flamant (1883)",
+        parameters({""},
+                   {positive("M", 2.0, "kg", "the mass, 0.01 to 100 times that of the bar"),
+                    positive("V", 1.0, "m/s", "its speed towards the bar"),
+                    positive("d", 0.25, "m", "gap at t = 0"),
+                    {"far",
+                     "fixed",
+                     "",
+                     "fixed or free",
+                     "far end of the bar",
+                     {},
+                     {{"fixed", "does not move"}, {"free", "moves freely"}}}},
+                   8.0)},
+       build_mass_on_bar},
   };
 }
 

@@ -126,17 +126,20 @@ TEST(BarCases, MeshesMoveAsTheirClosedModes) {
 }
 
 TEST(BarCases, MeshesTendToTheBar) {
-  for (const auto* name : {"bar-wall", "bouncing-bar", "two-bars"})
+  for (const auto* name : {"bar-wall", "bouncing-bar", "two-bars", "mass-on-bar"})
     for (const auto* mass : {"massless", "lumped", "consistent"}) {
       double before = HUGE_VAL;
-      for (const double n : {4.0, 8.0}) {
+      const bool is_struck = *name == 'm';
+      for (const double n : {is_struck ? 8.0 : 4.0, is_struck ? 16.0 : 8.0}) {
         const auto mesh = make(name, {{"elements", n}, {"mass", mass}, {"t_end", 6.0}});
         EXPECT_LT(constant(mesh, "e_space"), 0.75 * before) << name << " " << mass;
         before = constant(mesh, "e_space");
         // All of the mass, and none of the weight lost.
         const auto& s = mesh.problem.system;
-        EXPECT_NEAR(s.mass.sum(), *name == 't' ? 3.0 : 1.0, 1e-14);
-        EXPECT_NEAR((s.stiffness * Eigen::VectorXd::Ones(s.stiffness.rows())).norm(), 0.0, 1e-12);
+        if (*name != 'm') {
+          EXPECT_NEAR(s.mass.sum(), *name == 't' ? 3.0 : 1.0, 1e-14);
+          EXPECT_NEAR((s.stiffness * Eigen::VectorXd::Ones(s.stiffness.rows())).norm(), 0.0, 1e-12);
+        }
         if (*name == 'b' && name[1] == 'o') {
           Eigen::VectorXd force = Eigen::VectorXd::Zero(s.mass.rows());
           s.add_load(0.0, {force.data(), std::size_t(force.size())});
@@ -145,6 +148,117 @@ TEST(BarCases, MeshesTendToTheBar) {
       }
       EXPECT_LT(before, 0.45);
     }
+}
+
+// The delay equation of mass and bar by the method of steps: Runge-Kutta's method of fourth order between
+// multiples of 2 tau, with a(t) out of a table.
+struct DelayedMass {
+  int parts;  // of 2 tau
+  double kappa, back;
+  std::vector<double> v, a;  // at the ends and middles of parts, from the beginning of contact on
+  double end = 0.0;          // of the contact, where it is over [2 tau/parts]
+
+  DelayedMass(int n, double mu, double sign) : parts(n), kappa(2.0 * mu / n), back(sign) {
+    v.push_back(1.0);
+    a.push_back(0.0);
+    for (std::size_t i = 0; end == 0.0; i += 2) {
+      const auto arriving = [&](std::size_t k) {
+        if (k < 2 * std::size_t(parts)) return 0.0;
+        const auto before = k - 2 * std::size_t(parts);
+        return back * (2.0 * v[before] - a[before]);
+      };
+      // At a multiple of 2 tau what arrives jumps.
+      const double a0 = arriving(i), a1 = arriving(i + 1);
+      const bool is_last = (i + 2) % (2 * std::size_t(parts)) == 0;
+      const double a2 = is_last && i + 2 == 2 * std::size_t(parts) ? 0.0 : left_limit(i + 2);
+      const auto rate = [&](double x, double arrives) { return -kappa * (x - arrives); };
+      const auto step = [&](double h, double from, double b0, double b1, double b2) {
+        const double k1 = rate(from, b0), k2 = rate(from + h / 2 * k1, b1),
+                     k3 = rate(from + h / 2 * k2, b1), k4 = rate(from + h * k3, b2);
+        return from + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+      };
+      a.back() = a0;
+      if (!(v[i] - a0 > 0.0)) {
+        end = double(i) / 2.0;
+        break;
+      }
+      const double quarter = 0.375 * a0 + 0.75 * a1 - 0.125 * a2,
+                   later = -0.125 * a0 + 0.75 * a1 + 0.375 * a2;
+      const double middle = step(0.5, v[i], a0, quarter, a1),
+                   next = step(0.5, middle, a1, later, a2);
+      if (next - a2 <= 0.0) {
+        const double f0 = v[i] - a0, f1 = middle - a1, f2 = next - a2;
+        // Where the parabola through three forces is 0.
+        const double b = -3 * f0 + 4 * f1 - f2, c = 2 * (f0 - 2 * f1 + f2);
+        end = double(i) / 2.0 + 2 * f0 / (-b + std::sqrt(b * b - 4 * c * f0));
+        v.push_back(middle), v.push_back(next);
+        break;
+      }
+      v.push_back(middle), v.push_back(next);
+      a.push_back(a1), a.push_back(a2);
+    }
+  }
+  double left_limit(std::size_t k) const {
+    if (k < 2 * std::size_t(parts)) return 0.0;
+    const auto before = k - 2 * std::size_t(parts);
+    // The value of a is that after a jump; before one it is what arrived two transits earlier.
+    const double a_left =
+        before > 0 && before % (2 * std::size_t(parts)) == 0 ? left_limit(before) : a[before];
+    return before == 0 ? 0.0 : back * (2.0 * v[before] - a_left);
+  }
+};
+
+TEST(BarCases, AMassLeavesItsBarWhenTheDelayEquationSaysSo) {
+  struct Row {
+    double ratio, end, rebound;
+  };
+  for (const auto& [ratio, end, rebound] :
+       {Row{1.0, 3.06766764162, NAN}, Row{0.5, 4.7085672436677, -0.925246996732},
+        Row{0.25, 5.8995904396033, -0.816911551636}, Row{0.1, 9.5410579038384, -0.949134061418}}) {
+    const auto mesh = make("mass-on-bar", {{"M", 1.0 / ratio}, {"t_end", end + 0.26}});
+    EXPECT_NEAR(constant(mesh, "t_opens1") - constant(mesh, "t_closes1"), end, 1e-11);
+    if (rebound < 0.0) {
+      EXPECT_NEAR(constant(mesh, "v_after"), rebound, 1e-11);
+    }
+  }
+  Box box(92);
+  for (int trial = 0; trial < trials(6); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 92, trial " << trial);
+    const bool fixed = !box.one_in(4);
+    const double V = box.decades(-1.0, 1.0), L = box.decades(-1.0, 1.0), E = box.decades(-1.0, 1.0),
+                 rho = box.decades(-1.0, 1.0), A = box.decades(-1.0, 1.0), m = rho * A * L,
+                 mu = box.decades(-1.0, 1.0), tau = L * std::sqrt(rho / E), d = V * tau * 0.3;
+    const DelayedMass known(400, mu, fixed ? -1.0 : 1.0);
+    const auto mesh =
+        make("mass-on-bar", {{"V", V},
+                             {"L", L},
+                             {"E", E},
+                             {"rho", rho},
+                             {"A", A},
+                             {"M", m / mu},
+                             {"d", d},
+                             {"elements", 3.0},
+                             {"far", fixed ? "fixed" : "free"},
+                             {"t_end", d / V + tau * known.end / 200.0 + 0.01 * tau}});
+    EXPECT_NEAR((constant(mesh, "t_opens1") - d / V) / tau, known.end / 200.0, 1e-6);
+    EXPECT_NEAR(constant(mesh, "v_after"), V * known.v.back(), 1e-2 * V);
+    for (int i = 0; i < 8; ++i) {
+      const double part = box.uniform(0.0, 1.0) * known.end;
+      const auto k = std::size_t(part);
+      const double s = double(k) / 200.0 * tau;
+      const auto now = mesh.bars->at(0, 0.0, d / V + s, Side::right);
+      EXPECT_NEAR(now.v.nearest(), V * known.v[2 * k], 1e-9 * V);
+      EXPECT_NEAR(mesh.bars->force(d / V + s, Side::right).nearest(),
+                  A * std::sqrt(E * rho) * V * (known.v[2 * k] - known.a[2 * k]),
+                  2e-8 * A * std::sqrt(E * rho) * V);
+    }
+    // Energy and momentum of a bar whose end is free, or energy alone.
+    const double energy = 0.5 * m / mu * V * V;
+    for (int i = 0; i < 3; ++i) {
+      const auto now = mesh.bars->energy(box.uniform(0.0, mesh.bars->end()));
+      EXPECT_NEAR(now.kinetic.nearest() + now.elastic.nearest(), energy, 1e-13 * energy);
+    }
+  }
 }
 
 TEST(BarCases, PassTheirParametersOnToTheBars) {

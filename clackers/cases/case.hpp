@@ -12,7 +12,7 @@
 #include "clackers/model/motion.hpp"
 
 namespace clackers::exact {
-class BarContact;
+class BarMotion;
 }
 
 namespace clackers::cases {
@@ -34,7 +34,7 @@ struct Case {
   model::ImpactProblem<> problem;
   std::shared_ptr<const model::Motion> motion;
   /// The bars of which the problem is a mesh; null for a structure of masses.
-  std::shared_ptr<const exact::BarContact> bars;
+  std::shared_ptr<const exact::BarMotion> bars;
   std::vector<Quantity> constants;     ///< derived: m2, k2, omega_D2, r*, margin, ...
   std::vector<Quantity> indicators;    ///< I_ms, T_L, T_S, I_OC, with their threshold
   std::vector<double> damped_periods;  ///< of the free masses [s]

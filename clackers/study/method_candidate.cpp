@@ -86,7 +86,7 @@ record::Subject subject_of(const methods::Method& method, const StudyCase& probl
   if (const auto objection = method.objection(problem.problem.problem)) {
     subject.refusal = objection->sentence;
     subject.refusal_code = objection->code.name();
-  } else if (collides) {
+  } else if (collides || !problem.problem.problem.frictions.empty()) {
     subject.contact_time = method.contact_time(problem.problem.problem);
   }
   return subject;

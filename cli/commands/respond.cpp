@@ -227,7 +227,7 @@ void add_respond(Grammar& root) {
   app->add_flag(
       "--forces", options->forces,
       "At the times, the forces of contacts that stay closed instead: force1, force2, ... "
-      "[N], 0 for open ones.");
+      "[N], 0 for open ones; then those of dry friction: friction1, ... [N].");
   app->add_option(
          "--at", options->at,
          "At the times, points of the case's bars instead, at x from the contact [m]: u [m], v "

@@ -11,7 +11,7 @@ CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "th
          "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly", "cradle",
          "forced-pair", "base-excited-pair", "penalized-pair", "piecewise", "ball",
          "pressed-oscillator", "plastic-pair", "slider", "belt", "forced-slider", "pendulum", "duffing-stop",
-         "bar-wall", "bouncing-bar", "two-bars")
+         "bar-wall", "bouncing-bar", "two-bars", "mass-on-bar")
 
 
 class List(CommandTest):

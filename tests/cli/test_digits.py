@@ -34,6 +34,15 @@ class Digits(CommandTest):
                         if l[name] != "0":
                             self.assertEqual(significant(l[name]), 40, l[name])
 
+    def test_of_a_ball_at_rest_are_zeros(self):
+        row = self.rows_of("respond", "ball", "--samples", "2", "--digits", "40")[1]
+        self.assertEqual([row["u1"], row["v1"], row["a1"]], ["0", "0", "0"])
+        # Between the last impact that is resolved and rest there are infinitely many.
+        with open(self.path("t"), "w") as file:
+            file.write("4.06367\n")
+        self.refused("respond", "ball", "--times", self.path("t"), "--digits", "40",
+                     code="no-enclosure", says=("rest",))
+
     def test_of_the_slow_mass_are_those_of_eq_22_computed_here(self):
         # u1 = e^(-0.05 t) |cos(sqrt(0.9975) t)| for the double 0.05, by series with 120 digits.
         with decimal.localcontext(prec=120):

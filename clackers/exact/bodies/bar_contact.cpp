@@ -26,6 +26,12 @@ BarContact::Wave BarContact::wave(std::size_t bar) const {
   return {narrowed(tau), narrowed(c), narrowed(z)};
 }
 
+std::vector<double> BarContact::lengths() const {
+  std::vector<double> list;
+  for (const auto& bar : p_.bars) list.push_back(bar.L);
+  return list;
+}
+
 Bounded BarContact::gap() const { return narrowed(waves_->gap_); }
 Bounded BarContact::period() const { return narrowed(waves_->period_); }
 

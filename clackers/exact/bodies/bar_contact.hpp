@@ -4,8 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/model/motion.hpp"
-#include "clackers/numerics/bounded.hpp"
+#include "clackers/exact/bodies/bar_motion.hpp"
 
 namespace clackers::exact {
 
@@ -40,15 +39,8 @@ struct BarsParameters {
 /// 256 bits with running error bounds; what events closer than their errors leave open is in the
 /// bounds. Known: L. Amerio, G. Prouse (1975), M. Schatzman (1980), G. Lebeau, M. Schatzman (1984).
 /// Derivation: docs/manual/explanation/derivations/bars.md. Const, safe to share between threads.
-class BarContact {
+class BarContact final : public BarMotion {
  public:
-  using Bounded = numerics::Bounded;
-  struct Point {
-    Bounded u, v, stress;  ///< tension is positive
-  };
-  struct Energy {
-    Bounded kinetic, elastic, potential;  ///< the last of the weight, 0 at the start
-  };
   /// A change of the contact.
   struct Event {
     bool closes = false;
@@ -58,10 +50,11 @@ class BarContact {
   /// Throws InputError for more than 20,000 pieces, and where the contact is touched so softly that it
   /// is not certain whether it closes.
   explicit BarContact(const BarsParameters& parameters, std::string_view who);
-  ~BarContact();
+  ~BarContact() override;
 
   const BarsParameters& parameters() const { return p_; }
-  double end() const { return p_.end; }
+  double end() const override { return p_.end; }
+  std::vector<double> lengths() const override;
   /// L/c of a bar [s], its wave speed [m/s] and its impedance [N s/m].
   struct Wave {
     Bounded transit, speed, impedance;
@@ -71,15 +64,11 @@ class BarContact {
   Bounded gap() const;
   Bounded period() const;
 
-  /// At the distance x from the contact end, 0 <= x <= L, and at t in [0, end]. Across a front u is
-  /// continuous; where x and t lie on a front within the spacing of doubles, `side` is meant in time.
-  Point at(std::size_t bar, double x, double t, model::Side side) const;
+  Point at(std::size_t bar, double x, double t, model::Side side) const override;
   Bounded gap(double t) const;
-  Bounded force(double t, model::Side side) const;
-  /// The integral of the force from 0 to t.
-  Bounded impulse(double t) const;
-  /// Of all bars.
-  Energy energy(double t) const;
+  Bounded force(double t, model::Side side) const override;
+  Bounded impulse(double t) const override;
+  Energy energy(double t) const override;
   /// Up to the end, of periodic motions those of the first period.
   std::vector<Event> events() const;
 

@@ -31,19 +31,21 @@ void require(std::string_view who, double elements, NodeMass mass, double eta) {
 
 }  // namespace
 
-BarMesh bar_mesh(const BarContact& bars, double elements, NodeMass mass, double eta,
+BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta,
                  std::string_view who) {
   require(who, elements, mass, eta);
-  const auto& p = bars.parameters();
-  const bool massless = mass == NodeMass::massless, two = p.bars.size() == 2;
-  const auto n = Index(elements), nodes = massless ? n : n + 1, dof = nodes * Index(p.bars.size());
+  const bool massless = mass == NodeMass::massless, two = p.bars.size() == 2,
+             is_struck = p.striker > 0.0;
+  const auto n = Index(elements), nodes = (massless ? n : n + 1) - (p.is_fixed ? 1 : 0);
   BarMesh mesh;
-  mesh.nodes.resize(std::size_t(dof));
+  mesh.first = is_struck ? 1 : 0;
+  mesh.nodes.resize(std::size_t(nodes) * p.bars.size());
+  const auto dof = mesh.first + Index(mesh.nodes.size());
   auto& problem = mesh.problem;
   auto& system = problem.system;
   system.mass = system.damping = system.stiffness = MatrixXd::Zero(dof, dof);
   problem.start = {0.0, VectorXd::Zero(dof), VectorXd::Zero(dof)};
-  problem.end = bars.end();
+  problem.end = p.end;
   VectorXd weight = VectorXd::Zero(dof);
   // The element at the contact, where its node has no mass; of two bars both in series.
   double compliance = 0.0;
@@ -54,27 +56,35 @@ BarMesh bar_mesh(const BarContact& bars, double elements, NodeMass mass, double 
     // Of the node i from the contact end, 0 the end itself; the left bar comes first, backwards.
     const auto place = [&](Index i) {
       if (massless) i = std::max<Index>(i - 1, 0);
-      return two && b == 0 ? nodes - 1 - i : Index(b) * nodes + i;
+      return mesh.first + (two && b == 0 ? nodes - 1 - i : Index(b) * nodes + i);
     };
+    // A fixed node takes part of the elements beside it, and does not move.
+    const auto moves = [&](Index i) { return i < dof; };
     contact_ends.push_back(place(0));
     compliance += 1.0 / k;
     for (Index i = 0; i < n; ++i) {
       const Index first = place(i), second = place(i + 1);
       if (mass == NodeMass::consistent) {
-        for (const Index j : {first, second}) system.mass(j, j) += m / 3.0;
-        system.mass(first, second) += m / 6.0;
-        system.mass(second, first) += m / 6.0;
+        for (const Index j : {first, second})
+          if (moves(j)) system.mass(j, j) += m / 3.0;
+        if (moves(second)) system.mass(first, second) += m / 6.0;
+        if (moves(second)) system.mass(second, first) += m / 6.0;
       } else {
-        for (const Index j : {first, second}) system.mass(j, j) += 0.5 * m;
+        for (const Index j : {first, second})
+          if (moves(j)) system.mass(j, j) += 0.5 * m;
       }
-      for (const Index j : {first, second}) weight[j] -= 0.5 * m * p.g;
+      for (const Index j : {first, second})
+        if (moves(j)) weight[j] -= 0.5 * m * p.g;
       if (first == second) continue;  // the element of a massless node
-      for (const Index j : {first, second}) system.stiffness(j, j) += k;
+      for (const Index j : {first, second})
+        if (moves(j)) system.stiffness(j, j) += k;
+      if (!moves(second)) continue;
       system.stiffness(first, second) -= k;
       system.stiffness(second, first) -= k;
     }
     for (Index i = massless ? 1 : 0; i <= n; ++i) {
-      mesh.nodes[std::size_t(place(i))] = {b, h * double(i)};
+      if (!moves(place(i))) continue;
+      mesh.nodes[std::size_t(place(i) - mesh.first)] = {b, h * double(i)};
       problem.start.v[place(i)] = bar.v0;
     }
   }
@@ -83,8 +93,13 @@ BarMesh bar_mesh(const BarContact& bars, double elements, NodeMass mass, double 
     for (Index i = 0; i < dof; ++i) forces.push_back({int(i), weight[i], 0.0, 0.0});
     system.add_load = model::HarmonicLoad(std::move(forces));
   }
-  model::Contact<> contact{VectorXd::Unit(dof, contact_ends.back()), -bars.gap().nearest(), eta};
+  model::Contact<> contact{VectorXd::Unit(dof, contact_ends.back()), -p.gap, eta};
   if (two) contact.direction[contact_ends.front()] = -1.0;
+  if (is_struck) {
+    contact.direction[0] = -1.0;
+    system.mass(0, 0) = p.striker;
+    problem.start.v[0] = p.speed;
+  }
   if (massless) {
     contact.restitution = 1.0;  // without meaning
     system.nonlinear = std::make_shared<model::OneSidedSprings>(

@@ -13,21 +13,32 @@ namespace clackers::exact {
 /// H. B. Khenous, P. Laborde, Y. Renard, Eur. J. Mech. A 27, 918-932 (2008)).
 enum class NodeMass { lumped, consistent, massless };
 
-/// The bars in linear elements of one length: what an integrator gets.
+/// What is meshed: the bars of a BarContact, or one that a rigid mass strikes.
+struct MeshedBars {
+  std::vector<Bar> bars;
+  double gap = 0.0, end = 0.0, g = 0.0;
+  double striker = 0.0, speed = 0.0;  ///< mass left of the bar and its velocity [kg, m/s]; 0: none
+  bool is_fixed = false;              ///< the far end of the bar
+};
+
+/// The bars in linear elements of one length: what an integrator gets. A mass that strikes is the first
+/// degree of freedom.
 struct BarMesh {
   model::ImpactProblem<> problem;
-  /// Of each degree of freedom, ascending along x: the bar and the distance from its contact end [m].
+  /// Of each degree of freedom but that of a mass, ascending along x: the bar and the distance from its
+  /// contact end [m].
   struct Node {
     std::size_t bar = 0;
     double x = 0.0;
   };
   std::vector<Node> nodes;
+  Eigen::Index first = 0;  ///< degree of freedom of the first node
 };
 
 /// `elements` in each bar. Massless contact nodes are eliminated: what is left of them is a one-sided
 /// spring, the element at the contact. Throws InputError, `who` first, unless 1 <= elements <= 200, a
 /// whole number, at least 2 where contact nodes are massless; and for a restitution of those.
-BarMesh bar_mesh(const BarContact& bars, double elements, NodeMass mass, double eta,
+BarMesh bar_mesh(const MeshedBars& meshed, double elements, NodeMass mass, double eta,
                  std::string_view who);
 
 }  // namespace clackers::exact

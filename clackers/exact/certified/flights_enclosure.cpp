@@ -14,9 +14,10 @@ const BallFlights* FlightsEnclosure::begun(std::size_t flight) {
   constexpr long most_bits = 1 << 15;
   const auto refuse = [&](const char* why) {
     throw InputError(
-        fmt::format("digits: {}; allowed: values other than 0, and motions up to where "
-                    "contacts stay closed, of impacts whose order is certain.",
-                    why),
+        fmt::format(
+            "digits: {}; allowed: values other than 0, and motions up to where "
+            "contacts stay closed, and of one mass from its rest to the end on, of impacts whose order is certain.",
+            why),
         "no-enclosure");
   };
   if (WorkingBits::now() > most_bits) refuse("a value is 0, or an impact has no speed");
@@ -54,7 +55,18 @@ std::optional<std::pair<Eigen::VectorXd, Eigen::VectorXd>> FlightsEnclosure::dou
   return std::nullopt;
 }
 
+// Contacts of one mass that is held to the end: it is at the gap, exactly, and does not move.
+const model::Contact<>* FlightsEnclosure::holding(double t) const {
+  if (motion_.dof() > 1) return nullptr;
+  for (const auto& closed : motion_.closed_contacts())
+    if (!closed.opens && closed.begins.hi <= t)
+      return &motion_.problem().contacts[std::size_t(closed.contact)];
+  return nullptr;
+}
+
 KinematicBalls FlightsEnclosure::at_now(long long k, double t) {
+  if (const auto* held = holding(t))
+    return {{Ball(held->gap) / held->direction[0]}, {Ball()}, {Ball()}};
   if (const auto* known = begun(std::size_t(k))) return known->at(t);
   Ball any;
   arb_indeterminate(any.get());

@@ -33,6 +33,7 @@ class FlightsEnclosure : public Enclosure {
   ImpactBalls impact_now(long long k) override;
 
  private:
+  const model::Contact<>* holding(double t) const;
   /// Null where it takes more bits.
   const BallFlights* begun(std::size_t flight);
 

@@ -15,7 +15,7 @@ using Law = model::NonlinearSprings::Law;
 
 namespace {
 
-constexpr std::size_t most_flights = 1'000'000;
+constexpr std::size_t most_flights = 100'000;
 
 Eigen::VectorXd scalar(double x) { return Eigen::VectorXd::Constant(1, x); }
 

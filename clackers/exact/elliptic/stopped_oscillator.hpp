@@ -28,7 +28,7 @@ class StoppedOscillator : public Flights {
 
   /// The mass, its restitution and the end of the run; the rest is the derived class's.
   StoppedOscillator(double m, double eta, double end);
-  /// All flights up to the end, with `make` of the speed at the stop. Throws InputError for more than 1e6.
+  /// All flights up to the end, with `make` of the speed at the stop. Throws InputError for more than 1e5.
   template <class Make>
   void follow(std::string_view who, const Flight& first, const Make& make);
 

@@ -2,7 +2,7 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/bodies/bar_contact.hpp"
+#include "clackers/exact/bodies/bar_motion.hpp"
 #include "clackers/tables/respond.hpp"
 #include "clackers/tables/respond/timed_rows.hpp"
 
@@ -16,10 +16,10 @@ struct Place {
   double x = 0.0;  // from the contact end
 };
 
-Place place_of(const exact::BarContact& bars, double x) {
-  const auto& list = bars.parameters().bars;
-  const double lowest = list.size() == 2 ? -list.front().L : 0.0;
-  require_within("respond", "x", x, lowest, list.back().L);
+Place place_of(const exact::BarMotion& bars, double x) {
+  const auto list = bars.lengths();
+  const double lowest = list.size() == 2 ? -list.front() : 0.0;
+  require_within("respond", "x", x, lowest, list.back());
   return x < 0.0 ? Place{0, -x} : Place{list.size() - 1, x};
 }
 
@@ -45,7 +45,7 @@ std::vector<record::Column> columns_at(const std::vector<double>& places) {
 
 class PointRows : public record::NumberRows {
  public:
-  PointRows(const exact::BarContact& bars, std::string name, const TimeGrid& grid,
+  PointRows(const exact::BarMotion& bars, std::string name, const TimeGrid& grid,
             const std::vector<double>& places)
       : bars_(bars), name_(std::move(name)), grid_(grid), columns_(columns_at(places)) {
     for (const double x : places) places_.push_back(place_of(bars, x));
@@ -98,7 +98,7 @@ class PointRows : public record::NumberRows {
     return row;
   }
 
-  const exact::BarContact& bars_;
+  const exact::BarMotion& bars_;
   std::string name_;
   TimeGrid grid_;
   std::vector<record::Column> columns_;
@@ -111,10 +111,11 @@ class PointRows : public record::NumberRows {
 std::unique_ptr<record::RowSource> points(const cases::Case& test_case, const TimeGrid& grid,
                                           const std::vector<double>& places) {
   if (!test_case.bars)
-    throw InputError(fmt::format("respond: points are those of a bar; {} has masses. Leave --at "
-                                 "out, or take a case with bars: bar-wall, bouncing-bar, two-bars.",
-                                 test_case.entry->name),
-                     "no-closed-form");
+    throw InputError(
+        fmt::format("respond: points are those of a bar; {} has masses. Leave --at "
+                    "out, or take a case with bars: bar-wall, bouncing-bar, two-bars, mass-on-bar.",
+                    test_case.entry->name),
+        "no-closed-form");
   if (grid.size() > most_times)
     refuse("respond", "times", double(grid.size()), "at most 1e6 with --at", {}, "too-many-rows");
   require_inside(test_case, grid);

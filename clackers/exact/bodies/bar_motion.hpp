@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "clackers/model/motion.hpp"
+#include "clackers/numerics/bounded.hpp"
+
+namespace clackers::exact {
+
+/// Bars, one or two that meet, as continua: what is known of each point, and of the contact.
+class BarMotion {
+ public:
+  using Bounded = numerics::Bounded;
+  struct Point {
+    Bounded u, v, stress;  ///< tension is positive
+  };
+  struct Energy {
+    Bounded kinetic, elastic, potential;  ///< the last of the weight, 0 at the start
+  };
+
+  virtual ~BarMotion() = default;
+
+  virtual double end() const = 0;
+  /// Of each bar [m], the left one first.
+  virtual std::vector<double> lengths() const = 0;
+  /// At the distance x from the contact end, 0 <= x <= L, and at t in [0, end]. Across a front u is
+  /// continuous; where x and t lie on a front within the spacing of doubles, `side` is meant in time.
+  virtual Point at(std::size_t bar, double x, double t, model::Side side) const = 0;
+  virtual Bounded force(double t, model::Side side) const = 0;
+  /// The integral of the force from 0 to t.
+  virtual Bounded impulse(double t) const = 0;
+  /// Of all bars, and of a mass that strikes one.
+  virtual Energy energy(double t) const = 0;
+};
+
+}  // namespace clackers::exact

@@ -1,0 +1,44 @@
+"""Dry friction and nonlinear springs from the command line."""
+import json
+import unittest
+
+from command import CommandTest, rows, run
+
+
+class Friction(CommandTest):
+    def test_force_of_a_slider_is_that_of_its_spring_at_rest(self):
+        sliding, resting = self.rows_of("respond", "slider", "--step", "1", "--forces")[1:20:18]
+        self.assertAlmostEqual(float(sliding["friction1"]), 0.09375, places=15)
+        u = float(self.rows_of("respond", "slider", "--step", "1")[19]["u1"])
+        self.assertAlmostEqual(float(resting["friction1"]), u, places=15)
+
+    def test_energy_of_a_slider_is_lost_to_it(self):
+        first, last = self.rows_of("respond", "slider", "--samples", "2", "--energy")
+        constants = {row["name"]: row["value"] for row in rows(run("show", "slider", "--format", "csv").stdout)}
+        lost = float(first["potential"]) - float(last["potential"])
+        self.assertAlmostEqual(lost, float(constants["lost"]), places=14)
+        self.assertEqual(last["kinetic"], "0")
+
+    def test_panel_agrees_where_it_has_a_law(self):
+        for case in ("slider", "belt"):
+            done = run("verify", "--case", case, "newmark", "rk4", "moreau-jean", "newmark+reversal",
+                       "--format", "json")
+            subjects = json.loads(done.stdout)["cases"][0]["subjects"]
+            self.assertEqual([s["assessment"]["verdict"] for s in subjects[:3]], ["agrees"] * 3, done.stdout)
+            self.assertEqual(subjects[3]["refusal_code"], "linear-only")
+
+    def test_problem_of_a_case_is_read_again_and_refused_with_the_reason(self):
+        path = self.path("belt.json")
+        with open(path, "w") as file:
+            file.write(run("show", "belt", "--format", "json").stdout)
+        self.refused("show", "--problem", path, code="linear-only", says=("dry friction",))
+        self.refused("export", "belt", "--to", "scipy", code="no-deck", says=("friction",))
+
+    def test_implicit_methods_take_the_tangent_of_a_pendulum(self):
+        done = run("verify", "--case", "pendulum", "newmark", "rk4", "energy-momentum", "--format", "json")
+        subjects = json.loads(done.stdout)["cases"][0]["subjects"]
+        self.assertEqual([s["assessment"]["verdict"] for s in subjects], ["agrees"] * 3, done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
