@@ -19,7 +19,7 @@ COMMANDS = {
     "clackers --version": ("--version",),
     "clackers verify": ("verify", "--jobs", "1"),
     "clackers verify buildings": ("verify", "--jobs", "1", "--case", "buildings"),
-    "clackers respond, 1e6 rows as npy": ("respond", "--samples", "1000000", "--format", "npy"),
+    "clackers respond, 1e6 rows as npy": ("respond", "three-parameter", "--samples", "1000000", "--format", "npy"),
 }
 ROW = re.compile(r"(\S.*?\S)  +(\d+\.\d+)(?:\s|$)")
 
@@ -45,7 +45,9 @@ def rows_of(build, before):
                 title = line
     for name, words in COMMANDS.items():
         start = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run([*before, f"{build}/cli/clackers", *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        done = subprocess.run([*before, f"{build}/cli/clackers", *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        if done.returncode not in (0, 1, 3):  # verdicts
+            raise SystemExit(f"compare: {name} failed")
         end = resource.getrusage(resource.RUSAGE_CHILDREN)
         rows["whole commands: processor time [ms]", name] = 1e3 * (end.ru_utime - start.ru_utime + end.ru_stime - start.ru_stime)
     return rows
