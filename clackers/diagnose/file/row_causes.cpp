@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "clackers/diagnose/file/file_sample.hpp"
-#include "clackers/diagnose/file/first_row.hpp"
 #include "clackers/diagnose/file/interpolation.hpp"
 #include "clackers/diagnose/file/reading.hpp"
+#include "clackers/diagnose/file/start/first_row.hpp"
 
 namespace clackers::diagnose {
 namespace {

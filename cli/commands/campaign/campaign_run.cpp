@@ -7,7 +7,7 @@
 #include "clackers/campaign/run.hpp"
 #include "clackers/report/write.hpp"
 #include "cli/cluster/run_on_ranks.hpp"
-#include "cli/commands/campaign_actions.hpp"
+#include "cli/commands/campaign/campaign_actions.hpp"
 #include "cli/files/results.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"

@@ -3,7 +3,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/campaign/atlas.hpp"
 #include "clackers/record/record.hpp"
-#include "cli/commands/campaign_actions.hpp"
+#include "cli/commands/campaign/campaign_actions.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/messages.hpp"
 

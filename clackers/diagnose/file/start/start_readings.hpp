@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "clackers/diagnose/file/first_row.hpp"
+#include "clackers/diagnose/file/start/first_row.hpp"
 
 namespace clackers::diagnose {
 

@@ -10,7 +10,7 @@
 #include "clackers/base/text.hpp"
 #include "clackers/campaign/store.hpp"
 #include "clackers/report/write.hpp"
-#include "cli/commands/campaign_actions.hpp"
+#include "cli/commands/campaign/campaign_actions.hpp"
 #include "cli/files/results.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"

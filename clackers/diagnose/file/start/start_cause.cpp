@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "clackers/diagnose/diagnose.hpp"
-#include "clackers/diagnose/file/start_readings.hpp"
+#include "clackers/diagnose/file/start/start_readings.hpp"
 
 namespace clackers::diagnose {
 namespace {

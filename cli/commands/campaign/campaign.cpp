@@ -7,7 +7,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "cli/command.hpp"
-#include "cli/commands/campaign_actions.hpp"
+#include "cli/commands/campaign/campaign_actions.hpp"
 
 namespace clackers::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/commands/atlas_folder.hpp"
+#include "cli/commands/campaign/atlas_folder.hpp"
 
 #include <fmt/format.h>
 #include <stdlib.h>

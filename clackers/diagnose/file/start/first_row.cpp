@@ -1,4 +1,4 @@
-#include "clackers/diagnose/file/first_row.hpp"
+#include "clackers/diagnose/file/start/first_row.hpp"
 #include "clackers/base/constants.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "clackers/diagnose/file/first_row.hpp"
+#include "clackers/diagnose/file/start/first_row.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::diagnose {

@@ -9,7 +9,7 @@
 #include "clackers/base/text.hpp"
 #include "clackers/solvers/process.hpp"
 #include "cli/cluster/run_on_ranks.hpp"
-#include "cli/commands/campaign_actions.hpp"
+#include "cli/commands/campaign/campaign_actions.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/messages.hpp"

@@ -1,4 +1,4 @@
-#include "clackers/diagnose/file/start_readings.hpp"
+#include "clackers/diagnose/file/start/start_readings.hpp"
 
 #include <algorithm>
 #include <cmath>

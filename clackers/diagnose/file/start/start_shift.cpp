@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/diagnose/file/start_readings.hpp"
+#include "clackers/diagnose/file/start/start_readings.hpp"
 
 namespace clackers::diagnose {
 namespace {
