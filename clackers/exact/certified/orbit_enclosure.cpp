@@ -37,7 +37,11 @@ const OrbitEnclosure::Formulas& OrbitEnclosure::formulas() {
 KinematicBalls OrbitEnclosure::at_now(long long k, double t) {
   return std::visit(
       [&](const auto& formulas) {
-        auto states = formulas.state(k, Ball(t) - formulas.instant(k));
+        // A double that is an impact's instant itself.
+        const auto since = [&](long long impact) { return Ball(t) - formulas.instant(impact); };
+        if (since(k).is_zero()) return kinematics(formulas.limits(k).after);
+        if (since(k + 1).is_zero()) return kinematics(formulas.limits(k + 1).before);
+        auto states = formulas.state(k, since(k));
         for (std::size_t i = 0; i < 2; ++i)
           if (formulas.turns(i, k, t)) states[i].v = Ball();
         return kinematics(states);
