@@ -19,13 +19,14 @@ for M a + C v + K u + p(u, v) = f(t) + B^T L:
     v1 = (u2 - u0) / 2 h
     0 <= (b.u2 + eta b.u0) / (1 + eta) - gap _|_ L >= 0   at every contact
 
-The first step is that of Taylor's series. An impact takes two steps, or three where the forces press
-the contact on after it: its impulse is the sum of all h L, reported at the last; a lasting contact is a
-row of such impacts. With eta = 0 at all
-contacts it is forward-increment-lagrange, of another order: that one is to be used.
+The first step is that of Taylor's series. An impact takes two steps, or three where forces press the
+contact on: its impulse is the sum of all h L, reported at the last; a lasting contact is a row of such
+impacts. With eta = 0 at all contacts it is forward-increment-lagrange, of another order: that one is to
+be used.
 
 Order       2 in smooth motion; 1 through impacts, with errors on a line where others scatter, since
-            the impact ends at a time that is smooth in the step.
+            the impact ends at a time that is smooth in the step; with scatter where a force presses
+            the contact on for a third step.
 Stability   omega h <= 2.
 Dissipation none in flight for C = 0.
 Memory      u0, kept as acceleration and velocity.
