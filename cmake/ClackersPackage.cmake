@@ -27,7 +27,7 @@ set(CPACK_COMPONENT_COMMAND_DESCRIPTION
 The command clackers prints exact motions with their impacts and judges
 time-integration methods against them.")
 
-set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "clackers-doc, libnetcdf19")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "clackers-doc, libnetcdf19, libopenmpi3")
 
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME clackers-doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)

@@ -73,7 +73,7 @@ class Packages(unittest.TestCase):
 
     def test_manual_is_a_package_for_every_machine(self):
         self.assertEqual(field("clackers-doc", "Architecture"), "all")
-        self.assertEqual(field("clackers", "Suggests"), "clackers-doc, libnetcdf19")
+        self.assertEqual(field("clackers", "Suggests"), "clackers-doc, libnetcdf19, libopenmpi3")
         contents = installed.run("dpkg-deb", "-c", debs["clackers-doc"])
         for name in ["html/index.html", "html/_static/style.css", "copyright"]:
             self.assertIn(f"./usr/share/doc/clackers-doc/{name}\n", contents)
