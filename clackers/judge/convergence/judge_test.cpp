@@ -318,6 +318,33 @@ TEST(Judge, AnUndecidedLadderDisagreesOnlyWhereAllRunsMissAsManyImpacts) {
   EXPECT_EQ(judge(ladder, second).verdict, Verdict::undecided);
 }
 
+// The numbers of the evidence of that code; empty without any.
+std::vector<double> numbers(const Assessment& found, std::string_view code) {
+  for (const auto& evidence : found.evidence)
+    if (evidence.code == code) return evidence.numbers;
+  return {};
+}
+
+TEST(Judge, ErrorsOverTolerancesAreThoseOfTheLine) {
+  const Claim claim{Behaviour::proper, 1.0, ""};
+  const auto error = [](double tolerance) { return 3.0 * tolerance; };
+  auto ladder = scores(error, {.levels = 8, .samples = 1});
+  ladder[3].runs[0].finished = false;
+  const auto found = numbers(judge(ladder, claim, {.by_tolerance = true}), "error-over-tolerance");
+  ASSERT_EQ(found.size(), 3u);
+  for (const double factor : found) EXPECT_NEAR(factor, 3.0, 1e-12);
+  EXPECT_TRUE(numbers(judge(ladder, claim), "error-over-tolerance").empty());
+  const auto flat = scores([](double) { return 1e-3; }, {.levels = 8, .samples = 1});
+  EXPECT_TRUE(numbers(judge(flat, claim, {.by_tolerance = true}), "error-over-tolerance").empty());
+}
+
+TEST(Judge, AStepAtWhichErrorsCancelIsReported) {
+  const auto error = [](double h) { return 1e-4 * std::abs(1.0 - std::pow(h / 0.0013, 2)); };
+  const auto found = numbers(judge(scores(error), second), "errors-cancel");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0], 0.0013, 1e-6);
+}
+
 TEST(Judge, LateImpactsDoNotContradictAFloorButMissedOnesDo) {
   auto late = scores([](double) { return 0.9; });
   every_run(late, 0, [](measure::RunScore& run) {
