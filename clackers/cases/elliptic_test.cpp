@@ -99,7 +99,10 @@ struct Bouncer {
   }
 };
 
-void expect_simulated(Box& box, const Case& test_case, const Expansion& expansion, double eta) {
+// `condition`: of the instants with the start, which the problem has rounded; large beside the motions that never
+// come back.
+void expect_simulated(Box& box, const Case& test_case, const Expansion& expansion, double eta,
+                      double condition) {
   const auto& start = test_case.problem.start;
   const double period = constant(test_case, "T_0"), end = test_case.motion->end();
   Bouncer known{expansion, Number(period) / 150, eta, 0, start.u[0], 0};
@@ -108,15 +111,15 @@ void expect_simulated(Box& box, const Case& test_case, const Expansion& expansio
     const double t = end * (i - box.uniform(0.0, 1.0)) / 6.0;
     known.run_to(t);
     const auto now = test_case.motion->at(t, Side::right), bound = test_case.motion->error_bound(t);
-    const double own = 4e-16 * (1.0 + t / period);
+    const double own = 4e-16 * condition * (1.0 + t / period);
     EXPECT_NEAR(now.u[0], double(known.u), bound.u[0] + own * size.u[0]) << t;
     EXPECT_NEAR(now.v[0], double(known.v), bound.v[0] + own * size.v[0]) << t;
-    EXPECT_LT(bound.u[0], 2e-15 * size.u[0]);
+    EXPECT_LT(bound.u[0], 1e-12 * condition * size.u[0]);
     EXPECT_EQ(test_case.motion->impact_count(t), known.impacts);
   }
   if (known.impacts == 0) return;
   const auto hit = test_case.motion->impact(1);
-  EXPECT_NEAR(hit.t, double(known.first), 1e-15 * (period + hit.t));
+  EXPECT_NEAR(hit.t, double(known.first), 1e-15 * condition * (period + hit.t));
   EXPECT_NEAR(hit.before.v[0], -double(known.fastest), 1e-15 * double(known.fastest));
   EXPECT_NEAR(hit.after.v[0], eta * double(known.fastest), 1e-15 * double(known.fastest));
   EXPECT_EQ(hit.before.u[0], 0.0);
@@ -140,7 +143,7 @@ TEST(EllipticCases, PendulumsSwingAsTheirTaylorSeries) {
                                        {"theta0", theta0},
                                        {"eta", eta},
                                        {"t_end", box.uniform(1.0, 30.0) * std::sqrt(l / g)}}),
-                     pendulum(l, g), eta);
+                     pendulum(l, g), eta, 4.0 / std::cos(0.5 * theta0));
   }
 }
 
@@ -160,7 +163,8 @@ TEST(EllipticCases, DuffingOscillatorsSwingAsTheirTaylorSeries) {
                                            {"u0", u0},
                                            {"eta", eta},
                                            {"t_end", box.uniform(1.0, 30.0) * std::sqrt(m / k)}}),
-                     duffing(Number(k) / m, Number(b) / m), eta);
+                     duffing(Number(k) / m, Number(b) / m), eta,
+                     4.0 / std::min(1.0, 1.0 + b * u0 * u0 / k));
   }
 }
 

@@ -45,6 +45,8 @@ inline Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem,
       collides || !problem.frictions.empty() || facts.through_impacts.behaviour == Behaviour::exact;
   const Claim claim =
       is_of_impacts ? facts.through_impacts : Claim{Behaviour::proper, facts.smooth_order, {}};
+  // How soon a regular law of friction tears loose decides by how much later motion errs.
+  if (!problem.frictions.empty() && claim.behaviour == Behaviour::stagnating) return {};
   if (shares_impacts && claim.behaviour == Behaviour::stagnating) return {claim.behaviour, 0.0, {}};
   const bool is_exact = facts.is_exact_without_load && !problem.system.add_load;
   if (is_exact && claim.behaviour == Behaviour::proper) return {Behaviour::exact, 0.0, {}};

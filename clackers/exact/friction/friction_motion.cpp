@@ -106,7 +106,7 @@ Belt::Belt(const BeltParameters& p, std::string_view who)
       d_(Bounded(p.kinetic) / k_),
       stick_(Bounded(2.0) * D_ / V_) {
   if (!(p.limit > p.kinetic))
-    refuse(who, "kinetic", p.kinetic, fmt::format("kinetic < limit = {}", p.limit),
+    refuse(who, "Fd", p.kinetic, fmt::format("Fd < Fs = {}", p.limit),
            "Without a difference the mass slides into rest, and no stick and slip repeats.",
            "not-admissible");
   // pi - atan(x) = pi/2 + atan(1/x), without cancellation for small V. The derivative of atan is at most 1.
