@@ -25,8 +25,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "These runs are not enough for a verdict. The message says what to change."},
     {"contact-stiffness", "reason",
      "The floor is the model error of a compliant contact: "
-     "each impact lasts a contact time instead of an instant; of dry friction that of a law under which nothing comes to rest. "
-     "A larger contact stiffness, or a narrower width of friction, lowers it, and needs smaller steps."},
+     "each impact lasts a contact time instead of an instant. "
+     "A larger contact stiffness lowers it, and needs smaller steps."},
     {"tolerance-floor", "reason",
      "The floor is an iteration tolerance of the method; tighten it."},
     {"unexplained-floor", "reason",
