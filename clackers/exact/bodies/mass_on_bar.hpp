@@ -38,7 +38,9 @@ class MassOnBar final : public BarMotion {
   Bounded impulse(double t) const override;
   Energy energy(double t) const override;
 
-  BarContact::Wave wave() const { return {numerics::narrowed(tau_), numerics::narrowed(c_), numerics::narrowed(z_)}; }
+  BarContact::Wave wave() const {
+    return {numerics::narrowed(tau_), numerics::narrowed(c_), numerics::narrowed(z_)};
+  }
   /// When the contact begins and ends [s]; the velocity of the mass after it.
   Bounded begins() const { return numerics::narrowed(start_); }
   Bounded ends() const { return numerics::narrowed(end_of_contact_); }
