@@ -537,7 +537,6 @@ TEST(Judge, ErrorsWithinAFactorTwoOfTheClaimedLineAreProper) {
   const auto scattered = [](double factor) {
     return [draw = Scatter(factor, 7)](double h) mutable { return h * h * draw(); };
   };
-  const Claim second{Behaviour::proper, 2.0, {}};
   EXPECT_EQ(judge(scores(scattered(1.9)), second).verdict, Verdict::agrees);
   EXPECT_EQ(judge(scores(scattered(8.0)), second).verdict, Verdict::disagrees);
 }
