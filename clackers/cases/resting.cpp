@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -165,6 +167,35 @@ double unrounded(const Case& test_case, const char* name, const numerics::Double
   return value.hi;
 }
 
+// A point in the box [0, a] x [0, b], its coordinates as the two masses.
+void build_billiard(Case& test_case, const Values& value, double) {
+  const auto& who = test_case.entry->name;
+  auto& problem = test_case.problem;
+  problem.system.mass = MatrixXd::Identity(2, 2);
+  problem.system.damping = problem.system.stiffness = MatrixXd::Zero(2, 2);
+  problem.start = {0.0, VectorXd(2), VectorXd(2)};
+  problem.end = end_of(test_case, value);
+  const char* const names[2][3] = {{"a", "x0", "vx"}, {"b", "y0", "vy"}};
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const auto& [side, place, speed] = names[i];
+    const double length = within(test_case, value, side), x = value(place),
+                 v = within(test_case, value, speed, -1e30);
+    if (!(x > 0.0 && x < length))
+      refuse(who, place, x, fmt::format("0 < {} < {} = {}", place, side, length),
+             "The point starts inside the box.");
+    problem.start.u[i] = x;
+    problem.start.v[i] = v;
+    problem.contacts.push_back({VectorXd::Unit(2, i), 0.0, 1.0});
+    problem.contacts.push_back({-VectorXd::Unit(2, i), -length, 1.0});
+    // Of each coordinate; one that stands still has the run's length.
+    test_case.damped_periods.push_back(v != 0.0 ? 2.0 * length / std::abs(v) : problem.end);
+  }
+  test_case.constants = {
+      {"T_x", test_case.damped_periods[0], "s", "2 a/|vx|: x is a triangle wave"},
+      {"T_y", test_case.damped_periods[1], "s", "2 b/|vy|"}};
+  use_flights(test_case);
+}
+
 void build_plastic(Case& test_case, const Values& value, double) {
   const auto& who = test_case.entry->name;
   const auto within = [&](const char* name, double least, double most) {
@@ -261,6 +292,17 @@ std::vector<CaseRow> resting_rows() {
          moderate("V", 1.0, "m/s", "common velocity at the start"),
          t_end()}},
        build_plastic},
+      {{"billiard",
+        "A point in a rectangular box with elastic walls: two triangle waves.",
+        "none; u1 = x, u2 = y, without forces",
+        {positive("a", 1.0, "m", "side along x"),
+         positive("b", 0.75, "m", "side along y"),
+         {"x0", 0.25, "m", "0 < x0 < a", "start"},
+         {"y0", 0.5, "m", "0 < y0 < b", "start"},
+         any("vx", 0.75, "m/s", "velocity along x"),
+         any("vy", 0.40625, "m/s", "velocity along y"),
+         t_end(20.0)}},
+       build_billiard},
   };
 }
 

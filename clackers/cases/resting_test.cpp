@@ -165,5 +165,42 @@ TEST(RestingCases, AreRefusedWithTheReason) {
                  "short binary fractions");
 }
 
+TEST(RestingCases, BilliardsAreTriangleWaves) {
+  Box box(73);
+  for (int trial = 0; trial < trials(30); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 73, trial " << trial);
+    const double side[2] = {box.decades(-1.0, 1.0), box.decades(-1.0, 1.0)};
+    double start[2], speed[2];
+    for (int i = 0; i < 2; ++i) {
+      start[i] = side[i] * box.uniform(0.01, 0.99);
+      speed[i] = (box.one_in(2) ? 1.0 : -1.0) * box.decades(-1.0, 0.5);
+    }
+    const auto billiard = make("billiard", {{"a", side[0]},
+                                            {"b", side[1]},
+                                            {"x0", start[0]},
+                                            {"y0", start[1]},
+                                            {"vx", speed[0]},
+                                            {"vy", speed[1]},
+                                            {"t_end", box.uniform(1.0, 30.0)}});
+    for (int k = 0; k < 8; ++k) {
+      const double t = box.uniform(0.0, billiard.problem.end);
+      const auto now = billiard.motion->at(t, model::Side::right),
+                 bound = billiard.motion->error_bound(t);
+      long long bounces = 0;
+      for (int i = 0; i < 2; ++i) {
+        const Number x = Number(start[i]) + Number(speed[i]) * t, walls = x / side[i],
+                     cell = std::floor(walls), rest = x - cell * side[i];
+        const bool is_back = std::fmod(cell, 2) != 0;
+        EXPECT_NEAR(now.u[i], double(is_back ? side[i] - rest : rest),
+                    bound.u[i] + 1e-16 * side[i]);
+        EXPECT_NEAR(now.v[i], is_back ? -speed[i] : speed[i], bound.v[i]);
+        bounces += static_cast<long long>(std::abs(cell));
+      }
+      EXPECT_EQ(billiard.motion->impact_count(t), bounces);
+    }
+  }
+  EXPECT_REFUSED(make("billiard", {{"x0", 1.5}}), "out-of-range", "inside the box");
+}
+
 }  // namespace
 }  // namespace clackers::cases

@@ -10,7 +10,7 @@ KINDS = ("cases", "integrators", "contacts", "methods", "pairs", "metrics")
 CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "three-parameter",
          "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly", "cradle",
          "forced-pair", "base-excited-pair", "penalized-pair", "piecewise", "ball",
-         "pressed-oscillator", "plastic-pair", "slider", "belt", "forced-slider", "pendulum", "duffing-stop",
+         "pressed-oscillator", "plastic-pair", "billiard", "slider", "belt", "forced-slider", "pendulum", "duffing-stop",
          "bar-wall", "bouncing-bar", "two-bars", "mass-on-bar")
 
 
