@@ -16,16 +16,15 @@ using Constant = Eigen::Map<const VectorXd>;
 }  // namespace
 
 FirstOrder::FirstOrder(const ImpactProblem<>& problem)
-    : problem_(problem), mass_(problem.system.mass) {
-  if (!problem.frictions.empty())
+    : problem_(problem), mass_(problem.system.mass) {}
+
+void FirstOrder::rate(double t, std::span<const double> y, std::span<double> rate) const {
+  if (!problem_.frictions.empty())
     throw InputError(
         "problem: dry friction has any force within its limit where nothing slides, so that no rate "
         "follows from the state; allowed: problems without friction. Use M, C, K and the frictions of the "
         "problem itself.",
         "linear-only");
-}
-
-void FirstOrder::rate(double t, std::span<const double> y, std::span<double> rate) const {
   const auto& system = problem_.system;
   const auto dof = problem_.dof();
   const Constant u(y.data(), dof), v(y.data() + dof, dof);

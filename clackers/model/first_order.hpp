@@ -17,7 +17,8 @@ class FirstOrder {
 
   std::size_t size() const { return 2 * std::size_t(problem_.dof()); }
 
-  /// Writes dy/dt = (v, M^-1 (f(t) - C v - K u - p(u, v))) to `rate`, while nothing collides.
+  /// Writes dy/dt = (v, M^-1 (f(t) - C v - K u - p(u, v))) to `rate`, while nothing collides. Throws InputError
+  /// for a problem with dry friction, whose force does not follow from the state where nothing slides.
   void rate(double t, std::span<const double> y, std::span<double> rate) const;
   /// g = b . u - gap of a contact [m]. Throws InputError for a contact that is not there.
   double gap(std::span<const double> y, std::size_t contact) const;

@@ -109,5 +109,13 @@ TEST(FirstOrder, RefusesAContactThatOpensOrIsNotThere) {
   EXPECT_REFUSED(FirstOrder(p).impact(state, std::nullopt, after), "out-of-range", "no contact");
 }
 
+TEST(FirstOrder, RefusesTheRateOfDryFriction) {
+  auto p = coupled();
+  p.frictions = {{Eigen::Vector2d(1.0, 0.0), 1.0, 0.5, 0.0}};
+  Values rate;
+  EXPECT_REFUSED(FirstOrder(p).rate(0.0, state, rate), "linear-only", "dry friction");
+  EXPECT_EQ(FirstOrder(p).gap(state, 0), 3.25);
+}
+
 }  // namespace
 }  // namespace clackers::model

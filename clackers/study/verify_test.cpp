@@ -375,7 +375,7 @@ TEST(Verify, KeepsFinishedRowsWhenInterruptedOnTheWay) {
   std::atomic<bool> interrupt = false;
   const auto stop_late = [&](double share) { interrupt = share > 0.5; };
   // Progress comes every 50 ms at most: steps so small that the second method takes longer.
-  request.plan = {2e-5, 2, 1};
+  request.plan = {4e-6, 2, 1};
   const auto record = verify(request, stop_late, &interrupt);
   ASSERT_TRUE(record.interrupted);
   EXPECT_TRUE(subjects(record)[0].complete);
