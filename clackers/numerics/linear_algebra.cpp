@@ -61,10 +61,12 @@ MatrixXd shortest_solution(const MatrixXd& a, const MatrixXd& b) {
 
 // In L^T Z they are the orthogonal complement of L^-1 rows^T.
 MatrixXd unseen_directions(const MatrixXd& rows, const MatrixXd& mass) {
+  const auto count = rows.cols() - rows.rows();
+  if (count == 0) return MatrixXd(rows.cols(), 0);
   const Eigen::LLT<MatrixXd> factors(mass);
   const MatrixXd seen = factors.matrixL().solve(rows.transpose());
   const MatrixXd q = Eigen::HouseholderQR<MatrixXd>(seen).householderQ();
-  return factors.matrixU().solve(q.rightCols(rows.cols() - rows.rows()));
+  return factors.matrixU().solve(q.rightCols(count));
 }
 
 VectorXd least_squares(const MatrixXd& a, const VectorXd& b, double threshold) {

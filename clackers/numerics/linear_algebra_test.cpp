@@ -27,6 +27,44 @@ double distance(const std::vector<std::complex<double>>& found, std::complex<dou
   return least;
 }
 
+Eigen::MatrixXd coupled_mass() {
+  Eigen::MatrixXd mass(3, 3);
+  mass << 2.0, 0.5, 0.0, 0.5, 1.0, 0.25, 0.0, 0.25, 3.0;
+  return mass;
+}
+
+TEST(Cholesky, SolvesAndKnowsWhatIsDefinite) {
+  const auto mass = coupled_mass();
+  const Cholesky factors(mass);
+  EXPECT_TRUE((mass * factors.solve(Eigen::MatrixXd::Identity(3, 3))).isIdentity(1e-15));
+  EXPECT_TRUE(factors.is_definite(mass, 1e-15));
+  EXPECT_FALSE(factors.is_definite(mass, 0.999));  // the last pivot is 0.976 of its entry
+  Eigen::MatrixXd indefinite = mass;
+  indefinite(2, 2) = 0.0;
+  EXPECT_FALSE(Cholesky(indefinite).is_definite(indefinite, 1e-15));
+}
+
+TEST(ShortestSolution, HasNoPartThatTheMatrixDoesNotSee) {
+  Eigen::MatrixXd twice(2, 2), right(2, 1);
+  twice << 1.0, 1.0, 1.0, 1.0;
+  right << 2.0, 4.0;
+  EXPECT_TRUE(shortest_solution(twice, right).isApprox(Eigen::Vector2d(1.5, 1.5), 1e-15));
+}
+
+TEST(UnseenDirections, AreOrthonormalInTheMassAndNotSeen) {
+  const auto mass = coupled_mass();
+  const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(3, 3) + Eigen::MatrixXd::Ones(3, 3);
+  for (Eigen::Index count = 1; count <= 3; ++count) {
+    const Eigen::MatrixXd rows = all.topRows(count);
+    const auto z = unseen_directions(rows, mass);
+    ASSERT_EQ(z.rows(), 3);
+    ASSERT_EQ(z.cols(), 3 - count);
+    if (count == 3) continue;
+    EXPECT_LT((rows * z).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_TRUE((z.transpose() * mass * z).isIdentity(1e-14));
+  }
+}
+
 TEST(Realization, FindsTheEigenvaluesOfAMapThatIsSeenInPart) {
   // A rotation by 1 radian that shrinks by 0.9, and two real modes, behind a change of basis.
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(4, 4);
