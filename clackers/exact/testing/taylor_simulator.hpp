@@ -69,8 +69,8 @@ class TaylorSimulator {
       for (std::size_t i = 0; i < problem_.contacts.size(); ++i) {
         const auto closed = std::ranges::find(held_, i);
         const bool is_held = closed != held_.end();
-        const auto terms = is_held ? force_terms(closed - held_.begin()) : gap_terms(i);
-        if (const auto t = first_zero(terms, first ? *first : end)) {
+        const auto series = is_held ? force_terms(closed - held_.begin()) : gap_terms(i);
+        if (const auto t = first_zero(series, first ? *first : end)) {
           first = t;
           contact_index = int(i);
           is_release = is_held;
@@ -128,9 +128,9 @@ class TaylorSimulator {
     }
   }
 
-  static bool begins_positive(const std::vector<Real>& terms, std::size_t from) {
-    for (auto k = from; k < terms.size() / 2; ++k)
-      if (abs(terms[k]) > Real(1e-40)) return terms[k] > 0;
+  static bool begins_positive(const std::vector<Real>& series, std::size_t from) {
+    for (auto k = from; k < series.size() / 2; ++k)
+      if (abs(series[k]) > Real(1e-40)) return series[k] > 0;
     return true;
   }
 
