@@ -6,8 +6,8 @@
 namespace clackers::numerics {
 namespace bounded {
 
-using std::abs, std::acos, std::cos, std::cosh, std::exp, std::expm1, std::sin, std::sinh,
-    std::sqrt;
+using std::abs, std::acos, std::atan, std::cos, std::cosh, std::exp, std::expm1, std::sin,
+    std::sinh, std::sqrt;
 
 /// A number with a bound on its error: running error analysis in the floating-point type Real.
 /// Each operation adds a unit of `rounding`, twice what the operation itself rounds, which covers the
@@ -43,6 +43,7 @@ struct BoundedOf {
   }
   friend Bounded sin(const Bounded& x) { return rounded(sin(x.value), x.error, 2); }
   friend Bounded cos(const Bounded& x) { return rounded(cos(x.value), x.error, 2); }
+  friend Bounded atan(const Bounded& x) { return rounded(atan(x.value), x.error, 2); }
   friend Bounded exp(const Bounded& x) {
     const Real e = exp(x.value);
     return rounded(e, e * expm1(x.error), 2);

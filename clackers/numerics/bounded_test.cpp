@@ -28,6 +28,23 @@ TEST(Bounded, ErrorsOfOperandsAreCarriedOn) {
   }
 }
 
+// The true number may lie at either end of its bound.
+TEST(Bounded, FunctionsCarryTheErrorOfTheirArgumentOn) {
+  constexpr long double width = 1e-6L;
+  for (const double at : {-3.0, -0.4, 0.0, 0.2, 1.5}) {
+    const Bounded x(at, width);
+    const auto expect_within = [&](const Bounded& found, auto function) {
+      for (const long double end : {at - width, at + width})
+        EXPECT_LE(std::abs(function(end) - found.value), found.error) << at;
+      EXPECT_LT(found.error, 30.0L * width) << at;
+    };
+    expect_within(atan(x), [](long double y) { return std::atan(y); });
+    expect_within(sin(x), [](long double y) { return std::sin(y); });
+    expect_within(cos(x), [](long double y) { return std::cos(y); });
+    expect_within(exp(x), [](long double y) { return std::exp(y); });
+  }
+}
+
 TEST(Bounded, DivisionByWhatMayBeZeroHasNoBound) {
   EXPECT_TRUE(std::isinf((Bounded(1.0) / Bounded(1e-9L, 2e-9L)).error));
   EXPECT_TRUE(std::isinf(sqrt(Bounded(1e-9L, 2e-9L)).error));

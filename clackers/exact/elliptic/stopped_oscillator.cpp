@@ -19,12 +19,6 @@ constexpr std::size_t most_flights = 100'000;
 
 Eigen::VectorXd scalar(double x) { return Eigen::VectorXd::Constant(1, x); }
 
-// The derivative is at most 1, and the C library errs by less than two units.
-Bounded arc_tangent(const Bounded& x) {
-  const long double angle = std::atan(x.value);
-  return {angle, x.error + 2.0L * std::numeric_limits<long double>::epsilon() * std::abs(angle)};
-}
-
 // 1 - k^2 by its factors, for k from a speed.
 Modulus modulus_of(const Bounded& k) { return {k, sqrt((Bounded(1.0) - k) * (Bounded(1.0) + k))}; }
 
@@ -99,7 +93,7 @@ Pendulum::Pendulum(const PendulumParameters& p, std::string_view who)
 
 auto Pendulum::flight(const Bounded& speed) const -> Flight {
   const auto modulus = modulus_of(speed / (Bounded(2.0) * l_ * w_));
-  return {0.0, speed, modulus, w_, Bounded(2.0) * l_ * arc_tangent(modulus.k / modulus.complement)};
+  return {0.0, speed, modulus, w_, Bounded(2.0) * l_ * atan(modulus.k / modulus.complement)};
 }
 
 model::Kinematics Pendulum::envelope(double t) const {
@@ -115,8 +109,8 @@ auto Pendulum::state(long long k, const Bounded& s) const -> States {
   const auto& now = flights_[std::size_t(k)];
   const auto [sn, cn, dn] = jacobi(w_ * s, now.modulus);
   const auto sine = now.modulus.k * sn, twice = Bounded(2.0) * l_;
-  return {{{twice * arc_tangent(sine / dn), twice * w_ * now.modulus.k * cn,
-            -(twice * w_ * w_ * sine * dn)}}};
+  return {
+      {{twice * atan(sine / dn), twice * w_ * now.modulus.k * cn, -(twice * w_ * w_ * sine * dn)}}};
 }
 
 Duffing::Duffing(const DuffingParameters& p, std::string_view who)

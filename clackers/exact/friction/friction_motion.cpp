@@ -109,10 +109,8 @@ Belt::Belt(const BeltParameters& p, std::string_view who)
     refuse(who, "Fd", p.kinetic, fmt::format("Fd < Fs = {}", p.limit),
            "Without a difference the mass slides into rest, and no stick and slip repeats.",
            "not-admissible");
-  // pi - atan(x) = pi/2 + atan(1/x), without cancellation for small V. The derivative of atan is at most 1.
-  const auto y = V_ / (omega_ * D_);
-  const long double angle = std::atan(y.value);
-  const Bounded rest{angle, y.error + 2.0L * std::numeric_limits<long double>::epsilon() * angle};
+  // pi - atan(x) = pi/2 + atan(1/x), without cancellation for small V.
+  const auto rest = atan(V_ / (omega_ * D_));
   T_ = stick_ + (Bounded::pi() + Bounded(2.0) * rest) / omega_;
   problem_.start.u[0] = (d_ - D_).nearest();
   problem_.start.v[0] = p.V;
