@@ -182,12 +182,12 @@ Wide BarContact::Waves::arriving(std::size_t bar, const Wide& t, Side side,
                                  const WideReal& slack) const {
   const auto& [tau, c, z, out] = waves_[bar];
   const auto twice = Wide(2.0) * tau, left = t - twice;
-  return linear(piece_at(out, left, side, left.error + slack), left) - Wide(p_.g) * twice;
+  return linear(piece_at(out, left, side, slack), left) - Wide(p_.g) * twice;
 }
 
 Wide BarContact::Waves::outgoing(std::size_t bar, const Wide& t, Side side,
                                  const WideReal& slack) const {
-  return linear(piece_at(waves_[bar].out, t, side, t.error + slack), t);
+  return linear(piece_at(waves_[bar].out, t, side, slack), t);
 }
 
 Wide BarContact::Waves::sum_of_out(std::size_t bar, const Wide& from, const Wide& to) const {

@@ -11,6 +11,23 @@
 
 namespace clackers::exact {
 
+/// The piece that holds at t, from its `t` to the next one's; within the errors of these and `slack` the one that
+/// `side` means.
+template <class List>
+const typename List::value_type& piece_at(const List& list, const numerics::Wide& t,
+                                          model::Side side, const numerics::WideReal& slack) {
+  const auto after = std::ranges::upper_bound(list, t.value, {}, [](auto& p) { return p.t.value; });
+  auto i = std::size_t(std::max<std::ptrdiff_t>(0, after - list.begin() - 1));
+  const auto near = [&](std::size_t k) {
+    return abs(list[k].t.value - t.value) <= list[k].t.error + t.error + slack;
+  };
+  if (side == model::Side::left)
+    while (i > 0 && near(i)) --i;
+  else
+    while (i + 1 < list.size() && near(i + 1)) ++i;
+  return list[i];
+}
+
 /// The waves at the contact ends of the bars, linear in time between events, and the phases of the contact.
 class BarContact::Waves {
  public:
@@ -51,23 +68,7 @@ class BarContact::Waves {
   };
   Folded folded(double t) const;
   const Phase& phase(const Wide& t, Side side, const WideReal& slack) const {
-    return piece_at(phases_, t, side, t.error + slack);
-  }
-  /// The piece that holds at t; within the errors of its begin and of t the one that `side` means.
-  template <class List>
-  static const typename List::value_type& piece_at(const List& list, const Wide& t, Side side,
-                                                   WideReal slack) {
-    const auto after =
-        std::ranges::upper_bound(list, t.value, {}, [](auto& p) { return p.t.value; });
-    auto i = std::size_t(std::max<std::ptrdiff_t>(0, after - list.begin() - 1));
-    const auto near = [&](std::size_t k) {
-      return abs(list[k].t.value - t.value) <= list[k].t.error + slack;
-    };
-    if (side == Side::left)
-      while (i > 0 && near(i)) --i;
-    else
-      while (i + 1 < list.size() && near(i + 1)) ++i;
-    return list[i];
+    return piece_at(phases_, t, side, slack);
   }
   /// Moved in s seconds with this velocity at their beginning.
   static Wide moved(const Wide& velocity, const Wide& slope, const Wide& s) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "clackers/base/error.hpp"
+#include "clackers/exact/bodies/bar_waves.hpp"
 
 namespace clackers::exact {
 
@@ -55,6 +56,7 @@ MassOnBar::MassOnBar(const MassOnBarParameters& parameters, std::string_view who
 }
 
 Wide MassOnBar::value(const Polynomial& coefficients, const Wide& s) const {
+  if (coefficients.empty()) return {};
   return exp(-(kappa_ * s)) * polynomial(coefficients, s / tau_);
 }
 
@@ -74,29 +76,32 @@ void MassOnBar::follow_contact(std::string_view who) {
   constexpr int most_intervals = 200, parts = 256;
   const auto twice = Wide(2.0) * tau_;
   Polynomial P{Wide(p_.V)}, Q;
+  out_.push_back({start_ - twice - twice, start_, {}, {}});
   for (int j = 0; j < most_intervals; ++j) {
     const auto origin = start_ + Wide(double(j)) * twice;
     const auto force = combined(1.0, P, -1.0, Q);
-    const auto push = [&](const WideReal& s) { return polynomial(force, Wide(s, 0) / tau_).value; };
+    const auto contact_force = [&](const WideReal& s) {
+      return polynomial(force, Wide(s, 0) / tau_).value;
+    };
     WideReal inside = 0, outside = 0;
-    bool ends = !(push(0) > 0);
+    bool ends = !(contact_force(0) > 0);
     for (int i = 1; i <= parts && !ends; ++i) {
       outside = twice.value * i / parts;
-      ends = !(push(outside) > 0);
+      ends = !(contact_force(outside) > 0);
       if (!ends) inside = outside;
     }
     if (!ends || outside > 0) out_.push_back({origin, origin, combined(2.0, P, -1.0, Q), {}});
     if (ends) {
       for (int i = 0; i < 260 && outside > 0; ++i) {
         const WideReal middle = (inside + outside) / 2;
-        (push(middle) > 0 ? inside : outside) = middle;
+        (contact_force(middle) > 0 ? inside : outside) = middle;
       }
       // What the rounding of the polynomial moves its root by.
       Wide s(outside, 0);
       if (outside > 0) {
         const auto at_root = polynomial(force, s / tau_);
         const WideReal step = twice.value * WideReal(1e-20),
-                       slope = (push(outside - step) - push(outside)) / step;
+                       slope = (contact_force(outside - step) - contact_force(outside)) / step;
         s.error = (at_root.error + abs(at_root.value)) * 2 / slope;
       }
       end_of_contact_ = origin + s;
@@ -120,12 +125,12 @@ void MassOnBar::follow_contact(std::string_view who) {
 void MassOnBar::reflect(std::string_view who) {
   const auto twice = Wide(2.0) * tau_;
   const auto first = std::ranges::find_if(out_, [&](const Piece& piece) {
-    return piece.from.value + twice.value > end_of_contact_.value;
+    return piece.t.value + twice.value > end_of_contact_.value;
   });
   for (auto i = std::size_t(first - out_.begin());
-       (out_[i].from + twice).value < WideReal(p_.end) + twice.value; ++i) {
+       (out_[i].t + twice).value < WideReal(p_.end) + twice.value; ++i) {
     Piece next = out_[i];
-    next.from = next.from + twice;
+    next.t = next.t + twice;
     next.origin = next.origin + twice;
     for (auto& x : next.coefficients) x = back_ * x;
     out_.push_back(std::move(next));
@@ -134,8 +139,8 @@ void MassOnBar::reflect(std::string_view who) {
   }
   for (std::size_t i = 0; i + 1 < out_.size(); ++i) {
     const auto g = antiderivative(out_[i].coefficients);
-    out_[i + 1].integral = out_[i].integral + value(g, out_[i + 1].from - out_[i].origin) -
-                           value(g, out_[i].from - out_[i].origin);
+    out_[i + 1].integral = out_[i].integral + value(g, out_[i + 1].t - out_[i].origin) -
+                           value(g, out_[i].t - out_[i].origin);
   }
 }
 
@@ -154,32 +159,15 @@ void MassOnBar::require_one_contact(std::string_view who) const {
   }
 }
 
-// Null before the first.
-auto MassOnBar::piece_at(const Wide& t, Side side, const WideReal& slack) const -> const Piece* {
-  const auto after =
-      std::ranges::upper_bound(out_, t.value, {}, [](const Piece& p) { return p.from.value; });
-  auto i = after - out_.begin() - 1;
-  const auto near = [&](std::ptrdiff_t k) {
-    const auto& from = out_[std::size_t(k)].from;
-    return abs(from.value - t.value) <= from.error + t.error + slack;
-  };
-  if (side == Side::left)
-    while (i >= 0 && near(i)) --i;
-  else
-    while (i + 1 < std::ssize(out_) && near(i + 1)) ++i;
-  return i < 0 ? nullptr : &out_[std::size_t(i)];
-}
-
 Wide MassOnBar::outgoing(const Wide& t, Side side, const WideReal& slack) const {
-  const auto* piece = piece_at(t, side, slack);
-  return piece == nullptr ? Wide() : value(piece->coefficients, t - piece->origin);
+  const auto& piece = piece_at(out_, t, side, slack);
+  return value(piece.coefficients, t - piece.origin);
 }
 
 Wide MassOnBar::sum_of_out(const Wide& t) const {
-  const auto* piece = piece_at(t, Side::right, 0);
-  if (piece == nullptr) return {};
-  const auto g = antiderivative(piece->coefficients);
-  return piece->integral + value(g, t - piece->origin) - value(g, piece->from - piece->origin);
+  const auto& piece = piece_at(out_, t, Side::right, 0);
+  const auto g = antiderivative(piece.coefficients);
+  return piece.integral + value(g, t - piece.origin) - value(g, piece.t - piece.origin);
 }
 
 BarMotion::Point MassOnBar::at(std::size_t, double x, double t, Side side) const {
@@ -214,7 +202,7 @@ BarMotion::Energy MassOnBar::energy(double t) const {
   const long double tau = narrowed(tau_).value, now = t, z = narrowed(z_).value;
   std::vector<long double> fronts{0.0L, tau};
   for (const auto& piece : out_) {
-    const auto from = narrowed(piece.from).value;
+    const auto from = narrowed(piece.t).value;
     for (const auto late : {now - from, from + 2.0L * tau - now})
       if (late > 0.0L && late < tau) fronts.push_back(late);
   }

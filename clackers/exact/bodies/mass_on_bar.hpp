@@ -48,9 +48,9 @@ class MassOnBar final : public BarMotion {
 
  private:
   using WideReal = numerics::WideReal;
-  // exp(-kappa s) times a polynomial in s/tau, s = t - origin, from `from` to the next piece.
+  // exp(-kappa s) times a polynomial in s/tau, s the time from `origin` on, until the next piece.
   struct Piece {
-    Wide from, origin;
+    Wide t, origin;
     std::vector<Wide> coefficients;
     Wide integral;  // of all pieces before
   };
@@ -60,7 +60,6 @@ class MassOnBar final : public BarMotion {
   void follow_contact(std::string_view who);
   void reflect(std::string_view who);
   void require_one_contact(std::string_view who) const;
-  const Piece* piece_at(const Wide& t, model::Side side, const WideReal& slack) const;
   Wide outgoing(const Wide& t, model::Side side, const WideReal& slack) const;
   Wide sum_of_out(const Wide& t) const;
   Wide mass_speed(const Wide& t, model::Side side) const;
@@ -68,7 +67,7 @@ class MassOnBar final : public BarMotion {
   MassOnBarParameters p_;
   Wide tau_, c_, z_, kappa_, back_;  // back_: of the far end, -1 fixed and 1 free
   Wide start_, end_of_contact_, last_speed_;
-  std::vector<Piece> out_;
+  std::vector<Piece> out_;  // the first before all waves, 0
 };
 
 }  // namespace clackers::exact
