@@ -108,11 +108,18 @@ std::shared_ptr<const Method> method(std::string_view text) {
     return row->method(first.settings);
   }
   const auto integrator = row->integrator(first.settings);
-  const auto of_contact = contact.value_or(Term{"event-driven", {}});
+  const auto of_contact = contact.value_or(Term{std::string(default_treatment), {}});
   const auto* treatment = find(of_contact.name);
   if (treatment == nullptr || !treatment->treatment)
     refuse_name("contact treatment", of_contact.name, names("contact"), "clackers list contacts");
   return std::make_shared<JoinedMethod>(integrator, treatment->treatment(of_contact.settings));
+}
+
+std::string short_name(const std::string& specification) {
+  const auto plus = specification.rfind('+');
+  const bool is_default =
+      plus != specification.npos && specification.substr(plus + 1) == default_treatment;
+  return is_default ? specification.substr(0, plus) : specification;
 }
 
 std::vector<std::string> pairs() {

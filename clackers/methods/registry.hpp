@@ -32,6 +32,12 @@ struct Row {
   std::function<std::shared_ptr<const Method>(const Settings&)> method;  ///< stands alone
 };
 
+/// The contact treatment of a specification that names none.
+inline constexpr std::string_view default_treatment = "event-driven";
+
+/// The name of a method in every output: as one would type it, without "+event-driven".
+std::string short_name(const std::string& specification);
+
 /// Everything registered, integrators first, then contact treatments, then whole methods.
 std::span<const Entry> entries();
 

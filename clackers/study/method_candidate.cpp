@@ -9,6 +9,7 @@
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/methods/method_specification.hpp"
+#include "clackers/methods/registry.hpp"
 #include "clackers/model/trajectory.hpp"
 #include "clackers/record/all_metrics.hpp"
 #include "clackers/record/reduced_curve.hpp"
@@ -71,7 +72,7 @@ record::Subject subject_of(const methods::Method& method, const StudyCase& probl
   const auto facts = method.facts();
   const bool collides = problem.summary.impact_count > 0;
   record::Subject subject;
-  subject.name = short_name(facts.name);
+  subject.name = methods::short_name(facts.name);
   if (const auto terms = methods::terms_of(facts.name); terms.size() == 2) {
     subject.integrator = terms[0];
     subject.treatment = terms[1];
@@ -93,12 +94,6 @@ record::Subject subject_of(const methods::Method& method, const StudyCase& probl
 }
 
 }  // namespace
-
-std::string short_name(const std::string& name) {
-  constexpr std::string_view default_treatment = "+event-driven";
-  return name.ends_with(default_treatment) ? name.substr(0, name.size() - default_treatment.size())
-                                           : name;
-}
 
 MethodCandidate::MethodCandidate(std::shared_ptr<const methods::Method> method,
                                  const StudyCase& problem, const std::vector<double>& tolerances,

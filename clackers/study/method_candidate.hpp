@@ -9,9 +9,6 @@
 
 namespace clackers::study {
 
-/// The name of a method in every output: as one would type it, without "+event-driven".
-std::string short_name(const std::string& name);
-
 /// What is made of the runs of methods beside their errors.
 struct Extras {
   bool record = true;  ///< what only a record shows: motions, self-convergence

@@ -76,7 +76,7 @@ record::CaseRecord refused_record(std::string_view case_name, std::string subjec
 }
 
 std::string subject_name(const std::string& method) {
-  return short_name(methods::method(method)->facts().name);
+  return methods::short_name(methods::method(method)->facts().name);
 }
 
 }  // namespace clackers::study

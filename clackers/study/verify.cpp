@@ -52,7 +52,7 @@ bool has_plan(const VerifyRequest& request) {
 void require_names(const VerifyRequest& request, const Methods& methods) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    const auto name = short_name(methods[i]->facts().name);
+    const auto name = methods::short_name(methods[i]->facts().name);
     if (std::ranges::find(names, name) != names.end())
       refuse("verify", "method", request.methods.empty() ? name : request.methods[i],
              "each method once", fmt::format("{} has appeared before.", name), "bad-syntax");

@@ -46,7 +46,7 @@ std::vector<std::string> parts_of(const std::string& specification) {
   const auto& all = methods::entries();
   const auto first = std::ranges::find(all, parts.front(), &methods::Entry::name);
   if (parts.size() == 1 && first != all.end() && first->kind == "integrator")
-    parts.emplace_back("event-driven");
+    parts.emplace_back(methods::default_treatment);
   return parts;
 }
 

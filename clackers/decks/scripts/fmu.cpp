@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -52,9 +51,7 @@ Motion motion_of(const Subject& subject, std::string_view format) {
   if (subject.method.empty())
     return {"the exact motion", "exact",
             filled(fmu_exact, {{"numbers", flights_of(subject, format)}})};
-  const auto event_driven = std::string_view("+event-driven");
-  std::string_view name = subject.method;
-  if (name.ends_with(event_driven)) name.remove_suffix(event_driven.size());
+  const auto name = methods::short_name(subject.method);
   const auto integrator = methods::integrator(name);
   const auto coefficients = integrator->coefficients();
   if (coefficients.size() == 0)
@@ -62,7 +59,7 @@ Motion motion_of(const Subject& subject, std::string_view format) {
                 fmt::format("{} is not an explicit Runge-Kutta method of fixed steps, such as "
                             "rk4, rk3 and dopri5-fixed-step",
                             name));
-  return {fmt::format("{}{}, a step a communication step", name, event_driven),
+  return {fmt::format("{}+{}, a step a communication step", name, methods::default_treatment),
           fmt::format("proper:{}", integrator->facts().smooth_order),
           filled(fmu_method,
                  {{"numbers", list_of("method", coefficients, c_syntax)}, {"located", c_located}})};

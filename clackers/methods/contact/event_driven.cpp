@@ -13,7 +13,8 @@
 namespace clackers::methods {
 
 struct EventDriven {
-  static constexpr std::string_view name = "event-driven";
+  static constexpr std::string_view name = default_treatment;
+  static constexpr bool takes_friction = true;
   static constexpr std::string_view summary =
       "impacts located inside the step, the rest of the step completed after them";
   static constexpr std::string_view card =
