@@ -127,9 +127,14 @@ std::unique_ptr<model::Run> prepare_run(const Method& method, const model::Impac
   return run.template operator()<model::any_dof>();
 }
 
-/// A contact treatment that has a law of friction, and another loop for problems with it.
+/// A contact treatment or a method that has a law of friction.
 template <class T>
 concept TakesFriction = requires {
+  T::takes_friction;
+};
+/// A treatment with another loop for problems with friction.
+template <class T>
+concept HasFrictionLoop = requires {
   typename T::template FrictionLoop<1>;
 };
 
@@ -162,7 +167,7 @@ class TypedTreatment final : public Treatment {
   std::unique_ptr<model::Run> prepare(const Method& method, const Integrator& integrator,
                                       const model::ImpactProblem<>& problem,
                                       const Resolution& resolution) const override {
-    if constexpr (TakesFriction<T>)
+    if constexpr (HasFrictionLoop<T>)
       if (!problem.frictions.empty())
         return prepare_run<T::template FrictionLoop>(method, problem, resolution, integrator,
                                                      treatment_);
@@ -181,7 +186,7 @@ class StandaloneMethod final : public Method {
 
   Facts facts() const override { return scheme_.facts(); }
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const override {
-    if (!requires { T::takes_friction; } && !problem.frictions.empty())
+    if (!TakesFriction<T> && !problem.frictions.empty())
       return objection_to_friction(std::string(T::name));
     return scheme_.objection(problem);
   }

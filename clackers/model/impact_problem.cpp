@@ -53,14 +53,18 @@ bool is_positive_definite(const Eigen::MatrixXd& x) {
       x, double(x.rows()) * std::numeric_limits<double>::epsilon());
 }
 
-void require_contact(const Contact<>& contact, std::size_t number, Index dof,
-                     const State<any_dof>& start) {
-  const auto who = fmt::format("contact {}", number);
-  require_vector(who + " direction", contact.direction, dof);
-  if (contact.direction.isZero(0.0))
+void require_direction(const std::string& who, const Eigen::VectorXd& direction, Index dof) {
+  require_vector(who + " direction", direction, dof);
+  if (direction.isZero(0.0))
     throw InputError(
         fmt::format("{}: direction = 0; allowed: a row with an entry other than 0.", who),
         "out-of-range");
+}
+
+void require_contact(const Contact<>& contact, std::size_t number, Index dof,
+                     const State<any_dof>& start) {
+  const auto who = fmt::format("contact {}", number);
+  require_direction(who, contact.direction, dof);
   require_finite(who, "gap", contact.gap);
   require_within(who, "restitution", contact.restitution, 0.0, 1.0);
   const double g = contact.gap_at(start.u), rate = contact.gap_rate(start.v);
@@ -74,11 +78,7 @@ void require_contact(const Contact<>& contact, std::size_t number, Index dof,
 
 void require_friction(const Friction<>& friction, std::size_t number, Index dof) {
   const auto who = fmt::format("friction {}", number);
-  require_vector(who + " direction", friction.direction, dof);
-  if (friction.direction.isZero(0.0))
-    throw InputError(
-        fmt::format("{}: direction = 0; allowed: a row with an entry other than 0.", who),
-        "out-of-range");
+  require_direction(who, friction.direction, dof);
   require_finite(who, "limit", friction.limit);
   require_within(who, "kinetic", friction.kinetic, 0.0, friction.limit);
   require_finite(who, "velocity", friction.velocity);

@@ -1,10 +1,12 @@
-#include "clackers/base/constants.hpp"
-#include "clackers/methods/contact/friction_rows.hpp"
+#include "clackers/methods/contact/contact_set.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "clackers/base/constants.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -22,16 +24,17 @@ std::string contacts_named(std::vector<std::size_t> rows, std::size_t last) {
 }  // namespace
 
 template <int Dof>
-ContactSet<Dof>::ContactSet(const model::ImpactProblem<Dof>& problem)
-    : contacts_(problem.contacts),
+ContactSet<Dof>::ContactSet(std::vector<model::Contact<Dof>> contacts,
+                            const model::Matrix<Dof>& mass)
+    : contacts_(std::move(contacts)),
       gaps_(contacts_),
       lcp_(contacts_.size()),
       factors_(contacts_.size()),
       q_(to_index(contacts_.size())) {
-  numerics::SpdSolver<Dof> mass;
-  mass.compute(problem.system.mass);
-  response_.velocity.resize(problem.dof(), q_.size());
-  respond(mass, response_);
+  numerics::SpdSolver<Dof> effective;
+  effective.compute(mass);
+  response_.velocity.resize(mass.rows(), q_.size());
+  respond(effective, response_);
 }
 
 template <int Dof>
@@ -135,30 +138,6 @@ std::optional<Objection> objection_to_closed_contacts(const std::string& who,
     no->sentence = fmt::format("{}: t = {} s: {}. Start with one of them open, or remove it.", who,
                                problem.start.t, no->sentence);
   return no;
-}
-
-std::optional<Objection> objection_to_friction_with_contacts(
-    const std::string& who, const model::ImpactProblem<>& problem) {
-  if (problem.frictions.empty() || problem.contacts.empty()) return std::nullopt;
-  return Objection{
-      who +
-          ": the problem has friction and contacts, but friction is taken of a constant "
-          "normal force only. Leave out one of both.",
-      "linear-only"};
-}
-
-std::optional<Objection> objection_to_stick_slip(const std::string& who,
-                                                 const model::ImpactProblem<>& problem) {
-  const ContactSet<model::any_dof> rows(contacts_of_frictions(problem));
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (rows.are_coupled(i, j))
-        return Objection{
-            fmt::format("{}: rows {} and {} of friction share a mass; allowed: rows that "
-                        "do not. Use moreau-jean.",
-                        who, j + 1, i + 1),
-            "linear-only"};
-  return objection_to_friction_with_contacts(who, problem);
 }
 
 template class ContactSet<1>;

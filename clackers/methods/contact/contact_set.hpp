@@ -37,7 +37,9 @@ class ContactSet {
   using Vector = model::Vector<Dof>;
   using Rows = std::span<const std::size_t>;
 
-  explicit ContactSet(const model::ImpactProblem<Dof>& problem);
+  explicit ContactSet(const model::ImpactProblem<Dof>& problem)
+      : ContactSet(problem.contacts, problem.system.mass) {}
+  ContactSet(std::vector<model::Contact<Dof>> contacts, const model::Matrix<Dof>& mass);
 
   std::size_t size() const { return contacts_.size(); }
   const model::Contact<Dof>& contact(std::size_t i) const { return contacts_[i]; }

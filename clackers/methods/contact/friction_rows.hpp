@@ -13,12 +13,12 @@
 // Rows of dry friction, as the methods that take them see them.
 namespace clackers::methods {
 
-/// The same problem with the rows of friction in place of its contacts: their responses to impulses.
+/// The rows of friction as contacts: their responses to impulses.
 template <int Dof>
-model::ImpactProblem<Dof> contacts_of_frictions(model::ImpactProblem<Dof> problem) {
-  problem.contacts.clear();
-  for (const auto& f : problem.frictions) problem.contacts.push_back({f.direction, 0.0, 0.0});
-  return problem;
+ContactSet<Dof> friction_rows(const model::ImpactProblem<Dof>& problem) {
+  std::vector<model::Contact<Dof>> rows;
+  for (const auto& f : problem.frictions) rows.push_back({f.direction, 0.0, 0.0});
+  return {std::move(rows), problem.system.mass};
 }
 
 /// Why friction is not taken: beside contacts, whose impulses would be another normal force.

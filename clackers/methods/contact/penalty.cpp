@@ -165,7 +165,7 @@ double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
   const ContactSet<model::any_dof> contacts(problem);
   const auto all = stiffnesses(problem);
   double shortest = std::numeric_limits<double>::infinity();
-  const ContactSet<model::any_dof> rows(contacts_of_frictions(problem));
+  const auto rows = friction_rows(problem);
   const auto speeds = widths(problem);
   for (std::size_t j = 0; j < rows.size(); ++j)
     shortest =
@@ -181,15 +181,14 @@ double Penalty::contact_time(const model::ImpactProblem<>& problem) const {
 
 template <int Dof>
 std::vector<double> Penalty::widths(const model::ImpactProblem<Dof>& problem) const {
-  const auto as_contacts = contacts_of_frictions(problem);
-  const ContactSet<Dof> rows(as_contacts);
+  const auto rows = friction_rows(problem);
   std::vector<double> all;
   for (std::size_t j = 0; j < rows.size(); ++j)
     all.push_back(!std::isnan(width)
                       ? width
                       : share_of_speed * problem.frictions[j].limit *
                             rows.inverse_effective_mass(j) /
-                            std::sqrt(fastest_squared(problem.system, as_contacts.contacts[j])));
+                            std::sqrt(fastest_squared(problem.system, rows.contact(j))));
   return all;
 }
 
@@ -197,7 +196,14 @@ template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<1>&
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<2>&) const;
 template std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<>&) const;
 
-/// A run with compliant contacts.
+template <int Dof>
+model::ImpactProblem<Dof> Penalty::with_regular_friction(model::ImpactProblem<Dof> problem) const {
+  if (!problem.frictions.empty())
+    problem.system.nonlinear = std::make_shared<RegularFriction<Dof>>(problem, widths(problem));
+  return problem;
+}
+
+/// A run with compliant contacts, or with regular friction.
 template <int Dof>
 class Penalty::Loop {
  public:
@@ -205,8 +211,8 @@ class Penalty::Loop {
 
   Loop(const Integrator& integrator, const Penalty& penalty, const model::ImpactProblem<Dof>& rigid,
        const StepPlan& plan)
-      : problem_(rigid),
-        force_(std::make_shared<CompliantForce<Dof>>(compliant_law(penalty.law), rigid,
+      : problem_(penalty.with_regular_friction(rigid)),
+        force_(std::make_shared<CompliantForce<Dof>>(compliant_law(penalty.law), problem_,
                                                      penalty.stiffnesses(rigid))),
         time_loop_(plan, problem_),
         contacts_(problem_),
@@ -305,45 +311,6 @@ class Penalty::Loop {
   State at_;
   std::vector<Touch> touches_;
   long long steps_ = 0, searches_ = 0;
-};
-
-/// A run with regular friction.
-template <int Dof>
-class Penalty::FrictionLoop {
- public:
-  using State = model::State<Dof>;
-
-  FrictionLoop(const Integrator& integrator, const Penalty& penalty,
-               const model::ImpactProblem<Dof>& problem, const StepPlan& plan)
-      : problem_(problem), time_loop_(plan, problem_) {
-    problem_.system.nonlinear =
-        std::make_shared<RegularFriction<Dof>>(problem, penalty.widths(problem));
-    stepper_ = integrator.stepper(problem_.system, plan);
-  }
-  FrictionLoop(const FrictionLoop&) = delete;
-  FrictionLoop& operator=(const FrictionLoop&) = delete;
-
-  void advance(Recorder<Dof>& out) {
-    stepper_->reset();
-    stepper_->restart(problem_.start);
-    steps_ = time_loop_.run(*this, problem_.start, out);
-  }
-  model::Work work() const {
-    model::Work work;
-    work.steps = steps_;
-    stepper_->add_work(work);
-    return work;
-  }
-  AnyStepper<Dof>& stepper() { return *stepper_; }
-  bool is_open() const { return false; }
-  bool is_quiet(const State&, const State&) const { return true; }
-  Handled handle(const State&, const State&, Recorder<Dof>&) { return Handled::unchanged; }
-
- private:
-  model::ImpactProblem<Dof> problem_;
-  TimeLoop<Dof> time_loop_;
-  std::unique_ptr<AnyStepper<Dof>> stepper_;
-  long long steps_ = 0;
 };
 
 template Row row<Penalty>();

@@ -14,6 +14,7 @@ namespace clackers::methods {
 
 struct Penalty {
   static constexpr std::string_view name = "penalty";
+  static constexpr bool takes_friction = true;
   static constexpr std::string_view summary =
       "a one-sided spring or spring and damper in place of each contact, as in finite-element codes";
   static constexpr std::string_view card =
@@ -98,10 +99,12 @@ Source      P. Wriggers, Computational Contact Mechanics, 2nd ed., Springer (200
   template <int Dof>
   std::vector<double> stiffnesses(const model::ImpactProblem<Dof>& problem) const;
 
+  /// The smooth law in place of friction.
+  template <int Dof>
+  model::ImpactProblem<Dof> with_regular_friction(model::ImpactProblem<Dof> problem) const;
+
   template <int Dof>
   class Loop;
-  template <int Dof>
-  class FrictionLoop;
 };
 
 }  // namespace clackers::methods

@@ -30,7 +30,7 @@ class StickSlip {
       : problem_(problem),
         load_(problem.system.add_load),
         time_loop_(plan, problem_),
-        rows_(contacts_of_frictions(problem)),
+        rows_(friction_rows(problem)),
         constrained_(problem_.system, rows_),
         sign_(rows_.size(), 0),
         from_(problem.start),

@@ -28,7 +28,7 @@ SteppingScheme<Dof>::SteppingScheme(model::ImpactProblem<Dof> problem, const Ste
       least_(contacts_.size(), 0.0),
       unfinished_(contacts_.size(), {0, 0.0, x0_.v, x0_}),
       q_(impulses_),
-      frictions_(contacts_of_frictions(problem_)),
+      frictions_(friction_rows(problem_)),
       response_to_friction_(frictions_.response()),
       friction_(frictions_.no_impulses()),
       last_friction_(friction_),
