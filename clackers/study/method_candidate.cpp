@@ -70,7 +70,8 @@ std::optional<double> time_of(model::Run& run, model::Sink& sink) {
 
 record::Subject subject_of(const methods::Method& method, const StudyCase& problem) {
   const auto facts = method.facts();
-  const bool collides = problem.summary.impact_count > 0;
+  const bool collides =
+      problem.summary.impact_count > 0 || !problem.problem.motion->closed_contacts().empty();
   record::Subject subject;
   subject.name = methods::short_name(facts.name);
   if (const auto terms = methods::terms_of(facts.name); terms.size() == 2) {

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "clackers/measure/metrics/metric.hpp"
+#include "clackers/methods/registry.hpp"
 #include "clackers/study/testing/toy_motion.hpp"
 
 namespace clackers::study {
@@ -53,6 +54,28 @@ class ScriptedMethod : public methods::Method {
 
   Script script_;
 };
+
+// What a method claims on a case.
+Claim claim_on(const char* method, const char* name) {
+  const auto problem = study_case(cases::make(name, {}));
+  return MethodCandidate(methods::method(method), problem, {}, {}).facts().subject.claim;
+}
+
+TEST(MethodCandidate, ClaimsWhatItsStepsAndEventsDo) {
+  EXPECT_EQ(claim_on("newmark", "ball").behaviour, Behaviour::exact);
+  EXPECT_EQ(claim_on("dissipative-newmark", "ball").behaviour, Behaviour::exact);
+  EXPECT_EQ(claim_on("cr", "ball").behaviour, Behaviour::proper);
+  EXPECT_EQ(claim_on("cr", "billiard").behaviour, Behaviour::exact);
+  EXPECT_NE(claim_on("paoli-schatzman", "billiard").behaviour, Behaviour::exact);
+  EXPECT_EQ(claim_on("newmark+reversal", "ball").behaviour, Behaviour::irregular);
+  EXPECT_EQ(claim_on("exponential", "pressed-oscillator").behaviour, Behaviour::exact);
+  EXPECT_EQ(claim_on("exponential", "belt").behaviour, Behaviour::exact);
+  EXPECT_EQ(claim_on("precise-integration", "belt").behaviour, Behaviour::proper);
+  EXPECT_EQ(claim_on("exponential", "forced-pair").behaviour, Behaviour::proper);
+  EXPECT_EQ(claim_on("newmark", "pendulum").behaviour, Behaviour::proper);
+  // It lands without an impact.
+  EXPECT_EQ(claim_on("newmark+reversal", "plastic-pair").behaviour, Behaviour::irregular);
+}
 
 // Of this thread [s].
 double processor_time() {

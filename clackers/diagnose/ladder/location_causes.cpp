@@ -222,6 +222,16 @@ std::optional<Diagnosis> not_started(const DiagnosisInput& question) {
   return one_share(shares, 2, "at the start", shares.size());
 }
 
+// Whether the reference stays in contact for as long.
+bool lasts_as_true(const LocatedImpact& impact, const model::Motion& motion) {
+  return std::ranges::any_of(motion.closed_contacts(), [&](const model::ClosedContact& closed) {
+    const double common =
+        std::min(impact.t + impact.duration, closed.until) - std::max(impact.t, closed.from);
+    return closed.contact == impact.contact &&
+           common >= 0.5 * std::max(impact.duration, closed.until - closed.from);
+  });
+}
+
 // Contacts of one duration in all files that hold several rows of it, the finest among them.
 std::optional<Diagnosis> compliant(const DiagnosisInput& question,
                                    const std::vector<LocatedImpacts>& files) {
@@ -274,6 +284,9 @@ std::vector<Diagnosis> location_causes(const DiagnosisInput& question) {
   std::vector<LocatedImpacts> all, delayed;
   for (const auto& seen : question.histories) {
     all.push_back(locate_impacts(seen, question.problem));
+    std::erase_if(all.back().impacts, [&](const LocatedImpact& impact) {
+      return lasts_as_true(impact, question.motion);
+    });
     if (all.back().is_resolved() && all.back().step > 0.0) delayed.push_back(all.back());
   }
   std::vector<Diagnosis> found;

@@ -77,6 +77,18 @@ bool shows_a_line(const LadderFit& fit) {
          fit.behaviour == Behaviour::irregular;
 }
 
+// Whether errors that grow as steps shrink are rounding: of a method that divides differences of displacements
+// by h squared, the square of the number of steps times 2^-52.
+bool is_growing_rounding(const LadderFit& fit, const measure::Ladder& ladder) {
+  if (fit.reason != Code("error-growth").name()) return false;
+  return std::ranges::all_of(ladder, [](const measure::ScoreLevel& level) {
+    return std::ranges::all_of(level.runs, [](const measure::RunScore& run) {
+      const double steps = run.rounding_floor / 0x1p-52;
+      return run.finished && run.u_error <= rounding_slack * steps * run.rounding_floor;
+    });
+  });
+}
+
 bool is_unexplained_floor(const LadderFit& fit) {
   return fit.behaviour == Behaviour::stagnating &&
          (fit.reason == Code("unexplained-floor").name() ||
@@ -95,7 +107,10 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
   const auto too_little = [](const measure::RunScore& run) {
     return run.energy_ratio < least_energy_ratio;
   };
-  if (open && !facts.wrong_limit && !errors_fall(fit) && energy_is(ladder, too_much)) {
+  if (claim.behaviour == Behaviour::exact && is_growing_rounding(fit, ladder)) {
+    fit.behaviour = Behaviour::exact;
+    fit.reason.clear();
+  } else if (open && !facts.wrong_limit && !errors_fall(fit) && energy_is(ladder, too_much)) {
     fit.behaviour = Behaviour::divergent;
     fit.reason = Code("energy-growth").name();
   } else if (open && facts.shared && comes_from_shared_impacts(*facts.shared) &&
@@ -215,6 +230,16 @@ Mismatch mismatch_of(const LadderFit& fit, const Claim& claim, const JudgeContex
   return fit.order < claim.order ? Mismatch::lower_order : Mismatch::higher_order;
 }
 
+// Whether displacements converge faster than claimed and velocities as claimed: errors of velocity that
+// cancel in their integral.
+bool only_velocity_is_as_claimed(const Assessment& found, const Claim& claim,
+                                 const JudgeContext& facts) {
+  const auto& fit = found.displacement;
+  return found.verdict == Verdict::disagrees && shows_a_line(fit) && claim.order > 0.0 &&
+         fit.order > claim.order && !(claim.velocity_order > 0.0) &&
+         compare(found.velocity, claim, facts) == Verdict::agrees;
+}
+
 int severity(Verdict verdict) {
   constexpr std::array order{Verdict::not_claimed, Verdict::agrees, Verdict::undecided,
                              Verdict::disagrees};
@@ -226,6 +251,7 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
             const JudgeContext& facts) {
   const auto& fit = found.displacement;
   found.verdict = compare(fit, claim, facts);
+  if (only_velocity_is_as_claimed(found, claim, facts)) found.verdict = Verdict::agrees;
   // One history without a claim was not fitted for its order.
   const bool one_history =
       facts.finest && !claim.is_made() && ladder.size() == 1 && ladder.front().runs.size() == 1;

@@ -89,6 +89,8 @@ struct JudgeContext {
 ///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
 ///                                   printing makes, and the fit is exact, a floor or has too few
 ///                                   levels
+///     exact                         claimed, with errors that grow as steps shrink, but by no more than
+///                                   rounding of second differences
 ///     reduced                       a straight line of the very order that is claimed as reduced
 ///     what fit_ladder found         otherwise
 ///
@@ -99,7 +101,7 @@ struct JudgeContext {
 /// above, or the claimed reason of a floor (a floor without a claimed reason agrees with any, also
 /// with one as large as the motion where impacts are simultaneous);
 /// otherwise `disagrees`. A claim is two-sided: better than claimed is another behaviour and
-/// disagrees as well. Impacts missed or extra on the two finest levels disagree whatever the
+/// disagrees as well, unless velocities are as claimed. Impacts missed or extra on the two finest levels disagree whatever the
 /// errors say, unless the claim is a floor and their number is right: then they came too late to be
 /// matched; where an envelope is claimed and found, only if most runs of both levels miscount. A claim to converge disagrees where the files converge to another limit.
 ///

@@ -125,6 +125,30 @@ TEST(Judge, AnotherOrderDisagreesInBothDirections) {
   EXPECT_EQ(higher.displacement.behaviour, Behaviour::proper);
 }
 
+TEST(Judge, FasterDisplacementsAgreeWhereVelocitiesAreAsClaimed) {
+  auto ladder = scores(power(3.0), {.levels = 6});
+  const auto velocities_of = [&](double order) {
+    for (auto& level : ladder)
+      for (auto& run : level.runs) run.v_error = std::pow(run.step, order);
+    return judge(ladder, second).verdict;
+  };
+  EXPECT_EQ(velocities_of(2.0), Verdict::agrees);
+  EXPECT_EQ(velocities_of(3.0), Verdict::disagrees);
+  EXPECT_EQ(velocities_of(1.0), Verdict::disagrees);
+}
+
+// Rounding of second differences: 2^-52 of the displacement over the square of the step.
+TEST(Judge, RoundingThatGrowsIsExactWhereThatIsClaimed) {
+  const auto growing = [](double factor) {
+    return scores([=](double h) { return factor * 0x1p-52 * std::pow(20.0 / h, 2.0); });
+  };
+  const Claim exact{Behaviour::exact, 0.0, ""};
+  EXPECT_EQ(judge(growing(1.0), exact).displacement.behaviour, Behaviour::exact);
+  EXPECT_EQ(judge(growing(1.0), exact).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(growing(100.0), exact).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(growing(1.0), second).displacement.behaviour, Behaviour::divergent);
+}
+
 TEST(Judge, AnOrderWithinATenthAgrees) {
   EXPECT_EQ(judge(scores(power(1.81)), second).verdict, Verdict::agrees);
   EXPECT_EQ(judge(scores(power(2.19)), second).verdict, Verdict::agrees);

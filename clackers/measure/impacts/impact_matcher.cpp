@@ -26,6 +26,7 @@ ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double
       known_(reference.impact_count(reference.end())),
       tracks_(std::size_t(std::max(contacts, 1))) {
   for (const auto& closed : reference.closed_contacts()) {
+    allow_around(closed);
     if (!closed.accumulates) continue;
     double from = closed.from, after_next = 0.0;
     auto last = impact_of(closed.contact, reference.impact_count(from), -1);
@@ -67,6 +68,28 @@ std::optional<ImpactMatcher::Target> ImpactMatcher::target(int contact, long lon
   if (const auto after = impact_of(contact, impact->index + 1, 1))
     spacing = std::min(spacing, after->t - impact->t);
   return Target{impact->index, impact->t, 0.25 * spacing, impact->when.hi - impact->when.lo};
+}
+
+// An opening and a closing without an impact are allowed as far off as a match may be.
+void ImpactMatcher::allow_around(const model::ClosedContact& closed) {
+  const auto before = impact_of(closed.contact, reference_.impact_count(closed.from), -1);
+  const auto after = impact_of(closed.contact, reference_.impact_count(closed.until) + 1, 1);
+  double opened = before ? before->t : start_, next = after ? after->t : reference_.end();
+  for (const auto& other : reference_.closed_contacts()) {
+    if (other.contact != closed.contact) continue;
+    if (other.until < closed.from) opened = std::max(opened, other.until);
+    if (other.from > closed.until) next = std::min(next, other.from);
+  }
+  const bool by_impact = closed.accumulates || (before && before->t >= closed.begins.lo);
+  const double early = by_impact ? 0.0 : 0.25 * (closed.from - opened);
+  const double late = closed.opens ? 0.25 * (next - closed.until) : 0.0;
+  lasting_.push_back({closed.contact, closed.from - early, closed.until + late});
+}
+
+bool ImpactMatcher::lasts(int contact, double t) const {
+  return std::ranges::any_of(lasting_, [&](const Lasting& each) {
+    return each.contact == contact && t >= each.from && t <= each.until;
+  });
 }
 
 bool ImpactMatcher::accumulates(int contact, double t) const {
@@ -116,11 +139,12 @@ void ImpactMatcher::take(double t, bool resting, int contact) {
   if (same) return;
   while (target && t > target->t + target->reach) advance(contact, t);
   const bool near = target && t >= target->t - target->reach;
-  if ((resting || accumulates(contact, t)) && !(near && !nearest)) return;
+  const bool is_nearest =
+      near && (!nearest || std::abs(t - target->t) < std::abs(nearest->t - target->t));
+  if (!is_nearest && (resting || lasts(contact, t) || accumulates(contact, t))) return;
   ++sum_.found;
   if (!near || nearest) ++sum_.extra;
-  if (near && (!nearest || std::abs(t - target->t) < std::abs(nearest->t - target->t)))
-    nearest = Report{t, number};
+  if (is_nearest) nearest = Report{t, number};
 }
 
 // The matcher after the last report it will get.

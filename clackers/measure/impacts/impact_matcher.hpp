@@ -37,7 +37,8 @@ bool rests_in_contact(const model::Motion& reference, const std::vector<model::C
 ///   several impacts around one true impact the nearest is its match, the others are extra.
 /// - A report while the reference rests in contact (after an impact without restitution) that is
 ///   no match is neither found nor extra: a lasting contact is no impact, and a method may
-///   close it again and again.
+///   close it again and again. Nor is one around a closing without an impact or around an opening, as
+///   far off as a match may be.
 /// - A true impact in the last two steps may come too late to be seen: it is expected only if
 ///   found. So is the last one before a run that starts late.
 /// - Where impacts accumulate to a contact that stays closed, the last one expected for certain is
@@ -90,7 +91,14 @@ class ImpactMatcher {
   // much an impact; one that takes it at the end of a step leaves the penetration of that step with eta
   // of the speed, 1/eta of a step early or late. The flight after the next is eta times the next one.
   static constexpr double apart = 32.0, delays = 12.0;
+  // A lasting contact, with the times around it in which a method may close it without an impact.
+  struct Lasting {
+    int contact = 0;
+    double from = 0.0, until = 0.0;  ///< [s]
+  };
+  void allow_around(const model::ClosedContact& closed);
   bool accumulates(int contact, double t) const;
+  bool lasts(int contact, double t) const;
   void settle(int contact, const Track& track);
   void advance(int contact, double t);
   ImpactMatcher ended(double end) const;
@@ -100,6 +108,7 @@ class ImpactMatcher {
   long long known_;  ///< number of true impacts
   std::vector<Track> tracks_;
   std::vector<Accumulation> accumulations_;
+  std::vector<Lasting> lasting_;
   std::size_t reports_ = 0;  ///< taken so far
   bool keeps_pairs_ = false;
   std::vector<ImpactPair> pairs_;

@@ -149,6 +149,39 @@ TEST(ImpactMatcher, AContactThatLastsIsOneImpact) {
   EXPECT_SCORE(match({8.02, 8.1, 9.0, 14.0}, 0.01, 20.0, {8.0}), 1, 4, 1, 0, 3);
 }
 
+// An impact at 4; lands without one at 8, opens at 12, lands at 16 by an impact and opens at 18.
+struct SoftLanding : ToyMotion {
+  SoftLanding() : ToyMotion(20.0, {4.0, 16.0}) {}
+  std::vector<model::ClosedContact> closed_contacts() const override {
+    model::ClosedContact soft, hard;
+    soft.from = 8.0;
+    soft.begins = {8.0, 8.0};
+    soft.until = 12.0;
+    hard.from = 16.0;
+    hard.begins = {16.0, 16.0};
+    hard.until = 18.0;
+    soft.opens = hard.opens = true;
+    return {soft, hard};
+  }
+};
+
+TEST(ImpactMatcher, AroundASoftLandingOrAnOpeningNoReportIsExtra) {
+  const SoftLanding reference;
+  const auto found = [&](const std::vector<double>& reports) {
+    ImpactMatcher matcher(reference, 0.01);
+    for (const double t : reports) matcher.take(t);
+    return matcher.score(20.0, 1e-12);
+  };
+  // A quarter of the 4 s before the landing, of the 4 s after the opening, of the 2 s to the end.
+  EXPECT_SCORE(found({4.0, 7.1, 8.1, 10.0, 12.9, 16.0, 18.4}), 2, 2, 2, 0, 0);
+  EXPECT_SCORE(found({4.0, 6.9, 16.0}), 2, 3, 2, 0, 1);
+  EXPECT_SCORE(found({4.0, 13.1, 16.0}), 2, 3, 2, 0, 1);
+  EXPECT_SCORE(found({4.0, 16.0, 18.6}), 2, 3, 2, 0, 1);
+  EXPECT_NEAR(found({4.0, 13.1, 16.0}).worst_time_error, 0.0, 1e-14);
+  // Before an impact there is but its match.
+  EXPECT_SCORE(found({4.0, 14.0, 15.9}), 2, 3, 2, 0, 1);
+}
+
 TEST(ImpactMatcher, ExpectsOnlyWhatHappensBeforeTheEndOfTheRun) {
   EXPECT_SCORE(match({2.0, 6.0}, 0.01, 9.0), 2, 2, 2, 0, 0);
   EXPECT_SCORE(match({2.0, 6.0}, 0.01, 11.0), 3, 2, 2, 1, 0);

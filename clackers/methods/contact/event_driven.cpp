@@ -36,7 +36,8 @@ there is only in the report of the impact.
 
 Contacts that are closed with gap rate 0, after an impact with eta = 0 or from a start at rest,
 are active constraints where their accelerations A and forces F say so: 0 <= A _|_ F >= 0,
-solved for all of them. A contact is let go where its force changes sign. Contacts that are
+solved for all of them. A contact is let go where its force changes sign, looked for at the ends of
+steps, and of an adaptive integrator at every eighth of them. Contacts that are
 closed at once with linearly dependent b_j end the run, and so do more than 1000 events in one
 step.
 
@@ -106,6 +107,7 @@ class EventDriven::Loop {
         is_suppressed_(contacts_.size(), false),
         is_struck_(contacts_.size(), false),
         from_(problem_.start),
+        later_(problem_.start),
         v_before_(problem_.start.v),
         impulses_(contacts_.no_impulses()),
         is_adaptive_(plan.is_adaptive()) {
@@ -147,7 +149,8 @@ class EventDriven::Loop {
       if ((is_free || !constrained_.is_active(i)) &&
           !GapCubic(sample(i, 0.0, before), sample(i, length, now)).stays_above(0.0))
         return false;
-    return is_free || !constrained_.is_any_released(now);
+    // The longer steps of an adaptive integrator may hold a release and the closing after it.
+    return is_free || (!is_adaptive_ && !constrained_.is_any_released(now));
   }
 
   // Everything that happens between `before` and `now`, the end of the step as it would be without
@@ -237,9 +240,12 @@ class EventDriven::Loop {
   // Moves from_ to the later side of an event between it and `now`. False: the run ends.
   bool apply(const Event& event, const State& now, Recorder<Dof>& out) {
     const std::size_t i = event.contact;
+    // In a long step the contact may be pressed again at its end.
+    const double soon = event.s + 0x1p-6 * (now.t - from_.t - event.s);
+    later_ = event.is_release && is_adaptive_ ? stepper().partial(from_, soon) : now;
     move_to(event.s, now.t);
     if (event.is_release) {
-      if (!release(now, out)) return false;
+      if (!release(later_, out)) return false;
       if (constrained_.is_active(i)) {
         // Its force only touches 0.
         is_suppressed_[i] = true;
@@ -270,9 +276,10 @@ class EventDriven::Loop {
     const double length = now.t - from_.t;
     std::optional<Event> first;
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      if (is_suppressed_[i]) continue;
       const bool is_release = constrained_.is_active(i);
-      const auto s = is_release ? release_time(i, length, now) : impact_time(i, length, now);
+      const auto s = is_suppressed_[i] ? closing_time(i, length, now)
+                     : is_release      ? release_time(i, length, now)
+                                       : impact_time(i, length, now);
       // Of an impact and a release at one instant the impact, which decides all contacts anew.
       if (s && (!first || *s < first->s || (*s == first->s && !is_release && first->is_release)))
         first = Event{*s, i, is_release};
@@ -284,14 +291,32 @@ class EventDriven::Loop {
     const double before = constrained_.release_margin(i, from_),
                  after = constrained_.release_margin(i, now);
     if (before < 0.0) return 0.0;
-    if (!(after < 0.0)) return std::nullopt;
+    const auto margin = [&](double s) {
+      return constrained_.release_margin(i, stepper().partial(from_, s));
+    };
+    double last = length, at_last = after;
+    constexpr int pieces = 8;
+    for (int k = 1; is_adaptive_ && k < pieces && !(at_last < 0.0); ++k)
+      if (const double s = k * length / pieces, m = margin(s); m < 0.0) last = s, at_last = m;
+    if (!(at_last < 0.0)) return std::nullopt;
     const double unit = std::numeric_limits<double>::epsilon() * length;
     ++searches_;
+    return numerics::shrink(margin, {0.0, before, last, at_last}, unit).b;
+  }
+
+  // Where a contact that grazed at from_ closes after all, in a long step of an adaptive integrator.
+  std::optional<double> closing_time(std::size_t i, double length, const State& now) {
+    if (!is_adaptive_ || constrained_.is_active(i)) return std::nullopt;
+    const double most = -2.0 * contacts_.rate_rounding(i, from_.v);
+    const double before = contacts_.gap_rate(i, from_.v) - most,
+                 after = contacts_.gap_rate(i, now.v) - most;
+    if (!(contacts_.gap(i, now.u) < -contacts_.rounding(i, now.u)) || !(before > 0.0) ||
+        !(after < 0.0))
+      return std::nullopt;
+    ++searches_;
     return numerics::shrink(
-               [&](double s) {
-                 return constrained_.release_margin(i, stepper().partial(from_, s));
-               },
-               {0.0, before, length, after}, unit)
+               [&](double s) { return sample(i, s, stepper().partial(from_, s)).rate - most; },
+               {0.0, before, length, after}, std::numeric_limits<double>::epsilon() * length)
         .b;
   }
 
@@ -346,10 +371,10 @@ class EventDriven::Loop {
   }
 
   // The contacts that hold the structure at from_ let it go. False: the run ends.
-  bool release(const State& now, Recorder<Dof>& out) {
+  bool release(const State& later, Recorder<Dof>& out) {
     find_closed();
     std::erase_if(closed_, [&](std::size_t i) { return !is_resting(i, from_.v); });
-    return decide(now, out);
+    return decide(later, out);
   }
 
   // Which of the contacts in closed_, with gap rate 0, become or stay active; `later` see
@@ -402,7 +427,7 @@ class EventDriven::Loop {
   std::unique_ptr<AnyStepper<Dof>> free_stepper_, constrained_stepper_;
   double h_;
   std::vector<bool> is_suppressed_, is_struck_;  // in this step
-  State from_;
+  State from_, later_;
   Vector v_before_;
   Eigen::VectorXd impulses_;
   std::vector<std::size_t> closed_, before_, captured_;

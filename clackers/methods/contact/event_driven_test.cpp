@@ -20,7 +20,7 @@ const std::vector<std::string> integrators = [] {
   for (const auto& entry : entries()) {
     if (entry.kind != "integrator") continue;
     const auto facts = integrator(entry.name)->facts();
-    if (!facts.is_adaptive && !facts.is_exact_without_load) all.push_back(entry.name);
+    if (!facts.is_adaptive && facts.exact_under < ExactUnder::no_load) all.push_back(entry.name);
   }
   return all;
 }();

@@ -59,7 +59,8 @@ double AdaptiveStepper<Dof>::first_step(const State& from) {
   const double u = largest(from.u), v = largest(from.v), a = largest(rate_v_[0]);
   const double rate = std::max(over(v, u), over(a, v));
   const double length = plan_.end - from.t;
-  const double guess = std::min(rate > 0.0 ? 0.01 / rate : 1e-6 * length, length);
+  // The rates of a state that is rounding say nothing.
+  const double least = 1e-6 * length, guess = std::clamp(over(0.01, rate), least, length);
   u_ = from.u + guess * rate_u_[0];
   v_ = from.v + guess * rate_v_[0];
   const double u_scale = std::max(u, largest(u_)), v_scale = std::max(v, largest(v_));
@@ -69,7 +70,7 @@ double AdaptiveStepper<Dof>::first_step(const State& from) {
   const double second = std::max({over(v, u_scale), over(a, v_scale), std::sqrt(bend)});
   if (!(second > 0.0)) return guess;
   const double h = std::pow(0.01 * plan_.tolerance, 1.0 / pair_.error_order) / second;
-  return std::min({100.0 * guess, h, length});
+  return std::min({100.0 * guess, std::max(h, least), length});
 }
 
 // The error of a step over the tolerance; `scales` are raised by its end.

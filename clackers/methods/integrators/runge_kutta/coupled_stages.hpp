@@ -66,6 +66,7 @@ struct Radau : NothingRemembered {
 struct ExactFlow : NothingRemembered {
   Squaring squaring;
   void (*make)(const LinearSystem&, const Squaring&, LinearStep&);
+  ExactUnder exact_under = ExactUnder::no_load;
 
   Facts facts() const;
 

@@ -25,10 +25,12 @@ Radau radau5() {
 }
 
 ExactFlow flow(const Squaring& squaring,
-               void (*make)(const LinearSystem&, const Squaring&, LinearStep&)) {
+               void (*make)(const LinearSystem&, const Squaring&, LinearStep&),
+               ExactUnder exact_under) {
   ExactFlow m;
   m.squaring = squaring;
   m.make = make;
+  m.exact_under = exact_under;
   return m;
 }
 
@@ -45,7 +47,7 @@ Facts ExactFlow::facts() const {
           .is_linear_only = true,
           .stability_limit = always,
           .radius_at_infinity = 1.0,
-          .is_exact_without_load = true};
+          .exact_under = exact_under};
 }
 
 std::vector<Row> coupled_stages_methods() {
@@ -94,12 +96,14 @@ Cost        one product with a matrix of twice the size a step; one factorizatio
             (system, h).
 Source      E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.5 (1996).
 )"}),
-      row<ExactFlow>(
-          {"precise-integration",
-           "Zhong and Williams' method: exact free motion, the load by Gauss' rule",
-           {},
-           [](Values) { return flow({.terms = 4, .part = 0x1p-20, .least = 20}, make_gauss_step); },
-           R"(Precise integration of x = (u, v), x' = H x + r(t), r = (0, M^-1 f):
+      row<ExactFlow>({"precise-integration",
+                      "Zhong and Williams' method: exact free motion, the load by Gauss' rule",
+                      {},
+                      [](Values) {
+                        return flow({.terms = 4, .part = 0x1p-20, .least = 20}, make_gauss_step,
+                                    ExactUnder::no_load);
+                      },
+                      R"(Precise integration of x = (u, v), x' = H x + r(t), r = (0, M^-1 f):
 
     x1  = T(h) x0 + h/2 sum_k T(h - c_k h) r(t0 + c_k h),   c = 1/2 -+ sqrt(3)/6
     T_a = d + d²/2 + d³/6 + d⁴/24,   d = H h/2^N,   N = 20 or more
@@ -115,12 +119,14 @@ Cost        one product with a matrix of twice the size a step; three matrix exp
             (system, h).
 Source      W. X. Zhong, F. W. Williams, Proc. Inst. Mech. Eng. C 208, 427-430 (1994).
 )"}),
-      row<ExactFlow>(
-          {"exponential",
-           "exponential integrator: exact free motion, the load as a line in the step",
-           {},
-           [](Values) { return flow({.terms = 12, .part = 0.25, .least = 0}, make_line_step); },
-           R"(The exponential integrator of x = (u, v), x' = H x + r(t), r = (0, M^-1 f):
+      row<ExactFlow>({"exponential",
+                      "exponential integrator: exact free motion, the load as a line in the step",
+                      {},
+                      [](Values) {
+                        return flow({.terms = 12, .part = 0.25, .least = 0}, make_line_step,
+                                    ExactUnder::constant_load);
+                      },
+                      R"(The exponential integrator of x = (u, v), x' = H x + r(t), r = (0, M^-1 f):
 
     x1 = exp(H h) x0 + integral over the step of exp(H (t0 + h - t)) r*(t),
     r* the line through r at the points t0 + (1/2 -+ sqrt(3)/6) h of Gauss

@@ -39,7 +39,8 @@ Facts AlphaMethod::facts() const {
   const bool is_stable = !is_plain(*this) || 2.0 * beta >= gamma;
   return {.smooth_order = std::abs(excess) < 1e-15 ? 2.0 : 1.0,
           .stability_limit = is_stable ? always : 1.0 / std::sqrt(0.5 * gamma - beta),
-          .radius_at_infinity = is_stable ? radius_at_infinity(*this) : nan};
+          .radius_at_infinity = is_stable ? radius_at_infinity(*this) : nan,
+          .exact_under = ExactUnder::constant_force};
 }
 
 std::vector<Row> alpha_methods() {
