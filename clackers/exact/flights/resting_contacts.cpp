@@ -183,12 +183,19 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
   const VectorXd response = before.velocity(row.impulse) / row.rate().dot(row.impulse);
   const VectorXd of_damping = after.impulse(before.damping() * response),
                  of_stiffness = after.impulse(before.stiffness() * response);
-  const VectorXd slowing = after.velocity(of_damping), none = VectorXd::Zero(m_.dof());
+  const auto accelerated = [&](const VectorXd& force) {
+    return VectorXd(after.velocity(after.impulse(force)).cwiseAbs());
+  };
+  const VectorXd slowing = after.velocity(of_damping);
+  // What slows a mass slows its neighbours.
+  const VectorXd pulling =
+      accelerated(before.stiffness() * response) + 2.0 * accelerated(after.damping() * slowing);
   // 2 % for what is of higher order.
-  Unresolved skipped{seconds,
-                     {1.02 * gap * (response.cwiseAbs() + 2.0 * seconds * slowing.cwiseAbs()),
-                      1.02 * rate * response.cwiseAbs() + 2.0 * gap * slowing.cwiseAbs(),
-                      1.02 * (acceleration * response.cwiseAbs() + rate * slowing.cwiseAbs())}};
+  Unresolved skipped{
+      seconds,
+      {1.02 * gap * (response.cwiseAbs() + 2.0 * seconds * slowing.cwiseAbs()),
+       1.02 * rate * response.cwiseAbs() + 2.0 * gap * slowing.cwiseAbs(),
+       1.02 * (acceleration * response.cwiseAbs() + rate * slowing.cwiseAbs() + gap * pulling)}};
   // What the other contacts may do while this one is not where it is held.
   const VectorXd z = held.z - after.steady(held.t), z_free = free.z - before.steady(held.t);
   const auto size = after.sizes(z, 0.0);

@@ -299,6 +299,42 @@ model::ImpactProblem<> random_resting(Box& box) {
   return problem;
 }
 
+// While the last impacts of mass 1 are left out, springs and dampers take them to mass 2.
+TEST(RestingContacts, NeighboursOfAContactThatComesToRestMoveAsTheTaylorSeriesSays) {
+  Box box(44);
+  Tally tally;
+  for (int trial = 0; trial < trials(12); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 44, trial " << trial);
+    const double k = box.decades(-1.0, 2.0), c = trial % 2 == 0 ? 0.0 : box.decades(-2.0, -0.5);
+    const double eta = box.uniform(0.1, 0.6), f = box.uniform(1.0, 3.0) + 0.2 * k;
+    auto problem = pressed_mass(1.0, k, f, 0.05, eta);
+    auto& system = problem.system;
+    const Eigen::Matrix4d chain{{1, -1, 0, 0}, {-1, 2, -1, 0}, {0, -1, 2, -1}, {0, 0, -1, 2}};
+    system.mass = Eigen::Vector4d(1.0, box.uniform(0.5, 2.0), 1.0, 0.5).asDiagonal();
+    system.stiffness = k * chain;
+    system.damping = c * chain;
+    problem.contacts = {{VectorXd::Unit(4, 0), 0.0, eta}};
+    problem.start = {0.0, 0.05 * VectorXd::Unit(4, 0), VectorXd::Zero(4)};
+    problem.end = 3.0;
+    if (test::refusal_of([&] { PiecewiseMotion{problem}; }) != "accepted") continue;
+    const PiecewiseMotion motion(problem);
+    const auto closed = motion.closed_contacts();
+    if (closed.empty() || !closed[0].accumulates || closed[0].begins.hi > 2.9) continue;
+    ++tally.members;
+    TaylorSimulator simulator(problem);
+    for (int i = 1; i <= 20; ++i) {
+      const double x = i / 21.0, t = x * closed[0].begins.hi + (1.0 - x) * closed[0].resolved;
+      while (simulator.next(t)) {
+      }
+      const auto known = simulator.at(t);
+      for (Eigen::Index mass = 0; mass < 4; ++mass)
+        compare(motion, t, mass, {known.u[mass], known.v[mass], known.a[mass]}, tally);
+    }
+  }
+  EXPECT_GE(tally.members, 5);
+  tally.record();
+}
+
 TEST(RestingContacts, OfRandomStructuresMoveAsTheTaylorSeriesSays) {
   Box box(43);
   Tally tally;
