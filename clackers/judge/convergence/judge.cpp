@@ -114,8 +114,7 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
     fit.behaviour = Behaviour::divergent;
     fit.reason = Code("energy-growth").name();
   } else if (open && facts.shared && comes_from_shared_impacts(*facts.shared) &&
-             (is_unexplained_floor(fit) ||
-              (fit.behaviour == Behaviour::undecided && stays_large(fit)))) {
+             (is_unexplained_floor(fit) || stays_large(fit))) {
     if (fit.behaviour == Behaviour::undecided) fit.behaviour = Behaviour::divergent;
     fit.reason = Code("simultaneous-impacts").name();
   } else if (fit.behaviour == Behaviour::undecided && open && errors_fall(fit) &&

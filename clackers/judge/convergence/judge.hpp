@@ -83,7 +83,8 @@ struct JudgeContext {
 ///                                   the motion and do not fall, and they come from impacts of one
 ///                                   instant (comes_from_shared_impacts)
 ///     stagnating [simultaneous-impacts]
-///                                   at an unexplained or a rough floor that comes from them
+///                                   at an unexplained or a rough floor that comes from them, and at
+///                                   any that is as large as the motion
 ///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with
 ///                                   less than half of it
 ///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
