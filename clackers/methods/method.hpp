@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -9,7 +8,6 @@
 
 #include "clackers/base/codes.hpp"
 #include "clackers/base/judgement.hpp"
-#include "clackers/model/harmonic_load.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/run.hpp"
 
@@ -33,6 +31,8 @@ struct Facts {
   /// The orders are those of other motion. Every method of second order is exact under a constant force.
   ExactUnder exact_under = ExactUnder::no_force;
   Claim through_impacts{};  ///< of an integrator alone: nothing
+  /// Through impacts, where a constant force presses a contact closed: its order is that of an envelope.
+  bool scatters_pressed = false;
   bool reports_impacts = true;
   /// Of a compliant contact: the error of its model falls as stiffness^-model_order where it models
   /// the restitution; 0 for rigid contact.
@@ -41,48 +41,11 @@ struct Facts {
   bool is_unconditionally_stable() const { return std::isinf(stability_limit); }
 };
 
-/// Whether no load acts, or one that does not change with time.
-inline bool has_constant_load(const model::SmoothSystem<>& system) {
-  if (!system.add_load) return true;
-  const auto* load = system.add_load.target<model::HarmonicLoad>();
-  return load != nullptr &&
-         std::ranges::all_of(load->forces(), [](const auto& f) { return f.frequency == 0.0; });
-}
-
-/// Whether every step between events is exact to rounding; see ExactUnder. Dry friction is a constant
-/// load between them.
-inline bool is_exact_on(const Facts& facts, const model::ImpactProblem<>& problem) {
-  const auto& system = problem.system;
-  if (system.nonlinear || !has_constant_load(system)) return false;
-  if (facts.exact_under == ExactUnder::constant_load) return true;
-  const bool is_loaded = system.add_load || !problem.frictions.empty();
-  if (facts.exact_under == ExactUnder::no_load && !is_loaded) return true;
-  const bool is_free = system.stiffness.isZero(0.0) && system.damping.isZero(0.0);
-  return is_free && (!is_loaded || facts.smooth_order > 1.5 ||
-                     facts.exact_under == ExactUnder::constant_force);
-}
-
 /// What a method claims on a problem: through impacts or, where nothing collides, in smooth motion.
 /// `shares_impacts`: contacts that share masses close together. Compliant contacts share such an impact
 /// by their stiffnesses, whatever these are: they claim a floor, but not that stiffness lowers it.
-inline Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool collides,
-                      bool shares_impacts = false) {
-  const bool is_of_impacts =
-      collides || !problem.frictions.empty() || facts.through_impacts.behaviour == Behaviour::exact;
-  const Claim claim =
-      is_of_impacts ? facts.through_impacts : Claim{Behaviour::proper, facts.smooth_order, {}};
-  // How soon a regular law of friction tears loose decides by how much later motion errs.
-  if (!problem.frictions.empty() && claim.behaviour == Behaviour::stagnating) return {};
-  if (shares_impacts && claim.behaviour == Behaviour::stagnating) return {claim.behaviour, 0.0, {}};
-  // An impact that is not located leaves an error of its own.
-  const bool keeps_order =
-      claim.behaviour == Behaviour::proper && claim.order >= facts.smooth_order;
-  if (keeps_order && is_exact_on(facts, problem)) return {Behaviour::exact, 0.0, {}};
-  const auto& nonlinear = problem.system.nonlinear;
-  if (claim.order > 0.0 && nonlinear && nonlinear->has_kinks())
-    return {Behaviour::irregular, std::min(2.0, facts.smooth_order), {}};
-  return claim;
-}
+Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool collides,
+               bool shares_impacts = false);
 
 /// Why a method cannot take a problem.
 struct Objection {

@@ -102,9 +102,11 @@ struct JudgeContext {
 /// above, or the claimed reason of a floor (a floor without a claimed reason agrees with any, also
 /// with one as large as the motion where impacts are simultaneous);
 /// otherwise `disagrees`. A claim is two-sided: better than claimed is another behaviour and
-/// disagrees as well, unless velocities are as claimed. Impacts missed or extra on the two finest levels disagree whatever the
-/// errors say, unless the claim is a floor and their number is right: then they came too late to be
-/// matched; where an envelope is claimed and found, only if most runs of both levels miscount. A claim to converge disagrees where the files converge to another limit.
+/// disagrees as well, unless velocities are as claimed. Impacts missed or extra on the two finest
+/// levels disagree whatever the errors say, unless the claim is a floor and their number is right: then
+/// they came too late to be matched; where an envelope is claimed, only if most runs of both levels
+/// miscount. A claim to diverge says nothing of impacts. A claim to converge disagrees where the files
+/// converge to another limit.
 ///
 /// A tolerance has a verdict of its own, `undecided` where printing makes more than the difference
 /// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of

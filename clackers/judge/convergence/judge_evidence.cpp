@@ -25,7 +25,7 @@ Evidence miscount(const measure::RunScore& run) {
 
 // The first run of the two finest levels that did not find the impacts it should. Where the errors
 // decide nothing, steps may be too long to find them: then only if every run of both levels misses as
-// many and has as many too many, as no refinement will mend. Where errors scatter as claimed, gentle
+// many and has as many too many, as no refinement will mend. Where errors may scatter as claimed, gentle
 // impacts are off by more than their match may be at some steps: then only if most runs miscount.
 // A claim to diverge says nothing of impacts.
 std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFit& fit,
@@ -51,10 +51,10 @@ std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFi
     }
   // Another outcome of simultaneous impacts has other impacts after it.
   if (first == nullptr || fit.reason == Code("simultaneous-impacts").name()) return {};
-  const bool scatters =
-      fit.behaviour == Behaviour::irregular && claim.behaviour == Behaviour::irregular;
-  if (scatters && 2 * miscounting <= finished) return {};
-  const bool open = fit.behaviour == Behaviour::undecided;
+  const bool may_scatter = claim.behaviour == Behaviour::irregular && fit.has_line;
+  if (may_scatter && 2 * miscounting <= finished) return {};
+  const bool open = fit.behaviour == Behaviour::undecided ||
+                    (fit.has_line && fit.order < lowest_real_order);
   if (open && (!all_alike || fit.reason == Code("contact-not-resolved").name())) return {};
   return miscount(*first);
 }

@@ -26,7 +26,8 @@ be used.
 
 Order       2 in smooth motion; 1 through impacts, with errors on a line where others scatter, since
             the impact ends at a time that is smooth in the step; with scatter where a force presses
-            the contact on for a third step.
+            the contact on for a third step (the error over h varies by a factor 1.4 for eta = 0.5, 3 for
+            0.8, 7 for 0.9).
 Stability   omega h <= 2.
 Dissipation none in flight for C = 0.
 Memory      u0, kept as acceleration and velocity.
@@ -41,7 +42,8 @@ Source      L. Paoli, M. Schatzman, SIAM J. Numer. Anal. 40, 702-733 and 734-768
     return {.name = std::string(name),
             .smooth_order = 2.0,
             .stability_limit = 2.0,
-            .through_impacts = {Behaviour::proper, 1.0, {}}};
+            .through_impacts = {Behaviour::proper, 1.0, {}},
+            .scatters_pressed = true};
   }
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const {
     const auto is_inelastic = [](const auto& contact) { return contact.restitution == 0.0; };
