@@ -530,9 +530,26 @@ TEST(Judge, AnEnvelopeMayMiscountAtAFewSteps) {
   };
   EXPECT_EQ(verdict(4, rough), Verdict::agrees);
   EXPECT_EQ(verdict(5, rough), Verdict::disagrees);
-  auto line = scores(power(2.0));
-  line.back().runs.back().impacts = measure::ImpactScore{6, 6, 5, 1, 1};
+  auto line = scores(power(2.0)), straight = scores(power(1.0));
+  for (auto* ladder : {&line, &straight})
+    ladder->back().runs.back().impacts = measure::ImpactScore{6, 6, 5, 1, 1};
   EXPECT_EQ(judge(line, second).verdict, Verdict::disagrees);
+  EXPECT_EQ(judge(straight, rough).verdict, Verdict::agrees);
+}
+
+TEST(Judge, AClaimToDivergeSaysNothingOfImpacts) {
+  auto growth = scores([](double h) { return 1e-3 / h; });
+  for (auto& run : growth.back().runs) run.impacts = measure::ImpactScore{6, 7, 6, 0, 1};
+  EXPECT_EQ(judge(growth, {Behaviour::divergent, 0.0, {}}).verdict, Verdict::agrees);
+}
+
+TEST(Judge, AFloorAsLargeAsTheMotionComesFromItsSimultaneousImpacts) {
+  const auto floor = scores([](double h) { return 0.9 + 0.01 * h; });
+  const auto reason = [&](const std::optional<measure::SharedImpacts>& shared) {
+    return judge(floor, floor_claim, {.contact_time = 10.0, .shared = shared}).reason;
+  };
+  EXPECT_EQ(reason(jump), "simultaneous-impacts");
+  EXPECT_EQ(reason({}), "contact-stiffness");
 }
 
 // Backward Euler with a contact spring: the errors come from those of a motion that has died away, and
@@ -545,9 +562,12 @@ TEST(Judge, AClaimedFloorIsOpenWhileErrorsFallByNoOrder) {
     const auto i = std::min(std::size_t(level + 1e-9), bend.size() - 2);
     return bend[i] * std::pow(bend[i + 1] / bend[i], level - double(i));
   };
-  const auto found = judge(scores(error, {.levels = 11, .coarsest = 0.1}), floor_claim);
+  auto ladder = scores(error, {.levels = 11, .coarsest = 0.1});
+  const auto found = judge(ladder, floor_claim);
   EXPECT_LT(found.displacement.order, 0.75);
   EXPECT_EQ(found.verdict, Verdict::undecided);
+  ladder.back().runs.back().impacts = measure::ImpactScore{6, 7, 6, 0, 1};
+  EXPECT_EQ(judge(ladder, floor_claim).verdict, Verdict::undecided);
   EXPECT_EQ(judge(scores(power(1.0)), floor_claim).verdict, Verdict::disagrees);
 }
 

@@ -61,32 +61,30 @@ void exponential_less_one(const MatrixXd& rates, double norm, const Squaring& ho
 // From (u, v/omega) back to (u, v).
 void unscale_rows(MatrixXd& x, double omega) { x.bottomRows(x.rows() / 2) *= omega; }
 
-void set_transition(const Eigen::Ref<const MatrixXd>& less_one, double omega, LinearStep& step) {
-  const auto n = less_one.rows() / 2;
-  step.transition = less_one;
-  step.transition.diagonal().array() += 1.0;
-  unscale_rows(step.transition, omega);
-  step.transition.rightCols(n) /= omega;
+void set_change(const Eigen::Ref<const MatrixXd>& less_one, double omega, LinearStep& step) {
+  step.change = less_one;
+  unscale_rows(step.change, omega);
+  step.change.rightCols(less_one.rows() / 2) /= omega;
 }
 
 }  // namespace
 
 void LinearStep::apply(const model::Load& f, double t, double* u, double* v) const {
-  const auto n = transition.rows() / 2;
+  const auto n = change.rows() / 2;
   Eigen::Map<Eigen::VectorXd> position(u, n), velocity(v, n);
   before_.resize(2 * n);
   before_.head(n) = position;
   before_.tail(n) = velocity;
   after_.resize(2 * n);
-  after_.noalias() = transition * before_;
+  after_.noalias() = change * before_;
   if (f)
     for (std::size_t k = 0; k < std::size_t(loads); ++k) {
       force_.setZero(n);
       f(t + c[k] * h, std::span<double>(force_.data(), std::size_t(n)));
       after_.noalias() += load[k] * force_;
     }
-  position = after_.head(n);
-  velocity = after_.tail(n);
+  position += after_.head(n);
+  velocity += after_.tail(n);
 }
 
 void StageSolver::resize(Eigen::Index size) {
@@ -122,8 +120,8 @@ void make_collocation_step(const LinearSystem& s, const StageTable& table, Linea
   a.resizeLike(right);
   a.noalias() = step.lu.solve(right);
   step.loads = count;
-  step.transition.setIdentity(2 * n, 2 * n);
-  step.transition.topRightCorner(n, n).diagonal().setConstant(h);
+  step.change.setZero(2 * n, 2 * n);
+  step.change.topRightCorner(n, n).diagonal().setConstant(h);
   for (int k = 0; k < count; ++k) {
     step.c[std::size_t(k)] = table.time(k);
     step.load[std::size_t(k)].setZero(2 * n, n);
@@ -131,8 +129,8 @@ void make_collocation_step(const LinearSystem& s, const StageTable& table, Linea
   const int last = count - 1;
   for (int i = 0; i < count; ++i) {
     const double of_u = h * h * table.second(last, i), of_v = h * table.first(last, i);
-    step.transition.topRows(n) += of_u * a.block(i * n, 0, n, 2 * n);
-    step.transition.bottomRows(n) += of_v * a.block(i * n, 0, n, 2 * n);
+    step.change.topRows(n) += of_u * a.block(i * n, 0, n, 2 * n);
+    step.change.bottomRows(n) += of_v * a.block(i * n, 0, n, 2 * n);
     for (int k = 0; k < count; ++k) {
       auto& load = step.load[std::size_t(k)];
       load.topRows(n) += of_u * a.block(i * n, (2 + k) * n, n, n);
@@ -146,7 +144,7 @@ void make_gauss_step(const LinearSystem& s, const Squaring& squaring, LinearStep
   const auto [omega, rates, inertia] = scaled_rates(s, step.h, step);
   auto &part = step.work[3], &sum = step.work[4], &product = step.work[5];
   exponential_less_one(rates, norm_of(rates), squaring, sum, product);
-  set_transition(sum, omega, step);
+  set_change(sum, omega, step);
   step.loads = 2;
   for (std::size_t k = 0; k < 2; ++k) {
     step.c[k] = k == 0 ? 0.5 - gauss_offset : 0.5 + gauss_offset;
@@ -175,7 +173,7 @@ void make_line_step(const LinearSystem& s, const Squaring& squaring, LinearStep&
   step.load[0] = (step.c[1] * constant - rising) / length;
   step.load[1] = (rising - step.c[0] * constant) / length;
   for (std::size_t k = 0; k < 2; ++k) unscale_rows(step.load[k], omega);
-  set_transition(sum.topLeftCorner(2 * n, 2 * n), omega, step);
+  set_change(sum.topLeftCorner(2 * n, 2 * n), omega, step);
 }
 
 }  // namespace clackers::methods

@@ -10,12 +10,12 @@
 // What methods need whose step couples all unknowns at once, for every size the same.
 namespace clackers::methods {
 
-/// A step of a linear system as a map of x = (u, v):  x1 = transition x0 + sum_k load_k f(t0 + c_k h).
+/// A step of a linear system as a map of x = (u, v):  x1 = x0 + change x0 + sum_k load_k f(t0 + c_k h).
 struct LinearStep {
   static constexpr std::size_t most_loads = 3;
 
   double h = 0.0;  ///< [s]
-  Eigen::MatrixXd transition;
+  Eigen::MatrixXd change;
   int loads = 0;
   std::array<double, most_loads> c{};
   std::array<Eigen::MatrixXd, most_loads> load;

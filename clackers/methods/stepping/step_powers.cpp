@@ -13,10 +13,11 @@ using Lanes = hn::CappedTag<double, StepPowers::steps>;
 
 // What the compiler does not know, it finds in the arguments: Dof = 0.
 template <std::size_t Dof, std::size_t Size>
-HWY_INLINE void multiply(const double* table, std::size_t size, const double* x, double* y) {
+HWY_INLINE void multiply(const double* table, std::size_t dof, std::size_t size, const double* x,
+                         double* y) {
   const Lanes d;
   constexpr std::size_t count = StepPowers::steps;
-  if constexpr (Dof > 0) size = Size;
+  if constexpr (Dof > 0) dof = Dof, size = Size;
   for (std::size_t row = 0; row < size; ++row)
     for (std::size_t lane = 0; lane < count; lane += hn::Lanes(d)) {
       const double* p = table + row * size * count + lane;
@@ -28,7 +29,9 @@ HWY_INLINE void multiply(const double* table, std::size_t size, const double* x,
         odd = hn::Add(odd, hn::Mul(hn::Set(d, x[j + 1]), hn::Load(d, p + (j + 1) * count)));
       }
       if (j < size) even = hn::Add(even, hn::Mul(hn::Set(d, x[j]), hn::Load(d, p + j * count)));
-      hn::Store(hn::Add(even, odd), d, y + row * count + lane);
+      auto sum = hn::Add(even, odd);
+      if (row < 2 * dof) sum = hn::Add(hn::Set(d, x[row]), sum);
+      hn::Store(sum, d, y + row * count + lane);
     }
 }
 
@@ -76,7 +79,7 @@ std::size_t advance_sized(const double* table, std::size_t dof, std::size_t size
   std::size_t made = 0;
   if (count_far(hn::CappedTag<double, 1>(), gaps, third, dof, x, 1) == 0) return 0;
   while (made + count <= most) {
-    multiply<Dof, Size>(table, size, x, y);
+    multiply<Dof, Size>(table, dof, size, x, y);
     deliver(dof, y, u + made * dof);
     deliver(dof, y + dof * count, v + made * dof);
     std::size_t quiet = 0;
@@ -110,11 +113,22 @@ namespace clackers::methods {
 
 HWY_EXPORT(advance);
 
-void StepPowers::resize(std::size_t dof, std::size_t size) {
+void StepPowers::assign(std::size_t dof, const Eigen::MatrixXd& first) {
   dof_ = dof;
-  size_ = size;
-  table_.resize(size * size);
-  y_.resize(size);
+  size_ = std::size_t(first.rows());
+  table_.resize(size_ * size_);
+  y_.resize(size_);
+  const auto kept = Eigen::Index(2 * dof);
+  Eigen::MatrixXd more = first, next(first.rows(), first.cols());
+  for (std::size_t power = 0; power < steps; ++power) {
+    for (std::size_t row = 0; row < size_; ++row)
+      for (std::size_t column = 0; column < size_; ++column)
+        table_[row * size_ + column].powers[power] = more(Eigen::Index(row), Eigen::Index(column));
+    next.noalias() = first * more;
+    next.topRows(kept) += more.topRows(kept);
+    next.leftCols(kept) += first.leftCols(kept);
+    more.swap(next);
+  }
 }
 
 std::size_t StepPowers::advance(std::span<double> x, const Gaps& gaps, double h, std::size_t most,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -40,8 +41,12 @@ struct Gaps {
 };
 
 /// Eight steps at once of an integrator whose step is a matrix P: the powers P, P², ..., P^8 act on the
-/// state x = (u, v) or (u, v, a) before them. Products and sums are rounded one by one in a fixed order,
-/// so that vectors of all lengths have the same bits.
+/// state x = (u, v) or (u, v, a) before them. Each is kept as what it adds to u and v,
+///
+///     P^k = J + T_k,   J = 1 for u and v, 0 for a,   T_(k+1) = J T_k + T_1 J + T_1 T_k
+///
+/// so that its rounding is that of what changes. Products and sums are rounded one by one in a fixed
+/// order, so that vectors of all lengths have the same bits.
 class StepPowers {
  public:
   static constexpr std::size_t steps = 8;
@@ -50,11 +55,8 @@ class StepPowers {
 
   bool exists() const { return size_ > 0; }
   void clear() { size_ = 0; }
-  /// Powers of `size` unknowns, which is 2 or 3 times `dof`; the caller fills entries.
-  void resize(std::size_t dof, std::size_t size);
-  double& entry(std::size_t power, std::size_t row, std::size_t column) {
-    return table_[row * size_ + column].powers[power - 1];
-  }
+  /// Takes T_1 for `dof` masses, of 2 or 3 times as many unknowns.
+  void assign(std::size_t dof, const Eigen::MatrixXd& first);
 
   /// Goes on from x by steps of h while the cubics through gaps and gap rates of consecutive states
   /// stay open. `u` and `v`, row-major (step, mass), become the states after the steps. Returns how

@@ -161,29 +161,61 @@ class Stepper final : public AnyStepper<Dof> {
     if constexpr (remembers_acceleration) std::copy_n(&unknowns_[2 * n], n, memory.a.data());
   }
 
-  // By steps from unit vectors, where these save more than they take.
+  // Where they save more than they take.
   void make_powers() {
     const auto n = std::size_t(part_.u.size()), size = (remembers_acceleration ? 3 : 2) * n;
     constexpr auto steps = StepPowers::steps;
     if (size > StepPowers::most_unknowns || plan_.whole < static_cast<long long>(4 * steps * size))
       return;
-    const auto tally = equation_.tally();
-    powers_.resize(n, size);
     unknowns_.resize(size);
-    for (std::size_t column = 0; column < size; ++column) {
-      std::fill(unknowns_.begin(), unknowns_.end(), 0.0);
-      unknowns_[column] = 1.0;
+    powers_.assign(n, added(size));
+  }
+
+  // What a step adds to u and v, and what it makes of all for a; see StepPowers. Steps from unit vectors
+  // lose it beside the 1 of their own, so they are made from 0, with what the unit vector does as a load:
+  // u + e_j moves under -K e_j as u, and v + e_j, u + t e_j under -(C + t K) e_j.
+  Eigen::MatrixXd added(std::size_t size) {
+    const auto n = Eigen::Index(part_.u.size()), all = Eigen::Index(size);
+    const auto tally = equation_.tally();
+    const auto from = [&](MotionEquation<Dof>& equation, auto&& vector) {
+      std::copy_n(vector.data(), size, unknowns_.begin());
       unpack(part_, part_memory_);
-      for (std::size_t power = 1; power <= steps; ++power) {
-        integrator_.advance(equation_, plan_.h, part_, part_memory_);
-        pack(part_, part_memory_);
-        for (std::size_t row = 0; row < size; ++row)
-          powers_.entry(power, row, column) = unknowns_[row];
+      part_.t = 0.0;
+      integrator_.advance(equation, plan_.h, part_, part_memory_);
+      pack(part_, part_memory_);
+      return Eigen::Map<const Eigen::VectorXd>(unknowns_.data(), all);
+    };
+    Eigen::MatrixXd step(all, all);
+    for (Eigen::Index j = 0; j < all; ++j)
+      step.col(j) = from(equation_, Eigen::VectorXd(Eigen::VectorXd::Unit(all, j)));
+    evaluations_ = (equation_.tally().evaluations - tally.evaluations) / all;
+    equation_.set_tally(tally);
+    step.diagonal().head(2 * n).array() -= 1.0;
+    if constexpr (requires { integrator_.change(equation_, plan_.h); }) {
+      step = integrator_.change(equation_, plan_.h);
+    } else {
+      auto system = equation_.system();
+      Eigen::Index j = 0;
+      system.add_load = [&](double t, std::span<double> force) {
+        Eigen::Map<Eigen::VectorXd> f(force.data(), n);
+        if (j < n)
+          f -= system.stiffness.col(j);
+        else
+          f -= system.damping.col(j - n) + t * system.stiffness.col(j - n);
+      };
+      MotionEquation<Dof> moved(system);
+      integrator_.prepare(moved, plan_.h);
+      for (; j < 2 * n; ++j) {
+        Eigen::VectorXd column = from(moved, Eigen::VectorXd(Eigen::VectorXd::Zero(all)));
+        if (j >= n) column[j - n] += plan_.h;
+        // A method that has another rule for loads than for forces keeps its steps.
+        constexpr double rounding = 1e-13;
+        const auto size_of = step.col(j).cwiseAbs().array() + 1.0;
+        if (((column - step.col(j)).cwiseAbs().array() <= rounding * size_of).all())
+          step.col(j) = column;
       }
     }
-    evaluations_ =
-        (equation_.tally().evaluations - tally.evaluations) / static_cast<long long>(size * steps);
-    equation_.set_tally(tally);
+    return step;
   }
 
   void step(long long k, State& now, Memory& memory) {

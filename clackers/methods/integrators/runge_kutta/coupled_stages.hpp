@@ -37,6 +37,12 @@ struct Radau : NothingRemembered {
     x.t += h;
   }
 
+  /// What a linear step without load adds to (u, v).
+  template <int Dof>
+  const Eigen::MatrixXd& change(MotionEquation<Dof>& equation, double h) const {
+    return map(equation, h).change;
+  }
+
  private:
   template <int Dof>
   const LinearStep& map(MotionEquation<Dof>& equation, double h) const {
@@ -79,6 +85,12 @@ struct ExactFlow : NothingRemembered {
   void advance(MotionEquation<Dof>& equation, double h, model::State<Dof>& x, Memory<Dof>&) const {
     equation.apply(map(equation, h), x.t, x.u, x.v);
     x.t += h;
+  }
+
+  /// What a linear step without load adds to (u, v).
+  template <int Dof>
+  const Eigen::MatrixXd& change(MotionEquation<Dof>& equation, double h) const {
+    return map(equation, h).change;
   }
 
  private:
