@@ -312,11 +312,11 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"cannot-read", "failure",
      "A file could not be read."},
     {"no-renderer", "failure",
-     "The program node or rsvg-convert, which draw the figures of `clackers paper`, is not installed. "
-     "Their numbers (csv) and specifications (vl.json) were written all the same."},
+     "The program node, rsvg-convert or ffmpeg, which draw the figures of `clackers paper` and films, is not installed. "
+     "Numbers (csv) and specifications (vl.json) of figures were written all the same."},
     {"render-failed", "failure",
-     "The program node or rsvg-convert was found and failed to draw a figure. "
-     "Numbers (csv) and specifications (vl.json) were written all the same."},
+     "The program node, rsvg-convert or ffmpeg was found and failed to draw a figure or a film. "
+     "Numbers (csv) and specifications (vl.json) of figures were written all the same."},
     {"program-failed", "failure",
      "A program of `verify --exec` could not be started, ended with a status other than 0, or was "
      "ended by a signal. Its run is a failed one of its step; the message has its last output."},

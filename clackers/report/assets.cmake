@@ -34,6 +34,8 @@ set(page
   ${report_dir}/page/figures.js
   ${report_dir}/page/player.js
   ${report_dir}/page/scene.js
+  ${report_dir}/page/svg_document.js
+  ${report_dir}/page/film.js
   ${report_dir}/page/response.vl.json
   ${report_dir}/page/history_rows.vl.json
   ${report_dir}/page/convergence.vl.json

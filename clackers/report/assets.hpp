@@ -13,6 +13,7 @@ extern const std::string_view engines_html,
 extern const std::string_view explore_html, explore_css, explore_json, synchronized_pair_js,
     runs_js, explore_js;
 extern const std::string_view theme_js, figures_js, tools_js;  ///< of every page
+extern const std::string_view svg_document_js, film_js;        ///< of films
 extern const std::string_view page_js, scene_js, player_js;    ///< of records
 extern const std::string_view atlas_js, atlas_matrix_js, atlas_panel_js, atlas_figures_js,
     atlas_css, atlas_html;

@@ -13,6 +13,7 @@
 #include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/dials.hpp"
+#include "cli/files/film.hpp"
 #include "cli/files/paths.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
@@ -27,7 +28,8 @@ namespace {
 struct RespondOptions {
   CommonOptions common;
   std::vector<std::string> settings;
-  std::string name, behind, samples, step, times, digits, sensitivity, highest, report, problem, at;
+  std::string name, behind, samples, step, times, digits, sensitivity, highest, report, film,
+      problem, at;
   bool impacts = false, plot = false, energy = false, spectrum = false, forces = false;
 
   int ways() const {
@@ -52,8 +54,9 @@ void check(const RespondOptions& options) {
     refuse_usage("respond",
                  "needs a CASE, for example three-parameter. All names: clackers list cases");
   if (options.ways() > 1) refuse_usage("respond", "takes only " + ways + ".");
-  if (options.ways() == 0 && !options.plot && options.report.empty())
-    refuse_usage("respond", "needs times: " + ways + ", or --plot or --report for only a picture.");
+  if (options.ways() == 0 && !options.plot && options.report.empty() && options.film.empty())
+    refuse_usage("respond",
+                 "needs times: " + ways + ", or --plot, --report or --film for only a picture.");
   if (options.ways() == 0 && !options.common.out.empty())
     refuse_usage("respond",
                  "--out needs rows to write: " + ways + ". The picture goes to standard output.");
@@ -164,6 +167,7 @@ int run(RespondOptions options, const std::string& line) {
   check_kind(options);
   check(options);
   ReportPage page(options.report, options.common, OnInterrupt::stop);
+  Film film(options.film, options.common, OnInterrupt::stop);
   Results results(options.common, OnInterrupt::stop, report::Content::numbers);
   check_format(options, results);
   const auto test_case =
@@ -178,7 +182,9 @@ int run(RespondOptions options, const std::string& line) {
     out << picture(test_case, standard_style(options.common.no_color));
     out.finish();
   }
-  return !page.wanted() || page.write(page_of(test_case, options, line)) ? 0 : 4;
+  bool written = !page.wanted() || page.write(page_of(test_case, options, line));
+  if (film.wanted()) written = film.write(tables::response_record(test_case)) && written;
+  return written ? 0 : 4;
 }
 
 }  // namespace
@@ -186,21 +192,22 @@ int run(RespondOptions options, const std::string& line) {
 void add_respond(Grammar& root) {
   const auto options = std::make_shared<RespondOptions>();
   auto* app = root.add_subcommand("respond", "CASE ...", "the exact motion of a case");
-  set_help(*app,
-           {.examples = "  clackers respond three-parameter --samples 1001 --format csv\n"
-                        "  clackers respond stop --set eta=0.5 --plot\n"
-                        "  clackers respond three-parameter --sensitivity k2 --samples 201\n"
-                        "  clackers respond stop --spectrum --samples 201 --highest 20\n",
-            .about = "The exact motion of a case. Columns t [s], side, then u [m], v [m/s] and a "
-                     "[m/s^2] of each mass. Where a time is the double nearest to an impact two "
-                     "rows stand: side - before it and side + after it.",
-            .usage = "  clackers respond CASE [--set name=value,...]\n"
-                     "           (--samples n | --step h | --times FILE | --impacts)\n"
-                     "           [--digits n] [--plot] [--report FILE.html]\n"
-                     "  clackers respond CASE [--set ...]\n"
-                     "           (--energy | --forces | --at x,... | --sensitivity NAME)\n"
-                     "           (--samples n | --step h | --times FILE) [--plot]\n"
-                     "  clackers respond CASE [--set ...] --spectrum --samples n --highest w\n"});
+  set_help(
+      *app,
+      {.examples = "  clackers respond three-parameter --samples 1001 --format csv\n"
+                   "  clackers respond stop --set eta=0.5 --plot\n"
+                   "  clackers respond three-parameter --sensitivity k2 --samples 201\n"
+                   "  clackers respond stop --spectrum --samples 201 --highest 20\n",
+       .about = "The exact motion of a case. Columns t [s], side, then u [m], v [m/s] and a "
+                "[m/s^2] of each mass. Where a time is the double nearest to an impact two "
+                "rows stand: side - before it and side + after it.",
+       .usage = "  clackers respond CASE [--set name=value,...]\n"
+                "           (--samples n | --step h | --times FILE | --impacts)\n"
+                "           [--digits n] [--plot] [--report FILE.html] [--film FILE.webm|gif]\n"
+                "  clackers respond CASE [--set ...]\n"
+                "           (--energy | --forces | --at x,... | --sensitivity NAME)\n"
+                "           (--samples n | --step h | --times FILE) [--plot]\n"
+                "  clackers respond CASE [--set ...] --spectrum --samples n --highest w\n"});
   app->add_option("CASE", options->name, "The case. All names: clackers list cases.");
   add_case_option(*app, options->behind);
   add_set_option(*app, options->settings);
@@ -254,6 +261,7 @@ void add_respond(Grammar& root) {
                   "Also write a page with the response and the motion as an animation, which opens "
                   "without a network, whole or not at all.")
       ->writes_file("FILE.html");
+  add_film_option(*app, options->film);
   add_common_options(*app, options->common, report::Content::numbers);
   app->run = [options](const std::string& line) { return run(*options, line); };
 }

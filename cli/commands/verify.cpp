@@ -19,6 +19,7 @@
 #include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
 #include "cli/commands/verify_programs.hpp"
+#include "cli/files/film.hpp"
 #include "cli/files/record_output.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/results.hpp"
@@ -35,7 +36,7 @@ struct Options {
   CommonOptions common;
   std::vector<std::string> methods, cases, settings, requirements, only;
   std::map<std::string, std::string> numbers;  ///< by the names of study::verify_options()
-  std::string report, baseline, problem;
+  std::string report, film, baseline, problem;
   bool all = false;
   ProgramOptions programs;
 };
@@ -134,10 +135,14 @@ int run(Options options, const std::string& line) {
   Results results(options.common, OnInterrupt::finish, report::Content::verdicts);
   const auto baseline = baseline_of(options.baseline, request);
   ReportPage page(options.report, options.common, OnInterrupt::finish);
+  if (!options.film.empty() && request.cases.size() > 1)
+    refuse_usage("--film shows one case; leave all but one out.");
+  Film film(options.film, options.common, OnInterrupt::finish);
 
   const auto record = run_study(options, request);
   const RecordOutput output(record, baseline, options.common, view);
   bool written = !page.wanted() || page.write(output.html());
+  if (film.wanted()) written = film.write(record.cases.front()) && written;
   try {
     if (!try_to_write([&] { output.write(results); })) {
       written = false;
@@ -184,7 +189,7 @@ void add_verify(Grammar& root) {
        .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
                 "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
                 "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
-                "           [--only VERDICT] [--report FILE.html]\n"
+                "           [--only VERDICT] [--report FILE.html] [--film FILE.webm|gif]\n"
                 "  clackers verify [METHOD ...] --exec COMMAND ...\n"
                 "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
                 "           [--timeout TIME] [--work FOLDER] [--fresh]\n"
@@ -220,6 +225,7 @@ void add_verify(Grammar& root) {
          "refused. May be repeated. All are run; reports and other formats have all.")
       ->option_text("VERDICT");
   add_report_option(*app, options->report);
+  add_film_option(*app, options->film);
   app->add_option(
          "--baseline", options->baseline,
          "An earlier record (--format json) of the same cases and steps, - for standard input: "

@@ -1,17 +1,6 @@
 "use strict";
 // The motion as an animation: the drawn system, contacts that flash at impacts, and a cursor in the response.
 
-// How many of ascending times are not after t.
-function countUpTo(times, t) {
-  let lo = 0, hi = times.length;
-  while (lo < hi) {
-    const middle = (lo + hi) >> 1;
-    if (times[middle] <= t) lo = middle + 1;
-    else hi = middle;
-  }
-  return lo;
-}
-
 function startPlayer(stage) {
   const scene = data[stage.dataset.player], tools = stage.nextElementSibling;
   const what = stage.closest("figure").querySelector("h3").textContent;
@@ -20,18 +9,7 @@ function startPlayer(stage) {
     viewBox: `0 0 ${stageWidth} ${stageHeight}`, "aria-hidden": "true", xmlns: "http://www.w3.org/2000/svg",
     "font-family": "sans-serif", "font-size": 13
   });
-  const system = drawScene(svg, scene), { x, y, width, scale } = system;
-  // A run beside the exact motion: outlines.
-  const outlines = scene.blocks.map((_, i) => svgElement(svg, "rect", {
-    width, height: blockHeight, rx: 3, fill: "none", stroke: "var(--ink)", "stroke-width": 2, "stroke-dasharray": "5 3",
-    y: y[i] - blockHeight / 2, visibility: "hidden", "data-outline": i + 1
-  }));
-  const sparks = scene.contacts.map((contact, k) => ({
-    ...contact,
-    times: scene.impacts.filter((impact) => impact.contact === k).map((impact) => impact.t),
-    mark: svgElement(svg, "circle", { r: 13, fill: "var(--impact)", opacity: 0, "data-contact": k })
-  }));
-  const clock = svgElement(svg, "text", { x: stageWidth - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" });
+  const draw = drawMotion(svg, scene, 1);
 
   const frame = document.querySelector(`[data-plot="${CSS.escape(stage.dataset.response)}"]`);
   const cursor = document.createElement("div");
@@ -47,38 +25,11 @@ function startPlayer(stage) {
     Object.assign(cursor.style, { left: `${left + axis(now)}px`, top: `${top + above}px`, height: `${view.height()}px` });
   }
 
-  // The latest impact of a contact up to now counts for a moment: a third of the time between two.
-  function flash(times) {
-    const passed = countUpTo(times, now);
-    const moment = Math.min(0.012 * end, end / (3 * (times.length + 1)));
-    return passed > 0 ? Math.max(0, 1 - (now - times[passed - 1]) / moment) : 0;
-  }
-
   let now = 0, playing = false, last = 0, speed = 1;
   let beside = null;  // a run
-  function placesOf({ t, u }) {
-    const before = Math.min(Math.max(countUpTo(t, now), 1), t.length - 1) - 1;
-    const share = Math.min(Math.max((now - t[before]) / (t[before + 1] - t[before] || 1), 0), 1);
-    return u.map((of, i) => x[i] + scale * ((1 - share) * of[before] + share * of[before + 1]));
-  }
   function show() {
-    const at = placesOf(scene);
-    const other = beside ? placesOf(beside) : [];
-    outlines.forEach((outline, i) => {
-      outline.setAttribute("visibility", beside ? "visible" : "hidden");
-      if (beside) outline.setAttribute("x", (other[i] - width / 2).toFixed(2));
-    });
-    system.place(at);
-    sparks.forEach(({ left, right, times, mark }) => {
-      const sides = [left >= 0 ? [at[left] + width / 2, y[left]] : null, right >= 0 ? [at[right] - width / 2, y[right]] : null]
-        .filter((side) => side);
-      const middle = (axis) => sides.reduce((sum, side) => sum + side[axis], 0) / sides.length;
-      mark.setAttribute("cx", middle(0));
-      mark.setAttribute("cy", middle(1) - blockHeight);
-      mark.setAttribute("opacity", flash(times).toFixed(3));
-    });
+    draw(now, beside ? [beside] : []);
     const text = `${now.toFixed(3)} s`;
-    clock.textContent = text;
     slider.value = String(now);
     slider.setAttribute("aria-valuetext", text);
     moveCursor();

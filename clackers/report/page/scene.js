@@ -84,3 +84,63 @@ function drawScene(svg, scene) {
   }
   return { x, y, width, scale, place };
 }
+
+// How many of ascending times are not after t.
+function countUpTo(times, t) {
+  let lo = 0, hi = times.length;
+  while (lo < hi) {
+    const middle = (lo + hi) >> 1;
+    if (times[middle] <= t) lo = middle + 1;
+    else hi = middle;
+  }
+  return lo;
+}
+
+function outlineColor(run) { return run === 0 ? "var(--ink)" : `var(--m${(run + 2) % 8 + 1})`; }
+
+// The system in motion, with contacts that flash at impacts and the outlines of up to `most` runs beside it. The
+// function returned draws an instant.
+function drawMotion(svg, scene, most) {
+  const { x, y, width, scale, place } = drawScene(svg, scene), end = scene.t.at(-1);
+  const outlines = Array.from({ length: most }, (_, run) => scene.blocks.map((_, i) => svgElement(svg, "rect", {
+    width, height: blockHeight, rx: 3, fill: "none", stroke: outlineColor(run), "stroke-width": 2, "stroke-dasharray": "5 3",
+    y: y[i] - blockHeight / 2, visibility: "hidden", "data-outline": i + 1
+  })));
+  const sparks = scene.contacts.map((contact, k) => ({
+    ...contact,
+    times: scene.impacts.filter((impact) => impact.contact === k).map((impact) => impact.t),
+    mark: svgElement(svg, "circle", { r: 13, fill: "var(--impact)", opacity: 0, "data-contact": k })
+  }));
+  const clock = svgElement(svg, "text", { x: stageWidth - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" });
+  const placesOf = ({ t, u }, now) => {
+    const before = Math.min(Math.max(countUpTo(t, now), 1), t.length - 1) - 1;
+    const share = Math.min(Math.max((now - t[before]) / (t[before + 1] - t[before] || 1), 0), 1);
+    return u.map((of, i) => x[i] + scale * ((1 - share) * of[before] + share * of[before + 1]));
+  };
+  // The latest impact of a contact up to now counts for a moment: a third of the time between two.
+  const flash = (times, now) => {
+    const passed = countUpTo(times, now);
+    const moment = Math.min(0.012 * end, end / (3 * (times.length + 1)));
+    return passed > 0 ? Math.max(0, 1 - (now - times[passed - 1]) / moment) : 0;
+  };
+  return (now, runs) => {
+    const at = placesOf(scene, now);
+    outlines.forEach((blocks, run) => {
+      const other = runs[run] && placesOf(runs[run], now);
+      blocks.forEach((outline, i) => {
+        outline.setAttribute("visibility", other ? "visible" : "hidden");
+        if (other) outline.setAttribute("x", (other[i] - width / 2).toFixed(2));
+      });
+    });
+    place(at);
+    for (const { left, right, times, mark } of sparks) {
+      const sides = [left >= 0 ? [at[left] + width / 2, y[left]] : null, right >= 0 ? [at[right] - width / 2, y[right]] : null]
+        .filter((side) => side);
+      const middle = (axis) => sides.reduce((sum, side) => sum + side[axis], 0) / sides.length;
+      mark.setAttribute("cx", middle(0));
+      mark.setAttribute("cy", middle(1) - blockHeight);
+      mark.setAttribute("opacity", flash(times, now).toFixed(3));
+    }
+    clock.textContent = `${now.toFixed(3)} s`;
+  };
+}

@@ -9,20 +9,9 @@ const require = createRequire(new URL("../../../tools/web/package.json", import.
 const vega = require("vega");
 const lite = require("vega-lite");
 
-// As much of a document as a drawing needs.
-class Element {
-  constructor(tag) { Object.assign(this, { tag, attributes: {}, children: [], textContent: "" }); }
-  setAttribute(key, value) { this.attributes[key] = value; }
-  append(child) { this.children.push(child); }
-  toString() {
-    const attributes = Object.entries(this.attributes).map(([key, value]) => ` ${key}="${value}"`).join("");
-    return `<${this.tag}${attributes}>${this.textContent}${this.children.join("")}</${this.tag}>`;
-  }
-}
-const document = { createElementNS: (_, tag) => new Element(tag) };
-const sceneScript = readFileSync(new URL("../../../clackers/report/page/scene.js", import.meta.url), "utf8");
-const { drawScene, stageWidth, stageHeight } =
-  new Function("document", `${sceneScript}; return { drawScene, stageWidth, stageHeight };`)(document);
+const page = (name) => readFileSync(new URL(`../../../clackers/report/page/${name}`, import.meta.url), "utf8");
+const { Element, lightColors, drawScene, stageWidth, stageHeight } = new Function(
+  `${page("svg_document.js")}; ${page("scene.js")}; return { Element, lightColors, drawScene, stageWidth, stageHeight };`)();
 
 // The system where its motion starts.
 function system(scene) {
@@ -35,15 +24,14 @@ function system(scene) {
 }
 
 const [folder, ...pages] = process.argv.slice(2);
-for (const [page, wanted] of pages.map((word) => word.split(":"))) {
-  const html = readFileSync(page, "utf8");
+for (const [file, wanted] of pages.map((word) => word.split(":"))) {
+  const html = readFileSync(file, "utf8");
   const read = (id) => JSON.parse(html.match(new RegExp(`<script type="application/json" id="${id}">(.*?)</script>`, "s"))[1]);
-  const colors = Object.fromEntries([...html.matchAll(/(--[\w-]+): light-dark\((#\w+),/g)].map((found) => found.slice(1)));
+  const light = lightColors(html);
   const data = read("data");
   for (const [name, { columns, rows }] of Object.entries(data))  // as figures.js
     if (columns) data[name] = rows.map((row) => Object.fromEntries(columns.map((column, i) => [column, row[i]])));
-  const light = (text) => text.replace(/var\((--[\w-]+)\)/g, (all, variable) => colors[variable]);
-  const write = (name, svg) => writeFileSync(join(folder, `${basename(page, ".html")}-${name}.svg`), svg);
+  const write = (name, svg) => writeFileSync(join(folder, `${basename(file, ".html")}-${name}.svg`), svg);
   if (data.motion && !wanted) {
     write("case", light(system(data.motion)));
     continue;
