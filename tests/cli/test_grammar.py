@@ -33,11 +33,11 @@ class Help(CommandTest):
                "atlas": ["--jobs", "--specification", "--submit", "--exec", "--expect", "--author",
                          "--merge"],
                "respond": ["--case", "--problem", "--report", "--set", "--samples", "--step", "--times", "--impacts", "--collisions", "--plot",
-                           "--digits", "--energy", "--forces", "--at", "--sensitivity", "--spectrum", "--highest"],
+                           "--digits", "--energy", "--forces", "--at", "--sensitivity", "--spectrum", "--highest", "--film"],
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--samples-per-level", "--neighbours",
                           "--budget", "--exec", "--exec-batch", "--name", "--label", "--expect", "--tolerances", "--timeout",
                           "--work", "--fresh", "--environment", "--jobs", "--require", "--baseline", "--only",
-                          "--report"]}
+                          "--report", "--film"]}
         for command, options in own.items():
             text = self.good(command, "--help").split("\nOptions\n")[1]
             named = re.findall(r"^  (?:-h,)?(--[a-z-]+)", text, re.M)

@@ -141,7 +141,8 @@ void ImpactMatcher::take(double t, bool resting, int contact) {
   const bool near = target && t >= target->t - target->reach;
   const bool is_nearest =
       near && (!nearest || std::abs(t - target->t) < std::abs(nearest->t - target->t));
-  if (!is_nearest && (resting || lasts(contact, t) || accumulates(contact, t))) return;
+  if (accumulates(contact, t) && !(near && !nearest)) return;
+  if (!is_nearest && (resting || lasts(contact, t))) return;
   ++sum_.found;
   if (!near || nearest) ++sum_.extra;
   if (is_nearest) nearest = Report{t, number};
