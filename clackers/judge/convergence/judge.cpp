@@ -29,6 +29,10 @@ LadderFit fit(const measure::Ladder& ladder, const FitContext& context, const au
   return fit_ladder(errors, context);
 }
 
+ErrorPoint displacement_error(const measure::RunScore& run) {
+  return {.error = run.u_error, .floor = run.rounding_floor};
+}
+
 ErrorPoint impact_time_error(const measure::RunScore& run) {
   if (!run.impacts || run.impacts->matched == 0) return {.error = unknown};
   return {.error = run.impacts->worst_time_error, .floor = run.impacts->rounding_floor};
@@ -297,9 +301,8 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeC
                      .by_tolerance = facts.by_tolerance,
                      .wrong_limit = facts.wrong_limit,
                      .noise = facts.noise};
-  const auto measured = fit(ladder, context, [](const measure::RunScore& run) {
-    return ErrorPoint{.error = run.u_error, .floor = run.rounding_floor};
-  });
+  const auto of_displacement = context;
+  found.displacement = behaviour_of(fit(ladder, context, displacement_error), ladder, claim, facts);
   if (claim.velocity_order > 0.0) context.claimed_order = claim.velocity_order;
   found.velocity = fit(ladder, context, [](const measure::RunScore& run) {
     return ErrorPoint{.error = run.v_error, .floor = run.rounding_floor};
@@ -308,7 +311,21 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeC
   context.saturation = std::numeric_limits<double>::infinity();
   found.impact_time = fit(ladder, context, impact_time_error);
 
-  found.displacement = behaviour_of(measured, ladder, claim, facts);
+  // Coarse steps whose errors fall faster hide an envelope of lower order, where the finer half shows it.
+  constexpr std::ptrdiff_t least_levels = 5;
+  const auto half = std::max(least_levels, std::ssize(ladder) / 2);
+  if (claim.behaviour == Behaviour::irregular && found.displacement.on_envelope &&
+      found.displacement.order > claim.order && half < std::ssize(ladder) &&
+      compare(found.displacement, claim, facts) == Verdict::disagrees) {
+    const measure::Ladder finer(ladder.end() - half, ladder.end());
+    auto fine = fit(finer, of_displacement, displacement_error);
+    const int coarser = int(std::ssize(ladder) - half);
+    fine.first_level += coarser;
+    fine.last_level += coarser;
+    fine.steps = found.displacement.steps;
+    fine.errors = found.displacement.errors;
+    if (compare(fine, claim, facts) != Verdict::disagrees) found.displacement = std::move(fine);
+  }
   if (!facts.no_ladder.empty())
     for (auto* one : {&found.displacement, &found.velocity, &found.impact_time}) {
       one->behaviour = Behaviour::undecided;

@@ -53,8 +53,8 @@ std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFi
   if (first == nullptr || fit.reason == Code("simultaneous-impacts").name()) return {};
   const bool may_scatter = claim.behaviour == Behaviour::irregular && fit.has_line;
   if (may_scatter && 2 * miscounting <= finished) return {};
-  const bool open = fit.behaviour == Behaviour::undecided ||
-                    (fit.has_line && fit.order < lowest_real_order);
+  const bool open =
+      fit.behaviour == Behaviour::undecided || (fit.has_line && fit.order < lowest_real_order);
   if (open && (!all_alike || fit.reason == Code("contact-not-resolved").name())) return {};
   return miscount(*first);
 }

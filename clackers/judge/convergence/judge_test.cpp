@@ -537,6 +537,23 @@ TEST(Judge, AnEnvelopeMayMiscountAtAFewSteps) {
   EXPECT_EQ(judge(straight, rough).verdict, Verdict::agrees);
 }
 
+// The fourth order of the flights at coarse steps, the second of kinks at fine ones.
+TEST(Judge, AnEnvelopeIsThatOfTheFinerHalfWhereCoarseErrorsFallFaster) {
+  const auto verdict = [](double kinks) {
+    Scatter scatter(4.0, 5);
+    return judge(
+        scores([&](double h) { return 1e3 * std::pow(h, 4.0) + kinks * h * h / scatter(); },
+               {.levels = 10, .coarsest = 0.1}),
+        {Behaviour::irregular, 2.0, {}});
+  };
+  const auto found = verdict(0.02);
+  EXPECT_EQ(found.verdict, Verdict::agrees);
+  EXPECT_NEAR(found.displacement.order, 2.0, 0.4);
+  EXPECT_GE(found.displacement.first_level, 5);
+  EXPECT_EQ(found.displacement.errors.size(), 10u);
+  EXPECT_EQ(verdict(0.0).verdict, Verdict::disagrees);
+}
+
 TEST(Judge, AClaimToDivergeSaysNothingOfImpacts) {
   auto growth = scores([](double h) { return 1e-3 / h; });
   for (auto& run : growth.back().runs) run.impacts = measure::ImpactScore{6, 7, 6, 0, 1};
