@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "clackers/base/codes.hpp"
+#include "clackers/judge/convergence/ladder_fit.hpp"
 
 namespace clackers::judge {
 namespace {
