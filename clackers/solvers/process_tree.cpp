@@ -65,7 +65,10 @@ constexpr auto patience = std::chrono::seconds(5);
 [[noreturn]] void become_program(const Start& start) {
   ::setpgid(0, 0);
   say(start.messages, Message::Kind::started, ::getpid());
-  for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
+  // From glibc 2.41 on SIGABRT has a lock, which another thread may have held at the fork. Of a handler exec
+  // makes the default.
+  for (int signal = 1; signal < NSIG; ++signal)
+    if (signal != SIGABRT) ::signal(signal, SIG_DFL);
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
