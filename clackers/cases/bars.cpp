@@ -7,6 +7,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/cases/row.hpp"
+#include "clackers/exact/bodies/bar_between_stops.hpp"
 #include "clackers/exact/bodies/bar_contact.hpp"
 #include "clackers/exact/bodies/bar_mesh.hpp"
 #include "clackers/exact/bodies/mass_on_bar.hpp"
@@ -171,6 +172,28 @@ void build_mass_on_bar(Case& test_case, const Values& value, double) {
   use_mesh(test_case, value, {{p.bar}, p.gap, p.end, 0.0, p.M, p.V, p.is_fixed});
 }
 
+void build_between_stops(Case& test_case, const Values& value, double) {
+  const exact::BarBetweenStopsParameters p{
+      bar_of(test_case, value, "", 0.0), within(test_case, value, "V"),
+      within(test_case, value, "d"), within(test_case, value, "D"), end_of(test_case, value)};
+  const auto& who = test_case.entry->name;
+  if (!(p.D >= p.d))
+    refuse(who, "D", p.D, fmt::format("D >= d = {}", p.d),
+           "It holds both gaps, that at t = 0 too.");
+  const auto motion = std::make_shared<const exact::BarBetweenStops>(p);
+  test_case.bars = motion;
+  auto& list = test_case.constants;
+  add_wave(list, "", motion->wave());
+  const auto begins = motion->begins(),
+             ends = begins + numerics::Bounded(2.0) * motion->wave().transit;
+  list.push_back({"t_closes1", begins.nearest(), "s", "contact of the bar begins"});
+  list.push_back({"t_opens1", ends.nearest(), "s", "and ends"});
+  list.push_back({"T", motion->period().nearest(), "s", "period of the bar, 2 D/V + 4 L/c"});
+  auto bar = p.bar;
+  bar.v0 = -p.V;
+  use_mesh(test_case, value, {{bar}, p.d, p.end, 0.0, 0.0, 0.0, false, p.D});
+}
+
 // What a bar has, then what the case has, then what its mesh has.
 std::vector<Parameter> parameters(const std::vector<std::string>& numbers,
                                   std::vector<Parameter> own, double end) {
@@ -210,6 +233,15 @@ std::vector<CaseRow> bar_rows() {
                     positive("d", 0.25, "m", "gap at t = 0")},
                    4.0)},
        build_bar_wall},
+      {{"bar-between-stops",
+        "An elastic bar that flies to and fro between two rigid stops, and its mesh.",
+        "none; Saint-Venant (1867)",
+        parameters({""},
+                   {positive("V", 1.0, "m/s", "speed"),
+                    positive("d", 0.25, "m", "gap at t = 0 to the left stop"),
+                    positive("D", 0.75, "m", "both gaps together, D >= d")},
+                   8.0)},
+       build_between_stops},
       {{"bouncing-bar",
         "An elastic bar that falls on a floor again and again, and its mesh; periodic for whole N >= 3.",
         "none; D. Doyen, A. Ern, S. Piperno (2011)",

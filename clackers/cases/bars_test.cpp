@@ -126,7 +126,8 @@ TEST(BarCases, MeshesMoveAsTheirClosedModes) {
 }
 
 TEST(BarCases, MeshesTendToTheBar) {
-  for (const auto* name : {"bar-wall", "bouncing-bar", "two-bars", "mass-on-bar"})
+  for (const auto* name :
+       {"bar-wall", "bouncing-bar", "two-bars", "mass-on-bar", "bar-between-stops"})
     for (const auto* mass : {"massless", "lumped", "consistent"}) {
       double before = HUGE_VAL;
       const bool is_struck = *name == 'm';
@@ -262,6 +263,89 @@ TEST(BarCases, AMassLeavesItsBarWhenTheDelayEquationSaysSo) {
   }
 }
 
+// A bar between stops by its characteristics, in cells of which both gaps are whole multiples; lengths in V dt, waves
+// in V, so that all numbers are whole.
+struct Characteristics {
+  std::vector<double> right, left;  // w+ and w- of each cell
+  std::vector<double> u;            // of its middle, times 4
+  double low, high, impulse = 0.0, force = 0.0;
+
+  Characteristics(int cells, int gap, int both)
+      : right(cells, -1.0), left(cells, -1.0), u(cells, 0.0), low(gap), high(both - gap) {}
+
+  void step() {
+    const auto w0 = right, w1 = left;
+    const double a = left.front(), b = right.back();
+    // The force of a closed end keeps it from going on.
+    const double push = low == 0.0 ? std::max(0.0, -a) : 0.0,
+                 pull = high == 0.0 ? std::max(0.0, b) : 0.0;
+    low += a + push, high -= b - pull;
+    force = push + pull;
+    impulse += force;
+    right.insert(right.begin(), a + 2.0 * push), right.pop_back();
+    left.push_back(b - 2.0 * pull), left.erase(left.begin());
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] += w0[i] + w1[i] + right[i] + left[i];
+  }
+};
+
+TEST(BarCases, ABarBetweenStopsFollowsItsCharacteristics) {
+  Box box(93);
+  for (int trial = 0; trial < trials(10); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 93, trial " << trial);
+    const int cells = int(box.uniform(2.0, 12.0)), gap = int(box.uniform(1.0, 20.0)),
+              both = gap + int(box.uniform(0.0, 20.0)), steps = int(box.uniform(1.0, 300.0));
+    const double V = box.decades(-1.0, 1.0), L = box.decades(-1.0, 1.0), E = box.decades(-1.0, 1.0),
+                 rho = box.decades(-1.0, 1.0), A = box.decades(-1.0, 1.0),
+                 dt = L * std::sqrt(rho / E) / cells, z = A * std::sqrt(E * rho),
+                 end = (steps + 1) * dt;
+    const auto mesh = make("bar-between-stops", {{"V", V},
+                                                 {"L", L},
+                                                 {"E", E},
+                                                 {"rho", rho},
+                                                 {"A", A},
+                                                 {"d", gap * V * dt},
+                                                 {"D", both * V * dt},
+                                                 {"elements", 2.0},
+                                                 {"t_end", end}});
+    const auto& bar = *mesh.bars;
+    Characteristics known(cells, gap, both);
+    for (int k = 1; k <= steps; ++k) {
+      known.step();
+      const double t = k * dt, scale = 1e-15 * (k + 10);
+      const auto energy = bar.energy(t);
+      double kinetic = 0.0, elastic = 0.0;
+      for (int i = 0; i < cells; ++i) {
+        const auto now = bar.at(0, (i + 0.5) * L / cells, t, Side::right);
+        const double v = 0.5 * (known.right[i] + known.left[i]),
+                     s = 0.5 * (known.left[i] - known.right[i]);
+        EXPECT_NEAR(now.u.nearest(), 0.25 * known.u[i] * V * dt, scale * V * dt * (both + cells));
+        EXPECT_NEAR(now.v.nearest(), v * V, 1e-15 * V);
+        EXPECT_NEAR(now.stress.nearest(), s * V * std::sqrt(E * rho),
+                    1e-14 * V * std::sqrt(E * rho));
+        kinetic += 0.5 * v * v, elastic += 0.5 * s * s;
+      }
+      const double unit = z * dt * V * V;
+      EXPECT_NEAR(energy.kinetic.nearest(), kinetic * unit, scale * cells * unit);
+      EXPECT_NEAR(energy.elastic.nearest(), elastic * unit, scale * cells * unit);
+      EXPECT_NEAR(bar.impulse(t).nearest(), known.impulse * z * V * dt, scale * k * z * V * dt);
+      // In the middle of the step just made.
+      EXPECT_NEAR(bar.force(t - 0.5 * dt, Side::right).nearest(), known.force * z * V,
+                  1e-14 * z * V);
+    }
+  }
+  // Both limits where a front is: at the ends, and inside.
+  const auto bar = make("bar-between-stops").bars;
+  EXPECT_EQ(bar->force(0.25, Side::left).nearest(), 0.0);
+  EXPECT_EQ(bar->force(0.25, Side::right).nearest(), 1.0);
+  EXPECT_EQ(bar->force(2.25, Side::left).nearest(), 1.0);
+  EXPECT_EQ(bar->force(2.25, Side::right).nearest(), 0.0);
+  EXPECT_EQ(bar->at(0, 0.5, 0.75, Side::left).v.nearest(), -1.0);
+  EXPECT_EQ(bar->at(0, 0.5, 0.75, Side::right).v.nearest(), 0.0);
+  EXPECT_EQ(bar->at(0, 1.0, 3.0, Side::left).v.nearest(), 1.0);
+  EXPECT_EQ(bar->at(0, 1.0, 3.0, Side::right).v.nearest(), 0.0);
+  EXPECT_EQ(bar->at(0, 1.0, 3.5, Side::right).stress.nearest(), -1.0);
+}
+
 TEST(BarCases, PassTheirParametersOnToTheBars) {
   const auto wall =
       make("bar-wall", {{"L", 2.0}, {"E", 8.0}, {"rho", 2.0}, {"A", 3.0}, {"V", 0.5}});
@@ -284,6 +368,7 @@ TEST(BarCases, PassTheirParametersOnToTheBars) {
 TEST(BarCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("bouncing-bar", {{"N", 2.0}}), "not-admissible", "without a speed");
   EXPECT_REFUSED(make("two-bars", {{"v1", -1.0}}), "out-of-range", "do not meet");
+  EXPECT_REFUSED(make("bar-between-stops", {{"D", 0.2}}), "out-of-range", "both gaps");
   EXPECT_REFUSED(make("bar-wall", {{"eta", 0.5}}), "out-of-range", "no impacts");
   EXPECT_REFUSED(make("bar-wall", {{"elements", 2.5}}), "not-whole", "whole");
   EXPECT_REFUSED(make("bar-wall", {{"elements", 1.0}}), "out-of-range", "elements");

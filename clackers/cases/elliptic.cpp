@@ -7,6 +7,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/cases/row.hpp"
 #include "clackers/exact/elliptic/stopped_oscillator.hpp"
+#include "clackers/exact/elliptic/two_pendula.hpp"
 
 // Nonlinear oscillators above a stop: docs/manual/explanation/derivations/elliptic.md.
 namespace clackers::cases {
@@ -18,6 +19,14 @@ double bounce_of(const Case& test_case, const Values& value) {
     refuse(test_case.entry->name, "eta", eta, "0 < eta <= 1",
            eta == 0.0 ? "After a plastic impact it rests on the stop for ever." : "");
   return eta;
+}
+
+double angle_of(const Case& test_case, const Values& value, const char* name) {
+  const double theta = value(name);
+  if (!(theta >= 1e-6 && theta <= 3.14159))
+    refuse(test_case.entry->name, name, theta, fmt::format("1e-6 <= {} <= 3.14159", name),
+           theta > 3.0 ? "Upside down, at pi, it would stand." : "");
+  return theta;
 }
 
 void use(Case& test_case, std::shared_ptr<const exact::StoppedOscillator> motion, double linear) {
@@ -42,11 +51,8 @@ void use(Case& test_case, std::shared_ptr<const exact::StoppedOscillator> motion
 void build_pendulum(Case& test_case, const Values& value, double) {
   const auto& who = test_case.entry->name;
   const exact::PendulumParameters p{within(test_case, value, "l"), within(test_case, value, "g"),
-                                    value("theta0"), bounce_of(test_case, value),
-                                    end_of(test_case, value)};
-  if (!(p.theta0 >= 1e-6 && p.theta0 <= 3.14159))
-    refuse(who, "theta0", p.theta0, "1e-6 <= theta0 <= 3.14159",
-           p.theta0 > 3.0 ? "Upside down, at pi, it would stand." : "");
+                                    angle_of(test_case, value, "theta0"),
+                                    bounce_of(test_case, value), end_of(test_case, value)};
   const double omega = std::sqrt(p.g / p.l);
   test_case.constants = {
       {"m", 1.0, "kg", "the mass, of no influence"},
@@ -66,16 +72,70 @@ void build_duffing(Case& test_case, const Values& value, double) {
   use(test_case, std::make_shared<const exact::Duffing>(p, who), omega);
 }
 
+exact::TwoPendula::Parameters pendula_of(const Case& test_case, const Values& value) {
+  exact::TwoPendula::Parameters p;
+  p.l1 = within(test_case, value, "l1");
+  p.g = within(test_case, value, "g");
+  p.theta1 = angle_of(test_case, value, "theta1");
+  p.end = end_of(test_case, value);
+  return p;
+}
+
+void use(Case& test_case, const exact::TwoPendula& pendula) {
+  const auto motion = std::make_shared<const exact::TwoPendula>(pendula);
+  test_case.problem = motion->problem();
+  auto& list = test_case.constants;
+  for (int i = 0; i < 2; ++i) {
+    const auto& swing = motion->swing(i);
+    const double T = swing.duration().nearest(), l = swing.l.nearest();
+    test_case.damped_periods.push_back(2.0 * T);
+    const auto of = fmt::format(" of pendulum {}", i + 1);
+    const auto add = [&](const char* name, double what, const char* unit, const char* meaning) {
+      list.push_back({fmt::format("{}{}", name, i + 1), what, unit, meaning + of});
+    };
+    add("m", motion->problem().system.mass(i, i), "kg", "mass");
+    add("l", l, "m", "length");
+    add("theta", swing.arc().nearest() / l, "rad", "largest angle");
+    add("V", swing.speed().nearest(), "m/s", "speed at the impacts");
+    add("T", T, "s", "time away from the contact");
+  }
+  const double end = motion->end(), bound = motion->error_bound(end).u.maxCoeff();
+  list.insert(
+      list.end(),
+      {{"t_1", 0.5 * motion->swing(0).duration().nearest(), "s", "time of the first impact"},
+       {"error_bound", bound, "m", "of the displacements of the reference solution at t_end"},
+       {"t_end", end, "s", "end of the run"},
+       {"impacts", double(motion->impact_count(end)), "", "number of impacts up to t_end"}});
+  test_case.motion = motion;
+}
+
+void build_two_pendula(Case& test_case, const Values& value, double) {
+  auto p = pendula_of(test_case, value);
+  p.m1 = within(test_case, value, "m1");
+  p.m2 = within(test_case, value, "m2");
+  use(test_case, exact::TwoPendula::synchronized(p, test_case.entry->name));
+}
+
+void build_pendulum_cradle(Case& test_case, const Values& value, double) {
+  use(test_case,
+      exact::TwoPendula::alternating(pendula_of(test_case, value), within(test_case, value, "l2"),
+                                     test_case.entry->name));
+}
+
 }  // namespace
 
 std::vector<CaseRow> elliptic_rows() {
+  const auto length = positive("l1", 1.0, "m", "length of pendulum 1"),
+             gravity = positive("g", 9.81, "m/s^2", "gravity");
+  const Parameter angle{"theta1", 1.0, "rad", "1e-6 <= theta1 <= 3.14159",
+                        "initial angle of pendulum 1, at rest"};
   const Parameter eta{"eta", 0.8, "", "0 < eta <= 1", "restitution; 1 is elastic"};
   return {
       {{"pendulum",
         "A pendulum of any amplitude that strikes a stop at its lowest point; u is the arc.",
         "none; u'' = -g sin(u/l), u >= 0",
         {positive("l", 1.0, "m", "length"),
-         positive("g", 9.81, "m/s^2", "gravity"),
+         gravity,
          {"theta0", 2.0, "rad", "1e-6 <= theta0 <= 3.14159", "initial angle, at rest"},
          eta,
          t_end(10.0)}},
@@ -90,6 +150,18 @@ std::vector<CaseRow> elliptic_rows() {
          eta,
          t_end(20.0)}},
        build_duffing},
+      {{"two-pendula",
+        "Two unlike pendula of any amplitude that meet again and again at their lowest points.",
+        "none; (m1/m2) k1/K(k1) < 0.4031, k1 = sin(theta1/2)",
+        {positive("m1", 1.3, "kg", "mass of pendulum 1"),
+         positive("m2", 1.0, "kg", "mass of pendulum 2, whose length follows"), length, gravity,
+         angle, t_end(10.0)}},
+       build_two_pendula},
+      {{"pendulum-cradle",
+        "Two pendula of equal mass, one of which rests while the other swings.",
+        "none; Newton's cradle of any amplitude",
+        {length, positive("l2", 0.8, "m", "length of pendulum 2"), gravity, angle, t_end(10.0)}},
+       build_pendulum_cradle},
   };
 }
 

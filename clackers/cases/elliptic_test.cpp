@@ -4,11 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <string>
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/cases/testing/constants.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
+#include "clackers/model/nonlinear_springs.hpp"
 #include "clackers/model/problem_file.hpp"
 
 // The nonlinear oscillators, against Taylor series of their equations of motion with impacts found by
@@ -168,6 +170,122 @@ TEST(EllipticCases, DuffingOscillatorsSwingAsTheirTaylorSeries) {
   }
 }
 
+// Both pendula by their Taylor series, each above a stop: at impacts of opposite momenta each goes back as it came,
+// and what rests stays.
+void expect_bob(Box& box, const Case& test_case, int mass, double condition) {
+  const auto& motion = *test_case.motion;
+  const auto name = [&](const char* of) {
+    return constant(test_case, of + std::to_string(mass + 1));
+  };
+  const double sign = mass == 0 ? 1.0 : -1.0, T = name("T"), l = name("l");
+  const auto& row = model::nonlinear_springs(test_case.problem)->rows()[std::size_t(mass)];
+  Bouncer known{pendulum(l, row.stiffness * row.length / name("m")),
+                Number(T) / 75,
+                1,
+                0,
+                sign * test_case.problem.start.u[mass],
+                0};
+  const auto size = motion.envelope(0.0);
+  for (int i = 1; i <= 6; ++i) {
+    const double t = motion.end() * (i - box.uniform(0.0, 1.0)) / 6.0;
+    known.run_to(t);
+    const auto now = motion.at(t, Side::right), bound = motion.error_bound(t);
+    const double own = 4e-16 * condition * (1.0 + t / T);
+    EXPECT_NEAR(sign * now.u[mass], double(known.u), bound.u[mass] + own * size.u[mass]) << t;
+    EXPECT_NEAR(sign * now.v[mass], double(known.v), bound.v[mass] + own * size.v[mass]) << t;
+    EXPECT_LT(bound.u[mass], 1e-12 * condition * size.u[mass]);
+  }
+}
+
+TEST(EllipticCases, TwoPendulaMeetAtTheirLowestPoints) {
+  Box box(113);
+  for (int trial = 0; trial < trials(30); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 113, trial " << trial);
+    const double
+        l1 = box.decades(-1.0, 1.0),
+        g = box.decades(-1.0, 1.0),
+        theta1 = box.one_in(3) ? box.decades(-3.0, 0.0) : box.uniform(0.1, 3.1),
+        k1 = std::sin(0.5 * theta1),
+        // (m1/m2) k1/K(k1) below its limit; K(k1) = pi/(2 AGM(1, k1')), by the library of C++.
+        largest = 0.4031 * std::comp_ellint_1(k1) / k1, m2 = box.decades(-1.0, 1.0),
+        m1 = m2 * largest * box.uniform(0.01, 0.97);
+    const auto test_case =
+        make("two-pendula", {{"m1", m1},
+                             {"m2", m2},
+                             {"l1", l1},
+                             {"g", g},
+                             {"theta1", theta1},
+                             {"t_end", box.uniform(1.0, 30.0) * std::sqrt(l1 / g)}});
+    const double condition = 40.0 / std::cos(0.5 * theta1);
+    for (const int mass : {0, 1}) expect_bob(box, test_case, mass, condition);
+    EXPECT_NEAR(constant(test_case, "T1"), constant(test_case, "T2"),
+                1e-15 * condition * constant(test_case, "T1"));
+    if (test_case.motion->impact_count(test_case.motion->end()) == 0) continue;
+    const auto hit = test_case.motion->impact(1);
+    const double p = m1 * hit.before.v[0];
+    EXPECT_NEAR(p + m2 * hit.before.v[1], 0.0, 1e-14 * -p);
+    EXPECT_NEAR(hit.impulse, -2.0 * p, 1e-14 * -p);
+    EXPECT_EQ(hit.after.v, -hit.before.v);
+  }
+  // Solved with 40 digits.
+  const auto expect = [](double theta1, double ratio, double k2, double l2) {
+    const auto known = make("two-pendula", {{"m1", ratio}, {"theta1", theta1}});
+    EXPECT_NEAR(std::sin(0.5 * constant(known, "theta2")), k2, 4e-16) << theta1;
+    EXPECT_NEAR(constant(known, "l2"), l2, 4e-16 * l2) << theta1;
+  };
+  expect(1.0, 1.3, 0.67752288774038524523, 0.84621572691958399809);
+  expect(0.5, 2.0, 0.52759941159677800036, 0.87955839308486215382);
+  expect(2.0, 0.5, 0.32553094490481039607, 1.6704510042315846149);
+}
+
+TEST(EllipticCases, PendulaOfACradleRestInTurn) {
+  Box box(114);
+  for (int trial = 0; trial < trials(30); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 114, trial " << trial);
+    const double l1 = box.decades(-1.0, 1.0), g = box.decades(-1.0, 1.0),
+                 theta1 = box.one_in(3) ? box.decades(-3.0, 0.0) : box.uniform(0.1, 3.1),
+                 height = l1 * std::pow(std::sin(0.5 * theta1), 2),
+                 l2 = height * (1.0 + box.decades(-2.0, 1.0));
+    const auto test_case =
+        make("pendulum-cradle", {{"l1", l1},
+                                 {"l2", l2},
+                                 {"g", g},
+                                 {"theta1", theta1},
+                                 {"t_end", box.uniform(1.0, 30.0) * std::sqrt(l1 / g)}});
+    const auto& motion = *test_case.motion;
+    const double T[] = {constant(test_case, "T1"), constant(test_case, "T2")};
+    const double condition = 40.0 / std::cos(0.5 * theta1) / std::min(1.0, l2 / height - 1.0);
+    // Either pendulum by its Taylor series over the time that it swings.
+    Bouncer bobs[] = {
+        {pendulum(l1, g), Number(T[0]) / 75, 1, 0, test_case.problem.start.u[0], 0},
+        {pendulum(l2, g), Number(T[1]) / 75, 1, 0, 0, std::sqrt(4 * Number(g) * height)}};
+    Number begun = -Number(T[0]) / 2, swung[] = {-Number(T[0]) / 2, 0};
+    for (int flight = 0; begun < motion.end() && flight < 30; ++flight) {
+      const int mass = flight % 2;
+      const double s = box.uniform(0.05, 0.95) * T[mass], t = double(begun + s);
+      if (t > 0 && t < motion.end()) {
+        bobs[mass].run_to(swung[mass] + s);
+        const auto now = motion.at(t, Side::right), size = motion.envelope(t);
+        const double sign = mass == 0 ? 1.0 : -1.0,
+                     own = 1e-15 * (condition + (T[0] + T[1]) / T[mass]) * (2 + flight);
+        EXPECT_NEAR(sign * now.u[mass], double(bobs[mass].u), own * size.u[mass]);
+        EXPECT_NEAR(sign * now.v[mass], double(bobs[mass].v), own * size.v[mass]);
+        EXPECT_EQ(now.u[1 - mass], 0.0);
+        EXPECT_EQ(now.v[1 - mass], 0.0);
+        EXPECT_EQ(motion.impact_count(t), flight);
+      }
+      begun += T[mass], swung[mass] += T[mass];
+    }
+    if (motion.impact_count(motion.end()) < 2) continue;
+    const auto first = motion.impact(1), second = motion.impact(2);
+    EXPECT_NEAR(first.t, 0.5 * T[0], 1e-15 * condition * T[0]);
+    EXPECT_NEAR(second.t - first.t, T[1], 1e-15 * condition * (T[0] + T[1]));
+    EXPECT_EQ(first.after.v, Eigen::Vector2d(first.before.v.reverse()));
+    EXPECT_EQ(second.after.v, Eigen::Vector2d(second.before.v.reverse()));
+    EXPECT_NEAR(0.5 * first.impulse * first.impulse, 2.0 * g * height, 1e-14 * g * height);
+  }
+}
+
 TEST(EllipticCases, HaveTheirTextbookPeriods) {
   const auto ratio = [](double degrees) {
     return constant(make("pendulum", {{"theta0", degrees * std::numbers::pi / 180.0}}),
@@ -184,7 +302,7 @@ TEST(EllipticCases, HaveTheirTextbookPeriods) {
 }
 
 TEST(EllipticCases, ProblemsAreReadAsTheyAreWritten) {
-  for (const auto* name : {"pendulum", "duffing-stop", "belt"}) {
+  for (const auto* name : {"pendulum", "duffing-stop", "two-pendula", "belt"}) {
     const auto problem = make(name).problem;
     const auto json = model::problem_json(problem), lines = model::problem_file_text(problem);
     EXPECT_EQ(model::problem_json(model::problem_from_text(json, name)), json);
@@ -197,6 +315,9 @@ TEST(EllipticCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("pendulum", {{"eta", 0.0}}), "out-of-range", "rests on the stop");
   EXPECT_REFUSED(make("duffing-stop", {{"b", -1.0}}), "not-admissible", "away from the stop");
   EXPECT_REFUSED(make("pendulum", {{"t_end", 1e7}}), "out-of-range", "impacts");
+  EXPECT_REFUSED(make("two-pendula", {{"m1", 2.0}}), "not-admissible", "k1/K(k1) < 0.403");
+  EXPECT_REFUSED(make("two-pendula", {{"theta1", 3.2}}), "out-of-range", "stand");
+  EXPECT_REFUSED(make("pendulum-cradle", {{"l2", 0.2}}), "not-admissible", "over the top");
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ KINDS = ("cases", "integrators", "contacts", "methods", "pairs", "metrics")
 CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "three-parameter",
          "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly", "cradle",
          "forced-pair", "base-excited-pair", "penalized-pair", "piecewise", "ball",
-         "pressed-oscillator", "plastic-pair", "billiard", "slider", "belt", "forced-slider", "pendulum", "duffing-stop",
-         "bar-wall", "bouncing-bar", "two-bars", "mass-on-bar")
+         "pressed-oscillator", "plastic-pair", "billiard", "slider", "belt", "forced-slider", "pendulum", "duffing-stop", "two-pendula", "pendulum-cradle",
+         "bar-wall", "bar-between-stops", "bouncing-bar", "two-bars", "mass-on-bar")
 
 
 class List(CommandTest):

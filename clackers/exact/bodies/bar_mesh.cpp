@@ -35,8 +35,10 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
                  std::string_view who) {
   require(who, elements, mass, eta);
   const bool massless = mass == NodeMass::massless, two = p.bars.size() == 2,
-             is_struck = p.striker > 0.0;
-  const auto n = Index(elements), nodes = (massless ? n : n + 1) - (p.is_fixed ? 1 : 0);
+             is_struck = p.striker > 0.0, between = p.clearance > 0.0;
+  // Massless nodes of the contact end and of the far end are left out, fixed ones as well.
+  const auto n = Index(elements), out = Index(massless), far_out = Index(massless && between),
+             nodes = n + 1 - out - far_out - Index(p.is_fixed);
   BarMesh mesh;
   mesh.first = is_struck ? 1 : 0;
   mesh.nodes.resize(std::size_t(nodes) * p.bars.size());
@@ -55,7 +57,7 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
     const double h = bar.L / elements, m = bar.rho * bar.A * h, k = bar.E * bar.A / h;
     // Of the node i from the contact end, 0 the end itself; the left bar comes first, backwards.
     const auto place = [&](Index i) {
-      if (massless) i = std::max<Index>(i - 1, 0);
+      i = std::max<Index>(std::min(i, n - far_out) - out, 0);
       return mesh.first + (two && b == 0 ? nodes - 1 - i : Index(b) * nodes + i);
     };
     // A fixed node takes part of the elements beside it, and does not move.
@@ -82,7 +84,7 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
       system.stiffness(first, second) -= k;
       system.stiffness(second, first) -= k;
     }
-    for (Index i = massless ? 1 : 0; i <= n; ++i) {
+    for (Index i = out; i <= n - far_out; ++i) {
       if (!moves(place(i))) continue;
       mesh.nodes[std::size_t(place(i) - mesh.first)] = {b, h * double(i)};
       problem.start.v[place(i)] = bar.v0;
@@ -93,19 +95,21 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
     for (Index i = 0; i < dof; ++i) forces.push_back({int(i), weight[i], 0.0, 0.0});
     system.add_load = model::HarmonicLoad(std::move(forces));
   }
-  model::Contact<> contact{VectorXd::Unit(dof, contact_ends.back()), -p.gap, eta};
-  if (two) contact.direction[contact_ends.front()] = -1.0;
+  std::vector<model::Contact<>> contacts{{VectorXd::Unit(dof, contact_ends.back()), -p.gap, eta}};
+  auto& contact = contacts.front().direction;
+  if (two) contact[contact_ends.front()] = -1.0;
   if (is_struck) {
-    contact.direction[0] = -1.0;
+    contact[0] = -1.0;
     system.mass(0, 0) = p.striker;
     problem.start.v[0] = p.speed;
   }
+  if (between) contacts.push_back({-VectorXd::Unit(dof, dof - 1), p.gap - p.clearance, eta});
   if (massless) {
-    contact.restitution = 1.0;  // without meaning
-    system.nonlinear = std::make_shared<model::OneSidedSprings>(
-        std::vector<model::Contact<>>{contact}, std::vector<double>{1.0 / compliance});
+    for (auto& one : contacts) one.restitution = 1.0;  // without meaning
+    const std::vector<double> stiffness(contacts.size(), 1.0 / compliance);
+    system.nonlinear = std::make_shared<model::OneSidedSprings>(std::move(contacts), stiffness);
   } else {
-    problem.contacts = {contact};
+    problem.contacts = std::move(contacts);
   }
   return mesh;
 }

@@ -19,9 +19,6 @@ constexpr std::size_t most_flights = 100'000;
 
 Eigen::VectorXd scalar(double x) { return Eigen::VectorXd::Constant(1, x); }
 
-// 1 - k^2 by its factors, for k from a speed.
-Modulus modulus_of(const Bounded& k) { return {k, sqrt((Bounded(1.0) - k) * (Bounded(1.0) + k))}; }
-
 }  // namespace
 
 StoppedOscillator::StoppedOscillator(double m, double eta, double end) : eta_(eta) {
@@ -77,23 +74,19 @@ model::Kinematics StoppedOscillator::envelope(double t) const {
           scalar(std::abs(acceleration(now.size).nearest()))};
 }
 
-// k = sin(theta0/2) is the speed at the stop over 2 l w; theta = 2 asin(k sn).
 Pendulum::Pendulum(const PendulumParameters& p, std::string_view who)
     : StoppedOscillator(1.0, p.eta, p.end), l_(p.l), g_(p.g), w_(sqrt(g_ / l_)) {
-  const auto half = Bounded(0.5) * Bounded(p.theta0);
-  const Modulus modulus{sin(half), cos(half)};
-  const auto speed = Bounded(2.0) * l_ * w_ * modulus.k;
-  const auto start = l_ * Bounded(p.theta0);
   problem_.system.nonlinear =
       std::make_shared<model::NonlinearSprings>(std::vector<model::NonlinearSprings::Row>{
           {scalar(1.0), Law::sine, (g_ / l_).nearest(), p.l}});
-  problem_.start.u[0] = start.nearest();
-  follow(who, {0.0, speed, modulus, w_, start}, [this](const Bounded& v) { return flight(v); });
+  auto first = flight_of(Swing::of_angle(l_, w_, p.theta0));
+  first.size = l_ * Bounded(p.theta0);
+  problem_.start.u[0] = first.size.nearest();
+  follow(who, first, [this](const Bounded& v) { return flight_of(Swing::of_speed(l_, w_, v)); });
 }
 
-auto Pendulum::flight(const Bounded& speed) const -> Flight {
-  const auto modulus = modulus_of(speed / (Bounded(2.0) * l_ * w_));
-  return {0.0, speed, modulus, w_, Bounded(2.0) * l_ * atan(modulus.k / modulus.complement)};
+auto Pendulum::flight_of(const Swing& swing) const -> Flight {
+  return {0.0, swing.speed(), swing.modulus, w_, swing.arc()};
 }
 
 model::Kinematics Pendulum::envelope(double t) const {
@@ -106,11 +99,7 @@ model::Kinematics Pendulum::envelope(double t) const {
 Bounded Pendulum::acceleration(const Bounded& u) const { return -(g_ * sin(u / l_)); }
 
 auto Pendulum::state(long long k, const Bounded& s) const -> States {
-  const auto& now = flights_[std::size_t(k)];
-  const auto [sn, cn, dn] = jacobi(w_ * s, now.modulus);
-  const auto sine = now.modulus.k * sn, twice = Bounded(2.0) * l_;
-  return {
-      {{twice * atan(sine / dn), twice * w_ * now.modulus.k * cn, -(twice * w_ * w_ * sine * dn)}}};
+  return {{Swing{l_, w_, flights_[std::size_t(k)].modulus}.at(s)}};
 }
 
 Duffing::Duffing(const DuffingParameters& p, std::string_view who)

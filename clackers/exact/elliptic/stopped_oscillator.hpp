@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clackers/exact/elliptic/jacobi.hpp"
+#include "clackers/exact/elliptic/swing.hpp"
 #include "clackers/exact/orbit/flights.hpp"
 
 namespace clackers::exact {
@@ -55,7 +55,7 @@ class Pendulum final : public StoppedOscillator {
  private:
   States state(long long k, const Bounded& s) const override;
   Bounded acceleration(const Bounded& u) const override;
-  Flight flight(const Bounded& speed) const;
+  Flight flight_of(const Swing& swing) const;
 
   Bounded l_, g_, w_;
 };

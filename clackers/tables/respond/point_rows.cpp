@@ -113,7 +113,8 @@ std::unique_ptr<record::RowSource> points(const cases::Case& test_case, const Ti
   if (!test_case.bars)
     throw InputError(
         fmt::format("respond: points are those of a bar; {} has masses. Leave --at "
-                    "out, or take a case with bars: bar-wall, bouncing-bar, two-bars, mass-on-bar.",
+                    "out, or take a case with bars: bar-wall, bar-between-stops, bouncing-bar, two-bars, "
+                    "mass-on-bar.",
                     test_case.entry->name),
         "no-closed-form");
   if (grid.size() > most_times)
