@@ -57,8 +57,9 @@ double space_error(const model::Motion& motion, const exact::BarMotion& bars,
 // The mesh of the bars that the case has already, as what methods get.
 void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& meshed) {
   const auto& who = test_case.entry->name;
-  const auto mesh =
-      exact::bar_mesh(meshed, value("elements"), node_mass(value("mass")), value("eta"), who);
+  test_case.mesh = std::make_shared<const exact::BarMesh>(
+      exact::bar_mesh(meshed, value("elements"), node_mass(value("mass")), value("eta"), who));
+  const auto& mesh = *test_case.mesh;
   test_case.problem = mesh.problem;
   const auto motion = std::make_shared<const exact::PiecewiseMotion>(mesh.problem, who);
   test_case.motion = motion;

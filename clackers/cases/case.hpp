@@ -13,7 +13,8 @@
 
 namespace clackers::exact {
 class BarMotion;
-}
+struct BarMesh;
+}  // namespace clackers::exact
 
 namespace clackers::cases {
 
@@ -33,8 +34,9 @@ struct Case {
   Settings values;  ///< all parameters, in the entry's order
   model::ImpactProblem<> problem;
   std::shared_ptr<const model::Motion> motion;
-  /// The bars of which the problem is a mesh; null for a structure of masses.
+  /// The bars of which the problem is a mesh, and the mesh; null for a structure of masses.
   std::shared_ptr<const exact::BarMotion> bars;
+  std::shared_ptr<const exact::BarMesh> mesh;
   std::vector<Quantity> constants;     ///< derived: m2, k2, omega_D2, r*, margin, ...
   std::vector<Quantity> indicators;    ///< I_ms, T_L, T_S, I_OC, with their threshold
   std::vector<double> damped_periods;  ///< of the free masses [s]

@@ -15,6 +15,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/solvers/program.hpp"
 #include "clackers/study/options.hpp"
+#include "clackers/study/path.hpp"
 #include "clackers/study/system_study.hpp"
 #include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
@@ -36,7 +37,7 @@ struct Options {
   CommonOptions common;
   std::vector<std::string> methods, cases, settings, requirements, only;
   std::map<std::string, std::string> numbers;  ///< by the names of study::verify_options()
-  std::string report, film, baseline, problem;
+  std::string report, film, baseline, problem, path;
   bool all = false;
   ProgramOptions programs;
 };
@@ -125,9 +126,51 @@ record::Record run_study(const Options& options, const study::VerifyRequest& req
   return study::verify(request, progress.callback(), &interrupt_flag());
 }
 
+// The other ladder, of meshes: orders and errors as sheets.
+int run_path(const Options& options) {
+  for (const auto& [name, given] : {std::pair{"--exec", options.programs.any()},
+                                    {"--report", !options.report.empty()},
+                                    {"--film", !options.film.empty()},
+                                    {"--baseline", !options.baseline.empty()},
+                                    {"--require", !options.requirements.empty()},
+                                    {"--only", !options.only.empty()},
+                                    {"--all", options.all},
+                                    {"--problem", !options.problem.empty()},
+                                    {"a second --case", options.cases.size() > 1}})
+    if (given) refuse_usage(fmt::format("--path goes without {}; leave it or --path out.", name));
+  const auto numbers = numbers_of(options);
+  for (const auto& [name, value] : numbers)
+    if (name != "levels" && name != "samples-per-level" && name != "jobs")
+      refuse_usage(fmt::format("--path goes without --{}; the step follows from the mesh.", name));
+  study::PathRequest request;
+  request.methods = options.methods;
+  request.case_name = options.cases.empty() ? "bar-wall" : options.cases.front();
+  request.settings = read_settings(options.settings, {});
+  request.nu = read_number("--path", options.path);
+  const auto take = [&](const char* name, int& to) {
+    if (const auto found = numbers.find(name); found != numbers.end()) to = int(found->second);
+  };
+  take("levels", request.levels);
+  take("samples-per-level", request.samples_per_level);
+  take("jobs", request.jobs);
+  Results results(options.common, OnInterrupt::finish);
+  auto study = [&] {
+    ProgressLine progress("verify", options.common.quiet);
+    return study::follow_path(request, progress.callback(), &interrupt_flag());
+  }();
+  // For a person the curves say it.
+  if (results.format() != report::Format::table) study.sheets.push_back(std::move(study.runs));
+  report::write(study.sheets, "clackers/path/1", results.format(), results.stream(),
+                results.style());
+  results.finish();
+  if (study.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
+  return study.interrupted ? 130 : 0;
+}
+
 int run(Options options, const std::string& line) {
   take_cases(options);
   check(options);
+  if (!options.path.empty()) return run_path(options);
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
   const RecordView view{.only = verdicts_to_show(options)};
@@ -178,6 +221,7 @@ void add_verify(Grammar& root) {
            "  clackers verify --baseline record.json\n"
            "  clackers verify rk4 newmark --case stop --case symmetric-pair\n"
            "  clackers verify --all --only disagrees --only undecided\n"
+           "  clackers verify newmark moreau-jean --case bar-wall --path 0.45\n"
            "  clackers verify --exec './solver {case} {h} {out}' --expect proper:2\n",
        .about =
            "Assesses time-integration methods: runs each with a sequence of steps on a case whose "
@@ -190,6 +234,7 @@ void add_verify(Grammar& root) {
                 "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
                 "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
                 "           [--only VERDICT] [--report FILE.html] [--film FILE.webm|gif]\n"
+                "  clackers verify [METHOD ...] [--case CASE] --path nu [--levels n]\n"
                 "  clackers verify [METHOD ...] --exec COMMAND ...\n"
                 "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
                 "           [--timeout TIME] [--work FOLDER] [--fresh]\n"
@@ -217,6 +262,12 @@ void add_verify(Grammar& root) {
       app->add_option("--" + std::string(option.former), value, "The former name of " + name + ".")
           ->option_text(std::string(option.placeholder));
   }
+  app->add_option("--path", options->path,
+                  "Instead of a fixed mesh: finer and finer meshes of a bar (default bar-wall, "
+                  "--levels 3, from `elements` on) with steps of nu h/c, 1e-3 to 100, against the "
+                  "bar itself. Prints orders and those to expect, and of each run the errors of "
+                  "integrator and mesh.")
+      ->option_text("nu");
   add_program_options(*app, options->programs);
   add_require_option(*app, options->requirements);
   app->add_option(

@@ -37,7 +37,7 @@ class Help(CommandTest):
                "verify": ["--all", "--case", "--problem", "--set", "--levels", "--coarsest", "--samples-per-level", "--neighbours",
                           "--budget", "--exec", "--exec-batch", "--name", "--label", "--expect", "--tolerances", "--timeout",
                           "--work", "--fresh", "--environment", "--jobs", "--require", "--baseline", "--only",
-                          "--report", "--film"]}
+                          "--report", "--film", "--path"]}
         for command, options in own.items():
             text = self.good(command, "--help").split("\nOptions\n")[1]
             named = re.findall(r"^  (?:-h,)?(--[a-z-]+)", text, re.M)

@@ -55,6 +55,22 @@ class Verdicts(CommandTest):
                      says="--only: this is for tables")
 
 
+class Path(CommandTest):
+    def test_says_what_the_orders_are_and_should_be(self):
+        lines = self.good("verify", "bar-wall", "newmark", "bdf1", "--path", "0.45", "--levels", "1").splitlines()
+        self.assertEqual(lines[0], "bar-wall along the path step = 0.45 h/c, 16 to 29 elements")
+        for line in lines:
+            self.assertLessEqual(len(line), 80, line)
+        done = self.json_of("verify", "newmark", "--path", "1/2", "--levels", "1")
+        self.assertEqual(done["schema"], "clackers/path/1")
+        self.assertEqual([len(sheet["rows"]) for sheet in done["sheets"]], [1, 1, 8, 8])
+
+    def test_refuses_what_does_not_go_with_it(self):
+        for rest in (("--path", "x"), ("--path", "0"), ("--path", "0.4", "--case", "stop"), ("--path", "0.4", "--coarsest", "0.1"),
+                     ("--path", "0.4", "--report", self.path("a.html")), ("--path", "0.4", "--case", "bar-wall", "--case", "two-bars")):
+            self.refused("verify", "newmark", *rest, code="[a-z-]+", says="path")
+
+
 class Requirements(CommandTest):
     def test_decide_the_exit_code_and_name_what_fails(self):
         done = run("verify", "rk4", *SHORT, "--require", "agrees", "--require", "order:4")

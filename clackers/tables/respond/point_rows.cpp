@@ -112,10 +112,11 @@ std::unique_ptr<record::RowSource> points(const cases::Case& test_case, const Ti
                                           const std::vector<double>& places) {
   if (!test_case.bars)
     throw InputError(
-        fmt::format("respond: points are those of a bar; {} has masses. Leave --at "
-                    "out, or take a case with bars: bar-wall, bar-between-stops, bouncing-bar, two-bars, "
-                    "mass-on-bar.",
-                    test_case.entry->name),
+        fmt::format(
+            "respond: points are those of a bar; {} has masses. Leave --at "
+            "out, or take a case with bars: bar-wall, bar-between-stops, bouncing-bar, two-bars, "
+            "mass-on-bar.",
+            test_case.entry->name),
         "no-closed-form");
   if (grid.size() > most_times)
     refuse("respond", "times", double(grid.size()), "at most 1e6 with --at", {}, "too-many-rows");

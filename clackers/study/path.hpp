@@ -1,0 +1,46 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "clackers/base/jobs/progress.hpp"
+#include "clackers/cases/case.hpp"
+#include "clackers/record/sheet.hpp"
+
+namespace clackers::study {
+
+/// Methods on finer and finer meshes of bars with steps in proportion to the elements, against the bars themselves.
+struct PathRequest {
+  std::vector<std::string> methods;  ///< specifications; empty: the default panel
+  std::string case_name;
+  cases::Settings settings;   ///< `elements` are those of the coarsest mesh
+  double nu = 0.45;           ///< c step/h, of the bar where the step is shortest
+  int levels = 3;             ///< of meshes, each twice as fine as the one before
+  int samples_per_level = 8;  ///< meshes of each
+  int jobs = 0;               ///< threads; 0: one per processor
+};
+
+struct PathStudy {
+  /// Orders, a row a method, of u (maximum over x and t) and of v in L1 and L2 over x and t, with those to expect of
+  /// data with a kink in u and a jump in v. Then the errors of the finest mesh: e_total against the bars, e_time against
+  /// the exact motion of the mesh, e_space between both. Then curves of e_total and e_space over h.
+  std::vector<record::Sheet> sheets;
+  record::Sheet runs;        ///< a row a method and mesh
+  bool interrupted = false;  ///< not all meshes were run
+};
+
+/// Throws InputError before any work for a case that is no mesh (no-closed-form), unless 0 < nu <= 100, for steps or
+/// meshes that are too many, for adaptive methods, and as verify() does. A run that fails is a row that says so.
+PathStudy follow_path(const PathRequest& request, const Progress& progress = {},
+                      const std::atomic<bool>* interrupt = nullptr);
+
+/// Orders in h that a method of this order in smooth motion has along a path, by what spreads a jump of the velocity:
+/// dispersion, 2/3, 1/2 and 1/3 in u, v in L1 and v in L2, which linear elements have themselves; dissipation of first
+/// order, 1/2, 1/2 and 1/4. P. Brenner, V. Thomee, L. B. Wahlbin (1975).
+struct PathOrders {
+  double u = 0.0, v_l1 = 0.0, v_l2 = 0.0;
+};
+PathOrders expected_along_path(double smooth_order);
+
+}  // namespace clackers::study

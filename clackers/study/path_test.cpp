@@ -1,0 +1,115 @@
+#include "clackers/study/path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "clackers/base/testing/refusal.hpp"
+
+namespace clackers::study {
+namespace {
+
+PathRequest request(std::vector<std::string> methods, cases::Settings settings = {}) {
+  PathRequest path;
+  path.methods = std::move(methods);
+  path.case_name = "bar-wall";
+  path.settings = std::move(settings);
+  path.samples_per_level = 4;
+  return path;
+}
+
+// The numbers of a sheet's rows by method.
+std::map<std::string, std::vector<double>> by_method(const record::Sheet& sheet) {
+  std::map<std::string, std::vector<double>> rows;
+  for (const auto& row : sheet.rows)
+    for (std::size_t i = 1; i < row.size(); ++i)
+      rows[std::get<std::string>(row.front())].push_back(record::number_in(row[i]));
+  return rows;
+}
+std::string reading(const PathStudy& study, std::size_t row) {
+  return std::get<std::string>(study.sheets[0].rows.at(row).back());
+}
+
+// Orders measured elsewhere, with other programs for mesh and integrators, of a bar against a wall at 0.45 h/c and up
+// to 256 elements: leapfrog with a massless node 0.63 0.42 0.31, backward Euler 0.50 0.49 0.26.
+TEST(Path, HasTheOrdersOfDataWithAJump) {
+  const auto study = follow_path(request({"central-difference", "bdf1"}));
+  auto orders = by_method(study.sheets[0]);
+  const auto expect = [&](const char* name, double u, double v_l1, double v_l2) {
+    EXPECT_NEAR(orders[name][0], u, 0.08) << name;
+    EXPECT_NEAR(orders[name][1], v_l1, 0.06) << name;
+    EXPECT_NEAR(orders[name][2], v_l2, 0.06) << name;
+  };
+  expect("central-difference", 0.63, 0.42, 0.31);
+  expect("bdf1", 0.50, 0.49, 0.26);
+  EXPECT_EQ(reading(study, 0), "as expected");
+  EXPECT_EQ(reading(study, 1), "as expected");
+  EXPECT_EQ(expected_along_path(2.0).u, 2.0 / 3.0);
+  EXPECT_EQ(expected_along_path(1.0).v_l2, 0.25);
+}
+
+// A contact force treated as an internal one gains energy again and again, and the velocities are wrong on any mesh.
+TEST(Path, TellsAForceThatGainsEnergy) {
+  const auto study =
+      follow_path(request({"newmark+penalty", "newmark"}, {{"mass", "lumped"}, {"eta", 1.0}}));
+  EXPECT_EQ(reading(study, 0), "velocities stagnate");
+  EXPECT_EQ(reading(study, 1), "as expected");
+  auto finest = by_method(study.sheets[1]);
+  EXPECT_GT(finest["newmark+penalty"][5], 0.5);
+  EXPECT_NEAR(finest["newmark"][5], 0.0, 1e-12);
+}
+
+TEST(Path, SeparatesTheErrorOfTheMesh) {
+  const auto coarse = follow_path(request({"newmark"}, {{"t_end", 3.0}}));
+  auto fine_request = request({"newmark"}, {{"t_end", 3.0}});
+  fine_request.nu = 0.05;
+  const auto fine = follow_path(fine_request);
+  for (std::size_t k = 0; k < coarse.runs.rows.size(); ++k) {
+    const auto at = [k](const PathStudy& study, std::size_t column) {
+      return record::number_in(study.runs.rows[k][column]);
+    };
+    EXPECT_LE(at(coarse, 4), at(coarse, 5) + at(coarse, 6));
+    EXPECT_GE(at(coarse, 4), std::abs(at(coarse, 5) - at(coarse, 6)));
+    // With a ninth of the step the integrator's error is small, and that of the mesh is left.
+    EXPECT_LT(at(fine, 5), 0.05 * at(coarse, 5));
+    EXPECT_NEAR(at(fine, 4), at(fine, 6), at(fine, 5));
+    EXPECT_EQ(at(coarse, 3), 3.0 / std::ceil(3.0 * at(coarse, 1) / 0.45 - 1e-9));
+  }
+  EXPECT_EQ(coarse.runs.rows.size(), 12u);
+  // Bars that fall have the work of their weight in the energy.
+  auto falling = request({"newmark"});
+  falling.case_name = "bouncing-bar";
+  falling.levels = 1;
+  EXPECT_NEAR(by_method(follow_path(falling).sheets[1])["newmark"][5], 0.0, 0.01);
+  // A mass that strikes is no node.
+  falling.case_name = "mass-on-bar";
+  const auto errors = by_method(follow_path(falling).sheets[1])["newmark"];
+  EXPECT_LT(errors[0], 0.1);
+  EXPECT_LT(errors[1], 0.05);
+}
+
+TEST(Path, RefusesWithTheReason) {
+  auto masses = request({"newmark"});
+  masses.case_name = "stop";
+  EXPECT_REFUSED(follow_path(masses), "no-closed-form", "bar-wall");
+  auto still = request({"newmark"});
+  still.nu = 0.0;
+  EXPECT_REFUSED(follow_path(still), "out-of-range", "path");
+  auto many = request({"newmark"});
+  many.levels = 5;
+  EXPECT_REFUSED(follow_path(many), "out-of-range", "200");
+  auto few = request({"newmark"});
+  few.levels = few.samples_per_level = 1;
+  EXPECT_REFUSED(follow_path(few), "out-of-range", "three meshes");
+  EXPECT_REFUSED(follow_path(request({"dop853"})), "not-admissible", "chooses its steps");
+  const auto study = follow_path(request({"newmark+penalty"}, {{"mass", "lumped"}}));
+  EXPECT_EQ(reading(study, 0), "failed: penalty-needs-elastic");
+  const std::atomic<bool> stop{true};
+  const auto none = follow_path(request({"newmark"}), {}, &stop);
+  EXPECT_TRUE(none.interrupted);
+  EXPECT_TRUE(none.runs.rows.empty());
+}
+
+}  // namespace
+}  // namespace clackers::study
