@@ -14,12 +14,19 @@ struct CiteOptions {
 };
 
 int run(const CiteOptions& options) {
-  auto used = tables::used_of(options.names);
-  if (!options.record.empty()) {
-    const auto more = tables::used_in(read_baseline(options.record));
-    used.methods.insert(used.methods.end(), more.methods.begin(), more.methods.end());
-    used.cases.insert(used.cases.end(), more.cases.begin(), more.cases.end());
-    used.others = more.others;
+  std::vector<std::string> names, records;
+  for (const auto& name : options.names)
+    (name.ends_with(".json") ? records : names).push_back(name);
+  if (!options.record.empty()) records.push_back(options.record);
+  auto used = tables::used_of(names);
+  const auto join = [](auto& all, const auto& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  for (const auto& record : records) {
+    const auto more = tables::used_in(read_record(record, "cite"));
+    join(used.methods, more.methods);
+    join(used.cases, more.cases);
+    join(used.others, more.others);
   }
   OutputStream out(1, "standard output", OnInterrupt::stop);
   out << tables::bibtex(used);
@@ -35,13 +42,15 @@ void add_cite(Grammar& root) {
   set_help(*app,
            {.examples = "  clackers cite\n"
                         "  clackers cite newmark+penalty three-parameter\n"
-                        "  clackers cite --record record.json > clackers.bib\n",
+                        "  clackers cite record.json > clackers.bib\n",
             .about = "Prints BibTeX: the program, the paper whose systems it makes exact, and the "
                      "sources of methods, as their cards name them. Comments name what uses each "
                      "entry, and what has none.",
-            .usage = "  clackers cite [METHOD|CASE ...] [--record FILE.json]\n"});
-  app->add_option("NAME", options->names, "Methods and cases (clackers list).")
-      ->option_text("METHOD|CASE");
+            .usage = "  clackers cite [METHOD|CASE|FILE.json ...]\n"});
+  app->add_option(
+         "NAME", options->names,
+         "Methods and cases (clackers list), and records of verify or check, by their ending .json.")
+      ->option_text("METHOD|CASE|FILE.json");
   app->add_option("--record", options->record,
                   "A record of verify or check (--format json): all methods and cases in it.")
       ->reads_file("FILE.json");

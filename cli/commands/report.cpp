@@ -32,7 +32,7 @@ int run(const ReportOptions& options, const std::string& line) {
   std::vector<std::string> names;
   std::vector<study::BaselineComparison> changes;
   for (const auto& path : options.records) {
-    auto record = read_baseline(path);
+    auto record = read_record(path, "report");
     if (!records.empty()) try {
         changes.push_back(study::compare(record, records.back()));
       } catch (const InputError& error) {

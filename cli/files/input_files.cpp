@@ -38,12 +38,12 @@ std::vector<double> read_times(const std::string& path, double end) {
   return times;
 }
 
-record::Record read_baseline(const std::string& path) {
+record::Record read_record(const std::string& path, const std::string& who) {
   const auto text = InputFile(path).rest(record::longest_record);
   try {
     return record::record_from_json(text, &interrupt_flag());
   } catch (const InputError& error) {
-    throw InputError(fmt::format("baseline {}: {}", path, error.what()), error.code());
+    throw InputError(fmt::format("{} {}: {}", who, path, error.what()), error.code());
   }
 }
 

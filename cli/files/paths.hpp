@@ -38,8 +38,8 @@ void require_distinct_files(std::span<const NamedFile> inputs, std::span<const N
 std::vector<double> read_times(const std::string& path, double end);
 
 /// The record of an earlier `verify --format json`; "-" reads standard input. Throws FileError when
-/// the file cannot be read, InputError with its name and the place when it is no such record;
-/// Interrupted.
-record::Record read_baseline(const std::string& path);
+/// the file cannot be read, InputError with its name and the place when it is no such record,
+/// after the word for `who` asks; Interrupted.
+record::Record read_record(const std::string& path, const std::string& who);
 
 }  // namespace clackers::cli

@@ -12,11 +12,11 @@
 namespace clackers::cli {
 
 /// The record of --baseline, which is of the same study; nothing for an empty path. Called before the
-/// work: what cannot be compared must not be found out afterwards. Throws as read_baseline and
+/// work: what cannot be compared must not be found out afterwards. Throws as read_record() and
 /// study::require_same_study do.
 std::optional<record::Record> baseline_of(const std::string& path, const auto& request) {
   if (path.empty()) return {};
-  auto baseline = read_baseline(path);
+  auto baseline = read_record(path, "baseline");
   study::require_same_study(request, baseline);
   return baseline;
 }

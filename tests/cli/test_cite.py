@@ -47,6 +47,15 @@ class Cite(CommandTest):
         run("verify", "rk4", "newmark+reversal", "--case", "stop", "--levels", "2", "--samples-per-level", "1", "--format", "json", "--out", record, "--quiet")
         found = entries(self.good("cite", "--record", record))
         self.assertEqual(set(found), {"clackers", "soroushian2018", "kutta1901", "shampine1991", "newmark1959"})
+        self.assertEqual(entries(self.good("cite", record)), found)
+        self.assertEqual(entries(self.good("cite", "rk4", record, "newmark")), found)
+
+    def test_a_file_that_is_no_record_is_refused(self):
+        bad = self.path("bad.json")
+        with open(bad, "w") as file:
+            file.write("{}")
+        self.refused("cite", bad, says=f"cite {bad}", code="[a-z-]+")
+        self.refused("report", bad, bad, says=f"report {bad}", code="[a-z-]+")
 
     def test_other_names_are_refused(self):
         self.refused("cite", "newmrak", says="newmark", code="unknown-name")
