@@ -31,6 +31,16 @@ Eigen::Index first_touched(const model::Contact<Dof>& contact) {
   return i;
 }
 
+// With the stiffness that smooth nonlinear springs have at u = 0.
+template <int Dof>
+model::SmoothSystem<Dof> linearized(model::SmoothSystem<Dof> system) {
+  if (!system.nonlinear || system.nonlinear->has_kinks()) return system;
+  const model::Vector<Dof> zero = model::Vector<Dof>::Zero(system.dof());
+  model::Matrix<Dof> damping = system.damping;
+  system.nonlinear->add_tangent(zero, zero, system.stiffness, damping);
+  return system;
+}
+
 // The largest omega^2 of a mass in the row of the contact, alone on its springs.
 template <int Dof>
 double fastest_squared(const model::SmoothSystem<Dof>& system, const model::Contact<Dof>& contact) {
@@ -48,8 +58,9 @@ double largest_speed(const CompliantLaw& law, const model::ImpactProblem<Dof>& p
                      double mass) {
   if (law.exponent == 1.0) return 0.0;
   const auto& [t, u, v] = problem.start;
-  const double energy =
-      0.5 * (v.dot(problem.system.mass * v) + u.dot(problem.system.stiffness * u));
+  const auto& system = problem.system;
+  double energy = 0.5 * (v.dot(system.mass * v) + u.dot(system.stiffness * u));
+  if (system.nonlinear && !system.nonlinear->has_kinks()) energy += system.nonlinear->potential(u);
   return std::sqrt(2.0 * std::max(energy, 0.0) / mass);
 }
 
@@ -91,15 +102,16 @@ std::vector<double> Penalty::stiffnesses(const model::ImpactProblem<Dof>& proble
     return all;
   }
   const auto& chosen = compliant_law(law);
+  const auto system = linearized(problem.system);
   const ContactSet<Dof> contacts(problem);
   for (std::size_t j = 0; j < contacts.size(); ++j) {
     const auto& contact = problem.contacts[j];
     const auto i = first_touched(contact);
     // pi sqrt(m_e / k) <= 2 pi / omega / contacts_per_period, solved for k.
     const double mass = 1.0 / contacts.inverse_effective_mass(j);
-    const double shortest = 0.25 * contacts_per_period * contacts_per_period *
-                            fastest_squared(problem.system, contact) * mass;
-    const double linear = std::max(default_factor * problem.system.stiffness(i, i), shortest);
+    const double shortest =
+        0.25 * contacts_per_period * contacts_per_period * fastest_squared(system, contact) * mass;
+    const double linear = std::max(default_factor * system.stiffness(i, i), shortest);
     all.push_back(chosen.exponent == 1.0
                       ? linear
                       : chosen.stiffness_for(std::numbers::pi * std::sqrt(mass / linear), mass,
@@ -148,7 +160,7 @@ std::optional<Objection> Penalty::objection(const Facts& method,
     if (all[j] > 0.0 && std::isfinite(all[j])) continue;
     const auto i = first_touched(problem.contacts[j]);
     const auto why =
-        problem.system.stiffness(i, i) > 0.0
+        linearized(problem.system).stiffness(i, i) > 0.0
             ? std::string("the problem starts without energy, so that no approach speed is known")
             : fmt::format("degree of freedom {}, the first in its row, has none of its own", i + 1);
     return Objection{

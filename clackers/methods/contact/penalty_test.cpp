@@ -4,6 +4,7 @@
 #include "clackers/methods/contact/compliant_force.hpp"
 #include "clackers/methods/testing/runs.hpp"
 #include "clackers/methods/testing/stepper_checks.hpp"
+#include "clackers/model/nonlinear_springs.hpp"
 
 namespace clackers::methods {
 namespace {
@@ -162,6 +163,22 @@ TEST(Penalty, AsksForAStiffnessWhereThereIsNoDefault) {
   ASSERT_TRUE(no);
   EXPECT_EQ(no->code, Code("no-default-stiffness"));
   EXPECT_FALSE(method("rk4+penalty:stiffness=3")->objection(p));
+}
+
+TEST(Penalty, SpringsOfAPendulumSetTheDefault) {
+  // 5 kg on 2 m of string: m g/l of stiffness at its lowest point, and the height that the angle 1 stores.
+  auto p = mass_on_stop(5.0, 0.0, 0.0, 2.0, 0.0, 1.0, 1.0);
+  p.system.nonlinear =
+      std::make_shared<model::NonlinearSprings>(std::vector<model::NonlinearSprings::Row>{
+          {Eigen::VectorXd::Ones(1), model::NonlinearSprings::Law::sine, 5.0 * 9.81 / 2.0, 2.0}});
+  auto linear = mass_on_stop(5.0, 0.0, 5.0 * 9.81 / 2.0, 0.0,
+                             2.0 * std::sqrt(9.81 * (1.0 - std::cos(1.0))), 1.0, 1.0);
+  for (const auto* name : {"newmark+penalty", "newmark+penalty:law=hertz"}) {
+    EXPECT_FALSE(method(name)->objection(p)) << name;
+    EXPECT_NEAR(method(name)->contact_time(p), method(name)->contact_time(linear),
+                1e-13 * method(name)->contact_time(p))
+        << name;
+  }
 }
 
 TEST(Penalty, NonlinearLawsNeedEnergyAtTheStartForADefault) {
