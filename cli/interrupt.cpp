@@ -41,12 +41,12 @@ extern "C" void on_end(int signal) {
   ::raise(signal);  // its default is in place again
 }
 
+constexpr std::string_view library_ended =
+    "clackers: a library ended the program, most likely for lack of memory; ask for less. "
+    "[out-of-memory]\n";
+
 // The libraries of certified arithmetic abort when memory runs out, after a message of their own.
-extern "C" void on_abort(int) {
-  end_with(
-      "clackers: a library ended the program, most likely for lack of memory; ask for less. "
-      "[out-of-memory]\n");
-}
+extern "C" void on_abort(int) { end_with(library_ended); }
 
 // A function that promises not to throw met an exception, mostly for want of memory.
 [[noreturn]] void on_terminate() {
@@ -56,6 +56,8 @@ extern "C" void on_abort(int) {
     end_with(out_of_memory);
   } catch (...) {
   }
+  // Thrown inside such a function, as of <filesystem>, where no handler sees what it is.
+  if (!std::current_exception() && std::uncaught_exceptions() > 0) end_with(library_ended);
   end_with(
       "clackers: a mistake in the program. Please report it with your command. "
       "[internal-error]\n");

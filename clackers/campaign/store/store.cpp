@@ -24,8 +24,8 @@ class Transaction {
   ~Transaction() {
     if (!committed_) try {
         database_.execute("ROLLBACK");
-      } catch (const Error&) {
-        // SQLite has rolled back by itself.
+      } catch (...) {
+        // SQLite has rolled back by itself, or does when it closes.
       }
   }
   Transaction(const Transaction&) = delete;
@@ -64,8 +64,8 @@ struct Store::Connection {
     inserts.reset();
     try {
       database.execute("PRAGMA busy_timeout = 0; PRAGMA journal_mode = DELETE;");
-    } catch (const Error&) {
-      // The next writer does it.
+    } catch (...) {
+      // The next writer does it, where there is no memory either.
     }
   }
 
