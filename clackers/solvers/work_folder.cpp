@@ -184,14 +184,14 @@ bool RunFolder::is_here() const {
 }
 
 void RunFolder::write(const char* name, std::string_view bytes) const {
+  if (!is_here())
+    throw FileError("the program has removed or replaced its folder.", "program-failed");
   remove_path((path_ / name).c_str());
   write_file(path_ / name, bytes);
 }
 
 fs::path RunFolder::commit(bool good) {
   if (!good && !work_.keeps_failures()) return place_;
-  if (!is_here())
-    throw FileError("the program has removed or replaced its folder.", "program-failed");
   write(mark_name, key_);
   if (good) write(key_name, key_);
   // Exchanged, so that whoever reads the earlier folder finds a whole one at any time.

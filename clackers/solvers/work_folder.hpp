@@ -51,7 +51,8 @@ class RunFolder {
   RunFolder& operator=(const RunFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Writes a file, in place of anything of that name that a program has left. Throws FileError.
+  /// Writes a file, in place of anything of that name that a program has left. Throws FileError, as where
+  /// a program has removed or replaced the folder.
   void write(const char* name, std::string_view bytes) const;
   /// Puts it in its place and returns that. A good run can be found by its key from then on, a
   /// failed one stays where failures are kept. Throws FileError.

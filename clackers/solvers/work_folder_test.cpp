@@ -127,6 +127,8 @@ TEST_F(WorkFolders, ARunThatReplacedItsFolderIsNotKept) {
     fs::rename(mine.path(), data);
     fs::create_directory_symlink(data, mine.path());
     EXPECT_THROW(mine.commit(true), FileError);
+    EXPECT_THROW(mine.write("seconds.txt", "1"), FileError);
+    EXPECT_TRUE(fs::is_empty(data));
     fs::rename(mine.path(), cache_ / "link");
   }
   EXPECT_TRUE(fs::exists(data));
