@@ -78,12 +78,14 @@ struct HeldModes {
   double mode(int k, int i) const { return std::sin(i * (2 * k + 1) * std::numbers::pi / (2 * n)); }
   double u(int i, double s) const {
     double sum = 0.0;
-    for (int k = 0; k < n; ++k) sum -= share[k] * mode(k, i) * std::sin(omega[k] * s) / omega[k];
+    for (std::size_t k = 0; k < omega.size(); ++k)
+      sum -= share[k] * mode(int(k), i) * std::sin(omega[k] * s) / omega[k];
     return sum;
   }
   double force(double s) const {
     double a = 0.0;
-    for (int k = 0; k < n; ++k) a += share[k] * mode(k, 1) * std::sin(omega[k] * s) * omega[k];
+    for (std::size_t k = 0; k < omega.size(); ++k)
+      a += share[k] * mode(int(k), 1) * std::sin(omega[k] * s) * omega[k];
     return -n * u(1, s) + (consistent ? a / (6.0 * n) : 0.0);
   }
 };
@@ -271,7 +273,11 @@ struct Characteristics {
   double low, high, impulse = 0.0, force = 0.0;
 
   Characteristics(int cells, int gap, int both)
-      : right(cells, -1.0), left(cells, -1.0), u(cells, 0.0), low(gap), high(both - gap) {}
+      : right(std::size_t(cells), -1.0),
+        left(right),
+        u(right.size(), 0.0),
+        low(gap),
+        high(both - gap) {}
 
   void step() {
     const auto w0 = right, w1 = left;
@@ -314,8 +320,8 @@ TEST(BarCases, ABarBetweenStopsFollowsItsCharacteristics) {
       const double t = k * dt, scale = 1e-15 * (k + 10);
       const auto energy = bar.energy(t);
       double kinetic = 0.0, elastic = 0.0;
-      for (int i = 0; i < cells; ++i) {
-        const auto now = bar.at(0, (i + 0.5) * L / cells, t, Side::right);
+      for (std::size_t i = 0; i < std::size_t(cells); ++i) {
+        const auto now = bar.at(0, (double(i) + 0.5) * L / cells, t, Side::right);
         const double v = 0.5 * (known.right[i] + known.left[i]),
                      s = 0.5 * (known.left[i] - known.right[i]);
         EXPECT_NEAR(now.u.nearest(), 0.25 * known.u[i] * V * dt, scale * V * dt * (both + cells));
