@@ -52,12 +52,12 @@ extern "C" void on_abort(int) { end_with(library_ended); }
 [[noreturn]] void on_terminate() {
   try {
     if (const auto error = std::current_exception()) std::rethrow_exception(error);
+    // Thrown inside such a function, as of <filesystem>, where no handler sees what it is.
+    if (std::uncaught_exceptions() > 0) end_with(library_ended);
   } catch (const std::bad_alloc&) {
     end_with(out_of_memory);
   } catch (...) {
   }
-  // Thrown inside such a function, as of <filesystem>, where no handler sees what it is.
-  if (!std::current_exception() && std::uncaught_exceptions() > 0) end_with(library_ended);
   end_with(
       "clackers: a mistake in the program. Please report it with your command. "
       "[internal-error]\n");

@@ -92,6 +92,11 @@ void add_wave(std::vector<Quantity>& list, const std::string& number,
   list.push_back({"m" + number, (wave.impedance * wave.transit).nearest(), "kg", "mass"});
 }
 
+void add_contact(std::vector<Quantity>& list, int number, const numerics::Bounded& t, bool closes) {
+  list.push_back({fmt::format("t_{}{}", closes ? "closes" : "opens", number), t.nearest(), "s",
+                  closes ? "contact of the bar begins" : "and ends"});
+}
+
 // Bars, their mesh, and what all of them have in common.
 std::shared_ptr<const BarContact> use_bars(Case& test_case, const Values& value,
                                            const BarsParameters& parameters) {
@@ -106,9 +111,7 @@ std::shared_ptr<const BarContact> use_bars(Case& test_case, const Values& value,
   for (const auto& event : bars->events()) {
     count += event.closes ? 1 : 0;
     if (count > 2) break;
-    list.push_back({fmt::format("t_{}{}", event.closes ? "closes" : "opens", std::max(count, 1)),
-                    event.t.nearest(), "s",
-                    event.closes ? "contact of the bar begins" : "and ends"});
+    add_contact(list, std::max(count, 1), event.t, event.closes);
   }
   use_mesh(test_case, value, {parameters.bars, bars->gap().nearest(), bars->end(), parameters.g});
   return bars;
@@ -166,8 +169,8 @@ void build_mass_on_bar(Case& test_case, const Values& value, double) {
   test_case.bars = motion;
   auto& list = test_case.constants;
   add_wave(list, "", motion->wave());
-  list.push_back({"t_closes1", motion->begins().nearest(), "s", "contact of the bar begins"});
-  list.push_back({"t_opens1", motion->ends().nearest(), "s", "and ends"});
+  add_contact(list, 1, motion->begins(), true);
+  add_contact(list, 1, motion->ends(), false);
   list.push_back(
       {"v_after", motion->rebound().nearest(), "m/s", "velocity of the mass afterwards"});
   use_mesh(test_case, value, {{p.bar}, p.gap, p.end, 0.0, p.M, p.V, p.is_fixed});
@@ -185,14 +188,12 @@ void build_between_stops(Case& test_case, const Values& value, double) {
   test_case.bars = motion;
   auto& list = test_case.constants;
   add_wave(list, "", motion->wave());
-  const auto begins = motion->begins(),
-             ends = begins + numerics::Bounded(2.0) * motion->wave().transit;
-  list.push_back({"t_closes1", begins.nearest(), "s", "contact of the bar begins"});
-  list.push_back({"t_opens1", ends.nearest(), "s", "and ends"});
+  add_contact(list, 1, motion->begins(), true);
+  add_contact(list, 1, motion->ends(), false);
   list.push_back({"T", motion->period().nearest(), "s", "period of the bar, 2 D/V + 4 L/c"});
   auto bar = p.bar;
   bar.v0 = -p.V;
-  use_mesh(test_case, value, {{bar}, p.d, p.end, 0.0, 0.0, 0.0, false, p.D});
+  use_mesh(test_case, value, {.bars = {bar}, .gap = p.d, .end = p.end, .clearance = p.D});
 }
 
 // What a bar has, then what the case has, then what its mesh has.

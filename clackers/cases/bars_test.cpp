@@ -283,13 +283,13 @@ struct Characteristics {
     const auto w0 = right, w1 = left;
     const double a = left.front(), b = right.back();
     // The force of a closed end keeps it from going on.
-    const double push = low == 0.0 ? std::max(0.0, -a) : 0.0,
-                 pull = high == 0.0 ? std::max(0.0, b) : 0.0;
-    low += a + push, high -= b - pull;
-    force = push + pull;
+    const double at_low = low == 0.0 ? std::max(0.0, -a) : 0.0,
+                 at_high = high == 0.0 ? std::max(0.0, b) : 0.0;
+    low += a + at_low, high -= b - at_high;
+    force = at_low + at_high;
     impulse += force;
-    right.insert(right.begin(), a + 2.0 * push), right.pop_back();
-    left.push_back(b - 2.0 * pull), left.erase(left.begin());
+    right.insert(right.begin(), a + 2.0 * at_low), right.pop_back();
+    left.push_back(b - 2.0 * at_high), left.erase(left.begin());
     for (std::size_t i = 0; i < u.size(); ++i) u[i] += w0[i] + w1[i] + right[i] + left[i];
   }
 };

@@ -32,6 +32,13 @@ double end_of(const Case& test_case, const Values& value) {
   return require_positive(test_case.entry->name, "t_end", value("t_end"));
 }
 
+void add_run(Case& test_case) {
+  const double end = test_case.motion->end();
+  test_case.constants.push_back({"t_end", end, "s", "end of the run"});
+  test_case.constants.push_back({"impacts", double(test_case.motion->impact_count(end)), "",
+                                 "number of impacts up to t_end"});
+}
+
 double ratio(const Case& test_case, double N) {
   constexpr double largest_N = 249'999'999;
   const auto rule = fmt::format("a whole number, 0 <= N <= {:.0f}", largest_N);

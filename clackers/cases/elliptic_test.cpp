@@ -101,24 +101,30 @@ struct Bouncer {
   }
 };
 
-// `condition`: of the instants with the start, which the problem has rounded; large beside the motions that never
-// come back.
+// Mass 1 above the stop, or mass 2 below it, at six times. `condition`: of the instants with the start, which the
+// problem has rounded; large beside the motions that never come back.
+void expect_states(Box& box, const model::Motion& motion, int mass, Bouncer& known, double period,
+                   double condition) {
+  const double sign = mass == 0 ? 1.0 : -1.0;
+  const auto size = motion.envelope(0.0);
+  for (int i = 1; i <= 6; ++i) {
+    const double t = motion.end() * (i - box.uniform(0.0, 1.0)) / 6.0;
+    known.run_to(t);
+    const auto now = motion.at(t, Side::right), bound = motion.error_bound(t);
+    const double own = 4e-16 * condition * (1.0 + t / period);
+    EXPECT_NEAR(sign * now.u[mass], double(known.u), bound.u[mass] + own * size.u[mass]) << t;
+    EXPECT_NEAR(sign * now.v[mass], double(known.v), bound.v[mass] + own * size.v[mass]) << t;
+    EXPECT_LT(bound.u[mass], 1e-12 * condition * size.u[mass]);
+    EXPECT_EQ(motion.impact_count(t), known.impacts);
+  }
+}
+
 void expect_simulated(Box& box, const Case& test_case, const Expansion& expansion, double eta,
                       double condition) {
   const auto& start = test_case.problem.start;
-  const double period = constant(test_case, "T_0"), end = test_case.motion->end();
+  const double period = constant(test_case, "T_0");
   Bouncer known{expansion, Number(period) / 150, eta, 0, start.u[0], 0};
-  const auto size = test_case.motion->envelope(0.0);
-  for (int i = 1; i <= 6; ++i) {
-    const double t = end * (i - box.uniform(0.0, 1.0)) / 6.0;
-    known.run_to(t);
-    const auto now = test_case.motion->at(t, Side::right), bound = test_case.motion->error_bound(t);
-    const double own = 4e-16 * condition * (1.0 + t / period);
-    EXPECT_NEAR(now.u[0], double(known.u), bound.u[0] + own * size.u[0]) << t;
-    EXPECT_NEAR(now.v[0], double(known.v), bound.v[0] + own * size.v[0]) << t;
-    EXPECT_LT(bound.u[0], 1e-12 * condition * size.u[0]);
-    EXPECT_EQ(test_case.motion->impact_count(t), known.impacts);
-  }
+  expect_states(box, *test_case.motion, 0, known, period, condition);
   if (known.impacts == 0) return;
   const auto hit = test_case.motion->impact(1);
   EXPECT_NEAR(hit.t, double(known.first), 1e-15 * condition * (period + hit.t));
@@ -173,28 +179,14 @@ TEST(EllipticCases, DuffingOscillatorsSwingAsTheirTaylorSeries) {
 // Both pendula by their Taylor series, each above a stop: at impacts of opposite momenta each goes back as it came,
 // and what rests stays.
 void expect_bob(Box& box, const Case& test_case, int mass, double condition) {
-  const auto& motion = *test_case.motion;
   const auto name = [&](const char* of) {
     return constant(test_case, of + std::to_string(mass + 1));
   };
-  const double sign = mass == 0 ? 1.0 : -1.0, T = name("T"), l = name("l");
+  const double T = name("T"), l = name("l"), start = std::abs(test_case.problem.start.u[mass]);
   const auto& row = model::nonlinear_springs(test_case.problem)->rows()[std::size_t(mass)];
-  Bouncer known{pendulum(l, row.stiffness * row.length / name("m")),
-                Number(T) / 75,
-                1,
-                0,
-                sign * test_case.problem.start.u[mass],
-                0};
-  const auto size = motion.envelope(0.0);
-  for (int i = 1; i <= 6; ++i) {
-    const double t = motion.end() * (i - box.uniform(0.0, 1.0)) / 6.0;
-    known.run_to(t);
-    const auto now = motion.at(t, Side::right), bound = motion.error_bound(t);
-    const double own = 4e-16 * condition * (1.0 + t / T);
-    EXPECT_NEAR(sign * now.u[mass], double(known.u), bound.u[mass] + own * size.u[mass]) << t;
-    EXPECT_NEAR(sign * now.v[mass], double(known.v), bound.v[mass] + own * size.v[mass]) << t;
-    EXPECT_LT(bound.u[mass], 1e-12 * condition * size.u[mass]);
-  }
+  Bouncer known{
+      pendulum(l, row.stiffness * row.length / name("m")), Number(T) / 75, 1, 0, start, 0};
+  expect_states(box, *test_case.motion, mass, known, T, condition);
 }
 
 TEST(EllipticCases, TwoPendulaMeetAtTheirLowestPoints) {

@@ -19,13 +19,6 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-void add_run(Case& test_case) {
-  const double end = test_case.motion->end();
-  test_case.constants.push_back({"t_end", end, "s", "end of the run"});
-  test_case.constants.push_back({"impacts", double(test_case.motion->impact_count(end)), "",
-                                 "number of impacts up to t_end"});
-}
-
 void build_cradle(Case& test_case, const Values& value, double) {
   const exact::CradleParameters p{value("omega1"), value("omega2"), value("xi1"), value("xi2"),
                                   value("t_end")};

@@ -35,6 +35,9 @@ double within(const Case& test_case, const Values& value, const std::string& nam
               double least = 1e-30);
 double end_of(const Case& test_case, const Values& value);
 
+/// Adds the end of the run and the number of impacts up to it to the constants of a case with a motion.
+void add_run(Case& test_case);
+
 Parameter xi1();
 Parameter whole_N();
 Parameter scale(const char* name, double default_value, const char* unit, const char* allowed,
@@ -53,7 +56,7 @@ std::vector<CaseRow> assembly_rows();
 /// Elastic bars in contact, and their meshes.
 std::vector<CaseRow> bar_rows();
 
-/// Nonlinear oscillators above a stop.
+/// Nonlinear oscillators above a stop or against each other.
 std::vector<CaseRow> elliptic_rows();
 
 /// Masses under dry friction.

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clackers/base/jobs/progress.hpp"
@@ -40,6 +41,7 @@ PathStudy follow_path(const PathRequest& request, const Progress& progress = {},
 /// order, 1/2, 1/2 and 1/4. P. Brenner, V. Thomee, L. B. Wahlbin (1975).
 struct PathOrders {
   double u = 0.0, v_l1 = 0.0, v_l2 = 0.0;
+  std::string_view text;  ///< the three as fractions
 };
 PathOrders expected_along_path(double smooth_order);
 

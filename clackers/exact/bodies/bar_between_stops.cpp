@@ -8,69 +8,70 @@ namespace clackers::exact {
 using model::Side;
 using numerics::Bounded;
 
+namespace {
+
+Bounded lesser(const Bounded& a, const Bounded& b) {
+  return {std::min(a.value, b.value), std::max(a.error, b.error)};
+}
+Bounded from_zero(const Bounded& a) { return {std::max(0.0L, a.value), a.error}; }
+
+}  // namespace
+
 BarBetweenStops::BarBetweenStops(const BarBetweenStopsParameters& p)
     : p_(p),
-      tau_(Bounded(p.bar.L) * sqrt(Bounded(p.bar.rho) / Bounded(p.bar.E))),
-      c_(sqrt(Bounded(p.bar.E) / Bounded(p.bar.rho))),
-      z_(Bounded(p.bar.A) * sqrt(Bounded(p.bar.E) * Bounded(p.bar.rho))),
+      wave_(BarContact::Wave::of(p.bar)),
       start_(Bounded(p.d) / Bounded(p.V)),
-      half_(Bounded(p.D) / Bounded(p.V) + Bounded(2.0) * tau_) {}
+      contact_(Bounded(2.0) * wave_.transit),
+      half_(Bounded(p.D) / Bounded(p.V) + contact_) {}
 
 auto BarBetweenStops::phase(double t) const -> Phase {
   const auto s = Bounded(t) - start_;
   const double k = std::max(0.0, double(std::floor(s.value / half_.value)));
-  return {s - Bounded(k) * half_, k, std::fmod(k, 2.0) == 0.0};
+  return {s - Bounded(k) * half_, k};
 }
 
 bool BarBetweenStops::is_after(const Bounded& s, const Bounded& front, double t, Side side) {
   const auto since = s - front;
-  const double spacing = std::nextafter(t, INFINITY) - t;
-  if (std::abs(since.value) <= since.error + 0.5L * spacing) return side == Side::right;
+  if (std::abs(since.value) <= since.error + half_spacing(t)) return side == Side::right;
   return since.value > 0.0L;
 }
 
-Bounded BarBetweenStops::reach(const Bounded& s) const {
-  const auto back = Bounded(2.0) * tau_ - s;
-  const auto& way = s.value < back.value ? s : back;
-  return {std::max(0.0L, way.value), std::max(s.error, back.error)};
-}
-
 auto BarBetweenStops::at(std::size_t, double x, double t, Side side) const -> Point {
-  const auto [s, before, is_left] = phase(t);
-  const Bounded V = p_.V, late = Bounded(is_left ? x : p_.bar.L - x) / c_,
+  const auto now = phase(t);
+  const auto& s = now.s;
+  const bool is_left = std::fmod(now.before, 2.0) == 0.0;
+  const Bounded V = p_.V, late = Bounded(is_left ? x : p_.bar.L - x) / wave_.speed,
                 sign = is_left ? 1.0 : -1.0;
-  const auto leaves = Bounded(2.0) * tau_ - late;
+  const auto leaves = contact_ - late;
   const bool held = is_after(s, late, t, side), left = is_after(s, leaves, t, side);
   Bounded moved = -V * s;  // since the stop was touched, towards it negative
   if (s.value > leaves.value)
-    moved = V * (s - Bounded(2.0) * tau_);
+    moved = V * (s - contact_);
   else if (s.value > late.value)
     moved = -V * late;
   const Bounded v = left ? 1.0 : held ? 0.0 : -1.0;
   const auto base = is_left ? -Bounded(p_.d) : Bounded(p_.D) - Bounded(p_.d);
   return {base + sign * moved, sign * v * V,
-          held && !left ? -(Bounded(p_.bar.rho) * c_ * V) : Bounded(0.0)};
+          held && !left ? -(Bounded(p_.bar.rho) * wave_.speed * V) : Bounded(0.0)};
 }
 
 Bounded BarBetweenStops::force(double t, Side side) const {
   const auto s = phase(t).s;
-  const bool touches = is_after(s, 0.0, t, side) && !is_after(s, Bounded(2.0) * tau_, t, side);
-  return touches ? z_ * Bounded(p_.V) : Bounded(0.0);
+  const bool touches = is_after(s, 0.0, t, side) && !is_after(s, contact_, t, side);
+  return touches ? wave_.impedance * Bounded(p_.V) : Bounded(0.0);
 }
 
 Bounded BarBetweenStops::impulse(double t) const {
   const auto now = phase(t);
-  const auto twice = Bounded(2.0) * tau_;
-  const auto& s = now.s.value < twice.value ? now.s : twice;
-  return z_ * Bounded(p_.V) *
-         (Bounded(now.before) * twice +
-          Bounded(std::max(0.0L, s.value), std::max(now.s.error, twice.error)));
+  return wave_.impedance * Bounded(p_.V) *
+         (Bounded(now.before) * contact_ + from_zero(lesser(now.s, contact_)));
 }
 
 auto BarBetweenStops::energy(double t) const -> Energy {
-  const auto half = Bounded(0.5) * z_ * Bounded(p_.V) * Bounded(p_.V);
-  const auto held = reach(phase(t).s);
-  return {half * (tau_ - held), half * held, 0.0};
+  const auto half = Bounded(0.5) * wave_.impedance * Bounded(p_.V) * Bounded(p_.V);
+  // The front's way to the end that it started from.
+  const auto s = phase(t).s, held = from_zero(lesser(s, contact_ - s));
+  return {half * (wave_.transit - held), half * held, 0.0};
 }
 
 }  // namespace clackers::exact

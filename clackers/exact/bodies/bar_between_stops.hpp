@@ -31,25 +31,25 @@ class BarBetweenStops final : public BarMotion {
   Bounded impulse(double t) const override;
   Energy energy(double t) const override;
 
-  BarContact::Wave wave() const { return {tau_, c_, z_}; }
+  const BarContact::Wave& wave() const { return wave_; }
+  /// When the first contact begins and ends [s].
   Bounded begins() const { return start_; }
+  Bounded ends() const { return start_ + contact_; }
   Bounded period() const { return Bounded(2.0) * half_; }
 
  private:
-  // Since the last stop was touched, how often one had been before, and which one it was.
+  // Since a stop was touched, and how many contacts there had been before; the first is at the left one.
   struct Phase {
     Bounded s;
     double before = 0.0;
-    bool is_left = true;
   };
   Phase phase(double t) const;
   // Whether s has passed a front at `t`; within their errors as `side` says.
   static bool is_after(const Bounded& s, const Bounded& front, double t, model::Side side);
-  // The wave's way to the end that it started from: s on the way there, 2 tau - s back, at least 0.
-  Bounded reach(const Bounded& s) const;
 
   BarBetweenStopsParameters p_;
-  Bounded tau_, c_, z_, start_, half_;
+  BarContact::Wave wave_;
+  Bounded start_, contact_, half_;  // how long a contact and half a period last
 };
 
 }  // namespace clackers::exact

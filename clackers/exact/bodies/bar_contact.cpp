@@ -9,13 +9,6 @@ namespace clackers::exact {
 using model::Side;
 using numerics::Bounded, numerics::narrowed, numerics::Wide, numerics::WideReal;
 
-namespace {
-
-// What lies between two doubles is on neither side of a front for whoever asks in doubles.
-WideReal spacing(double t) { return 0.5 * (std::nextafter(t, INFINITY) - t); }
-
-}  // namespace
-
 BarContact::BarContact(const BarsParameters& parameters, std::string_view who)
     : p_(parameters), waves_(std::make_unique<const Waves>(parameters, who)) {}
 
@@ -38,8 +31,8 @@ Bounded BarContact::period() const { return narrowed(waves_->period_); }
 BarContact::Point BarContact::at(std::size_t bar, double x, double t, Side side) const {
   const auto& w = *waves_;
   const auto now = w.folded(t).t, late = Wide(x) / w.waves_[bar].c, half = Wide(0.5);
-  const auto o = w.outgoing(bar, now - late, side, spacing(t)),
-             a = w.arriving(bar, now + late, side, spacing(t));
+  const auto o = w.outgoing(bar, now - late, side, half_spacing(t)),
+             a = w.arriving(bar, now + late, side, half_spacing(t));
   auto stress = Wide(p_.bars[bar].rho) * w.waves_[bar].c * (half * (a - o) + Wide(p_.g) * late);
   // The left bar is seen from its right end.
   if (bar + 1 < p_.bars.size()) stress = -stress;
@@ -55,7 +48,7 @@ Bounded BarContact::gap(double t) const {
 
 Bounded BarContact::force(double t, Side side) const {
   const auto now = waves_->folded(t).t;
-  const auto& phase = waves_->phase(now, side, spacing(t));
+  const auto& phase = waves_->phase(now, side, half_spacing(t));
   return phase.closed
              ? narrowed(-(waves_->compliance_ * (phase.rate + phase.slope * (now - phase.t))))
              : Bounded(0.0);

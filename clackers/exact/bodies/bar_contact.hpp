@@ -17,6 +17,17 @@ struct Bar {
   double v0 = 0.0;   ///< velocity at t = 0 along x [m/s]
 };
 
+/// Of a bar: L/c [s], its wave speed c [m/s] and its impedance A sqrt(E rho) [N s/m], in numbers of a kind.
+template <class Number>
+struct WaveOf {
+  Number transit, speed, impedance;
+
+  static WaveOf of(const Bar& bar) {
+    const Number E(bar.E), rho(bar.rho);
+    return {Number(bar.L) * sqrt(rho / E), sqrt(E / rho), Number(bar.A) * sqrt(E * rho)};
+  }
+};
+
 /// A bar to the right of a rigid wall, or two bars, the left one first, whose ends are apart.
 struct BarsParameters {
   std::vector<Bar> bars;
@@ -55,10 +66,7 @@ class BarContact final : public BarMotion {
   const BarsParameters& parameters() const { return p_; }
   double end() const override { return p_.end; }
   std::vector<double> lengths() const override;
-  /// L/c of a bar [s], its wave speed [m/s] and its impedance [N s/m].
-  struct Wave {
-    Bounded transit, speed, impedance;
-  };
+  using Wave = WaveOf<Bounded>;
   Wave wave(std::size_t bar) const;
   /// At t = 0, and the time after which the motion repeats itself; 0 where it does not.
   Bounded gap() const;

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "clackers/model/motion.hpp"
 #include "clackers/numerics/bounded.hpp"
 
 namespace clackers::exact {
+
+/// What lies between two doubles is on neither side of a front for whoever asks in doubles [s].
+inline double half_spacing(double t) { return 0.5 * (std::nextafter(t, INFINITY) - t); }
 
 /// Bars, one or two that meet, as continua: what is known of each point, and of the contact.
 class BarMotion {

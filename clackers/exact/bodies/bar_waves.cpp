@@ -66,11 +66,9 @@ std::optional<Wide> closing_time(const Wide& gap, const Wide& rate, const Wide& 
 BarContact::Waves::Waves(const BarsParameters& parameters, std::string_view who)
     : p_(parameters), gap_(parameters.gap) {
   for (const auto& bar : p_.bars) {
-    Ends ends;
-    ends.tau = Wide(bar.L) * sqrt(Wide(bar.rho) / Wide(bar.E));
-    ends.c = sqrt(Wide(bar.E) / Wide(bar.rho));
-    ends.z = Wide(bar.A) * sqrt(Wide(bar.E) * Wide(bar.rho));
-    const auto twice = Wide(2.0) * ends.tau;
+    const auto [tau, c, z] = WaveOf<Wide>::of(bar);
+    Ends ends{tau, c, z, {}};
+    const auto twice = Wide(2.0) * tau;
     ends.out.push_back({-twice, Wide(bar.v0) + Wide(p_.g) * twice, Wide(-p_.g)});
     waves_.push_back(std::move(ends));
   }

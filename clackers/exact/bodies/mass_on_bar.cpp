@@ -34,15 +34,12 @@ Wide polynomial(const Polynomial& p, const Wide& x) {
   return sum;
 }
 
-WideReal half_unit(double t) { return 0.5 * (std::nextafter(t, INFINITY) - t); }
-
 }  // namespace
 
 MassOnBar::MassOnBar(const MassOnBarParameters& parameters, std::string_view who) : p_(parameters) {
-  const Wide E(p_.bar.E), rho(p_.bar.rho), A(p_.bar.A), L(p_.bar.L), M(p_.M);
-  tau_ = L * sqrt(rho / E);
-  c_ = sqrt(E / rho);
-  z_ = A * sqrt(E * rho);
+  const Wide M(p_.M);
+  const auto wave = WaveOf<Wide>::of(p_.bar);
+  tau_ = wave.transit, c_ = wave.speed, z_ = wave.impedance;
   kappa_ = z_ / M;
   back_ = p_.is_fixed ? -1.0 : 1.0;
   start_ = Wide(p_.gap) / Wide(p_.V);
@@ -173,13 +170,14 @@ Wide MassOnBar::sum_of_out(const Wide& t) const {
 BarMotion::Point MassOnBar::at(std::size_t, double x, double t, Side side) const {
   const auto late = Wide(x) / c_, half = Wide(0.5), twice = Wide(2.0) * tau_;
   const auto from = Wide(t) - late, to = Wide(t) + late - twice;
-  const auto o = outgoing(from, side, half_unit(t)), a = back_ * outgoing(to, side, half_unit(t));
+  const auto o = outgoing(from, side, half_spacing(t)),
+             a = back_ * outgoing(to, side, half_spacing(t));
   return {narrowed(half * (sum_of_out(from) + back_ * sum_of_out(to))), narrowed(half * (o + a)),
           narrowed(Wide(p_.bar.rho) * c_ * half * (a - o))};
 }
 
 Bounded MassOnBar::force(double t, Side side) const {
-  const auto slack = half_unit(t);
+  const auto slack = half_spacing(t);
   const auto o = outgoing(t, side, slack),
              a = back_ * outgoing(Wide(t) - Wide(2.0) * tau_, side, slack);
   const bool is_over =

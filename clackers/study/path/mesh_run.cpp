@@ -1,0 +1,131 @@
+#include "clackers/study/path/mesh_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "clackers/exact/bodies/bar_mesh.hpp"
+
+namespace clackers::study {
+namespace {
+
+using model::Side;
+
+constexpr std::size_t most_times = 100, most_nodes = 64;
+
+double shortest_transit(const cases::Case& mesh) {
+  double shortest = INFINITY;
+  for (const auto& constant : mesh.constants)
+    if (constant.name == "tau" || constant.name == "tau1" || constant.name == "tau2")
+      shortest = std::min(shortest, constant.value);
+  return shortest;
+}
+
+// The larger size; that of a run that has become NaN is NaN.
+double worst(double a, double b) { return std::isnan(b) ? b : std::max(a, std::abs(b)); }
+
+}  // namespace
+
+cases::Case with_elements(std::string_view case_name, cases::Settings settings, double elements) {
+  std::erase_if(settings, [](const auto& setting) { return setting.first == "elements"; });
+  settings.emplace_back("elements", elements);
+  return cases::make(case_name, settings);
+}
+
+double steps_along_path(const cases::Case& mesh, double elements, double nu) {
+  return std::ceil(mesh.motion->end() * elements / (nu * shortest_transit(mesh)) - 1e-9);
+}
+
+MeshReference mesh_reference(cases::Case made, double elements, double nu) {
+  MeshReference known;
+  known.mesh = std::move(made);
+  const auto& motion = *known.mesh.motion;
+  const auto& nodes = known.mesh.mesh->nodes;
+  const double steps = steps_along_path(known.mesh, elements, nu);
+  known.h = known.mesh.bars->lengths().front() / elements;
+  known.step = motion.end() / steps;
+  const std::size_t stride = (nodes.size() + most_nodes - 1) / most_nodes;
+  for (std::size_t i = 0; i < nodes.size(); i += stride) known.nodes.push_back(i);
+  const auto count = std::size_t(std::min(steps, double(most_times)));
+  for (std::size_t k = 1; k <= count; ++k) {
+    const double t =
+        std::min(motion.end(), std::round(double(k) * steps / double(count)) * known.step);
+    known.times.push_back(t);
+    const auto now = motion.at(t, Side::right);
+    for (const auto i : known.nodes) {
+      const auto& [bar, x] = nodes[i];
+      const auto right = known.mesh.bars->at(bar, x, t, Side::right);
+      const auto left = known.mesh.bars->at(bar, x, t, Side::left);
+      const MeshReference::Point point{right.u.nearest(),
+                                       now.u[known.mesh.mesh->first + Eigen::Index(i)],
+                                       left.v.nearest(), right.v.nearest()};
+      known.points.push_back(point);
+      known.size = std::max(known.size, std::abs(point.u));
+      known.e_space = std::max(known.e_space, std::abs(point.u_mesh - point.u));
+    }
+  }
+  known.e_space /= known.size;
+  return known;
+}
+
+MeshSink::MeshSink(const MeshReference& known)
+    : known_(known),
+      mechanical_(known.mesh.problem.system),
+      load_(Eigen::VectorXd::Zero(known.mesh.problem.dof())) {
+  if (const auto& add_load = known.mesh.problem.system.add_load)
+    add_load(0.0, {load_.data(), std::size_t(load_.size())});
+}
+
+bool MeshSink::take(const model::SampleBlock& block) {
+  const auto dof = std::size_t(block.dof);
+  for (std::size_t row = 0; row < block.t.size(); ++row) {
+    const bool first = !std::exchange(begun_, true);
+    const bool wanted =
+        next_ < known_.times.size() && block.t[row] > known_.times[next_] - 0.5 * known_.step;
+    const double *u = &block.u[row * dof], *v = &block.v[row * dof];
+    if (first || wanted) note_energy(u, v, first);
+    if (wanted) compare(u, v);
+  }
+  return true;
+}
+
+void MeshSink::note_energy(const double* u, const double* v, bool first) {
+  const double kinetic = mechanical_.kinetic(v);
+  energy_ = kinetic + mechanical_.potential(u) -
+            load_.dot(Eigen::Map<const Eigen::VectorXd>(u, load_.size()));
+  if (first) energy_0_ = energy_;
+  largest_kinetic_ = std::max(largest_kinetic_, kinetic);
+}
+
+void MeshSink::compare(const double* u, const double* v) {
+  const auto first = std::size_t(known_.mesh.mesh->first);
+  const auto* point = &known_.points[next_++ * known_.nodes.size()];
+  for (const auto node : known_.nodes) {
+    const auto i = first + node;
+    e_total_ = worst(e_total_, u[i] - point->u);
+    e_time_ = worst(e_time_, u[i] - point->u_mesh);
+    // On a front the bar has two velocities; the nearer one counts.
+    const double error = std::min(std::abs(v[i] - point->v_left), std::abs(v[i] - point->v_right));
+    v_error_ += error;
+    v_square_error_ += error * error;
+    v_size_ += std::abs(point->v_right);
+    v_square_ += point->v_right * point->v_right;
+    ++point;
+  }
+}
+
+MeshErrors MeshSink::errors(const model::Outcome& outcome) const {
+  MeshErrors found{e_total_ / known_.size,
+                   e_time_ / known_.size,
+                   v_error_ / v_size_,
+                   std::sqrt(v_square_error_ / v_square_),
+                   (energy_ - energy_0_) / largest_kinetic_,
+                   {}};
+  if (outcome.failed())
+    found.failure = std::string(outcome.reason.name());
+  else if (!std::isfinite(found.e_total) || next_ < known_.times.size())
+    found.failure = "diverges";
+  return found;
+}
+
+}  // namespace clackers::study
