@@ -219,6 +219,21 @@ TEST(EllipticCases, TwoPendulaMeetAtTheirLowestPoints) {
     EXPECT_NEAR(hit.impulse, -2.0 * p, 1e-14 * -p);
     EXPECT_EQ(hit.after.v, -hit.before.v);
   }
+  // Envelopes are the largest sizes, of accelerations beyond a quarter turn that of gravity.
+  for (const double theta1 : {0.7, 2.2}) {
+    const auto swung = make("two-pendula", {{"m1", 0.8}, {"theta1", theta1}});
+    Eigen::MatrixX2d largest = Eigen::MatrixX2d::Zero(3, 2);
+    for (int i = 0; i <= 5000; ++i) {
+      const auto now = swung.motion->at(i * 0.001, Side::right);
+      largest.row(0) = largest.row(0).cwiseMax(now.u.transpose().cwiseAbs());
+      largest.row(1) = largest.row(1).cwiseMax(now.v.transpose().cwiseAbs());
+      largest.row(2) = largest.row(2).cwiseMax(now.a.transpose().cwiseAbs());
+    }
+    const auto size = swung.motion->envelope(0.0);
+    EXPECT_NEAR((largest.row(0).transpose() - size.u).norm(), 0.0, 1e-4);
+    EXPECT_NEAR((largest.row(1).transpose() - size.v).norm(), 0.0, 2e-2);
+    EXPECT_NEAR((largest.row(2).transpose() - size.a).norm(), 0.0, 1e-3);
+  }
   // Solved with 40 digits.
   const auto expect = [](double theta1, double ratio, double k2, double l2) {
     const auto known = make("two-pendula", {{"m1", ratio}, {"theta1", theta1}});
