@@ -39,12 +39,11 @@ auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
   std::vector<double> from(springs());
   double first = std::min(span, 16.0 / fastest);
   for (std::size_t i = 0; i < springs(); ++i)
-    if (begins_[i] == Begin::by_speed)
-      if (const auto gap = watch(i, 0.0); gap.second < 0.0 && gap.slope > 0.0)
-        first = std::min(first, -8.0 * gap.slope / gap.second);
+    if (const auto gap = watch(i, 0.0); !is_held(i) && gap.second < 0.0 && gap.slope > 0.0)
+      first = std::min(first, -8.0 * gap.slope / gap.second);
   for (double to = first, begin = 0.0;; begin = to, to = std::min(span, 2.0 * to)) {
     const auto level = levels(to);
-    if (begin == 0.0) {
+    if (begin == 0.0)
       for (std::size_t i = 0; i < springs(); ++i) {
         const auto opens = opening(i, level[i]);
         if (begins_[i] == Begin::by_speed && come_to_rest(i, level[i], opens.has_value()))
@@ -52,8 +51,6 @@ auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
         if (!opens) refuse_closed(i, watch(i, 0.0), level[i]);
         from[i] = *opens;
       }
-      begin = flight().unresolved.seconds;
-    }
     switching_ = next_switching(begin, to, fastest);
     auto closings = search(level, from, switching_ ? switching_->second : to);
     if (switching_ && closings.empty()) return {};
@@ -68,8 +65,8 @@ std::optional<std::pair<std::size_t, double>> PiecewiseMotion::Builder::next_swi
   std::optional<std::pair<std::size_t, double>> first;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!is_spring(i) && !passed_[i]) continue;
-    const auto root =
-        numerics::first_root(ahead_[i], from, until, 1e-7 / fastest, most_search_steps);
+    const auto root = numerics::first_root(ahead_[i], std::max(from, unresolved(i)), until,
+                                           1e-7 / fastest, most_search_steps);
     if (root.status == numerics::FirstRoot::Status::undecided) refuse_length();
     if (root.status != numerics::FirstRoot::Status::found) continue;
     first = {i, root.s};
@@ -83,6 +80,13 @@ void PiecewiseMotion::Builder::refuse_length() const {
                                "impacts: more than 1e6 steps. End the run earlier.",
                                m_.who_, flight().t),
                    "out-of-range");
+}
+
+double PiecewiseMotion::Builder::unresolved(std::size_t i) const {
+  double until = flight().t;
+  for (const auto& skipped : flight().unresolved)
+    if (part_[skipped.contact] == part_[i]) until = std::max(until, skipped.until);
+  return until - flight().t;
 }
 
 std::vector<double> PiecewiseMotion::Builder::levels(double s) const {
@@ -103,7 +107,7 @@ std::vector<double> PiecewiseMotion::Builder::levels(double s) const {
 }
 
 std::optional<double> PiecewiseMotion::Builder::opening(std::size_t i, double level) const {
-  const double from = flight().unresolved.seconds;
+  const double from = unresolved(i);
   if (passed_[i] || (is_held(i) && watched(i).vanishes())) return m_.end_ + 1.0;
   auto gap = watch(i, from);
   const auto begin = begins_[i];

@@ -36,6 +36,32 @@ void require_no_negative_eigenvalue(std::string_view who, const char* name, cons
                      "not-positive-definite");
 }
 
+// Of each contact the number of the part that its masses belong to: those that matrices or contacts join.
+std::vector<std::size_t> parts(const model::ImpactProblem<>& problem,
+                               const std::vector<model::Contact<>>& contacts) {
+  const auto n = problem.dof();
+  MatrixXd joined = problem.system.mass.cwiseAbs() + problem.system.damping.cwiseAbs() +
+                    problem.system.stiffness.cwiseAbs();
+  for (const auto& c : contacts) joined += (c.direction * c.direction.transpose()).cwiseAbs();
+  std::vector<std::size_t> of_mass(static_cast<std::size_t>(n), std::size_t(n)), found;
+  std::vector<Index> open;
+  for (Index first = 0; first < n; ++first)
+    for (open.assign(1, first); !open.empty();) {
+      const Index i = open.back();
+      open.pop_back();
+      if (of_mass[std::size_t(i)] < std::size_t(n)) continue;
+      of_mass[std::size_t(i)] = std::size_t(first);
+      for (Index j = 0; j < n; ++j)
+        if (joined(i, j) != 0.0) open.push_back(j);
+    }
+  for (const auto& c : contacts) {
+    Index mass = 0;
+    c.direction.cwiseAbs().maxCoeff(&mass);
+    found.push_back(of_mass[std::size_t(mass)]);
+  }
+  return found;
+}
+
 }  // namespace
 
 PiecewiseMotion::Builder::Builder(const model::ImpactProblem<>& problem, const ImpactLaw& law,
@@ -51,6 +77,7 @@ PiecewiseMotion::Builder::Builder(const model::ImpactProblem<>& problem, const I
     contacts_.insert(contacts_.end(), springs->contacts().begin(), springs->contacts().end());
     stiffnesses_ = springs->stiffnesses();
   }
+  part_ = parts(problem, contacts_);
   passed_.resize(springs());
   ahead_.resize(contacts_.size());
 }
@@ -294,7 +321,9 @@ void PiecewiseMotion::Builder::begin(State state) {
       now->opens = true;
     }
   }
-  m_.flights_.push_back({t, regime, z - m_.regimes_[regime].steady(t), std::move(covariance)});
+  std::erase_if(unresolved_, [&](const Unresolved& skipped) { return skipped.until <= t; });
+  m_.flights_.push_back(
+      {t, regime, z - m_.regimes_[regime].steady(t), std::move(covariance), unresolved_});
   begins_ = std::exchange(opens_, std::vector<Begin>(springs(), Begin::open));
   for (std::size_t i = 0; i < springs(); ++i)
     if (is_held(i)) begins_[i] = Begin::open;

@@ -115,6 +115,8 @@ class PiecewiseMotion::Builder {
   /// The spring that closes or opens first, and when.
   std::optional<std::pair<std::size_t, double>> next_switching(double from, double until,
                                                                double fastest) const;
+  /// Seconds into the flight for which nothing of the part that contact i belongs to is searched.
+  double unresolved(std::size_t i) const;
   [[noreturn]] void refuse_length() const;
   /// certain_gap times a bound on the error of each gap up to s seconds into the flight.
   std::vector<double> levels(double s) const;
@@ -189,7 +191,7 @@ class PiecewiseMotion::Builder {
     double seconds = 0.0, gap = 0.0, rate = 0.0, acceleration = 0.0;
     double drift = 0.0;  // of the gap from the first instant to the last
   };
-  /// Nothing where another contact may close or open then.
+  /// Nothing where another contact of the same part may close or open then.
   std::optional<Unresolved> left_out(const Bounce& bounce, const State& free, State& held) const;
 
   const model::ImpactProblem<>& problem_;
@@ -200,6 +202,8 @@ class PiecewiseMotion::Builder {
   std::vector<model::Contact<>> contacts_;  // those of the problem, then springs
   std::vector<double> stiffnesses_;         // of the springs
   std::vector<std::vector<bool>> closed_;   // of each regime
+  std::vector<std::size_t> part_;           // of each contact; no force or impact joins two parts
+  std::vector<Unresolved> unresolved_;      // of the present flight
   std::vector<bool> passed_;                // contacts that an impact left without effect
   std::vector<numerics::FormAhead> ahead_;  // of each contact in this flight
   std::deque<std::vector<Row>> rows_;       // of each regime

@@ -51,8 +51,8 @@ class PiecewiseMotion : public model::Motion {
   /// Throws InputError for an invalid problem, a start at another time than 0, two contacts in the
   /// same direction, and as ForcedModes does; and where the motion is not available: a
   /// contact that is approached to less than the error, a force that comes so near to 0, impacts
-  /// whose order decides and is not certain, two contacts that accumulate together, more than 1e5 flights, more than 2 GB of
-  /// errors.
+  /// whose order decides and is not certain, two contacts of coupled masses that
+  /// accumulate together, more than 1e5 flights, more than 2 GB of errors.
   explicit PiecewiseMotion(const model::ImpactProblem<>& problem,
                            std::string_view who = "piecewise");
   /// The motion in double precision from start.t on, whatever the error: what it would not let be
@@ -100,10 +100,11 @@ class PiecewiseMotion : public model::Motion {
  private:
   using Vector = Eigen::VectorXd;
   class Builder;
-  /// A flight that begins with more than it resolves: impacts that accumulate, or a landing without
-  /// speed, of a contact that is closed for certain `seconds` later.
+  /// What flights do not resolve: impacts that accumulate, or a landing without speed, of a contact
+  /// that is closed for certain from `until` on.
   struct Unresolved {
-    double seconds = 0.0;
+    std::size_t contact = 0;
+    double until = 0.0;
     model::Kinematics bound;         // how far the true motion is away
     double rest = 0.0, scale = 0.0;  // the speed falls as (rest - t)/scale, 0: it does not
   };
@@ -112,7 +113,7 @@ class PiecewiseMotion : public model::Motion {
     std::size_t regime = 0;
     Vector free;                 // z without the steady response
     Eigen::MatrixXd covariance;  // sum of D D' of the errors of z so far, at t; with bounds
-    Unresolved unresolved{};
+    std::vector<Unresolved> unresolved{};
     std::optional<Event> switches{};  // the spring that ends it
   };
   struct Hit {

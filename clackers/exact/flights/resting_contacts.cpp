@@ -156,18 +156,20 @@ bool PiecewiseMotion::Builder::come_to_rest(std::size_t i, double level, bool is
                          (kappa / twice + 2.0 / alpha * (2.0 * jerk / (alpha * alpha) - rho) * eta /
                                               (once * twice));
   double time_error = 4.0 * epsilon * t;
-  if (!m_.hits_.empty() && m_.hits_.back().t == t && m_.hits_.back().contact == int(i)) {
-    time_error += m_.hits_.back().time_error;
-    m_.hits_.pop_back();
-  }
+  std::erase_if(m_.hits_, [&](const Hit& hit) {
+    const bool is_first = hit.t == t && hit.contact == int(i);
+    if (is_first) time_error += hit.time_error;
+    return is_first;
+  });
   const double shortest = std::max(0.0, 2.0 * (gap.slope - uncertain) * (1.0 - beta) /
                                             (most * (1.0 - eta * (1.0 - 4.8 * beta))));
   skipped->rest = t + seconds + time_error;
   // A flight with the speed V is followed by others for V 2 eta/most at least.
   skipped->scale = 2.0 * speed * eta * (1.0 - beta) * (1.0 - 4.8 * beta) / most;
   m_.flights_.pop_back();
+  opens_ = begins_;
+  unresolved_.push_back(std::move(*skipped));
   begin(std::move(held));
-  m_.flights_.back().unresolved = *skipped;
   m_.closed_.back() = {int(i),  std::min(t + sum, m_.end_),
                        m_.end_, {t + shortest - time_error, skipped->rest},
                        false,   true,
@@ -192,7 +194,8 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
       accelerated(before.stiffness() * response) + 2.0 * accelerated(after.damping() * slowing);
   // 2 % for what is of higher order.
   Unresolved skipped{
-      seconds,
+      contact,
+      held.t + seconds,
       {1.02 * gap * (response.cwiseAbs() + 2.0 * seconds * slowing.cwiseAbs()),
        1.02 * rate * response.cwiseAbs() + 2.0 * gap * slowing.cwiseAbs(),
        1.02 * (acceleration * response.cwiseAbs() + rate * slowing.cwiseAbs() + gap * pulling)}};
@@ -200,7 +203,7 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
   const VectorXd z = held.z - after.steady(held.t), z_free = free.z - before.steady(held.t);
   const auto size = after.sizes(z, 0.0);
   for (std::size_t j = 0; j < contacts_.size(); ++j) {
-    if (j == contact) continue;
+    if (j == contact || part_[j] != part_[contact]) continue;
     const bool is_held = j < springs() && closed_[held.regime][j];
     const auto& seen = is_held ? *m_.forces_[held.regime][j] : rows_[held.regime][j].seen;
     if (is_held && seen.vanishes()) continue;
@@ -247,8 +250,8 @@ void PiecewiseMotion::Builder::land(const Closing& closing) {
   const double height = level + std::pow(opening, 3) / (fall * fall);
   const auto skipped = left_out({i, seconds, height, rate, acceleration, level}, now, held);
   if (!skipped) refuse_graze(i, t, gap.value, closing.gap_error);
+  unresolved_.push_back(std::move(*skipped));
   begin(std::move(held));
-  m_.flights_.back().unresolved = *skipped;
   m_.closed_.back().begins = {t, t + seconds};
   m_.closed_.back().from = std::min(t + opening / fall, m_.end_);
 }

@@ -138,6 +138,64 @@ TEST(RestingContacts, ABallAndAPressedOscillatorComeToRestAsTheirFormulasSay) {
   tally.record();
 }
 
+// Two masses that nothing joins; of every other trial the second moves as the first, or nearly so.
+TEST(RestingContacts, ContactsOfMassesThatNothingJoinsAccumulateTogether) {
+  Box box(43);
+  Tally tally;
+  for (int trial = 0; trial < trials(250); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 43, trial " << trial);
+    std::vector<PressedMass> known;
+    model::ImpactProblem<> problem;
+    problem.system.mass = problem.system.stiffness = problem.system.damping = MatrixXd::Zero(2, 2);
+    problem.start = {0.0, VectorXd::Zero(2), VectorXd::Zero(2)};
+    std::vector<model::HarmonicForce> forces;
+    double m = 0.0, g = 0.0, k = 0.0, u = 0.0, eta = 0.0, rest = 0.0;
+    for (int mass = 0; mass < 2; ++mass) {
+      m = box.decades(-1.0, 1.0);
+      if (mass == 0 || trial % 2 == 0) {
+        g = box.decades(-0.5, 1.0);
+        k = trial % 3 == 0 ? 0.0 : box.decades(-1.0, 1.0);
+        u = box.decades(-1.0, 0.5);
+        eta = box.uniform(0.02, trial % 8 == 3 ? 0.04 : 0.9);
+      } else if (trial % 4 == 1) {
+        u *= 1.0 + box.decades(-12.0, -2.0);
+      } else {
+        m = problem.system.mass(0, 0);
+      }
+      const PressedMass single(m, m * k, m * g, u, eta);
+      rest = std::max(rest, single.rest().convert_to<double>());
+      known.push_back(single);
+      problem.system.mass(mass, mass) = m;
+      problem.system.stiffness(mass, mass) = m * k;
+      forces.push_back({mass, -m * g, 0.0, 0.0});
+      problem.contacts.push_back({VectorXd::Unit(2, mass), 0.0, eta});
+      problem.start.u[mass] = u;
+    }
+    problem.system.add_load = model::HarmonicLoad(forces);
+    problem.end = 1.5 * rest;
+    const PiecewiseMotion motion(problem);
+    ++tally.members;
+    ASSERT_EQ(motion.closed_contacts().size(), 2u);
+    for (const auto& closed : motion.closed_contacts()) {
+      const Real& its_rest = known[std::size_t(closed.contact)].rest();
+      EXPECT_TRUE(closed.accumulates);
+      EXPECT_TRUE(Real(closed.begins.lo) <= its_rest && its_rest <= Real(closed.begins.hi));
+      EXPECT_LT(closed.begins.hi - closed.begins.lo, 2e-3 * rest);
+    }
+    std::vector<double> times;
+    for (int i = 0; i < 8; ++i) times.push_back(box.uniform(0.0, problem.end));
+    for (const auto& single : known)
+      for (double before = 1e-1; before > 5e-13; before *= 0.1)
+        for (const double sign : {-1.0, 1.0})
+          times.push_back(single.rest().convert_to<double>() + sign * before * rest);
+    for (const double t : times)
+      if (t >= 0.0 && t <= problem.end)
+        for (Eigen::Index mass = 0; mass < 2; ++mass)
+          compare(motion, t, mass, known[std::size_t(mass)].at(t), tally);
+  }
+  tally.record();
+}
+
 // Flights of a damped ball, summed with 60 digits by another program. With the term of second order
 // subtracted the motion rests 2.8e-13 s and 9e-14 s later.
 TEST(RestingContacts, ADampedBallRestsAtTheSumOfItsFlights) {
