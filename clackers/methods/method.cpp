@@ -49,9 +49,6 @@ Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool c
       collides || !problem.frictions.empty() || facts.through_impacts.behaviour == Behaviour::exact;
   Claim claim =
       is_of_impacts ? facts.through_impacts : Claim{Behaviour::proper, facts.smooth_order, {}};
-  if (facts.scatters_pressed && collides && claim.behaviour == Behaviour::proper &&
-      presses(problem))
-    claim.behaviour = Behaviour::irregular;
   // How soon a regular law of friction tears loose decides by how much later motion errs.
   if (!problem.frictions.empty() && claim.behaviour == Behaviour::stagnating) return {};
   if (shares_impacts && claim.behaviour == Behaviour::stagnating) return {claim.behaviour, 0.0, {}};
@@ -59,6 +56,9 @@ Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool c
   const bool keeps_order =
       claim.behaviour == Behaviour::proper && claim.order >= facts.smooth_order;
   if (keeps_order && is_exact_on(facts, problem)) return {Behaviour::exact, 0.0, {}};
+  if (facts.scatters_pressed && collides && claim.behaviour == Behaviour::proper &&
+      presses(problem))
+    claim.behaviour = Behaviour::irregular;
   const auto& nonlinear = problem.system.nonlinear;
   if (claim.order > 0.0 && nonlinear && nonlinear->has_kinks())
     return {Behaviour::irregular, std::min(2.0, facts.smooth_order), {}};

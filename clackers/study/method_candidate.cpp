@@ -130,6 +130,7 @@ std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& sha
   if (task.wanted.observation) return observed(*run, task, share, interrupt);
   measure::ErrorSink errors(motion, problem, task.run.step,
                             {.impacts_are_reported = reports_impacts_,
+                             .contact_time = facts_.subject.contact_time,
                              .history_bins = task.wanted.history_bins,
                              .states = by_tolerance || !problem_.states
                                            ? nullptr

@@ -36,7 +36,7 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
       meter_(reference, problem,
              options.scales != nullptr ? *options.scales
                                        : scales_of(reference, checked(problem, reference))),
-      impacts_(reference, step, 0.0, int(problem.contacts.size())),
+      impacts_(reference, step, 0.0, int(problem.contacts.size()), options.contact_time),
       history_(options.history_bins, reference.dof(), problem.start.t, problem.end) {
   const auto& [peak, energy] = meter_.scales();
   for (const double u : peak.u) require_positive(sink_name, "envelope of u", u);

@@ -17,6 +17,7 @@ namespace clackers::measure {
 /// Options of an ErrorSink.
 struct ErrorSinkOptions {
   bool impacts_are_reported = true;  ///< false: the score has no impacts
+  double contact_time = 0.0;         ///< of a compliant contact [s]
   int history_bins = 0;              ///< of the error history, 0 for none
   /// The reference at the times to expect; null: at all times it is sampled.
   const GridStates* states = nullptr;

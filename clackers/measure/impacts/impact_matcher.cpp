@@ -19,19 +19,20 @@ bool rests_in_contact(const model::Motion& reference, const std::vector<model::C
 }
 
 ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double start,
-                             int contacts)
+                             int contacts, double contact_time)
     : reference_(reference),
       step_(require_step("impact matcher", step)),
       start_(start),
       known_(reference.impact_count(reference.end())),
       tracks_(std::size_t(std::max(contacts, 1))) {
+  const double slow = std::max(step_, 0.5 * contact_time);
   for (const auto& closed : reference.closed_contacts()) {
     allow_around(closed);
     if (!closed.accumulates) continue;
     double from = closed.from, after_next = 0.0;
     auto last = impact_of(closed.contact, reference.impact_count(from), -1);
     const auto is_resolved = [&] {
-      return from - last->t >= apart * step_ && after_next >= delays * double(last->index) * step_;
+      return from - last->t >= apart * slow && after_next >= delays * double(last->index) * slow;
     };
     while (last && !is_resolved()) {
       after_next = from - last->t;

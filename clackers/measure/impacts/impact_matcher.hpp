@@ -43,13 +43,14 @@ bool rests_in_contact(const model::Motion& reference, const std::vector<model::C
 ///   found. So is the last one before a run that starts late.
 /// - Where impacts accumulate to a contact that stays closed, the last one expected for certain is
 ///   that with a flight of `apart` steps after it, followed by one of `delays` steps for each impact
-///   so far. From the middle of the flight after it on, impacts are expected only if found, and no
+///   so far; half a contact of a compliant law counts as a step. From the middle of the flight after it on, impacts are expected only if found, and no
 ///   report is extra until the contact opens.
 class ImpactMatcher {
  public:
-  /// `step` [s] of the run, its first time `start` [s], and the number of the problem's contacts.
-  /// The motion must outlive the matcher.
-  ImpactMatcher(const model::Motion& reference, double step, double start = 0.0, int contacts = 1);
+  /// `step` [s] of the run, its first time `start` [s], the number of the problem's contacts, and how
+  /// long a contact lasts [s], 0 for impacts at an instant. The motion must outlive the matcher.
+  ImpactMatcher(const model::Motion& reference, double step, double start = 0.0, int contacts = 1,
+                double contact_time = 0.0);
 
   /// Makes pairs() possible, at the price of memory that grows with the matches. Before any report.
   void keep_pairs() { keeps_pairs_ = true; }

@@ -72,6 +72,10 @@ TEST(ImpactMatcher, ExpectsOnlyImpactsThatStepsResolve) {
   EXPECT_SCORE(found({5.0, 7.5, 8.75, 15.5, 17.0}), 4, 5, 4, 0, 1);
   EXPECT_SCORE(found({5.0, 6.2, 7.5, 8.75, 17.0}), 4, 5, 4, 0, 1);
   EXPECT_SCORE(found({5.0, 7.5, 8.75, 9.0, 17.0}), 4, 5, 4, 0, 1);
+  // Half a contact of a compliant law counts as a step.
+  ImpactMatcher compliant(reference, 1e-4, 0.0, 1, 0.01);
+  for (const double t : {5.0, 7.5, 8.75, 9.375, 9.8, 17.0}) compliant.take(t);
+  EXPECT_SCORE(compliant.score(20.0, 1e-12), 5, 5, 5, 0, 0);
 }
 
 TEST(ImpactMatcher, ExpectsMoreRoomAfterManyImpacts) {

@@ -92,7 +92,8 @@ Source      W. C. Swope et al., J. Chem. Phys. 76, 637-649 (1982).
     alpha_m = (2 rho - 1)/(1 + rho), gamma = 3/2 - alpha_m,
     beta = (5 - 3 rho)/[(1 + rho)² (2 - rho)]
 
-Order       2 in u and v; the stored a is of order 1.
+Order       2 in u and v; the stored a is of order 1. Where a force presses a mass on its contact,
+            restarts after impacts that follow fast make errors scatter (by a factor 3.2).
 Stability   omega h <= [12 (1 + rho) (2 - rho)/(10 - 5 rho + rho²)]^(1/2) for C = 0.
 Dissipation grows as rho falls, for high frequencies first; none for rho = 1, C = 0.
 Memory      a0, taken from the last step; computed anew from equilibrium after an impact.

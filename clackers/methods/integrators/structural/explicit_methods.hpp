@@ -36,7 +36,9 @@ struct ExplicitAlpha : ExplicitStep {
 
   double alpha_m, beta, gamma, limit;
 
-  Facts facts() const { return {.smooth_order = 2.0, .stability_limit = limit}; }
+  Facts facts() const {
+    return {.smooth_order = 2.0, .stability_limit = limit, .scatters_pressed = true};
+  }
 
   template <int Dof>
   void advance(MotionEquation<Dof>& equation, double h, model::State<Dof>& x,
