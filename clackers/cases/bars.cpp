@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/cases/meshes.hpp"
 #include "clackers/cases/row.hpp"
 #include "clackers/exact/bodies/bar_between_stops.hpp"
 #include "clackers/exact/bodies/bar_contact.hpp"
-#include "clackers/exact/bodies/bar_mesh.hpp"
 #include "clackers/exact/bodies/mass_on_bar.hpp"
-#include "clackers/exact/flights/piecewise_motion.hpp"
 
 // Elastic bars in contact, and their meshes: docs/manual/explanation/derivations/bars.md.
 namespace clackers::cases {
@@ -20,67 +18,13 @@ namespace {
 using exact::Bar;
 using exact::BarContact;
 using exact::BarsParameters;
-using exact::NodeMass;
 
 constexpr double largest = 1e30;
-
-NodeMass node_mass(const ParameterValue& word) {
-  return word.text() == "lumped"       ? NodeMass::lumped
-         : word.text() == "consistent" ? NodeMass::consistent
-                                       : NodeMass::massless;
-}
 
 // Of a bar whose parameters have this number behind their names.
 Bar bar_of(const Case& test_case, const Values& value, const std::string& number, double v0) {
   const auto positive = [&](const char* name) { return within(test_case, value, name + number); };
   return {positive("L"), positive("E"), positive("rho"), positive("A"), v0};
-}
-
-// The largest difference of the displacements of mesh and bar, at 51 times and 17 nodes or fewer.
-double space_error(const model::Motion& motion, const exact::BarMotion& bars,
-                   const exact::BarMesh& mesh) {
-  constexpr int times = 50;
-  const auto& nodes = mesh.nodes;
-  const std::size_t stride = (nodes.size() + 16) / 17;
-  double worst = 0.0;
-  for (int k = 0; k <= times; ++k) {
-    const double t = std::min(bars.end(), bars.end() * k / times);
-    const auto now = motion.at(t, model::Side::right);
-    for (std::size_t i = 0; i < nodes.size(); i += stride) {
-      const double u = bars.at(nodes[i].bar, nodes[i].x, t, model::Side::right).u.nearest();
-      worst = std::max(worst, std::abs(now.u[mesh.first + Eigen::Index(i)] - u));
-    }
-  }
-  return worst;
-}
-
-// The mesh of the bars that the case has already, as what methods get.
-void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& meshed) {
-  const auto& who = test_case.entry->name;
-  test_case.mesh = std::make_shared<const exact::BarMesh>(
-      exact::bar_mesh(meshed, value("elements"), node_mass(value("mass")), value("eta"), who));
-  const auto& mesh = *test_case.mesh;
-  test_case.problem = mesh.problem;
-  const auto motion = std::make_shared<const exact::PiecewiseMotion>(mesh.problem, who);
-  test_case.motion = motion;
-  // A rigid motion has no period; the run's length is what it has.
-  for (const auto& mode : motion->modes().modes())
-    test_case.damped_periods.push_back(
-        mode.oscillates() && mode.w > 0.0 ? 2.0 * std::numbers::pi / mode.w : motion->end());
-  const auto& bars = *test_case.bars;
-  auto& list = test_case.constants;
-  list.push_back(
-      {"impulse", bars.impulse(bars.end()).nearest(), "N s", "of the bar's contact up to t_end"});
-  list.push_back({"h", meshed.bars[0].L / value("elements"), "m", "length of an element"});
-  list.push_back(
-      {"e_space", space_error(*motion, bars, mesh), "m",
-       "largest difference between the displacements of mesh and bar, at 51 times: what no "
-       "integrator on this mesh can mend"});
-  list.push_back({"error_bound", motion->error_bound(motion->end()).u.maxCoeff(), "m",
-                  "of the displacements of the mesh's reference solution at t_end"});
-  list.push_back({"t_end", motion->end(), "s", "end of the run"});
-  list.push_back({"impacts", double(motion->impact_count(motion->end())), "",
-                  "number of impacts of the mesh up to t_end"});
 }
 
 void add_wave(std::vector<Quantity>& list, const std::string& number,
@@ -90,11 +34,6 @@ void add_wave(std::vector<Quantity>& list, const std::string& number,
       {"tau" + number, wave.transit.nearest(), "s", "L/c, a wave's way through the bar"});
   list.push_back({"z" + number, wave.impedance.nearest(), "N s/m", "impedance A sqrt(E rho)"});
   list.push_back({"m" + number, (wave.impedance * wave.transit).nearest(), "kg", "mass"});
-}
-
-void add_contact(std::vector<Quantity>& list, int number, const numerics::Bounded& t, bool closes) {
-  list.push_back({fmt::format("t_{}{}", closes ? "closes" : "opens", number), t.nearest(), "s",
-                  closes ? "contact of the bar begins" : "and ends"});
 }
 
 // Bars, their mesh, and what all of them have in common.
@@ -111,7 +50,7 @@ std::shared_ptr<const BarContact> use_bars(Case& test_case, const Values& value,
   for (const auto& event : bars->events()) {
     count += event.closes ? 1 : 0;
     if (count > 2) break;
-    add_contact(list, std::max(count, 1), event.t, event.closes);
+    add_contact(test_case, std::max(count, 1), event.t, event.closes);
   }
   use_mesh(test_case, value, {parameters.bars, bars->gap().nearest(), bars->end(), parameters.g});
   return bars;
@@ -169,8 +108,8 @@ void build_mass_on_bar(Case& test_case, const Values& value, double) {
   test_case.bars = motion;
   auto& list = test_case.constants;
   add_wave(list, "", motion->wave());
-  add_contact(list, 1, motion->begins(), true);
-  add_contact(list, 1, motion->ends(), false);
+  add_contact(test_case, 1, motion->begins(), true);
+  add_contact(test_case, 1, motion->ends(), false);
   list.push_back(
       {"v_after", motion->rebound().nearest(), "m/s", "velocity of the mass afterwards"});
   use_mesh(test_case, value, {{p.bar}, p.gap, p.end, 0.0, p.M, p.V, p.is_fixed});
@@ -188,8 +127,8 @@ void build_between_stops(Case& test_case, const Values& value, double) {
   test_case.bars = motion;
   auto& list = test_case.constants;
   add_wave(list, "", motion->wave());
-  add_contact(list, 1, motion->begins(), true);
-  add_contact(list, 1, motion->ends(), false);
+  add_contact(test_case, 1, motion->begins(), true);
+  add_contact(test_case, 1, motion->ends(), false);
   list.push_back({"T", motion->period().nearest(), "s", "period of the bar, 2 D/V + 4 L/c"});
   auto bar = p.bar;
   bar.v0 = -p.V;
@@ -207,20 +146,7 @@ std::vector<Parameter> parameters(const std::vector<std::string>& numbers,
                     positive("A" + number, 1.0, "m^2", "area")})
       list.push_back(p);
   for (auto& p : own) list.push_back(std::move(p));
-  list.push_back(
-      {"elements", 16.0, "", "a whole number, 2 <= elements <= 200", "of the mesh, in each bar"});
-  list.push_back({"mass",
-                  "massless",
-                  "",
-                  "lumped, consistent or massless",
-                  "mass of the mesh's nodes",
-                  {},
-                  {{"lumped", "rho A h at each node, half of it at the ends"},
-                   {"consistent", "rho A h/6 [2 1; 1 2] an element"},
-                   {"massless", "lumped, that of contact nodes moved to their neighbours"}}});
-  list.push_back({"eta", 0.0, "", "0 <= eta <= 1; 0 for massless",
-                  "restitution of the mesh's contact node; the bar has none"});
-  list.push_back(t_end(end));
+  for (auto& p : mesh_parameters(false, end)) list.push_back(std::move(p));
   return list;
 }
 

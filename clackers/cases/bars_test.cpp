@@ -5,6 +5,7 @@
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/cases/testing/characteristics.hpp"
 #include "clackers/cases/testing/constants.hpp"
 #include "clackers/exact/bodies/bar_contact.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
@@ -265,35 +266,6 @@ TEST(BarCases, AMassLeavesItsBarWhenTheDelayEquationSaysSo) {
   }
 }
 
-// A bar between stops by its characteristics, in cells of which both gaps are whole multiples; lengths in V dt, waves
-// in V, so that all numbers are whole.
-struct Characteristics {
-  std::vector<double> right, left;  // w+ and w- of each cell
-  std::vector<double> u;            // of its middle, times 4
-  double low, high, impulse = 0.0, force = 0.0;
-
-  Characteristics(int cells, int gap, int both)
-      : right(std::size_t(cells), -1.0),
-        left(right),
-        u(right.size(), 0.0),
-        low(gap),
-        high(both - gap) {}
-
-  void step() {
-    const auto w0 = right, w1 = left;
-    const double a = left.front(), b = right.back();
-    // The force of a closed end keeps it from going on.
-    const double at_low = low == 0.0 ? std::max(0.0, -a) : 0.0,
-                 at_high = high == 0.0 ? std::max(0.0, b) : 0.0;
-    low += a + at_low, high -= b - at_high;
-    force = at_low + at_high;
-    impulse += force;
-    right.insert(right.begin(), a + 2.0 * at_low), right.pop_back();
-    left.push_back(b - 2.0 * at_high), left.erase(left.begin());
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] += w0[i] + w1[i] + right[i] + left[i];
-  }
-};
-
 TEST(BarCases, ABarBetweenStopsFollowsItsCharacteristics) {
   Box box(93);
   for (int trial = 0; trial < trials(10); ++trial) {
@@ -314,7 +286,7 @@ TEST(BarCases, ABarBetweenStopsFollowsItsCharacteristics) {
                                                  {"elements", 2.0},
                                                  {"t_end", end}});
     const auto& bar = *mesh.bars;
-    Characteristics known(cells, gap, both);
+    auto known = Characteristics::between_stops(cells, gap, both);
     for (int k = 1; k <= steps; ++k) {
       known.step();
       const double t = k * dt, scale = 1e-15 * (k + 10);

@@ -202,8 +202,8 @@ std::vector<CaseRow> pair_rows() {
 const std::vector<CaseRow>& rows() {
   static const auto all = [] {
     auto list = pair_rows();
-    for (const auto more :
-         {assembly_rows, orbit_rows, resting_rows, friction_rows, elliptic_rows, bar_rows})
+    for (const auto more : {assembly_rows, orbit_rows, resting_rows, friction_rows, elliptic_rows,
+                            bar_rows, string_rows})
       for (auto& row : more()) list.push_back(std::move(row));
     return list;
   }();

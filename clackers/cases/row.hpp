@@ -56,6 +56,9 @@ std::vector<CaseRow> assembly_rows();
 /// Elastic bars in contact, and their meshes.
 std::vector<CaseRow> bar_rows();
 
+/// Vibrating strings above obstacles, and their meshes.
+std::vector<CaseRow> string_rows();
+
 /// Nonlinear oscillators above a stop or against each other.
 std::vector<CaseRow> elliptic_rows();
 

@@ -360,7 +360,7 @@ class Case:
         return Table(*_core.energies(self._core, t))
 
     def points(self, t: npt.ArrayLike, at: npt.ArrayLike) -> Table:
-        """Points of the case's bars at times ``t``: the continuum, of which ``problem`` is a mesh.
+        """Points of the case's bars or string at times ``t``: the continuum, of which ``problem`` is a mesh.
 
         Parameters
         ----------
@@ -372,14 +372,14 @@ class Case:
         Returns
         -------
         Table
-            Columns t, side, then u1 [m], v1 [m/s], stress1 [N/m^2] and so on, numbered by place, force [N], impulse
+            Columns t, side, then u1 [m], v1 [m/s], stress1 [N/m^2] (of a string transverse_force1 [N]) and so on, numbered by place, force [N], impulse
             [N s] of the contact, kinetic, elastic and potential energy [J]. Where something jumps two rows stand, side
             -1 and side 1.
 
         Raises
         ------
         InputError
-            As ``response`` does; for a case without bars, and for places outside of them.
+            As ``response`` does; for a case with neither, and for places outside of them.
 
         Examples
         --------

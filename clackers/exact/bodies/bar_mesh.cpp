@@ -87,6 +87,7 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
     for (Index i = out; i <= n - far_out; ++i) {
       if (!moves(place(i))) continue;
       mesh.nodes[std::size_t(place(i) - mesh.first)] = {b, h * double(i)};
+      problem.start.u[place(i)] = p.pluck * double(n - i) / elements;
       problem.start.v[place(i)] = bar.v0;
     }
   }

@@ -13,13 +13,15 @@ namespace clackers::exact {
 /// H. B. Khenous, P. Laborde, Y. Renard, Eur. J. Mech. A 27, 918-932 (2008)).
 enum class NodeMass { lumped, consistent, massless };
 
-/// What is meshed: the bars of a BarContact, one that a rigid mass strikes, or one between stops.
+/// What is meshed: the bars of a BarContact, one that a rigid mass strikes, one between stops, or half a plucked string.
 struct MeshedBars {
   std::vector<Bar> bars;
-  double gap = 0.0, end = 0.0, g = 0.0;
+  double gap = 0.0, end = 0.0, g = 0.0;  ///< the gap where nothing is deformed
   double striker = 0.0, speed = 0.0;  ///< mass left of the bar and its velocity [kg, m/s]; 0: none
   bool is_fixed = false;              ///< the far end of the bar
   double clearance = 0.0;             ///< of a bar between two stops, both gaps [m]; 0: one stop
+  double pluck =
+      0.0;  ///< displacement of the contact end at t = 0, from which it falls linearly [m]
 };
 
 /// The bars in linear elements of one length: what an integrator gets. A mass that strikes is the first

@@ -11,12 +11,12 @@ namespace clackers::exact {
 /// What lies between two doubles is on neither side of a front for whoever asks in doubles [s].
 inline double half_spacing(double t) { return 0.5 * (std::nextafter(t, INFINITY) - t); }
 
-/// Bars, one or two that meet, as continua: what is known of each point, and of the contact.
+/// Bars, one or two that meet, or a string, as continua: what is known of each point, and of the contact.
 class BarMotion {
  public:
   using Bounded = numerics::Bounded;
   struct Point {
-    Bounded u, v, stress;  ///< tension is positive
+    Bounded u, v, stress;  ///< tension is positive; of a string the transverse force T u_x [N]
   };
   struct Energy {
     Bounded kinetic, elastic, potential;  ///< the last of the weight, 0 at the start
@@ -24,6 +24,7 @@ class BarMotion {
 
   virtual ~BarMotion() = default;
 
+  virtual bool is_string() const { return false; }
   virtual double end() const = 0;
   /// Of each bar [m], the left one first.
   virtual std::vector<double> lengths() const = 0;
@@ -33,7 +34,7 @@ class BarMotion {
   virtual Bounded force(double t, model::Side side) const = 0;
   /// The integral of the force from 0 to t.
   virtual Bounded impulse(double t) const = 0;
-  /// Of all bars, and of a mass that strikes one.
+  /// Of all bars or the string, and of a mass that strikes one.
   virtual Energy energy(double t) const = 0;
 };
 

@@ -23,7 +23,7 @@ Place place_of(const exact::BarMotion& bars, double x) {
   return x < 0.0 ? Place{0, -x} : Place{list.size() - 1, x};
 }
 
-std::vector<record::Column> columns_at(const std::vector<double>& places) {
+std::vector<record::Column> columns_at(const std::vector<double>& places, bool is_string) {
   std::vector<record::Column> columns{
       {"t", "s", "time", record::ColumnKind::real},
       {"side", "", "- and + are the limits before and after a jump", record::ColumnKind::side}};
@@ -33,12 +33,17 @@ std::vector<record::Column> columns_at(const std::vector<double>& places) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     add(fmt::format("u{}", i + 1), "m", fmt::format("displacement at x = {} m", places[i]));
     add(fmt::format("v{}", i + 1), "m/s", fmt::format("velocity at x = {} m", places[i]));
-    add(fmt::format("stress{}", i + 1), "N/m^2", fmt::format("stress at x = {} m", places[i]));
+    if (is_string)
+      add(fmt::format("transverse_force{}", i + 1), "N",
+          fmt::format("T du/dx at x = {} m", places[i]));
+    else
+      add(fmt::format("stress{}", i + 1), "N/m^2", fmt::format("stress at x = {} m", places[i]));
   }
+  const auto* energy_of = is_string ? "energy of the string" : "energy of all bars";
   add("force", "N", "of the contact");
   add("impulse", "N s", "of the contact so far");
-  add("kinetic", "J", "energy of all bars");
-  add("elastic", "J", "energy of all bars");
+  add("kinetic", "J", energy_of);
+  add("elastic", "J", energy_of);
   add("potential", "J", "energy of the weight, 0 at the start");
   return columns;
 }
@@ -47,12 +52,17 @@ class PointRows : public record::NumberRows {
  public:
   PointRows(const exact::BarMotion& bars, std::string name, const TimeGrid& grid,
             const std::vector<double>& places)
-      : bars_(bars), name_(std::move(name)), grid_(grid), columns_(columns_at(places)) {
+      : bars_(bars),
+        name_(std::move(name)),
+        grid_(grid),
+        columns_(columns_at(places, bars.is_string())) {
     for (const double x : places) places_.push_back(place_of(bars, x));
   }
 
   std::string schema() const override { return "clackers/points/1"; }
-  std::string title() const override { return "Points of the bars of " + name_; }
+  std::string title() const override {
+    return "Points of the " + std::string(bars_.is_string() ? "string of " : "bars of ") + name_;
+  }
   const std::vector<record::Column>& columns() const override { return columns_; }
   long long count() const override {
     long long rows = grid_.size();
@@ -113,9 +123,9 @@ std::unique_ptr<record::RowSource> points(const cases::Case& test_case, const Ti
   if (!test_case.bars)
     throw InputError(
         fmt::format(
-            "respond: points are those of a bar; {} has masses. Leave --at "
-            "out, or take a case with bars: bar-wall, bar-between-stops, bouncing-bar, two-bars, "
-            "mass-on-bar.",
+            "respond: points are those of a bar or a string; {} has masses. Leave --at out, or take a "
+            "case with them: bar-wall, bar-between-stops, bouncing-bar, two-bars, mass-on-bar, "
+            "string-over-point.",
             test_case.entry->name),
         "no-closed-form");
   if (grid.size() > most_times)

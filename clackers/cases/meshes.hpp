@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "clackers/cases/row.hpp"
+#include "clackers/exact/bodies/bar_mesh.hpp"
+
+// What all cases have in common whose problem is the mesh of a continuum.
+namespace clackers::cases {
+
+/// The mesh of what the case has as bars already, as what methods get.
+void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& meshed);
+
+/// When the contact of the number of the continuum begins or ends, as a constant.
+void add_contact(Case& test_case, int number, const numerics::Bounded& t, bool closes);
+
+/// elements, mass, eta and t_end.
+std::vector<Parameter> mesh_parameters(bool is_string, double end);
+
+}  // namespace clackers::cases

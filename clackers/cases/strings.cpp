@@ -1,0 +1,58 @@
+#include "clackers/base/error.hpp"
+#include "clackers/cases/meshes.hpp"
+#include "clackers/exact/bodies/string_over_point.hpp"
+
+// Vibrating strings above obstacles, and their meshes: docs/manual/explanation/derivations/strings.md.
+namespace clackers::cases {
+namespace {
+
+void build_over_point(Case& test_case, const Values& value, double) {
+  const exact::StringOverPointParameters p{within(test_case, value, "L"),
+                                           within(test_case, value, "T"),
+                                           within(test_case, value, "rho"),
+                                           within(test_case, value, "H"),
+                                           value("share"),
+                                           end_of(test_case, value)};
+  if (!(p.share >= 0.0 && p.share < 1.0))
+    refuse(
+        test_case.entry->name, "share", p.share, "0 <= share < 1",
+        "Below 0 the string would not reach the point before its waves come back; at 1 it rests on it.");
+  const auto motion = std::make_shared<const exact::StringOverPoint>(p);
+  test_case.bars = motion;
+  auto& list = test_case.constants;
+  list.push_back({"c", motion->speed().nearest(), "m/s", "speed of waves"});
+  list.push_back({"tau", motion->transit().nearest(), "s", "L/(2 c), a wave's way through a half"});
+  list.push_back({"m", p.rho * p.L, "kg", "mass"});
+  list.push_back({"gap", (1.0 - p.share) * p.H, "m", "at t = 0"});
+  add_contact(test_case, 1, motion->begins(), true);
+  add_contact(test_case, 1, motion->ends(), false);
+  list.push_back({"period", motion->period().nearest(), "s", "of the string, (3 - share) tau"});
+  list.push_back({"force", motion->contact_force().nearest(), "N",
+                  "of the point while it is touched, 4 T H/L"});
+  // Both halves move as one: half a string of twice the tension and twice the mass.
+  use_mesh(test_case, value,
+           {.bars = {{0.5 * p.L, p.T, p.rho, 2.0}},
+            .gap = -p.share * p.H,
+            .end = p.end,
+            .is_fixed = true,
+            .pluck = p.H});
+}
+
+}  // namespace
+
+std::vector<CaseRow> string_rows() {
+  std::vector<Parameter> over_point{positive("L", 1.0, "m", "length"),
+                                    positive("T", 1.0, "N", "tension"),
+                                    positive("rho", 1.0, "kg/m", "mass per length"),
+                                    positive("H", 1.0, "m", "displacement of the middle at t = 0"),
+                                    {"share", 0.25, "", "0 <= share < 1",
+                                     "height of the point above the string at rest, over H"}};
+  for (auto& p : mesh_parameters(true, 3.0)) over_point.push_back(std::move(p));
+  return {
+      {{"string-over-point",
+        "A string, plucked in its middle, that strikes a point below again and again, and its mesh.",
+        "none; H. Cabannes (1984)", std::move(over_point)},
+       build_over_point}};
+}
+
+}  // namespace clackers::cases
