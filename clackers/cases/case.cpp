@@ -233,15 +233,36 @@ std::string_view default_case() { return entries().front().name; }
 
 const CaseEntry& entry(std::string_view name) { return row(name).entry; }
 
-Case make(std::string_view name, const Settings& settings, double threshold) {
+namespace {
+
+Case made(std::string_view name, const Settings& settings, double threshold, bool is_mesh_only) {
   const auto& [entry, build] = row(name);
   if (!(threshold > 0.0 && threshold < 1.0))
     refuse(entry.name, "threshold", threshold, "0 < threshold < 1",
            "It is the share of the spectral peak from which a harmonic counts.");
   Case test_case;
   test_case.entry = &entry;
+  test_case.is_mesh_only = is_mesh_only;
   test_case.values = complete(entry.name, entry.parameters, settings);
   build(test_case, Values{test_case.values}, threshold);
+  return test_case;
+}
+
+}  // namespace
+
+Case make(std::string_view name, const Settings& settings, double threshold) {
+  return made(name, settings, threshold, false);
+}
+
+Case make_mesh(std::string_view name, const Settings& settings) {
+  auto test_case = made(name, settings, default_threshold, true);
+  if (!test_case.mesh)
+    throw InputError(
+        fmt::format(
+            "{}: its problem is no mesh; allowed: a case with the mesh of a bar or a string, as "
+            "bar-wall (clackers list cases).",
+            name),
+        "no-closed-form");
   return test_case;
 }
 

@@ -33,6 +33,7 @@ struct Case {
   const CaseEntry* entry = nullptr;
   Settings values;  ///< all parameters, in the entry's order
   model::ImpactProblem<> problem;
+  bool is_mesh_only = false;  ///< see make_mesh()
   std::shared_ptr<const model::Motion> motion;
   /// The bars of which the problem is a mesh, and the mesh; null for a structure of masses.
   std::shared_ptr<const exact::BarMotion> bars;
@@ -57,6 +58,13 @@ const CaseEntry& entry(std::string_view name);
 /// masses would touch away from equilibrium, and what to change. `threshold` lies in (0, 1).
 Case make(std::string_view name, const Settings& settings = {},
           double threshold = default_threshold);
+
+/// Of a mesh whose exact motion is known; the errors of more masses would take too much memory.
+inline constexpr double most_exact_elements = 200.0;
+
+/// The bars of a case and their mesh, without the exact motion of the mesh and what is derived from it: of up to 4000
+/// elements, where make() takes most_exact_elements. Throws InputError as make() does, and (no-closed-form) for a case that is no mesh.
+Case make_mesh(std::string_view name, const Settings& settings = {});
 
 /// How far the masses of a pair stay apart away from equilibrium (sharp form of Eq. 18).
 struct Admissibility {

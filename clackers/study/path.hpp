@@ -24,8 +24,8 @@ struct PathRequest {
 
 struct PathStudy {
   /// Orders, a row a method, of u (maximum over x and t) and of v in L1 and L2 over x and t, with those to expect of
-  /// data with a kink in u and a jump in v. Then the errors of the finest mesh: e_total against the bars, e_time against
-  /// the exact motion of the mesh, e_space between both. Then curves of e_total and e_space over h.
+  /// data with a kink in u and a jump in v. Then the errors of the finest mesh: e_total against the bars and, up to 200
+  /// elements, e_time against the exact motion of the mesh, e_space between both. Then curves of e_total and e_space over h.
   std::vector<record::Sheet> sheets;
   record::Sheet runs;        ///< a row a method and mesh
   bool interrupted = false;  ///< not all meshes were run

@@ -127,9 +127,8 @@ record::Record run_study(const Options& options, const study::VerifyRequest& req
 }
 
 // The other ladder, of meshes: orders and errors as sheets.
-int run_path(const Options& options) {
+int run_path(const Options& options, const std::string& line) {
   for (const auto& [name, given] : {std::pair{"--exec", options.programs.any()},
-                                    {"--report", !options.report.empty()},
                                     {"--film", !options.film.empty()},
                                     {"--baseline", !options.baseline.empty()},
                                     {"--require", !options.requirements.empty()},
@@ -154,23 +153,27 @@ int run_path(const Options& options) {
   take("samples-per-level", request.samples_per_level);
   take("jobs", request.jobs);
   Results results(options.common, OnInterrupt::finish);
+  ReportPage page(options.report, options.common, OnInterrupt::finish);
   auto study = [&] {
     ProgressLine progress("verify", options.common.quiet);
     return study::follow_path(request, progress.callback(), &interrupt_flag());
   }();
+  const bool written =
+      !page.wanted() || page.write(report::html(study.sheets, request.case_name + " along a path",
+                                                record::provenance(line), nullptr, "verify"));
   // For a person the curves say it.
   if (results.format() != report::Format::table) study.sheets.push_back(std::move(study.runs));
   report::write(study.sheets, "clackers/path/1", results.format(), results.stream(),
                 results.style());
   results.finish();
   if (study.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
-  return study.interrupted ? 130 : 0;
+  return study.interrupted ? 130 : written ? 0 : 4;
 }
 
 int run(Options options, const std::string& line) {
   take_cases(options);
   check(options);
-  if (!options.path.empty()) return run_path(options);
+  if (!options.path.empty()) return run_path(options, line);
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
   const RecordView view{.only = verdicts_to_show(options)};
@@ -230,15 +233,16 @@ void add_verify(Grammar& root) {
            "impacts are located as events (event-driven). Your own programs (--exec) are run and "
            "compared in the same way. Exit code 0 when all agree, 1 when "
            "one disagrees, 3 when one stays undecided.",
-       .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
-                "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
-                "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
-                "           [--only VERDICT] [--report FILE.html] [--film FILE.webm|gif]\n"
-                "  clackers verify [METHOD ...] [--case CASE] --path nu [--levels n]\n"
-                "  clackers verify [METHOD ...] --exec COMMAND ...\n"
-                "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
-                "           [--timeout TIME] [--work FOLDER] [--fresh]\n"
-                "           [--environment NAME,...] ...\n"});
+       .usage =
+           "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
+           "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
+           "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
+           "           [--only VERDICT] [--report FILE.html] [--film FILE.webm|gif]\n"
+           "  clackers verify [METHOD ...] [--case CASE] --path nu [--levels n] [--report FILE]\n"
+           "  clackers verify [METHOD ...] --exec COMMAND ...\n"
+           "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
+           "           [--timeout TIME] [--work FOLDER] [--fresh]\n"
+           "           [--environment NAME,...] ...\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods). Cases may stand among them.");

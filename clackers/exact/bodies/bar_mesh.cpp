@@ -14,13 +14,13 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double most_elements = 200.0;
+constexpr double most_elements = 4000.0;
 
 void require(std::string_view who, double elements, NodeMass mass, double eta) {
   const double least = mass == NodeMass::massless ? 2.0 : 1.0;
   if (!(elements >= least && elements <= most_elements))
     refuse(who, "elements", elements,
-           "a whole number, 2 <= elements <= 200 (1 with mass at contact)");
+           "a whole number, 2 <= elements <= 4000 (1 with mass at contact)");
   if (elements != std::floor(elements))
     refuse(who, "elements", elements, "a whole number", {}, "not-whole");
   require_restitution(who, eta);

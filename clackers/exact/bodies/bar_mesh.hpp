@@ -39,7 +39,7 @@ struct BarMesh {
 };
 
 /// `elements` in each bar. Massless contact nodes are eliminated: what is left of them is a one-sided
-/// spring, the element at the contact. Throws InputError, `who` first, unless 1 <= elements <= 200, a
+/// spring, the element at the contact. Throws InputError, `who` first, unless 1 <= elements <= 4000, a
 /// whole number, at least 2 where contact nodes are massless; and for a restitution of those.
 BarMesh bar_mesh(const MeshedBars& meshed, double elements, NodeMass mass, double eta,
                  std::string_view who);
