@@ -47,7 +47,7 @@ std::vector<CaseRow> string_rows() {
                                     positive("H", 1.0, "m", "displacement of the middle at t = 0"),
                                     {"share", 0.25, "", "0 <= share < 1",
                                      "height of the point above the string at rest, over H"}};
-  for (auto& p : mesh_parameters(true, 3.0)) over_point.push_back(std::move(p));
+  for (auto& p : mesh_parameters(true, 2.5)) over_point.push_back(std::move(p));
   return {
       {{"string-over-point",
         "A string, plucked in its middle, that strikes a point below again and again, and its mesh.",

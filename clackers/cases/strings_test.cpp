@@ -114,6 +114,9 @@ TEST(StringCases, AStringOverAPointTouchesItWhenCabannesSaysSo) {
   const auto force = [&](double t) { return mesh.bars->force(t, Side::right).nearest(); };
   for (const double t : {0.41, 0.99, 1.81, 2.39}) EXPECT_EQ(force(t), 4.0) << t;
   for (const double t : {0.0, 0.39, 1.01, 1.79, 2.41}) EXPECT_EQ(force(t), 0.0) << t;
+  // 1.4 is less than the period by less than the spacing of doubles.
+  EXPECT_EQ(mesh.bars->at(0, 0.0, 1.4, Side::left).v.nearest(), 2.0);
+  EXPECT_EQ(mesh.bars->at(0, 0.0, 1.4, Side::right).v.nearest(), -2.0);
   // Another member, and both limits where a front is; at t = 0 the string is held before.
   const auto other =
       make("string-over-point",
