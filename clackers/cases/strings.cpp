@@ -14,9 +14,8 @@ void build_over_point(Case& test_case, const Values& value, double) {
                                            value("share"),
                                            end_of(test_case, value)};
   if (!(p.share >= 0.0 && p.share < 1.0))
-    refuse(
-        test_case.entry->name, "share", p.share, "0 <= share < 1",
-        "Below 0 the string would not reach the point before its waves come back; at 1 it rests on it.");
+    refuse(test_case.entry->name, "share", p.share, "0 <= share < 1",
+           "At 1 the string would rest on the point from the start.");
   const auto motion = std::make_shared<const exact::StringOverPoint>(p);
   test_case.bars = motion;
   auto& list = test_case.constants;

@@ -62,6 +62,9 @@ class Points(CommandTest):
 
     def test_lie_in_the_bars_of_a_case(self):
         self.refused("respond", "bar-wall", "--at", "1.5", "--samples", "3", code="out-of-range", says="x = 1.5")
+        string = self.rows_of("respond", "string-over-point", "--at", "0.25", "--step", "0.5", "--set", "t_end=0.5")
+        self.assertEqual(",".join(string[0]), "t,side,u1,v1,transverse_force1,force,impulse,kinetic,elastic,potential")
+        self.assertEqual(",".join(string[-1].values()), "0.5,,0,-2,0,4,0.5,1.5,0.5,0")
         self.refused("respond", "two-bars", "--at", "-1.5", "--samples", "3", code="out-of-range", says="-1 <= x <= 2")
         self.refused("respond", "stop", "--at", "0", "--samples", "3", code="no-closed-form", says="bar-wall")
         self.refused("respond", "bar-wall", "--at", "0", "--impacts", code="bad-syntax", says="--at")
