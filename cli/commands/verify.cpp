@@ -233,16 +233,16 @@ void add_verify(Grammar& root) {
            "impacts are located as events (event-driven). Your own programs (--exec) are run and "
            "compared in the same way. Exit code 0 when all agree, 1 when "
            "one disagrees, 3 when one stays undecided.",
-       .usage =
-           "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
-           "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
-           "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
-           "           [--only VERDICT] [--report FILE.html] [--film FILE.webm|gif]\n"
-           "  clackers verify [METHOD ...] [--case CASE] --path nu [--levels n] [--report FILE]\n"
-           "  clackers verify [METHOD ...] --exec COMMAND ...\n"
-           "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
-           "           [--timeout TIME] [--work FOLDER] [--fresh]\n"
-           "           [--environment NAME,...] ...\n"});
+       .usage = "  clackers verify [METHOD ...|--all] [--case CASE ...] [--set name=value,...]\n"
+                "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
+                "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
+                "           [--only VERDICT] [--report FILE.html] [--film FILE.webm|gif]\n"
+                "  clackers verify [METHOD ...] [--case CASE] --path nu [--levels n]\n"
+                "           [--report FILE.html]\n"
+                "  clackers verify [METHOD ...] --exec COMMAND ...\n"
+                "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
+                "           [--timeout TIME] [--work FOLDER] [--fresh]\n"
+                "           [--environment NAME,...] ...\n"});
   app->add_option("METHOD", options->methods,
                   "Methods, by name (clackers list pairs). Without any, the default panel "
                   "(clackers list methods). Cases may stand among them.");

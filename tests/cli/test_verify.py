@@ -61,13 +61,17 @@ class Path(CommandTest):
         self.assertEqual(lines[0], "bar-wall along the path step = 0.45 h/c, 16 to 29 elements")
         for line in lines:
             self.assertLessEqual(len(line), 80, line)
+        self.good("verify", "newmark", "--path", "1/2", "--levels", "1", "--quiet", "--report",
+                  self.path("path.html"))
+        with open(self.path("path.html")) as file:
+            self.assertIn("bar-wall along a path", file.read())
         done = self.json_of("verify", "newmark", "--path", "1/2", "--levels", "1")
         self.assertEqual(done["schema"], "clackers/path/1")
         self.assertEqual([len(sheet["rows"]) for sheet in done["sheets"]], [1, 1, 8, 8])
 
     def test_refuses_what_does_not_go_with_it(self):
         for rest in (("--path", "x"), ("--path", "0"), ("--path", "0.4", "--case", "stop"), ("--path", "0.4", "--coarsest", "0.1"),
-                     ("--path", "0.4", "--report", self.path("a.html")), ("--path", "0.4", "--case", "bar-wall", "--case", "two-bars")):
+                     ("--path", "0.4", "--film", self.path("a.gif")), ("--path", "0.4", "--case", "bar-wall", "--case", "two-bars")):
             self.refused("verify", "newmark", *rest, code="[a-z-]+", says="path")
 
 
