@@ -321,7 +321,7 @@ void PiecewiseMotion::Builder::begin(State state) {
       now->opens = true;
     }
   }
-  std::erase_if(unresolved_, [&](const Unresolved& skipped) { return skipped.until <= t; });
+  std::erase_if(unresolved_, [now = t](const Unresolved& skipped) { return skipped.until <= now; });
   m_.flights_.push_back(
       {t, regime, z - m_.regimes_[regime].steady(t), std::move(covariance), unresolved_});
   begins_ = std::exchange(opens_, std::vector<Begin>(springs(), Begin::open));
