@@ -350,6 +350,11 @@ TEST(BarCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("bar-wall", {{"eta", 0.5}}), "out-of-range", "no impacts");
   EXPECT_REFUSED(make("bar-wall", {{"elements", 2.5}}), "not-whole", "whole");
   EXPECT_REFUSED(make("bar-wall", {{"elements", 1.0}}), "out-of-range", "elements");
+  EXPECT_REFUSED(make("bar-wall", {{"elements", 201.0}}), "out-of-range", "200");
+  EXPECT_REFUSED(make_mesh("bar-wall", {{"elements", 4001.0}}), "out-of-range", "4000");
+  const auto large = make_mesh("bar-wall", {{"elements", 201.0}});
+  EXPECT_EQ(large.motion, nullptr);
+  EXPECT_EQ(large.problem.dof(), 201);
 }
 
 }  // namespace

@@ -259,8 +259,8 @@ Case make_mesh(std::string_view name, const Settings& settings) {
   if (!test_case.mesh)
     throw InputError(
         fmt::format(
-            "{}: its problem is no mesh, and a path of steps and elements needs one; allowed: a case with the mesh of a bar or a string, as "
-            "bar-wall (clackers list cases).",
+            "{}: its problem is no mesh, and a path of steps and elements needs one; allowed: a "
+            "case with the mesh of a bar or a string, as bar-wall (clackers list cases).",
             name),
         "no-closed-form");
   return test_case;

@@ -19,6 +19,16 @@ double number_in(const Cell& cell) {
   return std::nan("");
 }
 
+Cell cell_of(double number) { return std::isnan(number) ? Cell() : Cell(number); }
+
+void drop_columns(Sheet& sheet, const std::function<bool(std::size_t)>& goes) {
+  for (auto j = sheet.columns.size(); j-- > 0;) {
+    if (!goes(j)) continue;
+    sheet.columns.erase(sheet.columns.begin() + std::ptrdiff_t(j));
+    for (auto& row : sheet.rows) row.erase(row.begin() + std::ptrdiff_t(j));
+  }
+}
+
 bool NumberRows::next(std::vector<Cell>& row) {
   if (read_ == block_.size()) {
     read_ = 0;

@@ -15,6 +15,8 @@ using Cell = std::variant<std::monostate, double, long long, std::string>;
 
 /// The number in a cell, whole ones as double; NaN without one.
 double number_in(const Cell& cell);
+/// The number; an empty cell for NaN.
+Cell cell_of(double number);
 
 /// What the cells of a column hold. In rows of doubles a side is -1 ("-", before an impact), 1
 /// ("+", after it) or 0 (empty).
@@ -89,6 +91,9 @@ struct Sheet {
   /// The rows are points of curves over the first column: people see a figure instead of a table.
   std::optional<Axes> curves{};
 };
+
+/// Removes the columns, by their index, that are to go.
+void drop_columns(Sheet& sheet, const std::function<bool(std::size_t)>& goes);
 
 /// Reads a sheet row by row; the sheet must outlive it.
 class SheetRows : public RowSource {

@@ -151,9 +151,10 @@ std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& sha
   if (facts_.has_ends) result.end_u = relative(recorder.last_u(), problem_);
   // A state that is not finite is no row of a history.
   if (task.wanted.metrics && std::isfinite(result.run.score.u_error)) {
-    auto metrics = record::all_metrics(
-        {stored.trajectory(), motion, problem, facts_of(problem_.summary, problem, spring_time_)},
-        {}, interrupt);
+    auto facts = record::facts_of(problem_.summary, problem, spring_time_);
+    facts.contact_time = facts_.subject.contact_time;
+    auto metrics = record::all_metrics({stored.trajectory(), motion, problem, std::move(facts)}, {},
+                                       interrupt);
     if (!metrics) return {};
     result.run.metrics = std::move(*metrics);
     if (extras_.record && motion.dof() <= record::most_blocks)
@@ -183,7 +184,8 @@ std::optional<Measured> MethodCandidate::observed(model::Run& run, const RunTask
   if (!outcome.finished || !std::ranges::all_of(u, [](double x) { return std::isfinite(x); }))
     return result;
   const measure::Comparison comparison(stored.trajectory(), *problem_.problem.motion,
-                                       problem_.problem.problem);
+                                       problem_.problem.problem,
+                                       {.contact_time = facts_.subject.contact_time});
   result.observation = diagnose::observe(
       comparison, {.step = task.resolution(),
                    .spacing = problem_.summary.end / double(task.run.steps),

@@ -82,6 +82,27 @@ TEST(MethodCandidate, ClaimsWhatItsStepsAndEventsDo) {
   EXPECT_EQ(claim_on("newmark+reversal", "plastic-pair").behaviour, Behaviour::irregular);
 }
 
+// Of the 16 impacts, which accumulate, a contact of 0.03 s resolves few. Score and metrics count alike.
+TEST(MethodCandidate, ExpectsOfACompliantContactTheImpactsThatItResolves) {
+  const auto problem = study_case(cases::make("pressed-oscillator", {}));
+  MethodCandidate candidate(methods::method("newmark+penalty:law=kelvin-voigt"), problem, {}, {});
+  const long long steps = 20480;
+  ProgressMeter meter(1.0, {});
+  TaskShare share(meter, 1.0);
+  const auto result =
+      candidate.run({{20.0 / double(steps), steps, 0.0}, {.metrics = true}}, share, nullptr);
+  ASSERT_TRUE(result && result->run.score.impacts);
+  const auto& impacts = *result->run.score.impacts;
+  EXPECT_GE(impacts.matched, 2);
+  EXPECT_LE(impacts.matched, 6);
+  EXPECT_EQ(impacts.missed, 0);
+  EXPECT_EQ(impacts.extra, 0);
+  for (const auto& metric : result->run.metrics)
+    if (metric.name == "impact-missed-count" || metric.name == "impact-extra-count") {
+      EXPECT_EQ(metric.value, 0.0) << metric.name;
+    }
+}
+
 // Of this thread [s].
 double processor_time() {
   timespec now{};

@@ -31,17 +31,14 @@ std::vector<double> meshes_of(const PathRequest& request) {
   if (list.size() < 3)
     refuse("verify", "levels", double(request.levels), "three meshes or more with --path");
   // Before any work what is not allowed of the finest mesh is refused.
-  const auto finest = with_elements(request.case_name, request.settings, list.back());
+  const auto finest =
+      cases::make_mesh(request.case_name, with_elements(request.settings, list.back()));
   const double steps = steps_along_path(finest, list.back(), request.nu),
                dof = double(finest.problem.dof());
   if (!(steps * dof * dof < most_work))
     refuse("verify", "steps", steps, "fewer with so many elements",
            "End the run earlier, or take fewer levels.", "too-many-steps");
   return list;
-}
-
-record::Cell cell(const std::optional<double>& value) {
-  return value ? record::Cell(*value) : record::Cell();
 }
 
 // Of runs over meshes, and of their finest that did not fail.
@@ -106,18 +103,20 @@ Methods methods_of(const PathRequest& request) {
 
 // A mesh that was run, with the errors of all methods.
 struct MeshRuns {
-  double elements = 0.0, h = 0.0, step = 0.0;
-  record::Cell e_space;
+  double elements = 0.0, h = 0.0, step = 0.0, e_space = 0.0;
   std::vector<MeshErrors> errors;
 };
 
 // Nothing when interrupted.
 std::optional<MeshRuns> run_mesh(const PathRequest& request, const Methods& list, double elements,
                                  TaskShare& share, const std::atomic<bool>* interrupt) {
-  const auto known = mesh_reference(with_elements(request.case_name, request.settings, elements),
+  const auto settings = with_elements(request.settings, elements);
+  const auto known = mesh_reference(elements > cases::most_exact_elements
+                                        ? cases::make_mesh(request.case_name, settings)
+                                        : cases::make(request.case_name, settings),
                                     elements, request.nu);
   const auto& problem = known.mesh.problem;
-  MeshRuns runs{elements, known.h, known.step, cell(known.e_space), {}};
+  MeshRuns runs{elements, known.h, known.step, known.e_space, {}};
   for (const auto& method : list) {
     if (const auto objection = method->objection(problem)) {
       runs.errors.emplace_back().failure = objection->code.name();
@@ -130,17 +129,6 @@ std::optional<MeshRuns> run_mesh(const PathRequest& request, const Methods& list
     runs.errors.push_back(sink.errors(outcome));
   }
   return runs;
-}
-
-// A curve without points is none.
-void drop_empty_columns(record::Sheet& sheet) {
-  for (std::size_t j = sheet.columns.size(); j-- > 1;) {
-    if (!std::ranges::all_of(
-            sheet.rows, [&](const auto& row) { return std::isnan(record::number_in(row[j])); }))
-      continue;
-    sheet.columns.erase(sheet.columns.begin() + std::ptrdiff_t(j));
-    for (auto& row : sheet.rows) row.erase(row.begin() + std::ptrdiff_t(j));
-  }
 }
 
 PathStudy study_of(const PathRequest& request, const Methods& list,
@@ -172,7 +160,7 @@ PathStudy study_of(const PathRequest& request, const Methods& list,
                      {"h", "m", "length of an element"},
                      {"step", "s", "of the integrator"}},
                     {}};
-  for (const auto& mesh : meshes) curves.rows.push_back({mesh.h, mesh.e_space});
+  for (const auto& mesh : meshes) curves.rows.push_back({mesh.h, record::cell_of(mesh.e_space)});
   for (auto* sheet : {&finest, &all})
     for (auto& column : error_columns()) sheet->columns.push_back(std::move(column));
   all.columns.push_back({"failure", "", "why a run has no errors"});
@@ -184,7 +172,8 @@ PathStudy study_of(const PathRequest& request, const Methods& list,
     for (std::size_t k = 0; k < meshes.size(); ++k) {
       const auto& mesh = meshes[k];
       const auto& [e_total, e_time, v_l1, v_l2, energy, failure] = mesh.errors[m];
-      std::vector<record::Cell> cells{e_total, cell(e_time), mesh.e_space, v_l1, v_l2, energy};
+      std::vector<record::Cell> cells{
+          e_total, record::cell_of(e_time), record::cell_of(mesh.e_space), v_l1, v_l2, energy};
       if (failure.empty()) {
         ladder.h.push_back(mesh.h);
         ladder.e_total.push_back(e_total);
@@ -210,7 +199,11 @@ PathStudy study_of(const PathRequest& request, const Methods& list,
     ladder.finest.insert(ladder.finest.begin(), name);
     finest.rows.push_back(std::move(ladder.finest));
   }
-  drop_empty_columns(curves);
+  // A curve without points is none.
+  record::drop_columns(curves, [&](std::size_t j) {
+    return std::ranges::all_of(
+        curves.rows, [&](const auto& row) { return std::isnan(record::number_in(row[j])); });
+  });
   return {{std::move(orders), std::move(finest), std::move(curves)}, std::move(all), false};
 }
 

@@ -238,7 +238,8 @@ void add_respond(Grammar& root) {
   app->add_option(
          "--at", options->at,
          "At the times, points of the case's bars or string instead, at x from the contact [m]: u "
-         "[m], v [m/s] and stress [N/m^2] or transverse force [N] of each, then force [N], impulse [N s] and energies [J].")
+         "[m], v [m/s] and stress [N/m^2] or transverse force [N] of each, then force [N], impulse "
+         "[N s] and energies [J].")
       ->option_text("x,...");
   app->add_option(
          "--sensitivity", options->sensitivity,

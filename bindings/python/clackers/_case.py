@@ -372,9 +372,9 @@ class Case:
         Returns
         -------
         Table
-            Columns t, side, then u1 [m], v1 [m/s], stress1 [N/m^2] (of a string transverse_force1 [N]) and so on, numbered by place, force [N], impulse
-            [N s] of the contact, kinetic, elastic and potential energy [J]. Where something jumps two rows stand, side
-            -1 and side 1.
+            Columns t, side, then u1 [m], v1 [m/s], stress1 [N/m^2] (of a string transverse_force1 [N]) and so on,
+            numbered by place, force [N], impulse [N s] of the contact, kinetic, elastic and potential energy [J]. Where
+            something jumps two rows stand, side -1 and side 1.
 
         Raises
         ------

@@ -20,8 +20,7 @@ struct MeshedBars {
   double striker = 0.0, speed = 0.0;  ///< mass left of the bar and its velocity [kg, m/s]; 0: none
   bool is_fixed = false;              ///< the far end of the bar
   double clearance = 0.0;             ///< of a bar between two stops, both gaps [m]; 0: one stop
-  double pluck =
-      0.0;  ///< displacement of the contact end at t = 0, from which it falls linearly [m]
+  double pluck = 0.0;  ///< of the contact end at t = 0, linear to 0 at the far end [m]
 };
 
 /// The bars in linear elements of one length: what an integrator gets. A mass that strikes is the first

@@ -65,8 +65,8 @@ std::optional<std::pair<std::size_t, double>> PiecewiseMotion::Builder::next_swi
   std::optional<std::pair<std::size_t, double>> first;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!is_spring(i) && !passed_[i]) continue;
-    const auto root = numerics::first_root(ahead_[i], std::max(from, unresolved(i)), until,
-                                           1e-7 / fastest, most_search_steps);
+    const auto root =
+        numerics::first_root(ahead_[i], from, until, 1e-7 / fastest, most_search_steps);
     if (root.status == numerics::FirstRoot::Status::undecided) refuse_length();
     if (root.status != numerics::FirstRoot::Status::found) continue;
     first = {i, root.s};
@@ -83,10 +83,10 @@ void PiecewiseMotion::Builder::refuse_length() const {
 }
 
 double PiecewiseMotion::Builder::unresolved(std::size_t i) const {
-  double until = flight().t;
-  for (const auto& skipped : flight().unresolved)
-    if (part_[skipped.contact] == part_[i]) until = std::max(until, skipped.until);
-  return until - flight().t;
+  const auto& all = m_.unresolved_;
+  const auto last = std::find_if(all.rbegin(), all.rend(),
+                                 [&](const Unresolved& skipped) { return skipped.contact == i; });
+  return last == all.rend() ? 0.0 : std::max(0.0, last->until - flight().t);
 }
 
 std::vector<double> PiecewiseMotion::Builder::levels(double s) const {

@@ -321,9 +321,7 @@ void PiecewiseMotion::Builder::begin(State state) {
       now->opens = true;
     }
   }
-  std::erase_if(unresolved_, [now = t](const Unresolved& skipped) { return skipped.until <= now; });
-  m_.flights_.push_back(
-      {t, regime, z - m_.regimes_[regime].steady(t), std::move(covariance), unresolved_});
+  m_.flights_.push_back({t, regime, z - m_.regimes_[regime].steady(t), std::move(covariance)});
   begins_ = std::exchange(opens_, std::vector<Begin>(springs(), Begin::open));
   for (std::size_t i = 0; i < springs(); ++i)
     if (is_held(i)) begins_[i] = Begin::open;

@@ -115,7 +115,7 @@ class PiecewiseMotion::Builder {
   /// The spring that closes or opens first, and when.
   std::optional<std::pair<std::size_t, double>> next_switching(double from, double until,
                                                                double fastest) const;
-  /// Seconds into the flight for which nothing of the part that contact i belongs to is searched.
+  /// Seconds into the flight in which contact i may close and open without being followed.
   double unresolved(std::size_t i) const;
   [[noreturn]] void refuse_length() const;
   /// certain_gap times a bound on the error of each gap up to s seconds into the flight.
@@ -203,7 +203,6 @@ class PiecewiseMotion::Builder {
   std::vector<double> stiffnesses_;         // of the springs
   std::vector<std::vector<bool>> closed_;   // of each regime
   std::vector<std::size_t> part_;           // of each contact; no force or impact joins two parts
-  std::vector<Unresolved> unresolved_;      // of the present flight
   std::vector<bool> passed_;                // contacts that an impact left without effect
   std::vector<numerics::FormAhead> ahead_;  // of each contact in this flight
   std::deque<std::vector<Row>> rows_;       // of each regime

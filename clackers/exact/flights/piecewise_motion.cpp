@@ -118,15 +118,14 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
     raise(bound.u, 0, modes.offset().cwiseAbs());
     raise(bound.v, 1, VectorXd::Zero(n));
     raise(bound.a, 2, load);
-    for (const auto& skipped : flight.unresolved) {
-      if (t > skipped.until) continue;
-      const double share = skipped.scale > 0.0
-                               ? std::min(1.0, std::max(0.0, skipped.rest - t) / skipped.scale)
-                               : 1.0;
-      apart.u = apart.u.cwiseMax(share * share * skipped.bound.u);
-      apart.v = apart.v.cwiseMax(share * skipped.bound.v);
-      apart.a = apart.a.cwiseMax(skipped.bound.a);
-    }
+  }
+  for (const auto& skipped : unresolved_) {
+    if (t < skipped.from || t > skipped.until) continue;
+    const double share =
+        skipped.scale > 0.0 ? std::min(1.0, std::max(0.0, skipped.rest - t) / skipped.scale) : 1.0;
+    apart.u = apart.u.cwiseMax(share * share * skipped.bound.u);
+    apart.v = apart.v.cwiseMax(share * skipped.bound.v);
+    apart.a = apart.a.cwiseMax(skipped.bound.a);
   }
   bound.u += apart.u;
   bound.v += apart.v;

@@ -104,16 +104,15 @@ class PiecewiseMotion : public model::Motion {
   /// that is closed for certain from `until` on.
   struct Unresolved {
     std::size_t contact = 0;
-    double until = 0.0;
+    double from = 0.0, until = 0.0;
     model::Kinematics bound;         // how far the true motion is away
     double rest = 0.0, scale = 0.0;  // the speed falls as (rest - t)/scale, 0: it does not
   };
   struct Flight {
     double t = 0.0;
     std::size_t regime = 0;
-    Vector free;                 // z without the steady response
-    Eigen::MatrixXd covariance;  // sum of D D' of the errors of z so far, at t; with bounds
-    std::vector<Unresolved> unresolved{};
+    Vector free;                      // z without the steady response
+    Eigen::MatrixXd covariance;       // sum of D D' of the errors of z so far, at t; with bounds
     std::optional<Event> switches{};  // the spring that ends it
   };
   struct Hit {
@@ -137,6 +136,7 @@ class PiecewiseMotion : public model::Motion {
   std::vector<double> spring_contacts_;
   std::vector<Flight> flights_;
   std::vector<Hit> hits_;
+  std::vector<Unresolved> unresolved_;
   std::vector<model::ClosedContact> closed_;
 };
 

@@ -168,7 +168,7 @@ bool PiecewiseMotion::Builder::come_to_rest(std::size_t i, double level, bool is
   skipped->scale = 2.0 * speed * eta * (1.0 - beta) * (1.0 - 4.8 * beta) / most;
   m_.flights_.pop_back();
   opens_ = begins_;
-  unresolved_.push_back(std::move(*skipped));
+  m_.unresolved_.push_back(std::move(*skipped));
   begin(std::move(held));
   m_.closed_.back() = {int(i),  std::min(t + sum, m_.end_),
                        m_.end_, {t + shortest - time_error, skipped->rest},
@@ -195,6 +195,7 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
   // 2 % for what is of higher order.
   Unresolved skipped{
       contact,
+      held.t,
       held.t + seconds,
       {1.02 * gap * (response.cwiseAbs() + 2.0 * seconds * slowing.cwiseAbs()),
        1.02 * rate * response.cwiseAbs() + 2.0 * gap * slowing.cwiseAbs(),
@@ -248,9 +249,9 @@ void PiecewiseMotion::Builder::land(const Closing& closing) {
   const double rate =
       std::abs(gap.slope) + deviation(now, row(i).rate()) + 2.0 * opening * opening / fall;
   const double height = level + std::pow(opening, 3) / (fall * fall);
-  const auto skipped = left_out({i, seconds, height, rate, acceleration, level}, now, held);
+  auto skipped = left_out({i, seconds, height, rate, acceleration, level}, now, held);
   if (!skipped) refuse_graze(i, t, gap.value, closing.gap_error);
-  unresolved_.push_back(std::move(*skipped));
+  m_.unresolved_.push_back(std::move(*skipped));
   begin(std::move(held));
   m_.closed_.back().begins = {t, t + seconds};
   m_.closed_.back().from = std::min(t + opening / fall, m_.end_);

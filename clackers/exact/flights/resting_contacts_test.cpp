@@ -175,6 +175,7 @@ TEST(RestingContacts, ContactsOfMassesThatNothingJoinsAccumulateTogether) {
     problem.end = 1.5 * rest;
     const PiecewiseMotion motion(problem);
     ++tally.members;
+    EXPECT_LT(motion.error_bound(0.0).v.maxCoeff(), 1e-12);
     ASSERT_EQ(motion.closed_contacts().size(), 2u);
     for (const auto& closed : motion.closed_contacts()) {
       const Real& its_rest = known[std::size_t(closed.contact)].rest();

@@ -214,7 +214,8 @@ void Comparison::collect_impacts() {
 
 void Comparison::match_impacts(double step) {
   const auto& t = given_.t;
-  ImpactMatcher matcher(reference_, step, t.front(), int(problem_.contacts.size()));
+  ImpactMatcher matcher(reference_, step, t.front(), int(problem_.contacts.size()),
+                        facts_.contact_time);
   matcher.keep_pairs();
   for (const auto& impact : impacts_)
     matcher.take(impact.t,

@@ -31,6 +31,7 @@ struct RunFacts {
   /// pair. The constant "detuning_rate" of the case.
   double detuning_rate = 0.0;
   std::shared_ptr<const model::Motion> penalized{};  ///< exact, with the run's contact spring
+  double contact_time = 0.0;  ///< of a compliant contact [s], as an ErrorSink has it
   std::string no_penalized = "No contact spring of the run is known.";  ///< why it is not known
 };
 

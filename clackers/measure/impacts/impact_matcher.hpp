@@ -43,8 +43,8 @@ bool rests_in_contact(const model::Motion& reference, const std::vector<model::C
 ///   found. So is the last one before a run that starts late.
 /// - Where impacts accumulate to a contact that stays closed, the last one expected for certain is
 ///   that with a flight of `apart` steps after it, followed by one of `delays` steps for each impact
-///   so far; half a contact of a compliant law counts as a step. From the middle of the flight after it on, impacts are expected only if found, and no
-///   report is extra until the contact opens.
+///   so far; half a contact of a compliant law counts as a step. From the middle of the flight after
+///   it on, impacts are expected only if found, and no report is extra until the contact opens.
 class ImpactMatcher {
  public:
   /// `step` [s] of the run, its first time `start` [s], the number of the problem's contacts, and how

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "clackers/exact/bodies/bar_mesh.hpp"
@@ -27,11 +26,10 @@ double worst(double a, double b) { return std::isnan(b) ? b : std::max(a, std::a
 
 }  // namespace
 
-cases::Case with_elements(std::string_view case_name, cases::Settings settings, double elements) {
+cases::Settings with_elements(cases::Settings settings, double elements) {
   std::erase_if(settings, [](const auto& setting) { return setting.first == "elements"; });
   settings.emplace_back("elements", elements);
-  return elements > cases::most_exact_elements ? cases::make_mesh(case_name, settings)
-                                               : cases::make(case_name, settings);
+  return settings;
 }
 
 double steps_along_path(const cases::Case& mesh, double elements, double nu) {
@@ -50,25 +48,25 @@ MeshReference mesh_reference(cases::Case made, double elements, double nu) {
   const std::size_t stride = (nodes.size() + most_nodes - 1) / most_nodes;
   for (std::size_t i = 0; i < nodes.size(); i += stride) known.nodes.push_back(i);
   const auto count = std::size_t(std::min(steps, double(most_times)));
-  double e_space = 0.0;
   for (std::size_t k = 1; k <= count; ++k) {
     const double t = std::min(end, std::round(double(k) * steps / double(count)) * known.step);
     known.times.push_back(t);
-    const auto now = motion == nullptr ? std::nullopt : std::optional(motion->at(t, Side::right));
+    const Eigen::VectorXd u_mesh =
+        motion == nullptr ? Eigen::VectorXd::Constant(known.mesh.problem.dof(), std::nan(""))
+                          : motion->at(t, Side::right).u;
     for (const auto i : known.nodes) {
       const auto& [bar, x] = nodes[i];
       const auto right = known.mesh.bars->at(bar, x, t, Side::right);
       const auto left = known.mesh.bars->at(bar, x, t, Side::left);
       const MeshReference::Point point{right.u.nearest(),
-                                       now ? now->u[known.mesh.mesh->first + Eigen::Index(i)]
-                                           : std::numeric_limits<double>::quiet_NaN(),
+                                       u_mesh[known.mesh.mesh->first + Eigen::Index(i)],
                                        left.v.nearest(), right.v.nearest()};
       known.points.push_back(point);
       known.size = std::max(known.size, std::abs(point.u));
-      if (now) e_space = std::max(e_space, std::abs(point.u_mesh - point.u));
+      known.e_space = worst(known.e_space, point.u_mesh - point.u);
     }
   }
-  if (motion != nullptr) known.e_space = e_space / known.size;
+  known.e_space /= known.size;
   return known;
 }
 
@@ -120,7 +118,7 @@ void MeshSink::compare(const double* u, const double* v) {
 
 MeshErrors MeshSink::errors(const model::Outcome& outcome) const {
   MeshErrors found{e_total_ / known_.size,
-                   known_.e_space ? std::optional(e_time_ / known_.size) : std::nullopt,
+                   e_time_ / known_.size,
                    v_error_ / v_size_,
                    std::sqrt(v_square_error_ / v_square_),
                    (energy_ - energy_0_) / largest_kinetic_,

@@ -66,8 +66,6 @@ double overshoot(const std::vector<Eigen::MatrixXd>& all, Eigen::Index row) {
   return largest;
 }
 
-record::Cell cell(double value) { return std::isnan(value) ? record::Cell{} : record::Cell{value}; }
-
 std::vector<double> linear(double first, double last, int count) {
   std::vector<double> all;
   for (int i = 0; i < count; ++i) all.push_back(first + (last - first) * i / (count - 1));
@@ -115,8 +113,8 @@ std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integ
                          {},
                          record::Axes{.highest = 1.0, .y = "T'/T - 1 and 1 - A'/A", .note = note}};
   for (const auto& point : amplification(integrator, linear(0.01, 0.4, 40)))
-    accuracy.rows.push_back(
-        {point.steps, cell(point.period_elongation), cell(point.amplitude_decay)});
+    accuracy.rows.push_back({point.steps, record::cell_of(point.period_elongation),
+                             record::cell_of(point.amplitude_decay)});
   record::Sheet radius{"clackers/spectral-radius/1",
                        fmt::format("Spectral radius of {}: above 1 the motion grows", name),
                        {steps, {"spectral_radius", "", "spectral radius, largest |eigenvalue|"}},
@@ -144,8 +142,9 @@ std::vector<record::Sheet> amplification_sheets(const methods::Integrator& integ
                    .y = "largest value over the exact amplitude",
                    .note = note}};
   for (const auto& point : amplification(integrator, all)) {
-    radius.rows.push_back({point.steps, cell(point.spectral_radius)});
-    overshoot.rows.push_back({point.steps, cell(point.u_overshoot), cell(point.v_overshoot)});
+    radius.rows.push_back({point.steps, record::cell_of(point.spectral_radius)});
+    overshoot.rows.push_back(
+        {point.steps, record::cell_of(point.u_overshoot), record::cell_of(point.v_overshoot)});
   }
   return {accuracy, radius, overshoot};
 }

@@ -53,12 +53,10 @@ record::Sheet constant_sheet(std::string schema, std::string title,
 
 // Without the states of the masses, which fill more than a page where there are many.
 void keep_impacts_alone(record::Sheet& sheet) {
-  for (auto c = sheet.columns.size(); c-- > 0;) {
+  record::drop_columns(sheet, [&](std::size_t c) {
     const char first = sheet.columns[c].name.front();
-    if (first != 'u' && first != 'v') continue;
-    sheet.columns.erase(sheet.columns.begin() + std::ptrdiff_t(c));
-    for (auto& row : sheet.rows) row.erase(row.begin() + std::ptrdiff_t(c));
-  }
+    return first == 'u' || first == 'v';
+  });
 }
 
 record::Sheet impact_sheet(const cases::Case& test_case) {
