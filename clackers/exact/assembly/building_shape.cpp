@@ -1,11 +1,9 @@
 #include "clackers/exact/assembly/building_shape.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "clackers/exact/pair/parameters.hpp"
-#include "clackers/numerics/sincospi.hpp"
 
 namespace clackers::exact {
 
@@ -53,16 +51,6 @@ double slope_peak(double p, double q, double scale) {
                    p == 1.0 ? std::exp(scale) : 0.0});
 }
 
-constexpr std::size_t table_size = static_cast<std::size_t>(most_storeys);
-
-// 1, x^2, x^4, ...
-void fill_even_powers(const DoubleDouble& x, int count, std::array<double, table_size>& powers) {
-  const double square = (x * x).hi;
-  powers[0] = 1.0;
-  for (std::size_t j = 1; j < static_cast<std::size_t>(count); ++j)
-    powers[j] = powers[j - 1] * square;
-}
-
 }  // namespace
 
 std::vector<double> Building::masses() const {
@@ -93,43 +81,6 @@ BuildingShape::BuildingShape(const std::vector<Part>& parts, double omega, doubl
     c.u = products(first, n, numerator, [](int i) { return double(2 * i + 1); });
     parts_.push_back(std::move(c));
     dof_ += static_cast<std::size_t>(n);
-  }
-}
-
-void BuildingShape::sample(std::span<const FlightInstant> instants,
-                           model::SampleBuffers out) const {
-  for (std::size_t row = 0; row < instants.size(); ++row) {
-    std::size_t at = row * dof_;
-    for (const auto& part : parts_) {
-      sample_one(part, instants[row], &out.u[at], &out.v[at], out.a.empty() ? nullptr : &out.a[at]);
-      at += static_cast<std::size_t>(part.storeys);
-    }
-  }
-}
-
-void BuildingShape::sample_one(const Coefficients& c, const FlightInstant& now, double* u,
-                               double* v, double* a) const {
-  // cos(x) and sin(x) of x = multiple (theta + pi/2), multiple odd.
-  auto [cosine, sine] = numerics::sincospi(now.theta_over_pi * c.multiple);
-  c.reverses ? sine = -sine : cosine = -cosine;
-  std::array<double, table_size> cosines, sines;
-  fill_even_powers(cosine, c.storeys, cosines);
-  fill_even_powers(sine, c.storeys, sines);
-
-  const double e = numerics::scale(now.decay.significand.hi, now.decay.exponent);
-  const auto n = static_cast<std::size_t>(c.storeys);
-  double displacement = 0.0;
-  for (std::size_t i = n; i-- > 0;) {
-    const double term = cosines[n - 1 - i] * sines[i];
-    displacement += c.u[i] * sine.hi * term;
-    const double velocity = c.v[i] * cosine.hi * term;
-    u[i] = e * displacement + 0.0;  // never -0
-    v[i] = e * (velocity - sigma_ * displacement) + 0.0;
-    if (a == nullptr) continue;
-    double change = -double(2 * (n - 1 - i) + 1) * term;
-    if (i > 0) change += double(2 * i) * (cosines[n - i] * sines[i - 1]);
-    const double acceleration = c.frequency * c.v[i] * sine.hi * change;
-    a[i] = e * (acceleration - sigma_ * (2.0 * velocity - sigma_ * displacement)) + 0.0;
   }
 }
 

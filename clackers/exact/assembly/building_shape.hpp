@@ -40,28 +40,29 @@ class BuildingShape : public FlightShape {
   BuildingShape(const std::vector<Part>& parts, double omega, double sigma);
 
   std::size_t dof() const override { return dof_; }
-  void sample(std::span<const FlightInstant> instants, model::SampleBuffers out) const override;
+  void sample(const FlightBlock& block, std::size_t count, model::SampleBuffers out) const override;
   model::Kinematics amplitude() const override;
   /// The square of a cosine or sine is rounded once, its power j then at most 2j - 1 times; a product
   /// of powers, a coefficient and a sum of at most n drifts follow. Errors of cosine and sine near
   /// their zeros, 2^-63, add less than one. An acceleration is the difference of two such products.
   model::Kinematics error() const override;
 
- private:
   struct Coefficients {
     int storeys = 1;
     double multiple = 1.0, frequency = 1.0;
-    bool reverses = false;     // sin(multiple pi/2) < 0
-    std::vector<double> v, u;  // W and D
+    bool reverses = false;     ///< sin(multiple pi/2) < 0
+    std::vector<double> v, u;  ///< W and D
   };
+  const std::vector<Coefficients>& parts() const { return parts_; }
+  double sigma() const { return sigma_; }
+
+ private:
   struct Peaks {
     double u = 0.0, v = 0.0, a = 0.0;
     double terms = 0.0;  // largest sum of the sizes of the two terms of a
   };
   // Of storey i = 1, 2, ... without decay, for E = 1.
   static Peaks peaks(const Coefficients& c, int i);
-  void sample_one(const Coefficients& c, const FlightInstant& now, double* u, double* v,
-                  double* a) const;
 
   std::vector<Coefficients> parts_;
   std::size_t dof_ = 0;

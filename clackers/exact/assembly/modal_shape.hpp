@@ -26,23 +26,21 @@ class ModalShape : public FlightShape {
   ModalShape(std::vector<ModalColumn> columns, const numerics::DoubleDouble& omega, double sigma);
 
   std::size_t dof() const override { return columns_.front().amplitude.size(); }
-  void sample(std::span<const FlightInstant> instants, model::SampleBuffers out) const override;
+  void sample(const FlightBlock& block, std::size_t count, model::SampleBuffers out) const override;
   model::Kinematics amplitude() const override;
   /// Each of m terms carries the roundings of its factor, of its amplitude (two) and of their product; m - 1
   /// sums are rounded. A factor itself, in double-double, is within 2^-60 of its amplitude. Two
   /// terms of one frequency are at most sqrt(2) times their amplitude.
   model::Kinematics error() const override;
 
+  const std::vector<ModalColumn>& columns() const { return columns_; }
+  const std::vector<numerics::DoubleDouble>& frequencies() const { return frequencies_; }
+  double sigma() const { return sigma_; }
+
  private:
   std::vector<ModalColumn> columns_;
   std::vector<numerics::DoubleDouble> frequencies_;  // of the columns [rad/s]
   double sigma_ = 0.0;
 };
-
-/// out[i] = factors[0] columns[0][i] + factors[1] columns[1][i] + ... for i < count, added from left
-/// to right: the same bits on every processor. With `bypass_cache` for an output larger than the
-/// caches. At least one column.
-void combine(const double* const* columns, const double* factors, std::size_t column_count,
-             std::size_t count, double* out, bool bypass_cache);
 
 }  // namespace clackers::exact

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "clackers/base/error.hpp"
-#include "clackers/exact/pair/closed_form.hpp"
 
 namespace clackers::exact {
 
@@ -29,41 +28,61 @@ ShapedMotion::ShapedMotion(const ShapedParameters& parameters, FlightConstants c
            fmt::format("There would be {:.3g}, {} at once.", impacts, contacts_at_once()));
 }
 
-FlightInstant ShapedMotion::instant(double flight, const DoubleDouble& theta_over_pi,
-                                    const DoubleDouble& halvings) const {
-  const bool rests = c_.eta == 0.0 && flight > 0.0;
-  return {theta_over_pi, std::fmod(flight, 2.0) != 0.0,
-          rests ? numerics::Scaled{} : power(c_.log2_eta * flight - halvings)};
+ShapedMotion::Instant ShapedMotion::instant(const Phase& phase,
+                                            const DoubleDouble& halvings) const {
+  const bool rests = c_.eta == 0.0 && phase.flight > 0.0;
+  return {phase, rests ? numerics::Scaled{} : power(c_.log2_eta * phase.flight - halvings)};
 }
 
-FlightInstant ShapedMotion::instant_at(double t, Side side) const {
+ShapedMotion::Instant ShapedMotion::instant_at(double t, Side side) const {
   model::require_inside("motion", t, c_.end);
-  const auto [flight, theta_over_pi] = phase_at(c_, t, side);
-  return instant(flight, theta_over_pi, c_.decay * t);
+  return instant(phase_at(c_, t, side), c_.decay * t);
+}
+
+void ShapedMotion::put(const Instant& now, std::size_t lane, FlightBlock& block) {
+  // So that a product with E is rounded to a subnormal number once.
+  constexpr int least = -1000;
+  const auto& [e, exponent] = now.decay;
+  const int beyond = std::min(0, exponent - least);
+  block.flight[lane] = now.phase.flight;
+  block.y_hi[lane] = now.phase.theta_over_pi.hi;
+  block.y_lo[lane] = now.phase.theta_over_pi.lo;
+  block.e_hi[lane] = numerics::scale(e.hi, beyond);
+  block.e_lo[lane] = numerics::scale(e.lo, beyond);
+  block.scale[lane] = numerics::scale(1.0, exponent - beyond);
 }
 
 void ShapedMotion::sample(std::span<const double> times, Side side,
                           model::SampleBuffers out) const {
   const auto n = shape_->dof();
   model::require_buffers("motion", out, times.size(), n);
-  std::array<FlightInstant, 16> block;
-  for (std::size_t first = 0; first < times.size(); first += block.size()) {
-    const auto count = std::min(block.size(), times.size() - first);
-    for (std::size_t i = 0; i < count; ++i) block[i] = instant_at(times[first + i], side);
+  // A vector takes as long as some single numbers.
+  constexpr std::size_t few = 3;
+  FlightBlock block{};
+  for (std::size_t first = 0; first < times.size(); first += most_in_block) {
+    const auto count = std::min(most_in_block, times.size() - first);
+    auto left_out = count <= few ? (std::uint64_t(1) << count) - 1
+                                 : flight_block(c_, &times[first], count, block);
+    for (; left_out != 0; left_out &= left_out - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left_out));
+      put(instant_at(times[first + lane], side), lane, block);
+    }
     const auto part = [&](std::span<double> x) {
       return x.empty() ? x : x.subspan(first * n, count * n);
     };
-    shape_->sample({block.data(), count}, {part(out.u), part(out.v), part(out.a)});
+    shape_->sample(block, count, {part(out.u), part(out.v), part(out.a)});
   }
 }
 
-Kinematics ShapedMotion::state(const FlightInstant& now) const {
+Kinematics ShapedMotion::state(const Instant& now) const {
+  FlightBlock block{};
+  put(now, 0, block);
   const auto n = static_cast<Eigen::Index>(shape_->dof());
   Kinematics x{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
   const auto values = [](Eigen::VectorXd& column) {
     return std::span<double>(column.data(), static_cast<std::size_t>(column.size()));
   };
-  shape_->sample({&now, 1}, {values(x.u), values(x.v), values(x.a)});
+  shape_->sample(block, 1, {values(x.u), values(x.v), values(x.a)});
   return x;
 }
 
@@ -106,8 +125,8 @@ model::MotionImpact ShapedMotion::impact(long long index) const {
 
   const auto k = static_cast<double>(number);
   const auto halvings = c_.period_decay * (k - 1.0 + c_.first_impact);
-  const auto before = instant(k - 1.0, {0.5, 0.0}, halvings);
-  const auto after = instant(k, {-0.5, 0.0}, halvings);
+  const auto before = instant({k - 1.0, {0.5, 0.0}}, halvings);
+  const auto after = instant({k, {-0.5, 0.0}}, halvings);
   const auto when = impact_instant(c_, k);
   model::MotionImpact hit;
   hit.index = index;

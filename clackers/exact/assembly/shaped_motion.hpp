@@ -6,7 +6,8 @@
 
 #include "clackers/exact/assembly/flight_shape.hpp"
 #include "clackers/exact/assembly/shaped_parameters.hpp"
-#include "clackers/exact/pair/sampling.hpp"
+#include "clackers/exact/pair/closed_form.hpp"
+#include "clackers/numerics/exp2.hpp"
 
 namespace clackers::exact {
 
@@ -56,10 +57,14 @@ class ShapedMotion : public model::Motion {
   const ImpactPattern& pattern() const { return pattern_; }
 
  private:
-  FlightInstant instant(double flight, const numerics::DoubleDouble& theta_over_pi,
-                        const numerics::DoubleDouble& halvings) const;
-  FlightInstant instant_at(double t, model::Side side) const;
-  model::Kinematics state(const FlightInstant& now) const;
+  struct Instant {
+    Phase phase;
+    numerics::Scaled decay;  // E = eta^k exp(-sigma t)
+  };
+  Instant instant(const Phase& phase, const numerics::DoubleDouble& halvings) const;
+  Instant instant_at(double t, model::Side side) const;
+  static void put(const Instant& now, std::size_t lane, FlightBlock& block);
+  model::Kinematics state(const Instant& now) const;
   long long contacts_at_once() const {
     return static_cast<long long>(pattern_.contacts.front().size());
   }

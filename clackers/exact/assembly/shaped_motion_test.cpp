@@ -9,6 +9,7 @@
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/exact/testing/assembly_members.hpp"
+#include "clackers/numerics/testing/forced_target.hpp"
 
 namespace clackers::exact {
 namespace {
@@ -363,29 +364,49 @@ TEST(ShapedMotion, RestsAfterAPlasticImpact) {
   EXPECT_EQ(motion->envelope(3.0).u, Eigen::VectorXd::Zero(5));
 }
 
-TEST(ShapedMotion, SamplesManyTimesAsOneByOne) {
+class ShapedSampling : public testing::TestWithParam<numerics::simd::Target> {};
+
+TEST_P(ShapedSampling, OfManyTimesGivesTheBitsOfSingleTimesOnTheFastestTarget) {
   Box box(23);
-  for (const auto& [motion, problem] : large_members()) {
-    const auto n = static_cast<std::size_t>(problem.dof());
-    std::vector<double> times(37);
-    for (double& t : times) t = box.uniform(0.0, motion->end());
-    std::vector<double> u(times.size() * n), v(u), a(u);
-    motion->sample(times, Side::right, {u, v, a});
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      const auto x = motion->at(times[i], Side::right);
-      const auto row = [&](const std::vector<double>& all) {
-        return Eigen::Map<const Eigen::VectorXd>(&all[i * n], static_cast<Eigen::Index>(n));
-      };
-      EXPECT_EQ(row(u), x.u);
-      EXPECT_EQ(row(v), x.v);
-      EXPECT_EQ(row(a), x.a);
+  auto members = large_members();
+  const auto add = [&](auto motion) { members.push_back({std::move(motion), {}}); };
+  add(make_row({.sigma = 0.3, .t_end = 1e4}));
+  add(make_row({.eta = 0.0}));
+  add(make_buildings({.left = 3.0, .right = 5.0, .eta = 0.5, .t_end = 2000.0}));
+  for (const auto& [motion, problem] : members) {
+    const auto n = static_cast<std::size_t>(motion->dof());
+    std::vector<double> times(101);
+    const auto impacts = double(motion->impact_count(motion->end()));
+    for (double& t : times) {
+      t = box.uniform(0.0, motion->end());
+      if (!box.one_in(4)) continue;
+      t = motion->impact(1 + static_cast<long long>(box.uniform(0.0, impacts))).t;
+      if (box.one_in(3)) t = std::nextafter(t, 0.0);
     }
-    std::vector<double> again(u.size()), other(u.size());
-    motion->sample(times, Side::right, {again, other, {}});
-    EXPECT_EQ(again, u);
-    EXPECT_EQ(other, v);
+    for (const auto side : {Side::left, Side::right}) {
+      std::vector<double> u(times.size() * n), v(u), a(u), again(u), other(u);
+      {
+        const numerics::simd::ForcedTarget forced(GetParam());
+        motion->sample(times, side, {u, v, a});
+        motion->sample(times, side, {again, other, {}});
+      }
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        const auto x = motion->at(times[i], side);
+        const auto row = [&](const std::vector<double>& all) {
+          return Eigen::Map<const Eigen::VectorXd>(&all[i * n], static_cast<Eigen::Index>(n));
+        };
+        EXPECT_EQ(row(u), x.u) << times[i];
+        EXPECT_EQ(row(v), x.v) << times[i];
+        EXPECT_EQ(row(a), x.a) << times[i];
+      }
+      EXPECT_EQ(again, u);
+      EXPECT_EQ(other, v);
+    }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(, ShapedSampling, testing::ValuesIn(numerics::simd::available_targets()),
+                         [](const auto& target) { return std::string(target.param.name()); });
 
 TEST(ShapedMotion, IsZeroWhereItDecaysBelowAllNumbers) {
   const auto motion = make_row({.sigma = 0.3, .t_end = 1e4});

@@ -19,15 +19,7 @@ using simd::Doubles;
 using simd::Pair;
 using simd::Vector;
 
-// What the loop over times hands to those over masses. Loops of their own over many times, so that a
-// processor, which looks only so many operations ahead, sees some that do not wait for each other.
-struct Block {
-  HWY_ALIGN double y_hi[most_in_block], y_lo[most_in_block];  ///< theta / pi
-  HWY_ALIGN double e_hi[most_in_block], e_lo[most_in_block];  ///< E without a power of two
-  HWY_ALIGN double scale[most_in_block];                      ///< and that
-};
-
-// Omega t / pi less the nearest whole number k, as ClosedForm::phase_at().
+// Omega t / pi less the nearest whole number k, as natural_phase().
 HWY_INLINE Pair phase(const FlightConstants& c, Vector t, Vector& k) {
   const auto first = simd::two_product(constant(c.turns.hi), t);
   const auto second = simd::two_product(constant(c.turns.mid), t);
@@ -36,13 +28,16 @@ HWY_INLINE Pair phase(const FlightConstants& c, Vector t, Vector& k) {
   const auto top = simd::quick_two_sum(first.hi, middle.hi);
   const auto low = simd::two_sum(top.lo, rest);
   const auto head = simd::quick_two_sum(top.hi, low.hi);
-  k = simd::nearest_whole(head.hi);
+  const double start = c.first_impact - 0.5;
+  k = simd::nearest_whole(Sub(head.hi, constant(start)));
   const auto sum = simd::two_sum(Sub(head.hi, k), head.lo);
-  return simd::quick_two_sum(sum.hi, Add(sum.lo, low.lo));
+  const auto y = simd::quick_two_sum(sum.hi, Add(sum.lo, low.lo));
+  return start == 0.0 ? y : simd::add(y, constant(numerics::DoubleDouble{-start, 0.0}));
 }
 
 // Fills the block for the vector of times at `at`. Returns which of them are to be left out.
-HWY_INLINE std::uint64_t start(const FlightConstants& c, Vector t, std::size_t at, Block& block) {
+HWY_INLINE std::uint64_t start(const FlightConstants& c, Vector t, std::size_t at,
+                               FlightBlock& block) {
   const Doubles d;
   Vector k, scale;
   const auto y = phase(c, t, k);
@@ -51,12 +46,8 @@ HWY_INLINE std::uint64_t start(const FlightConstants& c, Vector t, std::size_t a
                      simd::multiply(constant(c.decay), t));
   auto e = simd::exp2(halvings, scale);
   // Without a stop an odd number of half turns changes the sign.
-  if (!c.collides) {
-    const Vector half = Mul(k, constant(0.5));
-    const Vector sign =
-        Sub(constant(1.0), Mul(constant(4.0), Abs(Sub(half, simd::nearest_whole(half)))));
-    scale = Mul(scale, sign);
-  }
+  if (!c.collides) scale = Mul(scale, simd::sign_of_power(k));
+  hn::Store(k, d, block.flight + at);
   hn::Store(y.hi, d, block.y_hi + at);
   hn::Store(y.lo, d, block.y_lo + at);
   hn::Store(e.hi, d, block.e_hi + at);
@@ -74,7 +65,7 @@ HWY_INLINE std::uint64_t start(const FlightConstants& c, Vector t, std::size_t a
 }
 
 template <bool with_a>
-HWY_INLINE void finish(const MassConstants& m, const Block& block, std::size_t count,
+HWY_INLINE void finish(const MassConstants& m, const FlightBlock& block, std::size_t count,
                        double (*out)[most_in_block]) {
   const Doubles d;
   const auto b = constant(m.b), v_cos = constant(m.v_cos), v_sin = constant(m.v_sin);
@@ -97,17 +88,32 @@ HWY_INLINE void finish(const MassConstants& m, const Block& block, std::size_t c
   }
 }
 
-std::uint64_t sample(const FlightConstants& c, const double* times, std::size_t count, double* u,
-                     double* v, double* a) {
+// Loops of their own over times and over masses, so that a processor, which looks only so many
+// operations ahead, sees some that do not wait for each other.
+HWY_INLINE std::uint64_t flights(const FlightConstants& c, const double* times, std::size_t count,
+                                 FlightBlock& block) {
   const Doubles d;
-  Block block;
-  HWY_ALIGN double t[most_in_block], values[3][most_in_block];
+  HWY_ALIGN double t[most_in_block];
   std::copy_n(times, count, t);
-  const std::size_t lanes = hn::Lanes(d), whole = (count + lanes - 1) / lanes * lanes;
+  const std::size_t whole = hwy::RoundUpTo(count, hn::Lanes(d));
   std::fill(t + count, t + whole, times[0]);
   std::uint64_t left_out = 0;
-  for (std::size_t at = 0; at < whole; at += lanes)
+  for (std::size_t at = 0; at < whole; at += hn::Lanes(d))
     left_out |= start(c, hn::Load(d, t + at), at, block);
+  return count == 64 ? left_out : left_out & ((std::uint64_t(1) << count) - 1);
+}
+
+std::uint64_t start_block(const FlightConstants& c, const double* times, std::size_t count,
+                          FlightBlock& block) {
+  return flights(c, times, count, block);
+}
+
+std::uint64_t sample(const FlightConstants& c, const double* times, std::size_t count, double* u,
+                     double* v, double* a) {
+  FlightBlock block;
+  HWY_ALIGN double values[3][most_in_block];
+  const auto left_out = flights(c, times, count, block);
+  const std::size_t whole = hwy::RoundUpTo(count, hn::Lanes(Doubles()));
   const std::size_t masses = c.masses.size();
   for (std::size_t i = 0; i < masses; ++i) {
     a != nullptr ? finish<true>(c.masses[i], block, whole, values)
@@ -116,7 +122,7 @@ std::uint64_t sample(const FlightConstants& c, const double* times, std::size_t 
     for (int part = 0; part < (a != nullptr ? 3 : 2); ++part)
       for (std::size_t j = 0; j < count; ++j) to[part][j * masses] = values[part][j];
   }
-  return count == 64 ? left_out : left_out & ((std::uint64_t(1) << count) - 1);
+  return left_out;
 }
 
 }  // namespace clackers::exact::HWY_NAMESPACE
@@ -125,7 +131,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clackers::exact {
 
+HWY_EXPORT(start_block);
 HWY_EXPORT(sample);
+
+std::uint64_t flight_block(const FlightConstants& c, const double* times, std::size_t count,
+                           FlightBlock& block) {
+  return HWY_DYNAMIC_DISPATCH(start_block)(c, times, count, block);
+}
 
 std::uint64_t sample_block(const FlightConstants& c, const double* times, std::size_t count,
                            double* u, double* v, double* a) {

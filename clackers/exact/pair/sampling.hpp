@@ -45,6 +45,20 @@ struct FlightConstants {
 /// How many times sample_block() takes at most: a bit each in its result.
 inline constexpr std::size_t most_in_block = 64;
 
+/// What all masses share at the times of a block, a lane each.
+struct FlightBlock {
+  using Lanes = double[most_in_block];
+  alignas(64) Lanes flight;  ///< k, the impacts so far; without a stop the half turns
+  alignas(64) Lanes y_hi,
+      y_lo;  ///< theta / pi: from -1/2, just after an impact, to 1/2, just before
+  alignas(64) Lanes e_hi, e_lo;  ///< E without a power of two
+  alignas(64) Lanes scale;       ///< and that
+};
+
+/// Fills a block, its unused lanes with the first time. Returns what sample_block() returns.
+std::uint64_t flight_block(const FlightConstants& c, const double* times, std::size_t count,
+                           FlightBlock& block);
+
 /// Evaluates a motion at `count` times with the widest vectors of the processor, chosen when the
 /// program first comes here. Writes row-major (time, mass); `a` may be null. Returns a bit for each
 /// time (the first the lowest) that was left out and is to be evaluated alone: outside [0, end], beside

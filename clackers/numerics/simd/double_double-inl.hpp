@@ -79,6 +79,12 @@ HWY_INLINE Vector nearest_whole(Vector x) {
   return Sub(Add(x, constant(whole_shift)), constant(whole_shift));
 }
 
+/// (-1)^k for a whole number k.
+HWY_INLINE Vector sign_of_power(Vector k) {
+  const Vector half = Mul(k, constant(0.5));
+  return Sub(constant(1.0), Mul(constant(4.0), Abs(Sub(half, nearest_whole(half)))));
+}
+
 /// Entry number (the last bits of `shifted` below 2^bits) of a table, `offset` entries on.
 template <int bits>
 HWY_INLINE Pair look_up(const DoubleDouble* table, Vector shifted, std::size_t offset) {
