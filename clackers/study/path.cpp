@@ -1,9 +1,11 @@
 #include "clackers/study/path.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "clackers/base/check.hpp"
@@ -21,7 +23,8 @@ constexpr double most_work = 1e12;  // steps times squared degrees of freedom
 
 std::vector<double> meshes_of(const PathRequest& request) {
   const auto base = cases::make_mesh(request.case_name, request.settings);
-  require_within("verify", "path", request.nu, 1e-3, 100.0);
+  if (request.nu.empty()) refuse("verify", "path", 0.0, "one number or more");
+  for (const double nu : request.nu) require_within("verify", "path", nu, 1e-3, 100.0);
   const double coarsest = value_of(base.values, "elements");
   std::vector<double> list;
   for (int k = 0; k < request.levels * request.samples_per_level; ++k) {
@@ -33,7 +36,7 @@ std::vector<double> meshes_of(const PathRequest& request) {
   // Before any work what is not allowed of the finest mesh is refused.
   const auto finest =
       cases::make_mesh(request.case_name, with_elements(request.settings, list.back()));
-  const double steps = steps_along_path(finest, list.back(), request.nu),
+  const double steps = steps_along_path(finest, list.back(), std::ranges::min(request.nu)),
                dof = double(finest.problem.dof());
   if (!(steps * dof * dof < most_work))
     refuse("verify", "steps", steps, "fewer with so many elements",
@@ -48,23 +51,39 @@ struct Ladder {
   std::string failure;
 };
 
-record::Cell order_of(const std::vector<double>& h, const std::vector<double>& errors) {
+// An order and the half width of its 95 % interval; NaN where there are too few errors.
+struct Order {
+  double slope = std::nan(""), spread = std::nan("");
+  bool is_below(double bound) const { return slope + spread < bound; }
+  bool is_beyond(double bound) const { return slope - spread >= bound; }
+  // Three digits are more than scatter leaves.
+  record::Cell cell() const { return record::cell_of(std::round(1000.0 * slope) / 1000.0); }
+};
+
+Order order_of(const std::vector<double>& h, const std::vector<double>& errors) {
   std::vector<double> x, y;
   for (std::size_t i = 0; i < errors.size(); ++i)
     if (errors[i] > 0.0) x.push_back(std::log(h[i])), y.push_back(std::log(errors[i]));
   if (x.size() < 3) return {};
-  // Two digits are more than scatter leaves.
-  return std::round(1000.0 * numerics::fit_line(x, y).slope) / 1000.0;
+  const auto fit = numerics::fit_line(x, y);
+  return {fit.slope, fit.slope_spread};
 }
 
-std::string reading_of(double u, double v_l1, const PathOrders& expected,
+// Only what the intervals prove.
+std::string reading_of(const Order& u, const Order& v_l1, const PathOrders& expected,
                        const std::string& failure) {
-  constexpr double still = 0.1, part_of_u = 0.75, part_of_v = 0.6;
-  if (std::isnan(u)) return "failed: " + failure;
-  if (u < still) return "stagnates";
-  if (v_l1 < still) return "velocities stagnate";
-  return u >= part_of_u * expected.u && v_l1 >= part_of_v * expected.v_l1 ? "as expected"
-                                                                          : "slower";
+  constexpr double still = 0.1;
+  const double least_u = 0.75 * expected.u, least_v = 0.6 * expected.v_l1;
+  if (std::isnan(u.slope)) return "failed: " + failure;
+  if (u.is_below(still)) return "stagnates";
+  if (v_l1.is_below(still)) return "velocities stagnate";
+  if (u.is_below(least_u) || v_l1.is_below(least_v)) return "slower";
+  const auto open = [](const char* name, const Order& order, double least) {
+    return fmt::format("undecided: {} {:.2f} ± {:.2f}, {:.2f} wanted", name, order.slope,
+                       order.spread, least);
+  };
+  if (!u.is_beyond(least_u)) return open("u", u, least_u);
+  return v_l1.is_beyond(least_v) ? "as expected" : open("v_l1", v_l1, least_v);
 }
 
 std::vector<record::Column> error_columns() {
@@ -101,22 +120,23 @@ Methods methods_of(const PathRequest& request) {
   return list;
 }
 
-// A mesh that was run, with the errors of all methods.
+// A mesh that was run with the step of one path, with the errors of all methods.
 struct MeshRuns {
-  double elements = 0.0, h = 0.0, step = 0.0, e_space = 0.0;
+  double nu = 0.0, elements = 0.0, h = 0.0, step = 0.0, e_space = 0.0;
   std::vector<MeshErrors> errors;
 };
 
 // Nothing when interrupted.
-std::optional<MeshRuns> run_mesh(const PathRequest& request, const Methods& list, double elements,
-                                 TaskShare& share, const std::atomic<bool>* interrupt) {
+std::optional<MeshRuns> run_mesh(const PathRequest& request, const Methods& list, double nu,
+                                 double elements, TaskShare& share,
+                                 const std::atomic<bool>* interrupt) {
   const auto settings = with_elements(request.settings, elements);
   const auto known = mesh_reference(elements > cases::most_exact_elements
                                         ? cases::make_mesh(request.case_name, settings)
                                         : cases::make(request.case_name, settings),
-                                    elements, request.nu);
+                                    elements, nu);
   const auto& problem = known.mesh.problem;
-  MeshRuns runs{elements, known.h, known.step, known.e_space, {}};
+  MeshRuns runs{nu, elements, known.h, known.step, known.e_space, {}};
   for (const auto& method : list) {
     if (const auto objection = method->objection(problem)) {
       runs.errors.emplace_back().failure = objection->code.name();
@@ -131,28 +151,79 @@ std::optional<MeshRuns> run_mesh(const PathRequest& request, const Methods& list
   return runs;
 }
 
+// A table of a method: of each mesh e_time of all steps and the step at which it equals e_space, on
+// logarithms a line between two steps. Nothing where the steps do not enclose it.
+record::Sheet crossings_of(const std::vector<double>& paths, const std::string& name,
+                           std::size_t method, const std::vector<MeshRuns>& meshes) {
+  record::Sheet sheet{"clackers/path-crossings/1",
+                      name + ": error in time of each step beside that of the mesh",
+                      {{"elements", "", "of the mesh"},
+                       {"h", "m", "length of an element"},
+                       {"e_space", "", "error of the mesh"}},
+                      {}};
+  for (const double nu : paths)
+    sheet.columns.push_back({fmt::format("{:g} h/c", nu), "", "e_time with this step"});
+  sheet.columns.push_back({"crossing", "s",
+                           "step at which both are equal: a finer one is wasted on this mesh; "
+                           "empty where these steps do not enclose it"});
+  std::map<double, std::vector<const MeshRuns*>> by_elements;
+  for (const auto& mesh : meshes) by_elements[mesh.elements].push_back(&mesh);
+  for (auto& [elements, runs] : by_elements) {
+    // A finer step is compared at more times.
+    double e_space = runs.front()->e_space;
+    for (const auto* run : runs) e_space = std::max(e_space, run->e_space);
+    if (std::isnan(e_space) || runs.size() < paths.size()) continue;
+    std::vector<record::Cell> row{static_cast<long long>(elements), runs.front()->h, e_space};
+    const auto e_time = [&](const MeshRuns* run) {
+      const auto& errors = run->errors[method];
+      return errors.failure.empty() ? errors.e_time : std::nan("");
+    };
+    for (const auto* run : runs) row.push_back(record::cell_of(e_time(run)));
+    std::ranges::sort(runs, {}, &MeshRuns::step);
+    double crossing = std::nan("");
+    for (std::size_t k = 1; k < runs.size(); ++k) {
+      const auto &fine = *runs[k - 1], &coarse = *runs[k];
+      const double below = std::log(e_time(&fine) / e_space),
+                   above = std::log(e_time(&coarse) / e_space);
+      if (below <= 0.0 && above > 0.0)
+        crossing = fine.step * std::pow(coarse.step / fine.step, below / (below - above));
+    }
+    row.push_back(record::cell_of(crossing));
+    sheet.rows.push_back(std::move(row));
+  }
+  return sheet;
+}
+
 PathStudy study_of(const PathRequest& request, const Methods& list,
                    const std::vector<MeshRuns>& meshes) {
+  const bool several = request.nu.size() > 1;
+  constexpr std::size_t most_curves = 8;  // beside that of the mesh
   record::Sheet orders{
       "clackers/path/1",
       fmt::format("{} along the path step = {:g} h/c, {:g} to {:g} elements{}", request.case_name,
-                  request.nu, meshes.empty() ? 0.0 : meshes.front().elements,
+                  fmt::join(request.nu, ", "), meshes.empty() ? 0.0 : meshes.front().elements,
                   meshes.empty() ? 0.0 : meshes.back().elements,
-                  request.nu == 1.0 ? ": the characteristic step, no ranking" : ""),
+                  std::ranges::count(request.nu, 1.0) > 0
+                      ? ": 1 is the characteristic step, no ranking"
+                      : ""),
       {{"method", "", "under test"},
+       {"nu", "", "c step/h"},
        {"u", "", "order in h of the largest error of u, over all meshes"},
        {"v_l1", "", "order of v in L1 over x and t"},
        {"v_l2", "", "order of v in L2 over x and t"},
        {"expected", "", "orders of u, v in L1 and v in L2 of such data"},
        {"reading", "", "of these orders, or why there are none"}},
       {}};
-  record::Sheet finest{
-      "clackers/path-errors/1", "Errors of the finest mesh", {{"method", "", "under test"}}, {}};
-  record::Sheet curves{"clackers/path-curves/1",
-                       "Largest error of u against the bar",
-                       {{"h", "m", "length of an element"}, {"e_space", "", "error of the mesh"}},
-                       {},
-                       record::Axes{.log_x = true, .log_y = true, .y = "error of u"}};
+  record::Sheet finest{"clackers/path-errors/1",
+                       "Errors of the finest mesh",
+                       {{"method", "", "under test"}, {"nu", "", "c step/h"}},
+                       {}};
+  record::Sheet curves{
+      "clackers/path-curves/1",
+      fmt::format("Largest error of u against the bar, step = {:g} h/c", request.nu.front()),
+      {{"h", "m", "length of an element"}, {"e_space", "", "error of the mesh"}},
+      {},
+      record::Axes{.log_x = true, .log_y = true, .y = "error of u"}};
   record::Sheet all{"clackers/path-runs/1",
                     "All runs",
                     {{"method", "", "under test"},
@@ -160,51 +231,66 @@ PathStudy study_of(const PathRequest& request, const Methods& list,
                      {"h", "m", "length of an element"},
                      {"step", "s", "of the integrator"}},
                     {}};
-  for (const auto& mesh : meshes) curves.rows.push_back({mesh.h, record::cell_of(mesh.e_space)});
   for (auto* sheet : {&finest, &all})
     for (auto& column : error_columns()) sheet->columns.push_back(std::move(column));
   all.columns.push_back({"failure", "", "why a run has no errors"});
+  std::map<double, std::size_t> curve_row;  // by elements
+  for (const auto& mesh : meshes)
+    if (curve_row.emplace(mesh.elements, curve_row.size()).second)
+      curves.rows.push_back({mesh.h, record::cell_of(mesh.e_space)});
+  PathStudy study;
   for (std::size_t m = 0; m < list.size(); ++m) {
     const auto facts = list[m]->facts();
     const auto name = methods::short_name(facts.name);
-    Ladder ladder;
-    curves.columns.push_back({name, "", "error of " + name});
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-      const auto& mesh = meshes[k];
-      const auto& [e_total, e_time, v_l1, v_l2, energy, failure] = mesh.errors[m];
-      std::vector<record::Cell> cells{
-          e_total, record::cell_of(e_time), record::cell_of(mesh.e_space), v_l1, v_l2, energy};
-      if (failure.empty()) {
-        ladder.h.push_back(mesh.h);
-        ladder.e_total.push_back(e_total);
-        ladder.v_l1.push_back(v_l1);
-        ladder.v_l2.push_back(v_l2);
-        ladder.finest = cells;
-      } else {
-        ladder.failure = failure;
-        cells.assign(cells.size(), {});
-      }
-      curves.rows[k].push_back(cells.front());
-      cells.insert(cells.begin(), {name, static_cast<long long>(mesh.elements), mesh.h, mesh.step});
-      cells.push_back(failure);
-      all.rows.push_back(std::move(cells));
-    }
     const auto expected = expected_along_path(facts.smooth_order);
-    const auto u = order_of(ladder.h, ladder.e_total), v1 = order_of(ladder.h, ladder.v_l1),
-               v2 = order_of(ladder.h, ladder.v_l2);
-    orders.rows.push_back(
-        {name, u, v1, v2, std::string(expected.text),
-         reading_of(record::number_in(u), record::number_in(v1), expected, ladder.failure)});
-    if (ladder.finest.empty()) continue;
-    ladder.finest.insert(ladder.finest.begin(), name);
-    finest.rows.push_back(std::move(ladder.finest));
+    for (const double nu : request.nu) {
+      Ladder ladder;
+      const bool is_drawn = nu == request.nu.front() && m < most_curves;
+      if (is_drawn) curves.columns.push_back({name, "", "error of " + name});
+      if (is_drawn)
+        for (auto& row : curves.rows) row.emplace_back();
+      for (const auto& mesh : meshes) {
+        if (mesh.nu != nu) continue;
+        const auto& [e_total, e_time, v_l1, v_l2, energy, failure] = mesh.errors[m];
+        std::vector<record::Cell> cells{
+            e_total, record::cell_of(e_time), record::cell_of(mesh.e_space), v_l1, v_l2, energy};
+        if (failure.empty()) {
+          ladder.h.push_back(mesh.h);
+          ladder.e_total.push_back(e_total);
+          ladder.v_l1.push_back(v_l1);
+          ladder.v_l2.push_back(v_l2);
+          ladder.finest = cells;
+        } else {
+          ladder.failure = failure;
+          cells.assign(cells.size(), {});
+        }
+        if (is_drawn) curves.rows[curve_row[mesh.elements]].back() = cells.front();
+        cells.insert(cells.begin(),
+                     {name, static_cast<long long>(mesh.elements), mesh.h, mesh.step});
+        cells.push_back(failure);
+        all.rows.push_back(std::move(cells));
+      }
+      const auto u = order_of(ladder.h, ladder.e_total), v1 = order_of(ladder.h, ladder.v_l1),
+                 v2 = order_of(ladder.h, ladder.v_l2);
+      orders.rows.push_back({name, nu, u.cell(), v1.cell(), v2.cell(), std::string(expected.text),
+                             reading_of(u, v1, expected, ladder.failure)});
+      if (ladder.finest.empty()) continue;
+      ladder.finest.insert(ladder.finest.begin(), {name, nu});
+      finest.rows.push_back(std::move(ladder.finest));
+    }
+    if (several) study.sheets.push_back(crossings_of(request.nu, name, m, meshes));
   }
-  // A curve without points is none.
+  // A curve without points is none, and one path needs no column.
   record::drop_columns(curves, [&](std::size_t j) {
     return std::ranges::all_of(
         curves.rows, [&](const auto& row) { return std::isnan(record::number_in(row[j])); });
   });
-  return {{std::move(orders), std::move(finest), std::move(curves)}, std::move(all), false};
+  for (auto* sheet : {&orders, &finest})
+    if (!several) record::drop_columns(*sheet, [](std::size_t j) { return j == 1; });
+  study.sheets.insert(study.sheets.begin(),
+                      {std::move(orders), std::move(finest), std::move(curves)});
+  study.runs = std::move(all);
+  return study;
 }
 
 }  // namespace
@@ -214,16 +300,17 @@ PathStudy follow_path(const PathRequest& request, const Progress& progress,
   const auto list = methods_of(request);
   const auto meshes = meshes_of(request);
   double total = 0.0;
-  for (const double n : meshes) total += n * n * n;
+  for (const double n : meshes) total += n * n * n * double(request.nu.size());
   ProgressMeter meter(total, progress);
 
   // The finest, which lasts longest, first.
-  std::vector<std::optional<MeshRuns>> runs(meshes.size());
-  run_all(meshes.size(), thread_count(request.jobs), [&](std::size_t k) {
-    const auto at = meshes.size() - 1 - k;
+  std::vector<std::optional<MeshRuns>> runs(meshes.size() * request.nu.size());
+  run_all(runs.size(), thread_count(request.jobs), [&](std::size_t k) {
+    const auto at = runs.size() - 1 - k, mesh = at / request.nu.size();
     if (interrupt != nullptr && *interrupt) return;
-    TaskShare share(meter, std::pow(meshes[at], 3));
-    runs[at] = run_mesh(request, list, meshes[at], share, interrupt);
+    TaskShare share(meter, std::pow(meshes[mesh], 3));
+    runs[at] =
+        run_mesh(request, list, request.nu[at % request.nu.size()], meshes[mesh], share, interrupt);
   });
   std::vector<MeshRuns> finished;
   for (auto& run : runs)

@@ -15,23 +15,25 @@ namespace clackers::study {
 struct PathRequest {
   std::vector<std::string> methods;  ///< specifications; empty: the default panel
   std::string case_name;
-  cases::Settings settings;   ///< `elements` are those of the coarsest mesh
-  double nu = 0.45;           ///< c step/h, of the bar where the step is shortest
-  int levels = 3;             ///< of meshes, each twice as fine as the one before
-  int samples_per_level = 8;  ///< meshes of each
-  int jobs = 0;               ///< threads; 0: one per processor
+  cases::Settings settings;      ///< `elements` are those of the coarsest mesh
+  std::vector<double> nu{0.45};  ///< c step/h of each path, of the bar where the step is shortest
+  int levels = 3;                ///< of meshes, each twice as fine as the one before
+  int samples_per_level = 8;     ///< meshes of each
+  int jobs = 0;                  ///< threads; 0: one per processor
 };
 
 struct PathStudy {
-  /// Orders, a row a method, of u (maximum over x and t) and of v in L1 and L2 over x and t, with those to expect of
-  /// data with a kink in u and a jump in v. Then the errors of the finest mesh: e_total against the bars and, up to 200
-  /// elements, e_time against the exact motion of the mesh, e_space between both. Then curves of e_total and e_space over h.
+  /// Orders, a row a method and path, of u (maximum over x and t) and of v in L1 and L2 over x and t, with those to
+  /// expect of data with a kink in u and a jump in v. Then the errors of the finest mesh: e_total against the bars and, up
+  /// to 200 elements, e_time against the exact motion of the mesh, e_space between both. Then curves of e_total and
+  /// e_space over h, of the first path and eight methods. With several paths a table for each method: e_time of all steps
+  /// of a mesh, and the step at which it equals e_space.
   std::vector<record::Sheet> sheets;
-  record::Sheet runs;        ///< a row a method and mesh
+  record::Sheet runs;        ///< a row a method, path and mesh
   bool interrupted = false;  ///< not all meshes were run
 };
 
-/// Throws InputError before any work for a case that is no mesh (no-closed-form), unless 0 < nu <= 100, for steps or
+/// Throws InputError before any work for a case that is no mesh (no-closed-form), unless 1e-3 <= nu <= 100, for steps or
 /// meshes that are too many, for adaptive methods, and as verify() does. A run that fails is a row that says so.
 PathStudy follow_path(const PathRequest& request, const Progress& progress = {},
                       const std::atomic<bool>* interrupt = nullptr);

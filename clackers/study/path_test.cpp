@@ -51,8 +51,9 @@ TEST(Path, HasTheOrdersOfDataWithAJump) {
 
 // A contact force treated as an internal one gains energy again and again, and the velocities are wrong on any mesh.
 TEST(Path, TellsAForceThatGainsEnergy) {
-  const auto study =
-      follow_path(request({"newmark+penalty", "newmark"}, {{"mass", "lumped"}, {"eta", 1.0}}));
+  auto elastic = request({"newmark+penalty", "newmark"}, {{"mass", "lumped"}, {"eta", 1.0}});
+  elastic.samples_per_level = 8;
+  const auto study = follow_path(elastic);
   EXPECT_EQ(reading(study, 0), "velocities stagnate");
   EXPECT_EQ(reading(study, 1), "as expected");
   auto finest = by_method(study.sheets[1]);
@@ -63,7 +64,7 @@ TEST(Path, TellsAForceThatGainsEnergy) {
 TEST(Path, SeparatesTheErrorOfTheMesh) {
   const auto coarse = follow_path(request({"newmark"}, {{"t_end", 3.0}}));
   auto fine_request = request({"newmark"}, {{"t_end", 3.0}});
-  fine_request.nu = 0.05;
+  fine_request.nu = {0.05};
   const auto fine = follow_path(fine_request);
   for (std::size_t k = 0; k < coarse.runs.rows.size(); ++k) {
     const auto at = [k](const PathStudy& study, std::size_t column) {
@@ -102,12 +103,51 @@ TEST(Path, SeparatesTheErrorOfTheMesh) {
   EXPECT_LT(errors[1], 0.05);
 }
 
+// A step at which the errors of time and mesh are said to be equal is run.
+TEST(Path, FindsTheStepBelowWhichTheMeshDecides) {
+  auto coarse = request({"bdf1", "newmark"}, {{"t_end", 3.0}});
+  coarse.nu = {4.0, 2.0, 1.0, 0.5};
+  coarse.levels = 3;
+  coarse.samples_per_level = 1;
+  const auto study = follow_path(coarse);
+  ASSERT_EQ(study.sheets.size(), 5u);
+  EXPECT_EQ(study.sheets[0].rows.size(), 8u);
+  EXPECT_EQ(study.runs.rows.size(), 24u);
+  const auto& table = study.sheets[4];  // of newmark
+  ASSERT_EQ(table.rows.size(), 3u);
+  for (const auto& row : table.rows) {
+    const double elements = record::number_in(row[0]), e_space = record::number_in(row[2]),
+                 step = record::number_in(row.back());
+    double largest = 0.0;
+    for (const auto& run : study.runs.rows)
+      if (record::number_in(run[1]) == elements)
+        largest = std::max(largest, record::number_in(run[6]));
+    EXPECT_EQ(e_space, largest);
+    auto there = request({"newmark"}, {{"t_end", 3.0}, {"elements", elements}});
+    there.nu = {step * elements};
+    there.samples_per_level = 3;
+    there.levels = 1;
+    const auto run = follow_path(there).runs.rows.front();
+    EXPECT_NEAR(record::number_in(run[5]), e_space, 0.2 * e_space) << elements;
+  }
+  // Of backward Euler finer steps would always help.
+  EXPECT_TRUE(std::isnan(record::number_in(study.sheets[3].rows[0].back())));
+  // Three meshes over less than an octave decide nothing.
+  auto few = request({"newmark"});
+  few.levels = 1;
+  few.samples_per_level = 3;
+  EXPECT_TRUE(reading(follow_path(few), 0).starts_with("undecided: u 0.6"));
+  few.methods = {"newmark+penalty"};
+  few.settings = {{"mass", "lumped"}, {"eta", 1.0}};
+  EXPECT_TRUE(reading(follow_path(few), 0).starts_with("undecided: u 0.2"));
+}
+
 TEST(Path, RefusesWithTheReason) {
   auto masses = request({"newmark"});
   masses.case_name = "stop";
   EXPECT_REFUSED(follow_path(masses), "no-closed-form", "bar-wall");
   auto still = request({"newmark"});
-  still.nu = 0.0;
+  still.nu = {0.45, 0.0};
   EXPECT_REFUSED(follow_path(still), "out-of-range", "path");
   auto many = request({"newmark"});
   many.levels = 9;

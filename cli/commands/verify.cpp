@@ -145,7 +145,9 @@ int run_path(const Options& options, const std::string& line) {
   request.methods = options.methods;
   request.case_name = options.cases.empty() ? "bar-wall" : options.cases.front();
   request.settings = read_settings(options.settings, {});
-  request.nu = read_number("--path", options.path);
+  request.nu.clear();
+  for (const auto& part : parts_of("--path", options.path))
+    request.nu.push_back(read_number("--path", part));
   const auto take = [&](const char* name, int& to) {
     if (const auto found = numbers.find(name); found != numbers.end()) to = int(found->second);
   };
@@ -237,7 +239,7 @@ void add_verify(Grammar& root) {
                 "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
                 "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
                 "           [--only VERDICT] [--report FILE.html] [--film FILE.webm|gif]\n"
-                "  clackers verify [METHOD ...] [--case CASE] --path nu [--levels n]\n"
+                "  clackers verify [METHOD ...] [--case CASE] --path nu,... [--levels n]\n"
                 "           [--report FILE.html]\n"
                 "  clackers verify [METHOD ...] --exec COMMAND ...\n"
                 "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
@@ -270,8 +272,9 @@ void add_verify(Grammar& root) {
                   "Instead of a fixed mesh: finer and finer meshes of a bar (default bar-wall, "
                   "--levels 3, from `elements` on) with steps of nu h/c, 1e-3 to 100, against the "
                   "bar itself. Prints orders and those to expect, and of each run the errors of "
-                  "integrator and mesh.")
-      ->option_text("nu");
+                  "integrator and mesh. With several nu a table of each method has the errors of "
+                  "every mesh and step, and the step at which both errors are equal.")
+      ->option_text("nu,...");
   add_program_options(*app, options->programs);
   add_require_option(*app, options->requirements);
   app->add_option(
