@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
@@ -31,8 +32,15 @@ ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double
     if (!closed.accumulates) continue;
     double from = closed.from, after_next = 0.0;
     auto last = impact_of(closed.contact, reference.impact_count(from), -1);
+    // A contact that opens again forgets how late its impacts were.
+    double opened = 0.0;
+    for (const auto& other : reference.closed_contacts())
+      if (other.contact == closed.contact && other.until < from)
+        opened = std::max(opened, other.until);
+    const auto before = opened > 0.0 ? reference.impact_count(opened) : 0;
     const auto is_resolved = [&] {
-      return from - last->t >= apart * slow && after_next >= delays * double(last->index) * slow;
+      return from - last->t >= apart * slow &&
+             after_next >= delays * double(last->index - before) * slow;
     };
     while (last && !is_resolved()) {
       after_next = from - last->t;
@@ -40,7 +48,7 @@ ImpactMatcher::ImpactMatcher(const model::Motion& reference, double step, double
       last = impact_of(closed.contact, last->index - 1, -1);
     }
     // A report may be early.
-    from -= 0.5 * (from - (last ? last->t : 0.0));
+    from -= 0.5 * (from - (last ? std::max(last->t, opened) : 0.0));
     accumulations_.push_back({closed.contact, from, closed.until + step_});
   }
   // The impact of each contact before the start may still be found late.
@@ -119,8 +127,9 @@ void ImpactMatcher::settle(int contact, const Track& track) {
 void ImpactMatcher::advance(int contact, double t) {
   auto& track = tracks_[std::size_t(contact)];
   settle(contact, track);
-  track.nearest.reset();
-  auto next = track.target->index + 1;
+  const auto settled = std::exchange(track.nearest, {});
+  const auto from = *track.target;
+  auto next = from.index + 1;
   if (tracks_.size() == 1 && accumulations_.empty()) {
     const auto skipped = reference_.impact_count(std::clamp(t, 0.0, reference_.end())) - next;
     if (skipped > 0) {
@@ -130,6 +139,14 @@ void ImpactMatcher::advance(int contact, double t) {
     }
   }
   track.target = target(contact, next);
+  // Late by half of what the next one, of a shorter flight, allows: the one after it may be anywhere.
+  if (!settled || !track.target || !(track.target->reach < from.reach)) return;
+  if (std::abs(settled->t - from.t) < 0.5 * track.target->reach) return;
+  const auto next_one = std::ranges::find_if(accumulations_, [&](const Accumulation& each) {
+    return each.contact == contact && each.until > from.t;
+  });
+  if (next_one != accumulations_.end())
+    next_one->from = std::min(next_one->from, 0.5 * (from.t + track.target->t));
 }
 
 void ImpactMatcher::take(double t, bool resting, int contact) {

@@ -44,7 +44,9 @@ bool rests_in_contact(const model::Motion& reference, const std::vector<model::C
 /// - Where impacts accumulate to a contact that stays closed, the last one expected for certain is
 ///   that with a flight of `apart` steps after it, followed by one of `delays` steps for each impact
 ///   so far; half a contact of a compliant law counts as a step. From the middle of the flight after
-///   it on, impacts are expected only if found, and no report is extra until the contact opens.
+///   it on, impacts are expected only if found, and no report is extra until the contact opens. So it is
+///   from an impact on that is found with an error of half of what the next one, of a shorter flight,
+///   may have: a method of first order is later each time.
 class ImpactMatcher {
  public:
   /// `step` [s] of the run, its first time `start` [s], the number of the problem's contacts, and how

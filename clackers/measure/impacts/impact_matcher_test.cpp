@@ -47,7 +47,7 @@ struct Chatter : ToyMotion {
     all.push_back(17.0);
     return all;
   }
-  Chatter() : ToyMotion(20.0, impacts()) {}
+  explicit Chatter(const std::vector<double>& times = impacts()) : ToyMotion(20.0, times) {}
   std::vector<model::ClosedContact> closed_contacts() const override {
     model::ClosedContact closed;
     closed.from = 10.0;
@@ -69,6 +69,10 @@ TEST(ImpactMatcher, ExpectsOnlyImpactsThatStepsResolve) {
   EXPECT_SCORE(found({5.0, 7.5, 8.75, 9.375, 9.95, 10.1, 12.0, 14.9, 17.0}), 5, 5, 5, 0, 0);
   EXPECT_SCORE(found({5.0, 8.75, 17.0}), 4, 3, 3, 1, 0);
   EXPECT_SCORE(found({5.0, 7.5, 8.75, 9.1, 9.2, 17.0}), 4, 4, 4, 0, 0);
+  // Late by half of what the next one allows, 0.16, that one may be anywhere; late by less, not.
+  EXPECT_SCORE(found({5.0, 7.6, 8.95, 9.2, 17.0}), 3, 3, 3, 0, 0);
+  EXPECT_SCORE(found({5.0, 7.6, 8.3, 17.0}), 3, 3, 3, 0, 0);
+  EXPECT_SCORE(found({5.0, 7.55, 8.95, 17.0}), 4, 4, 3, 1, 1);
   EXPECT_SCORE(found({5.0, 7.5, 8.75, 15.5, 17.0}), 4, 5, 4, 0, 1);
   EXPECT_SCORE(found({5.0, 6.2, 7.5, 8.75, 17.0}), 4, 5, 4, 0, 1);
   EXPECT_SCORE(found({5.0, 7.5, 8.75, 9.0, 17.0}), 4, 5, 4, 0, 1);
@@ -76,6 +80,49 @@ TEST(ImpactMatcher, ExpectsOnlyImpactsThatStepsResolve) {
   ImpactMatcher compliant(reference, 1e-4, 0.0, 1, 0.01);
   for (const double t : {5.0, 7.5, 8.75, 9.375, 9.8, 17.0}) compliant.take(t);
   EXPECT_SCORE(compliant.score(20.0, 1e-12), 5, 5, 5, 0, 0);
+}
+
+// The contact closes for a second time at 18, after 17, 17.5, 17.75, ...
+TEST(ImpactMatcher, ExpectsImpactsBetweenAccumulations) {
+  struct TwoChatters : Chatter {
+    static std::vector<double> impacts() {
+      auto all = Chatter::impacts();
+      for (int k = 1; k <= 20; ++k) all.push_back(18.0 - std::ldexp(1.0, -k));
+      return all;
+    }
+    TwoChatters() : Chatter(impacts()) {}
+    std::vector<model::ClosedContact> closed_contacts() const override {
+      auto all = Chatter::closed_contacts();
+      all.push_back(all.front());
+      all.back().from = 18.0;
+      all.back().until = 20.0;
+      return all;
+    }
+  };
+  const TwoChatters reference;
+  const auto found = [&](const std::vector<double>& reports, double step = 0.005) {
+    ImpactMatcher matcher(reference, step);
+    for (const double t : reports) matcher.take(t);
+    return matcher.score(20.0, 1e-12);
+  };
+  EXPECT_SCORE(found({5.0, 7.5, 8.75, 17.0, 17.5}), 5, 5, 5, 0, 0);
+  EXPECT_SCORE(found({5.0, 7.5, 8.75, 17.5}), 5, 4, 4, 1, 0);
+  EXPECT_SCORE(found({5.0, 7.5, 8.75, 17.04, 17.6}), 4, 4, 4, 0, 0);
+  // What was late before the first one says nothing of the second.
+  EXPECT_SCORE(found({5.0, 7.6, 16.0, 17.0, 17.5}), 4, 5, 4, 0, 1);
+  // With such steps none of the second is resolved, but what comes soon after the opening is extra.
+  EXPECT_SCORE(found({5.0, 7.5, 15.8, 16.6}, 0.02), 2, 3, 2, 0, 1);
+}
+
+// Flights that grow shorter are the reason, not those of an orbit before them.
+TEST(ImpactMatcher, ExpectsAllImpactsOfEqualFlightsBeforeAnAccumulation) {
+  struct OrbitThenChatter : Chatter {
+    OrbitThenChatter() : Chatter({1.0, 2.0, 3.0, 4.0, 5.0, 7.5, 8.75, 17.0}) {}
+  };
+  const OrbitThenChatter reference;
+  ImpactMatcher matcher(reference, 0.005);
+  for (const double t : {1.0, 2.2, 3.5, 4.0, 5.0, 7.5, 8.75, 17.0}) matcher.take(t);
+  EXPECT_SCORE(matcher.score(20.0, 1e-12), 8, 8, 7, 1, 1);
 }
 
 TEST(ImpactMatcher, ExpectsMoreRoomAfterManyImpacts) {
