@@ -36,6 +36,22 @@ TEST_F(Check, FillsARecordOfOneCaseAndOneSubject) {
   EXPECT_EQ(exit_code(record), 0);
 }
 
+// The motion decays by 1e-22. What is slower than 1e-12 of the beginning is rest for a reader of
+// velocities; and of so many rows diagnosis keeps one in 667, between which the fast mass swings.
+TEST_F(Check, FindsNothingWrongWithALongExactHistory) {
+  CheckRequest request;
+  request.settings = {{"a_t", 50.0}};
+  const auto rows = numbers(0.001, 0.0, request.settings);
+  request.subjects[0].files = {columns("long", rows)};
+  const auto& subject = check(request).cases.at(0).subjects[0];
+  const auto& run = *subject.shown_run();
+  EXPECT_EQ(run.file->rows, 1000001);
+  EXPECT_GT(run.score.impacts->matched, 150);
+  EXPECT_EQ(run.score.impacts->missed + run.score.impacts->extra, 0);
+  EXPECT_TRUE(subject.diagnoses.empty());
+  EXPECT_EQ(subject.assessment.verdict, Verdict::not_claimed);
+}
+
 TEST_F(Check, SeveralHistoriesAreLevelsCoarsestFirst) {
   CheckRequest request;
   for (const double h : {0.005, 0.01, 0.0025, 0.00125})

@@ -235,6 +235,10 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
     }
     const auto around = rows_around(rows, *before, contact);
     if (!around) continue;
+    // Between rows of a thinned sample masses may swing to and fro.
+    const bool is_thinned = &rows == &sample && std::ssize(sample.t) < seen.rows;
+    if (is_thinned && locator.frequency() * (rows.t[around->after] - rows.t[around->before]) > 1.0)
+      continue;
     const auto together =
         contacts_between(rows.t[around->before], rows.t[around->after], impact.contact);
     if (together.empty()) continue;

@@ -9,6 +9,7 @@
 #include "clackers/base/constants.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/measure/errors/meter.hpp"
+#include "clackers/measure/impacts/gap_history.hpp"
 #include "clackers/measure/impacts/impact_finder.hpp"
 #include "clackers/measure/impacts/impact_matcher.hpp"
 
@@ -212,11 +213,30 @@ void Comparison::collect_impacts() {
   match_impacts(step);
 }
 
+// The time behind which no true impact is fast enough to be told from rest in a history [s].
+double Comparison::last_seen_impact() const {
+  // A change of the rate must exceed its noise by half of the closing rate.
+  constexpr double slowest = 4.0 * resting_rate;
+  const Eigen::Map<const Eigen::VectorXd> peak(v_envelope_.data(), given_.dof);
+  const auto last = reference_.impact_count(std::min(given_.t.back(), reference_.end()));
+  for (auto index = last; index >= 1 && last - index < std::ssize(given_.t); --index) {
+    const auto impact = reference_.impact(index);
+    const auto& contact = problem_.contacts[std::size_t(impact.contact)];
+    if (-contact.gap_rate(impact.before.v) < slowest * contact.direction.cwiseAbs().dot(peak))
+      continue;
+    return index == last ? std::numeric_limits<double>::infinity()
+                         : 0.5 * (impact.t + reference_.impact(index + 1).t);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 void Comparison::match_impacts(double step) {
   const auto& t = given_.t;
   ImpactMatcher matcher(reference_, step, t.front(), int(problem_.contacts.size()),
                         facts_.contact_time);
   matcher.keep_pairs();
+  if (source_ == ImpactSource::found_in_history && has_velocities())
+    matcher.expect_until(last_seen_impact());
   for (const auto& impact : impacts_)
     matcher.take(impact.t,
                  rests_in_contact(reference_, problem_.contacts, impact.contact, impact.t),

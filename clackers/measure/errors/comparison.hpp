@@ -115,6 +115,7 @@ class Comparison {
   static Meter fill_meter(const Comparison& comparison);
   void sample_reference();
   void collect_impacts();
+  double last_seen_impact() const;
   void match_impacts(double step);
 
   const model::Trajectory& given_;

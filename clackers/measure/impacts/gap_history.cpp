@@ -141,7 +141,7 @@ GapHistory gap_history_from_velocities(const model::Trajectory& history, const F
     gaps.noise[i] = 1e-5 * size.dot(v.cwiseAbs());
     largest = std::max(largest, std::abs(gaps.before[i]));
   }
-  for (double& noise : gaps.noise) noise += 1e-12 * largest;
+  for (double& noise : gaps.noise) noise += resting_rate * largest;
   return gaps;
 }
 

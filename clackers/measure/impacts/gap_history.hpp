@@ -31,8 +31,11 @@ struct GapHistory {
   double uncertainty(std::size_t i) const;
 };
 
-/// Every row of a history with velocities. Velocities are taken to be printed with six digits, and
-/// rates below 1e-12 of the largest are taken for rest.
+/// Rates below this share of the largest are taken for rest, since those of a resting contact are
+/// rounding.
+inline constexpr double resting_rate = 1e-12;
+
+/// Every row of a history with velocities. Velocities are taken to be printed with six digits.
 GapHistory gap_history_from_velocities(const model::Trajectory& history, const FreeMotion& motion,
                                        const model::Contact<>& contact);
 

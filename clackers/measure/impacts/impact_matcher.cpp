@@ -102,9 +102,9 @@ bool ImpactMatcher::lasts(int contact, double t) const {
 }
 
 bool ImpactMatcher::accumulates(int contact, double t) const {
-  return std::ranges::any_of(accumulations_, [&](const Accumulation& each) {
-    return each.contact == contact && t >= each.from && t <= each.until;
-  });
+  return t >= expected_until_ || std::ranges::any_of(accumulations_, [&](const Accumulation& each) {
+           return each.contact == contact && t >= each.from && t <= each.until;
+         });
 }
 
 // Counts the true impact of a track with what was found for it.
@@ -130,7 +130,7 @@ void ImpactMatcher::advance(int contact, double t) {
   const auto settled = std::exchange(track.nearest, {});
   const auto from = *track.target;
   auto next = from.index + 1;
-  if (tracks_.size() == 1 && accumulations_.empty()) {
+  if (tracks_.size() == 1 && accumulations_.empty() && t < expected_until_) {
     const auto skipped = reference_.impact_count(std::clamp(t, 0.0, reference_.end())) - next;
     if (skipped > 0) {
       sum_.expected += skipped;

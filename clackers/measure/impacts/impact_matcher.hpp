@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -54,6 +55,8 @@ class ImpactMatcher {
   ImpactMatcher(const model::Motion& reference, double step, double start = 0.0, int contacts = 1,
                 double contact_time = 0.0);
 
+  /// From a time on [s] impacts are expected only if found, and no report is extra. Before any report.
+  void expect_until(double t) { expected_until_ = t; }
   /// Makes pairs() possible, at the price of memory that grows with the matches. Before any report.
   void keep_pairs() { keeps_pairs_ = true; }
 
@@ -113,6 +116,7 @@ class ImpactMatcher {
   std::vector<Accumulation> accumulations_;
   std::vector<Lasting> lasting_;
   std::size_t reports_ = 0;  ///< taken so far
+  double expected_until_ = std::numeric_limits<double>::infinity();
   bool keeps_pairs_ = false;
   std::vector<ImpactPair> pairs_;
   ImpactScore sum_;  ///< of all true impacts before the targets
