@@ -87,7 +87,7 @@ void measure(const char* kind, const input::Source& source, double most_memory) 
   const auto expected = input::read_history(source, {.dof = 2}).motion.t.size();
   const double read = processor_time();
   study::CheckRequest request;
-  request.files = {source};
+  request.subjects[0].files = {source};
   const auto record = study::check(request);
   const double whole = processor_time() - read, memory = peak_memory() - before;
   const auto word = [](bool reached) { return reached ? "reached" : "MISSED"; };

@@ -13,12 +13,12 @@ using Lanes = hn::CappedTag<double, StepPowers::steps>;
 
 // What the compiler does not know, it finds in the arguments: Dof = 0.
 template <std::size_t Dof, std::size_t Size>
-HWY_INLINE void multiply(const double* table, std::size_t dof, std::size_t size, const double* x,
-                         double* y) {
+HWY_INLINE void multiply(const double* table, std::size_t dof, std::size_t rows, std::size_t size,
+                         const double* x, double* y) {
   const Lanes d;
   constexpr std::size_t count = StepPowers::steps;
-  if constexpr (Dof > 0) dof = Dof, size = Size;
-  for (std::size_t row = 0; row < size; ++row)
+  if constexpr (Dof > 0) dof = Dof, rows = size = Size;
+  for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t lane = 0; lane < count; lane += hn::Lanes(d)) {
       const double* p = table + row * size * count + lane;
       auto even = hn::Mul(hn::Set(d, x[0]), hn::Load(d, p));
@@ -69,35 +69,55 @@ HWY_INLINE void deliver(std::size_t dof, const double* y, double* out) {
       for (std::size_t i = 0; i < dof; ++i) out[lane * dof + i] = y[i * count + lane];
 }
 
-template <std::size_t Dof, std::size_t Size>
-std::size_t advance_sized(const double* table, std::size_t dof, std::size_t size, double* x,
-                          double* y, const Gaps& gaps, double third, std::size_t most, double* u,
-                          double* v) {
+// The unknowns after `made` > 0 states: the last of them, and the differences that end with it.
+HWY_INLINE void keep(std::size_t dof, std::size_t rows, std::size_t size, const double* y,
+                     std::size_t made, double* x) {
   constexpr std::size_t count = StepPowers::steps;
-  if constexpr (Dof > 0) dof = Dof, size = Size;
+  const std::size_t pair = 2 * dof;
+  // From the oldest on: none is read after it is written.
+  for (std::size_t past = (size - rows) / pair; past > 0; --past)
+    for (std::size_t i = 0; i < pair; ++i) {
+      double* const differences = x + rows + i - pair;
+      const double* const made_ones = y + i * count;
+      if (past > made)
+        differences[past * pair] = differences[(past - made) * pair];
+      else
+        differences[past * pair] =
+            made_ones[made - past] - (past == made ? x[i] : made_ones[made - past - 1]);
+    }
+  for (std::size_t i = 0; i < rows; ++i) x[i] = y[i * count + made - 1];
+}
+
+template <std::size_t Dof, std::size_t Size>
+std::size_t advance_sized(const double* table, std::size_t dof, std::size_t rows, std::size_t size,
+                          double* x, double* y, const Gaps& gaps, double third, std::size_t most,
+                          double* u, double* v) {
+  constexpr std::size_t count = StepPowers::steps;
+  if constexpr (Dof > 0) dof = Dof, rows = size = Size;
   const Lanes d;
   std::size_t made = 0;
   if (count_far(hn::CappedTag<double, 1>(), gaps, third, dof, x, 1) == 0) return 0;
   while (made + count <= most) {
-    multiply<Dof, Size>(table, dof, size, x, y);
+    multiply<Dof, Size>(table, dof, rows, size, x, y);
     deliver(dof, y, u + made * dof);
     deliver(dof, y + dof * count, v + made * dof);
     std::size_t quiet = 0;
     for (std::size_t lane = 0; lane == quiet && lane < count; lane += hn::Lanes(d))
       quiet += count_far(d, gaps, third, dof, y + lane, count);
-    if (quiet > 0)
-      for (std::size_t i = 0; i < size; ++i) x[i] = y[i * count + quiet - 1];
+    if (quiet > 0) keep(dof, rows, size, y, quiet, x);
     made += quiet;
     if (quiet < count) break;
   }
   return made;
 }
 
-std::size_t advance(const double* table, std::size_t dof, std::size_t size, double* x, double* y,
-                    const Gaps& gaps, double third, std::size_t most, double* u, double* v) {
+std::size_t advance(const double* table, std::size_t dof, std::size_t rows, std::size_t size,
+                    double* x, double* y, const Gaps& gaps, double third, std::size_t most,
+                    double* u, double* v) {
   const auto sized = [&]<std::size_t Dof, std::size_t Size>() {
-    return advance_sized<Dof, Size>(table, dof, size, x, y, gaps, third, most, u, v);
+    return advance_sized<Dof, Size>(table, dof, rows, size, x, y, gaps, third, most, u, v);
   };
+  if (rows < size) return sized.template operator()<0, 0>();
   if (dof == 1 && size == 2) return sized.template operator()<1, 2>();
   if (dof == 1 && size == 3) return sized.template operator()<1, 3>();
   if (dof == 2 && size == 4) return sized.template operator()<2, 4>();
@@ -113,15 +133,16 @@ namespace clackers::methods {
 
 HWY_EXPORT(advance);
 
-void StepPowers::assign(std::size_t dof, const Eigen::MatrixXd& first) {
+void StepPowers::assign(std::size_t dof, std::size_t made, const Eigen::MatrixXd& first) {
   dof_ = dof;
+  rows_ = made;
   size_ = std::size_t(first.rows());
-  table_.resize(size_ * size_);
-  y_.resize(size_);
+  table_.resize(rows_ * size_);
+  y_.resize(rows_);
   const auto kept = Eigen::Index(2 * dof);
   Eigen::MatrixXd more = first, next(first.rows(), first.cols());
   for (std::size_t power = 0; power < steps; ++power) {
-    for (std::size_t row = 0; row < size_; ++row)
+    for (std::size_t row = 0; row < rows_; ++row)
       for (std::size_t column = 0; column < size_; ++column)
         table_[row * size_ + column].powers[power] = more(Eigen::Index(row), Eigen::Index(column));
     next.noalias() = first * more;
@@ -133,8 +154,8 @@ void StepPowers::assign(std::size_t dof, const Eigen::MatrixXd& first) {
 
 std::size_t StepPowers::advance(std::span<double> x, const Gaps& gaps, double h, std::size_t most,
                                 double* u, double* v) {
-  return HWY_DYNAMIC_DISPATCH(advance)(table_[0].powers, dof_, size_, x.data(), y_[0].powers, gaps,
-                                       h / 3.0, most, u, v);
+  return HWY_DYNAMIC_DISPATCH(advance)(table_[0].powers, dof_, rows_, size_, x.data(), y_[0].powers,
+                                       gaps, h / 3.0, most, u, v);
 }
 
 }  // namespace clackers::methods

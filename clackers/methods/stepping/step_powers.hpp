@@ -45,7 +45,9 @@ struct Gaps {
 ///
 ///     P^k = J + T_k,   J = 1 for u and v, 0 for a,   T_(k+1) = J T_k + T_1 J + T_1 T_k
 ///
-/// so that its rounding is that of what changes. Products and sums are rounded one by one in a fixed
+/// so that its rounding is that of what changes. A multistep method has the differences of the states
+/// before as further unknowns, u - u_-1 and v - v_-1, u_-1 - u_-2 and so on, which the states that
+/// are made tell. Products and sums are rounded one by one in a fixed
 /// order, so that vectors of all lengths have the same bits.
 class StepPowers {
  public:
@@ -55,8 +57,9 @@ class StepPowers {
 
   bool exists() const { return size_ > 0; }
   void clear() { size_ = 0; }
-  /// Takes T_1 for `dof` masses, of 2 or 3 times as many unknowns.
-  void assign(std::size_t dof, const Eigen::MatrixXd& first);
+  /// Takes T_1 for `dof` masses; the first `made` unknowns, 2 or 3 times as many, are made of each
+  /// state, the others are differences.
+  void assign(std::size_t dof, std::size_t made, const Eigen::MatrixXd& first);
 
   /// Goes on from x by steps of h while the cubics through gaps and gap rates of consecutive states
   /// stay open. `u` and `v`, row-major (step, mass), become the states after the steps. Returns how
@@ -69,7 +72,7 @@ class StepPowers {
     double powers[steps];
   };
 
-  std::size_t dof_ = 0, size_ = 0;
+  std::size_t dof_ = 0, rows_ = 0, size_ = 0;
   std::vector<Eight> table_, y_;
 };
 

@@ -44,7 +44,7 @@ class Stepper final : public AnyStepper<Dof> {
     require_step(who_, plan_.h);
     part_.u = part_.v = model::Vector<Dof>::Zero(system.dof());
     prepare();
-    if constexpr (is_one_step)
+    if constexpr (has_powers)
       if (equation_.is_free()) make_powers();
   }
 
@@ -71,11 +71,19 @@ class Stepper final : public AnyStepper<Dof> {
   }
 
   std::size_t fly(State& now, const Gaps& gaps, std::size_t most, double* u, double* v) override {
-    if constexpr (is_one_step) {
+    if constexpr (has_powers) {
       if (!powers_.exists() || !equation_.is_free()) return 0;
+      if constexpr (remembers_steps)
+        if (!integrator_.is_full(memory_)) return 0;
       pack(now, memory_);
       const std::size_t made = powers_.advance(unknowns_, gaps, plan_.h, most, u, v);
+      if (made == 0) return 0;
       unpack(now, memory_);
+      if constexpr (remembers_steps) {
+        const auto tally = equation_.tally();
+        integrator_.find_acceleration(equation_, now, memory_);
+        equation_.set_tally(tally);
+      }
       equation_.add_evaluations(static_cast<long long>(made) * evaluations_);
       return made;
     }
@@ -122,7 +130,9 @@ class Stepper final : public AnyStepper<Dof> {
  private:
   static constexpr bool remembers_acceleration =
       std::is_same_v<Memory, AccelerationMemory::Memory<Dof>>;
-  static constexpr bool is_one_step = remembers_acceleration || std::is_empty_v<Memory>;
+  static constexpr bool remembers_steps = requires(Memory memory) { memory.count; };
+  static constexpr bool has_powers =
+      remembers_acceleration || remembers_steps || std::is_empty_v<Memory>;
 
   void prepare() {
     powers_.clear();
@@ -153,22 +163,26 @@ class Stepper final : public AnyStepper<Dof> {
     std::copy_n(x.u.data(), n, &unknowns_[0]);
     std::copy_n(x.v.data(), n, &unknowns_[n]);
     if constexpr (remembers_acceleration) std::copy_n(memory.a.data(), n, &unknowns_[2 * n]);
+    if constexpr (remembers_steps) integrator_.pack(x, memory, &unknowns_[0] + 2 * n);
   }
   void unpack(State& x, Memory& memory) const {
     const auto n = std::size_t(x.u.size());
     std::copy_n(&unknowns_[0], n, x.u.data());
     std::copy_n(&unknowns_[n], n, x.v.data());
     if constexpr (remembers_acceleration) std::copy_n(&unknowns_[2 * n], n, memory.a.data());
+    if constexpr (remembers_steps) integrator_.unpack(&unknowns_[0] + 2 * n, x, memory);
   }
 
   // Where they save more than they take.
   void make_powers() {
-    const auto n = std::size_t(part_.u.size()), size = (remembers_acceleration ? 3 : 2) * n;
+    const auto n = std::size_t(part_.u.size()), made = (remembers_acceleration ? 3 : 2) * n;
+    auto size = made;
+    if constexpr (remembers_steps) size *= integrator_.steps;
     constexpr auto steps = StepPowers::steps;
     if (size > StepPowers::most_unknowns || plan_.whole < static_cast<long long>(4 * steps * size))
       return;
     unknowns_.resize(size);
-    powers_.assign(n, added(size));
+    powers_.assign(n, made, added(size));
   }
 
   // What a step adds to u and v, and what it makes of all for a; see StepPowers. Steps from unit vectors

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <numeric>
+#include <utility>
 
 #include "clackers/methods/integrators/runge_kutta/runge_kutta.hpp"
 #include "clackers/methods/integrators/structural/alpha_method.hpp"
@@ -78,6 +80,81 @@ struct Multistep {
     equation.solve(x.t, w, u, v, memory.start.a);
     x.u = u + w.u * memory.start.a;
     x.v = v + w.v * memory.start.a;
+  }
+
+  // For steps eight at once the states before are differences, newest first: u - u_-1, v - v_-1,
+  // u_-1 - u_-2, ...
+  template <int Dof>
+  bool is_full(const Memory<Dof>& memory) const {
+    return memory.count + 1 == steps;
+  }
+
+  template <int Dof>
+  void pack(const model::State<Dof>& x, const Memory<Dof>& memory, double* to) const {
+    for (std::size_t j = 0; j + 1 < steps; ++j)
+      for (const auto& [now, past] : {std::pair{&x.u, &memory.u}, {&x.v, &memory.v}})
+        for (Eigen::Index i = 0; i < now->size(); ++i)
+          *to++ = (j == 0 ? *now : (*past)[j - 1])[i] - (*past)[j][i];
+  }
+
+  template <int Dof>
+  void unpack(const double* from, const model::State<Dof>& x, Memory<Dof>& memory) const {
+    for (std::size_t j = 0; j + 1 < steps; ++j)
+      for (const auto& [now, past] : {std::pair{&x.u, &memory.u}, {&x.v, &memory.v}})
+        for (Eigen::Index i = 0; i < now->size(); ++i)
+          (*past)[j][i] = (j == 0 ? *now : (*past)[j - 1])[i] - *from++;
+    memory.count = steps - 1;
+  }
+
+  /// The matrix T_1 of StepPowers. The coefficients of a formula have the sum 0, so that
+  /// c_1 x0 + c_2 x_-1 + ... = -c_0 x0 - C_1 (x0 - x_-1) - C_2 (x_-1 - x_-2) - ...
+  /// with C_j = c_(j+1) + c_(j+2) + ...
+  template <int Dof>
+  Eigen::MatrixXd change(MotionEquation<Dof>& equation, double h) const {
+    const auto w = weights<Dof>(h);
+    const auto n = equation.system().dof(), pair = 2 * n, all = pair * Eigen::Index(steps);
+    const auto rest = [&](const Coefficients& c, std::size_t j) {
+      return std::accumulate(&c[j + 1], &c[steps] + 1, 0.0);
+    };
+    Eigen::MatrixXd change = Eigen::MatrixXd::Zero(all, all);
+    model::Vector<Dof> u = model::Vector<Dof>::Zero(n), v = u, a = u;
+    for (Eigen::Index column = 0; column < all; ++column) {
+      const auto i = column % n;
+      const auto j = std::size_t(column / pair);
+      const bool is_v = column % pair >= n;
+      // u1 and v1 without a1, less u0 and v0.
+      double more_u = 0.0, more_v = 0.0;
+      if (e[0] == 0.0) {
+        if (is_v) more_v = j == 0 ? 0.0 : rest(d, j) / d[0];
+        const double v1 = more_v + (is_v && j == 0 ? 1.0 : 0.0);
+        more_u = (h * v1 + (is_v || j == 0 ? 0.0 : rest(d, j))) / d[0];
+      } else if (is_v) {
+        more_v = j == 0 ? -1.0 : 0.0;
+      } else if (j > 0) {
+        more_u = rest(e, j) / e[0];
+        more_v = (d[0] * more_u - rest(d, j)) / h;
+      }
+      u.setZero();
+      v.setZero();
+      u[i] = more_u + (!is_v && j == 0 ? 1.0 : 0.0);
+      v[i] = more_v + (is_v && j == 0 ? 1.0 : 0.0);
+      equation.solve(0.0, w, u, v, a);
+      change.col(column).head(n) = w.u * a;
+      change.col(column).segment(n, n) = w.v * a;
+      change(i, column) += more_u;
+      change(n + i, column) += more_v;
+      if (steps == 1) continue;
+      change.col(column).segment(pair, pair) = change.col(column).head(pair);
+      if (j > 0 && j + 1 < steps) change(column + pair, column) = 1.0;
+    }
+    return change;
+  }
+
+  /// That of the state, as each step leaves it.
+  template <int Dof>
+  void find_acceleration(MotionEquation<Dof>& equation, const model::State<Dof>& x,
+                         Memory<Dof>& memory) const {
+    average.start(equation, x, memory.start);
   }
 
   template <int Dof>
