@@ -95,7 +95,8 @@ void build_two_bars(Case& test_case, const Values& value, double) {
   const auto events = bars->events();
   if (std::ranges::any_of(events, [](const auto& event) { return !event.closes; }))
     test_case.constants.push_back(
-        {"restitution", (bars->impulse(p.end) * inverse).nearest() / (v1 - v2) - 1.0, "",
+        {"restitution",
+         (bars->impulse(p.end, model::Side::right) * inverse).nearest() / (v1 - v2) - 1.0, "",
          "of the centres of mass; the rest of the energy is kept as vibration"});
 }
 

@@ -43,11 +43,16 @@ double space_error(const model::Motion& motion, const exact::BarMotion& bars,
 }  // namespace
 
 void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& meshed) {
+  use_mesh(test_case, value,
+           exact::bar_mesh(meshed, value("elements"), node_mass(value("mass")), value("eta"),
+                           test_case.entry->name));
+}
+
+void use_mesh(Case& test_case, const Values& value, exact::BarMesh made) {
   const auto& who = test_case.entry->name;
   if (!test_case.is_mesh_only)
     require_within(who, "elements", value("elements"), 1.0, most_exact_elements);
-  test_case.mesh = std::make_shared<const exact::BarMesh>(
-      exact::bar_mesh(meshed, value("elements"), node_mass(value("mass")), value("eta"), who));
+  test_case.mesh = std::make_shared<const exact::BarMesh>(std::move(made));
   const auto& mesh = *test_case.mesh;
   test_case.problem = mesh.problem;
   if (test_case.is_mesh_only) return;
@@ -60,9 +65,9 @@ void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& mes
   const auto& bars = *test_case.bars;
   const auto* name = name_of(bars.is_string());
   auto& list = test_case.constants;
-  list.push_back({"impulse", bars.impulse(bars.end()).nearest(), "N s",
+  list.push_back({"impulse", bars.impulse(bars.end(), model::Side::right).nearest(), "N s",
                   fmt::format("of the {}'s contact up to t_end", name)});
-  list.push_back({"h", meshed.bars[0].L / value("elements"), "m", "length of an element"});
+  list.push_back({"h", bars.lengths().front() / value("elements"), "m", "length of an element"});
   list.push_back(
       {"e_space", space_error(*motion, bars, mesh), "m",
        fmt::format("largest difference between the displacements of mesh and {}, at 51 times: what "

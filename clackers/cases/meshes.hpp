@@ -10,6 +10,7 @@ namespace clackers::cases {
 
 /// The mesh of what the case has as bars already, as what methods get.
 void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& meshed);
+void use_mesh(Case& test_case, const Values& value, exact::BarMesh mesh);
 
 /// When the contact of the number of the continuum begins or ends, as a constant.
 void add_contact(Case& test_case, int number, const numerics::Bounded& t, bool closes);

@@ -237,8 +237,8 @@ void add_respond(Grammar& root) {
       "[N], 0 for open ones; then those of dry friction: friction1, ... [N].");
   app->add_option(
          "--at", options->at,
-         "At the times, points of the case's bars or string instead, at x from the contact [m]: u "
-         "[m], v [m/s] and stress [N/m^2] or transverse force [N] of each, then force [N], impulse "
+         "At the times, points of the case's bars or string instead, at x from the contact [m] (of "
+         "string-on-obstacle from its left end): u [m], v [m/s] and stress [N/m^2] or transverse force [N] of each, then force [N], impulse "
          "[N s] and energies [J].")
       ->option_text("x,...");
   app->add_option(

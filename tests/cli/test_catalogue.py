@@ -11,7 +11,7 @@ CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "th
          "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly", "cradle",
          "forced-pair", "base-excited-pair", "penalized-pair", "piecewise", "ball",
          "pressed-oscillator", "plastic-pair", "billiard", "slider", "belt", "forced-slider", "pendulum", "duffing-stop", "two-pendula", "pendulum-cradle",
-         "bar-wall", "bar-between-stops", "bouncing-bar", "two-bars", "mass-on-bar", "string-over-point")
+         "bar-wall", "bar-between-stops", "bouncing-bar", "two-bars", "mass-on-bar", "string-over-point", "string-on-obstacle")
 
 
 class List(CommandTest):

@@ -65,6 +65,10 @@ class Points(CommandTest):
         string = self.rows_of("respond", "string-over-point", "--at", "0.25", "--step", "0.5", "--set", "t_end=0.5")
         self.assertEqual(",".join(string[0]), "t,side,u1,v1,transverse_force1,force,impulse,kinetic,elastic,potential")
         self.assertEqual(",".join(string[-1].values()), "0.5,,0,-2,0,4,0.5,1.5,0.5,0")
+        # All points strike at 0.5 s: the impulse 4 between the limits.
+        touch = self.rows_of("respond", "string-on-obstacle", "--at", "0.25", "--step", "0.5", "--set", "t_end=0.5,place=1/2")
+        self.assertEqual([",".join(row.values()) for row in touch[-2:]],
+                         ["0.5,-,0,-2,0,0,0,2,0,0", "0.5,+,0,2,0,0,4,2,0,0"])
         self.refused("respond", "two-bars", "--at", "-1.5", "--samples", "3", code="out-of-range", says="-1 <= x <= 2")
         self.refused("respond", "stop", "--at", "0", "--samples", "3", code="no-closed-form", says="bar-wall")
         self.refused("respond", "bar-wall", "--at", "0", "--impacts", code="bad-syntax", says="--at")

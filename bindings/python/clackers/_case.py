@@ -367,7 +367,7 @@ class Case:
         t : array_like
             Times [s], each in [0, end], in any order; a number is one time.
         at : array_like
-            Places x [m], 0 at the contact; negative in the left one of two bars.
+            Places x [m], 0 at the contact (``string-on-obstacle``: at its left end); negative in the left one of two bars.
 
         Returns
         -------

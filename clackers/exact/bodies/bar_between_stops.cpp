@@ -61,7 +61,7 @@ Bounded BarBetweenStops::force(double t, Side side) const {
   return touches ? wave_.impedance * Bounded(p_.V) : Bounded(0.0);
 }
 
-Bounded BarBetweenStops::impulse(double t) const {
+Bounded BarBetweenStops::impulse(double t, Side) const {
   const auto now = phase(t);
   return wave_.impedance * Bounded(p_.V) *
          (Bounded(now.before) * contact_ + from_zero(lesser(now.s, contact_)));

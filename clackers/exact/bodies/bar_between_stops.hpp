@@ -28,7 +28,7 @@ class BarBetweenStops final : public BarMotion {
   Point at(std::size_t bar, double x, double t, model::Side side) const override;
   /// Of the stop that is touched, and of both.
   Bounded force(double t, model::Side side) const override;
-  Bounded impulse(double t) const override;
+  Bounded impulse(double t, model::Side side) const override;
   Energy energy(double t) const override;
 
   const BarContact::Wave& wave() const { return wave_; }

@@ -54,7 +54,7 @@ Bounded BarContact::force(double t, Side side) const {
              : Bounded(0.0);
 }
 
-Bounded BarContact::impulse(double t) const {
+Bounded BarContact::impulse(double t, Side) const {
   const auto [now, periods] = waves_->folded(t);
   auto sum = waves_->impulse(now);
   if (periods > 0) {

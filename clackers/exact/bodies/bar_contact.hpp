@@ -75,7 +75,7 @@ class BarContact final : public BarMotion {
   Point at(std::size_t bar, double x, double t, model::Side side) const override;
   Bounded gap(double t) const;
   Bounded force(double t, model::Side side) const override;
-  Bounded impulse(double t) const override;
+  Bounded impulse(double t, model::Side side) const override;
   Energy energy(double t) const override;
   /// Up to the end, of periodic motions those of the first period.
   std::vector<Event> events() const;

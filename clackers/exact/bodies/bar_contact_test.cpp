@@ -67,7 +67,8 @@ TEST(BarContact, ABarAtAWallIsSaintVenants) {
       expect(now.stress, behind ? -bar.rho * c * V : 0, 20 * bar.rho * c * V, "stress");
       const bool touches = s > 0 && s < 2 * tau;
       expect(motion.force(t, Side::right), touches ? z * V : 0, 20 * z * V, "force");
-      expect(motion.impulse(t), z * V * std::clamp(s, Number(0), 2 * tau), 20 * m * V, "impulse");
+      expect(motion.impulse(t, Side::right), z * V * std::clamp(s, Number(0), 2 * tau), 20 * m * V,
+             "impulse");
       const auto energy = motion.energy(t);
       expect(energy.kinetic + energy.elastic, m * V * V / 2, 50 * m * V * V, "energy");
       const Number share = touches ? std::max(Number(0), front) / tau : 0;
@@ -103,7 +104,7 @@ TEST(BarContact, TwoBarsPartWithSaintVenantsRestitution) {
     ASSERT_EQ(motion.events().size(), 1u);
     EXPECT_FALSE(motion.events()[0].closes);
     expect(motion.events()[0].t, parts, 100 * parts, "parts");
-    expect(motion.impulse(end), J, 1e3L * a.m * D, "impulse");
+    expect(motion.impulse(end, Side::right), J, 1e3L * a.m * D, "impulse");
     for (int i = 0; i < 6; ++i) {
       const double t = box.uniform(0.0, double(parts));
       const Number round = std::floor(t / (2 * a.tau));

@@ -1,5 +1,8 @@
 #include "clackers/exact/bodies/bar_mesh.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "clackers/base/error.hpp"
@@ -16,13 +19,16 @@ namespace {
 
 constexpr double most_elements = 4000.0;
 
-void require(std::string_view who, double elements, NodeMass mass, double eta) {
-  const double least = mass == NodeMass::massless ? 2.0 : 1.0;
+void require_elements(std::string_view who, double elements, double least) {
   if (!(elements >= least && elements <= most_elements))
     refuse(who, "elements", elements,
-           "a whole number, 2 <= elements <= 4000 (1 with mass at contact)");
+           fmt::format("a whole number, {} <= elements <= {}", least, most_elements));
   if (elements != std::floor(elements))
     refuse(who, "elements", elements, "a whole number", {}, "not-whole");
+}
+
+void require(std::string_view who, double elements, NodeMass mass, double eta) {
+  require_elements(who, elements, mass == NodeMass::massless ? 2.0 : 1.0);
   require_restitution(who, eta);
   if (mass == NodeMass::massless && eta != 0.0)
     refuse(who, "eta", eta, "eta = 0 with mass = massless",
@@ -111,6 +117,31 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
     system.nonlinear = std::make_shared<model::OneSidedSprings>(std::move(contacts), stiffness);
   } else {
     problem.contacts = std::move(contacts);
+  }
+  return mesh;
+}
+
+BarMesh string_mesh(const MeshedString& p, double elements, std::string_view who) {
+  require_elements(who, elements, 2.0);
+  const auto dof = Index(elements) - 1;
+  const double h = p.L / elements;
+  BarMesh mesh;
+  auto& problem = mesh.problem;
+  auto& system = problem.system;
+  system.mass = p.rho * h * MatrixXd::Identity(dof, dof);
+  system.damping = MatrixXd::Zero(dof, dof);
+  system.stiffness = 2.0 * p.T / h * MatrixXd::Identity(dof, dof);
+  system.stiffness.diagonal(1).setConstant(-p.T / h);
+  system.stiffness.diagonal(-1).setConstant(-p.T / h);
+  problem.start = {0.0, VectorXd(dof), VectorXd::Zero(dof)};
+  problem.end = p.end;
+  for (Index i = 0; i < dof; ++i) {
+    const double left = double(i + 1), right = elements - left;
+    // A pluck in the middle is symmetric without rounding.
+    problem.start.u[i] =
+        p.H * std::min(left / (p.place * elements), right / ((1.0 - p.place) * elements));
+    problem.contacts.push_back({VectorXd::Unit(dof, i), 0.0, 1.0});
+    mesh.nodes.push_back({0, h * left});
   }
   return mesh;
 }

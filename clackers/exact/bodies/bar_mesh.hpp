@@ -43,4 +43,12 @@ struct BarMesh {
 BarMesh bar_mesh(const MeshedBars& meshed, double elements, NodeMass mass, double eta,
                  std::string_view who);
 
+/// A string fixed at both ends, plucked to the height H at x = place L, its nodes between the ends of mass rho h and each above
+/// a stop at u = 0 with restitution 1.
+struct MeshedString {
+  double L = 1.0, T = 1.0, rho = 1.0, H = 1.0, place = 0.5, end = 0.0;
+};
+/// Throws InputError, `who` first, unless 2 <= elements <= 4000, a whole number.
+BarMesh string_mesh(const MeshedString& meshed, double elements, std::string_view who);
+
 }  // namespace clackers::exact

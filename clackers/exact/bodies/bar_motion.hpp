@@ -32,8 +32,8 @@ class BarMotion {
   /// continuous; where x and t lie on a front within the spacing of doubles, `side` is meant in time.
   virtual Point at(std::size_t bar, double x, double t, model::Side side) const = 0;
   virtual Bounded force(double t, model::Side side) const = 0;
-  /// The integral of the force from 0 to t.
-  virtual Bounded impulse(double t) const = 0;
+  /// The integral of the force from 0 to t; whether with an impulse at t itself, `side` decides.
+  virtual Bounded impulse(double t, model::Side side) const = 0;
   /// Of all bars or the string, and of a mass that strikes one.
   virtual Energy energy(double t) const = 0;
 };

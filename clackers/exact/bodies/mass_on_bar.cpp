@@ -191,7 +191,7 @@ Wide MassOnBar::mass_speed(const Wide& t, Side side) const {
   return Wide(0.5) * (outgoing(t, side, 0) + back_ * outgoing(t - Wide(2.0) * tau_, side, 0));
 }
 
-Bounded MassOnBar::impulse(double t) const {
+Bounded MassOnBar::impulse(double t, Side) const {
   return narrowed(Wide(p_.M) * (Wide(p_.V) - mass_speed(t, Side::right)));
 }
 

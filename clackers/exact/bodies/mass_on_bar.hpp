@@ -35,7 +35,7 @@ class MassOnBar final : public BarMotion {
   std::vector<double> lengths() const override { return {p_.bar.L}; }
   Point at(std::size_t bar, double x, double t, model::Side side) const override;
   Bounded force(double t, model::Side side) const override;
-  Bounded impulse(double t) const override;
+  Bounded impulse(double t, model::Side side) const override;
   Energy energy(double t) const override;
 
   BarContact::Wave wave() const {

@@ -60,7 +60,7 @@ Bounded StringOverPoint::force(double t, Side side) const {
   return touches ? contact_force() : Bounded(0.0);
 }
 
-Bounded StringOverPoint::impulse(double t) const {
+Bounded StringOverPoint::impulse(double t, Side) const {
   const auto now = phase(Wide(t) / tau_);
   const auto contact = Wide(2.0) - falls_;
   const auto touched = Wide(now.before, 0) * contact + from_zero(lesser(now.s - falls_, contact));

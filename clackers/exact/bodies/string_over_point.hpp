@@ -34,7 +34,7 @@ class StringOverPoint final : public BarMotion {
   Point at(std::size_t bar, double x, double t, model::Side side) const override;
   /// Of the point on the whole string, and the energy of both halves.
   Bounded force(double t, model::Side side) const override;
-  Bounded impulse(double t) const override;
+  Bounded impulse(double t, model::Side side) const override;
   Energy energy(double t) const override;
 
   Bounded speed() const { return numerics::narrowed(speed_); }

@@ -78,12 +78,11 @@ class PointRows : public record::NumberRows {
     if (done_ == grid_.size()) return false;
     const double t = grid_.at(done_++);
     const auto left = limits(t, model::Side::left), right = limits(t, model::Side::right);
-    const auto impulse = bars_.impulse(t).nearest();
     const auto energy = bars_.energy(t);
     const auto add = [&](double side, const std::vector<double>& row) {
       values.insert(values.end(), {t, side});
       values.insert(values.end(), row.begin(), row.end());
-      values.insert(values.end(), {impulse, energy.kinetic.nearest(), energy.elastic.nearest(),
+      values.insert(values.end(), {energy.kinetic.nearest(), energy.elastic.nearest(),
                                    energy.potential.nearest()});
     };
     if (left == right) {
@@ -105,6 +104,7 @@ class PointRows : public record::NumberRows {
       row.insert(row.end(), {now.u.nearest(), now.v.nearest(), now.stress.nearest()});
     }
     row.push_back(bars_.force(t, side).nearest());
+    row.push_back(bars_.impulse(t, side).nearest());
     return row;
   }
 
