@@ -7,6 +7,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/cases/row.hpp"
 #include "clackers/exact/friction/friction_motion.hpp"
+#include "clackers/exact/friction/oblique_disk.hpp"
 
 // Dry friction: docs/manual/explanation/derivations/friction.md.
 namespace clackers::cases {
@@ -71,10 +72,42 @@ void build_forced_slider(Case& test_case, const Values& value, double) {
   test_case.damped_periods[0] = std::min(test_case.damped_periods[0], 2.0 * std::numbers::pi / p.W);
 }
 
+void build_disk(Case& test_case, const Values& value, double) {
+  exact::ObliqueDiskParameters p;
+  p.h0 = within(test_case, value, "h0", 0.0);
+  p.v0 = within(test_case, value, "v0", -1e30);
+  p.vx0 = within(test_case, value, "vx0", -1e30);
+  p.w0 = within(test_case, value, "w0", -1e30);
+  p.g = within(test_case, value, "g");
+  p.eta = value("eta");
+  p.mu = within(test_case, value, "mu", 0.0);
+  p.beta = within(test_case, value, "beta");
+  p.end = end_of(test_case, value);
+  const auto motion = std::make_shared<const exact::ObliqueDisk>(p, test_case.entry->name);
+  test_case.problem = motion->problem();
+  test_case.motion = motion;
+  test_case.damped_periods.assign(3, 2.0 * motion->speed() / p.g);
+  const double end = motion->end();
+  test_case.constants = {
+      {"m", 1.0, "kg", "the mass, of no influence"},
+      {"V", motion->speed(), "m/s", "speed before the first impact; V eta^j after the j-th"},
+      {"t_rest", motion->rest().nearest(), "s",
+       "the impacts accumulate here, and the contact stays closed"},
+      {"slides", motion->slides(), "", "impacts through which it slides"},
+      {"t_roll", motion->rolls(), "s", "from then on it rolls"},
+      {"v_roll", motion->rolling_speed(), "m/s", "along the floor, when it rolls"},
+      {"error_bound", motion->error_bound(end).u.maxCoeff(), "m",
+       "of the displacements of the reference solution at t_end"}};
+  add_run(test_case);
+}
+
 }  // namespace
 
 std::vector<CaseRow> friction_rows() {
   const auto m = positive("m", 1.0, "kg", "mass"), k = positive("k", 1.0, "N/m", "stiffness");
+  const auto speed = [](const char* name, double standard, const char* meaning) {
+    return Parameter{name, standard, "m/s", fmt::format("-1e+30 <= {} <= 1e+30", name), meaning};
+  };
   return {
       {{"slider",
         "A mass on a spring and a rough floor: some half swings under dry friction, then rest.",
@@ -99,6 +132,20 @@ std::vector<CaseRow> friction_rows() {
          positive("P", 1.0, "N", "amplitude of the force P cos(W t + phi)"),
          positive("W", 0.8, "rad/s", "its frequency"), t_end(40.0)}},
        build_forced_slider},
+      {{"oblique-disk",
+        "A turning disk or ball thrown on a rough floor: infinitely many impacts with friction, then it rolls.",
+        "none; u1 along the floor, u2 the height, u3 = R times the angle; friction is no row of the problem, so that "
+        "methods refuse it: for check and verify --exec",
+        {{"h0", 1.0, "m", "0 <= h0 <= 1e+30", "initial height"},
+         speed("v0", 0.0, "initial velocity, upwards"),
+         speed("vx0", 4.0, "initial velocity along the floor"),
+         speed("w0", 2.0, "R times the initial velocity of rotation; it slides with vx0 + w0"),
+         positive("g", 9.81, "m/s^2", "gravity"),
+         {"eta", 0.8, "", "0 <= eta <= 0.9995", "restitution"},
+         {"mu", 0.1, "", "0 <= mu <= 1e+30", "coefficient of friction"},
+         positive("beta", 0.5, "", "moment of inertia over m R^2: disk 1/2, ball 2/5"),
+         t_end(5.0)}},
+       build_disk},
   };
 }
 

@@ -178,6 +178,133 @@ TEST(FrictionCases, ForcedSlidersSwingAsTheirTaylorSeries) {
   }
 }
 
+// The disk impact by impact with 90 digits, from its velocities alone.
+struct Throw {
+  using Real = exact::testing_oracle::Real;
+  Real g, eta, mu, beta, t = 0, x = 0, y = 0, phi = 0, vx = 0, vy = 0, w = 0;
+  long long impacts = 0, slides = 0;
+  Real V = 0, rest = 0;  // of the first impact, and when the last flight is over
+
+  void fly(const Real& s) {
+    x += vx * s, phi += w * s, y += s * (vy - g * s / 2), vy -= g * s, t += s;
+  }
+  Real flight() const { return (vy + sqrt(vy * vy + 2 * g * y)) / g; }
+  void collide() {
+    const Real U = -vy, slip = vx + w, ends = slip / (1 + 1 / beta), most = mu * (1 + eta) * U;
+    if (V == 0) V = U;
+    const bool is_rolled = abs(ends) <= most;
+    const Real impulse = is_rolled ? ends : slip > 0 ? most : Real(-most);
+    vx -= impulse, w -= impulse / beta, vy = eta * U, y = 0, ++impacts;
+    if (!is_rolled) ++slides;
+  }
+  bool is_resting() const { return impacts > 0 && vy < Real(1e-45) * V; }
+  // Up to t1, or through all impacts and to the end of the slip.
+  void run(const Real& t1) {
+    while (!is_resting()) {
+      const Real s = flight();
+      if (t + s > t1) return fly(t1 - t);
+      fly(s), collide();
+    }
+    if (rest == 0) rest = t, vy = 0;
+    const Real slip = vx + w, sign = slip < 0 ? -1 : 1, a = mu * g;
+    Real s = t1 - t;
+    if (abs(slip) > Real(1e-40) * V && a > 0) {
+      const Real until = abs(slip) / (a * (1 + 1 / beta)), brakes = s < until ? s : until;
+      x += brakes * (vx - sign * a * brakes / 2), vx -= sign * a * brakes;
+      phi += brakes * (w - sign * a / beta * brakes / 2), w -= sign * a / beta * brakes;
+      s -= brakes, t += brakes;
+    }
+    x += vx * s, phi += w * s, t += s;
+  }
+};
+
+TEST(FrictionCases, DisksBounceAsTheirImpactsOneByOne) {
+  Box box(104);
+  for (int trial = 0; trial < trials(30); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 104, trial " << trial);
+    const auto velocity = [&] {
+      return box.one_in(5) ? 0.0 : (box.one_in(2) ? 1.0 : -1.0) * box.decades(-1.0, 1.5);
+    };
+    const double h0 = box.one_in(8) ? 0.0 : box.decades(-1.0, 1.0),
+                 v0 = h0 == 0.0 ? box.decades(-1.0, 1.0) : velocity(), g = box.decades(-1.0, 1.0),
+                 eta = box.one_in(8)    ? 0.0
+                       : box.one_in(40) ? 0.99
+                                        : box.uniform(0.05, 0.95),
+                 mu = box.one_in(8) ? 0.0 : box.decades(-2.5, 0.5), vx0 = velocity(),
+                 w0 = box.one_in(6) ? -vx0 : velocity(), beta = box.decades(-1.0, 0.0);
+    Throw known{g, eta, mu, beta};
+    known.y = h0, known.vx = vx0, known.vy = v0, known.w = w0;
+    Throw ahead = known;
+    ahead.run(1e30);
+    const double rest = double(ahead.rest), V = double(ahead.V), end = 3.0 * rest;
+    const auto disk = make("oblique-disk", {{"h0", h0},
+                                            {"v0", v0},
+                                            {"vx0", vx0},
+                                            {"w0", w0},
+                                            {"g", g},
+                                            {"eta", eta},
+                                            {"mu", mu},
+                                            {"beta", beta},
+                                            {"t_end", end}});
+    const auto& motion = *disk.motion;
+    EXPECT_NEAR(constant(disk, "V"), V, 1e-15 * V);
+    EXPECT_NEAR(constant(disk, "t_rest"), rest, 1e-15 * rest);
+    const auto size = motion.envelope(0.0);
+    for (int i = 1; i <= 12; ++i) {
+      // Ever nearer to where the impacts accumulate, then beyond.
+      const double t = i <= 8 ? rest * (1.0 - std::pow(0.1, box.uniform(0.0, 1.0) * 12.0))
+                              : rest * box.uniform(1.0, 3.0);
+      auto now = known;
+      now.run(t);
+      const auto found = motion.at(t, Side::right), bound = motion.error_bound(t);
+      const Throw::Real u[] = {now.x, now.y, now.phi}, v[] = {now.vx, now.vy, now.w};
+      for (int j = 0; j < 3; ++j) {
+        EXPECT_LE(abs(found.u[j] - u[j]), bound.u[j]) << "t = " << t << ", u" << j + 1;
+        EXPECT_LE(abs(found.v[j] - v[j]), bound.v[j]) << "t = " << t << ", v" << j + 1;
+        EXPECT_LE(bound.u[j], 3e-16 * size.u[j]);
+        EXPECT_LE(bound.v[j], 3e-16 * size.v[j]);
+        EXPECT_LE(std::abs(found.u[j]), size.u[j] * (1.0 + 1e-15));
+        EXPECT_LE(std::abs(found.v[j]), size.v[j] * (1.0 + 1e-15));
+      }
+      EXPECT_EQ(motion.contact_forces(t, Side::right)[0], t < rest ? 0.0 : g);
+      EXPECT_EQ(motion.impact_count(t), std::min(now.impacts, motion.impact_count(end)));
+    }
+    auto thrown = known;
+    for (long long k = 1; k <= std::min(40LL, motion.impact_count(end)); ++k) {
+      const auto impact = motion.impact(k);
+      thrown.fly(thrown.flight());
+      EXPECT_LE(abs(impact.t - thrown.t), 0.5 * (impact.when.hi - impact.when.lo));
+      const auto expect = [&](const model::Kinematics& found) {
+        EXPECT_NEAR(found.v[0], double(thrown.vx), 1e-15 * size.v[0]);
+        EXPECT_NEAR(found.v[1], double(thrown.vy), 1e-15 * size.v[1]);
+        EXPECT_NEAR(found.v[2], double(thrown.w), 1e-15 * size.v[2]);
+        EXPECT_NEAR(found.u[0], double(thrown.x), 1e-15 * size.u[0]);
+        EXPECT_EQ(found.u[1], 0.0);
+        EXPECT_NEAR(found.u[2], double(thrown.phi), 1e-15 * size.u[2]);
+        EXPECT_EQ(found.a[1], -g);
+      };
+      expect(impact.before);
+      const Throw::Real U = -thrown.vy;
+      thrown.collide();
+      expect(impact.after);
+      EXPECT_NEAR(impact.impulse, double((1 + thrown.eta) * U), 1e-15 * V);
+    }
+    // It slides through impacts, or on the floor.
+    ahead.run(1e30);
+    const double slides = constant(disk, "slides"), t_roll = constant(disk, "t_roll");
+    if (slides < 40.0) {
+      EXPECT_EQ(slides, double(ahead.slides));
+      EXPECT_EQ(t_roll, slides + 1 > double(motion.impact_count(end))
+                            ? constant(disk, "t_rest")
+                            : motion.impact(static_cast<long long>(slides) + 1).t);
+    }
+    if (t_roll < HUGE_VAL) {
+      EXPECT_NEAR(constant(disk, "v_roll"), double(ahead.vx), 1e-15 * size.v[0]);
+      EXPECT_NEAR(constant(disk, "v_roll"), -double(ahead.w), 1e-15 * size.v[2]);
+    }
+  }
+}
+
 TEST(FrictionCases, HaveTheirTextbookNumbers) {
   const auto forced = make("forced-slider");
   EXPECT_NEAR(constant(forced, "amplitude"), 2.501787881, 1e-9);
@@ -191,6 +318,33 @@ TEST(FrictionCases, HaveTheirTextbookNumbers) {
   EXPECT_EQ(belt.motion->at(2.0, Side::right).v[0], 0.25);
   EXPECT_EQ(belt.motion->at(4.0, Side::left).a[0], 0.0);
   EXPECT_EQ(belt.motion->at(4.0, Side::right).a[0], -0.5);
+  // A disk that slides on the floor after t = 3, with the slip 9 - 6 = 3, for 3/(3 mu g) s.
+  const auto disk = make("oblique-disk",
+                         {{"g", 2.0}, {"eta", 0.5}, {"mu", 1.0 / 3.0}, {"vx0", 9.0}, {"w0", 0.0}});
+  EXPECT_EQ(constant(disk, "V"), 2.0);
+  EXPECT_EQ(constant(disk, "t_rest"), 3.0);
+  EXPECT_EQ(constant(disk, "slides"), HUGE_VAL);
+  EXPECT_NEAR(constant(disk, "t_roll"), 4.5, 1e-15);
+  EXPECT_EQ(constant(disk, "v_roll"), 6.0);
+  EXPECT_NEAR(disk.motion->at(3.0, Side::right).v[0], 7.0, 1e-15);
+  EXPECT_NEAR(disk.motion->at(3.0, Side::right).a[0], -2.0 / 3.0, 1e-16);
+  EXPECT_NEAR(disk.motion->at(3.0, Side::right).a[2], -4.0 / 3.0, 1e-16);
+  EXPECT_EQ(disk.motion->at(4.5, Side::right).v[0], 6.0);
+  EXPECT_EQ(disk.motion->at(4.5, Side::right).v[2], -6.0);
+  const auto closed = disk.motion->closed_contacts().at(0);
+  EXPECT_EQ(closed.from, 3.0);
+  EXPECT_EQ(closed.until, 5.0);
+  EXPECT_TRUE(closed.accumulates && !closed.opens);
+  EXPECT_LE(closed.resolved, 3.0);
+  EXPECT_GE(closed.resolved, 3.0 * (1.0 - 1e-15));
+  EXPECT_EQ(disk.motion->contact_forces(3.0, Side::left)[0], 0.0);
+  EXPECT_EQ(disk.motion->contact_forces(3.0, Side::right)[0], 2.0);
+  EXPECT_FALSE(make("oblique-disk", {{"eta", 0.0}}).motion->closed_contacts().at(0).accumulates);
+  EXPECT_TRUE(make("oblique-disk", {{"t_end", 4.0}}).motion->closed_contacts().empty());
+  // The most impacts, of which many share a double.
+  const auto lively = make("oblique-disk", {{"eta", 0.9995}, {"t_end", 2000.0}});
+  EXPECT_GT(lively.motion->impact_count(2000.0), 50000);
+  EXPECT_EQ(lively.motion->at(constant(lively, "t_rest"), Side::right).v[1], 0.0);
 }
 
 TEST(FrictionCases, AreRefusedWithTheReason) {
@@ -199,6 +353,8 @@ TEST(FrictionCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("belt", {{"Fd", 1.0}}), "not-admissible", "no stick and slip");
   EXPECT_REFUSED(make("forced-slider", {{"W", 1.0}}), "not-admissible", "resonance");
   EXPECT_REFUSED(make("forced-slider", {{"F", 0.9}}), "not-admissible", "stop");
+  EXPECT_REFUSED(make("oblique-disk", {{"eta", 0.9996}}), "out-of-range", "1e5 impacts");
+  EXPECT_REFUSED(make("oblique-disk", {{"h0", 0.0}}), "out-of-range", "on the floor");
 }
 
 }  // namespace

@@ -233,6 +233,11 @@ TEST(StringCases, AStringOnAnObstacleIsItsReflectedImages) {
         EXPECT_EQ(string.at(0, end_point, t, Side::left).v.nearest(), 0.0);
       }
     }
+    // Between two doubles.
+    if (const double touch = constant(known, "t_closes1"); place != 0.5) {
+      EXPECT_EQ(string.force(touch, Side::left).nearest(), 0.0);
+      EXPECT_GT(string.force(touch, Side::right).nearest(), 0.0);
+    }
     // The momentum that neither the string nor its ends have is the obstacle's.
     const double t = box.uniform(0.0, end);
     const auto v = [&](const Real& x) { return images.v(x, t); };

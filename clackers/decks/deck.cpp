@@ -76,6 +76,8 @@ std::vector<DeckFile> deck(const Format& format, const Subject& subject) {
     refuse_deck(format.name, "a method goes into a unit only; use --to fmu2 or --to fmu3");
   if (!subject.problem.frictions.empty() || model::nonlinear_springs(subject.problem))
     refuse_deck(format.name, "its models have neither dry friction nor nonlinear springs yet");
+  if (!subject.problem.unstated.empty())
+    refuse_deck(format.name, "no row of the problem states " + subject.problem.unstated);
   auto files = format.write(subject);
   for (auto& file : files)
     if (file.name == "run")

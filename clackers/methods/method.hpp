@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -60,6 +62,16 @@ inline Objection objection_to_friction(const std::string& who) {
           ": the problem has dry friction, for which it has no law. Use event-driven, penalty or "
           "moreau-jean.",
       "linear-only"};
+}
+
+/// Of every method, to a problem that rows do not state in full.
+inline Objection objection_to_unstated(const std::string& who, const std::string& law) {
+  return {
+      fmt::format(
+          "{}: the problem is not complete: no row states {}. Assess a program by its histories, with check "
+          "or verify --exec.",
+          who, law),
+      "not-stated"};
 }
 
 /// What a run is to resolve: a step, or the tolerance of an adaptive method.

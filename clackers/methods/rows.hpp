@@ -158,6 +158,7 @@ class TypedTreatment final : public Treatment {
   }
   std::optional<Objection> objection(const Facts& method,
                                      const model::ImpactProblem<>& problem) const override {
+    if (!problem.unstated.empty()) return objection_to_unstated(method.name, problem.unstated);
     if (!TakesFriction<T> && !problem.frictions.empty()) return objection_to_friction(method.name);
     return treatment_.objection(method, problem);
   }
@@ -186,6 +187,8 @@ class StandaloneMethod final : public Method {
 
   Facts facts() const override { return scheme_.facts(); }
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const override {
+    if (!problem.unstated.empty())
+      return objection_to_unstated(std::string(T::name), problem.unstated);
     if (!TakesFriction<T> && !problem.frictions.empty())
       return objection_to_friction(std::string(T::name));
     return scheme_.objection(problem);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "clackers/model/system.hpp"
@@ -52,6 +53,8 @@ struct ImpactProblem {
   State<Dof> start;
   double end = 0.0;
   std::vector<Friction<Dof>> frictions{};
+  /// A law that the motion obeys and no row states, in words; no method takes such a problem.
+  std::string unstated{};
 
   Eigen::Index dof() const { return system.dof(); }
 };

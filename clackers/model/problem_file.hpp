@@ -71,7 +71,8 @@ model::ImpactProblem<> read_problem(const std::string& path);
 ///
 /// add the forces amplitude cos(frequency t + phase) on the right, dof from 1, and
 /// stiffness min(direction . u - gap, 0) direction and kinetic sgn(s) direction, s = direction . v - velocity,
-/// on the left; where s = 0 friction is what keeps it so, up to its limit. Throws InputError (linear-only) for
+/// on the left; where s = 0 friction is what keeps it so, up to its limit. "unstated" is a law in words that the
+/// motion obeys beside these; problem files do not take it. Throws InputError (linear-only) for
 /// any other load or nonlinear force.
 std::string problem_json(const model::ImpactProblem<>& problem);
 

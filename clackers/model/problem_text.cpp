@@ -92,6 +92,8 @@ std::string problem_json(const Problem& problem) {
                       list(numbers(f.direction)), f.limit, f.kinetic, f.velocity));
     forces += fmt::format(" \"frictions\": [{}],\n", fmt::join(rows, ", "));
   }
+  if (!problem.unstated.empty())
+    forces += fmt::format(" \"unstated\": {},\n", json_quoted(problem.unstated));
   return fmt::format(
       "{{\"M\": {}, \"C\": {}, \"K\": {},\n \"contacts\": [{}],\n{}"
       " \"start\": {{\"t\": {}, \"u\": {}, \"v\": {}}}, \"end\": {}}}",
@@ -141,6 +143,7 @@ std::string problem_file_text(const Problem& problem) {
   for (const auto& f : problem.frictions)
     text += fmt::format("friction{}={} {} {} {}\n", ++number, fmt::join(numbers(f.direction), " "),
                         f.limit, f.kinetic, f.velocity);
+  if (!problem.unstated.empty()) text += fmt::format("unstated={}\n", problem.unstated);
   return text;
 }
 

@@ -26,6 +26,17 @@ class Friction(CommandTest):
             self.assertEqual([s["assessment"]["verdict"] for s in subjects[:3]], ["agrees"] * 3, done.stdout)
             self.assertEqual(subjects[3]["refusal_code"], "linear-only")
 
+    def test_friction_at_impacts_is_named_and_refused(self):
+        said = "between contact 1 and the slip v1 + v3"
+        self.assertIn(said, json.loads(run("show", "oblique-disk", "--format", "json").stdout)["problem"]["unstated"])
+        for method in ("rk4", "moreau-jean"):
+            self.refused("verify", method, "--case", "oblique-disk", code="not-stated", says=(said,))
+        self.refused("export", "oblique-disk", "--to", "scipy", "--out", self.path("deck"), code="no-deck", says=(said,))
+        copy = self.path("copy.txt")
+        run("verify", "--case", "oblique-disk", "--exec", f"cp {{case:text}} {copy}; false {{h}} {{out}}")
+        with open(copy) as file:
+            self.assertIn(said, file.read())
+
     def test_problem_of_a_case_is_read_again_and_refused_with_the_reason(self):
         path = self.path("belt.json")
         with open(path, "w") as file:

@@ -13,7 +13,7 @@ auto in_balls(const auto& p) { return exact::OrbitFormulas<Ball>(p); }
 
 KinematicBalls kinematics(const exact::StatesOf<Ball>& states) {
   KinematicBalls now;
-  for (const auto& mass : states) {
+  for (const auto& mass : {states[0], states[1]}) {
     now.u.push_back(mass.u);
     now.v.push_back(mass.v);
     now.a.push_back(mass.a);

@@ -46,7 +46,7 @@ struct MassStateOf {
   Real u, v, a;
 };
 template <class Real>
-using StatesOf = std::array<MassStateOf<Real>, 2>;
+using StatesOf = std::array<MassStateOf<Real>, 3>;  // of the masses that there are
 /// Both limits at an impact.
 template <class Real>
 struct LimitsOf {
