@@ -287,6 +287,10 @@ TEST(FrictionCases, DisksBounceAsTheirImpactsOneByOne) {
       const Throw::Real U = -thrown.vy;
       thrown.collide();
       expect(impact.after);
+      EXPECT_NEAR(
+          impact.energy_after,
+          double(thrown.vx * thrown.vx + thrown.vy * thrown.vy + beta * thrown.w * thrown.w) / 2,
+          1e-15 * size.v.squaredNorm());
       EXPECT_NEAR(impact.impulse, double((1 + thrown.eta) * U), 1e-15 * V);
     }
     // It slides through impacts, or on the floor.
@@ -339,6 +343,14 @@ TEST(FrictionCases, HaveTheirTextbookNumbers) {
   EXPECT_GE(closed.resolved, 3.0 * (1.0 - 1e-15));
   EXPECT_EQ(disk.motion->contact_forces(3.0, Side::left)[0], 0.0);
   EXPECT_EQ(disk.motion->contact_forces(3.0, Side::right)[0], 2.0);
+  EXPECT_EQ(disk.problem.contacts.at(0).restitution, 0.5);
+  // A slip that ends with the impacts, and one that never is.
+  const auto tie =
+      make("oblique-disk", {{"g", 2.0}, {"eta", 0.5}, {"mu", 0.25}, {"vx0", 4.5}, {"w0", 0.0}});
+  EXPECT_EQ(constant(tie, "slides"), HUGE_VAL);
+  EXPECT_EQ(constant(tie, "t_roll"), 3.0);
+  EXPECT_EQ(tie.motion->at(3.0, Side::right).v[0], 3.0);
+  EXPECT_EQ(constant(make("oblique-disk", {{"mu", 0.0}, {"w0", -4.0}}), "slides"), 0.0);
   EXPECT_FALSE(make("oblique-disk", {{"eta", 0.0}}).motion->closed_contacts().at(0).accumulates);
   EXPECT_TRUE(make("oblique-disk", {{"t_end", 4.0}}).motion->closed_contacts().empty());
   // The most impacts, of which many share a double.

@@ -60,9 +60,7 @@ void build_on_obstacle(Case& test_case, const Values& value, double) {
   list.push_back({"period", p.place == 0.5 ? tau : 2.0 * tau, "s", "of the string"});
   list.push_back({"impulse1", motion->impulse_of_touch().nearest(), "N s",
                   "of all points in each tau, 4 T H/c"});
-  use_mesh(test_case, value,
-           exact::string_mesh({p.L, p.T, p.rho, p.H, p.place, p.end}, value("elements"),
-                              test_case.entry->name));
+  use_mesh(test_case, value, exact::string_mesh(p, value("elements"), test_case.entry->name));
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
   return mesh;
 }
 
-BarMesh string_mesh(const MeshedString& p, double elements, std::string_view who) {
+BarMesh string_mesh(const StringOnObstacleParameters& p, double elements, std::string_view who) {
   require_elements(who, elements, 2.0);
   const auto dof = Index(elements) - 1;
   const double h = p.L / elements;

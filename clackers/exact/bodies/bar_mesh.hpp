@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "clackers/exact/bodies/bar_contact.hpp"
+#include "clackers/exact/bodies/string_on_obstacle.hpp"
 #include "clackers/model/impact_problem.hpp"
 
 namespace clackers::exact {
@@ -43,12 +44,9 @@ struct BarMesh {
 BarMesh bar_mesh(const MeshedBars& meshed, double elements, NodeMass mass, double eta,
                  std::string_view who);
 
-/// A string fixed at both ends, plucked to the height H at x = place L, its nodes between the ends of mass rho h and each above
-/// a stop at u = 0 with restitution 1.
-struct MeshedString {
-  double L = 1.0, T = 1.0, rho = 1.0, H = 1.0, place = 0.5, end = 0.0;
-};
+/// The nodes of a StringOnObstacle between its ends, of mass rho h, each above a stop at u = 0 with restitution 1.
 /// Throws InputError, `who` first, unless 2 <= elements <= 4000, a whole number.
-BarMesh string_mesh(const MeshedString& meshed, double elements, std::string_view who);
+BarMesh string_mesh(const StringOnObstacleParameters& meshed, double elements,
+                    std::string_view who);
 
 }  // namespace clackers::exact

@@ -49,15 +49,14 @@ ObliqueDisk::ObliqueDisk(const ObliqueDiskParameters& p, std::string_view who)
   const Wide left = sign * (slip - more * friction_ / once_);
   if (slip.value != 0 && left.value >= 0) {
     slides_ = last_ + 1;
-    slips_on_floor_ = left.value > 0;
-    slip_end_ = p.mu > 0.0 ? left / (Wide(p.mu) * g * more) : Wide(HUGE_VAL);
-  } else if (slip.value != 0) {
+    slip_end_ = left / (Wide(p.mu) * g * more);
+  } else if (left.value < 0) {
     const auto slides = [&](long long j) {
       return (sign * (slip - more * friction_ * (Wide(1.0) - power(j)) / once_)).value > 0;
     };
-    auto& n = slides_ = std::min(last_, powers(-left * once_ / (sign * more * friction_), p.eta));
-    while (n > 0 && !slides(n)) --n;
-    while (n < last_ && slides(n + 1)) ++n;
+    const auto estimate = powers(-left * once_ / (sign * more * friction_), p.eta);
+    slides_ = std::clamp(estimate - 1, 0LL, last_);
+    while (slides_ < last_ && slides(slides_ + 1)) ++slides_;
   }
 
   problem_.system.mass = Eigen::Vector3d(1.0, 1.0, p.beta).asDiagonal();
@@ -73,9 +72,7 @@ ObliqueDisk::ObliqueDisk(const ObliqueDiskParameters& p, std::string_view who)
 }
 
 double ObliqueDisk::slides() const { return slides_ > last_ ? HUGE_VAL : double(slides_); }
-double ObliqueDisk::rolls() const {
-  return instant(slips_on_floor_ ? last_ + 2 : slides_ + 1).nearest();
-}
+double ObliqueDisk::rolls() const { return instant(slides_ + 1).nearest(); }
 
 Wide ObliqueDisk::power(long long k) const {
   if (k < 0 || k > last_) return 0.0;
@@ -94,8 +91,7 @@ Wide ObliqueDisk::start(long long k) const {
 
 Wide ObliqueDisk::lost(long long k) const {
   if (k == 0) return 0.0;
-  const bool slides = k <= slides_ && k <= last_ + 1;
-  return slides ? friction_ * (Wide(1.0) - power(k)) / once_ : loss_;
+  return k <= slides_ ? friction_ * (Wide(1.0) - power(k)) / once_ : loss_;
 }
 
 Wide ObliqueDisk::behind(long long k) const {
@@ -103,8 +99,7 @@ Wide ObliqueDisk::behind(long long k) const {
   if (k > last_ + 1)
     return behind(last_ + 1) +
            (lost(last_ + 1) + loss_) * Wide(0.5) * slip_end_;  // evenly decelerated
-  const Wide eta = p_.eta, until = power(k),
-             sliding = k - 1 <= slides_ ? until : eta * power(slides_);
+  const Wide eta = p_.eta, until = power(k), sliding = k <= slides_ ? until : eta * power(slides_);
   const auto once = (eta - sliding) / once_,
              twice = (eta * eta - sliding * sliding) / (Wide(1.0) - eta * eta);
   return Wide(2.0) * V_ / Wide(p_.g) * (friction_ * (once - twice) + loss_ * (sliding - until)) /
@@ -112,14 +107,12 @@ Wide ObliqueDisk::behind(long long k) const {
 }
 
 Bounded ObliqueDisk::instant(long long k) const {
-  if (k > last_ + (slips_on_floor_ ? 2 : 1)) return Bounded(HUGE_VAL);
-  const auto t = start(k);
-  return t.value > 1e300 ? Bounded(HUGE_VAL) : narrowed(t);
+  return k > last_ + 2 ? Bounded(HUGE_VAL) : narrowed(start(k));
 }
 
 auto ObliqueDisk::along(long long k, const Wide& share, double velocity) const -> MassState {
-  const bool slips = slips_on_floor_ && k == last_ + 1;
-  const Wide force = slips ? share * Wide(friction_.value < 0 ? p_.mu : -p_.mu) * Wide(p_.g) : 0.0;
+  const Wide force =
+      k == last_ + 1 ? share * Wide(friction_.value < 0 ? p_.mu : -p_.mu) * Wide(p_.g) : 0.0;
   return {narrowed(Wide(velocity) * start(k) - share * behind(k)),
           narrowed(Wide(velocity) - share * lost(k)), narrowed(force)};
 }
@@ -138,10 +131,8 @@ auto ObliqueDisk::state(long long k, const Bounded& s) const -> States {
 }
 
 long long ObliqueDisk::near_flight(double t) const {
-  if (t < narrowed(first_).value) return 0;
-  if (t >= rest().value) return last_ + 1;
   const auto left = (start(-1) - Wide(t)) * Wide(p_.g) * once_ / (Wide(2.0) * V_);
-  return std::clamp(powers(left, p_.eta), 1LL, last_);
+  return left.value > 0 ? std::clamp(powers(left, p_.eta), 0LL, last_) : last_ + 1;
 }
 
 auto ObliqueDisk::limits(long long k) const -> Limits {

@@ -40,7 +40,7 @@ class ObliqueDisk final : public Flights {
 
  private:
   using Wide = numerics::Wide;
-  // Flight k begins with impact k up to last_; then come the rest of the impacts, with or without slip, and rolling.
+  // Flight k begins with impact k up to last_; then come slip on the floor, if only for an instant, and rolling.
   Bounded instant(long long k) const override;
   States state(long long k, const Bounded& s) const override;
   long long near_flight(double t) const override;
@@ -57,7 +57,6 @@ class ObliqueDisk final : public Flights {
   Wide friction_, loss_;   // lost at the first impact while it slides, and in all when it rolls
   Wide slip_end_;          // seconds of slip on the floor
   long long last_ = 0, slides_ = 0;
-  bool slips_on_floor_ = false;
 };
 
 }  // namespace clackers::exact
