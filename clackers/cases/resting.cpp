@@ -8,6 +8,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/cases/row.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
+#include "clackers/exact/orbit/circle_billiard.hpp"
 #include "clackers/exact/pair/parameters.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/numerics/double_double.hpp"
@@ -196,6 +197,27 @@ void build_billiard(Case& test_case, const Values& value, double) {
   use_flights(test_case);
 }
 
+void build_circle(Case& test_case, const Values& value, double) {
+  const auto number = [&](const char* name) { return within(test_case, value, name, -1e30); };
+  const exact::CircleBilliardParameters p{
+      within(test_case, value, "R"), number("x0"), number("y0"), number("vx"), number("vy"),
+      end_of(test_case, value)};
+  const auto motion = std::make_shared<const exact::CircleBilliard>(p, test_case.entry->name);
+  test_case.problem = motion->problem();
+  test_case.motion = motion;
+  const double d = motion->distance(), chord = motion->chord(), v = std::hypot(p.vx, p.vy);
+  test_case.damped_periods.assign(2, chord / v);
+  test_case.constants = {
+      {"chord", chord, "m", "from each impact to the next"},
+      {"d", d, "m",
+       "distance of the chords from the center, positive where it circles to the left"},
+      {"turn", 2.0 * std::atan2(0.5 * chord, d), "rad", "of the direction at each impact"},
+      {"L", v * d, "kg m^2/s", "angular momentum, of 1 kg"},
+      {"error_bound", motion->error_bound(p.end).u.maxCoeff(), "m",
+       "of the displacements of the reference solution at t_end"}};
+  add_run(test_case);
+}
+
 void build_plastic(Case& test_case, const Values& value, double) {
   const auto& who = test_case.entry->name;
   const auto within = [&](const char* name, double least, double most) {
@@ -303,6 +325,14 @@ std::vector<CaseRow> resting_rows() {
          any("vy", 0.40625, "m/s", "velocity along y"),
          t_end(20.0)}},
        build_billiard},
+      {{"circle-billiard",
+        "A point in a circle with an elastic wall: chords of one length, turned by one angle.",
+        "none; u1 = x, u2 = y, without forces; a round wall is no row of the problem, so that methods refuse it: for "
+        "check and verify --exec",
+        {positive("R", 1.0, "m", "radius"), any("x0", 0.25, "m", "start, x0^2 + y0^2 < R^2"),
+         any("y0", 0.5, "m", "start"), any("vx", 0.75, "m/s", "velocity along x"),
+         any("vy", 0.40625, "m/s", "velocity along y"), t_end(20.0)}},
+       build_circle},
   };
 }
 

@@ -202,5 +202,79 @@ TEST(RestingCases, BilliardsAreTriangleWaves) {
   EXPECT_REFUSED(make("billiard", {{"x0", 1.5}}), "out-of-range", "inside the box");
 }
 
+// Ray by ray with 90 digits.
+struct Ray {
+  using Real = exact::testing_oracle::Real;
+  Real R, x, y, vx, vy, t = 0;
+  Real flight() const {
+    const Real a = vx * vx + vy * vy, b = x * vx + y * vy, c = x * x + y * y - R * R;
+    return (sqrt(b * b - a * c) - b) / a;
+  }
+  void fly(const Real& s) { x += vx * s, y += vy * s, t += s; }
+  void bounce() {
+    const Real twice = 2 * (x * vx + y * vy) / (R * R);
+    vx -= twice * x, vy -= twice * y;
+  }
+};
+
+TEST(RestingCases, CircleBilliardsAreTheirRays) {
+  Box box(74);
+  for (int trial = 0; trial < trials(30); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 74, trial " << trial);
+    const double R = box.decades(-1.0, 1.0), v = box.decades(-1.0, 1.0),
+                 share = box.one_in(6)   ? 0.0
+                         : box.one_in(3) ? 1.0 - box.decades(-9.0, -1.0)
+                                         : box.uniform(0.0, 0.99),
+                 place = box.uniform(-3.2, 3.2),
+                 heading = box.one_in(3) ? place + 0.5 * std::numbers::pi : box.uniform(-3.2, 3.2);
+    const double x0 = R * share * std::cos(place), y0 = R * share * std::sin(place),
+                 vx = v * std::cos(heading), vy = v * std::sin(heading);
+    const auto make_until = [&](double end) {
+      return make("circle-billiard",
+                  {{"R", R}, {"x0", x0}, {"y0", y0}, {"vx", vx}, {"vy", vy}, {"t_end", end}});
+    };
+    const double chord = constant(make_until(1e-9), "chord"),
+                 end = chord / v * box.decades(-0.5, 2.3);
+    const auto circle = make_until(end);
+    const auto& motion = *circle.motion;
+    Ray ray{R, x0, y0, vx, vy};
+    const auto expect = [&](const model::Kinematics& now, const model::Kinematics& bound) {
+      EXPECT_LE(abs(now.u[0] - ray.x), bound.u[0]);
+      EXPECT_LE(abs(now.u[1] - ray.y), bound.u[1]);
+      EXPECT_LE(abs(now.v[0] - ray.vx), bound.v[0]);
+      EXPECT_LE(abs(now.v[1] - ray.vy), bound.v[1]);
+    };
+    for (long long k = 1; k <= motion.impact_count(end) + 1; ++k) {
+      const auto s = ray.flight();
+      const double middle = double(ray.t + s * box.uniform(0.01, 0.99));
+      if (middle > end) break;
+      auto next = ray;
+      ray.fly(middle - ray.t);
+      const auto bound = motion.error_bound(middle);
+      expect(motion.at(middle, model::Side::right), bound);
+      EXPECT_LE(bound.u.maxCoeff(), 3e-16 * R);
+      EXPECT_EQ(motion.impact_count(middle), k - 1);
+      ray = next;
+      if (k > motion.impact_count(end)) break;
+      ray.fly(s);
+      const auto impact = motion.impact(k);
+      const auto size = motion.envelope(0.0);
+      const model::Kinematics rounding{1e-15 * size.u, 1e-15 * size.v, size.a};
+      EXPECT_LE(abs(impact.t - ray.t), 0.5 * (impact.when.hi - impact.when.lo));
+      expect(impact.before, rounding);
+      ray.bounce();
+      expect(impact.after, rounding);
+      EXPECT_NEAR(impact.impulse, v * chord / R, 1e-15 * v);
+    }
+    // Angular momentum, of the problem's numbers.
+    EXPECT_NEAR(constant(circle, "L"), double(ray.x * ray.vy - ray.y * ray.vx), 1e-15 * R * v);
+    EXPECT_NEAR(std::cos(0.5 * constant(circle, "turn")), constant(circle, "d") / R, 1e-15);
+  }
+  EXPECT_REFUSED(make("circle-billiard", {{"x0", 0.75}, {"y0", 0.75}}), "out-of-range",
+                 "inside the circle");
+  EXPECT_REFUSED(make("circle-billiard", {{"vx", 0.0}, {"vy", 0.0}}), "out-of-range", "stay");
+  EXPECT_REFUSED(make("circle-billiard", {{"t_end", 1e10}}), "out-of-range", "So many");
+}
+
 }  // namespace
 }  // namespace clackers::cases

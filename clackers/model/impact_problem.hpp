@@ -56,6 +56,9 @@ struct ImpactProblem {
   /// A law that the motion obeys and no row states, in words; no method takes such a problem.
   std::string unstated{};
 
+  /// No row says where impacts are: none can be looked for or counted.
+  bool has_unstated_impacts() const { return contacts.empty() && !unstated.empty(); }
+
   Eigen::Index dof() const { return system.dof(); }
 };
 

@@ -34,6 +34,7 @@ inline constexpr auto note_entries = std::to_array<NoteEntry>({
     {"printed-digits", "printing alone may make an error in u", "digits of the column; 1 for numbers of single precision, else 0; the error in u that printing may make; u_error over that; the largest ratio at which u_error is not measured but printed", "the column"},
     {"few-rows-a-period", "between rows the fast mass leaves the straight line", "rows a fast period; largest departure over the amplitude", ""},
     {"no-impacts", "the case has no impact before the history ends, and the history has none", "", ""},
+    {"impacts-not-stated", "no row of the problem states where the impacts are: none are counted", "", ""},
     {"no-impacts-reported", "the events file has no impact", "impacts of the case", ""},
     {"impacts-from-history", "no events file: impacts were found in the history", "time between rows [s]; 1 where rows are close enough to find them, else 0; impacts found; impacts of the case; contact time [s], 0 for instants", ""},
     // Of its ends.

@@ -10,7 +10,7 @@ KINDS = ("cases", "integrators", "contacts", "methods", "pairs", "metrics")
 CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "three-parameter",
          "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly", "cradle",
          "forced-pair", "base-excited-pair", "penalized-pair", "piecewise", "ball",
-         "pressed-oscillator", "plastic-pair", "billiard", "slider", "belt", "forced-slider", "oblique-disk", "pendulum", "duffing-stop", "two-pendula", "pendulum-cradle",
+         "pressed-oscillator", "plastic-pair", "billiard", "circle-billiard", "slider", "belt", "forced-slider", "oblique-disk", "pendulum", "duffing-stop", "two-pendula", "pendulum-cradle",
          "bar-wall", "bar-between-stops", "bouncing-bar", "two-bars", "mass-on-bar", "string-over-point", "string-on-obstacle")
 
 

@@ -37,6 +37,21 @@ class Friction(CommandTest):
         with open(copy) as file:
             self.assertIn(said, file.read())
 
+    def test_impacts_on_a_round_wall_are_not_counted(self):
+        history, events = self.path("history.csv"), self.path("events.csv")
+        with open(history, "w") as file:
+            file.write(run("respond", "circle-billiard", "--step", "0.05", "--format", "csv").stdout)
+        with open(events, "w") as file:
+            file.write("t\n0.5\n")
+        for more in ((), ("--events", events)):
+            done = run("check", "--case", "circle-billiard", history, "--metrics", "all", *more)
+            self.assertIn("No row of the problem states where the impacts are", done.stdout)
+            self.assertNotIn("impact-missed-count  ", done.stdout)
+            self.assertNotIn("impact-extra-count  ", done.stdout)
+            self.assertNotIn("impact-late-count  ", done.stdout)
+        header = run("respond", "circle-billiard", "--impacts", "--format", "csv").stdout.splitlines()[0]
+        self.assertIn("u2,", header)
+
     def test_problem_of_a_case_is_read_again_and_refused_with_the_reason(self):
         path = self.path("belt.json")
         with open(path, "w") as file:

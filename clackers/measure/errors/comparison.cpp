@@ -179,6 +179,7 @@ std::string Comparison::objection_to_sparse_rows() const {
 }
 
 void Comparison::collect_impacts() {
+  if (problem_.has_unstated_impacts()) return;
   // Two true impacts of a contact must never count as one: the two steps within which reports are
   // joined are at most an eighth of the mean time between them, half of what a match may be off.
   const auto contacts = std::max<std::size_t>(problem_.contacts.size(), 1);

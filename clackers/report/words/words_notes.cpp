@@ -87,6 +87,9 @@ std::string note_text(const Note& note) {
         "Sampling: {} rows a fast period; between rows the fast mass leaves the straight line by "
         "up to {} of its amplitude.",
         text(0, 3), text(1, 2));
+  if (is("impacts-not-stated"))
+    return "No row of the problem states where the impacts are: none are looked for, and those of an events file are "
+           "not used.";
   if (is("no-impacts"))
     return "The case has no impact before the history ends, and the history has none.";
   if (is("no-impacts-reported"))

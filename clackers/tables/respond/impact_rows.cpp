@@ -9,7 +9,7 @@ namespace {
 
 // Two masses that touch in their only contact have one place.
 bool has_one_place(const cases::Case& test_case) {
-  return test_case.motion->dof() <= 2 && test_case.problem.contacts.size() <= 1;
+  return test_case.motion->dof() <= 2 && test_case.problem.contacts.size() == 1;
 }
 
 std::vector<record::Column> impact_columns(const cases::Case& test_case) {

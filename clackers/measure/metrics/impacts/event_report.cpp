@@ -90,16 +90,26 @@ MetricValue impulse_error(const Comparison& comparison) {
   return measured(worst);
 }
 
+namespace {
+
+MetricValue counted(const Comparison& comparison, long long number) {
+  return comparison.problem().has_unstated_impacts()
+             ? not_measured("No row of the problem states where the impacts are.")
+             : measured(double(number));
+}
+
+}  // namespace
+
 MetricValue missed_impacts(const Comparison& comparison) {
-  return measured(double(comparison.impact_score().missed));
+  return counted(comparison, comparison.impact_score().missed);
 }
 
 MetricValue extra_impacts(const Comparison& comparison) {
-  return measured(double(comparison.impact_score().extra));
+  return counted(comparison, comparison.impact_score().extra);
 }
 
 MetricValue late_impacts(const Comparison& comparison) {
-  return measured(double(comparison.shared(event_report).late));
+  return counted(comparison, comparison.shared(event_report).late);
 }
 
 }  // namespace clackers::measure

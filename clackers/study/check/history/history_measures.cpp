@@ -107,6 +107,11 @@ class Measurement {
   }
 
   void take_impacts(const measure::Comparison& comparison) {
+    if (problem_.problem.has_unstated_impacts()) {
+      run_.score.impacts.reset();
+      file_.notes.push_back(record::note("impacts-not-stated"));
+      return;
+    }
     const bool reported = comparison.impact_source() == measure::ImpactSource::reported;
     file_.impact_source = reported ? record::ImpactSource::events : record::ImpactSource::history;
     // Between two impacts the faster mass turns round once at least; eight rows show it.

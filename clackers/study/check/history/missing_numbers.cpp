@@ -25,6 +25,7 @@ void complete_u(model::Impact& impact, const cases::Case& problem) {
 
 void add_events(PreparedHistory& history, const input::Source& events, const cases::Case& problem,
                 const std::atomic<bool>* interrupt) {
+  if (problem.problem.has_unstated_impacts()) return;
   auto& m = history.data.motion;
   auto impacts = input::read_events(events, m.dof, int(problem.problem.contacts.size()), interrupt);
   const auto outside = [&](const model::Impact& i) {
