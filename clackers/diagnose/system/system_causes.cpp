@@ -206,8 +206,9 @@ double nearest_departure(const std::vector<Trial>& trials) {
 // The hypotheses are about masses on springs of their own, at most two, that meet in one contact.
 bool can_be_varied(const model::ImpactProblem<>& problem) {
   const auto& [mass, damping, stiffness, load, nonlinear] = problem.system;
-  return problem.dof() <= 2 && problem.contacts.size() <= 1 && problem.frictions.empty() && problem.unstated.empty() && !load &&
-         !nonlinear && mass.isDiagonal(0.0) && damping.isDiagonal(0.0) && stiffness.isDiagonal(0.0);
+  return problem.dof() <= 2 && problem.contacts.size() <= 1 && problem.frictions.empty() &&
+         problem.unstated.empty() && !load && !nonlinear && mass.isDiagonal(0.0) &&
+         damping.isDiagonal(0.0) && stiffness.isDiagonal(0.0);
 }
 
 // A factor of all impulses is another restitution as well.
