@@ -9,7 +9,9 @@ namespace {
 
 // Two masses that touch in their only contact have one place.
 bool has_one_place(const cases::Case& test_case) {
-  return test_case.motion->dof() <= 2 && test_case.problem.contacts.size() == 1;
+  const auto& problem = test_case.problem;
+  return test_case.motion->dof() <= 2 && problem.contacts.size() <= 1 &&
+         !problem.has_unstated_impacts();
 }
 
 std::vector<record::Column> impact_columns(const cases::Case& test_case) {
