@@ -11,15 +11,14 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+// Of a number; all letters stand behind the digits in ASCII. Called for each number of a file.
 int significant_digits(std::string_view text) {
-  int count = 0;
-  for (const char c : text) {
-    if (is_digit(c))
-      count += count > 0 || c != '0';
-    else if (c != '.' && c != '-')
-      break;
-  }
-  return count;
+  const char *at = text.data(), *const end = at + text.size();
+  while (at != end && (*at == '-' || *at == '0' || *at == '.')) ++at;
+  const char* const first = at;
+  int points = 0;
+  for (; at != end && *at <= '9'; ++at) points += *at == '.';
+  return int(at - first) - points;
 }
 
 // "1.5D-3" as "1.5E-3" in `copy`; the text itself when there is no such exponent.

@@ -26,8 +26,8 @@ be used.
 
 Order       2 in smooth motion; 1 through impacts, with errors on a line where others scatter, since
             the impact ends at a time that is smooth in the step; with scatter where a force presses
-            the contact on for a third step (the error over h varies by a factor 1.4 for eta = 0.5, 3 for
-            0.8, 7 for 0.9).
+            the contact on for a third step (of `ball` the error over h varies by a factor 1.2 for eta = 0.5,
+            3.7 for 0.8, 4.2 for 0.9).
 Stability   omega h <= 2.
 Dissipation none in flight for C = 0.
 Memory      u0, kept as acceleration and velocity.
