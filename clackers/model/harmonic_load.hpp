@@ -55,6 +55,13 @@ class OneSidedSprings final : public NonlinearForce<any_dof> {
       if (contacts_[j].gap_at(u) < 0.0)
         dp_du += stiffnesses_[j] * contacts_[j].direction * contacts_[j].direction.transpose();
   }
+  bool add_tangent_rows(const Vector& u, const Vector&,
+                        std::vector<TangentRow>& rows) const override {
+    for (std::size_t j = 0; j < contacts_.size(); ++j)
+      if (contacts_[j].gap_at(u) < 0.0)
+        rows.push_back({&contacts_[j].direction, stiffnesses_[j], 0.0});
+    return true;
+  }
 
   double potential(const Vector& u) const override {
     double sum = 0.0;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace clackers::model {
 
@@ -37,6 +38,18 @@ class NonlinearForce {
   /// dp_du += dp/du [N/m], dp_dv += dp/dv [N s/m].
   virtual void add_tangent(const Vector<Dof>& u, const Vector<Dof>& v, Matrix<Dof>& dp_du,
                            Matrix<Dof>& dp_dv) const = 0;
+  /// A part by_u b b^T of dp/du [N/m] and by_v b b^T of dp/dv [N s/m].
+  struct TangentRow {
+    const Vector<Dof>* b;
+    double by_u, by_v;
+  };
+  /// Appends the tangents as such parts to `rows`, which point into the force. False where they have
+  /// others.
+  virtual bool add_tangent_rows(const Vector<Dof>& u, const Vector<Dof>& v,
+                                std::vector<TangentRow>& rows) const {
+    static_cast<void>(u), static_cast<void>(v), static_cast<void>(rows);
+    return false;
+  }
   /// The energy that p stores at u [J], 0 at u = 0; NaN where p has no potential.
   virtual double potential(const Vector<Dof>& u) const {
     static_cast<void>(u);

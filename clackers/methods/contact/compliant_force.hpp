@@ -45,15 +45,15 @@ class CompliantForce final : public SwitchedForce<Dof> {
     return !other_ && std::ranges::none_of(contacts_, &Contact::is_closed);
   }
 
-  bool find_tangent_rows(const Vector& u, const Vector& v,
-                         std::vector<typename SwitchedForce<Dof>::Row>& rows) const override {
-    rows.clear();
+  bool add_tangent_rows(
+      const Vector& u, const Vector& v,
+      std::vector<typename model::NonlinearForce<Dof>::TangentRow>& rows) const override {
     for (const auto& contact : contacts_) {
       if (!contact.is_closed) continue;
       const auto f = force(contact, u, v);
       rows.push_back({&contact.rigid.direction, f.by_d, f.by_w});
     }
-    return !other_;
+    return !other_ || other_->add_tangent_rows(u, v, rows);
   }
 
   void add(const Vector& u, const Vector& v, Vector& p) const override {

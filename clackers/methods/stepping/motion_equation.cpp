@@ -111,11 +111,12 @@ void MotionEquation<Dof>::subtract_nonlinear(const Vector& u, const Vector& v, V
   r -= magnitude_;
 }
 
-// dp_du_ and dp_dv_, or their rows, at (u, v).
+// dp_du_ and dp_dv_, or their rows where these are asked for and there are some, at (u, v).
 template <int Dof>
-void MotionEquation<Dof>::add_tangent(const Vector& u, const Vector& v) {
+void MotionEquation<Dof>::add_tangent(const Vector& u, const Vector& v, bool as_rows) {
   if constexpr (Dof == model::any_dof) {
-    has_rows_ = chord_ == nullptr && switched_ && switched_->find_tangent_rows(u, v, rows_);
+    rows_.clear();
+    has_rows_ = as_rows && chord_ == nullptr && s_.nonlinear->add_tangent_rows(u, v, rows_);
     if (has_rows_) return;
   }
   dp_du_.setZero();
@@ -138,10 +139,11 @@ template <int Dof>
 bool MotionEquation<Dof>::solve_nonlinear(const LoadTime& load, const Weights& w, const Vector& u0,
                                           const Vector& v0, Vector& a, const Vector* shift) {
   double last = std::numeric_limits<double>::infinity();
+  correction_.setZero(a.size());
   for (int i = 0; i < most_iterations; ++i) {
     u_ = u0 + w.u * a;
     v_ = v0 + w.v * a;
-    add_tangent(u_, v_);
+    add_tangent(u_, v_, true);
     const bool is_solved = balance(load, w, u0, v0, a, shift);
     ++tally_.evaluations;
     if (is_solved) return true;
@@ -208,6 +210,9 @@ bool MotionEquation<Dof>::balance(const LoadTime& load, const Weights& w, const 
   };
   term_ = w.a * a;
   add(mass_matrix_, mass_size_, term_);
+  // a is a rounded sum of the one before and a correction.
+  part_ = std::abs(w.a) * (a - correction_).cwiseAbs();
+  mass_size_.add_product(part_, magnitude_);
   if (shift != nullptr) add(mass_matrix_, mass_size_, *shift);
   add(damping_, damping_size_, v_);
   add(stiffness_, stiffness_size_, u_);
@@ -238,6 +243,7 @@ void MotionEquation<Dof>::solve_stages(double t, double h, const StageTable& tab
   const auto n = u0.size();
   const int count = table.stages;
   stages_.resize(count * n);
+  correction_.setZero(n);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     bool is_solved = true;
     for (int i = 0; i < count; ++i) {
@@ -247,7 +253,7 @@ void MotionEquation<Dof>::solve_stages(double t, double h, const StageTable& tab
         u_ += h * h * table.second(i, j) * a[std::size_t(j)];
         v_ += h * table.first(i, j) * a[std::size_t(j)];
       }
-      add_tangent(u_, v_);
+      add_tangent(u_, v_, false);
       const Weights own{1.0, h * table.first(i, i), h * h * table.second(i, i)};
       auto& a_i = a[std::size_t(i)];
       stage_u_ = u_ - own.u * a_i;

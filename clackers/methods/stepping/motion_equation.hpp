@@ -27,17 +27,8 @@ using Scratch = std::conditional_t<Dof == model::any_dof, model::Vector<Dof>&, m
 template <int Dof>
 class SwitchedForce : public model::NonlinearForce<Dof> {
  public:
-  /// A part by_u b b^T of dp/du and by_v b b^T of dp/dv.
-  struct Row {
-    const model::Vector<Dof>* b;
-    double by_u, by_v;
-  };
-
   /// True while p = 0 for every u and v.
   virtual bool vanishes() const = 0;
-  /// Fills `rows` with all parts of the tangents at (u, v). False where they have others.
-  virtual bool find_tangent_rows(const model::Vector<Dof>& u, const model::Vector<Dof>& v,
-                                 std::vector<Row>& rows) const = 0;
 };
 
 /// A load of a step: f(t), or (1 - weight) f(t) + weight f(other).
@@ -222,7 +213,7 @@ class MotionEquation {
   const Solver& factorize(const Weights& w);
   void add_load(const LoadTime& load, Vector& to);
   void subtract_nonlinear(const Vector& u, const Vector& v, Vector& r);
-  void add_tangent(const Vector& u, const Vector& v);
+  void add_tangent(const Vector& u, const Vector& v, bool as_rows);
   void correct(const Weights& w);
   bool solve_nonlinear(const LoadTime& load, const Weights& w, const Vector& u0, const Vector& v0,
                        Vector& a, const Vector* shift);
@@ -240,7 +231,7 @@ class MotionEquation {
   Banded mass_size_, damping_size_, stiffness_size_;  // magnitudes of their entries
   Banded by_u_, by_v_;                                // -M^-1 K and -M^-1 C: a = by_u u + by_v v
   bool has_rows_ = false;                             // in place of dp_du_ and dp_dv_
-  std::vector<typename SwitchedForce<Dof>::Row> rows_;
+  std::vector<typename model::NonlinearForce<Dof>::TangentRow> rows_;
   std::vector<Vector> by_rows_;
   Eigen::PartialPivLU<Matrix> tangent_;
   std::array<Factors, most_factors> factors_;
