@@ -43,7 +43,8 @@ TEST_F(Check, FindsNothingWrongWithALongExactHistory) {
   request.settings = {{"a_t", 50.0}};
   const auto rows = numbers(0.001, 0.0, request.settings);
   request.subjects[0].files = {columns("long", rows)};
-  const auto& subject = check(request).cases.at(0).subjects[0];
+  const auto record = check(request);
+  const auto& subject = record.cases.at(0).subjects[0];
   const auto& run = *subject.shown_run();
   EXPECT_EQ(run.file->rows, 1000001);
   EXPECT_GT(run.score.impacts->matched, 150);
