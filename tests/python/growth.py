@@ -1,5 +1,6 @@
 """Many calls of every public function leave the process as large as it was: growth.py [CALLS], 10000 by default, fewer
 of slow ones."""
+import ctypes
 import gc
 import os
 import sys
@@ -14,13 +15,12 @@ import clackers
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  the backend is chosen first
 
-PAGE = os.sysconf("SC_PAGE_SIZE")
 ROUNDS = 3
 MOST = 40  # bytes a call in the best round: an array or an object that stays is larger
 OF_A_FIGURE = 20_000  # bytes; a figure of matplotlib with five lines leaves 5,000 to 15,000 by itself
 LONGEST = 0.4  # of a round [s]; a slow function leaves more where it leaks, so that fewer calls show it
 FEWEST = 10  # calls of a round
-NOISE = 100_000  # bytes of a round
+NOISE = 30_000  # bytes of a round
 
 CASE = clackers.case("stop")
 PAIR = clackers.case("three-parameter")
@@ -90,10 +90,20 @@ CALLS = {
 }
 
 
-def resident():
+class Heap(ctypes.Structure):
+    """What glibc's mallinfo2 gives."""
+    _fields_ = [(name, ctypes.c_size_t) for name in "arena ordblks smblks hblks hblkhd usmblks fsmblks uordblks fordblks keepcost".split()]
+
+
+def in_use():
+    """Bytes that are allocated and not freed: pages that the allocator keeps for later are none of them."""
     gc.collect()
-    with open("/proc/self/statm") as file:
-        return int(file.read().split()[1]) * PAGE
+    heap = MALLINFO()
+    return heap.uordblks + heap.hblkhd
+
+
+MALLINFO = ctypes.CDLL(None).mallinfo2
+MALLINFO.restype = Heap
 
 
 def growth(call, most):
@@ -106,10 +116,10 @@ def growth(call, most):
         call()
     found = []
     for _ in range(ROUNDS):
-        before = resident()
+        before = in_use()
         for _ in range(count):
             call()
-        found.append(resident() - before)
+        found.append(in_use() - before)
     return count, min(found)
 
 
@@ -135,4 +145,6 @@ def main():
 
 
 if __name__ == "__main__":
+    if os.environ.get("PYTHONMALLOC") != "malloc":  # every object is to be one of malloc's
+        os.execve(sys.executable, [sys.executable, *sys.argv], {**os.environ, "PYTHONMALLOC": "malloc"})
     sys.exit(main())
