@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/cases/testing/constants.hpp"
+#include "clackers/exact/certified/digits.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
@@ -250,6 +252,17 @@ TEST(FrictionCases, DisksBounceAsTheirImpactsOneByOne) {
     EXPECT_NEAR(constant(disk, "V"), V, 1e-15 * V);
     EXPECT_NEAR(constant(disk, "t_rest"), rest, 1e-15 * rest);
     const auto size = motion.envelope(0.0);
+    std::optional<certified::Digits> digits;
+#ifdef CLACKERS_HAS_ARB
+    digits.emplace(motion, 35);
+#endif
+    const auto expect_digits = [&](const std::vector<std::string>& texts, const Throw::Real* values,
+                                   const Eigen::VectorXd& scale) {
+      for (int j = 0; j < 3; ++j)
+        EXPECT_LE(abs(Throw::Real(texts[std::size_t(j)]) - values[j]),
+                  Throw::Real(1e-34) * scale[j])
+            << j;
+    };
     for (int i = 1; i <= 12; ++i) {
       // Ever nearer to where the impacts accumulate, then beyond.
       const double t = i <= 8 ? rest * (1.0 - std::pow(0.1, box.uniform(0.0, 1.0) * 12.0))
@@ -265,6 +278,11 @@ TEST(FrictionCases, DisksBounceAsTheirImpactsOneByOne) {
         EXPECT_LE(bound.v[j], 3e-16 * size.v[j]);
         EXPECT_LE(std::abs(found.u[j]), size.u[j] * (1.0 + 1e-15));
         EXPECT_LE(std::abs(found.v[j]), size.v[j] * (1.0 + 1e-15));
+      }
+      if (digits) {
+        const auto texts = digits->at(t, Side::right);
+        expect_digits(texts.u, u, size.u);
+        expect_digits(texts.v, v, size.v);
       }
       EXPECT_EQ(motion.contact_forces(t, Side::right)[0], t < rest ? 0.0 : g);
       EXPECT_EQ(motion.impact_count(t), std::min(now.impacts, motion.impact_count(end)));
@@ -287,6 +305,12 @@ TEST(FrictionCases, DisksBounceAsTheirImpactsOneByOne) {
       const Throw::Real U = -thrown.vy;
       thrown.collide();
       expect(impact.after);
+      if (digits) {
+        const auto hit = digits->impact(k);
+        const Throw::Real velocities[] = {thrown.vx, thrown.vy, thrown.w};
+        expect_digits(hit.after.v, velocities, size.v);
+        EXPECT_LE(abs(Throw::Real(hit.t) - thrown.t), Throw::Real(1e-34) * thrown.t);
+      }
       EXPECT_NEAR(
           impact.energy_after,
           double(thrown.vx * thrown.vx + thrown.vy * thrown.vy + beta * thrown.w * thrown.w) / 2,

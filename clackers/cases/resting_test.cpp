@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/cases/testing/constants.hpp"
+#include "clackers/exact/certified/digits.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 
 // The cases that come to rest, against sums of their flights that use neither modes nor closed sums.
@@ -238,6 +240,16 @@ TEST(RestingCases, CircleBilliardsAreTheirRays) {
     const auto circle = make_until(end);
     const auto& motion = *circle.motion;
     Ray ray{R, x0, y0, vx, vy};
+    std::optional<certified::Digits> digits;
+#ifdef CLACKERS_HAS_ARB
+    digits.emplace(motion, 40);
+#endif
+    const auto expect_digits = [&](const certified::Digits::KinematicTexts& texts) {
+      EXPECT_LE(abs(Ray::Real(texts.u[0]) - ray.x) + abs(Ray::Real(texts.u[1]) - ray.y),
+                Ray::Real(1e-39) * R);
+      EXPECT_LE(abs(Ray::Real(texts.v[0]) - ray.vx) + abs(Ray::Real(texts.v[1]) - ray.vy),
+                Ray::Real(1e-39) * v);
+    };
     const auto expect = [&](const model::Kinematics& now, const model::Kinematics& bound) {
       EXPECT_LE(abs(now.u[0] - ray.x), bound.u[0]);
       EXPECT_LE(abs(now.u[1] - ray.y), bound.u[1]);
@@ -252,6 +264,8 @@ TEST(RestingCases, CircleBilliardsAreTheirRays) {
       ray.fly(middle - ray.t);
       const auto bound = motion.error_bound(middle);
       expect(motion.at(middle, model::Side::right), bound);
+      ray.fly(Ray::Real(middle) - ray.t);
+      if (digits) expect_digits(digits->at(middle, model::Side::right));
       EXPECT_LE(bound.u.maxCoeff(), 3e-16 * R);
       EXPECT_EQ(motion.impact_count(middle), k - 1);
       ray = next;
@@ -262,6 +276,16 @@ TEST(RestingCases, CircleBilliardsAreTheirRays) {
       const model::Kinematics rounding{1e-15 * size.u, 1e-15 * size.v, size.a};
       EXPECT_LE(abs(impact.t - ray.t), 0.5 * (impact.when.hi - impact.when.lo));
       expect(impact.before, rounding);
+      if (digits) {
+        const auto hit = digits->impact(k);
+        EXPECT_LE(abs(Ray::Real(hit.t) - ray.t), Ray::Real(1e-39) * ray.t);
+        expect_digits(hit.before);
+        auto bounced = ray;
+        bounced.bounce();
+        std::swap(ray, bounced);
+        expect_digits(hit.after);
+        std::swap(ray, bounced);
+      }
       ray.bounce();
       expect(impact.after, rounding);
       EXPECT_NEAR(impact.impulse, v * chord / R, 1e-15 * v);

@@ -7,7 +7,7 @@ from command import CommandTest, run
 
 CASES = ("sdof", "stop", "symmetric-pair", "one-parameter", "two-parameter", "three-parameter",
          "synchronized-pair", "exact-data-pair", "buildings", "row", "alternating", "assembly",
-         "cradle", "forced-pair", "base-excited-pair")
+         "cradle", "forced-pair", "base-excited-pair", "circle-billiard", "oblique-disk")
 TEXTS = ("t", "side")
 
 

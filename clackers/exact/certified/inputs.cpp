@@ -38,8 +38,8 @@ Inputs::Inputs(const model::Motion& motion) {
   if (known == nullptr)
     throw InputError(
         "digits: this motion is known to double precision only; allowed: the cases of one mass and of "
-        "the synchronized pair, buildings, row, alternating and assembly, penalized-pair and "
-        "problem files.",
+        "the synchronized pair, buildings, row, alternating and assembly, penalized-pair, "
+        "cradle, forced-pair, base-excited-pair, circle-billiard, oblique-disk and problem files.",
         "no-enclosure");
   *this =
       std::visit([](const auto& parameters) { return Inputs(parameters); }, known->parameters());

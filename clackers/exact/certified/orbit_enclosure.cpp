@@ -2,26 +2,49 @@
 
 #include "clackers/exact/certified/orbit_enclosure.hpp"
 
+#include <fmt/format.h>
+
 #include "clackers/base/error.hpp"
+#include "clackers/exact/friction/oblique_disk.hpp"
 
 namespace clackers::certified {
 namespace {
 
 exact::CradleFormulas<Ball> in_balls(std::monostate) { return {}; }  // refused before
 auto in_balls(const exact::CradleParameters& p) { return exact::CradleFormulas<Ball>(p); }
+auto in_balls(const exact::CircleBilliardParameters& p) { return exact::CircleFormulas<Ball>(p); }
+auto in_balls(const exact::ObliqueDiskParameters& p) {
+  const auto counts = exact::disk_counts(p);
+  if (!counts.proven)
+    throw InputError(
+        "digits: the slip ends so close to an impact that 256 bits do not tell which side; allowed: other values of mu, "
+        "vx0 or w0.",
+        "no-enclosure");
+  return exact::DiskFormulas<Ball>(p, counts);
+}
 auto in_balls(const auto& p) { return exact::OrbitFormulas<Ball>(p); }
 
-KinematicBalls kinematics(const exact::StatesOf<Ball>& states) {
+}  // namespace
+
+KinematicBalls OrbitEnclosure::kinematics(const exact::StatesOf<Ball>& states) const {
   KinematicBalls now;
-  for (const auto& mass : {states[0], states[1]}) {
-    now.u.push_back(mass.u);
-    now.v.push_back(mass.v);
-    now.a.push_back(mass.a);
+  for (std::size_t i = 0; i < std::size_t(motion_.dof()); ++i) {
+    now.u.push_back(states[i].u);
+    now.v.push_back(states[i].v);
+    now.a.push_back(states[i].a);
   }
   return now;
 }
 
-}  // namespace
+// Impacts that the motion leaves out are not before t.
+void OrbitEnclosure::require_resolved(double t) const {
+  for (const auto& closed : motion_.closed_contacts())
+    if (closed.accumulates && t >= closed.resolved && t <= closed.begins.hi)
+      throw InputError(
+          fmt::format("digits: impacts accumulate at t = {} s; allowed: times before and after.",
+                      t),
+          "no-enclosure");
+}
 
 // With the working bits of now.
 const OrbitEnclosure::Formulas& OrbitEnclosure::formulas() {
@@ -29,20 +52,23 @@ const OrbitEnclosure::Formulas& OrbitEnclosure::formulas() {
   if (bits_ == WorkingBits::now()) return formulas_;
   bits_ = WorkingBits::now();
   if (bits_ > most_bits)
-    throw InputError("digits: a value is 0; allowed: values other than 0.", "no-enclosure");
+    throw InputError(
+        "digits: a value is 0 or halfway between two decimal numbers; allowed: other values.",
+        "no-enclosure");
   std::visit([&](const auto& p) { formulas_ = in_balls(p); }, motion_.parameters());
   return formulas_;
 }
 
 KinematicBalls OrbitEnclosure::at_now(long long k, double t) {
+  require_resolved(t);
   return std::visit(
       [&](const auto& formulas) {
         // A double that is an impact's instant itself.
         const auto since = [&](long long impact) { return Ball(t) - formulas.instant(impact); };
-        if (since(k).is_zero()) return kinematics(formulas.limits(k).after);
+        if (k > 0 && since(k).is_zero()) return kinematics(formulas.limits(k).after);
         if (since(k + 1).is_zero()) return kinematics(formulas.limits(k + 1).before);
         auto states = formulas.state(k, since(k));
-        for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t i = 0; i < std::size_t(motion_.dof()); ++i)
           if (formulas.turns(i, k, t)) states[i].v = Ball();
         return kinematics(states);
       },

@@ -3,17 +3,23 @@
 #include <variant>
 
 #include "clackers/exact/certified/enclosure.hpp"
+#include "clackers/exact/friction/disk_formulas.hpp"
+#include "clackers/exact/orbit/circle_formulas.hpp"
 #include "clackers/exact/orbit/flights.hpp"
 
 namespace clackers::certified {
 
-/// Of a cradle, a forced pair or a pair under base excitation: their formulas in balls.
+/// Of motions whose formulas are written for numbers of any kind: these formulas in balls. Throws InputError
+/// (no-enclosure) where impacts accumulate.
 class OrbitEnclosure : public Enclosure {
  public:
   explicit OrbitEnclosure(const exact::Flights& motion) : Enclosure({}), motion_(motion) {}
 
-  /// At impacts of the forced pair velocities, energies and the impulse are fractions.
-  double fraction_bits(long long) const override { return 16384.0; }
+  /// At impacts of the forced pair velocities, energies and the impulse are fractions; those of the circle and the disk
+  /// have one square root, and denominators that grow from flight to flight.
+  double fraction_bits(long long flights) const override {
+    return 16384.0 + 4400.0 * double(flights);
+  }
   bool is_undamped() const override { return true; }
 
  protected:
@@ -24,7 +30,10 @@ class OrbitEnclosure : public Enclosure {
   ImpactBalls impact_now(long long k) override;
 
  private:
-  using Formulas = std::variant<exact::CradleFormulas<Ball>, exact::OrbitFormulas<Ball>>;
+  void require_resolved(double t) const;
+  KinematicBalls kinematics(const exact::StatesOf<Ball>& states) const;
+  using Formulas = std::variant<exact::CradleFormulas<Ball>, exact::OrbitFormulas<Ball>,
+                                exact::CircleFormulas<Ball>, exact::DiskFormulas<Ball>>;
   const Formulas& formulas();
 
   const exact::Flights& motion_;

@@ -12,7 +12,7 @@ namespace clackers::exact {
 
 using Eigen::VectorXd;
 using model::Side;
-using numerics::Bounded, numerics::narrowed, numerics::Wide;
+using numerics::Bounded, numerics::Wide;
 
 namespace {
 
@@ -27,38 +27,44 @@ long long powers(const Wide& share, double eta) {
       std::floor(std::log(left) / std::log(static_cast<long double>(eta))));
 }
 
-}  // namespace
-
-ObliqueDisk::ObliqueDisk(const ObliqueDiskParameters& p, std::string_view who)
-    : p_(p), once_(Wide(1.0) - Wide(p.eta)) {
+const ObliqueDiskParameters& checked(const ObliqueDiskParameters& p, std::string_view who) {
   if (!(p.eta >= 0.0 && p.eta <= largest_eta))
     refuse(who, "eta", p.eta, fmt::format("0 <= eta <= {}", largest_eta),
            p.eta <= 1.0 ? "It would hardly come to rest, after more than 1e5 impacts." : "");
   if (!(p.h0 > 0.0 || p.v0 > 0.0))
     refuse(who, "v0", p.v0, "v0 > 0 where h0 = 0", "It starts on the floor.");
-  const Wide v0 = p.v0, g = p.g, inertia = p.beta, more = Wide(1.0) + Wide(1.0) / inertia;
-  V_ = sqrt(v0 * v0 + Wide(2.0) * g * Wide(p.h0));
-  first_ = (v0 + V_) / g;
-  const Wide rest = start(-1);
-  last_ = std::max(1LL, 1 + powers(Wide(0x1p-56) * rest * g * once_ / (Wide(2.0) * V_), p.eta));
+  return p;
+}
 
-  const Wide slip = Wide(p.vx0) + Wide(p.w0), sign = slip.value < 0 ? -1.0 : 1.0;
-  friction_ = sign * Wide(p.mu) * (Wide(1.0) + Wide(p.eta)) * V_;
-  loss_ = slip / more;
-  // What is left of the slip if friction acts at all impacts.
-  const Wide left = sign * (slip - more * friction_ / once_);
-  if (slip.value != 0 && left.value >= 0) {
-    slides_ = last_ + 1;
-    slip_end_ = left / (Wide(p.mu) * g * more);
-  } else if (left.value < 0) {
-    const auto slides = [&](long long j) {
-      return (sign * (slip - more * friction_ * (Wide(1.0) - power(j)) / once_)).value > 0;
-    };
-    const auto estimate = powers(-left * once_ / (sign * more * friction_), p.eta);
-    slides_ = std::clamp(estimate - 1, 0LL, last_);
-    while (slides_ < last_ && slides(slides_ + 1)) ++slides_;
+}  // namespace
+
+DiskCounts disk_counts(const ObliqueDiskParameters& p) {
+  DiskFormulas<Wide> f(p, {});
+  auto& [last, slides, proven] = f.counts;
+  last = std::max(
+      1LL, 1 + powers(Wide(0x1p-56) * f.rest() * Wide(p.g) * f.once / (Wide(2.0) * f.V), p.eta));
+  if (f.slip.value == 0) return f.counts;
+  const auto is_positive = [&](const Wide& x) {
+    proven = proven && abs(x.value) > x.error;
+    return x.value > 0;
+  };
+  if (is_positive(f.left) || f.left.value == 0) {
+    slides = last + 1;
+    return f.counts;
   }
+  const Wide sign = f.is_backward() ? -1.0 : 1.0;
+  const auto slips = [&](long long j) {
+    return is_positive(sign * (f.slip - f.more * f.friction * (Wide(1.0) - f.power(j)) / f.once));
+  };
+  slides =
+      std::clamp(powers(-f.left * f.once / (sign * f.more * f.friction), p.eta) - 1, 0LL, last);
+  while (slides < last && slips(slides + 1)) ++slides;
+  proven = proven && slides < last;
+  return f.counts;
+}
 
+ObliqueDisk::ObliqueDisk(const ObliqueDiskParameters& p, std::string_view who)
+    : WideFlights(p, DiskFormulas<Wide>(p, disk_counts(checked(p, who)))) {
   problem_.system.mass = Eigen::Vector3d(1.0, 1.0, p.beta).asDiagonal();
   problem_.system.damping = problem_.system.stiffness = Eigen::Matrix3d::Zero();
   problem_.system.add_load = model::HarmonicLoad({{1, -p.g, 0.0, 0.0}});
@@ -71,98 +77,36 @@ ObliqueDisk::ObliqueDisk(const ObliqueDiskParameters& p, std::string_view who)
       p.mu);
 }
 
-double ObliqueDisk::slides() const { return slides_ > last_ ? HUGE_VAL : double(slides_); }
-double ObliqueDisk::rolls() const { return instant(slides_ + 1).nearest(); }
-
-Wide ObliqueDisk::power(long long k) const {
-  if (k < 0 || k > last_) return 0.0;
-  Wide result = 1.0, square = p_.eta;
-  for (; k > 0; k /= 2, square = square * square)
-    if (k % 2 == 1) result = result * square;
-  return result;
+double ObliqueDisk::slides() const {
+  return formulas_.counts.slides > formulas_.counts.last ? HUGE_VAL
+                                                         : double(formulas_.counts.slides);
 }
-
-// Flight -1 stands for the end of all.
-Wide ObliqueDisk::start(long long k) const {
-  if (k == 0) return 0.0;
-  const auto flights = first_ + Wide(2.0) * V_ / Wide(p_.g) * (Wide(p_.eta) - power(k)) / once_;
-  return k > last_ + 1 ? flights + slip_end_ : flights;
-}
-
-Wide ObliqueDisk::lost(long long k) const {
-  if (k == 0) return 0.0;
-  return k <= slides_ ? friction_ * (Wide(1.0) - power(k)) / once_ : loss_;
-}
-
-Wide ObliqueDisk::behind(long long k) const {
-  if (k == 0) return 0.0;
-  if (k > last_ + 1)
-    return behind(last_ + 1) +
-           (lost(last_ + 1) + loss_) * Wide(0.5) * slip_end_;  // evenly decelerated
-  const Wide eta = p_.eta, until = power(k), sliding = k <= slides_ ? until : eta * power(slides_);
-  const auto once = (eta - sliding) / once_,
-             twice = (eta * eta - sliding * sliding) / (Wide(1.0) - eta * eta);
-  return Wide(2.0) * V_ / Wide(p_.g) * (friction_ * (once - twice) + loss_ * (sliding - until)) /
-         once_;
-}
+double ObliqueDisk::rolls() const { return instant(formulas_.counts.slides + 1).nearest(); }
 
 Bounded ObliqueDisk::instant(long long k) const {
-  return k > last_ + 2 ? Bounded(HUGE_VAL) : narrowed(start(k));
-}
-
-auto ObliqueDisk::along(long long k, const Wide& share, double velocity) const -> MassState {
-  const Wide force =
-      k == last_ + 1 ? share * Wide(friction_.value < 0 ? p_.mu : -p_.mu) * Wide(p_.g) : 0.0;
-  return {narrowed(Wide(velocity) * start(k) - share * behind(k)),
-          narrowed(Wide(velocity) - share * lost(k)), narrowed(force)};
-}
-
-auto ObliqueDisk::state(long long k, const Bounded& s) const -> States {
-  const bool flies = k <= last_;
-  const Bounded g = flies ? p_.g : 0.0;
-  const MassState height =
-      k == 0 ? MassState{p_.h0, p_.v0, -g} : MassState{0.0, narrowed(power(k) * V_), -g};
-  States now{{along(k, 1.0, p_.vx0), height, along(k, Wide(1.0) / Wide(p_.beta), p_.w0)}};
-  for (auto& [u, v, a] : now) {
-    u = u + s * (v + Bounded(0.5) * a * s);
-    v = v + a * s;
-  }
-  return now;
+  return k > formulas_.counts.last + 2 ? Bounded(HUGE_VAL) : WideFlights::instant(k);
 }
 
 long long ObliqueDisk::near_flight(double t) const {
-  const auto left = (start(-1) - Wide(t)) * Wide(p_.g) * once_ / (Wide(2.0) * V_);
-  return left.value > 0 ? std::clamp(powers(left, p_.eta), 0LL, last_) : last_ + 1;
-}
-
-auto ObliqueDisk::limits(long long k) const -> Limits {
-  const auto share = Wide(1.0) / Wide(p_.beta);
-  Limits limit{};
-  for (const bool after : {false, true}) {
-    auto& now = after ? limit.after : limit.before;
-    const long long flight = after ? k : k - 1;
-    const auto speed = narrowed(power(k - (after ? 0 : 1)) * V_);
-    now = {{along(k, 1.0, p_.vx0), {0.0, after ? speed : -speed, -p_.g}, along(k, share, p_.w0)}};
-    now[0].v = along(flight, 1.0, p_.vx0).v;
-    now[2].v = along(flight, share, p_.w0).v;
-  }
-  limit.impulse = narrowed((Wide(1.0) + Wide(p_.eta)) * power(k - 1) * V_);
-  return limit;
+  const auto left = (formulas_.rest() - Wide(t)) * Wide(formulas_.p.g) * formulas_.once /
+                    (Wide(2.0) * formulas_.V);
+  return left.value > 0 ? std::clamp(powers(left, formulas_.p.eta), 0LL, formulas_.counts.last)
+                        : formulas_.counts.last + 1;
 }
 
 model::Kinematics ObliqueDisk::envelope(double t) const {
   model::require_inside("motion", t, end());
-  const double V = speed(), v = std::max(std::abs(p_.vx0), std::abs(rolling_speed())),
-               w = std::max(std::abs(p_.w0), std::abs(rolling_speed()));
+  const double V = speed(), v = std::max(std::abs(formulas_.p.vx0), std::abs(rolling_speed())),
+               w = std::max(std::abs(formulas_.p.w0), std::abs(rolling_speed()));
   // What stands still along the floor has the size of the jumps.
   const Eigen::Vector3d speeds(v > 0.0 ? v : V, V, w > 0.0 ? w : V);
-  const double height = V * V / (2.0 * p_.g);
+  const double height = V * V / (2.0 * formulas_.p.g);
   return {Eigen::Vector3d(speeds[0] * end(), height, speeds[2] * end()), speeds,
-          Eigen::Vector3d(p_.g, p_.g, p_.g)};
+          Eigen::Vector3d(formulas_.p.g, formulas_.p.g, formulas_.p.g)};
 }
 
 long long ObliqueDisk::impact_count(double t) const {
-  return std::min(last_, Flights::impact_count(t));
+  return std::min(formulas_.counts.last, Flights::impact_count(t));
 }
 
 std::vector<model::ClosedContact> ObliqueDisk::closed_contacts() const {
@@ -174,12 +118,12 @@ std::vector<model::ClosedContact> ObliqueDisk::closed_contacts() const {
            end(),
            {from - reach, from + reach},
            false,
-           p_.eta > 0.0,
-           instant(last_).nearest()}};
+           formulas_.p.eta > 0.0,
+           instant(formulas_.counts.last).nearest()}};
 }
 
 VectorXd ObliqueDisk::contact_forces(double t, Side side) const {
-  return VectorXd::Constant(1, flight_at(t, side) > last_ ? p_.g : 0.0);
+  return VectorXd::Constant(1, flight_at(t, side) > formulas_.counts.last ? formulas_.p.g : 0.0);
 }
 
 }  // namespace clackers::exact

@@ -9,32 +9,26 @@
 namespace clackers::exact {
 
 using Eigen::Vector2d;
-using numerics::Bounded, numerics::narrowed, numerics::Wide;
+using numerics::narrowed, numerics::Wide;
 
 namespace {
 
-struct Direction {
-  Wide x, y;
-  friend Direction operator*(const Direction& a, const Direction& b) {
-    return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
-  }
-};
-
-}  // namespace
-
-CircleBilliard::CircleBilliard(const CircleBilliardParameters& p, std::string_view who) : p_(p) {
-  const Wide x = p.x0, y = p.y0, vx = p.vx, vy = p.vy, R = p.R;
+const CircleBilliardParameters& checked(const CircleBilliardParameters& p, std::string_view who) {
+  const Wide x = p.x0, y = p.y0, R = p.R;
   if (const double r = std::hypot(p.x0, p.y0); !((x * x + y * y - R * R).value < 0))
     refuse(who, "R", p.R, fmt::format("R > sqrt(x0^2 + y0^2) = {}", r),
            "The point starts inside the circle.");
   if (p.vx == 0.0 && p.vy == 0.0)
     refuse(who, "vx", p.vx, "a velocity other than 0", "The point would stay where it is.");
-  v_ = sqrt(vx * vx + vy * vy);
-  b_ = (x * vx + y * vy) / v_;
-  d_ = (x * vy - y * vx) / v_;
-  l_ = sqrt((R - d_) * (R + d_));
+  return p;
+}
+
+}  // namespace
+
+CircleBilliard::CircleBilliard(const CircleBilliardParameters& p, std::string_view who)
+    : WideFlights(p, CircleFormulas<Wide>(checked(p, who))), R_(p.R) {
   constexpr double most_impacts = 1e9;
-  const double most = most_impacts * narrowed(Wide(2.0) * l_ / v_).nearest();
+  const double most = most_impacts * narrowed(Wide(2.0) * formulas_.half).nearest();
   if (!(p.end < most))
     refuse(who, "t_end", p.end, fmt::format("t_end < {}", most),
            "So many impacts are not known to the digits of a double.");
@@ -47,38 +41,22 @@ CircleBilliard::CircleBilliard(const CircleBilliardParameters& p, std::string_vi
       p.R);
 }
 
-Bounded CircleBilliard::instant(long long k) const {
-  return narrowed((Wide(2.0 * double(k) - 1.0) * l_ - b_) / v_);
+double CircleBilliard::distance() const {
+  return narrowed(formulas_.L / sqrt(formulas_.square)).nearest();
 }
+double CircleBilliard::chord() const {
+  return narrowed(Wide(2.0) * formulas_.S / sqrt(formulas_.square)).nearest();
+}
+
 long long CircleBilliard::near_flight(double t) const {
-  const auto chords = (b_ + v_ * Wide(t) + l_) / (Wide(2.0) * l_);
+  const auto chords = (Wide(t) - formulas_.begins + formulas_.half) / (Wide(2.0) * formulas_.half);
   return static_cast<long long>(narrowed(chords).value);
-}
-
-auto CircleBilliard::on_chord(long long k, const Bounded& sigma) const -> States {
-  const Wide R = p_.R;
-  const Direction turn{d_ / R, l_ / R};
-  Direction now{Wide(p_.vx) / v_, Wide(p_.vy) / v_};
-  auto square = turn * turn;
-  for (; k > 0; k /= 2, square = square * square)
-    if (k % 2 == 1) now = now * square;
-  const auto x = narrowed(now.x), y = narrowed(now.y), d = narrowed(d_), v = narrowed(v_);
-  return {{{sigma * x + d * y, v * x, 0.0}, {sigma * y - d * x, v * y, 0.0}}};
-}
-
-auto CircleBilliard::state(long long k, const Bounded& s) const -> States {
-  return on_chord(k, narrowed(v_) * s - narrowed(l_));
-}
-
-auto CircleBilliard::limits(long long k) const -> Limits {
-  const auto l = narrowed(l_);
-  return {on_chord(k - 1, l), on_chord(k, -l), narrowed(Wide(2.0) * v_ * l_ / Wide(p_.R))};
 }
 
 model::Kinematics CircleBilliard::envelope(double t) const {
   model::require_inside("motion", t, end());
-  const double v = narrowed(v_).nearest();
-  return {Vector2d(p_.R, p_.R), Vector2d(v, v), Vector2d(v * v / p_.R, v * v / p_.R)};
+  const double v = narrowed(sqrt(formulas_.square)).nearest();
+  return {Vector2d(R_, R_), Vector2d(v, v), Vector2d(v * v / R_, v * v / R_)};
 }
 
 }  // namespace clackers::exact

@@ -37,8 +37,25 @@ struct BaseExcitedParameters {
   double t_end = 20.0;                ///< [s]
 };
 
+/// A point of unit mass within a circle of radius R around the origin.
+struct CircleBilliardParameters {
+  double R = 1.0;                                 ///< [m]
+  double x0 = 0.0, y0 = 0.0, vx = 1.0, vy = 0.0;  ///< at t = 0 [m, m/s]
+  double end = 20.0;                              ///< [s]
+};
+
+/// A disk or ball of unit mass that is thrown on a rough floor, turning.
+struct ObliqueDiskParameters {
+  double h0 = 1.0, v0 = 0.0;    ///< height above the floor and velocity upwards at t = 0 [m, m/s]
+  double vx0 = 1.0, w0 = 0.0;   ///< velocity along the floor, and R times that of rotation [m/s]
+  double g = 9.81, eta = 0.8;   ///< gravity [m/s^2], restitution
+  double mu = 0.1, beta = 0.5;  ///< coefficient of friction; moment of inertia over m R^2
+  double end = 5.0;             ///< [s]
+};
+
 using FlightsParameters =
-    std::variant<std::monostate, CradleParameters, ForcedPairParameters, BaseExcitedParameters>;
+    std::variant<std::monostate, CradleParameters, ForcedPairParameters, BaseExcitedParameters,
+                 CircleBilliardParameters, ObliqueDiskParameters>;
 
 /// Numbers of a type Real that bounds their errors.
 template <class Real>
