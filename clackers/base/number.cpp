@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 namespace clackers {
 namespace {
@@ -19,6 +21,61 @@ int significant_digits(std::string_view text) {
   int points = 0;
   for (; at != end && *at <= '9'; ++at) points += *at == '.';
   return int(at - first) - points;
+}
+
+constexpr auto powers_of_five = [] {
+  std::array<std::uint64_t, 28> powers{1};  // all that fit
+  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = 5 * powers[i - 1];
+  return powers;
+}();
+
+// The double nearest to whole / 10^k for whole > 0. The quotient has 62 bits at least, of which a double keeps
+// 53; its last bit is set where the division leaves a remainder, so that rounding sees it.
+double quotient(std::uint64_t whole, std::size_t k) {
+  __extension__ using Wide = unsigned __int128;
+  const int up = std::countl_zero(whole), down = std::countl_zero(powers_of_five[k]);
+  const Wide above = Wide{whole << up} << 63, below = Wide{powers_of_five[k] << down};
+  const auto ratio = static_cast<std::uint64_t>(above / below);
+  const bool has_remainder = ratio * below != above;
+  // At least 2^-153, so that no product is subnormal.
+  const auto power = static_cast<std::uint64_t>(1023 + down - up - 63 - int(k)) << 52;
+  return double(ratio | std::uint64_t{has_remainder}) * std::bit_cast<double>(power);
+}
+
+// A number of at most 19 digits and 27 decimals, such as "-1.5e-3". False for any other text, which may
+// be a number all the same.
+bool read_short(std::string_view text, Number& number) {
+  constexpr int most_digits = 19;  // of a std::uint64_t
+  const char *at = text.data(), *const end = at + text.size(), *point = nullptr;
+  const bool is_negative = text.starts_with('-');
+  if (is_negative) ++at;
+  const char* const first = at;
+  std::uint64_t whole = 0;
+  int digits = 0;
+  for (; at != end; ++at) {
+    if (is_digit(*at)) {
+      whole = 10 * whole + static_cast<std::uint64_t>(*at - '0');
+      digits += whole != 0;
+    } else if (*at == '.' && point == nullptr) {
+      point = at;
+    } else {
+      break;
+    }
+  }
+  if (digits > most_digits || at - first == (point != nullptr)) return false;
+  const auto decimals = point == nullptr ? 0 : at - point - 1;
+  int exponent = 0;
+  if (at != end) {
+    if ((*at != 'e' && *at != 'E') || ++at == end) return false;
+    const bool has_plus = *at == '+';
+    const auto [stop, error] = std::from_chars(at + has_plus, end, exponent);
+    if (error != std::errc() || stop != end || (has_plus && at[1] == '-')) return false;
+  }
+  const auto k = decimals - exponent;
+  if (k < 0 || k >= std::ssize(powers_of_five)) return false;
+  const double size = whole == 0 ? 0.0 : quotient(whole, std::size_t(k));
+  number = {is_negative ? -size : size, digits};
+  return true;
 }
 
 // "1.5D-3" as "1.5E-3" in `copy`; the text itself when there is no such exponent.
@@ -53,6 +110,7 @@ std::string without_padding(std::string text) {
 NumberError read_decimal(std::string_view text, Number& number) {
   const auto whole = text;
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  if (read_short(text, number)) return NumberError::none;
   const auto try_read = [&number](std::string_view s) {
     const auto [stop, error] = std::from_chars(s.data(), s.data() + s.size(), number.value);
     if (stop != s.data() + s.size() || error == std::errc::invalid_argument)

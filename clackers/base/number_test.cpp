@@ -4,9 +4,11 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <string>
 
 namespace clackers {
 namespace {
@@ -29,6 +31,35 @@ TEST(Number, IsReadAsPrograms) {
   EXPECT_EQ(number("7.").value, 7.0);
   EXPECT_EQ(number("-1.25D-03").value, -1.25e-3);
   EXPECT_EQ(number("1.d2").value, 100.0);
+}
+
+TEST(Number, IsTheNearestDouble) {
+  const auto expect_nearest = [](const std::string& text) {
+    const auto found = number(text).value;
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(found),
+              std::bit_cast<std::uint64_t>(std::strtod(text.c_str(), nullptr)))
+        << text;
+  };
+  std::mt19937_64 random(20261127);  // NOLINT: the same numbers in every run
+  for (int i = 0; i < 100000; ++i) {
+    auto text = std::to_string(random() >> random() % 64);
+    if (random() % 2 == 0) text.insert(random() % (text.size() + 1), ".");
+    if (random() % 2 == 0) text.insert(0, random() % 2 == 0 ? "-" : "0");
+    expect_nearest(text);
+    expect_nearest(text + "e" + std::to_string(int(random() % 70) - 60));
+    expect_nearest(text + "E+" + std::to_string(random() % 20));
+  }
+  // Half way between two doubles, and next to it.
+  for (int i = 0; i < 10000; ++i) {
+    const auto half_way = (std::uint64_t{1} << 53) + (random() >> 11) + 1;
+    for (std::uint64_t five = 1, k = 0; k <= 3; five *= 5, ++k)
+      for (const auto whole : {five * half_way - 1, five * half_way, five * half_way + 1})
+        expect_nearest(std::to_string(whole) + "e-" + std::to_string(k));
+  }
+  for (const auto* text : {"0", "-0", "-0.000e5", "9007199254740993", "9999999999999999999"})
+    expect_nearest(text);
+  for (const auto* text : {"1e+-0", "1e", "1e+", "-", ".", "1.2.3", "1e5x", "--1"})
+    EXPECT_EQ(error_of(text), NumberError::no_number) << text;
 }
 
 TEST(Number, CountsItsSignificantDigits) {

@@ -10,6 +10,9 @@ bool is_blank(char c) { return c == ' ' || c == '\t'; }
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
+  // Most fields have nothing around them.
+  const auto is_bare = [](char c) { return c > ' ' && c != '"'; };
+  if (!text.empty() && is_bare(text.front()) && is_bare(text.back())) return text;
   const auto first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
