@@ -69,6 +69,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "The differences between runs at successive steps change sign or direction, so they are not the terms of one expansion and nothing bounds the error of an extrapolated value."},
     {"run-failed", "reason",
      "Runs ended before their end time; the first failure is quoted."},
+    {"no-impact-law", "reason",
+     "The method has no law of impact: what a mass leaves a contact with depends on where in its step the impact falls, and so on the step, however small. Of meshes, whose contact nodes lose their mass as they are refined, it converges: judge it with verify --path."},
     {"energy-growth", "reason",
      "The run's energy left [1/2, 2] of the true one."},
     {"error-growth", "reason",

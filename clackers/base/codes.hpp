@@ -23,7 +23,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "contact-stiffness", "tolerance-floor", "unexplained-floor", "too-few-levels",
     "contact-not-resolved", "no-convergence-yet", "larger-than-motion", "simultaneous-impacts", "one-sample-a-level",
     "more-samples", "errors-cancel", "error-grows-again", "no-fixed-order", "wrong-limit",
-    "improper-convergence", "differences-turn", "run-failed", "energy-growth", "error-growth",
+    "improper-convergence", "differences-turn", "run-failed", "no-impact-law", "energy-growth", "error-growth",
     "diverged", "newton-failed", "complementarity-failed", "step-too-small", "too-many-impacts",
     "agrees", "disagrees", "not-claimed", "not-a-number", "not-finite", "out-of-range",
     "wrong-size", "null-pointer", "wrong-struct-size", "not-positive-definite", "not-symmetric",

@@ -20,6 +20,7 @@ struct PaoliSchatzman;
 struct CdLagrange;
 struct ForwardIncrementLagrange;
 struct AugmentedLagrangian;
+struct NewmarkImplicitContact;
 struct NewmarkPositionMultiplier;
 struct PiecewiseExact;
 
@@ -42,7 +43,7 @@ std::vector<Row> all_rows() {
     for (auto& row : family()) all.push_back(std::move(row));
   add<EventDriven, Reversal, Penalty, MoreauJean, NonsmoothGeneralizedAlpha, D1Minus,
       PaoliSchatzman, CdLagrange, ForwardIncrementLagrange, AugmentedLagrangian,
-      NewmarkPositionMultiplier, PiecewiseExact>(all);
+      NewmarkImplicitContact, NewmarkPositionMultiplier, PiecewiseExact>(all);
   return all;
 }
 

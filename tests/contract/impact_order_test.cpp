@@ -218,6 +218,14 @@ TEST_P(ImpactOrder, IsTheClaimedOne) {
           EXPECT_GT(energy, 2.0);
         }
       });
+    case Behaviour::undecided:  // no law of impact: errors as large as the motion at any step
+      return for_each_case([&](const cases::Case& test_case, double coarsest) {
+        for (const double h : {coarsest, coarsest / 8.0}) {
+          const auto [error, energy] = medians(*chosen, test_case, h);
+          EXPECT_GT(error, 0.1);
+          EXPECT_LT(energy, 1.0);
+        }
+      });
     default:
       ADD_FAILURE() << facts.name << " claims " << to_string(claim.behaviour)
                     << ", which no test measures";

@@ -57,10 +57,12 @@ TEST_P(EveryMethod, ClaimsWhatCanBeMeasured) {
   EXPECT_GE(facts.smooth_order, 1.0);
   EXPECT_GE(facts.stability_limit, 0.0);
   const auto& claim = facts.through_impacts;
-  EXPECT_NE(claim.behaviour, Behaviour::undecided);
-  EXPECT_EQ(claim.order == 0.0, claim.behaviour == Behaviour::stagnating ||
-                                    claim.behaviour == Behaviour::divergent ||
-                                    claim.behaviour == Behaviour::exact);
+  if (claim.behaviour == Behaviour::undecided) {
+    EXPECT_EQ(claim.reason, "no-impact-law");
+  }
+  EXPECT_EQ(claim.order == 0.0,
+            claim.behaviour == Behaviour::undecided || claim.behaviour == Behaviour::stagnating ||
+                claim.behaviour == Behaviour::divergent || claim.behaviour == Behaviour::exact);
   if (!claim.reason.empty()) {
     EXPECT_NE(find_code(claim.reason), nullptr);
   }

@@ -80,7 +80,7 @@ struct DiskFormulas {
       const auto now = state(flight, 0.0), there = state(k, 0.0);
       auto& states = after ? limit.after : limit.before;
       states = now;
-      for (const std::size_t i : {0, 2}) states[i].u = there[i].u;
+      for (const std::size_t i : {0U, 2U}) states[i].u = there[i].u;
       states[1] = {0.0, after ? speed : -speed, now[1].a};
     }
     limit.impulse = (Real(1.0) + Real(p.eta)) * power(k - 1) * V;

@@ -40,7 +40,8 @@ const ObliqueDiskParameters& checked(const ObliqueDiskParameters& p, std::string
 
 DiskCounts disk_counts(const ObliqueDiskParameters& p) {
   DiskFormulas<Wide> f(p, {});
-  auto& [last, slides, proven] = f.counts;
+  auto &last = f.counts.last, &slides = f.counts.slides;
+  bool& proven = f.counts.proven;
   last = std::max(
       1LL, 1 + powers(Wide(0x1p-56) * f.rest() * Wide(p.g) * f.once / (Wide(2.0) * f.V), p.eta));
   if (f.slip.value == 0) return f.counts;

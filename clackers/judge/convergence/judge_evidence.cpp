@@ -28,10 +28,11 @@ Evidence miscount(const measure::RunScore& run) {
 // decide nothing, steps may be too long to find them: then only if every run of both levels misses as
 // many and has as many too many, as no refinement will mend. Where errors may scatter as claimed, gentle
 // impacts are off by more than their match may be at some steps: then only if most runs miscount.
-// A claim to diverge says nothing of impacts.
+// A claim to diverge says nothing of impacts, nor does a method without a law of them.
 std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFit& fit,
                                    const Claim& claim) {
-  if (claim.behaviour == Behaviour::divergent) return {};
+  if (claim.behaviour == Behaviour::divergent || claim.reason == Code("no-impact-law").name())
+    return {};
   const bool late_is_allowed = claim.behaviour == Behaviour::stagnating;
   const measure::RunScore* first = nullptr;
   bool all_alike = true;

@@ -53,7 +53,10 @@ Source      J. C. Simo, T. A. Laursen, Comput. Struct. 42, 97-116 (1992).
              "From 2 on the iteration does not converge.");
     require_positive(name, "tolerance", tolerance);
   }
-  Facts facts() const { return position_newmark_facts(specification(*this)); }
+  Facts facts() const {
+    return position_newmark_facts(specification(*this),
+                                  {Behaviour::divergent, 0.0, "energy-growth"});
+  }
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const {
     return position_newmark_objection(specification(*this), problem);
   }

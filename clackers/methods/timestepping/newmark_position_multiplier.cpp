@@ -32,7 +32,9 @@ Cost        one evaluation and one back-substitution a step, one more at an impa
 Source      V. Acary, Z. Angew. Math. Mech. 96, 585-603 (2016), on why not.
 )";
 
-  Facts facts() const { return position_newmark_facts(std::string(name)); }
+  Facts facts() const {
+    return position_newmark_facts(std::string(name), {Behaviour::divergent, 0.0, "energy-growth"});
+  }
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const {
     if (auto no = position_newmark_objection(std::string(name), problem)) return no;
     return objection_to_closed_contacts(std::string(name), problem);

@@ -12,13 +12,17 @@
 
 namespace clackers::methods {
 
-/// What both schemes with a gap kept at the end of the step claim: nothing but a gain of energy.
-inline Facts position_newmark_facts(std::string name) {
+/// How contact forces at the end of the step enter it: averaged with those of its start, as all other
+/// forces are, or alone (Newmark's beta and gamma of the contact 1/2 and 1).
+enum class ContactForce { averaged, at_the_end };
+
+/// What schemes with a gap kept at the end of the step claim of impacts.
+inline Facts position_newmark_facts(std::string name, Claim through_impacts) {
   return {.name = std::move(name),
           .smooth_order = 2.0,
           .stability_limit = std::numeric_limits<double>::infinity(),
           .radius_at_infinity = 1.0,
-          .through_impacts = {Behaviour::divergent, 0.0, "energy-growth"}};
+          .through_impacts = std::move(through_impacts)};
 }
 
 inline std::optional<Objection> position_newmark_objection(const std::string& who,
@@ -38,7 +42,8 @@ inline std::optional<Objection> position_newmark_objection(const std::string& wh
 ///     M a1 + C v1 + K u1 + p(u1, v1) = f(t1) + B^T L,   0 <= g(u1) _|_ L >= 0
 ///     u1 = u0 + h/2 (v0 + v1),   v1 = v0 + h/2 (a0 + a1)
 ///
-/// where g(u1) >= 0 is b.v1 >= -b.v0 - 2 g(u0) / h.
+/// or, at the end alone, M a1 + C v1 + K u1 + p(u1, v1) = f(t1) and v1 = v0 + h/2 (a0 + a1) + h M^-1 B^T L.
+/// In both g(u1) >= 0 is b.v1 >= -b.v0 - 2 g(u0) / h.
 template <int Dof>
 class PositionNewmark : public SteppingScheme<Dof> {
  protected:
@@ -46,14 +51,16 @@ class PositionNewmark : public SteppingScheme<Dof> {
   using Base::before_, Base::contacts_, Base::equation_, Base::jump_, Base::response_;
   using Base::x0_, Base::x1_, Base::y_;
 
-  PositionNewmark(std::string_view who, model::ImpactProblem<Dof> problem, const StepPlan& plan)
+  PositionNewmark(std::string_view who, model::ImpactProblem<Dof> problem, const StepPlan& plan,
+                  ContactForce force = ContactForce::averaged)
       : Base(std::move(problem), plan),
         who_(who),
+        is_averaged_(force == ContactForce::averaged),
         a0_(x0_.v),
         a1_(a0_),
         u_(a0_),
         v_(a0_),
-        shift_(a0_) {
+        shift_(model::Vector<Dof>::Zero(a0_.size())) {
     prepare(plan.h);
   }
 
@@ -64,6 +71,7 @@ class PositionNewmark : public SteppingScheme<Dof> {
 
   void prepare(double h) final {
     this->respond(who_, h, weights(h));
+    if (!is_averaged_) return;
     response_.velocity *= 0.5;
     response_.delassus *= 0.5;
   }
@@ -77,11 +85,19 @@ class PositionNewmark : public SteppingScheme<Dof> {
   }
 
   void complete(double h) final {
-    shift_ = jump_ / -h;
+    x1_.u = u_;
+    x1_.v = v_;
+    if (is_averaged_) {
+      shift_ = jump_ / -h;
+    } else {
+      x1_.u += 0.5 * h * jump_;
+      x1_.v += jump_;
+    }
     a1_ = a0_;
-    equation_.solve({x1_.t}, weights(h), u_, v_, a1_, &shift_);
-    x1_.u = u_ + 0.25 * h * h * a1_;
-    x1_.v = y_ = v_ + 0.5 * h * a1_;
+    equation_.solve({x1_.t}, weights(h), x1_.u, x1_.v, a1_, &shift_);
+    x1_.u += 0.25 * h * h * a1_;
+    x1_.v += 0.5 * h * a1_;
+    y_ = x1_.v;
   }
 
   double least_rate(std::size_t j, double h) const final {
@@ -91,6 +107,7 @@ class PositionNewmark : public SteppingScheme<Dof> {
   void accept() final { a0_ = a1_; }
 
   std::string who_;
+  bool is_averaged_;
   model::Vector<Dof> a0_, a1_, u_, v_, shift_;
 };
 

@@ -30,6 +30,36 @@ TEST(PositionNewmark, ReboundsByThePositionOfTheImpactInItsStep) {
       }
 }
 
+// A contact force at the end of the step alone: it leaves with 1 - 2 x, after a second step in contact
+// with 2 x - 1.
+TEST(NewmarkImplicitContact, ReboundsByThePositionOfTheImpactInItsStep) {
+  for (const double h : {0.1, 0.01})
+    for (const double x : {0.01, 0.25, 0.49, 0.51, 0.8, 0.99}) {
+      auto p = mass_on_stop(2.0, 0.0, 0.0, (4.0 - x) * h, -1.0, 1.0, 10.0 * h);
+      const auto path = run("newmark-implicit-contact", p, h).trajectory;
+      EXPECT_NEAR(path.v.back(), std::abs(1.0 - 2.0 * x), 1e-9) << x;
+      for (const double u : path.u) EXPECT_GE(u, -1.1e-12);
+    }
+}
+
+TEST(NewmarkImplicitContact, StepsByItsFormula) {
+  auto p = mass_on_stop(2.0, 0.4, 3.0, 1.0, 0.5, 1.0, 3.0);
+  p.system.add_load = [](double t, std::span<double> f) { f[0] += std::sin(t); };
+  const double h = 0.1;
+  const auto path = run("newmark-implicit-contact", p, h).trajectory;
+  double a0 = (-0.4 * 0.5 - 3.0 * 1.0) / 2.0, force = 0.0;
+  for (std::size_t n = 0; n + 1 < path.t.size(); ++n) {
+    const double v0 = path.v[n], u1 = path.u[n + 1], v1 = path.v[n + 1];
+    EXPECT_NEAR(u1, path.u[n] + h / 2 * (v0 + v1), 1e-13);
+    const double a1 = (std::sin(path.t[n + 1]) - 0.4 * v1 - 3.0 * u1) / 2.0;
+    const double contact = 2.0 * (v1 - v0 - h / 2 * (a0 + a1)) / h;
+    EXPECT_NEAR(std::min(u1, contact), 0.0, 1e-10);
+    force += contact;
+    a0 = a1;
+  }
+  EXPECT_GT(force, 1.0);
+}
+
 TEST(PositionNewmark, StepsByItsFormula) {
   auto p = mass_on_stop(2.0, 0.4, 3.0, 1.0, 0.5, 1.0, 3.0);
   p.system.add_load = [](double t, std::span<double> f) { f[0] += std::sin(t); };

@@ -24,7 +24,7 @@ class Scheme : public testing::TestWithParam<std::string> {
   std::string name = GetParam();
   bool has_law(double eta) const {
     return !method(name)->objection(mass_on_stop(1.0, 0.0, 0.0, 1.0, -1.0, eta, 1.0)) &&
-           method(name)->facts().through_impacts.behaviour != Behaviour::divergent;
+           converges(method(name)->facts().through_impacts.behaviour);
   }
 };
 
@@ -214,8 +214,8 @@ INSTANTIATE_TEST_SUITE_P(Names, Scheme,
                          testing::Values("paoli-schatzman", "cd-lagrange", "d1-minus",
                                          "forward-increment-lagrange", "augmented-lagrangian",
                                          "nonsmooth-generalized-alpha",
-                                         "newmark-position-multiplier", "moreau-jean",
-                                         "moreau-jean:theta=1"),
+                                         "newmark-position-multiplier", "newmark-implicit-contact",
+                                         "moreau-jean", "moreau-jean:theta=1"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::ranges::replace_if(

@@ -120,7 +120,8 @@ std::string fit_text(const judge::LadderFit& fit) {
 }
 
 std::string claim_text(const Claim& claim) {
-  if (!claim.is_made()) return "nothing";
+  if (!claim.is_made())
+    return claim.reason.empty() ? "nothing" : fmt::format("nothing [{}]", claim.reason);
   const auto velocity = claim.velocity_order > 0.0 ? fmt::format("velocities of order {}",
                                                                  short_number(claim.velocity_order))
                                                    : std::string();
