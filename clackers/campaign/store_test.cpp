@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include "clackers/base/testing/refusal.hpp"
@@ -295,12 +296,18 @@ TEST_F(StoreTest, RanksLeftBehindAreAdopted) {
   fill(rank_path(path("a.db"), 12), {2, 3});
   fill(shard_path(path("a.db"), {1, 2}), {4});
   EXPECT_EQ(shard_files(path("a.db")).size(), 3u);
+  // Of a rank and a shard that were ended at their start, before they made their databases.
+  const auto of_rank = rank_path(path("a.db"), 3) + ".lock";
+  const auto of_shard = shard_path(path("a.db"), {2, 2}) + ".lock";
+  for (const auto& lock : {of_rank, of_shard}) std::ofstream(lock).close();
   {
     auto store = Store::create_or_open(path("a.db"), test::small());
     EXPECT_EQ(adopt_ranks(store), 3);
   }
   EXPECT_EQ(Store::open(path("a.db")).finished().size(), 4);
   EXPECT_EQ(shard_files(path("a.db")), std::vector<std::string>{shard_path(path("a.db"), {1, 2})});
+  EXPECT_FALSE(std::filesystem::exists(of_rank));
+  EXPECT_TRUE(std::filesystem::exists(of_shard));
 }
 
 }  // namespace

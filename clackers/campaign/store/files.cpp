@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "clackers/campaign/store.hpp"
+#include "clackers/campaign/store/sqlite.hpp"
 
 namespace clackers::campaign {
 namespace {
@@ -22,21 +23,26 @@ bool is_shard_name(std::string_view name) {
          is_whole(name.substr(of + 4));
 }
 
-}  // namespace
-
-std::vector<std::string> shard_files(const std::string& path) {
+// The shards and ranks of a database, or what has their names and `end`; sorted.
+std::vector<std::string> files_beside(const std::string& path, std::string_view end) {
   const auto start = fs::path(path).filename().string() + '.';
   auto folder = fs::path(path).parent_path();
   std::vector<std::string> found;
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, missing)) {
     const auto name = entry.path().filename().string();
-    if (name.starts_with(start) && is_shard_name(name.substr(start.size())))
+    if (!name.starts_with(start) || !name.ends_with(end)) continue;
+    const auto shard = std::string_view(name).substr(start.size());
+    if (shard.size() > end.size() && is_shard_name(shard.substr(0, shard.size() - end.size())))
       found.push_back((folder / name).string());
   }
   std::ranges::sort(found);
   return found;
 }
+
+}  // namespace
+
+std::vector<std::string> shard_files(const std::string& path) { return files_beside(path, ""); }
 
 bool is_shard_file(const std::string& path) {
   const auto name = fs::path(path).filename().string();
@@ -45,12 +51,17 @@ bool is_shard_file(const std::string& path) {
 }
 
 long long adopt_ranks(Store& store) {
+  const auto start = store.path() + ".rank-";
   long long added = 0;
   for (const auto& file : shard_files(store.path())) {
-    if (!file.starts_with(store.path() + ".rank-")) continue;
+    if (!file.starts_with(start)) continue;
     added += store.merge(file);
     remove_database(file);
   }
+  // A rank that was ended before it made its database leaves its lock.
+  constexpr std::string_view LOCK = ".lock";
+  for (const auto& lock : files_beside(store.path(), LOCK))
+    if (lock.starts_with(start)) WriterLock(lock.substr(0, lock.size() - LOCK.size()));
   return added;
 }
 
