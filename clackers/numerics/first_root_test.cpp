@@ -50,6 +50,11 @@ TEST(FirstRoot, SaysWhetherThereIsNone) {
   const auto line = [](double s) { return LocalBound{1.0 - s, -1.0, 0.0, 0.0, 0.0, 0.0, 0.3}; };
   EXPECT_NEAR(first_root(line, 0.0, 50.0, 1e-9, 100).s, 1.0, 1e-15);
   EXPECT_EQ(first_root(line, 0.0, 0.9, 1e-9, 100).status, FirstRoot::Status::none);
+  // To the root itself in one step, without a bound on its slope there: no step beyond it.
+  const auto met = [](double s) {
+    return LocalBound{0.25 - s, -1.0, 0.0, 0.0, 0.0, 0.0, 0.3, false};
+  };
+  EXPECT_EQ(first_root(met, 0.0, 50.0, 1e-9, 100).s, 0.25);
   const auto broken = [](double) { return LocalBound{std::nan("")}; };
   EXPECT_EQ(first_root(broken, 0.0, 1.0, 1e-9, 100).status, FirstRoot::Status::undecided);
 }

@@ -41,6 +41,16 @@ Vector solved(const Vector& a, const Vector& b) {
   return x;
 }
 
+// Of a matrix, row by row.
+Vector product(const Vector& a, const Vector& x) {
+  Vector y(a.size() / x.size());
+  for (std::size_t i = 0; i < y.size(); ++i)
+    for (std::size_t j = 0; j < x.size(); ++j)
+      if (const Ball& entry = a[i * x.size() + j]; !entry.is_zero() && !x[j].is_zero())
+        arb_addmul(y[i].get(), entry.get(), x[j].get(), WorkingBits::now());
+  return y;
+}
+
 Ball upper(const Ball& x) {
   Ball bound;
   arb_get_abs_ubound_arf(arb_midref(bound.get()), x.get(), WorkingBits::now());
@@ -51,6 +61,12 @@ Ball radius(const Ball& x) {
   Ball radius;
   arb_get_rad_arb(radius.get(), x.get());
   return radius;
+}
+
+Ball middle(const Ball& x) {
+  Ball middle;
+  arb_get_mid_arb(middle.get(), x.get());
+  return middle;
 }
 
 Ball largest(const Vector& x) {
@@ -101,58 +117,57 @@ const model::Contact<>& BallFlights::contact(std::size_t i) const {
 
 // M^-1 times a force.
 Vector BallFlights::responses(const Eigen::VectorXd& force) const {
-  Vector a(n_);
-  for (std::size_t i = 0; i < n_; ++i)
-    for (std::size_t j = 0; j < n_; ++j)
-      if (force[long(j)] != 0.0) a[i] = a[i] + inverse_mass_[i * n_ + j] * force[long(j)];
-  return a;
+  return product(inverse_mass_, {force.begin(), force.end()});
 }
 
+// Of the velocities' rows M times them: of doubles as they stand, so that forces in balance come out as 0.
 void BallFlights::find_rate() {
   rate_.assign(size_ * size_, {});
   const auto& s = problem_.system;
-  Vector squares(n_ * n_), dampings(n_ * n_), offset(n_);
-  for (std::size_t j = 0; j < n_; ++j) {
-    const auto k = responses(s.stiffness.col(long(j))), c = responses(s.damping.col(long(j)));
-    for (std::size_t i = 0; i < n_; ++i) {
-      squares[i * n_ + j] = k[i];
-      dampings[i * n_ + j] = c[i];
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t j = 0; j < n_; ++j) {
+      entry(n_ + i, j) = -s.stiffness(long(i), long(j));
+      entry(n_ + i, n_ + j) = -s.damping(long(i), long(j));
     }
-  }
   for (std::size_t k = 0; k < closed_.size(); ++k) {
     if (!closed_[k]) continue;
     const auto& spring = springs_->contacts()[k];
-    const auto response = responses(spring.direction);
     for (std::size_t i = 0; i < n_; ++i) {
-      const Ball force = response[i] * springs_->stiffnesses()[k];
-      offset[i] = offset[i] + force * spring.gap;
+      const Ball force = Ball(spring.direction[long(i)]) * springs_->stiffnesses()[k];
+      entry(n_ + i, 2 * n_) = entry(n_ + i, 2 * n_) + force * spring.gap;
       for (std::size_t j = 0; j < n_; ++j)
-        if (const double b = spring.direction[long(j)]; b != 0.0)
-          squares[i * n_ + j] = squares[i * n_ + j] + force * b;
+        entry(n_ + i, j) = entry(n_ + i, j) - force * spring.direction[long(j)];
     }
-  }
-  // A power of 2, and the same for all regimes, so that a state may go on in
-  // another.
-  if (const double square = largest(squares).middle(); y_.empty() && square > 0.0)
-    unit_ = std::exp2(std::round(0.5 * std::log2(square)));
-  for (std::size_t i = 0; i < n_; ++i) {
-    entry(i, n_ + i) = unit_;
-    for (std::size_t j = 0; j < n_; ++j) {
-      entry(n_ + i, j) = -(squares[i * n_ + j] / unit_);
-      entry(n_ + i, n_ + j) = -dampings[i * n_ + j];
-    }
-    entry(n_ + i, 2 * n_) = offset[i] / unit_;
   }
   for (std::size_t j = 0; j < forces_.size(); ++j) {
     const auto& f = forces_[j];
     const auto cosine = 2 * n_ + 1 + 2 * j;
-    const auto response = responses(Eigen::VectorXd::Unit(long(n_), f.dof) * f.amplitude);
-    for (std::size_t i = 0; i < n_; ++i) entry(n_ + i, cosine) = response[i] / unit_;
+    auto& force = entry(n_ + std::size_t(f.dof), cosine);
+    force = force + f.amplitude;
     entry(cosine, cosine + 1) = -f.frequency;
     entry(cosine + 1, cosine) = f.frequency;
   }
-  norm_ = Ball();
+  Vector sizes(n_), absolute_inverse;
+  for (const auto& m : inverse_mass_) absolute_inverse.push_back(upper(m));
+  const auto largest_rate = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = 0; i < n_; ++i) {
+      sizes[i] = Ball();
+      for (std::size_t j = first; j < last; ++j) sizes[i] = sizes[i] + upper(entry(n_ + i, j));
+    }
+    return largest(product(absolute_inverse, sizes));
+  };
+  // A power of 2, and the same for all regimes, so that a state may go on in
+  // another.
+  if (const double square = largest_rate(0, n_).middle(); y_.empty() && square > 0.0)
+    unit_ = std::exp2(std::round(0.5 * std::log2(square)));
+  for (std::size_t i = 0; i < n_; ++i) {
+    entry(i, n_ + i) = unit_;
+    for (std::size_t j = 0; j < size_; ++j)
+      if (j < n_ || j >= 2 * n_) entry(n_ + i, j) = entry(n_ + i, j) / unit_;
+  }
+  norm_ = largest_rate(0, size_);
   for (std::size_t i = 0; i < size_; ++i) {
+    if (i >= n_ && i < 2 * n_) continue;
     Ball sum;
     for (std::size_t j = 0; j < size_; ++j) sum = sum + upper(entry(i, j));
     if (norm_ < sum) norm_ = upper(sum);
@@ -160,23 +175,19 @@ void BallFlights::find_rate() {
 }
 
 Vector BallFlights::rate(const Vector& y) const {
-  Vector rate(size_);
-  for (std::size_t i = 0; i < size_; ++i)
-    for (std::size_t j = 0; j < size_; ++j) {
-      const Ball& a = rate_[i * size_ + j];
-      if (!a.is_zero() && !y[j].is_zero())
-        arb_addmul(rate[i].get(), a.get(), y[j].get(), WorkingBits::now());
-    }
+  auto rate = product(rate_, y);
+  const auto from = rate.begin() + long(n_);
+  const auto accelerations = product(inverse_mass_, {from, from + long(n_)});
+  std::ranges::copy(accelerations, from);
   return rate;
 }
 
 // In parts of |A| h <= 4, so that no term is much larger than the sum. What
 // follows a term T of order k is at most |T| q/(1 - q), q = |A| h/(k + 1).
-Vector BallFlights::advanced(const Ball& s) const {
+Vector BallFlights::advanced(Vector y, const Ball& s) const {
   const double whole = (norm_ * upper(s)).middle();
   const auto parts = std::max(1.0, std::ceil(0.25 * whole));
   const Ball h = s / parts, reach = upper(norm_ * upper(h));
-  Vector y = y_;
   for (double part = 0.0; part < parts; ++part) {
     Vector term = y;
     std::vector<bool> moves(size_, false);
@@ -199,8 +210,16 @@ Vector BallFlights::advanced(const Ball& s) const {
   return y;
 }
 
-KinematicBalls BallFlights::at(const Ball& t) const {
-  const auto y = advanced(t - t_), change = rate(y);
+// What s is known by grows for no longer than it lasts.
+Vector BallFlights::advanced(const Ball& s) const {
+  const Ball to = middle(s);
+  return advanced(advanced(y_, to), s - to);
+}
+
+KinematicBalls BallFlights::at(const Ball& t) const { return kinematics(advanced(t - t_)); }
+
+KinematicBalls BallFlights::kinematics(const Vector& y) const {
+  const auto change = rate(y);
   KinematicBalls now;
   for (std::size_t i = 0; i < n_; ++i) {
     now.u.push_back(y[i]);
@@ -220,16 +239,17 @@ Ball BallFlights::gap(std::size_t i, const Vector& y, std::size_t first) const {
 }
 
 // Newton's method of intervals.
-bool BallFlights::end(std::size_t i, double lo, double hi) {
+bool BallFlights::end(const std::vector<std::size_t>& contacts, double lo, double hi) {
+  const auto first = contacts.front();
   Ball s = Ball(lo) - t_;
   const Ball last = Ball(hi) - t_;
   arb_union(s.get(), s.get(), last.get(), WorkingBits::now());
   for (bool is_narrower = true; is_narrower;) {
-    Ball middle;
-    arb_get_mid_arb(middle.get(), s.get());
-    const Ball slope = gap(i, advanced(s), n_) * unit_;
+    const Ball to = middle(s);
+    const auto there = advanced(y_, to);
+    const Ball slope = gap(first, advanced(there, s - to), n_) * unit_;
     if (slope.holds_zero()) return false;
-    const Ball next = middle - gap(i, advanced(middle), 0) / slope;
+    const Ball next = to - gap(first, there, 0) / slope;
     Ball both;
     if (arb_intersection(both.get(), s.get(), next.get(), WorkingBits::now()) == 0) return false;
     is_narrower = radius(scaled(both, 1)) < radius(s);
@@ -237,7 +257,20 @@ bool BallFlights::end(std::size_t i, double lo, double hi) {
   }
   y_ = advanced(s);
   t_ = t_ + s;
+  // A single mass is at the contact exactly.
+  for (const auto i : contacts)
+    if (const auto mass = single_mass(i))
+      y_[*mass] = Ball(contact(i).gap) / contact(i).direction[long(*mass)];
   return true;
+}
+
+// Of a contact that no other mass moves.
+std::optional<std::size_t> BallFlights::single_mass(std::size_t i) const {
+  const auto& b = contact(i).direction;
+  if ((b.array() != 0.0).count() != 1) return std::nullopt;
+  long mass = 0;
+  b.cwiseAbs().maxCoeff(&mass);
+  return std::size_t(mass);
 }
 
 std::vector<Ball> BallFlights::collide(const std::vector<std::size_t>& contacts) {
@@ -259,20 +292,15 @@ std::vector<Ball> BallFlights::collide(const std::vector<std::size_t>& contacts)
   for (std::size_t c = 0; c < contacts.size(); ++c)
     for (std::size_t k = 0; k < n_; ++k)
       y_[n_ + k] = y_[n_ + k] + impulses[c] * of_unit[c][k] / unit_;
-  // A single mass is at the contact exactly, and as fast as the law says.
-  for (const auto i : contacts) {
-    const auto& b = contact(i).direction;
-    if ((b.array() != 0.0).count() != 1) continue;
-    long k = 0;
-    b.cwiseAbs().maxCoeff(&k);
-    y_[std::size_t(k)] = Ball(contact(i).gap) / b[k];
-    y_[n_ + std::size_t(k)] = -(before[n_ + std::size_t(k)] * contact(i).restitution);
-  }
+  // And a single mass exactly as fast as the law says.
+  for (const auto i : contacts)
+    if (const auto mass = single_mass(i))
+      y_[n_ + *mass] = -(before[n_ + *mass] * contact(i).restitution);
   return impulses;
 }
 
 bool BallFlights::pass(const exact::PiecewiseMotion::Event& event) {
-  if (!end(event.contacts.front(), event.when.lo, event.when.hi)) return false;
+  if (!end(event.contacts, event.when.lo, event.when.hi)) return false;
   if (const auto count = problem_.contacts.size(); event.contacts.front() >= count) {
     closed_[event.contacts.front() - count].flip();
     find_rate();

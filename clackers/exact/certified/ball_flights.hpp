@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "clackers/exact/certified/ball.hpp"
@@ -26,12 +27,14 @@ class BallFlights {
 
   /// In this flight, at any t.
   KinematicBalls at(const Ball& t) const;
+  /// Where it began.
+  KinematicBalls at_begin() const { return kinematics(y_); }
   /// Where this flight began [s].
   const Ball& begin() const { return t_; }
-  /// Ends the flight where contact i closes, or a spring opens, between lo and
-  /// hi [s], the only such instant there. False where the balls are too wide to
-  /// show that the gap moves all the time.
-  bool end(std::size_t i, double lo, double hi);
+  /// Ends the flight where these contacts close, or a spring opens, between lo
+  /// and hi [s], the only such instant there. False where the balls are too wide
+  /// to show that the gap moves all the time.
+  bool end(const std::vector<std::size_t>& contacts, double lo, double hi);
   /// Newton's law at contacts that close together and push: the impulses.
   std::vector<Ball> collide(const std::vector<std::size_t>& contacts);
   /// Goes on in the next flight. False as end().
@@ -45,11 +48,14 @@ class BallFlights {
   using Vector = std::vector<Ball>;
 
   const model::Contact<>& contact(std::size_t i) const;
+  std::optional<std::size_t> single_mass(std::size_t contact) const;
   Ball& entry(std::size_t row, std::size_t column) { return rate_[row * size_ + column]; }
   Vector responses(const Eigen::VectorXd& force) const;
   void find_rate();
   Vector rate(const Vector& y) const;
+  KinematicBalls kinematics(const Vector& y) const;
   Vector advanced(const Ball& s) const;
+  Vector advanced(Vector y, const Ball& s) const;
   Ball gap(std::size_t i, const Vector& y, std::size_t first) const;
 
   const model::ImpactProblem<>& problem_;
@@ -59,8 +65,8 @@ class BallFlights {
   std::size_t n_, size_;
   double unit_ = 1.0;    // of rates [1/s]: y has v over it
   Vector inverse_mass_;  // row by row
-  Vector rate_;          // A, row by row
-  Ball norm_;            // of A
+  Vector rate_;          // A, row by row; M times it in rows of velocities
+  Ball norm_;            // a bound on that of A
   Ball t_;
   Vector y_;
 };

@@ -83,10 +83,10 @@ ImpactBalls FlightsEnclosure::impact_now(long long k) {
   }
   auto flights = begun_[flight];
   const auto event = *motion_.event(flight);
-  flights.end(event.contacts.front(), event.when.lo, event.when.hi);
+  flights.end(event.contacts, event.when.lo, event.when.hi);
   const auto& s = motion_.problem().system;
   const auto state = [&](KinematicBalls& to, Ball& energy) {
-    to = flights.at(flights.begin());
+    to = flights.at_begin();
     for (std::size_t i = 0; i < to.u.size(); ++i)
       for (std::size_t j = 0; j < to.u.size(); ++j)
         energy = energy + scaled(to.v[i] * to.v[j] * s.mass(long(i), long(j)) +
