@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,9 @@ struct Case {
   /// The bars of which the problem is a mesh, and the mesh; null for a structure of masses.
   std::shared_ptr<const exact::BarMotion> bars;
   std::shared_ptr<const exact::BarMesh> mesh;
+  /// Set where u1 and u2 are the coordinates of one body, and u3 its radius times its angle: the radius
+  /// of a round wall about the origin [m], 0 without one. A drawing needs it; no row of the problem states it.
+  std::optional<double> plane;
   std::vector<Quantity> constants;     ///< derived: m2, k2, omega_D2, r*, margin, ...
   std::vector<Quantity> indicators;    ///< I_ms, T_L, T_S, I_OC, with their threshold
   std::vector<double> damped_periods;  ///< of the free masses [s]

@@ -86,6 +86,7 @@ void build_disk(Case& test_case, const Values& value, double) {
   const auto motion = std::make_shared<const exact::ObliqueDisk>(p, test_case.entry->name);
   test_case.problem = motion->problem();
   test_case.motion = motion;
+  test_case.plane = 0.0;
   test_case.damped_periods.assign(3, 2.0 * motion->speed() / p.g);
   const double end = motion->end();
   test_case.constants = {

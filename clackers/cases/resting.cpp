@@ -191,6 +191,7 @@ void build_billiard(Case& test_case, const Values& value, double) {
     // Of each coordinate; one that stands still has the run's length.
     test_case.damped_periods.push_back(v != 0.0 ? 2.0 * length / std::abs(v) : problem.end);
   }
+  test_case.plane = 0.0;
   test_case.constants = {
       {"T_x", test_case.damped_periods[0], "s", "2 a/|vx|: x is a triangle wave"},
       {"T_y", test_case.damped_periods[1], "s", "2 b/|vy|"}};
@@ -205,6 +206,7 @@ void build_circle(Case& test_case, const Values& value, double) {
   const auto motion = std::make_shared<const exact::CircleBilliard>(p, test_case.entry->name);
   test_case.problem = motion->problem();
   test_case.motion = motion;
+  test_case.plane = p.R;
   const double d = motion->distance(), chord = motion->chord(), v = std::hypot(p.vx, p.vy);
   test_case.damped_periods.assign(2, chord / v);
   test_case.constants = {

@@ -47,6 +47,8 @@ void fields(auto& archive, Like<Schematic::Touch> auto& x) {
 void fields(auto& archive, Like<Schematic> auto& x) {
   each(archive, "blocks", x.blocks, "springs", x.springs, "contacts", x.contacts);
   archive.added("leftward", x.leftward);
+  archive.added("lengths", x.lengths);
+  archive.added("plane", x.plane);
 }
 
 void fields(auto& archive, Like<CaseSummary> auto& x) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/model/nonlinear_springs.hpp"
 
 namespace clackers::record {
 namespace {
@@ -118,6 +119,21 @@ std::vector<std::size_t> from_left(const std::vector<std::vector<int>>& structur
   return order;
 }
 
+// Empty unless every mass hangs at one, and none on other springs.
+std::vector<double> lengths_of(const model::ImpactProblem<>& problem) {
+  const auto* springs = model::nonlinear_springs(problem);
+  if (springs == nullptr || !problem.system.stiffness.isZero(0.0)) return {};
+  std::vector<double> lengths(std::size_t(problem.dof()), 0.0);
+  for (const auto& row : springs->rows()) {
+    Index mass = 0;
+    const bool is_of_one = row.direction.cwiseAbs().maxCoeff(&mass) == row.direction.lpNorm<1>();
+    if (row.law != model::NonlinearSprings::Law::sine || !is_of_one) return {};
+    lengths[std::size_t(mass)] = row.length / std::abs(row.direction[mass]);
+  }
+  if (std::ranges::find(lengths, 0.0) != lengths.end()) return {};
+  return lengths;
+}
+
 }  // namespace
 
 Schematic schematic(const model::ImpactProblem<>& problem) {
@@ -130,6 +146,7 @@ Schematic schematic(const model::ImpactProblem<>& problem) {
     drawing.contacts.push_back(touch_of(contact));
   const auto has_no_place = [](const auto& touch) { return touch.left < 0 && touch.right < 0; };
   if (std::ranges::any_of(drawing.contacts, has_no_place)) return {};
+  drawing.lengths = lengths_of(problem);
   drawing.blocks.resize(std::size_t(problem.dof()));
   const auto structures = structures_of(k);
   auto order = from_left(structures, drawing.contacts);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "clackers/model/impact_problem.hpp"
@@ -7,8 +8,8 @@
 namespace clackers::record {
 
 /// How a structure is drawn: masses that springs couple stand above each other in one column, in
-/// layers by their distance from the ground; what may collide stands side by side. Masses are
-/// numbered from 0.
+/// layers by their distance from the ground; what may collide stands side by side. Pendula and a
+/// body in the plane are drawn where they are instead. Masses are numbered from 0.
 struct Schematic {
   struct Block {
     int column = 0;       ///< from 0, left to right
@@ -28,12 +29,16 @@ struct Schematic {
   std::vector<Touch> contacts;  ///< one a contact of the problem, in its order
   /// Positive displacements are drawn to the left, so that the first mass stands left of the last.
   bool leftward = false;
+  /// Of pendula, one a mass, whose displacements are arcs from the lowest point [m]; else empty.
+  std::vector<double> lengths{};
+  /// Of one body in the plane as cases::Case has it.
+  std::optional<double> plane{};
 };
 
 /// A structure with more masses is not drawn.
 inline constexpr int most_blocks = 64;
 
-/// Read from the stiffness matrix and the contacts; empty beyond most_blocks, and where a contact
+/// Read from the stiffness matrix, the springs of pendula and the contacts; empty beyond most_blocks, and where a contact
 /// joins another combination of masses than two of them or a mass and a wall.
 Schematic schematic(const model::ImpactProblem<>& problem);
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/model/nonlinear_springs.hpp"
+#include "clackers/tables/case_summary.hpp"
 
 namespace clackers::record {
 namespace {
@@ -90,6 +92,33 @@ TEST(Schematic, CircularContactsAndFreeMassesAreDrawnAllTheSame) {
   const auto drawing = schematic(problem);
   EXPECT_NE(drawing.blocks[0].column, drawing.blocks[1].column);
   EXPECT_TRUE(drawing.springs.empty());
+}
+
+TEST(Schematic, PendulaHaveTheirLengths) {
+  using Springs = model::NonlinearSprings;
+  const Eigen::Vector2d e1(1.0, 0.0), e2(0.0, 2.0), both(1.0, 1.0);
+  auto problem = problem_of(MatrixXd::Zero(2, 2));
+  const auto lengths = [&](std::vector<Springs::Row> rows) {
+    problem.system.nonlinear = std::make_shared<Springs>(std::move(rows));
+    return schematic(problem).lengths;
+  };
+  const Springs::Row first{e1, Springs::Law::sine, 1.0, 0.5};
+  EXPECT_EQ(lengths({first, {e2, Springs::Law::sine, 1.0, 3.0}}), (std::vector{0.5, 1.5}));
+  EXPECT_EQ(lengths({first}).size(), 0u);  // mass 2 hangs on nothing
+  EXPECT_EQ(lengths({first, {both, Springs::Law::sine, 1.0, 3.0}}).size(), 0u);
+  EXPECT_EQ(lengths({first, {e2, Springs::Law::cubic, 1.0, 3.0}}).size(), 0u);
+  problem.system.stiffness(0, 0) = 1.0;
+  EXPECT_EQ(lengths({first, {e2, Springs::Law::sine, 1.0, 3.0}}).size(), 0u);
+}
+
+TEST(Schematic, CasesWithABodyInThePlaneSaySo) {
+  const auto plane = [](const char* name) {
+    return tables::summary_of(cases::make(name)).drawing.plane;
+  };
+  EXPECT_EQ(plane("oblique-disk"), 0.0);
+  EXPECT_EQ(plane("billiard"), 0.0);
+  EXPECT_EQ(plane("circle-billiard"), 1.0);
+  EXPECT_EQ(plane("two-pendula"), std::nullopt);
 }
 
 TEST(Schematic, IsEmptyForMoreMassesThanAreDrawn) {

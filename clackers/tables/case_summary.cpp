@@ -49,6 +49,7 @@ record::CaseSummary summary_of(const cases::Case& problem) {
     summary.impact_contacts.push_back(impact.contact);
   }
   summary.drawing = record::schematic(problem.problem);
+  summary.drawing.plane = problem.plane;
   return summary;
 }
 

@@ -15,7 +15,7 @@ OTHERS = (None, True, 7, 0.5, "text", [], {})
 
 # Fields that records of earlier versions lack.
 ADDED = {"labels", "integrator", "treatment", "cancel_step", "departure", "diagnoses", "drawing", "floor_scatter", "floor_step",
-         "impact_contacts", "impact_table", "largest_step", "lucky_share", "mismatch", "motion", "printed",
+         "impact_contacts", "impact_table", "largest_step", "lengths", "lucky_share", "mismatch", "motion", "plane", "printed",
          "refinement", "resolution", "smallest_step", "stable_step", "text", "velocity_order"}
 
 
@@ -120,7 +120,7 @@ class Schema(CommandTest):
                 number = number or was in ("nan", "inf", "-inf")
                 # No estimate is made of an extrapolation; a number may stand there as well.
                 open_estimate = path[-2:] == ("extrapolation", "estimate")
-                number = number or open_estimate or path[-1] == "tolerance"
+                number = number or open_estimate or path[-1] in ("tolerance", "plane")
                 same = type(other) is type(was) or (number and type(other) in (int, float))
                 if path[-1] in ("impacts", "self_convergence", "file", "tolerance") or open_estimate:
                     same = same or other is None

@@ -216,6 +216,17 @@ bool has_impact_table(const record::CaseRecord& problem) {
                              [](const auto& subject) { return !subject.impacts.empty(); });
 }
 
+std::string scene_reading(const record::Schematic& drawing) {
+  if (drawing.plane)
+    return "The body moves along the faint line in the plane of u1 and u2; the arrow is the scale. Its radius is chosen for "
+           "the drawing, and walls stand off by it; a third displacement turns it by u3 over this radius.";
+  if (!drawing.lengths.empty())
+    return "Masses hang at their lengths, drawn to the scale of the arrow, and are drawn side by side "
+           "where they meet: bobs have no size.";
+  return "Blocks are masses with their numbers, lines below and between them are springs. The arrow "
+         "points along positive displacements and is their scale; a structure has no size of its own.";
+}
+
 std::string player_html(int& number, const record::CaseRecord& problem, const Place& place) {
   return fill(
       assets::player_html,
@@ -228,10 +239,9 @@ std::string player_html(int& number, const record::CaseRecord& problem, const Pl
        {"choices", ""},
        {"response", "response" + place.suffix},
        {"reading",
-        "Blocks are masses with their numbers, lines below and between them are springs. The arrow "
-        "points along positive displacements and is their scale; a structure has no size of its own. "
-        "A dot flashes where masses collide. The line in the response shows the time. A run chosen "
-        "beside the exact motion is drawn as outlines."}});
+        scene_reading(problem.problem.drawing) +
+            " A dot flashes at impacts. The line in the response shows the time. A run chosen "
+            "beside the exact motion is drawn as outlines."}});
 }
 
 FigureText work_text(const std::vector<ShownCounter>& counters, const Place& place) {

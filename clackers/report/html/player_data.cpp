@@ -51,9 +51,16 @@ Json player_data(const record::CaseRecord& problem) {
                     {"t", rounded_list(curve.t)},
                     {"u", std::move(displacements)}});
   }
-  return {{"runs", runs},       {"t", thinned(whole.t)},       {"u", u},
-          {"blocks", blocks},   {"springs", springs},          {"contacts", contacts},
-          {"impacts", impacts}, {"leftward", drawing.leftward}};
+  return {{"runs", runs},
+          {"t", thinned(whole.t)},
+          {"u", u},
+          {"blocks", blocks},
+          {"springs", springs},
+          {"contacts", contacts},
+          {"impacts", impacts},
+          {"leftward", drawing.leftward},
+          {"lengths", drawing.lengths},
+          {"plane", drawing.plane ? Json(*drawing.plane) : Json(nullptr)}};
 }
 
 }  // namespace clackers::report

@@ -1,6 +1,6 @@
 "use strict";
-// A system of masses as a drawing: blocks on columns, springs and stops, in one scale that lets the widest motion
-// fit. The manual's figures are drawn by it too.
+// A system of masses as a drawing: blocks on columns, springs and stops, or bodies where they are, in one scale that
+// lets the widest motion fit. The manual's figures are drawn by it too.
 
 const stageWidth = 1000, stageHeight = 300, groundLevel = 262, roofLevel = 46, blockHeight = 30;
 
@@ -47,8 +47,13 @@ function drawRuler(svg, scale) {
   svgElement(svg, "text", { x: 20 + Math.abs(length), y: 22, fill: "var(--muted)" }, `u = ${+metres.toPrecision(3)} m`);
 }
 
-// Draws the system; `place(at)` moves the blocks to these places and the springs with them.
+// Draws the system. `place(u)` moves it to these displacements; `outline(attributes)` is another one on top, which its
+// result moves, or hides without displacements; `touch(contact, u)` is where that contact flashes.
 function drawScene(svg, scene) {
+  return scene.plane != null || scene.lengths?.length > 0 ? drawBodies(svg, scene) : drawBlocks(svg, scene);
+}
+
+function drawBlocks(svg, scene) {
   const { x, y, width, scale } = layout(scene);
   drawRuler(svg, scale);
   svgElement(svg, "path", { d: `M0,${groundLevel}H${stageWidth}`, stroke: "var(--faint)", "stroke-width": 2 });
@@ -72,7 +77,9 @@ function drawScene(svg, scene) {
       svgElement(group, "text", { "text-anchor": "middle", dy: "0.35em", fill: "var(--paper)" }, String(i + 1));
     return group;
   });
-  function place(at) {
+  const placeOf = (u, i) => x[i] + scale * u[i];
+  function place(u) {
+    const at = blocks.map((_, i) => placeOf(u, i));
     blocks.forEach((block, i) => block.setAttribute("transform", `translate(${at[i].toFixed(2)},${y[i]})`));
     for (const { one, other, path } of springs) {
       const foot = other < 0 ? [x[one], groundLevel] : [at[other], y[other]];
@@ -82,7 +89,101 @@ function drawScene(svg, scene) {
         : [-half, half].map((side) => `M${at[one] + side},${y[one]}L${foot[0] + side},${foot[1]}`).join(""));
     }
   }
-  return { x, y, width, scale, place };
+  function outline(attributes) {
+    const rects = blocks.map((_, i) => svgElement(svg, "rect", {
+      width, height: blockHeight, rx: 3, y: y[i] - blockHeight / 2, visibility: "hidden", "data-outline": i + 1, ...attributes
+    }));
+    return (u) => rects.forEach((rect, i) => {
+      rect.setAttribute("visibility", u ? "visible" : "hidden");
+      if (u) rect.setAttribute("x", (placeOf(u, i) - width / 2).toFixed(2));
+    });
+  }
+  function touch(contact, u) {
+    const { left, right } = scene.contacts[contact];
+    return middle([...(left < 0 ? [] : [[placeOf(u, left) + width / 2, y[left] - blockHeight]]),
+      ...(right < 0 ? [] : [[placeOf(u, right) - width / 2, y[right] - blockHeight]])]);
+  }
+  return { place, outline, touch };
+}
+
+function middle(points) {
+  return [0, 1].map((axis) => points.reduce((sum, point) => sum + point[axis], 0) / points.length);
+}
+
+// Bodies where they are: pendula, or one body in the plane, turned by its third displacement. Bodies are drawn with a
+// radius that they do not have: walls stand off by it, and pendula that meet hang side by side.
+function drawBodies(svg, scene) {
+  const { contacts } = scene, isPlane = scene.plane != null, spins = isPlane && scene.u.length > 2;
+  const radius = spins ? 24 : isPlane ? 7 : 12, sign = scene.leftward ? -1 : 1;
+  const shiftOf = (i) => radius * (contacts.some(({ left, right }) => left >= 0 && right === i)
+    - contacts.some(({ left, right }) => left === i && right >= 0));
+  const bodies = isPlane
+    ? [{ arm: 0, shift: 0, pivot: (u) => u, angle: (u) => (spins ? (u[2] * scale) / radius : 0) }]
+    : scene.lengths.map((arm, i) => ({ arm, shift: shiftOf(i), pivot: () => [0, arm], angle: (u) => (sign * u[i]) / arm }));
+  const walls = contacts.map(({ left, right, gap }) => {
+    const mass = Math.max(left, right), side = left < 0 ? -1 : 1;
+    if (left >= 0 && right >= 0) return null;
+    return isPlane ? { side, axis: mass, at: side * gap } : { side, axis: 0, at: side * bodies[mass].arm * Math.sin(gap / bodies[mass].arm) };
+  });
+
+  const states = scene.t.map((_, k) => scene.u.map((of) => of[k])), wall = scene.plane ?? 0;
+  const [wide, tall] = [0, 1].map((axis) => [...(wall > 0 ? [-wall, wall] : []),
+    ...walls.flatMap((one) => (one?.axis === axis ? [one.at] : [])),
+    ...bodies.flatMap(({ arm, pivot, angle }) => states.flatMap((u) => [pivot(u)[axis],
+      pivot(u)[axis] + (arm && arm * [Math.sin(angle(u)), -Math.cos(angle(u))][axis])]))
+  ].reduce(([lo, hi], value) => [Math.min(lo, value), Math.max(hi, value)], [Infinity, -Infinity]));
+  const margin = 4 + radius * (isPlane ? 1 : 2), top = 28, bottom = stageHeight - 28;
+  const scale = Math.min((stageWidth - 2 * margin) / (wide[1] - wide[0]), (bottom - top - 2 * margin) / (tall[1] - tall[0]));
+  const pixel = ([x, y]) => [stageWidth / 2 + scale * (x - (wide[0] + wide[1]) / 2), (top + bottom) / 2 - scale * (y - (tall[0] + tall[1]) / 2)];
+  const hung = ({ shift, pivot }, u) => { const [x, y] = pixel(pivot(u)); return [x + shift, y]; };
+  const center = (body, u) => {
+    const [x, y] = hung(body, u), angle = body.angle(u), arm = scale * body.arm;
+    return [x + arm * Math.sin(angle), y + arm * Math.cos(angle)];
+  };
+
+  drawRuler(svg, sign * scale);
+  const line = { stroke: "var(--ink)", "stroke-width": 4, fill: "none" }, [cx, cy] = pixel([0, 0]);
+  if (wall > 0) svgElement(svg, "circle", { cx, cy, r: scale * wall + radius + 2, ...line });
+  for (const { side, axis, at } of walls.filter((one) => one)) {
+    const off = side * (radius + 2), [x, y] = pixel([at, at]), from = pixel([wide[0], tall[0]]), to = pixel([wide[1], tall[1]]);
+    svgElement(svg, "path", { d: axis === 0 ? `M${x + off},${to[1] - radius - 4}V${from[1] + radius + 4}`
+      : `M${from[0] - radius - 4},${y - off}H${to[0] + radius + 4}`, ...line });
+  }
+  bodies.forEach((body, i) => {
+    let last = [Infinity, 0], d = "";
+    for (const point of states.map((u) => center(body, u)))
+      if (Math.hypot(point[0] - last[0], point[1] - last[1]) >= 1) {
+        d += `${d ? "L" : "M"}${point.map((value) => value.toFixed(1))}`;
+        last = point;
+      }
+    svgElement(svg, "path", { d, stroke: "var(--faint)", fill: "none", "data-path": i + 1 });
+  });
+  // Moves and turns about the center, to which a spoke leads, or the pivot, on which a rod hangs.
+  function draw(body, attributes) {
+    const group = svgElement(svg, "g", attributes), arm = scale * body.arm;
+    if (arm > 0) svgElement(group, "path", { d: `M0,0V${arm}` });
+    svgElement(group, "circle", { cy: arm, r: radius });
+    if (spins) svgElement(group, "path", { d: `M0,0H${radius}`, ...(attributes.fill === "none" ? {} : { stroke: "var(--paper)" }) });
+    return (u) => {
+      group.setAttribute("visibility", u ? "visible" : "hidden");
+      if (u) group.setAttribute("transform",
+        `translate(${hung(body, u).map((at) => at.toFixed(2))}) rotate(${((-180 / Math.PI) * body.angle(u)).toFixed(2)})`);
+    };
+  }
+  const drawAll = (attributesOf) => {
+    const moves = bodies.map((body, i) => draw(body, attributesOf(i)));
+    return (u) => moves.forEach((move) => move(u));
+  };
+  return {
+    place: drawAll((i) => ({ fill: `var(--m${(i % 8) + 1})`, stroke: "var(--ink)", "stroke-width": 2, "data-block": i + 1 })),
+    outline: (attributes) => drawAll((i) => ({ ...attributes, "data-outline": i + 1, visibility: "hidden" })),
+    // Of a round wall, which is no contact of the problem, at the body itself.
+    touch: (contact, u) => {
+      const { left, right } = contacts[contact] ?? {}, { side = 0, axis } = walls[contact] ?? {};
+      const [x, y] = middle(bodies.filter((_, i) => isPlane || i === left || i === right).map((body) => center(body, u)));
+      return axis === 0 ? [x + side * radius, y] : [x, y - side * radius];
+    }
+  };
 }
 
 // How many of ascending times are not after t.
@@ -101,45 +202,34 @@ function outlineColor(run) { return run === 0 ? "var(--ink)" : `var(--m${(run + 
 // The system in motion, with contacts that flash at impacts and the outlines of up to `most` runs beside it. The
 // function returned draws an instant.
 function drawMotion(svg, scene, most) {
-  const { x, y, width, scale, place } = drawScene(svg, scene), end = scene.t.at(-1);
-  const outlines = Array.from({ length: most }, (_, run) => scene.blocks.map((_, i) => svgElement(svg, "rect", {
-    width, height: blockHeight, rx: 3, fill: "none", stroke: outlineColor(run), "stroke-width": 2, "stroke-dasharray": "5 3",
-    y: y[i] - blockHeight / 2, visibility: "hidden", "data-outline": i + 1
-  })));
-  const sparks = scene.contacts.map((contact, k) => ({
-    ...contact,
-    times: scene.impacts.filter((impact) => impact.contact === k).map((impact) => impact.t),
-    mark: svgElement(svg, "circle", { r: 13, fill: "var(--impact)", opacity: 0, "data-contact": k })
+  const { place, outline, touch } = drawScene(svg, scene), end = scene.t.at(-1);
+  const outlines = Array.from({ length: most }, (_, run) => outline({
+    fill: "none", stroke: outlineColor(run), "stroke-width": 2, "stroke-dasharray": "5 3"
+  }));
+  const sparks = [...new Set(scene.impacts.map((impact) => impact.contact))].map((contact) => ({
+    contact,
+    times: scene.impacts.filter((impact) => impact.contact === contact).map((impact) => impact.t),
+    mark: svgElement(svg, "circle", { r: 13, fill: "var(--impact)", opacity: 0, "data-contact": contact })
   }));
   const clock = svgElement(svg, "text", { x: stageWidth - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" });
-  const placesOf = ({ t, u }, now) => {
+  const displacements = ({ t, u }, now) => {
     const before = Math.min(Math.max(countUpTo(t, now), 1), t.length - 1) - 1;
     const share = Math.min(Math.max((now - t[before]) / (t[before + 1] - t[before] || 1), 0), 1);
-    return u.map((of, i) => x[i] + scale * ((1 - share) * of[before] + share * of[before + 1]));
-  };
-  // The latest impact of a contact up to now counts for a moment: a third of the time between two.
-  const flash = (times, now) => {
-    const passed = countUpTo(times, now);
-    const moment = Math.min(0.012 * end, end / (3 * (times.length + 1)));
-    return passed > 0 ? Math.max(0, 1 - (now - times[passed - 1]) / moment) : 0;
+    return u.map((of) => (1 - share) * of[before] + share * of[before + 1]);
   };
   return (now, runs) => {
-    const at = placesOf(scene, now);
-    outlines.forEach((blocks, run) => {
-      const other = runs[run] && placesOf(runs[run], now);
-      blocks.forEach((outline, i) => {
-        outline.setAttribute("visibility", other ? "visible" : "hidden");
-        if (other) outline.setAttribute("x", (other[i] - width / 2).toFixed(2));
-      });
-    });
-    place(at);
-    for (const { left, right, times, mark } of sparks) {
-      const sides = [left >= 0 ? [at[left] + width / 2, y[left]] : null, right >= 0 ? [at[right] - width / 2, y[right]] : null]
-        .filter((side) => side);
-      const middle = (axis) => sides.reduce((sum, side) => sum + side[axis], 0) / sides.length;
-      mark.setAttribute("cx", middle(0));
-      mark.setAttribute("cy", middle(1) - blockHeight);
-      mark.setAttribute("opacity", flash(times, now).toFixed(3));
+    outlines.forEach((move, run) => move(runs[run] && displacements(runs[run], now)));
+    place(displacements(scene, now));
+    // The latest impact of a contact up to now counts for a moment: a third of the time between two.
+    for (const { contact, times, mark } of sparks) {
+      const latest = times[countUpTo(times, now) - 1] ?? -Infinity;
+      const moment = Math.min(0.012 * end, end / (3 * (times.length + 1)));
+      const flash = Math.max(0, 1 - (now - latest) / moment);
+      mark.setAttribute("opacity", flash.toFixed(3));
+      if (flash === 0) continue;
+      const [cx, cy] = touch(contact, displacements(scene, latest));
+      mark.setAttribute("cx", cx);
+      mark.setAttribute("cy", cy);
     }
     clock.textContent = `${now.toFixed(3)} s`;
   };

@@ -18,8 +18,7 @@ function system(scene) {
   const svg = new Element("svg");
   for (const [key, value] of Object.entries({ xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${stageWidth} ${stageHeight}`,
     width: 0.6 * stageWidth, height: 0.6 * stageHeight, "font-family": "sans-serif", "font-size": 13 })) svg.setAttribute(key, value);
-  const { x, scale, place } = drawScene(svg, scene);
-  place(scene.u.map((u, i) => x[i] + scale * u[0]));
+  drawScene(svg, scene).place(scene.u.map((u) => u[0]));
   return String(svg);
 }
 
