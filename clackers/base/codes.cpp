@@ -246,6 +246,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "The history decays at another rate after the first impact than before. Check what a restart after an impact does with the damping force."},
     {"gap-differs", "diagnosis",
      "Contacts close at another gap than that of the case, by the same length at each impact. Check the gap of the contact and the positions that it is measured from."},
+    {"parameter-differs", "diagnosis",
+     "The history is the motion of the case with another value of the parameter that the message names, within what noise or the method itself leaves. Check that parameter, and what is computed from it."},
     {"time-shifted", "diagnosis",
      "The history is the right motion at other times, by a constant number of steps or seconds. Check which time is printed beside which state."},
     {"time-unit", "diagnosis",

@@ -37,7 +37,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "not-this-case", "printed-digits", "sparse-rows", "restitution-differs", "mass-ratio-differs",
     "frequency-differs", "damping-differs", "stiffness-differs", "mass-differs", "load-differs", "constant-force", "restitution-varies", "momentum-not-kept",
     "restitution-threshold", "energy-gained-at-impacts", "restitution-scatters", "force-step", "event-interpolated", "fixed-internal-step",
-    "damping-changes-at-impact", "gap-differs",
+    "damping-changes-at-impact", "gap-differs", "parameter-differs",
     "time-shifted", "time-unit", "time-drifts", "unit-scaled", "columns-exchanged",
     "masses-exchanged", "sign-reversed", "velocity-at-half-steps", "velocity-order-lower",
     "starts-at-rest", "impact-missed", "impact-doubled", "impact-impulse-wrong",

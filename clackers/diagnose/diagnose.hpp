@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +13,24 @@
 #include "clackers/judge/convergence/assessment.hpp"
 
 namespace clackers::diagnose {
+
+/// A parameter of a case, in its unit.
+struct CaseParameter {
+  std::string name;
+  double value = 0.0;
+  std::string unit{};
+};
+
+/// The motion of the case with these parameters in place of its own; nullptr where they are not
+/// allowed.
+using MotionOf =
+    std::function<std::shared_ptr<const model::Motion>(std::span<const CaseParameter>)>;
+
+/// The motions of a case over its parameters, which have the values of the case here.
+struct CaseFamily {
+  std::vector<CaseParameter> parameters{};
+  MotionOf motion_of{};
+};
 
 /// All that a cause may be looked for in.
 struct DiagnosisInput {
@@ -25,6 +45,7 @@ struct DiagnosisInput {
   bool by_tolerance = false;  ///< the ladder is of tolerances, not of steps
   /// The histories are runs of a method on this very system: only what refinement shows is looked for.
   bool is_this_system = false;
+  CaseFamily family{};  ///< no parameters: other values of them are not looked for
 };
 
 /// The causes that explain the histories, strongest first, each at most once; empty for a correct

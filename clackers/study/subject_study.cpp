@@ -12,6 +12,7 @@
 #include "clackers/diagnose/ladder/sanity.hpp"
 #include "clackers/judge/convergence/judge.hpp"
 #include "clackers/judge/convergence/step_ladder.hpp"
+#include "clackers/study/check/initial_state.hpp"
 
 namespace clackers::study {
 namespace {
@@ -305,7 +306,8 @@ void SubjectStudy::decide() {
                                            .velocity = assessment.velocity,
                                            .limit = limit,
                                            .by_tolerance = by_tolerance(),
-                                           .is_this_system = is_method()});
+                                           .is_this_system = is_method(),
+                                           .family = family_of(problem_.problem)});
   if (is_method()) return;
   if (subject_.claim.velocity_order > 0.0)
     std::erase_if(subject_.diagnoses, [](const diagnose::Diagnosis& found) {

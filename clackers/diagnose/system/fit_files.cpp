@@ -11,7 +11,6 @@ namespace clackers::diagnose {
 namespace {
 
 constexpr double least_ratio = 1.8;
-constexpr double floors_above = 30.0;
 
 bool is_served(const model::ImpactProblem<>& problem) {
   const auto& s = problem.system;
@@ -41,8 +40,7 @@ FitQuestion fit_question(const DiagnosisInput& question) {
     const double step = at->facts.step;
     if (!made.files.empty() && !(step >= least_ratio * made.files.back().step)) continue;
     FitFile file{.step = step, .rows = fit_rows(*at, question.problem, question.motion)};
-    if (!std::isfinite(file.rows.distance) ||
-        !(file.rows.distance > floors_above * file.rows.floor)) {
+    if (!file.rows.is_far()) {
       if (made.files.empty()) return made;
       continue;
     }

@@ -41,8 +41,7 @@ std::vector<double> FitRows::residual(const Variation& variation, std::size_t ro
   return std::move(*found);
 }
 
-FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& problem,
-                 const model::Motion& motion) {
+FitRows fit_rows(const Observation& observation, const model::Motion& motion) {
   FitRows rows;
   const auto scale = motion.peak();
   for (Eigen::Index j = 0; j < scale.u.size(); ++j)
@@ -64,11 +63,16 @@ FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& p
   for (std::size_t i = 0; i < apart.size(); ++i)
     apart[i] -= rows.reference[i] *= rows.inverse_scale[i % n];
   rows.distance = rms(apart);
+  rows.floor = std::max(observation.facts.floor, 1e-13);
+  return rows;
+}
 
+FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& problem,
+                 const model::Motion& motion) {
+  auto rows = fit_rows(observation, motion);
+  if (rows.t.empty()) return rows;
   // How far the simulation is from the reference, as the problem stands and with frequencies changed
   // in their last digits: both must be small against the distance.
-  const auto& facts = observation.facts;
-  rows.floor = std::max(facts.floor, 1e-13);
   Variation same{problem};
   FitRows exact = rows;
   exact.u = rows.reference;

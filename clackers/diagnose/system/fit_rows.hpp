@@ -21,6 +21,8 @@ struct FitRows {
   /// What rounding, printing, and a change of the last digits of the system may make of it.
   double floor = 0.0;
 
+  /// Whether the distance is 30 times the floor, and a number.
+  bool is_far() const { return distance < 1e300 && distance > 30.0 * floor; }
   std::size_t dof() const { return inverse_scale.size(); }
   /// u - the motion of the variation, of the rows up to `rows`; empty where it is not available.
   /// Rows before the start of that motion are 0.
@@ -30,6 +32,9 @@ struct FitRows {
 double rms(std::span<const double> values);
 
 inline constexpr std::size_t most_fit_rows = 400, most_fit_opening_rows = 120;
+
+/// The rows without what the system may make of `floor`, which is infinite where they are too few.
+FitRows fit_rows(const Observation& observation, const model::Motion& motion);
 
 /// `floor` is infinite where the simulation of the unchanged problem is not available.
 FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& problem,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "clackers/numerics/linear_algebra.hpp"
 
@@ -29,27 +30,36 @@ double fastest(const model::ImpactProblem<>& problem) {
   return std::sqrt(square);
 }
 
+// A shift counts in radians of the fastest frequency, a gap in the smallest envelope.
+std::vector<double> units_of(const FitRows& rows, const Variation& base,
+                             std::span<const Parameter> parameters) {
+  std::vector<double> units(parameters.size(), 1.0);
+  const double omega = fastest(base.problem);
+  const double largest = std::ranges::max(rows.inverse_scale);
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (parameters[k].change == Change::time_shift && omega > 0.0) units[k] = 1.0 / omega;
+    if (parameters[k].change == Change::gap && largest > 0.0) units[k] = 1.0 / largest;
+  }
+  return units;
+}
+
+Residual residual_of(const FitRows& rows, const Variation& base,
+                     std::span<const Parameter> parameters) {
+  return [&rows, &base, parameters](const std::vector<double>& values, std::size_t count) {
+    Variation now = base;
+    for (std::size_t k = 0; k < values.size(); ++k) now.apply(parameters[k], values[k]);
+    return rows.residual(now, count);
+  };
+}
+
 class Solver {
  public:
-  Solver(const FitRows& rows, const Variation& base, std::span<const Parameter> parameters)
-      : rows_(rows),
-        base_(base),
-        parameters_(parameters),
-        unit_(parameters.size(), 1.0),
-        values_(parameters.size(), 0.0) {
-    // A shift counts in radians of the fastest frequency, a gap in the smallest envelope.
-    const double omega = fastest(base.problem);
-    const double largest = std::ranges::max(rows.inverse_scale);
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      if (parameters[k].change == Change::time_shift && omega > 0.0) unit_[k] = 1.0 / omega;
-      if (parameters[k].change == Change::gap && largest > 0.0) unit_[k] = 1.0 / largest;
-    }
-  }
+  Solver(const FitRows& rows, const Residual& residual, std::vector<double> units)
+      : rows_(rows), residual_(residual), unit_(std::move(units)), values_(unit_.size(), 0.0) {}
 
-  std::vector<double> residual(const std::vector<double>& values, std::size_t rows) const {
-    Variation now = base_;
-    for (std::size_t k = 0; k < values.size(); ++k) now.apply(parameters_[k], values[k] * unit_[k]);
-    return rows_.residual(now, rows);
+  std::vector<double> residual(std::vector<double> values, std::size_t rows) const {
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] *= unit_[k];
+    return residual_(values, rows);
   }
 
   // The distance reached over the first rows, infinite where nothing is available.
@@ -100,10 +110,15 @@ class Solver {
     MatrixXd slopes(size, count);
     VectorXd norms(count);
     for (Index k = 0; k < count; ++k) {
-      constexpr double small = 1e-6;
+      double small = 1e-6;
       auto moved = values_;
       moved[std::size_t(k)] += small;
-      const auto other = residual(moved, rows);
+      auto other = residual(moved, rows);
+      if (other.empty()) {  // beyond the largest value
+        small = -small;
+        moved[std::size_t(k)] = values_[std::size_t(k)] + small;
+        other = residual(moved, rows);
+      }
       if (other.size() != left.size()) return false;
       for (Index i = 0; i < size; ++i)
         slopes(i, k) = (left[std::size_t(i)] - other[std::size_t(i)]) / small;
@@ -124,24 +139,22 @@ class Solver {
   }
 
   const FitRows& rows_;
-  const Variation& base_;
-  std::span<const Parameter> parameters_;
+  const Residual& residual_;
   std::vector<double> unit_, values_;
   VectorXd step_, spread_;
 };
 
 }  // namespace
 
-SystemFit fit_system(const FitRows& rows, const Variation& base,
-                     std::span<const Parameter> parameters) {
-  Solver solver(rows, base, parameters);
+SystemFit fit_values(const FitRows& rows, const Residual& residual, std::vector<double> units,
+                     double first_span) {
+  Solver solver(rows, residual, std::move(units));
   const std::size_t all = rows.t.size();
   double best = solver.improve(all, most_iterations);
   const auto direct = solver.values();
   if (rows.distance > small_distance && !(best < 0.02 * rows.distance)) {
     std::fill(solver.values().begin(), solver.values().end(), 0.0);
-    const double omega = std::max(fastest(base.problem), 1e-300);
-    for (double span = 3.0 / omega;; span *= 2.0) {
+    for (double span = first_span;; span *= 2.0) {
       const auto count = std::size_t(
           std::upper_bound(rows.t.begin(), rows.t.end(), rows.t.front() + span) - rows.t.begin());
       if (count >= all) break;
@@ -157,13 +170,25 @@ SystemFit fit_system(const FitRows& rows, const Variation& base,
   return solver.result(best);
 }
 
-SystemFit refine_system(const FitRows& rows, const Variation& base,
-                        std::span<const Parameter> parameters, std::vector<double> start) {
-  Solver solver(rows, base, parameters);
+SystemFit refine_values(const FitRows& rows, const Residual& residual, std::vector<double> units,
+                        const std::vector<double>& start) {
+  Solver solver(rows, residual, std::move(units));
   solver.start(start);
   const double distance = solver.improve(rows.t.size(), most_iterations);
   if (!std::isfinite(distance)) return {};
   return solver.result(distance);
+}
+
+SystemFit fit_system(const FitRows& rows, const Variation& base,
+                     std::span<const Parameter> parameters) {
+  return fit_values(rows, residual_of(rows, base, parameters), units_of(rows, base, parameters),
+                    3.0 / std::max(fastest(base.problem), 1e-300));
+}
+
+SystemFit refine_system(const FitRows& rows, const Variation& base,
+                        std::span<const Parameter> parameters, std::vector<double> start) {
+  return refine_values(rows, residual_of(rows, base, parameters), units_of(rows, base, parameters),
+                       start);
 }
 
 }  // namespace clackers::diagnose

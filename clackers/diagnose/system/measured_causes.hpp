@@ -36,4 +36,10 @@ std::vector<Diagnosis> impact_causes(const DiagnosisInput& question);
 /// seconds, in the two finest files.
 std::optional<Diagnosis> shifted_time(const DiagnosisInput& question);
 
+/// The motion of the case with one parameter at another value, as the finest histories show it: of all
+/// cases that `question.family` has motions of, where what remains is less than a thirtieth of the distance (of a
+/// single history a hundredth, and where flights are others more than a method's error makes) and far less than under any other parameter.
+/// Parameters that explain as much are one diagnosis with all of them in its text and without a value.
+std::optional<Diagnosis> other_parameter(const DiagnosisInput& question);
+
 }  // namespace clackers::diagnose

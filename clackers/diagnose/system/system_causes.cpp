@@ -13,18 +13,10 @@ namespace clackers::diagnose {
 
 namespace {
 
-/// Errors of right methods look like other systems with gains of up to 22.
-constexpr double least_system_gain = 30.0;
-/// One file alone cannot tell a model from a method below this; what methods do not change, as
-/// restitution, shows earlier.
-constexpr double least_gain_alone = 100.0, least_impact_gain_alone = 50.0;
-/// A coarser file must show the cause as well, if less clearly: the method's error grows.
-constexpr double least_gain_beside = 3.0;
+/// What methods do not change, as restitution, shows in one file earlier than what they do.
+constexpr double least_impact_gain_alone = 50.0;
 /// Where it does not, the distance from the reference must not fall with the step as a method's does.
 constexpr double least_file_fall = 1.3;
-/// A value that a method's error makes moves by 40 % at least from one file to the next, whose step
-/// is 1.8 times as large, where it falls with the power 0.6 or more.
-constexpr double constant_change = 0.15;
 /// A parameter beside a cause is named where it makes this part of the distance.
 constexpr double least_part_beside = 0.03;
 /// A shift this near to a whole number of half steps is one.
@@ -68,9 +60,6 @@ bool may_be_numerical(const Trial& trial, const FitFile& file, const FitQuestion
       return false;
   }
 }
-
-// How sure a gain makes: 0.75 at twice the least one, towards 1.
-double confidence_of(double gain, double least) { return 1.0 - 0.5 * least / gain; }
 
 bool is_shift(const Trial& trial) {
   return trial.hypothesis->parameter && trial.hypothesis->parameter->change == Change::time_shift;
@@ -270,7 +259,11 @@ std::vector<Diagnosis> system_causes(const DiagnosisInput& asked) {
   if (asked.histories.empty()) return {};
   if (!can_be_varied(asked.problem)) {
     if (auto shift = shifted_time(asked)) return {*shift};
-    return measured_causes(asked);
+    auto measured = measured_causes(asked);
+    const auto is_sure = [](const Diagnosis& found) { return found.confidence >= sure; };
+    if (std::ranges::any_of(measured, is_sure)) return measured;
+    if (auto other = other_parameter(asked)) return {*other};
+    return measured;
   }
   // What is measured at impacts stands before fits that are less sure. A restitution that is no one
   // number is not fitted.

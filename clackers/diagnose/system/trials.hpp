@@ -10,6 +10,19 @@ namespace clackers::diagnose {
 /// A cause must explain the rows this many times better than the next one.
 inline constexpr double least_race_lead = 10.0;
 
+/// Errors of right methods look like other systems with gains of up to 22.
+inline constexpr double least_system_gain = 30.0;
+/// One file alone cannot tell a model from a method below this.
+inline constexpr double least_gain_alone = 100.0;
+/// A coarser file must show the cause as well, if less clearly: the method's error grows.
+inline constexpr double least_gain_beside = 3.0;
+/// A value that a method's error makes moves by 40 % at least from one file to the next, whose step
+/// is 1.8 times as large, where it falls with the power 0.6 or more.
+inline constexpr double constant_change = 0.15;
+
+/// How sure a gain makes: 0.75 at twice the least one, towards 1.
+inline double confidence_of(double gain, double least) { return 1.0 - 0.5 * least / gain; }
+
 /// A hypothesis fitted to one file.
 struct Trial {
   const Hypothesis* hypothesis = nullptr;

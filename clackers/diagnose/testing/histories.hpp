@@ -14,6 +14,7 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/diagnose.hpp"
 #include "clackers/judge/convergence/judge.hpp"
+#include "clackers/study/check/initial_state.hpp"
 
 namespace clackers::diagnose::testing {
 
@@ -114,13 +115,14 @@ struct Files {
   }
 
   DiagnosisInput question() const {
-    return {problem.problem,
-            *problem.motion,
-            histories,
-            ladder,
-            displacement,
-            velocity,
-            limit_of(histories, problem.problem, *problem.motion)};
+    return {.problem = problem.problem,
+            .motion = *problem.motion,
+            .histories = histories,
+            .ladder = ladder,
+            .displacement = displacement,
+            .velocity = velocity,
+            .limit = limit_of(histories, problem.problem, *problem.motion),
+            .family = study::family_of(problem)};
   }
 };
 

@@ -28,6 +28,9 @@ StartDifference start_difference(const FirstRow& row, const cases::Case& problem
 /// smaller.
 inline constexpr double start_tolerance = 1e-3;
 
+/// The parameters of a case that are numbers, and its motions. The case must outlive it.
+diagnose::CaseFamily family_of(const cases::Case& problem);
+
 /// Refuses a history that starts from another state than the case (InputError). The message of file
 /// `name` says the number that differs most, and why with its cure where that is found: parameters of
 /// the case that start it so (not-this-case), or a cause of diagnose_start() with its code.

@@ -13,15 +13,14 @@
 namespace clackers::diagnose {
 namespace {
 
-using Values = std::vector<StartParameter>;
+using Values = std::vector<CaseParameter>;
 
 constexpr int most_whole = 50;
 
 class Search {
  public:
-  Search(const FirstRow& row, std::span<const StartParameter> parameters, const MotionOf& motion_of)
-      : row_(row), motion_of_(motion_of) {
-    for (const auto& parameter : parameters) {
+  Search(const FirstRow& row, const CaseFamily& family) : row_(row), motion_of_(family.motion_of) {
+    for (const auto& parameter : family.parameters) {
       if (!moves_start(parameter)) continue;
       (is_whole(parameter) ? whole_ : real_).push_back(parameter);
     }
@@ -63,7 +62,7 @@ class Search {
     return left.size() > 0 && left.cwiseAbs().maxCoeff() <= row_.tolerance();
   }
 
-  bool moves_start(const StartParameter& parameter) const {
+  bool moves_start(const CaseParameter& parameter) const {
     const auto before = difference({parameter});
     for (const double factor : {1.5, 0.5, 3.0, 1.0 / 3.0, 7.0}) {
       const auto after =
@@ -75,13 +74,13 @@ class Search {
     return false;
   }
 
-  bool is_whole(const StartParameter& parameter) const {
+  bool is_whole(const CaseParameter& parameter) const {
     return parameter.value == std::round(parameter.value) &&
            motion_of_(Values{{parameter.name, parameter.value + 0.5}}) == nullptr &&
            motion_of_(Values{{parameter.name, parameter.value * 1.01}}) == nullptr;
   }
 
-  Values scan(const StartParameter& whole, const StartParameter* real) const {
+  Values scan(const CaseParameter& whole, const CaseParameter* real) const {
     for (int n = 0; n <= most_whole; ++n) {
       Values values{{whole.name, double(n)}};
       if (real == nullptr) {
@@ -184,16 +183,14 @@ bool flight_agrees(const FirstRow& row, const Diagnosis& cause, const model::Mot
 
 }  // namespace
 
-std::vector<StartParameter> start_parameters(const FirstRows& opening,
-                                             const model::ImpactProblem<>& problem,
-                                             const model::Motion& motion,
-                                             std::span<const StartParameter> parameters,
-                                             const MotionOf& motion_of) {
+std::vector<CaseParameter> start_parameters(const FirstRows& opening,
+                                            const model::ImpactProblem<>& problem,
+                                            const model::Motion& motion, const CaseFamily& family) {
   if (opening.rows.t.empty() || opening.rows.t.front() != 0.0) return {};
   const FirstRow row(opening, problem, motion);
-  auto found = Search(row, parameters, motion_of).run();
+  auto found = Search(row, family).run();
   if (found.empty()) return {};
-  const auto other = motion_of(found);
+  const auto other = family.motion_of(found);
   const auto cause = diagnose_start(opening, problem, motion);
   if (other == nullptr || (cause && !flight_agrees(row, *cause, *other))) return {};
   return found;

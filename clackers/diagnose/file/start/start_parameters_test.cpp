@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "clackers/base/error.hpp"
 #include "clackers/diagnose/testing/histories.hpp"
 #include "clackers/methods/testing/runs.hpp"
 
@@ -13,22 +12,10 @@ using testing::exact_rows;
 
 std::string found_for(const char* name, const model::Trajectory& rows) {
   const auto problem = cases::make(name);
-  std::vector<StartParameter> parameters;
-  for (const auto& [parameter, value] : problem.values) parameters.push_back({parameter, value});
-  const MotionOf motion_of =
-      [&](std::span<const StartParameter> values) -> std::shared_ptr<const model::Motion> {
-    cases::Settings settings;
-    for (const auto& one : values) settings.emplace_back(one.name, one.value);
-    try {
-      return cases::make(name, settings).motion;
-    } catch (const InputError&) {
-      return nullptr;
-    }
-  };
   const FirstRows opening{0.01, rows, std::vector<bool>(std::size_t(rows.dof), true), 0.0, {}};
   std::string text;
   for (const auto& one :
-       start_parameters(opening, problem.problem, *problem.motion, parameters, motion_of)) {
+       start_parameters(opening, problem.problem, *problem.motion, study::family_of(problem))) {
     char value[32];
     std::snprintf(value, sizeof value, "%.17g", one.value);
     text += (text.empty() ? "" : ",") + one.name + "=" + value;

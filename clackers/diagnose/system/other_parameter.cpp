@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clackers/base/number.hpp"
+#include "clackers/diagnose/file/reading.hpp"
+#include "clackers/diagnose/ladder/ladder_families.hpp"
+#include "clackers/diagnose/system/measured_causes.hpp"
+#include "clackers/diagnose/system/trials.hpp"
+#include "clackers/measure/errors/mechanics.hpp"
+
+namespace clackers::diagnose {
+namespace {
+
+/// Each value is a motion that is made anew: those of meshes take seconds.
+constexpr int most_masses = 8;
+/// Parameters whose fits leave this much of each other are as good; between that and the lead, none is believed.
+constexpr double as_good = 2.0;
+
+/// The rows that all parameters are fitted to; those that explain these are fitted to all rows.
+constexpr std::size_t most_rows = 100;
+
+struct ParameterFit {
+  CaseParameter parameter;
+  double value = 0.0, uncertainty = 0.0;
+  double distance = INFINITY;
+};
+
+// Relative to the value of the case, which may be 0.
+double unit_of(const CaseParameter& parameter) {
+  return parameter.value == 0.0 ? 1.0 : std::abs(parameter.value);
+}
+
+// From the value of the case, or from one that is near already.
+ParameterFit fitted(const FitRows& rows, const CaseFamily& family, const CaseParameter& parameter,
+                    std::optional<double> near = {}) {
+  const auto residual = [&](const std::vector<double>& change,
+                            std::size_t count) -> std::vector<double> {
+    auto changed = parameter;
+    changed.value += change[0];
+    const auto motion = family.motion_of(std::array{changed});
+    if (motion == nullptr || motion->end() < rows.t[count - 1]) return {};
+    auto left = reference_rows(*motion, std::span(rows.t).first(count), false).u;
+    for (std::size_t i = 0; i < left.size(); ++i)
+      left[i] = rows.u[i] - left[i] * rows.inverse_scale[i % rows.dof()];
+    return left;
+  };
+  constexpr double first_part = 1.0 / 64.0;
+  const std::vector<double> units{unit_of(parameter)};
+  const auto fit =
+      near ? refine_values(rows, residual, units, {*near - parameter.value})
+           : fit_values(rows, residual, units, first_part * (rows.t.back() - rows.t[0]));
+  ParameterFit found{parameter};
+  if (fit.values.empty() || fit.values[0] == 0.0) return found;
+  found.value = parameter.value + fit.values[0];
+  found.uncertainty = fit.uncertainty[0];
+  found.distance = std::max(fit.distance, rows.floor);
+  return found;
+}
+
+FitRows thinned(const FitRows& rows) {
+  FitRows few = rows;
+  const std::size_t n = rows.dof(), stride = (rows.t.size() + most_rows - 1) / most_rows;
+  few.t.clear();
+  few.u.clear();
+  for (std::size_t i = 0; i < rows.t.size(); i += stride) {
+    few.t.push_back(rows.t[i]);
+    for (std::size_t j = 0; j < n; ++j) few.u.push_back(rows.u[i * n + j]);
+  }
+  return few;
+}
+
+// Those that explain the rows, and the next best, the best first.
+std::vector<ParameterFit> fitted_to_all(const FitRows& rows, const CaseFamily& family) {
+  constexpr double apart = least_race_lead * least_race_lead;
+  const auto few = thinned(rows);
+  std::vector<ParameterFit> fits;
+  for (const auto& parameter : family.parameters) fits.push_back(fitted(few, family, parameter));
+  const double best = std::ranges::min(fits, {}, &ParameterFit::distance).distance;
+  if (!(rows.distance > best * 0.5 * least_system_gain)) return {};
+  for (auto& fit : fits)
+    if (fit.distance < apart * best) fit = fitted(rows, family, fit.parameter, fit.value);
+  std::ranges::stable_sort(fits, {}, &ParameterFit::distance);
+  return fits;
+}
+
+// Whether the flights of a motion are those of the case, so that impacts alone make the difference: but
+// for a tenth of the times its free masses move by the equations of the case, as the case does.
+bool has_flights_of_case(const model::Motion& motion, const DiagnosisInput& question,
+                         const std::vector<double>& times) {
+  constexpr double rounding = 1e-9, exceptions = 0.1;
+  const measure::FreeMotion free(question.problem.system);
+  const double largest = rounding * question.motion.peak().a.maxCoeff();
+  const auto is_free = [&](const model::Motion& any, double t) {
+    const auto now = any.at(t, model::Side::right);
+    return (now.a - free.acceleration(t, now.u, now.v)).cwiseAbs().maxCoeff() <= largest;
+  };
+  const auto others = std::ranges::count_if(
+      times, [&](double t) { return !is_free(motion, t) && is_free(question.motion, t); });
+  return double(others) <= exceptions * double(times.size());
+}
+
+// Whether a method's own error may be this: of flights those of the period grow as (w h)^2/2 w t, those
+// of damping as w h w t/2 and are no other parameter to more than the next power of w h.
+bool may_be_numerical(const ParameterFit& fit, const FitRows& rows,
+                      const DiagnosisInput& question) {
+  auto changed = fit.parameter;
+  changed.value = fit.value;
+  const auto motion = question.family.motion_of(std::array{changed});
+  if (has_flights_of_case(*motion, question, thinned(rows).t)) return false;
+  const double distance = rows.distance, gain = distance / fit.distance,
+               step = question.histories.back().facts.step;
+  const auto peak = question.motion.peak();
+  double omega = 0.0;
+  for (Eigen::Index i = 0; i < peak.u.size(); ++i)
+    if (peak.u[i] > 0.0)
+      omega = std::max({omega, peak.v[i] / peak.u[i], std::sqrt(peak.a[i] / peak.u[i])});
+  const double turn = omega * step, turns = omega * question.motion.end();
+  return distance < 0.5 * turn * turn * turns ||
+         (distance < 0.5 * turn * turns && gain * turn < least_system_gain);
+}
+
+Diagnosis diagnosis_of_all(const std::vector<ParameterFit>& found) {
+  const auto& best = found.front();
+  if (found.size() == 1) {
+    auto one = diagnosis_of(Code("parameter-differs"), best.value, best.parameter.unit);
+    one.text = best.parameter.name;
+    one.evidence = {{"uncertainty", best.uncertainty}, {"expected", best.parameter.value}};
+    return one;
+  }
+  auto one = diagnosis_of(Code("parameter-differs"), NAN, "");
+  for (const auto& fit : found)
+    one.text += fmt::format("{}{} = {}", one.text.empty() ? "" : " or ", fit.parameter.name,
+                            short_number(fit.value, 6));
+  return one;
+}
+
+}  // namespace
+
+std::optional<Diagnosis> other_parameter(const DiagnosisInput& question) {
+  if (question.motion.dof() > most_masses || question.family.parameters.empty()) return {};
+  const auto& finest = question.histories.back();
+  const auto rows = fit_rows(finest, question.motion);
+  if (!rows.is_far()) return {};
+  auto fits = fitted_to_all(rows, question.family);
+  if (fits.empty()) return {};
+  const double left = fits.front().distance, gain = rows.distance / left;
+  const auto last = std::ranges::find_if(
+      fits, [&](const ParameterFit& fit) { return fit.distance > as_good * left; });
+  if (!(gain >= least_system_gain) ||
+      (last != fits.end() && last->distance < least_race_lead * left))
+    return {};
+  const double second = last == fits.end() ? 0.0 : rows.distance / last->distance;
+  fits.erase(last, fits.end());
+
+  const auto coarser = std::ranges::find_if(
+      question.histories.rbegin(), question.histories.rend(), [&](const Observation& one) {
+        return one.facts.step >= least_other_step * finest.facts.step;
+      });
+  const double files = coarser == question.histories.rend() ? 1.0 : 2.0;
+  if (files > 1.0) {
+    const auto other = fit_rows(*coarser, question.motion);
+    if (!other.is_far()) return {};
+    std::erase_if(fits, [&](ParameterFit& fit) {
+      const auto again = fitted(other, question.family, fit.parameter, fit.value);
+      const double apart = std::abs(again.value - fit.value);
+      fit.uncertainty = std::max(fit.uncertainty, apart);
+      return other.distance < least_gain_beside * again.distance ||
+             apart > constant_change * std::abs(fit.value - fit.parameter.value);
+    });
+  } else if (gain < least_gain_alone || std::ranges::any_of(fits, [&](const ParameterFit& fit) {
+               return may_be_numerical(fit, rows, question);
+             })) {
+    return {};
+  }
+  if (fits.empty()) return {};
+  auto cause = diagnosis_of_all(fits);
+  const double least = files > 1.0 ? least_system_gain : least_gain_alone;
+  cause.confidence = std::min(files > 1.0 ? 1.0 : 0.9, confidence_of(gain, least));
+  cause.evidence.insert(cause.evidence.begin(), {"gain", gain});
+  cause.evidence.push_back({"files", files});
+  if (second >= 1.0) {
+    cause.runner_up = cause.code;
+    cause.evidence.push_back({"runner-up-gain", second});
+  }
+  return cause;
+}
+
+}  // namespace clackers::diagnose
