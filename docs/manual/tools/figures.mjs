@@ -39,7 +39,7 @@ for (const [file, wanted] of pages.map((word) => word.split(":"))) {
     if (wanted && name !== wanted) continue;
     const layer = specification.layer.filter(({ mark }) => !mark || mark.opacity !== 0);  // points for tooltips
     const drawn = { ...specification, layer, datasets: data, width: 560, height: 220, background: "white",
-      config: { legend: { orient: "bottom" }, axis: { gridColor: "var(--grid)" } } };
+      config: { legend: { orient: "bottom", columns: 3, labelLimit: 0 }, axis: { gridColor: "var(--grid)" } } };
     const view = new vega.View(vega.parse(lite.compile(JSON.parse(light(JSON.stringify(drawn)))).spec), { renderer: "none" });
     write(name === "response" && !wanted ? "case" : name, await view.toSVG());
   }
