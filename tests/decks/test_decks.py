@@ -108,6 +108,9 @@ class Calculix(Deck):
         self.agrees("calculix", "stop")
         self.agrees("calculix", "sdof", "--set", "t_end=8")
 
+    def test_a_bar_that_strikes_a_wall(self):
+        self.agrees("calculix", "bar-wall", "--set", "elements=8")
+
 
 @unittest.skipUnless(has_header("mujoco/mujoco.h"), "needs libmujoco-dev")
 class Mujoco(Deck):
