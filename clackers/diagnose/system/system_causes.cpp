@@ -260,8 +260,11 @@ std::vector<Diagnosis> system_causes(const DiagnosisInput& asked) {
   if (!can_be_varied(asked.problem)) {
     if (auto shift = shifted_time(asked)) return {*shift};
     auto measured = measured_causes(asked);
-    const auto is_sure = [](const Diagnosis& found) { return found.confidence >= sure; };
-    if (std::ranges::any_of(measured, is_sure)) return measured;
+    // Momentum that is not kept may be that of another friction.
+    const auto is_explained = [](const Diagnosis& found) {
+      return found.confidence >= sure && found.code != Code("momentum-not-kept").name();
+    };
+    if (std::ranges::any_of(measured, is_explained)) return measured;
     if (auto other = other_parameter(asked)) return {*other};
     return measured;
   }
