@@ -90,19 +90,18 @@ TEST(OtherParameter, ErrorOfARightMethodIsNone) {
   for (const auto* name : {"pendulum", "two-pendula", "duffing-stop", "slider", "belt",
                            "forced-slider", "ball", "pressed-oscillator", "cradle"})
     for (const auto* method : {"newmark", "central-difference", "bdf1", "rk4"})
-      for (const double turn : {0.2, 0.02})
-        for (const int count : {1, 2, 3}) {
-          Files files{cases::make(name)};
-          const auto& periods = files.problem.damped_periods;
-          double h = turn * *std::ranges::min_element(periods) / 6.0;
-          for (int i = 0; i < count; ++i, h *= 0.5) {
-            const double step =
-                files.problem.motion->end() / std::ceil(files.problem.motion->end() / h);
-            files.add(methods::runs::run(method, files.problem.problem, step).trajectory, step);
-          }
-          EXPECT_EQ(find(system_causes(files.question()), "parameter-differs"), nullptr)
-              << name << " " << method << " " << turn << " " << count;
+      for (const int count : {1, 2}) {
+        Files files{cases::make(name)};
+        const auto& periods = files.problem.damped_periods;
+        double h = 0.2 * *std::ranges::min_element(periods) / 6.0;
+        for (int i = 0; i < count; ++i, h *= 0.5) {
+          const double step =
+              files.problem.motion->end() / std::ceil(files.problem.motion->end() / h);
+          files.add(methods::runs::run(method, files.problem.problem, step).trajectory, step);
         }
+        EXPECT_EQ(find(system_causes(files.question()), "parameter-differs"), nullptr)
+            << name << " " << method << " " << count;
+      }
 }
 
 // Mass 2 rests half of the time.
