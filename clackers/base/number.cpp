@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace clackers {
 namespace {
@@ -42,6 +43,19 @@ double quotient(std::uint64_t whole, std::size_t k) {
   return double(ratio | std::uint64_t{has_remainder}) * std::bit_cast<double>(power);
 }
 
+// The eight digits at `at` as a number; false where one of them is no digit.
+bool read_eight(const char* at, std::uint64_t& number) {
+  std::uint64_t x;
+  std::memcpy(&x, at, sizeof x);
+  constexpr std::uint64_t high = 0xF0F0F0F0F0F0F0F0, zeros = 0x3030303030303030;
+  if ((x & high) != zeros || ((x + 0x0606060606060606) & high) != zeros) return false;
+  // Neighbours are joined to numbers of two, four and eight digits; the first stands lowest.
+  x = (x - zeros) * 10 + ((x - zeros) >> 8);
+  constexpr std::uint64_t pairs = 0x000000FF000000FF;
+  number = ((x & pairs) * 0x000F424000000064 + ((x >> 16) & pairs) * 0x0000271000000001) >> 32;
+  return true;
+}
+
 // A number of at most 19 digits and 27 decimals, such as "-1.5e-3". False for any other text, which may
 // be a number all the same.
 bool read_short(std::string_view text, Number& number) {
@@ -53,6 +67,14 @@ bool read_short(std::string_view text, Number& number) {
   std::uint64_t whole = 0;
   int digits = 0;
   for (; at != end; ++at) {
+    std::uint64_t next = 0;
+    while (std::endian::native == std::endian::little && whole != 0 && end - at >= 8 &&
+           read_eight(at, next)) {
+      whole = 100'000'000 * whole + next;
+      digits += 8;
+      at += 8;
+    }
+    if (at == end) break;
     if (is_digit(*at)) {
       whole = 10 * whole + static_cast<std::uint64_t>(*at - '0');
       digits += whole != 0;

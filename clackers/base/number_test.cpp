@@ -62,6 +62,19 @@ TEST(Number, IsTheNearestDouble) {
     EXPECT_EQ(error_of(text), NumberError::no_number) << text;
 }
 
+TEST(Number, MayNotHoldAnyOtherCharacterAmongItsDigits) {
+  const std::string digits = "1234567890123456789";
+  for (std::size_t at = 1; at < digits.size(); ++at)
+    for (int c = 0; c < 256; ++c) {
+      auto text = digits;
+      text[at] = static_cast<char>(c);
+      const bool is_number = (c >= '0' && c <= '9') || c == '.';
+      if (c == 'e' || c == 'E' || c == 'd' || c == 'D') continue;  // a number, though a large one
+      if (c == ',' || c == '/') continue;
+      EXPECT_EQ(error_of(text) == NumberError::none, is_number) << text;
+    }
+}
+
 TEST(Number, CountsItsSignificantDigits) {
   EXPECT_EQ(number("0.00123").digits, 3);
   EXPECT_EQ(number("-1.230").digits, 4);
