@@ -21,6 +21,11 @@ constexpr std::size_t block = std::size_t{1} << 20;
                    "not-text");
 }
 
+// Where a comment begins. Twice memchr is several times as fast as one search for either.
+std::size_t first_mark(std::string_view text) { return std::min(text.find('#'), text.find('%')); }
+
+bool has_mark(std::string_view text) { return first_mark(text) != std::string_view::npos; }
+
 // What the first bytes of a file say about its format, where that is not text.
 void refuse_other_formats(const std::string& name, std::string_view bytes) {
   struct Format {
@@ -59,10 +64,12 @@ bool TextLines::fill() {
   if (at_ > 0) std::memmove(bytes_.data(), bytes_.data() + at_, have_ - at_);
   have_ -= at_;
   at_ = 0;
+  has_marks_ = has_marks_ && has_mark(rest());
   if (have_ == bytes_.size()) bytes_.resize(2 * bytes_.size());
   const auto from = have_;
   have_ += file_.read(bytes_.data() + have_, bytes_.size() - have_);
   ended_ = have_ == from;
+  has_marks_ = has_marks_ || has_mark(rest().substr(from));
   if (number_ > 0 && rest().substr(from).find('\0') != std::string_view::npos)
     refuse_bytes(name(), "is no text: it has a byte 0 in it", "Export the history as text.");
   return !ended_;
@@ -111,8 +118,7 @@ bool TextLines::next() {
   at_ += length + !without_line_end_;
   consumed_ += static_cast<long long>(length) + 1;
   if (text_.ends_with('\r')) text_.remove_suffix(1);
-  // Twice memchr is several times as fast as one search for either.
-  const auto mark = std::min(text_.find('#'), text_.find('%'));
+  const auto mark = has_marks_ ? first_mark(text_) : std::string_view::npos;
   comment_ = mark == std::string_view::npos ? std::string_view{} : text_.substr(mark + 1);
   text_ = text_.substr(0, mark);
   return true;

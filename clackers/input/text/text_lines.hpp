@@ -58,6 +58,7 @@ class TextLines {
   long long consumed_ = 0, number_ = 0;
   char line_end_ = '\n';
   bool ended_ = false, without_line_end_ = false;
+  bool has_marks_ = false;  ///< of comments, in what is left of the block
   std::string_view text_, comment_;
 };
 

@@ -71,6 +71,18 @@ TEST(TextTable, LeavesCommentsOut) {
   EXPECT_FALSE(table.from_comment);
 }
 
+TEST(TextTable, ALongFileMayHaveCommentsAnywhere) {
+  // More than a block of 2^20 bytes without one.
+  for (const auto* first : {"", "# first\n"}) {
+    std::string text = std::string(first) + "t,u1\n";
+    for (int i = 0; i < 200000; ++i)
+      text += std::to_string(100000 + i) + ",0.125" + (i % 99999 == 99998 ? " # note\n" : "\n");
+    const auto rows = read(text + "% below\n").rows;
+    ASSERT_EQ(rows.size(), 200000u);
+    EXPECT_EQ(rows.back(), (std::vector<double>{299999.0, 0.125}));
+  }
+}
+
 TEST(TextTable, ACommentBelowTheRowsMayStateTheCost) {
   const auto cost = [](const std::string& comments) {
     const TestFile file("# steps 7\nt,u1\n0,1\n0.5,-2\n" + comments);
