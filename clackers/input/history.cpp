@@ -11,6 +11,7 @@
 #include "clackers/input/history_columns.hpp"
 #include "clackers/input/table.hpp"
 #include "clackers/input/text/printed_digits.hpp"
+#include "clackers/numerics/time_steps.hpp"
 
 namespace clackers::input {
 namespace {
@@ -72,8 +73,6 @@ class Reader {
       history_.not_finite = error.what();
       rows_ = rows;
       motion.t.resize(rows);
-      for (auto* values : {&motion.u, &motion.v, &motion.a})
-        if (!values->empty()) values->resize(rows * std::size_t(options_.dof));
       return false;
     }
   }
@@ -119,10 +118,12 @@ class Reader {
   }
 
   void take_row() {
-    ++rows_;
     const auto dof = std::size_t(options_.dof);
-    for (auto* values : {&history_.motion.u, &history_.motion.v, &history_.motion.a})
-      if (values == &history_.motion.u || uses(*values)) values->resize(rows_ * dof);
+    if (++rows_ > room_) {
+      constexpr std::size_t rows_at_once = 4096;
+      const auto reserved = history_.motion.u.capacity() / dof, wanted = rows_ + rows_at_once;
+      resize(reserved >= rows_ ? std::min(reserved, wanted) : wanted);
+    }
     for (auto& target : targets_) {
       Number number;
       table_.read_number(target.column, number);
@@ -131,8 +132,13 @@ class Reader {
     }
   }
 
-  bool uses(const std::vector<double>& values) const {
-    return &values == &history_.motion.v ? columns_.has_v() : columns_.has_a();
+  void resize(std::size_t rows) {
+    auto& motion = history_.motion;
+    const auto size = rows * std::size_t(options_.dof);
+    motion.u.resize(size);
+    if (columns_.has_v()) motion.v.resize(size);
+    if (columns_.has_a()) motion.a.resize(size);
+    room_ = rows;
   }
 
   // Growing by doubling would hold a large history's numbers up to three times.
@@ -149,20 +155,15 @@ class Reader {
   }
 
   void finish() {
+    resize(rows_);
     const auto& times = history_.motion.t;
     if (times.empty() || times.back() == times.front())
       refuse(table_.name(), "times", double(!times.empty()), "two different times at least", {},
              "too-short");
     if (columns_.t) print("t", time_digits_);
     for (const auto& target : targets_) print(table_.names()[target.column], target.digits);
-    std::vector<double> spacings;
-    spacings.reserve(times.size());
-    for (std::size_t i = 1; i < times.size(); ++i)
-      if (times[i] > times[i - 1]) spacings.push_back(times[i] - times[i - 1]);
-    const auto middle = spacings.begin() + std::ssize(spacings) / 2;
-    std::nth_element(spacings.begin(), middle, spacings.end());
-    history_.spacing = *middle;
-    const auto [least, most] = std::ranges::minmax(spacings);
+    const auto [median, least, most] = numerics::time_steps(times);
+    history_.spacing = median;
     const double unit = time_digits_.half_unit();
     // Each difference errs by half a unit in the last place of both times.
     const double rounding = 2.0 * std::numeric_limits<double>::epsilon() * std::abs(times.back());
@@ -181,7 +182,7 @@ class Reader {
   std::vector<Target> targets_;
   PrintedDigits time_digits_;
   RowSide last_side_ = RowSide::none;
-  std::size_t rows_ = 0;
+  std::size_t rows_ = 0, room_ = 0;
   bool reserved_ = false;
 };
 

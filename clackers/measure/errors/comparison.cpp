@@ -12,19 +12,12 @@
 #include "clackers/measure/impacts/gap_history.hpp"
 #include "clackers/measure/impacts/impact_finder.hpp"
 #include "clackers/measure/impacts/impact_matcher.hpp"
+#include "clackers/numerics/time_steps.hpp"
 
 namespace clackers::measure {
 namespace {
 
 constexpr std::size_t block_size = 4096;  // rows of reference that fit a cache
-
-double median_difference(const std::vector<double>& t) {
-  std::vector<double> differences;
-  differences.reserve(t.size());
-  for (std::size_t i = 1; i < t.size(); ++i)
-    if (t[i] > t[i - 1]) differences.push_back(t[i] - t[i - 1]);
-  return median(std::move(differences));
-}
 
 // Vectors with an entry that is not finite count as not known.
 void forget_what_is_not_finite(model::Impact& impact) {
@@ -39,7 +32,7 @@ Comparison::Comparison(const model::Trajectory& history, const model::Motion& re
                        const model::ImpactProblem<>& problem, RunFacts facts)
     : given_(history), reference_(reference), problem_(problem), facts_(std::move(facts)) {
   require_comparable(history, reference, problem);
-  step_ = median_difference(history.t);
+  step_ = numerics::time_steps(history.t).median;
   widened_ = with_jump_limits(history);
   const auto scale = reference.peak();
   u_envelope_ = entries(scale.u);
