@@ -24,9 +24,11 @@ std::vector<std::size_t> kept_points(std::size_t n, std::size_t rows, const auto
     if (all) kept.push_back(from);
     for (std::size_t row = 0; row < rows && !all; ++row) {
       auto lowest = from, highest = from;
+      auto least = value(row, from), most_of_all = least;
       for (auto i = from; i < to; ++i) {
-        if (value(row, i) < value(row, lowest)) lowest = i;
-        if (!(value(row, i) < value(row, highest))) highest = i;
+        const auto now = value(row, i);
+        if (now < least) lowest = i, least = now;
+        if (!(now < most_of_all)) highest = i, most_of_all = now;
       }
       kept.push_back(lowest);
       kept.push_back(highest);

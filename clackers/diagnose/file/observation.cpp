@@ -6,16 +6,10 @@
 namespace clackers::diagnose {
 namespace {
 
-// Rows that are no limits of jumps, and the two ends.
-std::vector<std::size_t> plain_rows(const measure::Comparison& comparison) {
-  std::vector<std::size_t> rows;
-  const auto last = comparison.rows() - 1;
-  rows.reserve(comparison.rows());
-  for (std::size_t row = 0; row <= last; ++row)
-    if (row == 0 || row == last ||
-        (!comparison.is_left_limit(row) && !comparison.is_right_limit(row)))
-      rows.push_back(row);
-  return rows;
+// No limit of a jump, or one of the two ends.
+bool is_plain(const measure::Comparison& comparison, std::size_t row) {
+  return row == 0 || row + 1 == comparison.rows() ||
+         (!comparison.is_left_limit(row) && !comparison.is_right_limit(row));
 }
 
 std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
@@ -36,30 +30,29 @@ void append(model::Trajectory& to, const model::Trajectory& from, std::size_t ro
   }
 }
 
-// The place of each plain row on the grid of `spacing`, -1 between two places.
-std::vector<long long> grid_places(const model::Trajectory& history,
-                                   const std::vector<std::size_t>& rows, double spacing) {
-  // A time that is rounded to a quarter of the spacing still has its place.
-  constexpr double tolerance = 0.25;
-  std::vector<long long> places{0};
-  places.reserve(rows.size());
-  double from = history.t[rows.front()];
-  long long place = 0, on_grid = 1;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const double parts = (history.t[rows[i]] - from) / spacing;
+// The places of rows on a grid.
+class Grid {
+ public:
+  Grid(double first, double spacing) : from_(first), spacing_(spacing) {}
+
+  // The place of the next row, -1 between two places.
+  long long place(double t) {
+    // A time that is rounded to a quarter of the spacing still has its place.
+    constexpr double tolerance = 0.25;
+    const double parts = (t - from_) / spacing_;
     const double whole = std::round(parts);
-    const bool hits = whole >= 1.0 && std::abs(parts - whole) < tolerance;
-    if (hits) {
-      place += std::llround(whole);
-      from = history.t[rows[i]];
-      ++on_grid;
-    }
-    places.push_back(hits ? place : -1);
+    if (!(whole >= 1.0 && std::abs(parts - whole) < tolerance)) return -1;
+    place_ += std::llround(whole);
+    from_ = t;
+    ++rows_;
+    return place_;
   }
-  constexpr double least_share = 0.9;
-  if (double(on_grid) < least_share * double(rows.size())) places.clear();
-  return places;
-}
+  long long rows() const { return rows_; }  // that have a place, the first among them
+
+ private:
+  double from_, spacing_;
+  long long place_ = 0, rows_ = 1;
+};
 
 class Mismatch {
  public:
@@ -117,15 +110,25 @@ Observation observe(const measure::Comparison& comparison, const FileFacts& fact
   for (std::size_t row = 0; row < std::min(comparison.rows(), most_opening_rows); ++row)
     append(seen.opening, history, row);
 
-  const auto rows = plain_rows(comparison);
-  const auto places = grid_places(history, rows, comparison.step());
+  std::size_t count = 0, number = 0;
+  for (std::size_t row = 0; row < comparison.rows(); ++row) count += is_plain(comparison, row);
+  const auto chosen = spread(count, most_sample_rows);
+  auto next = chosen.begin();
+  Grid grid(seen.first, comparison.step());
   const Mismatch mismatch(comparison);
-  for (const auto i : spread(rows.size(), most_sample_rows)) {
-    append(seen.sample, history, rows[i]);
-    if (!places.empty()) seen.sample_steps.push_back(places[i]);
+  for (std::size_t row = 0; row < comparison.rows(); ++row) {
+    if (!is_plain(comparison, row)) continue;
+    const auto place = row == 0 ? 0 : grid.place(history.t[row]);
+    const auto here = number++;
+    if (next == chosen.end() || *next != here) continue;
+    ++next;
+    append(seen.sample, history, row);
+    seen.sample_steps.push_back(place);
     if (comparison.has_velocities())
-      seen.velocity_mismatch = std::fmax(seen.velocity_mismatch, mismatch.at(rows[i]));
+      seen.velocity_mismatch = std::fmax(seen.velocity_mismatch, mismatch.at(row));
   }
+  constexpr double least_share = 0.9;
+  if (double(grid.rows()) < least_share * double(count)) seen.sample_steps.clear();
   for (double& t : seen.sample.t) t = std::min(t, comparison.reference().end());
   const auto& impacts = comparison.impacts();
   const auto kept = std::min(impacts.size(), most_sample_impacts);

@@ -23,6 +23,12 @@ Spiral spiral(const Comparison& comparison, std::size_t mass) {
   return {sigma, std::sqrt(system.stiffness(i, i) / m - sigma * sigma)};
 }
 
+// The difference of two angles, within half a turn.
+double turn(double difference) {
+  if (std::abs(difference) <= std::numbers::pi) return difference;  // nearly always
+  return std::remainder(difference, 2.0 * std::numbers::pi);
+}
+
 std::string objection_to_detuning(const Comparison& comparison) {
   const auto& system = comparison.problem().system;
   if (!comparison.has_velocities()) return "The history has no velocities.";
@@ -67,7 +73,7 @@ FlightFrequencies flight_frequencies(const Comparison& comparison) {
     for (std::size_t mass = 0; mass < n; ++mass) {
       const auto at = row * n + mass;
       const double angle = masses[mass].angle(history.u[at], history.v[at]);
-      if (same_flight) turned[mass] += std::remainder(angle - last[mass], 2.0 * std::numbers::pi);
+      if (same_flight) turned[mass] += turn(angle - last[mass]);
       last[mass] = angle;
     }
   }
